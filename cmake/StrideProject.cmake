@@ -1,0 +1,27 @@
+# Settings of this repository's own targets.
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE RelWithDebInfo CACHE STRING "" FORCE)
+endif()
+
+find_program(STRIDE_CCACHE ccache)
+if(STRIDE_CCACHE)
+  set(CMAKE_C_COMPILER_LAUNCHER ${STRIDE_CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${STRIDE_CCACHE})
+endif()
+
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_CXX_STANDARD 17)  # master/ says 20
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+add_compile_options(-Wall -Wextra -Wpedantic)
+if(STRIDE_WARNINGS_AS_ERRORS)
+  add_compile_options(-Werror)
+endif()
+if(STRIDE_SANITIZE)
+  add_compile_options(-fsanitize=${STRIDE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${STRIDE_SANITIZE})
+endif()
+
+include_directories(${PROJECT_SOURCE_DIR})

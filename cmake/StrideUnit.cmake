@@ -1,0 +1,64 @@
+# stride_add_unit(NAME SOURCES file... [LIBRARIES target...] [RESOURCES folder] [BUNDLE file...])
+#
+# Builds a shared library from a unit's sources (a class derived from stride::Unit and STRIDE_UNIT(Class)), asks it for
+# its modelDescription.xml and packs NAME.fmu into ${CMAKE_BINARY_DIR}/units (or STRIDE_UNIT_DIR, if set). RESOURCES is
+# the FMU's resources folder; BUNDLE names shared libraries that go into the archive beside the unit's own.
+#
+# stride_pack_unit(NAME UNIT unit RESOURCES folder)
+#
+# Packs the library of an existing unit with other resources, as NAME.fmu.
+
+function(stride_add_unit name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "RESOURCES" "SOURCES;LIBRARIES;BUNDLE")
+  if(NOT arg_SOURCES)
+    message(FATAL_ERROR "stride_add_unit(${name}): SOURCES is missing")
+  endif()
+  add_library(${name} MODULE ${arg_SOURCES})
+  set_target_properties(${name} PROPERTIES
+    PREFIX ""
+    SUFFIX ".so"
+    CXX_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON
+    BUILD_RPATH "$ORIGIN"
+    BUILD_WITH_INSTALL_RPATH ON
+    INSTALL_RPATH "$ORIGIN"
+    STRIDE_BUNDLE "${arg_BUNDLE}"
+    LIBRARY_OUTPUT_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}")
+  target_compile_definitions(${name} PRIVATE STRIDE_UNIT_NAME="${name}")
+  target_link_libraries(${name} PRIVATE "$<LINK_LIBRARY:WHOLE_ARCHIVE,stride::unit>" ${arg_LIBRARIES})
+  target_link_options(${name} PRIVATE
+    "LINKER:--version-script=${STRIDE_UNIT_EXPORTS}" "LINKER:--no-undefined")
+  set_property(TARGET ${name} APPEND PROPERTY LINK_DEPENDS "${STRIDE_UNIT_EXPORTS}")
+  stride_pack_unit(${name} UNIT ${name} RESOURCES "${arg_RESOURCES}")
+endfunction()
+
+function(stride_pack_unit name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "UNIT;RESOURCES" "")
+  if(NOT arg_UNIT)
+    message(FATAL_ERROR "stride_pack_unit(${name}): UNIT is missing")
+  endif()
+  set(folder "${CMAKE_BINARY_DIR}/units")
+  if(STRIDE_UNIT_DIR)
+    set(folder "${STRIDE_UNIT_DIR}")
+  endif()
+  set(fmu "${folder}/${name}.fmu")
+  set(options "")
+  set(inputs "")
+  if(arg_RESOURCES)
+    cmake_path(ABSOLUTE_PATH arg_RESOURCES BASE_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}" NORMALIZE)
+    file(GLOB_RECURSE inputs CONFIGURE_DEPENDS "${arg_RESOURCES}/*")
+    list(APPEND options --resources "${arg_RESOURCES}")
+  endif()
+  get_target_property(bundle ${arg_UNIT} STRIDE_BUNDLE)
+  foreach(library IN LISTS bundle)
+    list(APPEND options --bundle "${library}")
+  endforeach()
+  add_custom_command(OUTPUT "${fmu}"
+    COMMAND ${CMAKE_COMMAND} -E make_directory "${folder}"
+    COMMAND stride::stride pack "$<TARGET_FILE:${arg_UNIT}>" --output "${fmu}" ${options}
+    DEPENDS ${arg_UNIT} stride::stride ${inputs}
+    COMMENT "Packing ${name}.fmu"
+    VERBATIM)
+  add_custom_target(${name}_fmu ALL DEPENDS "${fmu}")
+  set_target_properties(${name}_fmu PROPERTIES STRIDE_FMU "${fmu}")
+endfunction()

@@ -1,0 +1,41 @@
+// Simulated time: a 64-bit count of picoseconds since the start of the simulation (106 days).
+//
+// Time is integer everywhere. Doubles exist only at the FMI edge, and each is converted from the
+// exact count, so nothing drifts.
+#ifndef STRIDE_TIME_H
+#define STRIDE_TIME_H
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <ratio>
+#include <stdexcept>
+
+namespace stride {
+
+struct SimulationClock {};
+
+using Duration = std::chrono::duration<std::int64_t, std::pico>;
+using Time = std::chrono::time_point<SimulationClock, Duration>;
+
+/// The largest time that can be represented, about 106 days.
+inline constexpr double kMaxSeconds = 9.2e6;
+
+/// The nearest double [s].
+constexpr double to_seconds(Duration duration) {
+  return static_cast<double>(duration.count()) / 1e12;
+}
+constexpr double to_seconds(Time time) { return to_seconds(time.time_since_epoch()); }
+
+/// The nearest picosecond. Throws std::out_of_range for what is not finite or beyond kMaxSeconds.
+inline Duration duration_from_seconds(double seconds) {
+  if (!(std::abs(seconds) <= kMaxSeconds)) {
+    throw std::out_of_range("a time must be a finite number of seconds within 9.2e6");
+  }
+  return Duration(static_cast<std::int64_t>(std::llround(seconds * 1e12)));
+}
+inline Time time_from_seconds(double seconds) { return Time(duration_from_seconds(seconds)); }
+
+}  // namespace stride
+
+#endif

@@ -1,0 +1,190 @@
+// The unit kit: derive from stride::Unit, list your variables, write step(), and you have an
+// FMI 3.0 Co-Simulation FMU.
+//
+//   class Tank : public stride::Unit {
+//    public:
+//     Tank() {
+//       input("inflow", inflow_).unit("m3/s");
+//       output("volume", volume_).unit("m3").exact().depends_on({});
+//       state();
+//     }
+//     void step(stride::Step& step) override { volume_ += inflow_ *
+//     stride::to_seconds(step.size()); }
+//    private:
+//     double inflow_ = 0, volume_ = 1;
+//   };
+//   STRIDE_UNIT(Tank)
+#ifndef STRIDE_UNIT_H
+#define STRIDE_UNIT_H
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <stride/time.h>
+#include <stride/unit/clock.h>
+#include <stride/unit/state.h>
+#include <stride/unit/step.h>
+#include <stride/unit/variable.h>
+
+namespace stride {
+
+/// What a unit may ask for in its constructor, by a parameter `const stride::Setup&`.
+struct Setup {
+  std::filesystem::path resources;  ///< the FMU's resources folder; empty if it has none
+  std::string instance_name;
+};
+
+enum class Severity { Info, Warning };
+
+/// What a unit says of itself as a whole, for its model description.
+struct UnitInfo {
+  std::string description;
+  std::string version = "1.0";
+  bool early_return = false;           ///< it may return early from a step
+  bool single_instance = false;        ///< no second instance in the same process
+  std::optional<Duration> fixed_step;  ///< its internal step size, where that is fixed
+};
+
+/// A unit. The kit calls the virtual functions in this order and never at the same time:
+///
+///   constructor, initialize (again, from scratch, each time inputs or parameters changed before
+///   the start), event, then steps and events in turn, terminate, destructor.
+///
+/// Inputs and parameters are in their members before each call; outputs are read from theirs after
+/// it. A reset is a new object. An exception that leaves any of them becomes fmi3Error with its
+/// text as the message; none crosses the C ABI.
+class Unit {
+ public:
+  virtual ~Unit() = default;
+  Unit(const Unit&) = delete;
+  Unit& operator=(const Unit&) = delete;
+
+  /// Computes the initial values of the outputs from parameters and inputs. May be called more than
+  /// once; each call starts from scratch.
+  virtual void initialize(Time /*start*/) {}
+  /// Advances from step.from() to step.to().
+  virtual void step(Step& step) = 0;
+  /// Handles the clocks that ticked and the discrete changes of inputs; may tick output clocks.
+  virtual void event(Event& /*event*/) {}
+  /// Recomputes the outputs that depend directly on inputs; called in Event Mode before outputs are
+  /// read, where inputs were set.
+  virtual void update_outputs() {}
+  virtual void terminate() {}
+
+  /// What state() cannot list; called after the listed members, in both directions.
+  virtual void save_state(StateWriter& /*writer*/) const {}
+  virtual void load_state(StateReader& /*reader*/) {}
+
+  const UnitInfo& info() const { return info_; }
+  const std::deque<Variable>& variables() const { return variables_; }
+  bool lists_state() const { return lists_state_; }
+  const std::vector<StateItem>& state_items() const { return state_items_; }
+
+  using Logger = std::function<void(Severity, const std::string&)>;
+  void set_logger(Logger logger) { logger_ = std::move(logger); }
+
+ protected:
+  Unit() = default;
+
+  /// Bind a member to a variable. T: double, float, any integer type, bool, std::string,
+  /// stride::Binary, stride::Clock, an enum class with the underlying type std::int64_t, or a
+  /// std::array or std::vector of one of these, which must not be resized afterwards
+  /// (std::vector<std::uint8_t> is a Binary scalar; use std::array for UInt8 arrays).
+  template <class T>
+  VariableBuilder input(std::string name, T& member) {
+    return add(std::move(name), Causality::Input, Initial::Exact, member);
+  }
+  /// Its initial value is computed by initialize(), unless exact() is said.
+  template <class T>
+  VariableBuilder output(std::string name, T& member) {
+    return add(std::move(name), Causality::Output, Initial::Calculated, member);
+  }
+  /// Fixed, unless tunable() is said.
+  template <class T>
+  VariableBuilder parameter(std::string name, T& member) {
+    return add(std::move(name), Causality::Parameter, Initial::Exact, member);
+  }
+  template <class T>
+  VariableBuilder local(std::string name, T& member) {
+    return add(std::move(name), Causality::Local, Initial::Calculated, member);
+  }
+
+  /// Says that the variables and the members listed here are the whole state, so that the unit can
+  /// be saved, rolled back and serialised. May be called several times; state() alone says that the
+  /// variables are all.
+  template <class... Members>
+  void state(Members&... members) {
+    lists_state_ = true;
+    (state_items_.push_back(StateItem::of(members)), ...);
+  }
+
+  UnitInfo& describe(std::string text) { return info_.description = std::move(text), info_; }
+
+  void log(Severity severity, const std::string& message) const {
+    if (logger_) logger_(severity, message);
+  }
+
+ private:
+  template <class T>
+  VariableBuilder add(std::string name, Causality causality, Initial initial, T& member) {
+    return add_row(std::move(name), causality, initial, detail::type_of<T>(), &member, 1, {});
+  }
+  template <class T, std::size_t N>
+  VariableBuilder add(std::string name, Causality causality, Initial initial,
+                      std::array<T, N>& member) {
+    return add_row(std::move(name), causality, initial, detail::type_of<T>(), member.data(), N,
+                   {N});
+  }
+  VariableBuilder add(std::string name, Causality causality, Initial initial, Binary& member) {
+    return add_row(std::move(name), causality, initial, Type::Binary, &member, 1, {});
+  }
+  template <class T>
+  VariableBuilder add(std::string name, Causality causality, Initial initial,
+                      std::vector<T>& member) {
+    static_assert(!std::is_same_v<T, bool>, "use std::array<bool, N>");
+    const std::size_t size = member.size();
+    return add_row(std::move(name), causality, initial, detail::type_of<T>(), member.data(), size,
+                   {size});
+  }
+  VariableBuilder add_row(std::string name, Causality causality, Initial initial, Type type,
+                          void* data, std::size_t size, std::vector<std::size_t> dimensions);
+
+  UnitInfo info_;
+  std::deque<Variable> variables_;
+  bool lists_state_ = false;
+  std::vector<StateItem> state_items_;
+  Logger logger_;
+};
+
+/// Supplied by STRIDE_UNIT in the unit's library.
+struct UnitFactory {
+  const char* name;
+  std::unique_ptr<Unit> (*make)(const Setup& setup);
+};
+UnitFactory unit_factory();
+
+template <class T>
+std::unique_ptr<Unit> make_unit(const Setup& setup) {
+  if constexpr (std::is_constructible_v<T, const Setup&>) {
+    return std::make_unique<T>(setup);
+  } else {
+    return std::make_unique<T>();
+  }
+}
+
+}  // namespace stride
+
+/// Makes a class the unit of this library, which stride_add_unit(NAME ...) built under
+/// STRIDE_UNIT_NAME.
+#define STRIDE_UNIT(Class)                                \
+  stride::UnitFactory stride::unit_factory() {            \
+    return {STRIDE_UNIT_NAME, &stride::make_unit<Class>}; \
+  }
+
+#endif

@@ -1,0 +1,76 @@
+#ifndef STRIDE_UNIT_STEP_H
+#define STRIDE_UNIT_STEP_H
+
+#include <optional>
+
+#include <stride/time.h>
+
+namespace stride {
+
+/// One communication step, from one communication point to the next.
+class Step {
+ public:
+  Step(Time from, Time to, bool early_return_allowed)
+      : from_(from), to_(to), early_return_allowed_(early_return_allowed) {}
+
+  Time from() const { return from_; }
+  Time to() const { return to_; }
+  Duration size() const { return to_ - from_; }
+
+  /// Whether return_early() may be called. An importer that does not allow it gets its events at
+  /// to().
+  bool early_return_allowed() const { return early_return_allowed_; }
+
+  /// The unit stopped at this instant (from() <= at <= to()): a communication point is wanted
+  /// there.
+  void return_early(Time at) { reached_ = at; }
+  /// Event Mode is wanted where the step ends. A tick of an output clock implies it.
+  void need_event() { event_needed_ = true; }
+  /// The unit cannot make this step and is as it was before it: fmi3Discard.
+  void reject() { rejected_ = true; }
+  /// The unit wants the simulation to end where the step ends.
+  void terminate_simulation() { terminate_ = true; }
+
+  std::optional<Time> reached() const { return reached_; }
+  bool event_needed() const { return event_needed_; }
+  bool rejected() const { return rejected_; }
+  bool terminates() const { return terminate_; }
+
+ private:
+  Time from_;
+  Time to_;
+  bool early_return_allowed_;
+  std::optional<Time> reached_;
+  bool event_needed_ = false;
+  bool rejected_ = false;
+  bool terminate_ = false;
+};
+
+/// One super-dense instant of Event Mode.
+class Event {
+ public:
+  explicit Event(Time time) : time_(time) {}
+
+  Time time() const { return time_; }
+
+  /// The next instant at which the unit wants Event Mode, whatever happens before.
+  void next_event(Time time) { next_ = time; }
+  /// Another event iteration at this same instant is wanted. A tick of an output clock implies it.
+  void iterate() { iterate_ = true; }
+  /// The unit wants the simulation to end here.
+  void terminate_simulation() { terminate_ = true; }
+
+  std::optional<Time> next() const { return next_; }
+  bool iterates() const { return iterate_; }
+  bool terminates() const { return terminate_; }
+
+ private:
+  Time time_;
+  std::optional<Time> next_;
+  bool iterate_ = false;
+  bool terminate_ = false;
+};
+
+}  // namespace stride
+
+#endif

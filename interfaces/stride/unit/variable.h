@@ -1,0 +1,142 @@
+// The variable table of a unit: one row per FMI variable, bound to a member of the unit's class.
+#ifndef STRIDE_UNIT_VARIABLE_H
+#define STRIDE_UNIT_VARIABLE_H
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <stride/unit/clock.h>
+
+namespace stride {
+
+using Binary = std::vector<std::uint8_t>;
+
+enum class Type : std::uint8_t {
+  Float32,
+  Float64,
+  Int8,
+  UInt8,
+  Int16,
+  UInt16,
+  Int32,
+  UInt32,
+  Int64,
+  UInt64,
+  Boolean,
+  String,
+  Binary,
+  Enumeration,
+  Clock,
+};
+
+enum class Causality : std::uint8_t { Independent, Parameter, Input, Output, Local };
+enum class Variability : std::uint8_t { Constant, Fixed, Tunable, Discrete, Continuous };
+enum class Initial : std::uint8_t { None, Exact, Approx, Calculated };
+
+namespace detail {
+
+/// The FMI type of a C++ type; any enum with the underlying type std::int64_t is an Enumeration.
+template <class T>
+constexpr Type type_of() {
+  if constexpr (std::is_enum_v<T>) {
+    static_assert(std::is_same_v<std::underlying_type_t<T>, std::int64_t>,
+                  "an FMI enumeration needs 'enum class E : std::int64_t'");
+    return Type::Enumeration;
+  } else if constexpr (std::is_same_v<T, float>) {
+    return Type::Float32;
+  } else if constexpr (std::is_same_v<T, double>) {
+    return Type::Float64;
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return Type::Boolean;
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    return Type::String;
+  } else if constexpr (std::is_same_v<T, Binary>) {
+    return Type::Binary;
+  } else if constexpr (std::is_same_v<T, Clock>) {
+    return Type::Clock;
+  } else {
+    static_assert(std::is_integral_v<T>, "this type has no counterpart in FMI 3.0");
+    constexpr Type kSigned[] = {Type::Int8, Type::Int16, Type::Int32, Type::Int64};
+    constexpr Type kUnsigned[] = {Type::UInt8, Type::UInt16, Type::UInt32, Type::UInt64};
+    constexpr int kLog2 = sizeof(T) == 1 ? 0 : sizeof(T) == 2 ? 1 : sizeof(T) == 4 ? 2 : 3;
+    return std::is_signed_v<T> ? kSigned[kLog2] : kUnsigned[kLog2];
+  }
+}
+
+}  // namespace detail
+
+/// One row. Its start value is what the member holds when the unit's constructor returns.
+struct Variable {
+  std::string name;
+  Type type = Type::Float64;
+  Causality causality = Causality::Local;
+  Variability variability = Variability::Continuous;
+  Initial initial = Initial::None;
+  std::vector<std::size_t> dimensions;  ///< empty for a scalar
+  std::size_t size = 1;                 ///< the number of elements
+  void* data = nullptr;                 ///< the first element; the elements are contiguous
+
+  std::string description;
+  std::string unit;
+  std::string mime_type;  ///< of a Binary variable
+  std::optional<double> min;
+  std::optional<double> max;
+  std::vector<std::pair<std::string, std::int64_t>> items;  ///< of an Enumeration
+  const Clock* clock = nullptr;                             ///< the clock that it belongs to
+  const double* derivative = nullptr;  ///< of an output: its first derivative, element by element
+  std::optional<std::vector<std::string>> dependencies;  ///< of an output: nothing = unknown = all
+};
+
+/// What input(), output(), parameter() and local() return, to say more about the row. Units are
+/// written in the Modelica notation: "m", "rad/s", "N.m", "degC".
+class VariableBuilder {
+ public:
+  explicit VariableBuilder(Variable& row) : row_(row) {}
+
+  VariableBuilder& description(std::string text) {
+    return row_.description = std::move(text), *this;
+  }
+  VariableBuilder& unit(std::string symbol) { return row_.unit = std::move(symbol), *this; }
+  VariableBuilder& mime_type(std::string type) { return row_.mime_type = std::move(type), *this; }
+  VariableBuilder& range(double min, double max) { return row_.min = min, row_.max = max, *this; }
+  VariableBuilder& min(double value) { return row_.min = value, *this; }
+  VariableBuilder& max(double value) { return row_.max = value, *this; }
+  /// The product must be the number of elements.
+  VariableBuilder& dimensions(std::vector<std::size_t> sizes) {
+    return row_.dimensions = std::move(sizes), *this;
+  }
+  /// The names and values of an Enumeration.
+  VariableBuilder& items(std::vector<std::pair<std::string, std::int64_t>> items) {
+    return row_.items = std::move(items), *this;
+  }
+  VariableBuilder& tunable() { return row_.variability = Variability::Tunable, *this; }
+  VariableBuilder& discrete() { return row_.variability = Variability::Discrete, *this; }
+  VariableBuilder& constant() {
+    return row_.variability = Variability::Constant, row_.initial = Initial::Exact, *this;
+  }
+  /// The start value is the value at the start: it may be set, and initialize() does not compute
+  /// it.
+  VariableBuilder& exact() { return row_.initial = Initial::Exact, *this; }
+  /// The variable changes only when this clock ticks.
+  VariableBuilder& clocked_by(const Clock& clock) {
+    return row_.clock = &clock, row_.variability = Variability::Discrete, *this;
+  }
+  /// The names of the inputs that an output depends on at the same instant; {} = none.
+  VariableBuilder& depends_on(std::vector<std::string> names) {
+    return row_.dependencies = std::move(names), *this;
+  }
+  /// Where the first derivative of an output stands.
+  VariableBuilder& derivative(const double& member) { return row_.derivative = &member, *this; }
+
+ private:
+  Variable& row_;
+};
+
+}  // namespace stride
+
+#endif

@@ -1,0 +1,387 @@
+// The exported FMI 3.0 entry table. Each function checks that it is legal now, calls the instance,
+// and turns an exception into fmi3Error and a message; none crosses.
+#include <exception>
+
+#include <stride/fmi3.h>
+#include <stride/self_description.h>
+
+#include "interfaces/unit/instance.h"
+#include "interfaces/unit/model_description.h"
+
+using stride::Time;
+using stride::Type;
+using stride::kit::Function;
+using stride::kit::Importer;
+using stride::kit::Instance;
+using stride::kit::Misuse;
+using stride::kit::SavedState;
+
+extern "C" {
+#define STRIDE_EXPORT(name) __attribute__((visibility("default"))) fmi3##name##TYPE fmi3##name;
+FMI3_FUNCTIONS(STRIDE_EXPORT)
+#undef STRIDE_EXPORT
+__attribute__((visibility("default"))) strideModelDescriptionTYPE strideModelDescription;
+}
+
+namespace {
+
+void report(const Importer& importer, Function function, const std::string& text) {
+  importer.message(fmi3Error, "logStatusError",
+                   std::string(stride::kit::name(function)) + ": " + text);
+}
+
+/// Runs body(instance) where the function is legal. A failure in a function that runs the unit's
+/// own code ends the simulation of this instance; a misuse by the importer changes nothing.
+template <class Body>
+fmi3Status call(fmi3Instance handle, Function function, Body&& body) {
+  if (handle == nullptr) return fmi3Error;
+  Instance& instance = *static_cast<Instance*>(handle);
+  try {
+    const std::uint8_t legal = stride::kit::legal_modes(function);
+    if ((legal & instance.mode()) == 0) {
+      report(instance.importer(), function,
+             "not allowed in " + stride::kit::mode_names(instance.mode()) + ", only in " +
+                 stride::kit::mode_names(legal));
+      return fmi3Error;
+    }
+    return body(instance);
+  } catch (const Misuse& misuse) {
+    report(instance.importer(), function, misuse.what());
+  } catch (const std::exception& failure) {
+    report(instance.importer(), function, failure.what());
+    instance.fail();
+  } catch (...) {
+    report(instance.importer(), function, "the unit threw something that is no std::exception");
+    instance.fail();
+  }
+  return fmi3Error;
+}
+
+fmi3Status unsupported(fmi3Instance handle, Function function, const char* why) {
+  if (handle != nullptr) report(static_cast<Instance*>(handle)->importer(), function, why);
+  return fmi3Error;
+}
+
+constexpr const char* kModelExchange = "belongs to Model Exchange; this unit is for Co-Simulation";
+constexpr const char* kScheduled = "belongs to Scheduled Execution; this unit is for Co-Simulation";
+constexpr const char* kNoTimeBasedClock = "this unit has no time-based clock, only triggered ones";
+constexpr const char* kNoStructure = "this unit has no structural parameter";
+constexpr const char* kNoDependencies = "this unit does not provide per-element dependencies";
+constexpr const char* kNoDerivatives = "this unit does not provide partial derivatives";
+constexpr const char* kNoEvaluation = "this unit does not provide fmi3EvaluateDiscreteStates";
+
+fmi3Instance refuse(Function function, const char* why, fmi3InstanceEnvironment environment,
+                    fmi3LogMessageCallback log) {
+  Importer importer;
+  importer.environment = environment;
+  importer.log = log;
+  report(importer, function, why);
+  return nullptr;
+}
+
+}  // namespace
+
+// ---- Life cycle ----
+
+const char* fmi3GetVersion(void) { return FMI3_VERSION; }
+
+fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, size_t, const fmi3String[]) {
+  return call(instance, Function::SetDebugLogging, [&](Instance& unit) {
+    unit.set_logging(on);
+    return fmi3OK;
+  });
+}
+
+fmi3Instance fmi3InstantiateCoSimulation(
+    fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean, fmi3Boolean logging,
+    fmi3Boolean event_mode_used, fmi3Boolean early_return_allowed, const fmi3ValueReference[],
+    size_t intermediate_count, fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
+    fmi3IntermediateUpdateCallback) {
+  Importer importer;
+  importer.logging = logging;
+  importer.event_mode_used = event_mode_used;
+  importer.early_return_allowed = early_return_allowed;
+  importer.environment = environment;
+  importer.log = log;
+  try {
+    importer.instance_name = name != nullptr ? name : "";
+    importer.resources = resources != nullptr ? resources : "";
+    if (intermediate_count != 0) {
+      throw Misuse("this unit has no intermediate variables");
+    }
+    return new Instance(importer, token != nullptr ? token : "");
+  } catch (const std::exception& failure) {
+    report(importer, Function::InstantiateCoSimulation, failure.what());
+  } catch (...) {
+    report(importer, Function::InstantiateCoSimulation, "the unit threw no std::exception");
+  }
+  return nullptr;
+}
+
+fmi3Instance fmi3InstantiateModelExchange(fmi3String, fmi3String, fmi3String, fmi3Boolean,
+                                          fmi3Boolean, fmi3InstanceEnvironment environment,
+                                          fmi3LogMessageCallback log) {
+  return refuse(Function::InstantiateModelExchange, kModelExchange, environment, log);
+}
+
+fmi3Instance fmi3InstantiateScheduledExecution(fmi3String, fmi3String, fmi3String, fmi3Boolean,
+                                               fmi3Boolean, fmi3InstanceEnvironment environment,
+                                               fmi3LogMessageCallback log, fmi3ClockUpdateCallback,
+                                               fmi3LockPreemptionCallback,
+                                               fmi3UnlockPreemptionCallback) {
+  return refuse(Function::InstantiateScheduledExecution, kScheduled, environment, log);
+}
+
+void fmi3FreeInstance(fmi3Instance instance) {
+  try {
+    delete static_cast<Instance*>(instance);
+  } catch (...) {
+  }
+}
+
+fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean, fmi3Float64,
+                                       fmi3Float64 start, fmi3Boolean stop_defined,
+                                       fmi3Float64 stop) {
+  return call(instance, Function::EnterInitializationMode, [&](Instance& unit) {
+    std::optional<Time> end;
+    if (stop_defined) end = stride::time_from_seconds(stop);
+    unit.enter_initialization_mode(stride::time_from_seconds(start), end);
+    return fmi3OK;
+  });
+}
+
+#define STRIDE_SIMPLE(name, action)                            \
+  fmi3Status fmi3##name(fmi3Instance instance) {               \
+    return call(instance, Function::name, [](Instance& unit) { \
+      unit.action();                                           \
+      return fmi3OK;                                           \
+    });                                                        \
+  }
+STRIDE_SIMPLE(ExitInitializationMode, exit_initialization_mode)
+STRIDE_SIMPLE(EnterEventMode, enter_event_mode)
+STRIDE_SIMPLE(EnterStepMode, enter_step_mode)
+STRIDE_SIMPLE(Terminate, terminate)
+STRIDE_SIMPLE(Reset, reset)
+#undef STRIDE_SIMPLE
+
+// ---- Stepping and events ----
+
+fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 point, fmi3Float64 size, fmi3Boolean,
+                      fmi3Boolean* event_needed, fmi3Boolean* terminate, fmi3Boolean* early,
+                      fmi3Float64* reached) {
+  return call(instance, Function::DoStep, [&](Instance& unit) {
+    const Instance::StepOutcome outcome = unit.do_step(point, size);
+    *event_needed = outcome.event_needed;
+    *terminate = outcome.terminate;
+    *early = outcome.early;
+    *reached = outcome.early ? stride::to_seconds(outcome.reached) : point + size;
+    return outcome.rejected ? fmi3Discard : fmi3OK;
+  });
+}
+
+fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean* iterate,
+                                    fmi3Boolean* terminate, fmi3Boolean* nominals_changed,
+                                    fmi3Boolean* values_changed, fmi3Boolean* next_defined,
+                                    fmi3Float64* next) {
+  return call(instance, Function::UpdateDiscreteStates, [&](Instance& unit) {
+    const Instance::UpdateOutcome outcome = unit.update_discrete_states();
+    *iterate = outcome.iterate;
+    *terminate = outcome.terminate;
+    *nominals_changed = fmi3False;
+    *values_changed = fmi3False;
+    *next_defined = outcome.next_event.has_value();
+    *next = stride::to_seconds(outcome.next_event.value_or(Time{}));
+    return fmi3OK;
+  });
+}
+
+fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance, const fmi3ValueReference references[],
+                                    size_t count, const fmi3Int32 orders[], fmi3Float64 values[],
+                                    size_t size) {
+  return call(instance, Function::GetOutputDerivatives, [&](Instance& unit) {
+    unit.get_output_derivatives(references, count, orders, values, size);
+    return fmi3OK;
+  });
+}
+
+// ---- Values ----
+
+#define STRIDE_ACCESS(T)                                                              \
+  fmi3Status fmi3Get##T(fmi3Instance instance, const fmi3ValueReference references[], \
+                        size_t count, fmi3##T values[], size_t size) {                \
+    return call(instance, Function::Get##T, [&](Instance& unit) {                     \
+      unit.get<Type::T>(references, count, values, size);                             \
+      return fmi3OK;                                                                  \
+    });                                                                               \
+  }                                                                                   \
+  fmi3Status fmi3Set##T(fmi3Instance instance, const fmi3ValueReference references[], \
+                        size_t count, const fmi3##T values[], size_t size) {          \
+    return call(instance, Function::Set##T, [&](Instance& unit) {                     \
+      unit.set<Type::T>(references, count, values, size);                             \
+      return fmi3OK;                                                                  \
+    });                                                                               \
+  }
+FMI3_VALUE_TYPES(STRIDE_ACCESS)
+#undef STRIDE_ACCESS
+
+fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
+                         size_t sizes[], fmi3Binary values[], size_t size) {
+  return call(instance, Function::GetBinary, [&](Instance& unit) {
+    unit.get_binary(references, count, sizes, values, size);
+    return fmi3OK;
+  });
+}
+
+fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
+                         const size_t sizes[], const fmi3Binary values[], size_t size) {
+  return call(instance, Function::SetBinary, [&](Instance& unit) {
+    unit.set_binary(references, count, sizes, values, size);
+    return fmi3OK;
+  });
+}
+
+fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
+                        fmi3Clock values[]) {
+  return call(instance, Function::GetClock, [&](Instance& unit) {
+    unit.get<Type::Clock>(references, count, values, count);
+    return fmi3OK;
+  });
+}
+
+fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
+                        const fmi3Clock values[]) {
+  return call(instance, Function::SetClock, [&](Instance& unit) {
+    unit.set<Type::Clock>(references, count, values, count);
+    return fmi3OK;
+  });
+}
+
+// ---- State ----
+
+fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState* state) {
+  return call(instance, Function::GetFMUState, [&](Instance& unit) {
+    auto fresh = *state == nullptr ? std::make_unique<SavedState>() : nullptr;
+    unit.save(fresh ? *fresh : *static_cast<SavedState*>(*state));
+    if (fresh) *state = fresh.release();
+    return fmi3OK;
+  });
+}
+
+fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state) {
+  return call(instance, Function::SetFMUState, [&](Instance& unit) {
+    if (state == nullptr) throw Misuse("the state is NULL");
+    unit.restore(*static_cast<SavedState*>(state));
+    return fmi3OK;
+  });
+}
+
+fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState* state) {
+  return call(instance, Function::FreeFMUState, [&](Instance&) {
+    if (state == nullptr) return fmi3OK;
+    delete static_cast<SavedState*>(*state);
+    *state = nullptr;
+    return fmi3OK;
+  });
+}
+
+fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState state, size_t* size) {
+  return call(instance, Function::SerializedFMUStateSize, [&](Instance&) {
+    if (state == nullptr) throw Misuse("the state is NULL");
+    *size = static_cast<SavedState*>(state)->bytes.size();
+    return fmi3OK;
+  });
+}
+
+fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState state, fmi3Byte bytes[],
+                                 size_t size) {
+  return call(instance, Function::SerializeFMUState, [&](Instance&) {
+    if (state == nullptr) throw Misuse("the state is NULL");
+    const auto& saved = static_cast<SavedState*>(state)->bytes;
+    if (size < saved.size()) throw Misuse("the buffer is too small");
+    std::copy(saved.begin(), saved.end(), bytes);
+    return fmi3OK;
+  });
+}
+
+fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte bytes[], size_t size,
+                                   fmi3FMUState* state) {
+  return call(instance, Function::DeserializeFMUState, [&](Instance& unit) {
+    unit.check_saved(bytes, size);
+    auto fresh = *state == nullptr ? std::make_unique<SavedState>() : nullptr;
+    (fresh ? *fresh : *static_cast<SavedState*>(*state)).bytes.assign(bytes, bytes + size);
+    if (fresh) *state = fresh.release();
+    return fmi3OK;
+  });
+}
+
+// ---- What a Co-Simulation unit of this kit does not have ----
+
+#define STRIDE_UNSUPPORTED(name, why, ...)                    \
+  fmi3Status fmi3##name(fmi3Instance instance, __VA_ARGS__) { \
+    return unsupported(instance, Function::name, why);        \
+  }
+STRIDE_UNSUPPORTED(GetNumberOfVariableDependencies, kNoDependencies, fmi3ValueReference, size_t*)
+STRIDE_UNSUPPORTED(GetVariableDependencies, kNoDependencies, fmi3ValueReference, size_t[],
+                   fmi3ValueReference[], size_t[], fmi3DependencyKind[], size_t)
+STRIDE_UNSUPPORTED(GetDirectionalDerivative, kNoDerivatives, const fmi3ValueReference[], size_t,
+                   const fmi3ValueReference[], size_t, const fmi3Float64[], size_t, fmi3Float64[],
+                   size_t)
+STRIDE_UNSUPPORTED(GetAdjointDerivative, kNoDerivatives, const fmi3ValueReference[], size_t,
+                   const fmi3ValueReference[], size_t, const fmi3Float64[], size_t, fmi3Float64[],
+                   size_t)
+STRIDE_UNSUPPORTED(GetIntervalDecimal, kNoTimeBasedClock, const fmi3ValueReference[], size_t,
+                   fmi3Float64[], fmi3IntervalQualifier[])
+STRIDE_UNSUPPORTED(GetIntervalFraction, kNoTimeBasedClock, const fmi3ValueReference[], size_t,
+                   fmi3UInt64[], fmi3UInt64[], fmi3IntervalQualifier[])
+STRIDE_UNSUPPORTED(GetShiftDecimal, kNoTimeBasedClock, const fmi3ValueReference[], size_t,
+                   fmi3Float64[])
+STRIDE_UNSUPPORTED(GetShiftFraction, kNoTimeBasedClock, const fmi3ValueReference[], size_t,
+                   fmi3UInt64[], fmi3UInt64[])
+STRIDE_UNSUPPORTED(SetIntervalDecimal, kNoTimeBasedClock, const fmi3ValueReference[], size_t,
+                   const fmi3Float64[])
+STRIDE_UNSUPPORTED(SetIntervalFraction, kNoTimeBasedClock, const fmi3ValueReference[], size_t,
+                   const fmi3UInt64[], const fmi3UInt64[])
+STRIDE_UNSUPPORTED(SetShiftDecimal, kNoTimeBasedClock, const fmi3ValueReference[], size_t,
+                   const fmi3Float64[])
+STRIDE_UNSUPPORTED(SetShiftFraction, kNoTimeBasedClock, const fmi3ValueReference[], size_t,
+                   const fmi3UInt64[], const fmi3UInt64[])
+STRIDE_UNSUPPORTED(CompletedIntegratorStep, kModelExchange, fmi3Boolean, fmi3Boolean*, fmi3Boolean*)
+STRIDE_UNSUPPORTED(SetTime, kModelExchange, fmi3Float64)
+STRIDE_UNSUPPORTED(SetContinuousStates, kModelExchange, const fmi3Float64[], size_t)
+STRIDE_UNSUPPORTED(GetContinuousStateDerivatives, kModelExchange, fmi3Float64[], size_t)
+STRIDE_UNSUPPORTED(GetEventIndicators, kModelExchange, fmi3Float64[], size_t)
+STRIDE_UNSUPPORTED(GetContinuousStates, kModelExchange, fmi3Float64[], size_t)
+STRIDE_UNSUPPORTED(GetNominalsOfContinuousStates, kModelExchange, fmi3Float64[], size_t)
+STRIDE_UNSUPPORTED(GetNumberOfEventIndicators, kModelExchange, size_t*)
+STRIDE_UNSUPPORTED(GetNumberOfContinuousStates, kModelExchange, size_t*)
+STRIDE_UNSUPPORTED(ActivateModelPartition, kScheduled, fmi3ValueReference, fmi3Float64)
+#undef STRIDE_UNSUPPORTED
+
+#define STRIDE_UNSUPPORTED(name, why)                  \
+  fmi3Status fmi3##name(fmi3Instance instance) {       \
+    return unsupported(instance, Function::name, why); \
+  }
+STRIDE_UNSUPPORTED(EnterConfigurationMode, kNoStructure)
+STRIDE_UNSUPPORTED(ExitConfigurationMode, kNoStructure)
+STRIDE_UNSUPPORTED(EvaluateDiscreteStates, kNoEvaluation)
+STRIDE_UNSUPPORTED(EnterContinuousTimeMode, kModelExchange)
+#undef STRIDE_UNSUPPORTED
+
+// ---- Self-description ----
+
+const char* strideModelDescription(const char* resources, const char** error) {
+  thread_local std::string text;
+  try {
+    const stride::UnitFactory factory = stride::unit_factory();
+    double time = 0;
+    const auto unit = factory.make({resources != nullptr ? resources : "", factory.name});
+    text = stride::kit::model_description(factory.name, *unit, stride::kit::Table(*unit, time));
+    return text.c_str();
+  } catch (const std::exception& failure) {
+    text = failure.what();
+  } catch (...) {
+    text = "the unit's constructor threw something that is no std::exception";
+  }
+  *error = text.c_str();
+  return nullptr;
+}

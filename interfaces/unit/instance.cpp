@@ -1,0 +1,288 @@
+#include "interfaces/unit/instance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "interfaces/unit/model_description.h"
+#include "interfaces/unit/xml_writer.h"
+
+namespace stride::kit {
+namespace {
+
+std::string text(Time time) { return to_text(to_seconds(time)); }
+
+void check_range(const Variable& row) {
+  if (!row.min && !row.max) return;
+  if (row.type != Type::Float64 || row.causality != Causality::Parameter) return;
+  const auto* values = static_cast<const double*>(row.data);
+  for (std::size_t i = 0; i < row.size; ++i) {
+    const bool low = row.min && values[i] < *row.min;
+    const bool high = row.max && values[i] > *row.max;
+    if (!low && !high) continue;
+    throw std::out_of_range(
+        "parameter '" + row.name + "' is " + to_text(values[i]) +
+        (row.unit.empty() ? "" : " " + row.unit) + ", expected " +
+        (low ? "at least " + to_text(*row.min) : "at most " + to_text(*row.max)));
+  }
+}
+
+}  // namespace
+
+void Importer::message(fmi3Status status, const char* category, const std::string& text) const {
+  if (log != nullptr && (logging || status >= fmi3Error)) {
+    log(environment, status, category, text.c_str());
+  }
+}
+
+Instance::Instance(Importer importer, const std::string& token) : importer_(std::move(importer)) {
+  build();
+  token_ = instantiation_token(unit_factory().name, *unit_, *table_);
+  if (token != token_) {
+    throw Misuse("the instantiation token is '" + token + "', this unit's is '" + token_ +
+                 "': the model description belongs to another build of the unit or "
+                 "to other resources; pack the unit again");
+  }
+}
+
+void Instance::build() {
+  table_.reset();
+  unit_.reset();
+  unit_ = unit_factory().make({importer_.resources, importer_.instance_name});
+  unit_->set_logger([this](Severity severity, const std::string& text) {
+    const bool warning = severity == Severity::Warning;
+    importer_.message(warning ? fmi3Warning : fmi3OK, warning ? "logStatusWarning" : "logEvents",
+                      text);
+  });
+  table_ = std::make_unique<Table>(*unit_, time_seconds_);
+  mode_ = Instantiated;
+  time_seconds_ = 0;
+  inputs_changed_ = true;
+}
+
+void Instance::reset() { build(); }
+
+void Instance::enter_initialization_mode(Time start, std::optional<Time> stop) {
+  if (stop && *stop < start) throw Misuse("the stop time is before the start time");
+  start_ = start;
+  stop_ = stop;
+  time_ = start;
+  time_seconds_ = to_seconds(start);
+  mode_ = InitializationMode;
+  inputs_changed_ = true;
+}
+
+void Instance::exit_initialization_mode() {
+  refresh();
+  mode_ = importer_.event_mode_used ? EventMode : StepMode;
+}
+
+void Instance::terminate() {
+  unit_->terminate();
+  mode_ = Terminated;
+}
+
+/// Brings the outputs up to date where an importer may read them directly after it has set inputs.
+void Instance::refresh() {
+  if (!inputs_changed_) return;
+  if (mode_ == InitializationMode) {
+    for (const Variable& row : unit_->variables()) check_range(row);
+    unit_->initialize(start_);
+    unit_->update_outputs();
+  } else if (mode_ == EventMode) {
+    unit_->update_outputs();
+  } else {
+    return;
+  }
+  inputs_changed_ = false;
+}
+
+Instance::StepOutcome Instance::do_step(double point, double size) {
+  const Time from = time_from_seconds(point);
+  const Time to = time_from_seconds(point + size);
+  if (!(size > 0)) throw Misuse("the communication step size must be positive");
+  if (std::abs((from - time_).count()) > 1) {
+    throw Misuse("the unit stands at " + text(time_) + " s, but the step starts at " + text(from) +
+                 " s");
+  }
+  if (stop_ && to > *stop_ + Duration(1)) {
+    throw Misuse("the step ends at " + text(to) + " s, behind the stop time " + text(*stop_) +
+                 " s");
+  }
+  for (Clock* clock : table_->output_clocks()) clock->clear();
+  Step step(time_, to, importer_.early_return_allowed);
+  unit_->step(step);
+  if (step.rejected()) return {true, false, false, false, time_};
+  const Time reached = step.reached().value_or(to);
+  const bool early = reached < to;
+  if (reached < time_ || reached > to) {
+    throw std::logic_error("step() returned early at an instant outside of the step");
+  }
+  if (early && !importer_.early_return_allowed) {
+    throw std::logic_error("step() returned early, which the importer does not allow");
+  }
+  time_ = reached;
+  time_seconds_ = to_seconds(reached);
+  bool event = step.event_needed() || any_clock_ticked();
+  if (event && !importer_.event_mode_used) {
+    importer_.message(fmi3Warning, "logStatusWarning",
+                      "an event at " + text(reached) +
+                          " s is lost, because the importer does not use Event Mode");
+    event = false;
+  }
+  return {false, event, step.terminates(), early, reached};
+}
+
+Instance::UpdateOutcome Instance::update_discrete_states() {
+  for (Clock* clock : table_->output_clocks()) clock->clear();
+  Event event(time_);
+  unit_->event(event);
+  unit_->update_outputs();
+  for (Clock* clock : table_->input_clocks()) clock->clear();
+  inputs_changed_ = false;
+  return {event.iterates() || any_clock_ticked(), event.terminates(), event.next()};
+}
+
+bool Instance::any_clock_ticked() const {
+  const auto& clocks = table_->output_clocks();
+  return std::any_of(clocks.begin(), clocks.end(), [](const Clock* c) { return c->ticked(); });
+}
+
+const Slot& Instance::slot(fmi3ValueReference reference, Type type) const {
+  if (reference >= table_->size()) {
+    throw Misuse("there is no variable with the value reference " + std::to_string(reference));
+  }
+  const Slot& found = table_->slot(reference);
+  const bool same = found.type == type || (found.type == Type::Enumeration && type == Type::Int64);
+  if (!same) {
+    throw Misuse("variable '" + table_->row(reference).name + "' is of the type " +
+                 name(found.type) + ", not " + name(type));
+  }
+  return found;
+}
+
+const Slot& Instance::writable(fmi3ValueReference reference, Type type) {
+  const Slot& found = slot(reference, type);
+  if ((found.settable & mode_) == 0) {
+    const std::string legal = mode_names(found.settable);
+    throw Misuse("variable '" + table_->row(reference).name + "' cannot be set in " +
+                 mode_names(mode_) +
+                 (legal.empty() ? ", nor in any other state" : ", only in " + legal));
+  }
+  return found;
+}
+
+void Instance::get_binary(const fmi3ValueReference references[], std::size_t count,
+                          std::size_t sizes[], fmi3Binary values[], std::size_t size) {
+  refresh();
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Slot& from = slot(references[i], Type::Binary);
+    if (at + from.size > size) throw Misuse("nValues is too small");
+    const auto* elements = static_cast<const Binary*>(from.data);
+    for (std::size_t k = 0; k < from.size; ++k) {
+      sizes[at] = elements[k].size();
+      values[at++] = elements[k].data();
+    }
+  }
+  if (at != size) throw Misuse("nValues is too large");
+}
+
+void Instance::set_binary(const fmi3ValueReference references[], std::size_t count,
+                          const std::size_t sizes[], const fmi3Binary values[], std::size_t size) {
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Slot& to = writable(references[i], Type::Binary);
+    if (at + to.size > size) throw Misuse("nValues is too small");
+    auto* elements = static_cast<Binary*>(to.data);
+    for (std::size_t k = 0; k < to.size; ++k, ++at) {
+      if (sizes[at] == 0) {
+        elements[k].clear();
+      } else {
+        elements[k].assign(values[at], values[at] + sizes[at]);
+      }
+    }
+  }
+  if (at != size) throw Misuse("nValues is too large");
+  inputs_changed_ = true;
+}
+
+void Instance::get_output_derivatives(const fmi3ValueReference references[], std::size_t count,
+                                      const fmi3Int32 orders[], double values[], std::size_t size) {
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Slot& output = slot(references[i], Type::Float64);
+    const Variable& row = table_->row(references[i]);
+    if (row.derivative == nullptr || orders[i] != 1) {
+      throw Misuse("output '" + row.name + "' has no derivative of order " +
+                   std::to_string(orders[i]));
+    }
+    if (at + output.size > size) throw Misuse("nValues is too small");
+    for (std::size_t k = 0; k < output.size; ++k) values[at++] = row.derivative[k];
+  }
+  if (at != size) throw Misuse("nValues is too large");
+}
+
+void Instance::require_state() const {
+  if (!unit_->lists_state()) {
+    throw Misuse("this unit cannot save its state (canGetAndSetFMUState is false)");
+  }
+}
+
+void Instance::save(SavedState& saved) const {
+  require_state();
+  StateWriter writer(saved.bytes);
+  writer.write(token_);
+  writer.write(mode_);
+  writer.write(time_);
+  writer.write(start_);
+  writer.write(stop_.has_value());
+  writer.write(stop_.value_or(Time{}));
+  writer.write(inputs_changed_);
+  for (std::size_t i = 1; i < table_->size(); ++i) {
+    const Variable& row = table_->row(i);
+    visit(row.type, row.data, [&](const auto* elements) {
+      for (std::size_t k = 0; k < row.size; ++k) writer.write(elements[k]);
+    });
+  }
+  for (const StateItem& item : unit_->state_items()) item.save(item.object, writer);
+  unit_->save_state(writer);
+}
+
+void Instance::check_saved(const std::uint8_t* bytes, std::size_t size) const {
+  require_state();
+  std::string token;
+  try {
+    StateReader(bytes, size).read(token);
+  } catch (const std::exception&) {
+  }
+  if (token != token_) throw Misuse("these bytes are no saved state of this unit");
+}
+
+void Instance::restore(const SavedState& saved) {
+  require_state();
+  StateReader reader(saved.bytes.data(), saved.bytes.size());
+  std::string token;
+  reader.read(token);
+  reader.read(mode_);
+  reader.read(time_);
+  reader.read(start_);
+  bool has_stop = false;
+  Time stop{};
+  reader.read(has_stop);
+  reader.read(stop);
+  stop_ = has_stop ? std::optional(stop) : std::nullopt;
+  reader.read(inputs_changed_);
+  time_seconds_ = to_seconds(time_);
+  for (std::size_t i = 1; i < table_->size(); ++i) {
+    const Variable& row = table_->row(i);
+    visit(row.type, row.data, [&](auto* elements) {
+      for (std::size_t k = 0; k < row.size; ++k) reader.read(elements[k]);
+    });
+  }
+  for (const StateItem& item : unit_->state_items()) item.load(item.object, reader);
+  unit_->load_state(reader);
+  if (reader.left() != 0) throw std::runtime_error("the saved state is too long");
+}
+
+}  // namespace stride::kit

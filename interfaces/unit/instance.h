@@ -1,0 +1,162 @@
+// One FMI instance: a unit, its table, and the state machine of FMI 3.0 around them. Knows nothing
+// of the C entry points.
+#ifndef STRIDE_INTERFACES_UNIT_INSTANCE_H
+#define STRIDE_INTERFACES_UNIT_INSTANCE_H
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <stride/fmi3.h>
+#include <stride/unit.h>
+
+#include "interfaces/unit/legal_calls.h"
+#include "interfaces/unit/table.h"
+
+namespace stride::kit {
+
+/// The importer used the instance wrongly; nothing has changed.
+struct Misuse : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
+/// What the importer said when it made the instance.
+struct Importer {
+  std::string instance_name;
+  std::filesystem::path resources;
+  bool logging = false;
+  bool event_mode_used = false;
+  bool early_return_allowed = false;
+  fmi3InstanceEnvironment environment = nullptr;
+  fmi3LogMessageCallback log = nullptr;
+
+  void message(fmi3Status status, const char* category, const std::string& text) const;
+};
+
+/// A saved state (fmi3FMUState).
+struct SavedState {
+  std::vector<std::uint8_t> bytes;
+};
+
+/// The functions have the meaning of the FMI functions of the same name; a misuse or a failure of
+/// the unit is an exception, whose text is the message for the importer.
+class Instance {
+ public:
+  /// Throws if the token is not the one of this library with these resources.
+  Instance(Importer importer, const std::string& token);
+
+  Mode mode() const { return mode_; }
+  const Importer& importer() const { return importer_; }
+  /// The unit itself failed: by the standard nothing but a reset, a restored state or the end can
+  /// follow.
+  void fail() { mode_ = Terminated; }
+  void set_logging(bool on) { importer_.logging = on; }
+
+  void enter_initialization_mode(Time start, std::optional<Time> stop);
+  void exit_initialization_mode();
+  void enter_event_mode() { mode_ = EventMode; }
+  void enter_step_mode() { mode_ = StepMode; }
+  void terminate();
+  void reset();
+
+  struct StepOutcome {
+    bool rejected, event_needed, terminate, early;
+    Time reached;
+  };
+  StepOutcome do_step(double point, double size);
+
+  struct UpdateOutcome {
+    bool iterate, terminate;
+    std::optional<Time> next_event;
+  };
+  UpdateOutcome update_discrete_states();
+
+  template <Type kType, class T>
+  void get(const fmi3ValueReference references[], std::size_t count, T values[], std::size_t size);
+  template <Type kType, class T>
+  void set(const fmi3ValueReference references[], std::size_t count, const T values[],
+           std::size_t size);
+  void get_binary(const fmi3ValueReference references[], std::size_t count, std::size_t sizes[],
+                  fmi3Binary values[], std::size_t size);
+  void set_binary(const fmi3ValueReference references[], std::size_t count,
+                  const std::size_t sizes[], const fmi3Binary values[], std::size_t size);
+  void get_output_derivatives(const fmi3ValueReference references[], std::size_t count,
+                              const fmi3Int32 orders[], double values[], std::size_t size);
+
+  void save(SavedState& state) const;
+  /// Throws if the bytes are not a state that save() of this unit wrote.
+  void check_saved(const std::uint8_t* bytes, std::size_t size) const;
+  void restore(const SavedState& state);
+
+ private:
+  void build();
+  void refresh();
+  void require_state() const;
+  bool any_clock_ticked() const;
+  const Slot& writable(fmi3ValueReference reference, Type type);
+  const Slot& slot(fmi3ValueReference reference, Type type) const;
+
+  Importer importer_;
+  std::string token_;
+  std::unique_ptr<Unit> unit_;
+  std::unique_ptr<Table> table_;
+  double time_seconds_ = 0;
+  Time time_{};
+  Time start_{};
+  std::optional<Time> stop_;
+  Mode mode_ = Instantiated;
+  bool inputs_changed_ = true;
+};
+
+/// fmi3Boolean is bool and an Enumeration travels as Int64, so the element of a slot has the type
+/// T.
+template <Type kType, class T>
+void Instance::get(const fmi3ValueReference references[], std::size_t count, T values[],
+                   std::size_t size) {
+  refresh();
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Slot& from = slot(references[i], kType);
+    if (at + from.size > size) throw Misuse("nValues is too small");
+    if constexpr (kType == Type::String) {
+      const auto* texts = static_cast<const std::string*>(from.data);
+      for (std::size_t k = 0; k < from.size; ++k) values[at + k] = texts[k].c_str();
+    } else if constexpr (kType == Type::Clock) {
+      values[at] = static_cast<const Clock*>(from.data)->ticked();
+    } else {
+      const auto* elements = static_cast<const T*>(from.data);
+      for (std::size_t k = 0; k < from.size; ++k) values[at + k] = elements[k];
+    }
+    at += from.size;
+  }
+  if (at != size) throw Misuse("nValues is too large");
+}
+
+template <Type kType, class T>
+void Instance::set(const fmi3ValueReference references[], std::size_t count, const T values[],
+                   std::size_t size) {
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Slot& to = writable(references[i], kType);
+    if (at + to.size > size) throw Misuse("nValues is too small");
+    if constexpr (kType == Type::Clock) {
+      auto* clock = static_cast<Clock*>(to.data);
+      values[at] ? clock->tick() : clock->clear();
+    } else if constexpr (kType == Type::String) {
+      auto* texts = static_cast<std::string*>(to.data);
+      for (std::size_t k = 0; k < to.size; ++k) texts[k] = values[at + k] ? values[at + k] : "";
+    } else {
+      auto* elements = static_cast<T*>(to.data);
+      for (std::size_t k = 0; k < to.size; ++k) elements[k] = values[at + k];
+    }
+    at += to.size;
+  }
+  if (at != size) throw Misuse("nValues is too large");
+  inputs_changed_ = true;
+}
+
+}  // namespace stride::kit
+
+#endif

@@ -1,0 +1,265 @@
+#include "interfaces/unit/model_description.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "interfaces/unit/si_units.h"
+#include "interfaces/unit/xml_writer.h"
+
+namespace stride::kit {
+namespace {
+
+std::string join(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text.append(text.empty() ? "" : " ").append(word);
+  return text;
+}
+
+std::string hex(const Binary& bytes) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  for (const std::uint8_t byte : bytes) {
+    text += kDigits[byte >> 4];
+    text += kDigits[byte & 15];
+  }
+  return text;
+}
+
+std::string element_text(double value) { return to_text(value); }
+std::string element_text(float value) { return to_text(value); }
+std::string element_text(bool value) { return value ? "true" : "false"; }
+std::string element_text(const std::string& value) { return value; }
+std::string element_text(const Binary& value) { return hex(value); }
+std::string element_text(const Clock&) { return {}; }
+template <class Integer>
+std::string element_text(Integer value) {
+  return std::to_string(value);
+}
+
+std::vector<std::string> start_texts(const Variable& row) {
+  std::vector<std::string> texts;
+  visit(row.type, row.data, [&](const auto* elements) {
+    for (std::size_t i = 0; i < row.size; ++i) texts.push_back(element_text(elements[i]));
+  });
+  return texts;
+}
+
+std::string bound_text(Type type, double value) {
+  switch (type) {
+    case Type::Float32:
+    case Type::Float64:
+      return to_text(value);
+    default:
+      return std::to_string(static_cast<std::int64_t>(value));
+  }
+}
+
+bool has_start(const Variable& row) {
+  return row.initial == Initial::Exact || row.initial == Initial::Approx;
+}
+
+std::string type_name(const Variable& row) { return row.name + " type"; }
+
+class Writer {
+ public:
+  Writer(const std::string& unit_name, const Unit& unit, const Table& table)
+      : name_(unit_name), unit_(unit), table_(table) {}
+
+  std::string write(const std::string& token) {
+    xml_.open("fmiModelDescription")
+        .attribute("fmiVersion", FMI3_VERSION)
+        .attribute("modelName", name_)
+        .attribute("instantiationToken", token);
+    if (!unit_.info().description.empty()) {
+      xml_.attribute("description", unit_.info().description);
+    }
+    xml_.attribute("version", unit_.info().version)
+        .attribute("generationTool", "stride unit kit")
+        .attribute("variableNamingConvention", "structured");
+    write_interface_type();
+    write_units();
+    write_types();
+    write_log_categories();
+    xml_.open("ModelVariables");
+    for (std::size_t i = 0; i < table_.size(); ++i) write_variable(i);
+    xml_.close();
+    write_structure();
+    xml_.close();
+    return xml_.text();
+  }
+
+ private:
+  void write_interface_type() {
+    const UnitInfo& info = unit_.info();
+    xml_.open("CoSimulation").attribute("modelIdentifier", name_);
+    if (info.single_instance) xml_.attribute("canBeInstantiatedOnlyOncePerProcess", true);
+    if (unit_.lists_state()) {
+      xml_.attribute("canGetAndSetFMUState", true).attribute("canSerializeFMUState", true);
+    }
+    xml_.attribute("canHandleVariableCommunicationStepSize", true);
+    if (info.fixed_step) xml_.attribute("fixedInternalStepSize", to_seconds(*info.fixed_step));
+    const auto& rows = unit_.variables();
+    if (std::any_of(rows.begin(), rows.end(), [](const Variable& r) { return r.derivative; })) {
+      xml_.attribute("maxOutputDerivativeOrder", "1");
+    }
+    if (info.early_return) xml_.attribute("mightReturnEarlyFromDoStep", true);
+    xml_.attribute("hasEventMode", true).close();
+  }
+
+  void write_units() {
+    std::set<std::string> symbols;
+    for (std::size_t i = 0; i < table_.size(); ++i) symbols.insert(table_.row(i).unit);
+    symbols.erase("");
+    xml_.open("UnitDefinitions");
+    for (const std::string& symbol : symbols) {
+      xml_.open("Unit").attribute("name", symbol);
+      if (const auto base = base_unit(symbol)) write_base_unit(*base);
+      xml_.close();
+    }
+    xml_.close();
+  }
+
+  void write_base_unit(const BaseUnit& base) {
+    const std::pair<const char*, int> exponents[] = {
+        {"kg", base.kg}, {"m", base.m},     {"s", base.s},   {"A", base.A},
+        {"K", base.K},   {"mol", base.mol}, {"cd", base.cd}, {"rad", base.rad}};
+    xml_.open("BaseUnit");
+    for (const auto& [quantity, exponent] : exponents) {
+      if (exponent != 0) xml_.attribute(quantity, std::int64_t{exponent});
+    }
+    if (base.factor != 1) xml_.attribute("factor", base.factor);
+    if (base.offset != 0) xml_.attribute("offset", base.offset);
+    xml_.close();
+  }
+
+  void write_types() {
+    bool any = false;
+    for (std::size_t i = 0; i < table_.size(); ++i) {
+      const Variable& row = table_.row(i);
+      if (row.type != Type::Enumeration) continue;
+      if (!any) xml_.open("TypeDefinitions");
+      any = true;
+      xml_.open("EnumerationType").attribute("name", type_name(row));
+      for (const auto& [item, value] : row.items) {
+        xml_.open("Item").attribute("name", item).attribute("value", value).close();
+      }
+      xml_.close();
+    }
+    if (any) xml_.close();
+  }
+
+  void write_log_categories() {
+    xml_.open("LogCategories");
+    for (const char* category : {"logStatusError", "logStatusWarning", "logEvents"}) {
+      xml_.open("Category").attribute("name", category).close();
+    }
+    xml_.close();
+  }
+
+  void write_variable(std::size_t reference) {
+    const Variable& row = table_.row(reference);
+    xml_.open(name(row.type))
+        .attribute("name", row.name)
+        .attribute("valueReference", static_cast<std::int64_t>(reference));
+    if (!row.description.empty()) xml_.attribute("description", row.description);
+    xml_.attribute("causality", name(row.causality));
+    if (row.type == Type::Clock) {
+      xml_.attribute("intervalVariability", "triggered").close();
+      return;
+    }
+    write_variability(row);
+    if (row.type == Type::Enumeration) xml_.attribute("declaredType", type_name(row));
+    if (!row.unit.empty()) xml_.attribute("unit", row.unit);
+    if (row.min) xml_.attribute("min", bound_text(row.type, *row.min));
+    if (row.max) xml_.attribute("max", bound_text(row.type, *row.max));
+    if (!row.mime_type.empty()) xml_.attribute("mimeType", row.mime_type);
+    write_start_and_dimensions(row);
+    xml_.close();
+  }
+
+  void write_variability(const Variable& row) {
+    xml_.attribute("variability", name(row.variability));
+    if (row.clock != nullptr) {
+      xml_.attribute("clocks", std::int64_t{table_.reference_of(*row.clock)});
+    }
+    constexpr const char* kNames[] = {"", "exact", "approx", "calculated"};
+    const bool implied = row.causality == Causality::Input || row.initial == Initial::None;
+    if (!implied) xml_.attribute("initial", kNames[static_cast<std::size_t>(row.initial)]);
+  }
+
+  void write_start_and_dimensions(const Variable& row) {
+    const std::vector<std::string> values = start_texts(row);
+    const bool as_elements = row.type == Type::String || row.type == Type::Binary;
+    if (has_start(row) && !as_elements) xml_.attribute("start", join(values));
+    for (const std::size_t size : row.dimensions) {
+      xml_.open("Dimension").attribute("start", static_cast<std::int64_t>(size)).close();
+    }
+    if (!has_start(row) || !as_elements) return;
+    for (const std::string& value : values) xml_.open("Start").attribute("value", value).close();
+  }
+
+  void write_structure() {
+    xml_.open("ModelStructure");
+    for (const char* element : {"Output", "InitialUnknown"}) {
+      for (std::size_t i = 0; i < table_.size(); ++i) {
+        const Variable& row = table_.row(i);
+        const bool initial_unknown =
+            row.initial == Initial::Calculated && row.causality == Causality::Output;
+        const bool clocked = row.type == Type::Clock || row.clock != nullptr;
+        const bool wanted =
+            element[0] == 'O' ? row.causality == Causality::Output : initial_unknown && !clocked;
+        if (wanted) write_unknown(element, row, i);
+      }
+    }
+    xml_.close();
+  }
+
+  void write_unknown(const std::string& element, const Variable& row, std::size_t reference) {
+    xml_.open(element).attribute("valueReference", static_cast<std::int64_t>(reference));
+    if (row.dependencies && row.type != Type::Clock) {
+      std::set<std::size_t> knowns;
+      for (const std::string& name : *row.dependencies) knowns.insert(table_.reference_of(name));
+      if (element == "InitialUnknown") add_parameters(knowns);
+      std::vector<std::string> words;
+      for (const std::size_t known : knowns) words.push_back(std::to_string(known));
+      xml_.attribute("dependencies", join(words));
+    }
+    xml_.close();
+  }
+
+  void add_parameters(std::set<std::size_t>& knowns) const {
+    for (std::size_t i = 0; i < table_.size(); ++i) {
+      if (table_.row(i).causality == Causality::Parameter) knowns.insert(i);
+    }
+  }
+
+  std::string name_;
+  const Unit& unit_;
+  const Table& table_;
+  XmlWriter xml_;
+};
+
+/// FNV-1a, 64 bits (Fowler, Noll, Vo).
+std::uint64_t hash(const std::string& text) {
+  std::uint64_t value = 0xcbf29ce484222325U;
+  for (const char c : text) value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return value;
+}
+
+}  // namespace
+
+std::string instantiation_token(const std::string& name, const Unit& unit, const Table& table) {
+  const std::uint64_t value = hash(Writer(name, unit, table).write(""));
+  Binary bytes;
+  for (int shift = 56; shift >= 0; shift -= 8) {
+    bytes.push_back(static_cast<std::uint8_t>(value >> shift));
+  }
+  return "stride-" + hex(bytes);
+}
+
+std::string model_description(const std::string& name, const Unit& unit, const Table& table) {
+  return Writer(name, unit, table).write(instantiation_token(name, unit, table));
+}
+
+}  // namespace stride::kit

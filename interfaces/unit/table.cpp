@@ -1,0 +1,125 @@
+#include "interfaces/unit/table.h"
+
+#include <functional>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+
+#include "interfaces/unit/legal_calls.h"
+
+namespace stride {
+
+VariableBuilder Unit::add_row(std::string name, Causality causality, Initial initial, Type type,
+                              void* data, std::size_t size, std::vector<std::size_t> dimensions) {
+  Variable& row = variables_.emplace_back();
+  row.name = std::move(name);
+  row.type = type;
+  row.causality = causality;
+  row.initial = type == Type::Clock ? Initial::None : initial;
+  const bool is_real = type == Type::Float32 || type == Type::Float64;
+  row.variability = causality == Causality::Parameter ? Variability::Fixed
+                    : is_real                         ? Variability::Continuous
+                                                      : Variability::Discrete;
+  row.data = data;
+  row.size = size;
+  row.dimensions = std::move(dimensions);
+  return VariableBuilder(row);
+}
+
+}  // namespace stride
+
+namespace stride::kit {
+namespace {
+
+std::uint8_t settable_modes(const Variable& row) {
+  if (row.variability == Variability::Constant || row.causality == Causality::Independent) return 0;
+  if (row.type == Type::Clock) return row.causality == Causality::Input ? EventMode : 0;
+  std::uint8_t modes = row.initial == Initial::Exact ? Instantiated | InitializationMode : 0;
+  const bool tunable =
+      row.causality == Causality::Parameter && row.variability == Variability::Tunable;
+  if (row.causality == Causality::Input || tunable) modes |= EventMode;
+  if ((row.causality == Causality::Input && row.clock == nullptr) || tunable) modes |= StepMode;
+  return modes;
+}
+
+[[noreturn]] void reject(const Variable& row, const std::string& mistake) {
+  throw std::logic_error("variable '" + row.name + "': " + mistake);
+}
+
+}  // namespace
+
+const char* name(Type type) {
+  constexpr const char* kNames[] = {"Float32", "Float64", "Int8",   "UInt8",       "Int16",
+                                    "UInt16",  "Int32",   "UInt32", "Int64",       "UInt64",
+                                    "Boolean", "String",  "Binary", "Enumeration", "Clock"};
+  return kNames[static_cast<std::size_t>(type)];
+}
+
+const char* name(Causality causality) {
+  constexpr const char* kNames[] = {"independent", "parameter", "input", "output", "local"};
+  return kNames[static_cast<std::size_t>(causality)];
+}
+
+const char* name(Variability variability) {
+  constexpr const char* kNames[] = {"constant", "fixed", "tunable", "discrete", "continuous"};
+  return kNames[static_cast<std::size_t>(variability)];
+}
+
+Table::Table(const Unit& unit, double& time) {
+  time_.name = "time";
+  time_.causality = Causality::Independent;
+  time_.unit = "s";
+  time_.description = "simulated time";
+  time_.data = &time;
+  rows_.push_back(&time_);
+  for (const Variable& row : unit.variables()) rows_.push_back(&row);
+  std::set<std::string> names;
+  for (const Variable* row : rows_) {
+    if (!names.insert(row->name).second) reject(*row, "this name is used twice");
+    check(*row);
+    slots_.push_back({row->type, settable_modes(*row), row->size, row->data});
+    if (row->type == Type::Clock) {
+      auto& clocks = row->causality == Causality::Input ? input_clocks_ : output_clocks_;
+      clocks.push_back(static_cast<Clock*>(row->data));
+    }
+  }
+}
+
+void Table::check(const Variable& row) const {
+  if (row.name.empty()) throw std::logic_error("a variable has no name");
+  const std::size_t product = std::accumulate(row.dimensions.begin(), row.dimensions.end(),
+                                              std::size_t{1}, std::multiplies<>());
+  if (row.size == 0) reject(row, "an array needs at least one element when it is declared");
+  if (product != row.size) {
+    reject(row, "the dimensions make " + std::to_string(product) + " elements, the member has " +
+                    std::to_string(row.size));
+  }
+  if (row.type == Type::Clock && row.size != 1) reject(row, "arrays of clocks are not supported");
+  if (row.type == Type::Enumeration && row.items.empty()) {
+    reject(row, "an enumeration needs its items({{\"name\", value}, ...})");
+  }
+  if (row.derivative != nullptr &&
+      (row.type != Type::Float64 || row.causality != Causality::Output)) {
+    reject(row, "only a Float64 output has an output derivative");
+  }
+  if (row.clock != nullptr) reference_of(*row.clock);
+  if (row.dependencies) {
+    for (const std::string& dependency : *row.dependencies) reference_of(dependency);
+  }
+}
+
+fmi3ValueReference Table::reference_of(const Clock& clock) const {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (rows_[i]->data == &clock) return static_cast<fmi3ValueReference>(i);
+  }
+  throw std::logic_error("a variable is clocked by a clock that is not in the variable table");
+}
+
+fmi3ValueReference Table::reference_of(const std::string& name) const {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (rows_[i]->name == name) return static_cast<fmi3ValueReference>(i);
+  }
+  throw std::logic_error("depends_on names the variable '" + name + "', which does not exist");
+}
+
+}  // namespace stride::kit

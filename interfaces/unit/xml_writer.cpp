@@ -1,0 +1,93 @@
+#include "interfaces/unit/xml_writer.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace stride::kit {
+namespace {
+
+std::string escape(std::string_view value) {
+  std::string text;
+  for (const char c : value) {
+    switch (c) {
+      case '&':
+        text += "&amp;";
+        break;
+      case '<':
+        text += "&lt;";
+        break;
+      case '>':
+        text += "&gt;";
+        break;
+      case '"':
+        text += "&quot;";
+        break;
+      case '\n':
+        text += "&#10;";
+        break;
+      case '\r':
+        text += "&#13;";
+        break;
+      case '\t':
+        text += "&#9;";
+        break;
+      default:
+        text += c;
+    }
+  }
+  return text;
+}
+
+template <class Real>
+std::string shortest(Real value) {
+  if (std::isnan(value)) return "NaN";
+  if (std::isinf(value)) return value > 0 ? "INF" : "-INF";
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  return std::string(buffer, end);
+}
+
+}  // namespace
+
+std::string to_text(double value) { return shortest(value); }
+std::string to_text(float value) { return shortest(value); }
+
+void XmlWriter::end_tag_of_parent() {
+  if (tag_open_) text_ += ">\n";
+  tag_open_ = false;
+}
+
+XmlWriter& XmlWriter::open(std::string_view element) {
+  end_tag_of_parent();
+  text_.append(2 * open_.size(), ' ').append("<").append(element);
+  open_.emplace_back(element);
+  tag_open_ = true;
+  return *this;
+}
+
+XmlWriter& XmlWriter::attribute(std::string_view name, std::string_view value) {
+  text_.append(" ").append(name).append("=\"").append(escape(value)).append("\"");
+  return *this;
+}
+
+XmlWriter& XmlWriter::attribute(std::string_view name, double value) {
+  return attribute(name, std::string_view(to_text(value)));
+}
+
+XmlWriter& XmlWriter::attribute(std::string_view name, std::int64_t value) {
+  return attribute(name, std::string_view(std::to_string(value)));
+}
+
+XmlWriter& XmlWriter::close() {
+  const std::string element = std::move(open_.back());
+  open_.pop_back();
+  if (tag_open_) {
+    text_ += "/>\n";
+  } else {
+    text_.append(2 * open_.size(), ' ').append("</").append(element).append(">\n");
+  }
+  tag_open_ = false;
+  return *this;
+}
+
+}  // namespace stride::kit
