@@ -1,0 +1,20 @@
+# stride_add_test(NAME SOURCES file... [LIBRARIES target...] [FMUS unit...])
+#
+# One Catch2 executable, run by ctest under its name. FMUS are units that the test loads: they are built before it, and
+# their folders are known to it as STRIDE_FMU_DIR (this repository's units) and STRIDE_TEST_FMU_DIR (units for tests).
+find_package(Catch2 2.13 REQUIRED)
+
+function(stride_add_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES;FMUS")
+  add_executable(${name} ${arg_SOURCES} ${PROJECT_SOURCE_DIR}/tests/catch_main.cpp)
+  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} Catch2::Catch2)
+  target_compile_definitions(${name} PRIVATE
+    STRIDE_FMU_DIR="${CMAKE_BINARY_DIR}/units"
+    STRIDE_TEST_FMU_DIR="${CMAKE_BINARY_DIR}/tests/units"
+    STRIDE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  foreach(unit IN LISTS arg_FMUS)
+    add_dependencies(${name} ${unit}_fmu)
+  endforeach()
+  add_test(NAME ${name} COMMAND ${name})
+  set_tests_properties(${name} PROPERTIES TIMEOUT 300)
+endfunction()

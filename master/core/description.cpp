@@ -1,0 +1,56 @@
+#include "master/core/description.h"
+
+#include <algorithm>
+
+namespace stride::core {
+
+const char* name(ValueType type) {
+  constexpr const char* kNames[] = {"Float32", "Float64", "Int8",   "UInt8",       "Int16",
+                                    "UInt16",  "Int32",   "UInt32", "Int64",       "UInt64",
+                                    "Boolean", "String",  "Binary", "Enumeration", "Clock"};
+  return kNames[static_cast<std::size_t>(type)];
+}
+
+const char* name(Causality causality) {
+  constexpr const char* kNames[] = {
+      "parameter", "calculatedParameter", "structuralParameter", "input", "output",
+      "local",     "independent"};
+  return kNames[static_cast<std::size_t>(causality)];
+}
+
+const char* name(Variability variability) {
+  constexpr const char* kNames[] = {"constant", "fixed", "tunable", "discrete", "continuous"};
+  return kNames[static_cast<std::size_t>(variability)];
+}
+
+std::optional<std::size_t> UnitDescription::find(const std::string& variable_name) const {
+  const auto found = std::find_if(variables.begin(), variables.end(),
+                                  [&](const Variable& v) { return v.name == variable_name; });
+  if (found == variables.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - variables.begin());
+}
+
+std::optional<std::size_t> UnitDescription::find(ValueReference reference) const {
+  const auto found = std::find_if(variables.begin(), variables.end(),
+                                  [&](const Variable& v) { return v.reference == reference; });
+  if (found == variables.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - variables.begin());
+}
+
+std::optional<LinearConversion> convert(const UnitDescription& from_description,
+                                        const std::string& from,
+                                        const UnitDescription& to_description,
+                                        const std::string& to) {
+  if (from.empty() || to.empty()) return LinearConversion{};
+  const auto source = from_description.units.find(from);
+  const auto target = to_description.units.find(to);
+  const bool both_known =
+      source != from_description.units.end() && target != to_description.units.end();
+  if (!both_known) return from == to ? std::optional(LinearConversion{}) : std::nullopt;
+  const BaseUnit& a = source->second;
+  const BaseUnit& b = target->second;
+  if (a.exponents != b.exponents) return std::nullopt;
+  return LinearConversion{a.factor / b.factor, (a.offset - b.offset) / b.factor};
+}
+
+}  // namespace stride::core

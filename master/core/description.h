@@ -1,0 +1,132 @@
+// What a unit says of itself: the part of a modelDescription.xml that a master needs.
+#ifndef STRIDE_MASTER_CORE_DESCRIPTION_H
+#define STRIDE_MASTER_CORE_DESCRIPTION_H
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stride::core {
+
+using ValueReference = std::uint32_t;
+
+enum class ValueType : std::uint8_t {
+  Float32,
+  Float64,
+  Int8,
+  UInt8,
+  Int16,
+  UInt16,
+  Int32,
+  UInt32,
+  Int64,
+  UInt64,
+  Boolean,
+  String,
+  Binary,
+  Enumeration,
+  Clock,
+};
+inline constexpr std::size_t kValueTypeCount = 15;
+
+enum class Causality : std::uint8_t {
+  Parameter,
+  CalculatedParameter,
+  StructuralParameter,
+  Input,
+  Output,
+  Local,
+  Independent,
+};
+enum class Variability : std::uint8_t { Constant, Fixed, Tunable, Discrete, Continuous };
+
+/// The words of the standard: "Float64", "input", "continuous".
+const char* name(ValueType type);
+const char* name(Causality causality);
+const char* name(Variability variability);
+
+/// value in SI base units = factor * value + offset. exponents of kg, m, s, A, K, mol, cd, rad.
+struct BaseUnit {
+  std::array<int, 8> exponents{};
+  double factor = 1;
+  double offset = 0;
+};
+
+struct Variable {
+  std::string name;
+  ValueReference reference = 0;
+  ValueType type = ValueType::Float64;
+  Causality causality = Causality::Local;
+  Variability variability = Variability::Continuous;
+  std::vector<std::size_t> dimensions;  ///< empty for a scalar
+  std::size_t size = 1;                 ///< the number of elements
+  std::string unit;
+  std::string description;
+  std::string start;  ///< as it stands in the description; elements separated by blanks
+  std::string min;    ///< likewise, empty if there is none
+  std::string max;
+  std::vector<ValueReference> clocks;  ///< the clocks that it belongs to
+  std::string interval_variability;    ///< of a Clock: "triggered", "constant", …
+  std::vector<std::pair<std::string, std::int64_t>> items;  ///< of an Enumeration
+
+  bool is_clocked() const { return !clocks.empty(); }
+};
+
+/// An output or initial unknown, and what it depends on. Nothing = not said, so all inputs.
+struct Unknown {
+  ValueReference reference = 0;
+  std::optional<std::vector<ValueReference>> dependencies;
+};
+
+struct UnitDescription {
+  std::string fmi_version;
+  std::string model_name;
+  std::string model_identifier;
+  std::string instantiation_token;
+  std::string description;
+  std::string generation_tool;
+  std::vector<Variable> variables;        ///< in the order of the description
+  std::map<std::string, BaseUnit> units;  ///< those whose meaning is given
+  std::vector<Unknown> outputs;
+  std::vector<Unknown> initial_unknowns;
+
+  bool has_event_mode = false;
+  bool can_save_state = false;
+  bool can_serialize_state = false;
+  bool can_vary_step = false;
+  bool may_return_early = false;
+  bool single_instance = false;
+  bool needs_execution_tool = false;
+  unsigned max_output_derivative_order = 0;
+  std::optional<double> fixed_internal_step;  ///< [s]
+  std::optional<double> default_step;         ///< [s], DefaultExperiment
+  std::optional<double> default_stop;         ///< [s]
+
+  /// The variable's place in `variables`, if there is one of that name.
+  std::optional<std::size_t> find(const std::string& variable_name) const;
+  /// The place of the variable with this value reference.
+  std::optional<std::size_t> find(ValueReference reference) const;
+};
+
+/// target = factor * source + offset
+struct LinearConversion {
+  double factor = 1;
+  double offset = 0;
+  bool is_identity() const { return factor == 1 && offset == 0; }
+};
+
+/// How values in unit `from` of one description become values in unit `to` of another. Units of the
+/// same name, or where one side has none, are taken as they are; nothing if they cannot be
+/// converted into each other.
+std::optional<LinearConversion> convert(const UnitDescription& from_description,
+                                        const std::string& from,
+                                        const UnitDescription& to_description,
+                                        const std::string& to);
+
+}  // namespace stride::core
+
+#endif

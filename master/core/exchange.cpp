@@ -1,0 +1,182 @@
+#include "master/core/exchange.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <set>
+
+namespace stride::core {
+namespace {
+
+bool exchanged(const System& system, VariableId id) {
+  const Variable& variable = system.variable(id);
+  return variable.type != ValueType::Clock && !variable.is_clocked();
+}
+
+/// One transfer for each type that occurs, variables in the order of their ids.
+template <class Transfers>
+void plan(Transfers& transfers, const System& system, const std::set<VariableId>& ids) {
+  transfers.resize(system.components().size());
+  for (std::size_t type = 0; type < kValueTypeCount; ++type) {
+    for (std::size_t component = 0; component < transfers.size(); ++component) {
+      typename Transfers::value_type::value_type transfer{
+          ValueBlock(static_cast<ValueType>(type), 0), {}, {}, {}};
+      std::size_t size = 0;
+      for (const VariableId id : ids) {
+        const Variable& variable = system.variable(id);
+        if (id.component != component || variable.type != static_cast<ValueType>(type)) continue;
+        transfer.references.push_back(variable.reference);
+        transfer.ids.push_back(id);
+        transfer.firsts.push_back(size);
+        size += variable.size;
+      }
+      if (size == 0) continue;
+      transfer.block = ValueBlock(static_cast<ValueType>(type), size);
+      transfers[component].push_back(std::move(transfer));
+    }
+  }
+}
+
+template <std::size_t kSize, class Copies>
+void copy_numbers(const Copies& copies) {
+  for (const auto& copy : copies) std::memcpy(copy.to, copy.from, kSize);
+}
+
+}  // namespace
+
+Exchange::Exchange(const System& system, std::span<const VariableId> recorded) : system_(system) {
+  std::set<VariableId> outputs;
+  std::set<VariableId> inputs;
+  for (const Connection& connection : system.connections()) {
+    if (!exchanged(system, connection.from)) continue;
+    outputs.insert(connection.from);
+    inputs.insert(connection.to);
+  }
+  for (const VariableId id : recorded) {
+    if (!inputs.contains(id)) outputs.insert(id);
+  }
+  plan(outputs_, system, outputs);
+  plan(inputs_, system, inputs);
+  for (const Connection& connection : system.connections()) {
+    if (exchanged(system, connection.from)) add_copies(connection);
+  }
+}
+
+Signal Exchange::locate(const Transfers& transfers, VariableId id) {
+  for (const Transfer& transfer : transfers[id.component]) {
+    const auto found = std::find(transfer.ids.begin(), transfer.ids.end(), id);
+    if (found == transfer.ids.end()) continue;
+    const auto place = static_cast<std::size_t>(found - transfer.ids.begin());
+    return {id, &transfer.block, transfer.firsts[place]};
+  }
+  return {id, nullptr, 0};
+}
+
+Signal Exchange::signal(VariableId id) const {
+  const Signal input = locate(inputs_, id);
+  return input.block != nullptr ? input : locate(outputs_, id);
+}
+
+void Exchange::add_copies(const Connection& connection) {
+  const Signal from = locate(outputs_, connection.from);
+  const Signal to = locate(inputs_, connection.to);
+  auto& target = const_cast<ValueBlock&>(*to.block);  // a block of ours, found by a const look-up
+  for (std::size_t i = 0; i < system_.variable(connection.from).size; ++i) {
+    const std::size_t source_at = from.first + i;
+    const std::size_t target_at = to.first + i;
+    switch (target.type()) {
+      case ValueType::String:
+        strings_.push_back({&target.strings()[target_at], &from.block->strings()[source_at]});
+        break;
+      case ValueType::Binary:
+        binaries_.push_back({&target.binaries()[target_at], &from.block->binaries()[source_at]});
+        break;
+      case ValueType::Float64:
+        add_real(doubles_, connection, &target.numbers<double>()[target_at],
+                 &from.block->numbers<double>()[source_at]);
+        break;
+      case ValueType::Float32:
+        add_real(floats_, connection, &target.numbers<float>()[target_at],
+                 &from.block->numbers<float>()[source_at]);
+        break;
+      default: {
+        const std::size_t size = element_size(target.type());
+        const std::size_t list = size == 1 ? 0 : size == 2 ? 1 : size == 4 ? 2 : 3;
+        numbers_[list].push_back(
+            {target.bytes() + target_at * size, from.block->bytes() + source_at * size});
+      }
+    }
+  }
+}
+
+template <class Real>
+void Exchange::add_real(RealLists<Real>& lists, const Connection& connection, Real* to,
+                        const Real* from) {
+  lists.checked.push_back({from, connection.from});
+  if (connection.conversion.is_identity()) {
+    numbers_[sizeof(Real) == 4 ? 2 : 3].push_back(
+        {reinterpret_cast<std::byte*>(to), reinterpret_cast<const std::byte*>(from)});
+  } else {
+    lists.converted.push_back(
+        {to, from, connection.conversion.factor, connection.conversion.offset});
+  }
+}
+
+void Exchange::fetch(std::size_t component, Unit& unit) {
+  for (Transfer& transfer : outputs_[component]) unit.get(transfer.references, transfer.block);
+}
+
+void Exchange::deliver(std::size_t component, Unit& unit) const {
+  for (const Transfer& transfer : inputs_[component]) unit.set(transfer.references, transfer.block);
+}
+
+void Exchange::route(Time time) {
+  check_nan(time);
+  copy();
+}
+
+bool Exchange::route_and_compare(Time time) {
+  std::vector<ValueBlock> before;
+  for (const auto& transfers : inputs_) {
+    for (const Transfer& transfer : transfers) before.push_back(transfer.block);
+  }
+  route(time);
+  auto old = before.begin();
+  bool changed = false;
+  for (const auto& transfers : inputs_) {
+    for (const Transfer& transfer : transfers) changed |= !(transfer.block == *old++);
+  }
+  return changed;
+}
+
+void Exchange::copy() {
+  copy_numbers<1>(numbers_[0]);
+  copy_numbers<2>(numbers_[1]);
+  copy_numbers<4>(numbers_[2]);
+  copy_numbers<8>(numbers_[3]);
+  for (const auto& copy : doubles_.converted) *copy.to = copy.factor * *copy.from + copy.offset;
+  for (const auto& copy : floats_.converted) {
+    *copy.to = static_cast<float>(copy.factor * *copy.from + copy.offset);
+  }
+  for (const auto& copy : strings_) *copy.to = *copy.from;
+  for (const auto& copy : binaries_) *copy.to = *copy.from;
+}
+
+void Exchange::check_nan(Time time) const {
+  check_nan(doubles_, time);
+  check_nan(floats_, time);
+}
+
+template <class Real>
+void Exchange::check_nan(const RealLists<Real>& lists, Time time) const {
+  for (const auto& [value, id] : lists.checked) {
+    if (!std::isnan(*value)) [[likely]]
+      continue;
+    fail_run(
+        {{}, system_.components()[id.component].name, system_.variable(id).name, time},
+        "the output is NaN (not a number), and another unit is connected to it",
+        "look at what this unit received before this instant; a parameter may be out of range");
+  }
+}
+
+}  // namespace stride::core

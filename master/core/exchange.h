@@ -1,0 +1,95 @@
+// The exchange of values at communication points: made once, then only copies.
+#ifndef STRIDE_MASTER_CORE_EXCHANGE_H
+#define STRIDE_MASTER_CORE_EXCHANGE_H
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "master/core/observer.h"
+#include "master/core/system.h"
+#include "master/core/unit.h"
+
+namespace stride::core {
+
+/// For each unit and type one contiguous block of outputs and one of inputs, and a list of copies
+/// between them. Clocked variables are not part of it: see messages.h. Nothing here allocates after
+/// construction, except where a String or a Binary grows.
+class Exchange {
+ public:
+  /// `recorded`: variables that are read although nobody is connected to them.
+  Exchange(const System& system, std::span<const VariableId> recorded);
+
+  /// Reads a unit's outputs and recorded variables.
+  void fetch(std::size_t component, Unit& unit);
+  /// Copies the outputs of all units to the inputs of all units. Throws Error where a connected
+  /// output is NaN.
+  void route(Time time);
+  /// Writes a unit's inputs.
+  void deliver(std::size_t component, Unit& unit) const;
+
+  /// Like route(); tells whether an input changed. Not for the hot loop.
+  bool route_and_compare(Time time);
+
+  /// Where the variable's value stands. An input that is connected is seen as its source left it.
+  Signal signal(VariableId id) const;
+
+ private:
+  /// Variables of one type of one unit, read or written by one call.
+  struct Transfer {
+    ValueBlock block;
+    std::vector<ValueReference> references;
+    std::vector<VariableId> ids;
+    std::vector<std::size_t> firsts;  ///< where each variable begins in the block
+  };
+  using Transfers =
+      std::vector<std::deque<Transfer>>;  // by component; elements of a deque stay in place
+
+  template <class T>
+  struct Copy {
+    T* to;
+    const T* from;
+  };
+  template <class Real>
+  struct ConvertedCopy {
+    Real* to;
+    const Real* from;
+    double factor, offset;
+  };
+  template <class Real>
+  struct Checked {
+    const Real* value;
+    VariableId id;
+  };
+  template <class Real>
+  struct RealLists {
+    std::vector<ConvertedCopy<Real>> converted;
+    std::vector<Checked<Real>> checked;
+  };
+
+  void copy();
+  void check_nan(Time time) const;
+  template <class Real>
+  void check_nan(const RealLists<Real>& lists, Time time) const;
+  void add_copies(const Connection& connection);
+  template <class Real>
+  void add_real(RealLists<Real>& lists, const Connection& connection, Real* to, const Real* from);
+  static Signal locate(const Transfers& transfers, VariableId id);
+
+  const System& system_;
+  Transfers outputs_;
+  Transfers inputs_;
+  std::array<std::vector<Copy<std::byte>>, 4> numbers_;  // of 1, 2, 4 and 8 bytes
+  std::vector<Copy<std::string>> strings_;
+  std::vector<Copy<Binary>> binaries_;
+  RealLists<double> doubles_;
+  RealLists<float> floats_;
+};
+
+}  // namespace stride::core
+
+#endif

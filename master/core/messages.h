@@ -1,0 +1,87 @@
+// The exchange of messages: values that exist at the ticks of a clock only.
+#ifndef STRIDE_MASTER_CORE_MESSAGES_H
+#define STRIDE_MASTER_CORE_MESSAGES_H
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "master/core/observer.h"
+#include "master/core/system.h"
+#include "master/core/unit.h"
+
+namespace stride::core {
+
+/// For each unit its triggered output clocks, the values that each carries, and the inputs that
+/// they are wired to.
+class MessageExchange {
+ public:
+  MessageExchange(const System& system, std::span<const std::unique_ptr<Unit>> units);
+
+  /// Reads the output clocks of a unit in Event Mode and hands over what ticks. `prepare` is called
+  /// with each receiving component before anything is set there (it must be in Event Mode then),
+  /// `tell` with each message sent or received.
+  template <class Prepare, class Tell>
+  void transmit(std::size_t component, Prepare&& prepare, Tell&& tell) {
+    if (!poll(component)) return;
+    Line& line = lines_[component];
+    for (std::size_t i = 0; i < line.clocks.size(); ++i) {
+      if (line.ticked.numbers<bool>()[i]) hand_over(component, line.clocks[i], prepare, tell);
+    }
+  }
+
+ private:
+  /// A value that travels with a clock's tick.
+  struct Payload {
+    VariableId id;
+    ValueReference reference;
+    ValueBlock block;
+    std::vector<VariableId> targets;
+  };
+  struct OutputClock {
+    VariableId id;
+    std::vector<Payload> payloads;
+    std::vector<VariableId> targets;
+  };
+  /// All that leaves one component.
+  struct Line {
+    std::vector<OutputClock> clocks;
+    std::vector<ValueReference> references;  ///< of the clocks
+    ValueBlock ticked{ValueType::Clock, 0};
+  };
+
+  bool poll(std::size_t component);
+  void fetch(std::size_t component, Payload& payload);
+  void set_clock(VariableId target);
+  void set_payload(VariableId target, const Payload& payload);
+
+  template <class Prepare, class Tell>
+  void hand_over(std::size_t component, OutputClock& clock, Prepare& prepare, Tell& tell) {
+    for (Payload& payload : clock.payloads) {
+      fetch(component, payload);
+      tell(payload.id, false, &payload.block);
+    }
+    if (clock.payloads.empty()) tell(clock.id, false, static_cast<const ValueBlock*>(nullptr));
+    for (const VariableId target : clock.targets) {
+      prepare(target.component);
+      set_clock(target);
+      if (clock.payloads.empty()) tell(target, true, static_cast<const ValueBlock*>(nullptr));
+    }
+    for (const Payload& payload : clock.payloads) {
+      for (const VariableId target : payload.targets) {
+        set_payload(target, payload);
+        tell(target, true, &payload.block);
+      }
+    }
+  }
+
+  const System& system_;
+  std::span<const std::unique_ptr<Unit>> units_;
+  std::vector<Line> lines_;
+  ValueBlock tick_{ValueType::Clock, 1};
+};
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,58 @@
+// What is told to those who watch a run: recorders, progress, checks.
+#ifndef STRIDE_MASTER_CORE_OBSERVER_H
+#define STRIDE_MASTER_CORE_OBSERVER_H
+
+#include <cstdint>
+#include <span>
+
+#include <stride/time.h>
+
+#include "master/core/values.h"
+
+namespace stride::core {
+
+/// A variable of a component, by its places in System::components() and UnitDescription::variables.
+struct VariableId {
+  std::size_t component = 0;
+  std::size_t variable = 0;
+  auto operator<=>(const VariableId&) const = default;
+};
+
+/// Where a recorded variable's present value stands: `variable.size` elements of the block from
+/// `first` on. Valid and kept up to date for the whole run.
+struct Signal {
+  VariableId id;
+  const ValueBlock* block = nullptr;
+  std::size_t first = 0;
+};
+
+/// A clock that ticked, with the values that it carries. A message is seen twice: where it is sent,
+/// and at each component that receives it.
+struct Message {
+  Time time;
+  std::uint32_t index = 0;  ///< the super-dense index: which event iteration at this time
+  VariableId id;            ///< the clocked variable, or the clock itself if it carries none
+  bool received = false;
+  const ValueBlock* block = nullptr;  ///< null for a bare clock
+  std::size_t first = 0;
+};
+
+/// Called from the thread that runs the simulation, in simulated order. An observer may throw
+/// core::Error to end the run.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+
+  /// Before the first communication point. The signals are those asked for in RunOptions::recorded,
+  /// in that order.
+  virtual void on_start(std::span<const Signal> /*signals*/) {}
+  virtual void on_message(const Message& /*message*/) {}
+  /// The initial instant, and each communication point once all values and events are exchanged.
+  virtual void on_communication_point(Time /*time*/) {}
+  /// The run is over, well or not; what was recorded must be complete on disk when this returns.
+  virtual void on_finish() {}
+};
+
+}  // namespace stride::core
+
+#endif

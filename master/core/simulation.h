@@ -1,0 +1,48 @@
+// A run: the stepping algorithm over a system and its instances.
+#ifndef STRIDE_MASTER_CORE_SIMULATION_H
+#define STRIDE_MASTER_CORE_SIMULATION_H
+
+#include <memory>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/core/observer.h"
+#include "master/core/statistics.h"
+#include "master/core/system.h"
+#include "master/core/unit.h"
+
+namespace stride::core {
+
+struct RunOptions {
+  Time start{};
+  Time stop{};
+  Duration step{};                   ///< the fixed communication step size
+  std::vector<VariableId> recorded;  ///< what the observers see, in this order
+  bool measure_time = true;  ///< wall-clock time per unit; costs two clock readings a unit step
+};
+
+/// Runs a system once. The pseudocode is in docs/stepping.md.
+class Simulation {
+ public:
+  /// `units` are the instances in the order of system.components(). The system must outlive the
+  /// simulation, the observers the run.
+  Simulation(const System& system, std::vector<std::unique_ptr<Unit>> units, RunOptions options);
+  ~Simulation();
+
+  void add_observer(Observer& observer);
+
+  /// From initialisation to the stop time, or until a unit ends the simulation. Throws Error; the
+  /// observers' on_finish() has been called then, and the statistics tell how far it came.
+  void run();
+
+  const RunStatistics& statistics() const;
+
+ private:
+  class Run;
+  std::unique_ptr<Run> run_;
+};
+
+}  // namespace stride::core
+
+#endif

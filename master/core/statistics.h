@@ -1,0 +1,35 @@
+#ifndef STRIDE_MASTER_CORE_STATISTICS_H
+#define STRIDE_MASTER_CORE_STATISTICS_H
+
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+#include <stride/time.h>
+
+namespace stride::core {
+
+struct UnitStatistics {
+  std::uint64_t steps = 0;
+  std::uint64_t events = 0;  ///< super-dense instants handled in Event Mode
+  std::uint64_t messages_sent = 0;
+  std::uint64_t messages_received = 0;
+  std::chrono::nanoseconds
+      initialization_time{};  ///< wall-clock time within the unit's own functions
+  std::chrono::nanoseconds step_time{};
+  std::chrono::nanoseconds event_time{};
+};
+
+struct RunStatistics {
+  Time start{};
+  Time reached{};  ///< the last accepted instant
+  std::uint64_t communication_steps = 0;
+  std::uint64_t event_iterations = 0;
+  std::chrono::nanoseconds wall_time{};
+  bool terminated_by_unit = false;
+  std::vector<UnitStatistics> units;  ///< in the order of System::components()
+};
+
+}  // namespace stride::core
+
+#endif

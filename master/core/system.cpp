@@ -1,0 +1,233 @@
+#include "master/core/system.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "master/core/suggest.h"
+
+namespace stride::core {
+namespace {
+
+std::vector<std::string> variable_names(const UnitDescription& description) {
+  std::vector<std::string> names;
+  for (const Variable& variable : description.variables) names.push_back(variable.name);
+  return names;
+}
+
+bool is_source(const Variable& variable) {
+  return variable.causality == Causality::Output ||
+         variable.causality == Causality::CalculatedParameter;
+}
+
+bool is_float(ValueType type) { return type == ValueType::Float32 || type == ValueType::Float64; }
+
+std::string shape(const Variable& variable) {
+  if (variable.dimensions.empty()) return "a scalar";
+  return fmt::format("an array of {} elements", variable.size);
+}
+
+/// The variable that carries a value through a connection between clocked variables also needs its
+/// clock connected.
+std::vector<VariableId> clocks_of(const System& system, VariableId id) {
+  const UnitDescription& description = *system.components()[id.component].description;
+  std::vector<VariableId> clocks;
+  for (const ValueReference reference : system.variable(id).clocks) {
+    clocks.push_back({id.component, *description.find(reference)});
+  }
+  return clocks;
+}
+
+}  // namespace
+
+System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
+  add_components(declaration);
+  add_connections(declaration);
+  add_start_values(declaration);
+}
+
+std::string System::full_name(VariableId id) const {
+  return components_[id.component].name + "." + variable(id).name;
+}
+
+void System::add_components(const SystemDeclaration& declaration) {
+  if (declaration.components.empty()) {
+    fail_input({}, "the system has no component, so there is nothing to simulate");
+  }
+  std::set<std::string> names;
+  for (const ComponentDeclaration& component : declaration.components) {
+    if (!names.insert(component.name).second) {
+      fail_input({component.where}, fmt::format("two components are named '{}'", component.name),
+                 "give one of them another name");
+    }
+    check_connectors(component);
+    components_.push_back({component.name, component.description});
+  }
+}
+
+void System::check_connectors(const ComponentDeclaration& component) const {
+  const std::vector<std::string> names = variable_names(*component.description);
+  for (const ConnectorDeclaration& connector : component.connectors) {
+    const Context context{connector.where, component.name, connector.name, {}};
+    const auto found = component.description->find(connector.name);
+    if (!found) {
+      fail_input(context, "the unit has no variable of this name",
+                 suggestion(connector.name, names));
+    }
+    const Variable& variable = component.description->variables[*found];
+    if (connector.causality && *connector.causality != variable.causality) {
+      fail_input(context,
+                 fmt::format("the connector says {}, the unit says {}",
+                             core::name(*connector.causality), core::name(variable.causality)));
+    }
+    if (connector.type && *connector.type != variable.type) {
+      fail_input(context, fmt::format("the connector says {}, the unit says {}",
+                                      core::name(*connector.type), core::name(variable.type)));
+    }
+    if (!connector.unit.empty() &&
+        !convert(*component.description, connector.unit, *component.description, variable.unit)) {
+      fail_input(context, fmt::format("the connector is in '{}', the unit's variable in '{}'",
+                                      connector.unit, variable.unit));
+    }
+  }
+}
+
+std::size_t System::find_component(const std::string& name, const Location& where) const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < components_.size(); ++i) {
+    if (components_[i].name == name) return i;
+    names.push_back(components_[i].name);
+  }
+  fail_input({where}, fmt::format("there is no component '{}'", name), suggestion(name, names));
+}
+
+VariableId System::find_variable(const std::string& component, const std::string& variable,
+                                 const Location& where) const {
+  const std::size_t index = find_component(component, where);
+  const UnitDescription& description = *components_[index].description;
+  if (const auto found = description.find(variable)) return {index, *found};
+  fail_input({where, component, variable, {}}, "the unit has no variable of this name",
+             suggestion(variable, variable_names(description)));
+}
+
+void System::add_connections(const SystemDeclaration& declaration) {
+  std::map<VariableId, const ConnectionDeclaration*> sources;
+  for (const ConnectionDeclaration& wanted : declaration.connections) {
+    const Connection connection = connect(wanted);
+    const auto [first, is_new] = sources.emplace(connection.to, &wanted);
+    if (!is_new) {
+      fail_input(
+          {wanted.where, wanted.to_component, wanted.to_connector, {}},
+          fmt::format("this input has two sources: '{}.{}' here and '{}.{}' in line {}",
+                      wanted.from_component, wanted.from_connector, first->second->from_component,
+                      first->second->from_connector, first->second->where.line),
+          "remove one of the two connections");
+    }
+    connections_.push_back(connection);
+  }
+  std::sort(connections_.begin(), connections_.end(),
+            [](const Connection& a, const Connection& b) { return a.to < b.to; });
+  for (const Connection& connection : connections_) {
+    const auto from_clocks = clocks_of(*this, connection.from);
+    for (const VariableId to_clock : clocks_of(*this, connection.to)) {
+      const bool wired = std::any_of(connections_.begin(), connections_.end(), [&](const auto& c) {
+        return c.to == to_clock &&
+               std::find(from_clocks.begin(), from_clocks.end(), c.from) != from_clocks.end();
+      });
+      if (wired) continue;
+      const ConnectionDeclaration& wanted = *sources.at(connection.to);
+      fail_input({wanted.where, wanted.to_component, wanted.to_connector, {}},
+                 fmt::format("its clock '{}' is not connected to the clock of '{}'",
+                             full_name(to_clock), full_name(connection.from)),
+                 "a message needs two connections: one for its value, one for its clock");
+    }
+  }
+}
+
+Connection System::connect(const ConnectionDeclaration& wanted) const {
+  const VariableId from = find_variable(wanted.from_component, wanted.from_connector, wanted.where);
+  const VariableId to = find_variable(wanted.to_component, wanted.to_connector, wanted.where);
+  const Variable& source = variable(from);
+  const Variable& target = variable(to);
+  const std::string wire = fmt::format("'{}' to '{}'", full_name(from), full_name(to));
+  const Context context{wanted.where, {}, {}, {}};
+  if (!is_source(source)) {
+    fail_input(context,
+               fmt::format("cannot connect {}: '{}' is no output but {}", wire, full_name(from),
+                           core::name(source.causality)),
+               "a connection starts at an output and ends at an input");
+  }
+  if (target.causality != Causality::Input) {
+    fail_input(context,
+               fmt::format("cannot connect {}: '{}' is no input but {}", wire, full_name(to),
+                           core::name(target.causality)),
+               "a connection starts at an output and ends at an input");
+  }
+  if (source.type != target.type) {
+    fail_input(context, fmt::format("cannot connect {}: {} and {} are different types", wire,
+                                    core::name(source.type), core::name(target.type)));
+  }
+  if (source.size != target.size) {
+    fail_input(context,
+               fmt::format("cannot connect {}: {} and {}", wire, shape(source), shape(target)));
+  }
+  if (source.is_clocked() != target.is_clocked()) {
+    fail_input(context,
+               fmt::format("cannot connect {}: only one of the two belongs to a clock", wire));
+  }
+  if (target.type == ValueType::Clock && target.interval_variability != "triggered") {
+    fail_input(context, fmt::format("cannot connect {}: '{}' is a {} clock, only triggered clocks "
+                                    "can be connected",
+                                    wire, full_name(to), target.interval_variability));
+  }
+  const auto conversion = convert(*components_[from.component].description, source.unit,
+                                  *components_[to.component].description, target.unit);
+  if (!conversion && !wanted.suppress_unit_conversion) {
+    fail_input(context,
+               fmt::format("cannot connect {}: '{}' is in '{}', '{}' in '{}', and one "
+                           "cannot be converted into the other",
+                           wire, full_name(from), source.unit, full_name(to), target.unit),
+               "correct the wiring, or say suppressUnitConversion=\"true\" if the numbers fit");
+  }
+  const bool wanted_as_is = wanted.suppress_unit_conversion || !is_float(source.type);
+  return {from, to, wanted_as_is ? LinearConversion{} : *conversion};
+}
+
+void System::add_start_values(const SystemDeclaration& declaration) {
+  std::map<VariableId, ValueBlock> values;
+  for (const StartDeclaration& wanted : declaration.start_values) {
+    const VariableId id = find_variable(wanted.component, wanted.variable, wanted.where);
+    const Variable& target = variable(id);
+    const Context context{wanted.where, wanted.component, wanted.variable, {}};
+    if (target.causality == Causality::Independent || target.variability == Variability::Constant ||
+        target.causality == Causality::CalculatedParameter || target.type == ValueType::Clock) {
+      fail_input(context, fmt::format("a {} {} cannot be set", core::name(target.variability),
+                                      core::name(target.causality)));
+    }
+    const UnitDescription& description = *components_[id.component].description;
+    const auto conversion = convert(description, wanted.unit, description, target.unit);
+    if (!conversion) {
+      fail_input(
+          context,
+          fmt::format("the value is in '{}', the variable in '{}'", wanted.unit, target.unit),
+          "give the value in the variable's unit");
+    }
+    try {
+      ValueBlock value = parse(target, wanted.value);
+      if (target.type == ValueType::Float64 && !conversion->is_identity()) {
+        for (double& number : value.numbers<double>()) {
+          number = conversion->factor * number + conversion->offset;
+        }
+      }
+      values.insert_or_assign(id, std::move(value));
+    } catch (const std::invalid_argument& mistake) {
+      fail_input(context, mistake.what());
+    }
+  }
+  for (auto& [id, value] : values) start_values_.push_back({id, std::move(value)});
+}
+
+}  // namespace stride::core

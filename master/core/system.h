@@ -1,0 +1,102 @@
+// The system: components and connections, checked once and never changed afterwards.
+#ifndef STRIDE_MASTER_CORE_SYSTEM_H
+#define STRIDE_MASTER_CORE_SYSTEM_H
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "master/core/description.h"
+#include "master/core/error.h"
+#include "master/core/observer.h"
+#include "master/core/values.h"
+
+namespace stride::core {
+
+/// What a person writes, by name, before it is checked.
+struct ConnectorDeclaration {
+  std::string name;
+  std::optional<ValueType> type;
+  std::optional<Causality> causality;
+  std::string unit;
+  Location where;
+};
+struct ComponentDeclaration {
+  std::string name;
+  std::shared_ptr<const UnitDescription> description;
+  std::vector<ConnectorDeclaration> connectors;  ///< may be empty: resolved against the description
+  Location where;
+};
+struct ConnectionDeclaration {
+  std::string from_component, from_connector;
+  std::string to_component, to_connector;
+  bool suppress_unit_conversion = false;
+  Location where;
+};
+struct StartDeclaration {
+  std::string component, variable;
+  std::string value;
+  std::string unit;  ///< in which the value is given; empty = the variable's own
+  Location where;
+};
+struct SystemDeclaration {
+  std::string name;
+  std::vector<ComponentDeclaration> components;
+  std::vector<ConnectionDeclaration> connections;
+  std::vector<StartDeclaration> start_values;  ///< a later one replaces an earlier one
+};
+
+struct Component {
+  std::string name;
+  std::shared_ptr<const UnitDescription> description;
+};
+struct Connection {
+  VariableId from;
+  VariableId to;
+  LinearConversion conversion;  ///< of Float32 and Float64 only
+};
+struct StartValue {
+  VariableId id;
+  ValueBlock value;
+};
+
+/// An immutable, valid system. Components stand in the order of the file, connections are sorted by
+/// target.
+class System {
+ public:
+  /// Checks names, types, causality, units, sizes, clocks and that each input has one source at
+  /// most. Throws Error of the kind Input with file and line, and with the nearest name where a
+  /// name is unknown.
+  explicit System(const SystemDeclaration& declaration);
+
+  const std::string& name() const { return name_; }
+  const std::vector<Component>& components() const { return components_; }
+  const std::vector<Connection>& connections() const { return connections_; }
+  const std::vector<StartValue>& start_values() const { return start_values_; }
+
+  const Variable& variable(VariableId id) const {
+    return components_[id.component].description->variables[id.variable];
+  }
+  /// "component.variable"
+  std::string full_name(VariableId id) const;
+
+ private:
+  void add_components(const SystemDeclaration& declaration);
+  void add_connections(const SystemDeclaration& declaration);
+  void add_start_values(const SystemDeclaration& declaration);
+  std::size_t find_component(const std::string& name, const Location& where) const;
+  VariableId find_variable(const std::string& component, const std::string& variable,
+                           const Location& where) const;
+  void check_connectors(const ComponentDeclaration& component) const;
+  Connection connect(const ConnectionDeclaration& declaration) const;
+
+  std::string name_;
+  std::vector<Component> components_;
+  std::vector<Connection> connections_;
+  std::vector<StartValue> start_values_;
+};
+
+}  // namespace stride::core
+
+#endif

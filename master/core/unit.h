@@ -1,0 +1,63 @@
+// The port behind which a unit lives, in this process or in another.
+#ifndef STRIDE_MASTER_CORE_UNIT_H
+#define STRIDE_MASTER_CORE_UNIT_H
+
+#include <optional>
+#include <span>
+
+#include <stride/time.h>
+
+#include "master/core/description.h"
+#include "master/core/values.h"
+
+namespace stride::core {
+
+/// How a communication step ended.
+struct StepResult {
+  bool rejected = false;      ///< the unit is as it was before the step
+  bool early_return = false;  ///< it stopped before the end
+  bool event_needed = false;  ///< it wants Event Mode where it stands now
+  bool terminate = false;     ///< it wants the simulation to end
+  Time reached{};             ///< where it stands now
+};
+
+/// How a super-dense instant of Event Mode ended.
+struct EventResult {
+  bool iterate = false;  ///< it wants another one
+  bool terminate = false;
+  std::optional<Time> next_event;
+};
+
+/// One instance of a unit. Call order, as in FMI 3.0 Co-Simulation:
+///
+///   set (start values), enter_initialization, {get, set}, exit_initialization, then
+///   {events: {get, set, update_discrete_states}, enter_step_mode, {get, set, step},
+///   enter_event_mode}, terminate.
+///
+/// With has_event_mode the unit stands in Event Mode after exit_initialization, without in Step
+/// Mode. Each function throws core::Error that names the unit. An object is used by one thread at a
+/// time.
+class Unit {
+ public:
+  virtual ~Unit() = default;
+
+  virtual void enter_initialization(Time start, std::optional<Time> stop) = 0;
+  virtual void exit_initialization() = 0;
+
+  /// Reads the variables (all of the block's type) into the block, in order, arrays element by
+  /// element.
+  virtual void get(std::span<const ValueReference> references, ValueBlock& values) = 0;
+  virtual void set(std::span<const ValueReference> references, const ValueBlock& values) = 0;
+
+  virtual StepResult step(Time from, Time to) = 0;
+
+  virtual void enter_event_mode() = 0;
+  virtual EventResult update_discrete_states() = 0;
+  virtual void enter_step_mode() = 0;
+
+  virtual void terminate() = 0;
+};
+
+}  // namespace stride::core
+
+#endif

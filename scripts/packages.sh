@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that stride is built with, those that are missing. Sourced by the other scripts.
+
+packages_build=(
+  ca-certificates ccache cmake g++ git ninja-build pkg-config
+  libarchive-dev libcli11-dev libeigen3-dev libfmt-dev libmujoco-dev libspdlog-dev
+  libsystemc-dev libtinyxml2-dev nlohmann-json3-dev
+)
+packages_test=(
+  binutils catch2 clang-format-14 gtkwave libbenchmark-dev libxml2-utils python3 python3-venv python3-pip
+  unzip zip
+)
+
+# install_packages NAME...
+install_packages() {
+  local missing=() name
+  for name in "$@"; do
+    dpkg-query -W -f '${Status}' "$name" 2>/dev/null | grep -q 'install ok installed' || missing+=("$name")
+  done
+  [ ${#missing[@]} -eq 0 ] && return 0
+  local sudo=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || {
+      echo "stride: these packages are missing and there is no sudo to install them: ${missing[*]}" >&2
+      return 1
+    }
+    sudo=(sudo)
+  fi
+  echo "Installing ${missing[*]}"
+  "${sudo[@]}" apt-get update -qq
+  "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
+}
