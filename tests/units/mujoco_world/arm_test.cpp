@@ -1,0 +1,97 @@
+// The NFC scenario's arm: what the reader's waypoints rely on.
+#include <array>
+#include <cmath>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "units/mujoco_world/model.h"
+
+namespace {
+
+using mujoco_world::Vector;
+using mujoco_world::World;
+
+std::size_t site(const World& world, const std::string& name) {
+  const auto& sites = world.catalogue().sites;
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    if (sites[i].name == name) return i;
+  }
+  throw std::runtime_error("no site " + name);
+}
+
+struct Coils {
+  double distance;  // [m]
+  double offset;    // [m], off the tag coil's axis
+  double alignment;
+};
+
+Coils coils(const World& world) {
+  const Vector reader = world.site_position(site(world, "reader_coil"));
+  const Vector tag = world.site_position(site(world, "tag_coil"));
+  const Vector normal = world.site_axis(site(world, "reader_coil"));
+  const Vector tag_normal = world.site_axis(site(world, "tag_coil"));
+  const Vector gap{reader[0] - tag[0], reader[1] - tag[1], reader[2] - tag[2]};
+  const auto dot = [](const Vector& a, const Vector& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  };
+  return {std::sqrt(dot(gap, gap)), std::hypot(gap[0], gap[1]), dot(normal, tag_normal)};
+}
+
+void command(World& world, const std::array<double, 6>& pose) {
+  for (std::size_t i = 0; i < pose.size(); ++i) world.set_input(i, pose[i]);
+}
+
+constexpr const char* kArm = STRIDE_SOURCE_DIR "/scenarios/nfc_approach/world";
+constexpr std::array<double, 6> kFar{0.2915, 0.3728, 0.8504, 1.9170, 0, 0};    // 0.40 m
+constexpr std::array<double, 6> kClose{0.2915, 0.5123, 1.6949, 0.9330, 0, 0};  // 0.01 m
+
+}  // namespace
+
+TEST_CASE("the arm starts at rest, the coils 0.40 m apart on one axis", "[mujoco_world][arm]") {
+  World world(kArm);
+  std::string names;
+  for (const auto& actuator : world.catalogue().actuators) {
+    names += actuator.name + " " + actuator.unit + ", ";
+  }
+  CHECK(names == "base rad, shoulder rad, elbow rad, wrist_1 rad, wrist_2 rad, wrist_3 rad, ");
+  for (std::size_t i = 0; i < kFar.size(); ++i) CHECK(world.input(i) == kFar[i]);
+
+  for (const double seconds : {0.0, 0.01, 0.1, 1.0}) {
+    world.advance(stride::time_from_seconds(seconds));
+    const Coils seen = coils(world);
+    CHECK(seen.distance == Approx(0.4).margin(0.2e-3));
+    CHECK(seen.offset < 0.2e-3);
+    CHECK(seen.alignment < -0.99999);
+  }
+}
+
+TEST_CASE("a pose settles within half a millimetre, without knocking on the sensor",
+          "[mujoco_world][arm]") {
+  World world(kArm);
+  command(world, kClose);
+  double closest = 1;
+  while (world.now() < stride::time_from_seconds(2)) {
+    world.advance(world.now() + world.timestep());
+    closest = std::min(closest, coils(world).distance);
+  }
+  CHECK(coils(world).distance == Approx(0.01).margin(0.1e-3));
+  CHECK(coils(world).offset < 0.1e-3);
+  CHECK(closest > 0.008);
+
+  command(world, kFar);
+  world.advance(stride::time_from_seconds(5));
+  CHECK(coils(world).distance == Approx(0.4).margin(0.1e-3));
+}
+
+TEST_CASE("the sensor and the table stop the arm", "[mujoco_world][arm]") {
+  World world(kArm);
+  auto pose = kClose;
+  pose[1] += 0.1;  // the shoulder aims 5 cm below
+  command(world, pose);
+  world.advance(stride::time_from_seconds(3));
+  const double height = world.site_position(site(world, "reader_coil"))[2];
+  const double tag_height = world.site_position(site(world, "tag_coil"))[2];
+  CHECK(height > tag_height - 0.01);
+  CHECK(height < tag_height + 0.008);
+}

@@ -1,0 +1,104 @@
+// Small worlds for the tests, each in a temporary folder.
+#ifndef STRIDE_TESTS_UNITS_MUJOCO_WORLD_WORLDS_H
+#define STRIDE_TESTS_UNITS_MUJOCO_WORLD_WORLDS_H
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include <stdlib.h>
+
+namespace worlds {
+
+/// A folder with an MJCF, removed at the end.
+class Folder {
+ public:
+  explicit Folder(const std::string& mjcf) : Folder() { write("scene.xml", mjcf); }
+  Folder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "stride_XXXXXX").string();
+    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder: " + pattern);
+    path_ = pattern;
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name) << text;
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// 1 m, let go at 2 rad from the lowest point; the point mass is nearly one: a sphere of 1 cm.
+inline const std::string kPendulum = R"(
+<mujoco>
+  <compiler angle="radian"/>
+  <option timestep="0.001" integrator="RK4" gravity="0 0 -9.81"/>
+  <worldbody>
+    <body>
+      <joint name="pivot" axis="0 1 0"/>
+      <geom type="sphere" pos="0 0 -1" size="0.01" mass="1"/>
+      <site name="tip" pos="0 0 -1"/>
+    </body>
+  </worldbody>
+  <actuator><motor name="pivot" joint="pivot"/></actuator>
+  <sensor>
+    <jointpos name="angle" joint="pivot"/>
+    <velocimeter name="velocity" site="tip"/>
+  </sensor>
+  <keyframe><key name="start" qpos="2"/></keyframe>
+</mujoco>)";
+
+/// Bodies that tumble onto a floor while a servo pushes them about: contacts, quaternions, warm
+/// starts, activations.
+inline const std::string kTumble = R"(
+<mujoco>
+  <compiler angle="radian"/>
+  <option timestep="0.002"/>
+  <worldbody>
+    <geom type="plane" size="2 2 0.1"/>
+    <body pos="0 0 0.4" euler="0.3 0.5 0.1">
+      <freejoint/>
+      <geom type="box" size="0.1 0.05 0.08"/>
+      <site name="corner" pos="0.1 0.05 0.08"/>
+    </body>
+    <body pos="0.05 0.02 0.7">
+      <freejoint/>
+      <geom type="capsule" size="0.04 0.1"/>
+      <site name="end" pos="0 0 0.1"/>
+    </body>
+    <body pos="-0.4 0 0.1">
+      <joint name="paddle" axis="0 0 1" damping="0.2"/>
+      <geom type="box" pos="0.3 0 0" size="0.3 0.02 0.08" mass="1"/>
+      <site name="paddle" pos="0.6 0 0"/>
+    </body>
+  </worldbody>
+  <actuator>
+    <general name="paddle" joint="paddle" dyntype="filter" dynprm="0.05" biastype="affine"
+             gainprm="40" biasprm="0 -40 -2"/>
+  </actuator>
+</mujoco>)";
+
+/// A joint that pushes itself ever harder.
+inline const std::string kRunaway = R"(
+<mujoco>
+  <option timestep="0.001"/>
+  <worldbody>
+    <body name="rotor">
+      <joint name="runaway" axis="0 0 1"/>
+      <geom size="0.1" mass="1"/>
+      <site name="hub"/>
+    </body>
+  </worldbody>
+  <actuator>
+    <general name="feedback" joint="runaway" gainprm="1" biastype="affine" biasprm="0 0 0.2"/>
+  </actuator>
+</mujoco>)";
+
+}  // namespace worlds
+
+#endif

@@ -1,0 +1,70 @@
+#include "units/nfc/frame.h"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+using nfc::Bytes;
+using nfc::Frame;
+using stride::Duration;
+using stride::Time;
+
+TEST_CASE("A bit lasts 128, 64, 32 or 16 carrier periods") {
+  for (const auto& [rate, periods] : {std::pair{106U, 128}, {212U, 64}, {424U, 32}, {848U, 16}}) {
+    const double expected = periods / 13.56e6;
+    CHECK(std::abs(stride::to_seconds(nfc::bit_duration(rate)) - expected) <= 0.5e-12);
+  }
+  CHECK(nfc::bit_duration(106) == Duration(9439528));  // 9.4395 us
+}
+
+TEST_CASE("A bit rate that is none of the four is refused and named") {
+  CHECK_THROWS_WITH(nfc::bit_duration(0), Catch::Contains("106, 212, 424 or 848"));
+  CHECK_THROWS_WITH(nfc::bit_duration(105), Catch::Contains("105 kbit/s"));
+}
+
+TEST_CASE("The time on the air is that of the bits, of the start and of the end") {
+  Frame frame;
+  CHECK(nfc::air_time(frame) == 2 * nfc::bit_duration(106));
+  frame.bits.assign(27, 1);
+  CHECK(nfc::air_time(frame) == 29 * nfc::bit_duration(106));
+  frame.bit_rate = 848;
+  CHECK(nfc::air_time(frame) == 29 * nfc::bit_duration(848));
+}
+
+TEST_CASE("The bytes of a frame are laid out as documented") {
+  Frame frame{Time(Duration(0x0102030405060708)), 212, {1, 0, 0, 0, 0, 0, 0, 0, 1, 1}};
+  CHECK(nfc::encode(frame) == Bytes{8, 7, 6, 5, 4, 3, 2, 1,  // start
+                                    212, 0, 0, 0,            // bit rate
+                                    10, 0, 0, 0,             // number of bits
+                                    0x01, 0x03});
+}
+
+TEST_CASE("A frame survives encoding, whatever its length") {
+  for (std::size_t length = 0; length <= 40; ++length) {
+    Frame frame{Time(Duration(14'200'000'000'000)), 424, {}};
+    for (std::size_t i = 0; i < length; ++i) frame.bits.push_back((i * i / 3) % 2);
+    const Frame again = nfc::decode(nfc::encode(frame));
+    CHECK(again == frame);
+  }
+}
+
+TEST_CASE("Bytes that are no frame are refused with a reason") {
+  const Bytes good = nfc::encode({Time{}, 106, {1, 0, 1, 1, 0, 0, 1, 1, 1}});
+  CHECK_THROWS_WITH(nfc::decode({}), Catch::Contains("at least 16 bytes"));
+  CHECK_THROWS_WITH(nfc::decode(Bytes(good.begin(), good.begin() + 15)), Catch::Contains("has 15"));
+
+  Bytes short_of_bits(good.begin(), good.end() - 1);
+  CHECK_THROWS_WITH(nfc::decode(short_of_bits), Catch::Contains("a frame of 9 bits has 18 bytes"));
+
+  Bytes too_long = good;
+  too_long.push_back(0);
+  CHECK_THROWS_AS(nfc::decode(too_long), std::invalid_argument);
+
+  Bytes wrong_rate = good;
+  wrong_rate[8] = 107;
+  CHECK_THROWS_WITH(nfc::decode(wrong_rate), Catch::Contains("107 kbit/s"));
+
+  Bytes huge = good;
+  for (std::size_t i = 12; i < 16; ++i) huge[i] = 0xFF;
+  CHECK_THROWS_AS(nfc::decode(huge), std::invalid_argument);
+}

@@ -1,0 +1,71 @@
+#include "units/reader/answer.h"
+
+#include <catch2/catch.hpp>
+
+#include "units/nfc/iso14443a.h"
+
+using nfc::Command;
+using nfc::Status;
+using reader::parse_answer;
+
+namespace {
+
+nfc::Bits answer(const nfc::Bytes& content) { return nfc::to_bits(nfc::with_crc(content)); }
+
+}  // namespace
+
+TEST_CASE("A request is command, arguments and CRC, with parity") {
+  const auto identify = nfc::to_bytes(reader::request_bits(Command::kIdentify, {}));
+  REQUIRE(identify.has_value());
+  CHECK(nfc::without_crc(*identify) == nfc::Bytes{0x01});
+  const auto led = nfc::to_bytes(reader::request_bits(Command::kSetLed, {1}));
+  REQUIRE(led.has_value());
+  CHECK(nfc::without_crc(*led) == nfc::Bytes{0x03, 0x01});
+}
+
+TEST_CASE("Answers carry their data, most significant byte first") {
+  CHECK(parse_answer(Command::kIdentify, answer({0, 0xDE, 0xAD, 0xBE, 0xEF}))->identifier ==
+        0xDEADBEEF);
+  CHECK(parse_answer(Command::kReadTemperature, answer({0, 0x08, 0x66}))->temperature ==
+        Approx(21.5));
+  CHECK(parse_answer(Command::kSetLed, answer({0})).has_value());
+}
+
+TEST_CASE("Temperatures may be negative") {
+  const auto cold = parse_answer(Command::kReadTemperature, answer({0, 0xFF, 0x9C}));
+  CHECK(cold->temperature == Approx(-1.0));
+}
+
+TEST_CASE("A refusal is an answer with a status and no data") {
+  const auto refused = parse_answer(Command::kReadTemperature, answer({2}));
+  REQUIRE(refused.has_value());
+  CHECK(refused->status == Status::kBadArgument);
+  CHECK(parse_answer(Command::kIdentify, answer({1}))->status == Status::kUnknownCommand);
+}
+
+TEST_CASE("An answer with any wrong bit is none") {
+  nfc::Bits bits = answer({0, 0x08, 0x66});
+  for (auto& bit : bits) {
+    bit ^= 1;
+    CHECK_FALSE(parse_answer(Command::kReadTemperature, bits).has_value());
+    bit ^= 1;
+  }
+  CHECK(parse_answer(Command::kReadTemperature, bits).has_value());
+}
+
+TEST_CASE("An answer with right parity and wrong CRC is none") {
+  nfc::Bytes bytes = nfc::with_crc({0, 0x08, 0x66});
+  bytes[1] = 0x09;
+  CHECK_FALSE(parse_answer(Command::kReadTemperature, nfc::to_bits(bytes)).has_value());
+}
+
+TEST_CASE("An answer that does not fit the command is none") {
+  CHECK_FALSE(parse_answer(Command::kReadTemperature, answer({0})).has_value());
+  CHECK_FALSE(parse_answer(Command::kReadTemperature, answer({0, 1, 2, 3})).has_value());
+  CHECK_FALSE(parse_answer(Command::kIdentify, answer({0, 1, 2})).has_value());
+  CHECK_FALSE(parse_answer(Command::kSetLed, answer({0, 1})).has_value());
+  CHECK_FALSE(parse_answer(Command::kSetLed, answer({2, 1})).has_value());
+  CHECK_FALSE(parse_answer(Command::kSetLed, answer({99})).has_value());
+  CHECK_FALSE(parse_answer(Command::kSetLed, answer({})).has_value());
+  CHECK_FALSE(parse_answer(Command::kSetLed, {}).has_value());
+}

@@ -1,0 +1,208 @@
+#include "units/reader/program.h"
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include <catch2/catch.hpp>
+
+using reader::parse_program;
+using reader::Program;
+
+namespace {
+
+stride::Time at(double seconds) { return stride::time_from_seconds(seconds); }
+
+// The lines of a program, with their numbers; each test changes one of them.
+struct Lines {
+  std::string version = R"(<reader-program version="1">)";                                // 1
+  std::string axis = R"(<axes><axis name="a"/><axis name="b"/></axes>)";                  // 2
+  std::string pose = R"(<poses><pose name="rest" a="0" b="1"/></poses>)";                 // 3
+  std::string waypoint = R"(<motion><waypoint at="0.5" pose="rest"/></motion>)";          // 4
+  std::string antenna = R"(<antenna on="6.1" off="9.0" power="0.5"/>)";                   // 5
+  std::string command = R"(<command at="6.5" name="read_temperature" timeout="0.02"/>)";  // 6
+
+  std::string text() const {
+    return version + "\n" + axis + "\n" + pose + "\n" + waypoint + "\n" + antenna + "\n" + command +
+           "\n</reader-program>\n";
+  }
+};
+
+Program parse(const Lines& lines) { return parse_program(lines.text(), "p.xml"); }
+
+template <class Change>
+std::string error_of(Change change) {
+  Lines lines;
+  change(lines);
+  try {
+    parse(lines);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+auto starts_with(const std::string& text) { return Catch::StartsWith(text); }
+auto contains(const std::string& text) { return Catch::Contains(text); }
+
+}  // namespace
+
+TEST_CASE("A program is read as it is written") {
+  const Program program = parse(Lines{});
+  CHECK(program.axes == std::vector<std::string>{"a", "b"});
+  REQUIRE(program.waypoints.size() == 1);
+  CHECK(program.waypoints[0].at == at(0.5));
+  CHECK(program.waypoints[0].positions == std::vector<double>{0.0, 1.0});
+  REQUIRE(program.antenna.size() == 1);
+  CHECK(program.antenna[0].on.time_since_epoch() == stride::Duration(6'100'000'000'000));
+  CHECK(program.antenna[0].off == at(9.0));
+  CHECK(program.antenna[0].power == 0.5);
+  REQUIRE(program.commands.size() == 1);
+  CHECK(program.commands[0].at == at(6.5));
+  CHECK(program.commands[0].command == nfc::Command::kReadTemperature);
+  CHECK(program.commands[0].arguments.empty());
+  CHECK(program.commands[0].timeout == stride::Duration(20'000'000'000));
+  CHECK(program.commands[0].bit_rate == 106);
+}
+
+TEST_CASE("Commands have arguments, defaults and names") {
+  Lines lines;
+  lines.command = R"(<command at="7" name="set_led" led="on" bit_rate="424"/>
+                     <command at="7" name="set_led" led="off"/><command at="8" name="identify"/>)";
+  const auto commands = parse(lines).commands;
+  REQUIRE(commands.size() == 3);
+  CHECK(commands[0].arguments == nfc::Bytes{1});
+  CHECK(commands[0].bit_rate == 424);
+  CHECK(commands[1].arguments == nfc::Bytes{0});
+  CHECK(commands[2].command == nfc::Command::kIdentify);
+  CHECK(commands[2].timeout == stride::Duration(50'000'000'000));
+  CHECK(reader::name_of(nfc::Command::kReadTemperature) == "read_temperature");
+}
+
+TEST_CASE("A program needs no axes, and a command may stand before its antenna interval") {
+  const Program program = parse_program(
+      R"(<reader-program version="1"><command at="1" name="identify"/>
+         <antenna on="0" off="2" power="1"/></reader-program>)",
+      "p.xml");
+  CHECK(program.commands.size() == 1);
+  CHECK(program.axes.empty());
+}
+
+TEST_CASE("The carrier is on from on until before off") {
+  Lines lines;
+  lines.antenna = R"(<antenna on="6" off="9" power="0.5"/><antenna on="9" off="10" power="0.2"/>)";
+  const Program program = parse(lines);
+  const auto ps = stride::Duration(1);
+  CHECK(carrier_power(program, at(6) - ps) == 0.0);
+  CHECK(carrier_power(program, at(6)) == 0.5);
+  CHECK(carrier_power(program, at(9) - ps) == 0.5);
+  CHECK(carrier_power(program, at(9)) == 0.2);
+  CHECK(carrier_power(program, at(10)) == 0.0);
+}
+
+TEST_CASE("A file is read, and one that is missing is named") {
+  const auto path = std::filesystem::temp_directory_path() / "stride_reader_program_test.xml";
+  std::ofstream(path) << Lines{}.text();
+  CHECK(reader::load_program(path.string()).axes.size() == 2);
+  std::filesystem::remove(path);
+  CHECK_THROWS_WITH(reader::load_program(path.string()),
+                    contains(path.string()) && contains("cannot be read"));
+}
+
+TEST_CASE("Every error stands with the file and the line") {
+  const auto check = [](auto change, const std::string& place, const std::string& expected) {
+    const std::string error = error_of(change);
+    CHECK_THAT(error, starts_with("p.xml:" + place) && contains(expected));
+  };
+
+  SECTION("the root") {
+    check([](Lines& l) { l.version = R"(<reader-program>)"; }, "1: <reader-program>", "'version'");
+    check([](Lines& l) { l.version = R"(<reader-program version="2">)"; }, "1:", "expected 1");
+    check([](Lines& l) { l.version = "<program>"; }, "", "well-formed");
+    CHECK_THROWS_WITH(parse_program("<robot/>", "p.xml"), starts_with("p.xml:1: <robot>"));
+    CHECK_THROWS_WITH(parse_program("", "p.xml"), contains("p.xml:"));
+    CHECK_THROWS_WITH(parse_program("<!-- nothing -->", "p.xml"), contains("<reader-program>"));
+    check([](Lines& l) { l.command = "hello"; }, "1: <reader-program>", "no text");
+    check([](Lines& l) { l.command = "<dance/>"; }, "6: <dance>", "unknown element");
+  }
+  SECTION("axes") {
+    check([](Lines& l) { l.axis = R"(<axes><axis/></axes>)"; }, "2: <axis>", "'name'");
+    check([](Lines& l) { l.axis = R"(<axes><axis name="a"/><axis name="a"/></axes>)"; },
+          "2:", "second time");
+    check([](Lines& l) { l.axis = R"(<axes><axis name="name"/></axes>)"; }, "2:", "actuator");
+    check([](Lines& l) { l.axis = R"(<axes><joint name="a"/></axes>)"; }, "2: <joint>", "<axis>");
+    check([](Lines& l) { l.waypoint = ""; }, "1:", "<waypoint>");
+    check([](Lines& l) { l.antenna = R"(<axes><axis name="c"/></axes>)"; }, "5: <axis>",
+          "before the poses");
+  }
+  SECTION("poses") {
+    check([](Lines& l) { l.pose = R"(<poses><pose name="rest" a="0"/></poses>)"; }, "3: <pose>",
+          "'b'");
+    check([](Lines& l) { l.pose = R"(<poses><pose name="rest" a="0" b="1" c="2"/></poses>)"; },
+          "3:", "unknown attribute 'c': expected 'name', 'a', 'b'");
+    check([](Lines& l) { l.pose = R"(<poses><pose name="rest" a="0" b="1,5"/></poses>)"; },
+          "3:", "b=\"1,5\" is no number");
+    check([](Lines& l) { l.pose = R"(<poses><pose name="rest" a="0" b="inf"/></poses>)"; },
+          "3:", "no number");
+    check(
+        [](Lines& l) {
+          l.pose = R"(<poses><pose name="x" a="0" b="1"/><pose name="x" a="0" b="1"/></poses>)";
+        },
+        "3:", "second time");
+  }
+  SECTION("waypoints") {
+    check([](Lines& l) { l.waypoint = R"(<motion><waypoint at="0" pose="far"/></motion>)"; },
+          "4: <waypoint>", "unknown pose 'far': expected one that stands above: 'rest'");
+    check([](Lines& l) { l.waypoint = R"(<motion><waypoint pose="rest"/></motion>)"; },
+          "4:", "'at'");
+    check([](Lines& l) { l.waypoint = R"(<motion><waypoint at="-1" pose="rest"/></motion>)"; },
+          "4:", "0 to 9.2e6 seconds");
+    check(
+        [](Lines& l) {
+          l.waypoint =
+              "<motion>\n<waypoint at=\"2\" pose=\"rest\"/>\n<waypoint at=\"2\" pose=\"rest\"/>"
+              "</motion>";
+        },
+        "6:", "expected a later time");
+    check(
+        [](Lines& l) {
+          l.waypoint = R"(<motion><waypoint at="0" pose="rest"><pause/></waypoint></motion>)";
+        },
+        "4: <pause>", "no element inside <waypoint>");
+  }
+  SECTION("the antenna") {
+    check([](Lines& l) { l.antenna = R"(<antenna on="9" off="9" power="1"/>)"; }, "5: <antenna>",
+          "later time than on");
+    check([](Lines& l) { l.antenna = R"(<antenna on="1" off="9" power="0"/>)"; },
+          "5:", "more than 0 W");
+    check([](Lines& l) { l.antenna = R"(<antenna on="1" off="9"/>)"; }, "5:", "'power'");
+    check(
+        [](Lines& l) {
+          l.antenna = R"(<antenna on="1" off="9" power="1"/><antenna on="8" off="10" power="1"/>)";
+        },
+        "5:", "off again");
+  }
+  SECTION("commands") {
+    check([](Lines& l) { l.command = R"(<command at="6.5" name="jump"/>)"; }, "6: <command>",
+          "expected one of 'identify', 'read_temperature', 'set_led'");
+    check([](Lines& l) { l.command = R"(<command at="9" name="identify"/>)"; },
+          "6:", "the antenna is off");
+    check([](Lines& l) { l.command = R"(<command at="soon" name="identify"/>)"; },
+          "6:", "at=\"soon\" is no number");
+    check([](Lines& l) { l.command = R"(<command at="7" name="identify" led="on"/>)"; },
+          "6:", "unknown attribute 'led'");
+    check([](Lines& l) { l.command = R"(<command at="7" name="set_led"/>)"; }, "6:", "'led'");
+    check([](Lines& l) { l.command = R"(<command at="7" name="set_led" led="1"/>)"; },
+          "6:", "'on' or 'off'");
+    check([](Lines& l) { l.command = R"(<command at="7" name="identify" timeout="0"/>)"; },
+          "6:", "more than 0 seconds");
+    check([](Lines& l) { l.command = R"(<command at="7" name="identify" bit_rate="107"/>)"; },
+          "6:", "106, 212, 424 or 848");
+    check(
+        [](Lines& l) {
+          l.command =
+              "<command at=\"8\" name=\"identify\"/>\n<command at=\"7\" name=\"identify\"/>";
+        },
+        "7:", "order of time");
+  }
+}

@@ -1,0 +1,51 @@
+// The warmth around the sensor and in its case.
+#ifndef STRIDE_UNITS_ENVIRONMENT_MODEL_H
+#define STRIDE_UNITS_ENVIRONMENT_MODEL_H
+
+#include <stride/time.h>
+
+namespace environment {
+
+struct Parameters {
+  double ambient_mean = 21.5;         ///< [degC]
+  double drift_amplitude = 0.0;       ///< of the ambient temperature around its mean [K]
+  double drift_period = 3600.0;       ///< [s]
+  double heat_capacity = 5.0;         ///< of the case, C [J/K]
+  double thermal_resistance = 20.0;   ///< from the case to the ambient air, R [K/W]
+  double initial_temperature = 21.5;  ///< of the case at time 0 [degC]
+};
+
+/// The case as one heat capacity that loses heat through one resistance (Incropera et al.,
+/// "Fundamentals of Heat and Mass Transfer", ch. 5, the lumped capacitance method):
+///     C dT/dt = P - (T - T_ambient(t)) / R,  T_ambient(t) = mean + amplitude sin(2 pi t / period)
+///
+/// Each step takes the exact solution for a constant absorbed power P, so that a step may be split
+/// anywhere and the result stays the same to rounding.
+/// It holds no state: the temperature of the case goes in and comes out.
+class SensorCase {
+ public:
+  /// Throws std::invalid_argument, naming the parameter, if one is out of its range.
+  explicit SensorCase(const Parameters& parameters = {});
+
+  /// The temperature of the case at `to` [degC], from the one at `from` [degC] and a constant
+  /// absorbed power in between [W].
+  double temperature_after(stride::Time from, stride::Time to, double temperature,
+                           double absorbed_power) const;
+
+  /// dT/dt of the case at an instant [K/s].
+  double temperature_rate(stride::Time time, double temperature, double absorbed_power) const;
+
+  double ambient_temperature(stride::Time time) const;  ///< [degC]
+
+ private:
+  double drift_phase(stride::Time time) const;
+  double driven_temperature(stride::Time time, double absorbed_power) const;
+
+  Parameters parameters_;
+  stride::Duration drift_period_;
+  double time_constant_;  // R C [s]
+};
+
+}  // namespace environment
+
+#endif

@@ -1,0 +1,76 @@
+// An MJCF model from a file, and the catalogue of what of it can be wired.
+#ifndef STRIDE_UNITS_MUJOCO_WORLD_MJCF_H
+#define STRIDE_UNITS_MUJOCO_WORLD_MJCF_H
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "units/mujoco_world/mujoco_api.h"
+
+namespace mujoco_world {
+
+struct DeleteModel {
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+};
+using ModelPointer = std::unique_ptr<mjModel, DeleteModel>;
+
+/// One scalar control. An actuator with several controls (MuJoCo 3 only) is listed once for each.
+struct Actuator {
+  std::string name;
+  std::string unit;  ///< "rad", "m", "rad/s", "m/s", "N.m", "N", or "" where it cannot be told
+  int control;       ///< index into ctrl
+  int element;       ///< 1, 2 ... if the actuator has several controls, else 0
+  std::optional<std::pair<double, double>> range;  ///< to which MuJoCo clamps the control
+};
+
+/// A hinge or slide joint.
+struct Joint {
+  std::string name;
+  std::string unit;  ///< of the position: "rad" or "m"; of the velocity: the same per second
+  int position;      ///< index into qpos
+  int velocity;      ///< index into qvel
+};
+
+struct Site {
+  std::string name;
+  int id;
+};
+
+struct Sensor {
+  std::string name;
+  std::string unit;  ///< "" where it has none or it cannot be told
+  int address;       ///< of its first number in sensordata
+  int dimension;
+};
+
+/// What can be wired, each kind in the model's order. An unnamed actuator, joint or sensor is
+/// called unnamed_<index within its kind>. Unnamed sites, and free and ball joints, are left out:
+/// put a named site on such a body.
+struct Catalogue {
+  std::vector<Actuator> actuators;
+  std::vector<Joint> joints;
+  std::vector<Site> sites;
+  std::vector<Sensor> sensors;
+};
+
+/// The MJCF of a folder: scene.xml, or else its only .xml file.
+/// Throws std::runtime_error if the folder, or such a file in it, is missing.
+std::filesystem::path find_scene(const std::filesystem::path& folder);
+
+/// Compiles an MJCF file. Throws std::runtime_error with the file and MuJoCo's message.
+/// Features that would make the world irreproducible are switched off: noise on sensors (MuJoCo 2),
+/// sleeping bodies (MuJoCo 3). That is said in a warning (hooks.h).
+ModelPointer load_model(const std::filesystem::path& file);
+
+Catalogue list(const mjModel& model);
+
+/// The name of an object, or unnamed_<id>. `type` is an mjtObj.
+std::string name_of(const mjModel& model, int type, int id);
+
+}  // namespace mujoco_world
+
+#endif

@@ -1,0 +1,254 @@
+#include "units/mujoco_world/model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+#include "units/mujoco_world/hooks.h"
+
+namespace mujoco_world {
+namespace {
+
+using stride::Duration;
+using stride::Time;
+
+Duration read_timestep(const mjModel& model) {
+  const Duration timestep = stride::duration_from_seconds(model.opt.timestep);
+  if (timestep < Duration(1)) {
+    throw std::runtime_error("the world's timestep is " + std::to_string(model.opt.timestep) +
+                             " s: expected at least one picosecond in <option timestep>");
+  }
+  return timestep;
+}
+
+/// The index of the first number that is NaN or beyond MuJoCo's limit, -1 if all are well.
+int first_bad(const double* values, int count) {
+  const auto is_well = [](double value) { return std::abs(value) < mjMAXVAL; };
+  const int index = static_cast<int>(std::find_if_not(values, values + count, is_well) - values);
+  return index == count ? -1 : index;
+}
+
+int joint_of_position(const mjModel& model, int index) {
+  const int* first = model.jnt_qposadr;
+  return static_cast<int>(std::upper_bound(first, first + model.njnt, index) - first) - 1;
+}
+
+// A time goes bit by bit into a double of the state block: as a value, it would not be exact.
+constexpr std::size_t kTimes = 2;
+static_assert(sizeof(Time::rep) == sizeof(double));
+
+void put_time(double* place, Time time) {
+  const Time::rep count = time.time_since_epoch().count();
+  std::memcpy(place, &count, sizeof count);
+}
+
+Time get_time(const double* place) {
+  Time::rep count;
+  std::memcpy(&count, place, sizeof count);
+  return Time(Duration(count));
+}
+
+void call_mujoco(void (*function)(const mjModel*, mjData*), const mjModel& model, mjData& data,
+                 Time time) {
+  try {
+    guarded([&] { function(&model, &data); });
+  } catch (const std::exception& error) {
+    api::clear_stack(&data);
+    throw std::runtime_error("MuJoCo failed at " + std::to_string(stride::to_seconds(time)) +
+                             " s: " + error.what());
+  }
+}
+
+}  // namespace
+
+World::World(const std::filesystem::path& folder)
+    : model_(load_model(find_scene(folder))),
+      catalogue_(list(*model_)),
+      timestep_(read_timestep(*model_)) {
+  model_->opt.timestep = stride::to_seconds(timestep_);
+  grid_data_ = make_data();
+  instant_data_ = make_data();
+  inputs_.resize(catalogue_.actuators.size());
+  scratch_.resize(api::state_size(model_.get(), grid_data_.get()));
+  reset(Time{});
+}
+
+World::DataPointer World::make_data() const {
+  DataPointer data(guarded([&] { return mj_makeData(model_.get()); }));
+  if (!data) throw std::runtime_error("MuJoCo could not allocate the world's state");
+  return data;
+}
+
+void World::reset(Time start) {
+  const int key = mj_name2id(model_.get(), mjOBJ_KEY, "start");
+  mjData* data = grid_data_.get();
+  if (key >= 0) {
+    mj_resetDataKeyframe(model_.get(), data, key);
+  } else {
+    mj_resetData(model_.get(), data);
+  }
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    inputs_[i] = data->ctrl[catalogue_.actuators[i].control];
+  }
+  failed_ = false;
+  move(start, start);
+}
+
+void World::set_input(std::size_t actuator, double value) {
+  if (!std::isfinite(value)) {
+    throw std::invalid_argument("actuator '" + catalogue_.actuators.at(actuator).name +
+                                "' was given " + std::to_string(value) +
+                                ": expected a finite number");
+  }
+  inputs_.at(actuator) = value;
+}
+
+void World::advance(Time to) {
+  if (failed_) throw std::logic_error("the world has failed: restore a state or reset it first");
+  if (to < now_) throw std::invalid_argument("a world cannot be advanced into its past");
+  while (now_ < to) {
+    if (now_ == grid_) take_inputs();
+    const Time next = grid_ + timestep_;
+    if (next <= to) {
+      integrate();
+      move(next, next);
+    } else {
+      move(grid_, to);
+    }
+  }
+}
+
+void World::take_inputs() {
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    grid_data_->ctrl[catalogue_.actuators[i].control] = inputs_[i];
+  }
+}
+
+void World::integrate() {
+  failed_ = true;
+  grid_data_->time = stride::to_seconds(grid_);
+  call_mujoco(mj_step, *model_, *grid_data_, grid_);
+  check_motion();
+  failed_ = false;
+}
+
+void World::check_motion() const {
+  const mjData& data = *grid_data_;
+  const mjWarningStat& bad_acceleration = data.warning[mjWARN_BADQACC];
+  if (bad_acceleration.number > 0) {
+    report_divergence("acceleration", model_->dof_jntid[bad_acceleration.lastinfo]);
+  }
+  const int bad_velocity = first_bad(data.qvel, static_cast<int>(model_->nv));
+  if (bad_velocity >= 0) report_divergence("velocity", model_->dof_jntid[bad_velocity]);
+  const int bad_position = first_bad(data.qpos, static_cast<int>(model_->nq));
+  if (bad_position >= 0) report_divergence("position", joint_of_position(*model_, bad_position));
+}
+
+void World::report_divergence(const char* quantity, int joint) const {
+  throw std::runtime_error(
+      "the motion diverged in the step from " + std::to_string(stride::to_seconds(grid_)) +
+      " s: the " + quantity + " of joint '" + name_of(*model_, mjOBJ_JOINT, joint) + "' of body '" +
+      name_of(*model_, mjOBJ_BODY, model_->jnt_bodyid[joint]) +
+      "' is out of bounds; try a smaller timestep, more damping or weaker actuators");
+}
+
+void World::move(Time grid, Time now) {
+  grid_ = grid;
+  now_ = now;
+  pose_known_ = sensors_known_ = false;
+}
+
+const mjData& World::posed() const {
+  mjData& data = *instant_data_;
+  if (pose_known_) return data;
+  api::get_state(model_.get(), grid_data_.get(), scratch_.data());
+  api::set_state(model_.get(), &data, scratch_.data());
+  data.time = stride::to_seconds(now_);
+  if (now_ != grid_) {
+    mj_integratePos(model_.get(), data.qpos, data.qvel, stride::to_seconds(now_ - grid_));
+  }
+  mj_kinematics(model_.get(), &data);
+  mj_comPos(model_.get(), &data);
+  mj_comVel(model_.get(), &data);
+  pose_known_ = true;
+  return data;
+}
+
+const mjData& World::sensed() const {
+  posed();
+  if (sensors_known_) return *instant_data_;
+  call_mujoco(mj_forward, *model_, *instant_data_, now_);
+  sensors_known_ = true;
+  return *instant_data_;
+}
+
+double World::joint_position(std::size_t joint) const {
+  return posed().qpos[catalogue_.joints.at(joint).position];
+}
+
+double World::joint_velocity(std::size_t joint) const {
+  return posed().qvel[catalogue_.joints.at(joint).velocity];
+}
+
+Vector World::site_position(std::size_t site) const {
+  const double* position = posed().site_xpos + 3 * catalogue_.sites.at(site).id;
+  return {position[0], position[1], position[2]};
+}
+
+Vector World::site_axis(std::size_t site) const {
+  const double* rows = posed().site_xmat + 9 * catalogue_.sites.at(site).id;
+  return {rows[2], rows[5], rows[8]};
+}
+
+std::array<double, 6> World::spatial_velocity(std::size_t site) const {
+  std::array<double, 6> velocity;
+  mj_objectVelocity(model_.get(), &posed(), mjOBJ_SITE, catalogue_.sites.at(site).id,
+                    velocity.data(), 0);
+  return velocity;
+}
+
+Vector World::site_velocity(std::size_t site) const {
+  const auto velocity = spatial_velocity(site);
+  return {velocity[3], velocity[4], velocity[5]};
+}
+
+Vector World::site_axis_rate(std::size_t site) const {
+  const auto velocity = spatial_velocity(site);
+  const Vector axis = site_axis(site);
+  Vector rate;
+  mju_cross(rate.data(), velocity.data(), axis.data());
+  return rate;
+}
+
+double World::sensor(std::size_t sensor, int element) const {
+  const Sensor& entry = catalogue_.sensors.at(sensor);
+  if (element < 0 || element >= entry.dimension) {
+    throw std::out_of_range("sensor '" + entry.name + "' has " + std::to_string(entry.dimension) +
+                            " elements");
+  }
+  return sensed().sensordata[entry.address + element];
+}
+
+std::size_t World::state_size() const { return scratch_.size() + inputs_.size() + kTimes; }
+
+void World::save(double* block) const {
+  api::get_state(model_.get(), grid_data_.get(), block);
+  block = std::copy(inputs_.begin(), inputs_.end(), block + scratch_.size());
+  put_time(block, grid_);
+  put_time(block + 1, now_);
+}
+
+void World::restore(const double* block) {
+  if (failed_) mj_resetData(model_.get(), grid_data_.get());
+  failed_ = false;
+  api::set_state(model_.get(), grid_data_.get(), block);
+  block += scratch_.size();
+  std::copy_n(block, inputs_.size(), inputs_.begin());
+  block += inputs_.size();
+  move(get_time(block), get_time(block + 1));
+}
+
+}  // namespace mujoco_world

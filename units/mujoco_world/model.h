@@ -1,0 +1,100 @@
+// A MuJoCo world which any communication step may cut anywhere without changing the motion.
+#ifndef STRIDE_UNITS_MUJOCO_WORLD_MODEL_H
+#define STRIDE_UNITS_MUJOCO_WORLD_MODEL_H
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "units/mujoco_world/mjcf.h"
+
+namespace mujoco_world {
+
+using Vector = std::array<double, 3>;
+
+/// Integrates the model on its own grid: instants start + k * timestep, whatever the communication
+/// points are. An actuator's input is taken at a grid point and holds for the grid step that begins
+/// there; one set in between waits for the next. Between grid points the outputs follow the last
+/// one: pose along the velocity, velocity held. So outputs depend on the instant and on past inputs
+/// alone, and an input never shows in an output of the same instant.
+///
+/// The model's timestep is rounded to whole picoseconds. If the MJCF has a keyframe called `start`,
+/// the world begins there (its ctrl are the inputs' start values), else in the model's reference
+/// pose.
+///
+/// Not thread-safe, const functions included: they evaluate outputs on demand.
+class World {
+ public:
+  /// Loads the MJCF that find_scene() finds. Throws std::runtime_error as find_scene() and
+  /// load_model() do, and for a timestep below a picosecond.
+  explicit World(const std::filesystem::path& folder);
+
+  const Catalogue& catalogue() const { return catalogue_; }
+  stride::Duration timestep() const { return timestep_; }
+  stride::Time now() const { return now_; }
+
+  /// Back to the initial state, with the grid's first point at `start`.
+  void reset(stride::Time start);
+
+  /// `actuator` indexes catalogue().actuators, the value is in its unit. Limits of the model apply
+  /// inside MuJoCo. Throws std::invalid_argument if the value is not finite.
+  void set_input(std::size_t actuator, double value);
+  double input(std::size_t actuator) const { return inputs_.at(actuator); }
+
+  /// Moves to `to`, not before now(). Throws std::runtime_error with the joint and the time if the
+  /// motion diverges, or with MuJoCo's message on an internal error; after that only reset() and
+  /// restore() may follow.
+  void advance(stride::Time to);
+
+  /// The outputs at now(); indices are those of the catalogue, else std::out_of_range.
+  double joint_position(std::size_t joint) const;  ///< [rad] or [m]
+  double joint_velocity(std::size_t joint) const;  ///< [rad/s] or [m/s]
+  Vector site_position(std::size_t site) const;    ///< [m], in the world's frame
+  Vector site_axis(std::size_t site) const;        ///< the site's z as a unit vector, likewise
+  Vector site_velocity(std::size_t site) const;    ///< [m/s], the rate of site_position()
+  Vector site_axis_rate(std::size_t site) const;   ///< [1/s], the rate of site_axis()
+  double sensor(std::size_t sensor, int element = 0) const;  ///< in the sensor's unit
+
+  /// All that the future depends on, as one block of state_size() doubles. After restore() the same
+  /// inputs give the same bits as after save(). The block fits the same model and MuJoCo only.
+  std::size_t state_size() const;
+  void save(double* block) const;
+  void restore(const double* block);
+
+ private:
+  struct DeleteData {
+    void operator()(mjData* data) const { mj_deleteData(data); }
+  };
+  using DataPointer = std::unique_ptr<mjData, DeleteData>;
+
+  DataPointer make_data() const;
+  void integrate();
+  void check_motion() const;
+  [[noreturn]] void report_divergence(const char* quantity, int joint) const;
+  void take_inputs();
+  void move(stride::Time grid, stride::Time now);
+  const mjData& posed() const;                                     // with poses and velocities
+  const mjData& sensed() const;                                    // with the sensors, too
+  std::array<double, 6> spatial_velocity(std::size_t site) const;  // angular, linear
+
+  ModelPointer model_;
+  Catalogue catalogue_;
+  stride::Duration timestep_{};
+  DataPointer grid_data_;     // the state at the grid point grid_
+  DataPointer instant_data_;  // scratch: what is seen at now_
+  std::vector<double> inputs_;
+  stride::Time grid_{};
+  stride::Time now_{};
+  bool failed_ = false;
+  mutable std::vector<double> scratch_;
+  mutable bool pose_known_ = false;
+  mutable bool sensors_known_ = false;
+};
+
+}  // namespace mujoco_world
+
+#endif

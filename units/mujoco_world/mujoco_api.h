@@ -1,0 +1,96 @@
+// What differs between MuJoCo 2.2 (Debian's) and today's 3 stands here and nowhere else.
+#ifndef STRIDE_UNITS_MUJOCO_WORLD_MUJOCO_API_H
+#define STRIDE_UNITS_MUJOCO_WORLD_MUJOCO_API_H
+
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+
+#include <mujoco/mujoco.h>
+
+#if mjVERSION_HEADER >= 230 && mjVERSION_HEADER < 3000000
+#error \
+    "this MuJoCo is not supported: take 2.2 (libmujoco-dev) or the one of scripts/fetch_mujoco3.sh"
+#endif
+
+namespace mujoco_world::api {
+
+static_assert(std::is_same_v<mjtNum, double>, "MuJoCo must be built in double precision");
+
+// The state that integration depends on leaves out the applied forces: nothing here sets them.
+
+#if mjVERSION_HEADER < 3000000
+
+/// Enabled features that would make a world irreproducible: here the sensors' noise, from rand().
+inline constexpr int kIrreproducible = mjENBL_SENSORNOISE;
+
+inline int actuator_count(const mjModel* model) { return model->nu; }
+inline int first_control(const mjModel*, int actuator) { return actuator; }
+inline int control_count(const mjModel*, int) { return 1; }
+
+/// Calls visit(array, length) for each array that integration depends on.
+template <typename Visit>
+void for_each_state_array(const mjModel* model, mjData* data, Visit visit) {
+  visit(&data->time, 1);
+  visit(data->qpos, model->nq);
+  visit(data->qvel, model->nv);
+  visit(data->act, model->na);
+  visit(data->qacc_warmstart, model->nv);
+  visit(data->ctrl, model->nu);
+  visit(data->mocap_pos, 3 * model->nmocap);
+  visit(data->mocap_quat, 4 * model->nmocap);
+  visit(data->userdata, model->nuserdata);
+}
+
+inline std::size_t state_size(const mjModel* model, mjData* data) {
+  std::size_t size = 0;
+  for_each_state_array(model, data, [&](double*, int n) { size += static_cast<std::size_t>(n); });
+  return size;
+}
+
+inline void get_state(const mjModel* model, mjData* data, double* state) {
+  for_each_state_array(model, data,
+                       [&](double* array, int n) { state = std::copy_n(array, n, state); });
+}
+
+inline void set_state(const mjModel* model, mjData* data, const double* state) {
+  for_each_state_array(model, data, [&](double* array, int n) {
+    std::copy_n(state, n, array);
+    state += n;
+  });
+}
+
+inline void clear_stack(mjData* data) { data->pstack = 0; }
+
+#else
+
+/// Enabled features that would make a world irreproducible: here sleeping, which hides state.
+inline constexpr int kIrreproducible = mjENBL_SLEEP;
+
+inline int actuator_count(const mjModel* model) { return static_cast<int>(model->nactuator); }
+inline int first_control(const mjModel* model, int actuator) {
+  return model->actuator_ctrladr[actuator];
+}
+inline int control_count(const mjModel* model, int actuator) {
+  return model->actuator_ctrlnum[actuator];
+}
+
+inline constexpr int kState = mjSTATE_INTEGRATION & ~(mjSTATE_QFRC_APPLIED | mjSTATE_XFRC_APPLIED);
+
+inline std::size_t state_size(const mjModel* model, mjData*) {
+  return static_cast<std::size_t>(mj_stateSize(model, kState));
+}
+inline void get_state(const mjModel* model, mjData* data, double* state) {
+  mj_getState(model, data, state, kState);
+}
+inline void set_state(const mjModel* model, mjData* data, const double* state) {
+  mj_setState(model, data, state, kState);
+}
+
+inline void clear_stack(mjData* data) { data->pstack = data->pbase = 0; }
+
+#endif
+
+}  // namespace mujoco_world::api
+
+#endif

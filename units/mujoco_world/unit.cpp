@@ -1,0 +1,176 @@
+// Any MJCF world as an FMU: the variable table follows from the model in the resources folder.
+#include <algorithm>
+#include <cctype>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include <stride/unit.h>
+
+#include "units/mujoco_world/hooks.h"
+#include "units/mujoco_world/model.h"
+
+namespace {
+
+using mujoco_world::Vector;
+using mujoco_world::World;
+
+bool is_identifier(const std::string& name) {
+  const auto is_word = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
+  return !std::isdigit(static_cast<unsigned char>(name[0])) &&
+         std::all_of(name.begin(), name.end(), is_word);
+}
+
+/// A model's name as one part of a structured variable name: quoted unless it is an identifier
+/// (FMI 3.0, 2.4.7.5.1).
+std::string part(const std::string& name) {
+  if (is_identifier(name)) return name;
+  std::string quoted = "'";
+  for (const char c : name) {
+    if (c == '\'' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + "'";
+}
+
+std::string indexed(const std::string& name, int index) {
+  return name + "[" + std::to_string(index) + "]";
+}
+
+std::string per_second(const std::string& unit) { return unit.empty() ? unit : unit + "/s"; }
+
+class MujocoWorld : public stride::Unit {
+ public:
+  explicit MujocoWorld(const stride::Setup& setup) : world_(setup.resources) {
+    describe("A MuJoCo world: its actuators in, its joints, sites and sensors out").fixed_step =
+        world_.timestep();
+    const auto& catalogue = world_.catalogue();
+    inputs_.resize(catalogue.actuators.size());
+    joints_.resize(catalogue.joints.size());
+    sites_.resize(catalogue.sites.size());
+    for (std::size_t i = 0; i < inputs_.size(); ++i) list_actuator(i);
+    for (std::size_t i = 0; i < joints_.size(); ++i) list_joint(i);
+    for (std::size_t i = 0; i < sites_.size(); ++i) list_site(i);
+    for (const auto& sensor : catalogue.sensors) list_sensor(sensor);
+    block_.resize(world_.state_size());
+    state();
+  }
+
+  void initialize(stride::Time start) override {
+    world_.reset(start);
+    show();
+  }
+
+  void step(stride::Step& step) override {
+    for (std::size_t i = 0; i < inputs_.size(); ++i) world_.set_input(i, inputs_[i]);
+    world_.advance(step.to());
+    show();
+  }
+
+  void save_state(stride::StateWriter& writer) const override {
+    world_.save(block_.data());
+    writer.write_bytes(block_.data(), block_.size() * sizeof(double));
+  }
+
+  void load_state(stride::StateReader& reader) override {
+    reader.read_bytes(block_.data(), block_.size() * sizeof(double));
+    world_.restore(block_.data());
+    show();
+  }
+
+ private:
+  struct Joint {
+    double position = 0;
+    double velocity = 0;
+  };
+  struct Site {
+    Vector position{};
+    Vector axis{};
+    Vector velocity{};
+    Vector axis_rate{};
+  };
+
+  void list_actuator(std::size_t i) {
+    const auto& actuator = world_.catalogue().actuators[i];
+    const std::string name = "actuator." + part(actuator.name);
+    inputs_[i] = world_.input(i);
+    auto row = input(actuator.element == 0 ? name : indexed(name, actuator.element), inputs_[i]);
+    row.unit(actuator.unit).description("control of the actuator " + actuator.name);
+    if (actuator.range) row.range(actuator.range->first, actuator.range->second);
+  }
+
+  void list_joint(std::size_t i) {
+    const auto& joint = world_.catalogue().joints[i];
+    const std::string name = "joint." + part(joint.name);
+    output(name + ".position", joints_[i].position)
+        .unit(joint.unit)
+        .depends_on({})
+        .derivative(joints_[i].velocity)
+        .description("position of the joint " + joint.name);
+    output(name + ".velocity", joints_[i].velocity)
+        .unit(per_second(joint.unit))
+        .depends_on({})
+        .description("velocity of the joint " + joint.name);
+  }
+
+  void list_site(std::size_t i) {
+    const std::string& site = world_.catalogue().sites[i].name;
+    const std::string name = "site." + part(site);
+    constexpr const char* kAxes[] = {"x", "y", "z"};
+    for (std::size_t k = 0; k < 3; ++k) {
+      output(name + ".position." + kAxes[k], sites_[i].position[k])
+          .unit("m")
+          .depends_on({})
+          .derivative(sites_[i].velocity[k])
+          .description("position of the site " + site + " in the world");
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      output(name + ".axis." + kAxes[k], sites_[i].axis[k])
+          .depends_on({})
+          .derivative(sites_[i].axis_rate[k])
+          .description("z axis of the site " + site + " in the world, a unit vector");
+    }
+  }
+
+  void list_sensor(const mujoco_world::Sensor& sensor) {
+    const std::string name = "sensor." + part(sensor.name);
+    auto& values = sensors_.emplace_back(sensor.dimension);
+    for (int k = 0; k < sensor.dimension; ++k) {
+      output(sensor.dimension == 1 ? name : indexed(name, k + 1),
+             values[static_cast<std::size_t>(k)])
+          .unit(sensor.unit)
+          .depends_on({})
+          .description("reading of the sensor " + sensor.name);
+    }
+  }
+
+  /// Brings the outputs to the world's present, and MuJoCo's warnings to the log.
+  void show() {
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      joints_[i] = {world_.joint_position(i), world_.joint_velocity(i)};
+    }
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      sites_[i] = {world_.site_position(i), world_.site_axis(i), world_.site_velocity(i),
+                   world_.site_axis_rate(i)};
+    }
+    for (std::size_t i = 0; i < sensors_.size(); ++i) {
+      for (std::size_t k = 0; k < sensors_[i].size(); ++k) {
+        sensors_[i][k] = world_.sensor(i, static_cast<int>(k));
+      }
+    }
+    for (const std::string& warning : mujoco_world::take_warnings()) {
+      log(stride::Severity::Warning, warning);
+    }
+  }
+
+  World world_;
+  std::vector<double> inputs_;
+  std::vector<Joint> joints_;
+  std::vector<Site> sites_;
+  std::deque<std::vector<double>> sensors_;
+  mutable std::vector<double> block_;  // of a state, kept to avoid allocation
+};
+
+}  // namespace
+
+STRIDE_UNIT(MujocoWorld)

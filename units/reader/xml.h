@@ -1,0 +1,54 @@
+// XML elements whose errors say where they are and what was expected.
+#ifndef STRIDE_UNITS_READER_XML_H
+#define STRIDE_UNITS_READER_XML_H
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <stride/time.h>
+
+namespace tinyxml2 {
+class XMLElement;
+}
+
+namespace reader {
+
+/// An element of a file. All its functions throw std::runtime_error with the file and the line.
+/// It refers to the document and the file's name, which have to outlive it.
+class Element {
+ public:
+  Element(const tinyxml2::XMLElement& element, const std::string& file)
+      : element_(&element), file_(&file) {}
+
+  std::string name() const;
+  std::vector<Element> children() const;
+
+  /// The value of an attribute; without a fallback it has to be there.
+  std::string text(const char* attribute) const;
+  double number(const char* attribute) const;
+  double number(const char* attribute, double fallback) const;
+  stride::Time time(const char* attribute) const;  ///< from seconds, 0 or later
+
+  /// Rejects any attribute that is not in the list, and any text between the children.
+  void allow_only(const std::vector<std::string>& attributes) const;
+  /// The same, and no children either.
+  void allow_only_leaf(const std::vector<std::string>& attributes) const;
+
+  /// Throws "file:line: <name>: message".
+  [[noreturn]] void fail(const std::string& message) const;
+
+ private:
+  std::optional<std::string> find(const char* attribute) const;
+  double to_number(const char* attribute, const std::string& value) const;
+
+  const tinyxml2::XMLElement* element_;
+  const std::string* file_;
+};
+
+/// The words in quotation marks with commas between them, for messages.
+std::string quoted_list(const std::vector<std::string>& words);
+
+}  // namespace reader
+
+#endif
