@@ -217,7 +217,7 @@ class Writer {
 
   void write_unknown(const std::string& element, const Variable& row, std::size_t reference) {
     xml_.open(element).attribute("valueReference", static_cast<std::int64_t>(reference));
-    if (row.dependencies && row.type != Type::Clock) {
+    if (row.dependencies) {
       std::set<std::size_t> knowns;
       for (const std::string& name : *row.dependencies) knowns.insert(table_.reference_of(name));
       if (element == "InitialUnknown") add_parameters(knowns);

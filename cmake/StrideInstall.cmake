@@ -1,0 +1,23 @@
+# What `cmake --install` puts where: the program, the public headers and the unit kit, a package for find_package(stride),
+# and the units and scenarios as examples.
+include(CMakePackageConfigHelpers)
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/stride")
+
+install(TARGETS stride_cli EXPORT stride RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS stride_interfaces stride_unit EXPORT stride ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY interfaces/stride DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(EXPORT stride NAMESPACE stride:: FILE strideTargets.cmake DESTINATION ${package_dir})
+
+configure_package_config_file(cmake/strideConfig.cmake.in "${PROJECT_BINARY_DIR}/strideConfig.cmake"
+  INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/strideConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES
+  "${PROJECT_BINARY_DIR}/strideConfig.cmake"
+  "${PROJECT_BINARY_DIR}/strideConfigVersion.cmake"
+  cmake/StrideUnit.cmake
+  interfaces/unit/exports.map
+  DESTINATION ${package_dir})
+
+install(DIRECTORY "${PROJECT_BINARY_DIR}/units/" DESTINATION "${CMAKE_INSTALL_PREFIX}/lib/stride/units" FILES_MATCHING PATTERN "*.fmu")
+install(DIRECTORY scenarios/ DESTINATION ${CMAKE_INSTALL_DATADIR}/stride/scenarios PATTERN CMakeLists.txt EXCLUDE)
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

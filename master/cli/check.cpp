@@ -1,0 +1,71 @@
+// stride check: everything up to the first step.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "master/cli/commands.h"
+#include "master/cli/session.h"
+#include "master/cli/session_options.h"
+#include "master/cli/table.h"
+
+namespace stride::cli {
+namespace {
+
+std::string unit_table(const Session& session) {
+  Table table({{"component"}, {"unit"}, {"FMI"}, {"variables", Table::Align::Right}, {"file"}});
+  for (std::size_t i = 0; i < session.fmus().size(); ++i) {
+    const core::UnitDescription& unit = *session.fmus()[i]->description();
+    table.add({session.system().components()[i].name, unit.model_name, unit.fmi_version,
+               std::to_string(unit.variables.size()), session.fmus()[i]->path().string()});
+  }
+  return table.text();
+}
+
+std::string conversion(const core::LinearConversion& linear) {
+  if (linear.is_identity()) return "";
+  if (linear.offset == 0) return fmt::format("× {}", linear.factor);
+  return fmt::format("× {} + {}", linear.factor, linear.offset);
+}
+
+std::string connection_table(const core::System& system) {
+  Table table({{"from"}, {"to"}, {"type"}, {"unit"}, {"conversion"}});
+  for (const core::Connection& connection : system.connections()) {
+    const core::Variable& target = system.variable(connection.to);
+    table.add({system.full_name(connection.from), system.full_name(connection.to),
+               core::name(target.type), target.unit, conversion(connection.conversion)});
+  }
+  return table.text();
+}
+
+void check(const SessionRequest& request) {
+  const Session session(request);
+  session.instantiate();
+  const core::System& system = session.system();
+  const core::RunOptions& options = session.options();
+  fmt::print("{}: {} components, {} connections, {} recorded signals\n", system.name(),
+             system.components().size(), system.connections().size(), options.recorded.size());
+  fmt::print("from {} s to {} s in steps of {} s\n", core::to_text(options.start),
+             core::to_text(options.stop), core::to_text(Time(options.step)));
+  fmt::print("\nUnits\n{}\nConnections\n{}", unit_table(session), connection_table(system));
+  fmt::print("\nStep order: ");
+  for (std::size_t i = 0; i < system.components().size(); ++i) {
+    fmt::print("{}{}", i == 0 ? "" : ", ", system.components()[i].name);
+  }
+  fmt::print(
+      " (as in the file; each unit sees the others' outputs of the last communication "
+      "point)\n");
+}
+
+}  // namespace
+
+void add_check(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "check",
+      "Load a scenario and its units, print units, connections and step order; run nothing");
+  const auto request = std::make_shared<SessionRequest>();
+  add_session_options(*command, *request);
+  command->callback([request] { check(*request); });
+}
+
+}  // namespace stride::cli

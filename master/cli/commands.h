@@ -1,0 +1,19 @@
+// The commands of the program; each adds itself with its options to the command line.
+#ifndef STRIDE_MASTER_CLI_COMMANDS_H
+#define STRIDE_MASTER_CLI_COMMANDS_H
+
+namespace CLI {
+class App;
+}
+
+namespace stride::cli {
+
+void add_run(CLI::App& app);
+void add_check(CLI::App& app);
+void add_inspect(CLI::App& app);
+void add_complete(CLI::App& app);
+void add_pack(CLI::App& app);
+
+}  // namespace stride::cli
+
+#endif

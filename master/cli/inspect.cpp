@@ -1,0 +1,81 @@
+// stride inspect: what a unit says of itself.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "master/cli/commands.h"
+#include "master/cli/table.h"
+#include "master/fmi/fmu.h"
+
+namespace stride::cli {
+namespace {
+
+std::string range(const core::Variable& variable) {
+  if (variable.min.empty() && variable.max.empty()) return "";
+  if (variable.max.empty()) return "≥ " + variable.min;
+  if (variable.min.empty()) return "≤ " + variable.max;
+  return variable.min + " … " + variable.max;
+}
+
+std::string type(const core::Variable& variable) {
+  std::string text = core::name(variable.type);
+  for (const std::size_t size : variable.dimensions) text += fmt::format("[{}]", size);
+  return text;
+}
+
+std::string clock_names(const core::UnitDescription& unit, const core::Variable& variable) {
+  std::string names;
+  for (const core::ValueReference clock : variable.clocks) {
+    names += (names.empty() ? " at " : ", ") + unit.variables[*unit.find(clock)].name;
+  }
+  return names;
+}
+
+std::string capabilities(const core::UnitDescription& unit) {
+  std::string text;
+  const auto add = [&](bool has, const std::string& what) {
+    if (has) text += (text.empty() ? "" : ", ") + what;
+  };
+  add(unit.has_event_mode, "event mode");
+  add(unit.can_save_state, "can be rolled back");
+  add(unit.can_serialize_state, "state can be serialised");
+  add(unit.can_vary_step, "variable step");
+  add(unit.may_return_early, "may return early");
+  add(unit.max_output_derivative_order > 0,
+      fmt::format("output derivatives up to order {}", unit.max_output_derivative_order));
+  add(unit.fixed_internal_step.has_value(),
+      fmt::format("internal step {} s", unit.fixed_internal_step.value_or(0)));
+  add(unit.single_instance, "one instance per process");
+  add(unit.needs_execution_tool, "needs its own tool");
+  return text;
+}
+
+void inspect(const std::filesystem::path& file) {
+  const auto fmu = fmi::Fmu::load(file);
+  const core::UnitDescription& unit = *fmu->description();
+  fmt::print("{}: FMI {} Co-Simulation{}\n", unit.model_name, unit.fmi_version,
+             unit.generation_tool.empty() ? "" : ", made with " + unit.generation_tool);
+  if (!unit.description.empty()) fmt::print("{}\n", unit.description);
+  if (const std::string can = capabilities(unit); !can.empty()) fmt::print("{}\n", can);
+  Table table({{"variable"}, {"causality"}, {"type"}, {"unit"}, {"start"}, {"range"}, {"meaning"}});
+  for (const core::Variable& variable : unit.variables) {
+    table.add({variable.name, core::name(variable.causality),
+               type(variable) + clock_names(unit, variable), variable.unit, variable.start,
+               range(variable), variable.description});
+  }
+  fmt::print("\n{}", table.text());
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("inspect", "Show a unit's variables in a table");
+  const auto file = std::make_shared<std::filesystem::path>();
+  command
+      ->add_option("FILE", *file, "An FMU: a .fmu, its unpacked folder, or a .so of the unit kit")
+      ->required();
+  command->callback([file] { inspect(*file); });
+}
+
+}  // namespace stride::cli

@@ -1,0 +1,63 @@
+#include <exception>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "master/cli/commands.h"
+#include "master/core/error.h"
+
+namespace {
+
+constexpr int kRunFailed = 1;
+constexpr int kWrongInput = 2;
+
+void set_up_log() {
+  auto log = spdlog::stderr_color_mt("stride");
+  log->set_pattern("%^%l%$: %v");
+  log->set_level(spdlog::level::warn);
+  spdlog::set_default_logger(log);
+}
+
+int parse(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+    return 0;
+  } catch (const CLI::ParseError& answer) {
+    return app.exit(answer) == 0 ? 0 : kWrongInput;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  set_up_log();
+  CLI::App app(
+      "stride couples simulators: it loads FMI 3.0 units as plug-ins and runs them in steps,\n"
+      "as a scenario (an SSP system file, .ssd) wires them.\n",
+      "stride");
+  app.set_version_flag("--version", "stride " STRIDE_VERSION);
+  app.require_subcommand(1);
+  app.failure_message(CLI::FailureMessage::help);
+  app.footer(
+      "Exit codes: 0 good, 1 the run failed, 2 the input was wrong.\n"
+      "'stride COMMAND --help' tells more about a command.");
+  app.add_flag_callback(
+      "--verbose", [] { spdlog::set_level(spdlog::level::info); },
+      "Show everything that units log, not only warnings and errors");
+  stride::cli::add_run(app);
+  stride::cli::add_check(app);
+  stride::cli::add_inspect(app);
+  stride::cli::add_complete(app);
+  stride::cli::add_pack(app);
+  try {
+    return parse(app, argc, argv);
+  } catch (const stride::core::Error& error) {
+    fmt::print(stderr, "stride: error: {}\n", error.what());
+    return error.kind() == stride::core::Error::Kind::Input ? kWrongInput : kRunFailed;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "stride: error: {}\n", error.what());
+    return kRunFailed;
+  }
+}

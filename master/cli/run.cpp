@@ -1,0 +1,104 @@
+// stride run: a scenario from its start to its end.
+#include <exception>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "master/cli/commands.h"
+#include "master/cli/progress.h"
+#include "master/cli/session.h"
+#include "master/cli/session_options.h"
+#include "master/cli/summary.h"
+#include "master/io/csv_recorder.h"
+#include "master/io/event_recorder.h"
+#include "master/io/results_folder.h"
+#include "master/io/run_json.h"
+#include "master/io/vcd_recorder.h"
+
+namespace stride::cli {
+namespace {
+
+struct Request {
+  SessionRequest session;
+  std::filesystem::path out;
+  bool no_trace = false;
+  bool quiet = false;
+};
+
+/// The recorders that a scenario asks for.
+struct Recorders {
+  std::optional<io::CsvRecorder> signals;
+  std::optional<io::EventRecorder> events;
+  std::optional<io::VcdRecorder> trace;
+
+  Recorders(const core::System& system, const io::ResultFiles& files,
+            const std::filesystem::path& folder) {
+    if (!files.signals.empty()) signals.emplace(system, folder / files.signals);
+    if (!files.events.empty()) events.emplace(system, folder / files.events);
+    if (!files.trace.empty()) trace.emplace(system, folder / files.trace);
+  }
+
+  void add_to(core::Simulation& simulation) {
+    if (signals) simulation.add_observer(*signals);
+    if (events) simulation.add_observer(*events);
+    if (trace) simulation.add_observer(*trace);
+  }
+};
+
+void run(const Request& request) {
+  const Session session(request.session);
+  const io::Scenario& scenario = session.scenario();
+  io::ResultFiles files = scenario.annotation.results;
+  if (request.no_trace) files.trace.clear();
+  const std::filesystem::path folder =
+      request.out.empty() ? std::filesystem::path("results") / scenario.path.stem() : request.out;
+  io::make_results_folder(folder);
+
+  core::Simulation simulation(session.system(), session.instantiate(), session.options());
+  Recorders recorders(session.system(), files, folder);
+  recorders.add_to(simulation);
+  Summary summary(session.system());
+  Progress progress(session.options().start, session.options().stop);
+  if (!request.quiet) {
+    simulation.add_observer(summary);
+    simulation.add_observer(progress);
+  }
+  Interruption interruption;
+  simulation.add_observer(interruption);
+
+  const auto write_statistics = [&](const std::optional<std::string>& error) {
+    if (files.statistics.empty()) return;
+    io::write_run_json(folder / files.statistics, scenario.path, session.system(),
+                       session.options(), simulation.statistics(), error);
+  };
+  try {
+    simulation.run();
+  } catch (const std::exception& failure) {
+    write_statistics(failure.what());
+    throw;
+  }
+  write_statistics(std::nullopt);
+  if (request.quiet) return;
+  fmt::print("\n{}\nResults in {}:", summary.text(simulation.statistics()), folder.string());
+  for (const std::string& file : {files.signals, files.events, files.trace, files.statistics}) {
+    if (!file.empty()) fmt::print(" {}", file);
+  }
+  fmt::print("\n");
+}
+
+}  // namespace
+
+void add_run(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("run", "Run a scenario and record what happens");
+  const auto request = std::make_shared<Request>();
+  add_session_options(*command, request->session);
+  command->add_option("--out,-o", request->out,
+                      "Results folder; otherwise results/ and the scenario's name");
+  command->add_flag("--no-trace", request->no_trace, "Write no signals.vcd");
+  command->add_flag("--quiet,-q", request->quiet, "Print nothing but errors");
+  command->callback([request] { run(*request); });
+}
+
+}  // namespace stride::cli

@@ -1,0 +1,166 @@
+#include "master/cli/session.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "master/cli/unit_path.h"
+#include "master/core/suggest.h"
+#include "master/io/signal_selection.h"
+#include "master/io/time_text.h"
+
+namespace stride::cli {
+namespace {
+
+constexpr Duration kDefaultStep = std::chrono::milliseconds(1);
+
+/// "LEFT=RIGHT" of an option.
+std::pair<std::string, std::string> split(const std::string& option, const std::string& text,
+                                          const std::string& form) {
+  const std::size_t at = text.find('=');
+  if (at == std::string::npos || at == 0) {
+    core::fail_input({}, fmt::format("{} {}: expected {}", option, text, form));
+  }
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+Duration parse_option(const std::string& option, const std::string& text) {
+  try {
+    return io::parse_seconds(text);
+  } catch (const std::invalid_argument& mistake) {
+    core::fail_input({}, fmt::format("{} {}: {}", option, text, mistake.what()));
+  }
+}
+
+void log_message(const std::string& unit, fmi3Status status, const std::string&,
+                 const std::string& message) {
+  const auto level = status == fmi3OK        ? spdlog::level::info
+                     : status == fmi3Warning ? spdlog::level::warn
+                                             : spdlog::level::err;
+  spdlog::log(level, "unit '{}': {}", unit, message);
+}
+
+}  // namespace
+
+std::vector<std::shared_ptr<fmi::Fmu>> load_fmus(const io::Scenario& scenario) {
+  std::map<std::filesystem::path, std::shared_ptr<fmi::Fmu>> loaded;
+  std::vector<std::shared_ptr<fmi::Fmu>> fmus;
+  for (std::size_t i = 0; i < scenario.sources.size(); ++i) {
+    const core::Location& where = scenario.system.components[i].where;
+    const std::filesystem::path path = find_unit(scenario.sources[i], where);
+    auto& fmu = loaded[path];
+    if (!fmu) fmu = fmi::Fmu::load(path, where);
+    fmus.push_back(fmu);
+  }
+  return fmus;
+}
+
+Session::Session(const SessionRequest& request) : scenario_(io::read_scenario(request.scenario)) {
+  for (const std::string& text : request.swaps) swap(text);
+  for (const std::string& text : request.sets) set(text);
+  load_units();
+  system_.emplace(scenario_.system);
+  choose_times(request);
+  std::vector<io::SignalPattern> patterns = scenario_.annotation.record;
+  if (!request.signals.empty()) {
+    patterns.clear();
+    for (const std::string& text : request.signals) patterns.push_back({text, {"--signals", 0}});
+  }
+  options_.recorded = io::select_signals(*system_, patterns);
+}
+
+std::vector<std::string> Session::component_names() const {
+  std::vector<std::string> names;
+  for (const auto& component : scenario_.system.components) names.push_back(component.name);
+  return names;
+}
+
+void Session::swap(const std::string& text) {
+  const auto [name, file] = split("--swap", text, "component=FILE.fmu");
+  const std::vector<std::string> names = component_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    core::fail_input({}, fmt::format("--swap {}: there is no component '{}'", text, name),
+                     core::suggestion(name, names));
+  }
+  const auto i = static_cast<std::size_t>(found - names.begin());
+  scenario_.sources[i] = file;
+  scenario_.system.components[i].where = {fmt::format("--swap {}", text), 0};
+}
+
+void Session::set(const std::string& text) {
+  const auto [name, value] = split("--set", text, "component.variable=value");
+  for (const std::string& component : component_names()) {
+    if (!name.starts_with(component + ".")) continue;
+    scenario_.system.start_values.push_back({component,
+                                             name.substr(component.size() + 1),
+                                             value,
+                                             "",
+                                             {fmt::format("--set {}", text), 0}});
+    return;
+  }
+  const std::string component = name.substr(0, name.find('.'));
+  core::fail_input({}, fmt::format("--set {}: there is no component '{}'", text, component),
+                   core::suggestion(component, component_names()));
+}
+
+void Session::load_units() {
+  fmus_ = load_fmus(scenario_);
+  for (std::size_t i = 0; i < fmus_.size(); ++i) {
+    scenario_.system.components[i].description = fmus_[i]->description();
+  }
+}
+
+void Session::choose_times(const SessionRequest& request) {
+  std::optional<double> unit_step;
+  std::optional<double> unit_stop;
+  for (const auto& fmu : fmus_) {
+    const core::UnitDescription& description = *fmu->description();
+    if (description.default_step) {
+      unit_step =
+          std::min(unit_step.value_or(*description.default_step), *description.default_step);
+    }
+    if (description.default_stop) {
+      unit_stop =
+          std::max(unit_stop.value_or(*description.default_stop), *description.default_stop);
+    }
+  }
+  options_.start = scenario_.start.value_or(Time{});
+  if (!request.stop.empty()) {
+    options_.stop = Time(parse_option("--stop", request.stop));
+  } else if (scenario_.stop) {
+    options_.stop = *scenario_.stop;
+  } else if (unit_stop) {
+    options_.stop = time_from_seconds(*unit_stop);
+  } else {
+    core::fail_input({{scenario_.path.string(), 0}, {}, {}, {}}, "the scenario has no stop time",
+                     "say --stop SECONDS, or write <ssd:DefaultExperiment stopTime=\"…\"/>");
+  }
+  options_.step = !request.step.empty()       ? parse_option("--step", request.step)
+                  : scenario_.annotation.step ? *scenario_.annotation.step
+                  : unit_step                 ? duration_from_seconds(*unit_step)
+                                              : kDefaultStep;
+  if (options_.step <= Duration{}) core::fail_input({}, "the step size must be positive");
+  if (options_.stop < options_.start) {
+    core::fail_input({}, fmt::format("the stop time {} s is before the start time {} s",
+                                     core::to_text(options_.stop), core::to_text(options_.start)));
+  }
+}
+
+std::vector<std::unique_ptr<core::Unit>> Session::instantiate() const {
+  std::vector<std::unique_ptr<core::Unit>> units;
+  for (std::size_t i = 0; i < fmus_.size(); ++i) {
+    const auto& component = scenario_.system.components[i];
+    fmi::InstanceOptions options;
+    options.log = log_message;
+    options.debug_logging = spdlog::should_log(spdlog::level::info);
+    options.where = component.where;
+    units.push_back(fmus_[i]->instantiate(component.name, options));
+  }
+  return units;
+}
+
+}  // namespace stride::cli

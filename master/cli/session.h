@@ -1,0 +1,61 @@
+// A scenario with its units: what `run` and `check` have in common.
+#ifndef STRIDE_MASTER_CLI_SESSION_H
+#define STRIDE_MASTER_CLI_SESSION_H
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "master/core/simulation.h"
+#include "master/core/system.h"
+#include "master/fmi/fmu.h"
+#include "master/io/scenario.h"
+
+namespace stride::cli {
+
+/// What the command line says about a scenario.
+struct SessionRequest {
+  std::filesystem::path scenario;
+  std::vector<std::string> swaps;    ///< "component=FILE"
+  std::vector<std::string> sets;     ///< "component.variable=value"
+  std::vector<std::string> signals;  ///< globs that replace the scenario's
+  std::string stop;                  ///< seconds; empty = the scenario's
+  std::string step;                  ///< likewise
+};
+
+/// The scenario with each component's FMU, and the system built from them. Throws core::Error
+/// (Input) for whatever is wrong with what the user gave.
+class Session {
+ public:
+  explicit Session(const SessionRequest& request);
+
+  const io::Scenario& scenario() const { return scenario_; }
+  const core::System& system() const { return *system_; }
+  /// In the order of system().components().
+  const std::vector<std::shared_ptr<fmi::Fmu>>& fmus() const { return fmus_; }
+  const core::RunOptions& options() const { return options_; }
+
+  /// Fresh instances in the order of system().components(); what they log goes to the log.
+  std::vector<std::unique_ptr<core::Unit>> instantiate() const;
+
+ private:
+  void swap(const std::string& text);
+  void set(const std::string& text);
+  void load_units();
+  void choose_times(const SessionRequest& request);
+  std::vector<std::string> component_names() const;
+
+  io::Scenario scenario_;
+  std::vector<std::shared_ptr<fmi::Fmu>> fmus_;
+  std::optional<core::System> system_;
+  core::RunOptions options_;
+};
+
+/// The descriptions of a scenario's units, by component; for `complete`, which wants no system yet.
+std::vector<std::shared_ptr<fmi::Fmu>> load_fmus(const io::Scenario& scenario);
+
+}  // namespace stride::cli
+
+#endif

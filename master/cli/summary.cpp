@@ -1,0 +1,140 @@
+#include "master/cli/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "master/cli/table.h"
+#include "master/core/error.h"
+
+namespace stride::cli {
+namespace {
+
+constexpr std::size_t kMostMessages = 40;
+constexpr std::size_t kMostSignals = 30;
+
+std::size_t payload_size(const core::Message& message) {
+  if (message.block == nullptr) return 0;
+  if (message.block->type() == core::ValueType::Binary) {
+    return message.block->binaries()[message.first].size();
+  }
+  return message.block->size() * core::element_size(message.block->type());
+}
+
+std::string seconds(std::chrono::nanoseconds time) {
+  return fmt::format("{:.3f}", std::chrono::duration<double>(time).count());
+}
+
+}  // namespace
+
+void Summary::on_start(std::span<const core::Signal> signals) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const core::Signal& signal : signals) {
+    const core::Variable& variable = system_.variable(signal.id);
+    if (variable.type != core::ValueType::Float64 || variable.size != 1) continue;
+    ranges_.push_back(
+        {signal.id, &signal.block->numbers<double>()[signal.first], kInfinity, -kInfinity});
+  }
+}
+
+void Summary::on_message(const core::Message& message) {
+  if (!message.received) {
+    ++message_count_;
+    if (messages_.size() < kMostMessages) {
+      messages_.push_back({message.id, message.time, payload_size(message), {}});
+    }
+  } else if (message_count_ <= kMostMessages) {
+    note_receiver(message.id);
+  }
+}
+
+void Summary::note_receiver(core::VariableId receiver) {
+  for (const core::Connection& connection : system_.connections()) {
+    if (connection.to != receiver) continue;
+    const auto sent = std::find_if(messages_.rbegin(), messages_.rend(),
+                                   [&](const Sent& s) { return s.id == connection.from; });
+    if (sent != messages_.rend()) sent->receivers.push_back(receiver.component);
+  }
+}
+
+void Summary::on_communication_point(Time) {
+  for (Range& range : ranges_) {
+    range.least = std::min(range.least, *range.value);
+    range.most = std::max(range.most, *range.value);
+  }
+}
+
+std::string Summary::text(const core::RunStatistics& statistics) const {
+  const double simulated = to_seconds(statistics.reached - statistics.start);
+  const double wall = std::chrono::duration<double>(statistics.wall_time).count();
+  std::string text = fmt::format(
+      "{}: {:.6g} s simulated in {:.3g} s ({:.3g} times real time), {} communication steps{}\n",
+      system_.name(), simulated, wall, wall > 0 ? simulated / wall : 0.0,
+      statistics.communication_steps, statistics.terminated_by_unit ? ", ended by a unit" : "");
+  if (!messages_.empty()) text += "\nMessages\n" + message_table();
+  if (!ranges_.empty()) text += "\nSignals\n" + signal_table();
+  text += "\nUnits\n" + unit_table(statistics);
+  return text;
+}
+
+std::string Summary::message_table() const {
+  Table table({{"time [s]", Table::Align::Right},
+               {"message"},
+               {"bytes", Table::Align::Right},
+               {"received by"}});
+  for (const Sent& sent : messages_) {
+    std::string receivers;
+    for (const std::size_t i : sent.receivers) {
+      receivers += (receivers.empty() ? "" : ", ") + system_.components()[i].name;
+    }
+    table.add({core::to_text(sent.time), system_.full_name(sent.id), std::to_string(sent.bytes),
+               receivers.empty() ? "nobody" : receivers});
+  }
+  std::string text = table.text();
+  if (message_count_ > messages_.size()) {
+    text += fmt::format("  … and {} more\n", message_count_ - messages_.size());
+  }
+  return text;
+}
+
+std::string Summary::signal_table() const {
+  Table table({{"signal"},
+               {"least", Table::Align::Right},
+               {"most", Table::Align::Right},
+               {"last", Table::Align::Right},
+               {"unit"}});
+  for (std::size_t i = 0; i < std::min(ranges_.size(), kMostSignals); ++i) {
+    const Range& range = ranges_[i];
+    table.add({system_.full_name(range.id), fmt::format("{:.5g}", range.least),
+               fmt::format("{:.5g}", range.most), fmt::format("{:.5g}", *range.value),
+               system_.variable(range.id).unit});
+  }
+  std::string text = table.text();
+  if (ranges_.size() > kMostSignals) {
+    text += fmt::format("  … and {} more\n", ranges_.size() - kMostSignals);
+  }
+  return text;
+}
+
+std::string Summary::unit_table(const core::RunStatistics& statistics) const {
+  Table table({{"unit"},
+               {"steps", Table::Align::Right},
+               {"events", Table::Align::Right},
+               {"sent", Table::Align::Right},
+               {"received", Table::Align::Right},
+               {"start [s]", Table::Align::Right},
+               {"steps [s]", Table::Align::Right},
+               {"events [s]", Table::Align::Right}});
+  for (std::size_t i = 0; i < statistics.units.size(); ++i) {
+    const core::UnitStatistics& unit = statistics.units[i];
+    table.add({system_.components()[i].name, std::to_string(unit.steps),
+               std::to_string(unit.events), std::to_string(unit.messages_sent),
+               std::to_string(unit.messages_received), seconds(unit.initialization_time),
+               seconds(unit.step_time), seconds(unit.event_time)});
+  }
+  return table.text();
+}
+
+}  // namespace stride::cli

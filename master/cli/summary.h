@@ -1,0 +1,51 @@
+#ifndef STRIDE_MASTER_CLI_SUMMARY_H
+#define STRIDE_MASTER_CLI_SUMMARY_H
+
+#include <string>
+#include <vector>
+
+#include "master/core/observer.h"
+#include "master/core/statistics.h"
+#include "master/core/system.h"
+
+namespace stride::cli {
+
+/// Watches a run and tells afterwards what happened: the messages in their order, the range of each
+/// recorded number, and what each unit did and cost.
+class Summary : public core::Observer {
+ public:
+  explicit Summary(const core::System& system) : system_(system) {}
+
+  void on_start(std::span<const core::Signal> signals) override;
+  void on_message(const core::Message& message) override;
+  void on_communication_point(Time time) override;
+
+  std::string text(const core::RunStatistics& statistics) const;
+
+ private:
+  struct Range {
+    core::VariableId id;
+    const double* value;
+    double least, most;
+  };
+  struct Sent {
+    core::VariableId id;
+    Time time;
+    std::size_t bytes;
+    std::vector<std::size_t> receivers;
+  };
+
+  void note_receiver(core::VariableId receiver);
+  std::string message_table() const;
+  std::string signal_table() const;
+  std::string unit_table(const core::RunStatistics& statistics) const;
+
+  const core::System& system_;
+  std::vector<Range> ranges_;
+  std::vector<Sent> messages_;
+  std::size_t message_count_ = 0;
+};
+
+}  // namespace stride::cli
+
+#endif

@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Builds stride and runs all tests, then the same under the address and undefined-behaviour sanitizers.
+#   --quick   leaves the sanitizers and MuJoCo 3 out
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source scripts/packages.sh
+
+quick=no
+[ "${1:-}" = --quick ] && quick=yes
+install_packages "${packages_build[@]}" "${packages_test[@]}"
+
+section() { printf '\n== %s\n' "$*"; }
+
+# build_and_test PRESET [CMAKE-OPTION...]
+build_and_test() {
+  local preset=$1
+  shift
+  cmake --preset "$preset" --log-level=WARNING -DSTRIDE_WARNINGS_AS_ERRORS=ON -DSTRIDE_BUILD_TESTS=ON "$@"
+  cmake --build --preset "$preset"
+  ctest --preset "$preset" --parallel 2
+}
+
+section "Format"
+scripts/format.sh --check
+
+section "Release build, all tests"
+build_and_test release
+
+if [ "$quick" = no ]; then
+  section "Address and undefined-behaviour sanitizers"
+  build_and_test asan
+
+  section "MuJoCo 3"
+  scripts/fetch_mujoco3.sh build/mujoco3
+  cmake --preset release -B build/release-mujoco3 --log-level=WARNING -DSTRIDE_WARNINGS_AS_ERRORS=ON \
+    -DMuJoCo_ROOT="$PWD/build/mujoco3/mujoco"
+  cmake --build build/release-mujoco3 --target mujoco3_tests
+  ctest --test-dir build/release-mujoco3 --output-on-failure --label-regex mujoco
+fi

@@ -1,0 +1,151 @@
+// A unit in memory whose behaviour a test writes as a few lambdas over real value storage.
+#ifndef STRIDE_TESTS_MASTER_CORE_SCRIPTED_UNIT_H
+#define STRIDE_TESTS_MASTER_CORE_SCRIPTED_UNIT_H
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "master/core/unit.h"
+
+namespace stride::core {
+
+inline Variable make_variable(std::string name, ValueReference reference, ValueType type,
+                              Causality causality) {
+  Variable variable;
+  variable.name = std::move(name);
+  variable.reference = reference;
+  variable.type = type;
+  variable.causality = causality;
+  const bool real = type == ValueType::Float64 || type == ValueType::Float32;
+  variable.variability = causality == Causality::Parameter ? Variability::Fixed
+                         : real                            ? Variability::Continuous
+                                                           : Variability::Discrete;
+  if (type == ValueType::Clock) variable.interval_variability = "triggered";
+  return variable;
+}
+
+/// A description with variables numbered from 0.
+class Describe {
+ public:
+  explicit Describe(std::string model) { description_->model_name = std::move(model); }
+
+  Describe& add(const std::string& name, ValueType type, Causality causality,
+                const std::string& unit = "") {
+    const auto reference = static_cast<ValueReference>(description_->variables.size());
+    description_->variables.push_back(make_variable(name, reference, type, causality));
+    description_->variables.back().unit = unit;
+    return *this;
+  }
+  Describe& input(const std::string& name, const std::string& unit = "") {
+    return add(name, ValueType::Float64, Causality::Input, unit);
+  }
+  Describe& output(const std::string& name, const std::string& unit = "") {
+    return add(name, ValueType::Float64, Causality::Output, unit);
+  }
+  Describe& clocked_by(ValueReference clock) {
+    description_->variables.back().clocks = {clock};
+    description_->has_event_mode = true;
+    return *this;
+  }
+  Describe& size(std::size_t elements) {
+    description_->variables.back().dimensions = {elements};
+    description_->variables.back().size = elements;
+    return *this;
+  }
+  Describe& unit(const std::string& symbol, BaseUnit base) {
+    description_->units[symbol] = base;
+    return *this;
+  }
+  Describe& event_mode() { return description_->has_event_mode = true, *this; }
+
+  std::shared_ptr<const UnitDescription> done() const { return description_; }
+
+ private:
+  std::shared_ptr<UnitDescription> description_ = std::make_shared<UnitDescription>();
+};
+
+class ScriptedUnit : public Unit {
+ public:
+  using Calls = std::vector<std::string>;
+
+  explicit ScriptedUnit(std::shared_ptr<const UnitDescription> description)
+      : description_(std::move(description)) {
+    for (const Variable& variable : description_->variables) {
+      values_.emplace(variable.reference, ValueBlock(variable.type, variable.size));
+    }
+  }
+
+  std::function<void(ScriptedUnit&)> on_initialize = [](ScriptedUnit&) {};
+  std::function<StepResult(ScriptedUnit&, Time, Time)> on_step = [](ScriptedUnit&, Time, Time to) {
+    StepResult result;
+    result.reached = to;
+    return result;
+  };
+  std::function<EventResult(ScriptedUnit&)> on_event = [](ScriptedUnit&) { return EventResult{}; };
+  Calls calls;
+
+  double& number(ValueReference reference) { return values_.at(reference).numbers<double>()[0]; }
+  bool& clock(ValueReference reference) { return values_.at(reference).numbers<bool>()[0]; }
+  Binary& binary(ValueReference reference) { return values_.at(reference).binaries()[0]; }
+  ValueBlock& block(ValueReference reference) { return values_.at(reference); }
+
+  void enter_initialization(Time, std::optional<Time>) override {
+    calls.push_back("enter_initialization");
+    initializing_ = true;
+  }
+  void exit_initialization() override {
+    calls.push_back("exit_initialization");
+    on_initialize(*this);
+    initializing_ = false;
+  }
+  void get(std::span<const ValueReference> references, ValueBlock& values) override {
+    if (initializing_) on_initialize(*this);
+    move_values(references, values, [](auto& inside, auto& outside) { outside = inside; });
+  }
+  void set(std::span<const ValueReference> references, const ValueBlock& values) override {
+    move_values(references, values, [](auto& inside, auto& outside) { inside = outside; });
+  }
+  StepResult step(Time from, Time to) override { return on_step(*this, from, to); }
+  void enter_event_mode() override { calls.push_back("enter_event_mode"); }
+  EventResult update_discrete_states() override {
+    calls.push_back("update_discrete_states");
+    const EventResult result = on_event(*this);
+    for (const Variable& variable : description_->variables) {
+      if (variable.type == ValueType::Clock && variable.causality == Causality::Input) {
+        clock(variable.reference) = false;
+      }
+    }
+    return result;
+  }
+  void enter_step_mode() override { calls.push_back("enter_step_mode"); }
+  void terminate() override { calls.push_back("terminate"); }
+
+ private:
+  template <class Block, class Move>
+  void move_values(std::span<const ValueReference> references, Block& outside, Move&& move) {
+    std::size_t at = 0;
+    for (const ValueReference reference : references) {
+      ValueBlock& inside = values_.at(reference);
+      visit(inside, [&](auto elements) {
+        visit(outside, [&](auto others) {
+          using A = std::remove_cvref_t<decltype(elements[0])>;
+          using B = std::remove_cvref_t<decltype(others[0])>;
+          if constexpr (std::is_same_v<A, B>) {
+            for (auto& element : elements) move(element, others[at++]);
+          }
+        });
+      });
+    }
+  }
+
+  std::shared_ptr<const UnitDescription> description_;
+  std::map<ValueReference, ValueBlock> values_;
+  bool initializing_ = false;
+};
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,158 @@
+#include "master/core/system.h"
+
+#include <catch2/catch.hpp>
+
+#include "scripted_unit.h"
+
+using namespace stride::core;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const BaseUnit kMetre{{0, 1, 0, 0, 0, 0, 0, 0}, 1, 0};
+const BaseUnit kMillimetre{{0, 1, 0, 0, 0, 0, 0, 0}, 1e-3, 0};
+const BaseUnit kSecond{{0, 0, 1, 0, 0, 0, 0, 0}, 1, 0};
+
+std::shared_ptr<const UnitDescription> description() {
+  return Describe("model")
+      .unit("m", kMetre)
+      .unit("mm", kMillimetre)
+      .unit("s", kSecond)
+      .input("u", "m")
+      .output("y", "mm")
+      .output("t", "s")
+      .add("n", ValueType::Int32, Causality::Input)
+      .add("gain", ValueType::Float64, Causality::Parameter)
+      .add("clock_in", ValueType::Clock, Causality::Input)
+      .add("frame_in", ValueType::Binary, Causality::Input)
+      .clocked_by(5)
+      .add("clock_out", ValueType::Clock, Causality::Output)
+      .add("frame_out", ValueType::Binary, Causality::Output)
+      .clocked_by(7)
+      .output("pair")
+      .size(2)
+      .input("trio")
+      .size(3)
+      .done();
+}
+
+SystemDeclaration declaration() {
+  SystemDeclaration system;
+  system.name = "test";
+  system.components = {{"alpha", description(), {}, {"s.ssd", 3}},
+                       {"beta", description(), {}, {"s.ssd", 4}}};
+  return system;
+}
+
+ConnectionDeclaration wire(const std::string& from, const std::string& to, int line = 9) {
+  return {"alpha", from, "beta", to, false, {"s.ssd", line}};
+}
+
+std::string reason(const SystemDeclaration& system) {
+  try {
+    System{system};
+  } catch (const Error& error) {
+    CHECK(error.kind() == Error::Kind::Input);
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::string reason(std::vector<ConnectionDeclaration> connections) {
+  SystemDeclaration system = declaration();
+  system.connections = std::move(connections);
+  return reason(system);
+}
+
+}  // namespace
+
+TEST_CASE("a valid system is built, with conversions") {
+  SystemDeclaration declared = declaration();
+  declared.connections = {wire("y", "u")};
+  declared.start_values = {{"beta", "gain", "2.5", "", {"s.ssd", 12}},
+                           {"beta", "gain", "3.5", "", {"--set", 0}}};
+  const System system(declared);
+  REQUIRE(system.connections().size() == 1);
+  CHECK(system.connections()[0].conversion.factor == Approx(1e-3));
+  CHECK(system.full_name(system.connections()[0].from) == "alpha.y");
+  REQUIRE(system.start_values().size() == 1);
+  CHECK(element_text(system.start_values()[0].value, 0) == "3.5");
+}
+
+TEST_CASE("names that do not exist are named with the nearest that does") {
+  CHECK_THAT(
+      reason({{"alpa", "y", "beta", "u", false, {"s.ssd", 9}}}),
+      Contains("s.ssd:9") && Contains("no component 'alpa'") && Contains("did you mean 'alpha'?"));
+  CHECK_THAT(reason({wire("y", "gian")}),
+             Contains("unit 'beta', variable 'gian'") && Contains("did you mean 'gain'?"));
+  SystemDeclaration system = declaration();
+  system.start_values = {{"beta", "gan", "1", "", {"s.ssd", 12}}};
+  CHECK_THAT(reason(system), Contains("s.ssd:12") && Contains("did you mean 'gain'?"));
+}
+
+TEST_CASE("a connection goes from an output to an input of the same type and size") {
+  CHECK_THAT(reason({wire("u", "u")}), Contains("'alpha.u' is no output but input"));
+  CHECK_THAT(reason({wire("y", "y")}), Contains("'beta.y' is no input but output"));
+  CHECK_THAT(reason({wire("y", "gain")}), Contains("'beta.gain' is no input but parameter"));
+  CHECK_THAT(reason({wire("y", "n")}), Contains("Float64 and Int32 are different types"));
+  CHECK_THAT(reason({wire("pair", "trio")}), Contains("an array of 2 elements and an array of 3"));
+  CHECK_THAT(reason({wire("y", "trio")}), Contains("a scalar and an array of 3"));
+}
+
+TEST_CASE("units that do not fit are an error that can be overruled") {
+  CHECK_THAT(reason({wire("t", "u")}),
+             Contains("'alpha.t' is in 's'") && Contains("suppressUnitConversion"));
+  ConnectionDeclaration suppressed = wire("t", "u");
+  suppressed.suppress_unit_conversion = true;
+  CHECK(reason({suppressed}) == "accepted");
+}
+
+TEST_CASE("an input has one source") {
+  CHECK_THAT(reason({wire("y", "u", 9), wire("y", "u", 10)}),
+             Contains("s.ssd:10") && Contains("two sources") && Contains("line 9"));
+}
+
+TEST_CASE("a message needs its clock wired too") {
+  CHECK_THAT(reason({wire("frame_out", "frame_in")}),
+             Contains("its clock 'beta.clock_in' is not connected"));
+  CHECK(reason({wire("frame_out", "frame_in"), wire("clock_out", "clock_in")}) == "accepted");
+}
+
+TEST_CASE("two components of one name, and a system without any, are refused") {
+  SystemDeclaration twice = declaration();
+  twice.components[1].name = "alpha";
+  CHECK_THAT(reason(twice), Contains("s.ssd:4") && Contains("two components are named 'alpha'"));
+  CHECK_THAT(reason(SystemDeclaration{}), Contains("no component"));
+}
+
+TEST_CASE("declared connectors must agree with the unit") {
+  const auto with = [](ConnectorDeclaration connector) {
+    connector.where = {"s.ssd", 5};
+    SystemDeclaration system = declaration();
+    system.components[0].connectors = {connector};
+    return reason(system);
+  };
+  CHECK(with({"u", ValueType::Float64, Causality::Input, "m", {}}) == "accepted");
+  CHECK_THAT(with({"v", {}, {}, "", {}}), Contains("s.ssd:5") && Contains("no variable"));
+  CHECK_THAT(with({"u", {}, Causality::Output, "", {}}),
+             Contains("the connector says output, the unit says input"));
+  CHECK_THAT(with({"u", ValueType::Int32, {}, "", {}}),
+             Contains("says Int32, the unit says Float64"));
+  CHECK_THAT(with({"u", {}, {}, "s", {}}), Contains("the connector is in 's'"));
+}
+
+TEST_CASE("start values are converted, parsed and refused where they cannot be set") {
+  const auto with = [](StartDeclaration start) {
+    start.where = {"s.ssd", 12};
+    SystemDeclaration system = declaration();
+    system.start_values = {start};
+    return reason(system);
+  };
+  CHECK_THAT(with({"beta", "gain", "big", "", {}}), Contains("expected a Float64 number"));
+  CHECK_THAT(with({"beta", "clock_in", "true", "", {}}), Contains("cannot be set"));
+  CHECK_THAT(with({"beta", "u", "1", "s", {}}), Contains("the value is in 's'"));
+  SystemDeclaration declared = declaration();
+  declared.start_values = {{"beta", "u", "1500", "mm", {}}};
+  const System system(declared);
+  CHECK(system.start_values()[0].value.numbers<double>()[0] == Approx(1.5));
+}
