@@ -1,0 +1,174 @@
+#include "units/sensor/transceiver.h"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "tests/units/sensor/bench.h"
+
+using nfc::Bytes;
+using sensor::Bench;
+using sensor::data_of;
+using sensor::ms;
+using sensor::request;
+using sensor::Sensor;
+using sensor::SensorParameters;
+using stride::Duration;
+using stride::Time;
+
+namespace {
+
+const Bytes kIdentify = {0x01};
+const Bytes kIdentity = {0x00, 0x53, 0x45, 0x4E, 0x53};
+
+}  // namespace
+
+TEST_CASE("any single bit error in a request is found, and the request is not answered") {
+  const std::size_t length = request(kIdentify, Time()).bits.size();
+  REQUIRE(length == 27);
+  Bench bench;
+  for (std::size_t bit = 0; bit < length; ++bit) {
+    nfc::Frame frame = request(kIdentify, ms(5 + 2.0 * static_cast<double>(bit)));
+    frame.bits[bit] ^= 1;
+    bench.arrive(frame);
+  }
+  bench.run(ms(100));
+  CHECK(bench.frames().rejected == 27);
+  CHECK(bench.frames().received == 0);
+  CHECK(bench.answers.empty());
+
+  bench.send(kIdentify, ms(100));
+  bench.run(ms(105));
+  CHECK(bench.frames().received == 1);
+  CHECK(bench.answers.size() == 1);
+}
+
+TEST_CASE("a wrong CRC with right parities is found") {
+  Bench bench;
+  nfc::Frame frame;
+  frame.start = ms(5);
+  frame.bits = nfc::to_bits({0x01, 0x12, 0x34});
+  bench.arrive(frame);
+  bench.run(ms(10));
+  CHECK(bench.frames().rejected == 1);
+  CHECK(bench.answers.empty());
+}
+
+TEST_CASE("only 106 kbit/s is understood") {
+  Bench bench;
+  nfc::Frame frame = request(kIdentify, ms(5));
+  frame.bit_rate = 212;
+  bench.arrive(frame);
+  bench.run(ms(10));
+  CHECK(bench.frames().rejected == 1);
+}
+
+TEST_CASE("a request is received at the end of its air time, to the picosecond") {
+  Bench bench;
+  const nfc::Frame frame = request(kIdentify, ms(5) + Duration(123'457));
+  bench.arrive(frame);
+  const Time end = frame.start + nfc::air_time(frame);
+  bench.run(end - Duration(1));
+  CHECK(bench.frames().received == 0);
+  bench.run(end);
+  CHECK(bench.frames().received == 1);
+  CHECK(bench.read([](Sensor& s) { return s.received_data.read(); }) == 0x01);
+}
+
+TEST_CASE("answers start on the grid of the frame delay time") {
+  Bench bench;
+  std::vector<Time> ends;
+  for (int i = 0; i < 20; ++i) {
+    const nfc::Frame frame = request(kIdentify, ms(5 + 3 * i) + Duration(1'234'567 * i));
+    ends.push_back(frame.start + nfc::air_time(frame));
+    bench.arrive(frame);
+  }
+  bench.run(ms(80));
+  REQUIRE(bench.answers.size() == 20);
+  for (std::size_t i = 0; i < 20; ++i) {
+    const double periods = stride::to_seconds(bench.answers[i].start - ends[i]) * 13.56e6;
+    const double n = (periods - 84) / 128;
+    CHECK(std::round(n) >= 9);
+    CHECK(std::abs(n - std::round(n)) < 1e-6);
+    CHECK(data_of(bench.answers[i]) == kIdentity);
+  }
+}
+
+TEST_CASE("a frame whose start is past is received as if it had been handed over in time") {
+  const nfc::Frame frame = request(kIdentify, ms(5));
+  Bench in_time;
+  in_time.arrive(frame);
+  in_time.run(ms(10));
+  Bench late;
+  late.run(ms(5.1));
+  late.arrive(frame);
+  late.run(ms(10));
+  REQUIRE(in_time.answers.size() == 1);
+  CHECK(late.answers == in_time.answers);
+
+  Bench too_late;  // its end is past too: it is complete at once
+  too_late.run(ms(7));
+  too_late.arrive(frame);
+  too_late.run(ms(7));
+  CHECK(too_late.frames().received == 1);
+}
+
+TEST_CASE("without power nothing is received, counted or answered") {
+  Bench bench{SensorParameters()};
+  bench.send(kIdentify, ms(5));
+  bench.run(ms(10));
+  CHECK(bench.answers.empty());
+  CHECK(bench.frames().received == 0);
+  CHECK(bench.frames().rejected == 0);
+}
+
+TEST_CASE("a frame whose start was missed is not received") {
+  SensorParameters parameters;
+  parameters.power.initial_voltage = 2.999;
+  Bench bench(parameters);
+  bench.field(5e-3);
+  bench.send(kIdentify, ms(0.0));  // takes 0.27 ms
+  bench.run(ms(0.05));
+  CHECK_FALSE(bench.powered());
+  bench.run(ms(0.2));
+  CHECK(bench.powered());
+  bench.run(ms(5));
+  CHECK(bench.frames().received == 0);
+  CHECK(bench.frames().rejected == 0);
+}
+
+TEST_CASE("frames that overlap garble each other") {
+  Bench bench;
+  bench.send(kIdentify, ms(5));
+  bench.send(kIdentify, ms(5.1));
+  bench.send(kIdentify, ms(8));
+  bench.run(ms(12));
+  CHECK(bench.frames().rejected == 2);
+  CHECK(bench.frames().received == 1);
+  CHECK(bench.answers.size() == 1);
+}
+
+TEST_CASE("a frame that comes during an answer is rejected") {
+  Bench bench;
+  bench.send(kIdentify, ms(5));
+  bench.run(ms(8));
+  REQUIRE(bench.answers.size() == 1);
+  Bench again;
+  again.send(kIdentify, ms(5));
+  again.send(kIdentify, bench.answers[0].start + Duration(1));
+  again.run(ms(8));
+  CHECK(again.answers == bench.answers);
+  CHECK(again.frames().rejected == 1);
+}
+
+TEST_CASE("power that fails during an answer cuts it off") {
+  SensorParameters parameters = sensor::charged();
+  parameters.transceiver.transmit_current = 1.0;  // the capacitor is empty at once
+  parameters.power.initial_voltage = 3.0;
+  Bench bench(parameters);
+  bench.send(kIdentify, ms(5));
+  bench.run(ms(20));
+  CHECK(bench.frames().sent == 1);
+  CHECK(bench.frames().cut == 1);
+  CHECK_FALSE(bench.powered());
+}

@@ -1,0 +1,101 @@
+#include "units/systemc/device.h"
+
+#include <memory>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "tests/units/systemc/blinker.h"
+
+using blinker::Blinker;
+using blinker::Owner;
+using stride::Duration;
+using stride::Time;
+using stride::systemc::Device;
+
+namespace {
+
+constexpr Duration kMicrosecond{1'000'000};
+
+Time at(Duration duration) { return Time(duration); }
+
+int edges(Device<Blinker>& device) {
+  return device.within([](Blinker& blinker) { return blinker.edges.read(); });
+}
+
+}  // namespace
+
+TEST_CASE("two devices of the same name, advanced in turn, do not see each other") {
+  Device<Blinker> alone({}, "blinker", 20.0);
+  alone.advance(at(100 * kMicrosecond));
+
+  Device<Blinker> fast({}, "blinker", 20.0);
+  Device<Blinker> slow({}, "blinker", 70.0);
+  for (int i = 1; i <= 100; ++i) {
+    fast.advance(at(i * kMicrosecond));
+    if (i % 7 == 0) slow.advance(at(i * kMicrosecond));
+  }
+  CHECK(fast.now() == at(100 * kMicrosecond));
+  CHECK(slow.now() == at(98 * kMicrosecond));
+  CHECK(edges(fast) == edges(alone));
+  CHECK(edges(slow) == 98'000 / 70 + 1);
+}
+
+TEST_CASE("devices can be made and destroyed hundreds of times") {
+  Device<Blinker> bystander({}, "blinker", 20.0);
+  for (int i = 0; i < 200; ++i) {
+    Device<Blinker> device({}, "blinker", 20.0);
+    device.advance(at(kMicrosecond));
+    REQUIRE(edges(device) == 51);
+    bystander.advance(at((i + 1) * kMicrosecond));
+  }
+  CHECK(edges(bystander) == 10'001);
+}
+
+TEST_CASE("what lives on a thread's stack is destroyed with the device") {
+  auto object = std::make_shared<int>(1);
+  const std::weak_ptr<int> watch = object;
+  {
+    Device<Owner> device({}, "owner", std::exchange(object, nullptr));
+    device.advance(at(kMicrosecond));
+    CHECK_FALSE(watch.expired());
+  }
+  CHECK(watch.expired());
+}
+
+TEST_CASE("devices may be advanced from several threads at once") {
+  std::vector<std::unique_ptr<Device<Blinker>>> devices;
+  for (int i = 0; i < 4; ++i) {
+    devices.push_back(std::make_unique<Device<Blinker>>(nullptr, "blinker", 20.0));
+  }
+  std::vector<std::thread> threads;
+  for (auto& device : devices) {
+    threads.emplace_back([&device] {
+      for (int i = 1; i <= 200; ++i) device->advance(at(i * kMicrosecond));
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (auto& device : devices) CHECK(edges(*device) == 10'001);
+}
+
+TEST_CASE("the kernel of the surrounding program is left alone") {
+  sc_core::sc_simcontext* const global = sc_core::sc_default_global_context;
+  REQUIRE(sc_core::sc_curr_simcontext == global);
+  const auto handler = sc_core::sc_report_handler::get_handler();
+  {
+    Device<Blinker> device({}, "blinker", 20.0);
+    device.advance(at(kMicrosecond));
+    CHECK(sc_core::sc_curr_simcontext == global);
+  }
+  CHECK(sc_core::sc_curr_simcontext == global);
+  CHECK(sc_core::sc_default_global_context == global);
+  CHECK(sc_core::sc_report_handler::get_handler() == handler);
+}
+
+TEST_CASE("the next event is when the device does something by itself") {
+  Device<Blinker> device({}, "blinker", 20.0);
+  device.advance(at(Duration(21'000)));
+  CHECK(device.next_event() == at(Duration(30'000)));  // the clock's falling edge
+}

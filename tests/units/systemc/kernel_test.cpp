@@ -1,0 +1,188 @@
+#include "units/systemc/kernel.h"
+
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <unistd.h>
+
+#include "tests/units/systemc/blinker.h"
+#include "units/systemc/device.h"
+
+using blinker::Actor;
+using blinker::Blinker;
+using Catch::Matchers::Contains;
+using stride::Duration;
+using stride::Time;
+using stride::systemc::Device;
+using stride::systemc::DeviceError;
+using stride::systemc::Kernel;
+
+namespace {
+
+constexpr Duration kNanosecond{1000};
+constexpr Duration kMicrosecond{1'000'000};
+
+Time at(Duration duration) { return Time(duration); }
+
+std::string error_of(void (*action)(), bool in_thread) {
+  Device<Actor> device({}, "actor", action, in_thread);
+  device.advance(at(Duration(999'999)));
+  try {
+    device.advance(at(2 * kMicrosecond));
+  } catch (const DeviceError& error) {
+    CHECK_THROWS_WITH(device.advance(at(3 * kMicrosecond)), Contains("failed before"));
+    return error.what();
+  }
+  return "no error";
+}
+
+/// What is written to a file descriptor while f runs.
+template <class Function>
+std::string captured(int descriptor, Function f) {
+  std::fflush(nullptr);
+  std::FILE* file = std::tmpfile();
+  const int saved = dup(descriptor);
+  dup2(fileno(file), descriptor);
+  f();
+  std::fflush(nullptr);
+  dup2(saved, descriptor);
+  close(saved);
+  std::rewind(file);
+  std::string text(4096, '\0');
+  text.resize(std::fread(text.data(), 1, text.size(), file));
+  std::fclose(file);
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("time is converted to the picosecond") {
+  Device<Blinker> device({}, "blinker", 20.0);
+  const Duration odd(123'456'789'012'345);
+  Kernel kernel;
+  kernel.initialize();
+  CHECK(kernel.advance(at(odd)) == at(odd));
+  CHECK(kernel.advance(at(odd + Duration(1))) == at(odd + Duration(1)));
+  kernel.within([&] {
+    CHECK(sc_core::sc_time_stamp() ==
+          sc_core::sc_time::from_value(static_cast<std::uint64_t>(odd.count()) + 1));
+  });
+}
+
+TEST_CASE("what happens at the end of a step has happened") {
+  Device<Blinker> device({}, "blinker", 20.0);
+  const auto edges = [&] { return device.within([](Blinker& b) { return b.edges.read(); }); };
+  const int at_start = edges();
+  device.advance(at(40 * kNanosecond - Duration(1)));
+  CHECK(edges() == at_start + 1);
+  device.advance(at(40 * kNanosecond));
+  CHECK(edges() == at_start + 2);
+}
+
+TEST_CASE("an input that is written at an instant is seen at that instant") {
+  Device<Blinker> device({}, "blinker", 20.0);
+  device.advance(at(1234 * kNanosecond));
+  device.within([](Blinker& b) { b.enable.write(true); });
+  device.advance(at(5 * kMicrosecond));
+  device.within([](Blinker& b) {
+    REQUIRE(b.changes.size() == 1);
+    CHECK(b.changes[0] == sc_core::sc_time(1234, sc_core::SC_NS));
+  });
+}
+
+TEST_CASE("kernels of different time resolution live side by side") {
+  Kernel fine;
+  fine.within([] { sc_core::sc_set_time_resolution(1, sc_core::SC_FS); });
+  fine.initialize();
+  Kernel usual;
+  usual.initialize();
+  CHECK(fine.advance(at(3 * kMicrosecond)) == at(3 * kMicrosecond));
+  CHECK(usual.advance(at(kMicrosecond)) == at(kMicrosecond));
+  fine.within([] { CHECK(sc_core::sc_time_stamp() == sc_core::sc_time(3, sc_core::SC_US)); });
+  fine.within([] { CHECK(sc_core::sc_time_stamp().value() == 3'000'000'000); });
+  usual.within([] { CHECK(sc_core::sc_time_stamp().value() == 1'000'000); });
+
+  Kernel coarse;
+  coarse.within([] { sc_core::sc_set_time_resolution(1, sc_core::SC_NS); });
+  CHECK_THROWS_WITH(coarse.initialize(), Contains("coarser than 1 ps"));
+}
+
+TEST_CASE("a call out of order is an error") {
+  Kernel kernel;
+  CHECK_THROWS_AS(kernel.advance(at(kMicrosecond)), std::logic_error);
+  kernel.initialize();
+  kernel.advance(at(kMicrosecond));
+  CHECK_THROWS_WITH(kernel.advance(at(kNanosecond)), Contains("1000000 ps to 1000 ps"));
+}
+
+TEST_CASE("a device that fails gives an error that says what, where and when") {
+  const bool in_thread = GENERATE(false, true);
+  CAPTURE(in_thread);
+  CHECK_THAT(error_of([] { SC_REPORT_ERROR("motor", "overheated"); }, in_thread),
+             Contains("motor: overheated") && Contains("actor.act") && Contains("1 us"));
+  CHECK_THAT(error_of([] { SC_REPORT_FATAL("motor", "on fire"); }, in_thread),
+             Contains("motor: on fire"));
+  CHECK_THAT(error_of([] { throw std::runtime_error("lost"); }, in_thread), Contains("lost"));
+  CHECK_THAT(error_of([] { sc_core::sc_stop(); }, in_thread), Contains("called sc_stop at 1 us"));
+}
+
+TEST_CASE("elaboration errors name the port") {
+  struct Unbound : sc_core::sc_module {
+    sc_core::sc_in<bool> missing{"missing"};
+    explicit Unbound(sc_core::sc_module_name name) : sc_module(name) {}
+  };
+  const auto make = [] { Device<Unbound> device({}, "unbound"); };
+  CHECK_THROWS_WITH(make(), Contains("unbound.missing"));
+}
+
+TEST_CASE("a constructor that throws leaves the kernel usable for others") {
+  struct Broken : sc_core::sc_module {
+    Blinker part{"part", 20.0};
+    explicit Broken(sc_core::sc_module_name name) : sc_module(name) {
+      throw std::invalid_argument("no such mode");
+    }
+  };
+  const auto make = [] { Device<Broken> device({}, "broken"); };
+  CHECK_THROWS_WITH(make(), "no such mode");
+  Device<Blinker> device({}, "blinker", 20.0);
+  CHECK(device.advance(at(kMicrosecond)) == at(kMicrosecond));
+}
+
+TEST_CASE("warnings go to the log of the device that says them, and nothing is printed") {
+  std::vector<std::string> first_log;
+  std::vector<std::string> second_log;
+  const auto log_to = [](std::vector<std::string>& lines) {
+    return [&lines](sc_core::sc_severity severity, const std::string& text) {
+      lines.push_back((severity == sc_core::SC_WARNING ? "warning " : "info ") + text);
+    };
+  };
+  const auto run = [&] {
+    const auto warn = [] { SC_REPORT_WARNING("battery", "low"); };
+    const auto note = [] { SC_REPORT_INFO("battery", "fine"); };
+    Device<Actor> first(log_to(first_log), "first", static_cast<void (*)()>(warn), false);
+    Device<Actor> second(log_to(second_log), "second", static_cast<void (*)()>(note), false);
+    second.advance(at(2 * kMicrosecond));
+    first.advance(at(2 * kMicrosecond));
+  };
+  std::string error_output;
+  const std::string output =
+      captured(STDOUT_FILENO, [&] { error_output = captured(STDERR_FILENO, run); });
+  CHECK(output.empty());
+  CHECK(error_output.empty());
+  REQUIRE(first_log.size() == 1);
+  CHECK_THAT(first_log[0], Contains("warning battery: low") && Contains("first.act"));
+  REQUIRE(second_log.size() == 1);
+  CHECK_THAT(second_log[0], Contains("info battery: fine"));
+}
+
+TEST_CASE("sc_pause stops early only where that is allowed") {
+  const auto pause = static_cast<void (*)()>([] { sc_core::sc_pause(); });
+  Device<Actor> allowed({}, "actor", pause, true);
+  CHECK(allowed.advance(at(5 * kMicrosecond), true) == at(kMicrosecond));
+  CHECK(allowed.advance(at(5 * kMicrosecond), true) == at(5 * kMicrosecond));
+  Device<Actor> not_allowed({}, "actor", pause, true);
+  CHECK(not_allowed.advance(at(5 * kMicrosecond)) == at(5 * kMicrosecond));
+}

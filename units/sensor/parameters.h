@@ -1,0 +1,129 @@
+// What can be set on a sensor: plain values in SI units, and one table of their names and ranges.
+#ifndef STRIDE_UNITS_SENSOR_PARAMETERS_H
+#define STRIDE_UNITS_SENSOR_PARAMETERS_H
+
+#include <cstdint>
+
+namespace sensor {
+
+struct TransceiverParameters {
+  std::int32_t fifo_depth = 4;       ///< commands that can wait for the control unit
+  double transmit_current = 1.0e-3;  ///< of the load modulator while it transmits [A]
+};
+
+struct ControlUnitParameters {
+  double clock_frequency = 50e6;         ///< [Hz]; its half period is rounded to a picosecond
+  bool clock_gating = true;              ///< the clock stands still while the control unit sleeps
+  std::int32_t boot_cycles = 50'000;     ///< from power-on to the first instruction
+  std::int32_t wake_up_cycles = 250;     ///< from stop mode to the first instruction
+  std::int32_t decode_cycles = 40;       ///< to tell what a command wants
+  std::int32_t execute_cycles = 60;      ///< to do it, conversions not included
+  std::int32_t cycles_per_byte = 24;     ///< to hand one byte of the answer to the transceiver
+  double active_current = 2.0e-3;        ///< [A]
+  double sleep_current = 2.0e-6;         ///< in stop mode, the rest of the device included [A]
+  double led_current = 1.0e-3;           ///< [A]
+  std::int32_t identifier = 0x53454E53;  ///< what kIdentify answers
+};
+
+struct AdcParameters {
+  double minimum = -40.0;                ///< the temperature of code 0 [degC]
+  double maximum = 125.0;                ///< the temperature of code 4095 [degC]
+  std::int32_t conversion_cycles = 800;  ///< of the control unit's clock
+  double current = 0.2e-3;               ///< while it converts [A]
+};
+
+struct PowerParameters {
+  double rectifier_efficiency = 0.5;
+  double capacitance = 100e-6;       ///< [F]
+  double leakage_resistance = 10e6;  ///< parallel to the capacitor [Ohm]
+  double initial_voltage = 0.0;      ///< [V]
+  double maximum_voltage = 5.0;      ///< at which the charger stops [V]
+  double power_on_voltage = 3.0;     ///< [V]
+  double brown_out_voltage = 1.9;    ///< [V]
+  double supply_voltage = 1.8;       ///< that the regulator gives to the loads [V]
+  double regulator_efficiency = 0.85;
+};
+
+struct SensorParameters {
+  TransceiverParameters transceiver;
+  ControlUnitParameters control_unit;
+  AdcParameters adc;
+  PowerParameters power;
+};
+
+/// One row of the table: the name, the unit of a double as FMI writes it, the range, both ends
+/// included, and what it means.
+struct ParameterInfo {
+  const char* name;
+  const char* unit;
+  double minimum;
+  double maximum;
+  const char* description;
+};
+
+/// Calls visit(ParameterInfo, member) for each parameter, in a fixed order. The member is a double,
+/// a std::int32_t or a bool; it is const if the parameters are.
+template <class Parameters, class Visitor>
+void visit_parameters(Parameters& parameters, Visitor&& visit) {
+  auto& [transceiver, control_unit, adc, power] = parameters;
+  const auto add = [&](auto& member, const char* name, const char* unit, double minimum,
+                       double maximum, const char* description) {
+    visit(ParameterInfo{name, unit, minimum, maximum, description}, member);
+  };
+  add(transceiver.fifo_depth, "transceiver.fifo_depth", "", 1, 1024,
+      "commands that can wait for the control unit");
+  add(transceiver.transmit_current, "transceiver.transmit_current", "A", 0, 1,
+      "current of the load modulator while it transmits");
+
+  add(control_unit.clock_frequency, "control_unit.clock_frequency", "Hz", 1e3, 1e9,
+      "frequency of the control unit's clock");
+  add(control_unit.clock_gating, "control_unit.clock_gating", "", 0, 1,
+      "whether the clock stands still while the control unit sleeps");
+  add(control_unit.boot_cycles, "control_unit.boot_cycles", "", 1, 1e9,
+      "clock cycles from power-on to the first instruction");
+  add(control_unit.wake_up_cycles, "control_unit.wake_up_cycles", "", 1, 1e9,
+      "clock cycles from stop mode to the first instruction");
+  add(control_unit.decode_cycles, "control_unit.decode_cycles", "", 1, 1e9,
+      "clock cycles to decode a command");
+  add(control_unit.execute_cycles, "control_unit.execute_cycles", "", 1, 1e9,
+      "clock cycles to execute a command, conversions not included");
+  add(control_unit.cycles_per_byte, "control_unit.cycles_per_byte", "", 1, 1e9,
+      "clock cycles to hand a byte of the answer to the transceiver");
+  add(control_unit.active_current, "control_unit.active_current", "A", 0, 1,
+      "current of the control unit while it is awake");
+  add(control_unit.sleep_current, "control_unit.sleep_current", "A", 0, 1,
+      "current in stop mode, the rest of the device included");
+  add(control_unit.led_current, "control_unit.led_current", "A", 0, 1, "current of the LED");
+  add(control_unit.identifier, "control_unit.identifier", "", -2147483648.0, 2147483647.0,
+      "the 32-bit identifier, as a signed number");
+
+  add(adc.minimum, "adc.minimum", "degC", -273.15, 327, "temperature of code 0");
+  add(adc.maximum, "adc.maximum", "degC", -273.15, 327, "temperature of code 4095");
+  add(adc.conversion_cycles, "adc.conversion_cycles", "", 1, 1e9, "clock cycles of a conversion");
+  add(adc.current, "adc.current", "A", 0, 1, "current while it converts");
+
+  add(power.rectifier_efficiency, "power.rectifier_efficiency", "1", 0, 1,
+      "share of the field's power that reaches the capacitor");
+  add(power.capacitance, "power.capacitance", "F", 1e-9, 100, "capacitance of the supercapacitor");
+  add(power.leakage_resistance, "power.leakage_resistance", "Ohm", 1, 1e18,
+      "resistance parallel to the supercapacitor, through which it leaks");
+  add(power.initial_voltage, "power.initial_voltage", "V", 0, 100, "voltage at the start");
+  add(power.maximum_voltage, "power.maximum_voltage", "V", 1e-3, 100,
+      "voltage at which the charger stops");
+  add(power.power_on_voltage, "power.power_on_voltage", "V", 1e-3, 100,
+      "voltage at which the device is switched on");
+  add(power.brown_out_voltage, "power.brown_out_voltage", "V", 1e-3, 100,
+      "voltage at which the device is switched off");
+  add(power.supply_voltage, "power.supply_voltage", "V", 1e-3, 100,
+      "voltage that the regulator gives to the loads");
+  add(power.regulator_efficiency, "power.regulator_efficiency", "1", 1e-3, 1,
+      "efficiency of the regulator");
+}
+
+/// Throws std::invalid_argument, which names the parameter, its value and its range, if one is out
+/// of range or contradicts another.
+void check(const SensorParameters& parameters);
+
+}  // namespace sensor
+
+#endif

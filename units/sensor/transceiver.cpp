@@ -1,0 +1,149 @@
+#include "units/sensor/transceiver.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "units/nfc/iso14443a.h"
+#include "units/sensor/frame_delay.h"
+#include "units/systemc/time.h"
+
+namespace sensor {
+namespace {
+
+using stride::systemc::current_time;
+using stride::systemc::to_sc_time;
+
+constexpr std::uint32_t kBitRate = 106;  // the only one before others have been agreed on
+
+sc_dt::uint64 as_number(const nfc::Bytes& bytes) {
+  sc_dt::uint64 number = 0;
+  for (const std::uint8_t byte : bytes) number = number << 8 | byte;
+  return number;
+}
+
+}  // namespace
+
+Transceiver::Transceiver(sc_core::sc_module_name name, const TransceiverParameters& parameters,
+                         CommandFifo& fifo)
+    : sc_module(name), parameters_(parameters), fifo_(fifo) {
+  SC_HAS_PROCESS(Transceiver);
+  SC_METHOD(run_receiver);
+  sensitive << powered << receiver_event_;
+  SC_METHOD(run_transmitter);
+  sensitive << powered << transmitter_event_;
+}
+
+bool Transceiver::idle() const {
+  return arriving_.empty() && !reception_ && !answer_ && !transmitting_;
+}
+
+void Transceiver::arrive(const nfc::Frame& frame) {
+  const auto later = [](const nfc::Frame& a, const nfc::Frame& b) { return a.start < b.start; };
+  arriving_.insert(std::upper_bound(arriving_.begin(), arriving_.end(), frame, later), frame);
+  receiver_event_.cancel();
+  receiver_event_.notify(sc_core::SC_ZERO_TIME);
+}
+
+void Transceiver::run_receiver() {
+  if (!powered.read()) reception_.reset();
+  const stride::Time now = current_time();
+  for (;;) {
+    if (reception_ && reception_->end <= now) {
+      finish_reception();
+    } else if (!arriving_.empty() && arriving_.front().start <= now) {
+      const nfc::Frame frame = std::move(arriving_.front());
+      arriving_.pop_front();
+      begin_reception(frame);
+    } else {
+      break;
+    }
+  }
+  stride::Time next = stride::Time::max();
+  if (reception_) next = reception_->end;
+  if (!arriving_.empty()) next = std::min(next, arriving_.front().start);
+  receiver_event_.cancel();
+  if (next != stride::Time::max()) receiver_event_.notify(to_sc_time(next - now));
+}
+
+void Transceiver::begin_reception(const nfc::Frame& frame) {
+  if (!powered.read()) return;
+  const stride::Time end = frame.start + nfc::air_time(frame);
+  if (frame.start < transmission_end_) {
+    ++counters_.rejected;
+  } else if (reception_) {
+    ++counters_.rejected;
+    reception_->garbled = true;
+    reception_->end = std::max(reception_->end, end);
+  } else {
+    reception_ = Reception{frame, std::max(end, current_time()), false};
+  }
+}
+
+void Transceiver::finish_reception() {
+  const Reception reception = *std::exchange(reception_, std::nullopt);
+  const std::optional<nfc::Bytes> data = decode(reception);
+  if (!data) {
+    ++counters_.rejected;
+    return;
+  }
+  ++counters_.received;
+  received_data.write(as_number(*data));
+  fifo_.push({reception.frame.start + nfc::air_time(reception.frame), *data});
+}
+
+std::optional<nfc::Bytes> Transceiver::decode(const Reception& reception) const {
+  if (reception.garbled || reception.frame.bit_rate != kBitRate) return std::nullopt;
+  const std::optional<nfc::Bytes> bytes = nfc::to_bytes(reception.frame.bits);
+  return bytes ? nfc::without_crc(*bytes) : std::nullopt;
+}
+
+void Transceiver::send(const Answer& answer) {
+  answer_ = answer;
+  transmitter_event_.cancel();
+  transmitter_event_.notify(sc_core::SC_ZERO_TIME);
+}
+
+void Transceiver::run_transmitter() {
+  if (!powered.read()) return lose_power();
+  const stride::Time now = current_time();
+  if (transmitting_ && now >= transmission_end_) {
+    transmitting_ = false;
+    current.write(0);
+  }
+  stride::Time next = transmitting_ ? transmission_end_ : stride::Time::max();
+  if (answer_ && !transmitting_) {
+    next = answer_start(answer_->request_end, reception_ ? std::max(now, reception_->end) : now);
+    if (next == now) {
+      begin_transmission();
+      next = transmission_end_;
+    }
+  }
+  transmitter_event_.cancel();
+  if (next != stride::Time::max()) transmitter_event_.notify(to_sc_time(next - now));
+}
+
+void Transceiver::begin_transmission() {
+  nfc::Frame frame;
+  frame.start = current_time();
+  frame.bits = nfc::to_bits(nfc::with_crc(answer_->data));
+  answer_data.write(as_number(answer_->data));
+  answer_.reset();
+  current.write(parameters_.transmit_current);
+  transmitting_ = true;
+  transmission_end_ = frame.start + nfc::air_time(frame);
+  ++counters_.sent;
+  if (on_transmit) on_transmit(frame);
+}
+
+void Transceiver::lose_power() {
+  if (transmitting_) {
+    ++counters_.cut;
+    transmission_end_ = current_time();
+  }
+  transmitting_ = false;
+  answer_.reset();
+  transmitter_event_.cancel();
+  current.write(0);
+}
+
+}  // namespace sensor

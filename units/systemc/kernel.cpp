@@ -1,0 +1,162 @@
+#define SC_INCLUDE_DYNAMIC_PROCESSES
+#include "units/systemc/kernel.h"
+
+#include <vector>
+
+#include "units/systemc/sanitizer.h"
+#include "units/systemc/time.h"
+
+namespace stride::systemc {
+namespace {
+
+using sc_core::sc_process_handle;
+
+void collect_threads(const std::vector<sc_core::sc_object*>& objects,
+                     std::vector<sc_process_handle>& threads) {
+  for (sc_core::sc_object* object : objects) {
+    const sc_process_handle process(object);
+    if (process.valid() && process.proc_kind() != sc_core::SC_METHOD_PROC_) {
+      threads.push_back(process);
+    }
+    collect_threads(object->get_child_objects(), threads);
+  }
+}
+
+}  // namespace
+
+Kernel* Kernel::active_ = nullptr;
+
+Kernel::Entry::Entry(Kernel& kernel)
+    : scope_(kernel.context_.get(), &Kernel::handle), previous_(active_) {
+  active_ = &kernel;
+}
+
+Kernel::Entry::~Entry() {
+  active_ = previous_;
+  if (previous_ == nullptr) restore_stack_bounds();
+}
+
+Kernel::Kernel(Log log) : log_(std::move(log)) {
+  const auto lock = lock_kernel();
+  context_ = std::make_unique<sc_core::sc_simcontext>();
+}
+
+Kernel::~Kernel() {
+  const Entry entry(*this);
+  // the modules have cancelled their events; this gives them back to the kernel's pool
+  sc_core::sc_time ignored;
+  context_->next_time(ignored);
+  context_.reset();
+}
+
+void Kernel::handle(const sc_core::sc_report& report, const sc_core::sc_actions& actions) {
+  const bool error = report.get_severity() >= sc_core::SC_ERROR;
+  if (!error && active_ != nullptr && active_->log_ &&
+      (actions & (sc_core::SC_DISPLAY | sc_core::SC_LOG)) != 0) {
+    active_->log_(report.get_severity(), describe(report));
+  }
+  if ((actions & sc_core::SC_STOP) != 0) sc_core::sc_stop();
+  if ((actions & (sc_core::SC_THROW | sc_core::SC_ABORT)) != 0) {
+    sc_core::sc_report_handler::default_handler(report, sc_core::SC_THROW);
+  }
+}
+
+std::string Kernel::describe(const sc_core::sc_report& report) {
+  std::string text = report.get_msg_type();
+  if (*report.get_msg() != '\0') text += std::string(": ") + report.get_msg();
+  if (report.get_process_name() != nullptr) {
+    text += std::string(" (in ") + report.get_process_name() + ")";
+  }
+  return text + " at " + report.get_time().to_string();
+}
+
+void Kernel::fail(const std::string& message) {
+  restore_stack_bounds();
+  failure_ = message;
+  throw DeviceError("the SystemC device failed: " + message);
+}
+
+void Kernel::require_usable() const {
+  if (!failure_.empty()) {
+    throw DeviceError("the SystemC device has failed before and cannot go on: " + failure_);
+  }
+}
+
+void Kernel::initialize() {
+  require_usable();
+  within([this] {
+    ticks_ = ticks_per_picosecond();
+    if (ticks_ == 0) {
+      fail("its time resolution is coarser than 1 ps; let it use the default");
+    }
+    context_->initialize(true);
+    require_not_stopped();
+    settle();
+  });
+  initialized_ = true;
+}
+
+// sc_start stops before the processes that are due at its last instant run
+void Kernel::settle() {
+  while (sc_core::sc_pending_activity_at_current_time(context_.get())) {
+    sc_core::sc_start(sc_core::SC_ZERO_TIME);
+    require_not_stopped();
+  }
+}
+
+void Kernel::require_not_stopped() {
+  if (context_->sim_status() == sc_core::SC_SIM_USER_STOP) {
+    fail("it called sc_stop at " + sc_core::sc_time_stamp().to_string() +
+         "; a unit runs until its master ends the simulation");
+  }
+}
+
+Time Kernel::advance(Time to, bool may_stop_early) {
+  require_usable();
+  if (!initialized_) throw std::logic_error("initialize() comes before advance()");
+  if (to < now()) {
+    throw std::invalid_argument("SystemC cannot go back from " +
+                                std::to_string(now().time_since_epoch().count()) + " ps to " +
+                                std::to_string(to.time_since_epoch().count()) + " ps");
+  }
+  within([&] {
+    settle();
+    const sc_core::sc_time end = to_sc_time(to.time_since_epoch(), ticks_);
+    while (context_->time_stamp() < end) {
+      sc_core::sc_start(end - context_->time_stamp());
+      require_not_stopped();
+      settle();
+      if (may_stop_early) break;  // either it paused or the end is reached
+    }
+  });
+  return now();
+}
+
+Time Kernel::now() const { return Time(to_duration(context_->time_stamp(), ticks_)); }
+
+std::optional<Time> Kernel::next_event() {
+  const Entry entry(*this);
+  if (sc_core::sc_pending_activity_at_current_time(context_.get())) return now();
+  sc_core::sc_time next;
+  if (!context_->next_time(next)) return std::nullopt;
+  return Time(to_duration(next, ticks_));
+}
+
+void Kernel::end_threads() noexcept {
+  if (!initialized_ || !failure_.empty()) return;
+  failure_ = "its threads have been ended";
+  try {
+    const Entry entry(*this);
+    std::vector<sc_process_handle> threads;
+    collect_threads(sc_core::sc_get_top_level_objects(context_.get()), threads);
+    if (threads.empty()) return;
+    // only a process can end another one at once
+    sc_core::sc_spawn([&threads] {
+      for (sc_process_handle& thread : threads) thread.kill();
+    });
+    sc_core::sc_start(sc_core::SC_ZERO_TIME);
+  } catch (...) {  // a destructor of the device threw; there is nobody to tell any more
+  }
+}
+
+}  // namespace stride::systemc
