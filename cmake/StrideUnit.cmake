@@ -60,5 +60,5 @@ function(stride_pack_unit name)
     COMMENT "Packing ${name}.fmu"
     VERBATIM)
   add_custom_target(${name}_fmu ALL DEPENDS "${fmu}")
-  set_target_properties(${name}_fmu PROPERTIES STRIDE_FMU "${fmu}")
+  set_property(GLOBAL APPEND PROPERTY STRIDE_FMUS "${fmu}")
 endfunction()

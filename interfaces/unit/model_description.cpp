@@ -201,21 +201,23 @@ class Writer {
 
   void write_structure() {
     xml_.open("ModelStructure");
-    for (const char* element : {"Output", "InitialUnknown"}) {
-      for (std::size_t i = 0; i < table_.size(); ++i) {
-        const Variable& row = table_.row(i);
-        const bool initial_unknown =
-            row.initial == Initial::Calculated && row.causality == Causality::Output;
-        const bool clocked = row.type == Type::Clock || row.clock != nullptr;
-        const bool wanted =
-            element[0] == 'O' ? row.causality == Causality::Output : initial_unknown && !clocked;
-        if (wanted) write_unknown(element, row, i);
-      }
+    for (std::size_t i = 0; i < table_.size(); ++i) {
+      if (table_.row(i).causality == Causality::Output) write_unknown("Output", i);
+    }
+    for (std::size_t i = 0; i < table_.size(); ++i) {
+      if (is_initial_unknown(table_.row(i))) write_unknown("InitialUnknown", i);
     }
     xml_.close();
   }
 
-  void write_unknown(const std::string& element, const Variable& row, std::size_t reference) {
+  /// Outputs that are computed at the start, clocks included, but not what comes with a clock.
+  static bool is_initial_unknown(const Variable& row) {
+    const bool computed = row.initial == Initial::Calculated || row.type == Type::Clock;
+    return row.causality == Causality::Output && computed && row.clock == nullptr;
+  }
+
+  void write_unknown(const std::string& element, std::size_t reference) {
+    const Variable& row = table_.row(reference);
     xml_.open(element).attribute("valueReference", static_cast<std::int64_t>(reference));
     if (row.dependencies) {
       std::set<std::size_t> knowns;

@@ -1,0 +1,103 @@
+// Dependencies run one way. Targets keep it at link time; this keeps it for headers.
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Folder -> the folders and libraries whose headers it may include, beside its own and the standard library's.
+const std::map<std::string, std::set<std::string>> kAllowed = {
+    {"interfaces", {"stride"}},
+    {"master/core", {"stride/time.h", "fmt"}},
+    {"master/fmi",
+     {"stride", "master/core", "fmt", "tinyxml2.h", "archive.h", "archive_entry.h"}},
+    {"master/io", {"stride/time.h", "master/core", "fmt", "tinyxml2.h", "nlohmann"}},
+    {"master/cli", {"stride", "master/core", "master/fmi", "master/io", "fmt", "spdlog", "CLI"}},
+    {"units/minimal", {"stride"}},
+    {"units/nfc", {"stride/time.h"}},
+    {"units/systemc", {"stride", "systemc"}},
+    {"units/sensor", {"stride", "systemc", "units/nfc", "units/systemc"}},
+    {"units/mujoco_world", {"stride", "mujoco"}},
+    {"units/nfc_channel", {"stride", "Eigen", "units/nfc"}},
+    {"units/reader", {"stride", "units/nfc", "tinyxml2.h"}},
+    {"units/environment", {"stride"}},
+};
+
+std::vector<std::string> includes(const fs::path& file) {
+  static const std::regex kInclude(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  std::vector<std::string> found;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, kInclude)) found.push_back(match[1]);
+  }
+  return found;
+}
+
+bool begins_with(const std::string& header, const std::string& allowed) {
+  return header == allowed || header.rfind(allowed + "/", 0) == 0;
+}
+
+/// Standard headers have no dot and no slash; the system's are those of POSIX and Linux.
+bool is_system(const std::string& header) {
+  static const std::set<std::string> kPosix = {"dlfcn.h",  "unistd.h",    "fcntl.h", "elf.h",
+                                               "stdbool.h", "stddef.h",   "stdint.h"};
+  const bool standard = header.find_first_of("./") == std::string::npos;
+  return (standard && header != "systemc") || kPosix.count(header) != 0 ||
+         begins_with(header, "sys");
+}
+
+bool is_source(const fs::path& path) { return path.extension() == ".h" || path.extension() == ".cpp"; }
+
+}  // namespace
+
+TEST_CASE("every folder includes only what it may depend on") {
+  const fs::path root = STRIDE_SOURCE_DIR;
+  for (const auto& [folder, allowed] : kAllowed) {
+    std::size_t files = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      if (!is_source(entry.path())) continue;
+      ++files;
+      for (const std::string& header : includes(entry.path())) {
+        bool fine = is_system(header) || begins_with(header, folder);
+        for (const std::string& other : allowed) fine = fine || begins_with(header, other);
+        INFO(entry.path().lexically_relative(root).string() << " includes " << header);
+        CHECK(fine);
+      }
+    }
+    INFO(folder);
+    CHECK(files > 0);
+  }
+}
+
+TEST_CASE("every folder with sources has a rule") {
+  const fs::path root = STRIDE_SOURCE_DIR;
+  for (const char* part : {"master", "units"}) {
+    for (const auto& entry : fs::directory_iterator(root / part)) {
+      if (!entry.is_directory()) continue;
+      INFO(entry.path().string());
+      CHECK(kAllowed.count(entry.path().lexically_relative(root).string()) == 1);
+    }
+  }
+}
+
+TEST_CASE("a unit's model knows no FMI") {
+  const fs::path root = STRIDE_SOURCE_DIR;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "units")) {
+    const fs::path& path = entry.path();
+    const bool glue = path.filename() == "unit.cpp" || path.parent_path().filename() == "systemc";
+    if (!is_source(path) || glue) continue;
+    for (const std::string& header : includes(path)) {
+      INFO(path.lexically_relative(root).string() << " includes " << header);
+      CHECK((header.rfind("stride/", 0) != 0 || header == "stride/time.h"));
+    }
+  }
+}
