@@ -1,0 +1,126 @@
+#include "master/io/annotation.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/io/time_text.h"
+#include "master/io/xml.h"
+
+namespace stride::io {
+namespace {
+
+constexpr const char* kType = "org.stride";
+
+void collect(const XmlElement& element, std::vector<XmlElement>& found) {
+  if (element.is(kSsc, "Annotation") && element.attribute("type") == kType) {
+    found.push_back(element);
+    return;
+  }
+  for (const XmlElement& child : element.children()) collect(child, found);
+}
+
+bool is_of_root_or_system(const XmlElement& annotation, const XmlElement& root) {
+  const auto annotations = annotation.parent();
+  const auto owner = annotations ? annotations->parent() : std::nullopt;
+  if (!owner) return false;
+  if (owner->index() == root.index()) return true;
+  const auto above = owner->parent();
+  return owner->is(kSsd, "System") && above && above->index() == root.index();
+}
+
+void read_step(const XmlElement& element, ScenarioAnnotation& annotation) {
+  element.allow_attributes({"size"});
+  element.allow_children({});
+  try {
+    annotation.step = parse_seconds(element.required("size"));
+  } catch (const std::invalid_argument& mistake) {
+    element.fail(fmt::format("size={}", mistake.what()));
+  }
+  if (*annotation.step <= Duration::zero()) {
+    element.fail("the communication step size must be above 0 s", "write size=\"0.001\" for 1 ms");
+  }
+}
+
+void read_record(const XmlElement& element, ScenarioAnnotation& annotation) {
+  element.allow_attributes({"signals"});
+  element.allow_children({});
+  std::istringstream words(element.required("signals"));
+  for (std::string word; words >> word;) annotation.record.push_back({word, element.where()});
+}
+
+void check_file_name(const XmlElement& element, const char* attribute, const std::string& name) {
+  if (name == "." || name == ".." || name.find('/') != std::string::npos) {
+    element.fail(fmt::format("{}=\"{}\" is no plain file name", attribute, name),
+                 "the file goes into the results folder, so give its name only");
+  }
+}
+
+void read_results(const XmlElement& element, ScenarioAnnotation& annotation) {
+  element.allow_attributes({"signals", "events", "trace", "statistics"});
+  element.allow_children({});
+  ResultFiles& files = annotation.results;
+  const std::array<std::pair<const char*, std::string*>, 4> targets{
+      {{"signals", &files.signals},
+       {"events", &files.events},
+       {"trace", &files.trace},
+       {"statistics", &files.statistics}}};
+  std::set<std::string> taken;
+  for (const auto& [attribute, target] : targets) {
+    if (element.attribute(attribute)) *target = element.required(attribute);
+    if (*target == "none") target->clear();
+    check_file_name(element, attribute, *target);
+    if (target->empty() || taken.insert(*target).second) continue;
+    element.fail(fmt::format("two results have the file name '{}'", *target),
+                 "give each a name of its own, or write \"none\" to leave it out");
+  }
+}
+
+ScenarioAnnotation read_scenario_element(const XmlElement& scenario) {
+  scenario.allow_attributes({});
+  scenario.allow_children(
+      {{kStrideScenario, "Step"}, {kStrideScenario, "Record"}, {kStrideScenario, "Results"}});
+  ScenarioAnnotation annotation;
+  if (const auto step = scenario.child({kStrideScenario, "Step"})) read_step(*step, annotation);
+  for (const XmlElement& record : scenario.children({kStrideScenario, "Record"})) {
+    read_record(record, annotation);
+  }
+  if (const auto results = scenario.child({kStrideScenario, "Results"})) {
+    read_results(*results, annotation);
+  }
+  return annotation;
+}
+
+}  // namespace
+
+ScenarioAnnotation read_annotation(const XmlElement& root) {
+  std::vector<XmlElement> found;
+  collect(root, found);
+  for (const XmlElement& annotation : found) {
+    if (is_of_root_or_system(annotation, root)) continue;
+    annotation.fail(fmt::format("an annotation of the type '{}' does not belong here", kType),
+                    "move it to the <Annotations> at the end of <SystemStructureDescription>");
+  }
+  if (found.empty()) return {};
+  if (found.size() > 1) {
+    found[1].fail(fmt::format("a second annotation of the type '{}'; the first is in line {}",
+                              kType, found[0].where().line),
+                  "put everything into one <stride:Scenario>");
+  }
+  found[0].allow_attributes({"type"});
+  found[0].allow_children({{kStrideScenario, "Scenario"}});
+  const auto scenario = found[0].child({kStrideScenario, "Scenario"});
+  if (!scenario) {
+    found[0].fail(
+        fmt::format("the annotation of the type '{}' holds no <stride:Scenario>", kType),
+        fmt::format("write <stride:Scenario xmlns:stride=\"{}\"> into it", kStrideScenario));
+  }
+  return read_scenario_element(*scenario);
+}
+
+}  // namespace stride::io

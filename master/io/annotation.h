@@ -1,0 +1,45 @@
+// What SSP has no word for: the annotation of the type org.stride.
+#ifndef STRIDE_MASTER_IO_ANNOTATION_H
+#define STRIDE_MASTER_IO_ANNOTATION_H
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/core/error.h"
+
+namespace stride::io {
+
+class XmlElement;
+
+/// A glob over "component.variable", and where it was written (an empty Location: nowhere).
+struct SignalPattern {
+  std::string text;
+  core::Location where{};
+};
+
+/// File names inside the results folder; empty = not written.
+struct ResultFiles {
+  std::string signals = "signals.csv";
+  std::string events = "events.csv";
+  std::string trace = "signals.vcd";
+  std::string statistics = "run.json";
+};
+
+/// All of it is optional.
+struct ScenarioAnnotation {
+  std::optional<Duration> step;       ///< the communication step size
+  std::vector<SignalPattern> record;  ///< none: every output
+  ResultFiles results;
+};
+
+/// Reads the <stride:Scenario> of a <ssd:SystemStructureDescription>, which stands in the root's
+/// annotations or in those of its system. Throws core::Error (Input) for what is unknown, doubled
+/// or in another place.
+ScenarioAnnotation read_annotation(const XmlElement& root);
+
+}  // namespace stride::io
+
+#endif

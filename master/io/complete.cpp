@@ -1,0 +1,265 @@
+#include "master/io/complete.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "master/io/scenario.h"
+#include "master/io/xml.h"
+#include "master/io/xml_edit.h"
+
+namespace stride::io {
+namespace {
+
+using core::ValueType;
+
+constexpr std::array<const char*, 8> kBaseUnits{"kg", "m", "s", "A", "K", "mol", "cd", "rad"};
+
+/// "1" as 1; what is no number counts as not written.
+double number_of(const XmlElement& element, const char* attribute, double otherwise) {
+  try {
+    return std::stod(element.attribute(attribute).value_or(""));
+  } catch (const std::logic_error&) {
+    return otherwise;
+  }
+}
+
+core::BaseUnit read_base_unit(const XmlElement& element) {
+  core::BaseUnit unit;
+  for (std::size_t i = 0; i < kBaseUnits.size(); ++i) {
+    unit.exponents[i] = static_cast<int>(number_of(element, kBaseUnits[i], 0));
+  }
+  unit.factor = number_of(element, "factor", 1);
+  unit.offset = number_of(element, "offset", 0);
+  return unit;
+}
+
+bool is_same(const core::BaseUnit& a, const core::BaseUnit& b) {
+  return a.exponents == b.exponents && a.factor == b.factor && a.offset == b.offset;
+}
+
+/// The namespace prefix, ready to be put before a name: "ssc:" or nothing.
+std::string head(const std::string& prefix) { return prefix.empty() ? "" : prefix + ":"; }
+
+class Completion {
+ public:
+  Completion(const XmlDocument& document, const Descriptions& descriptions)
+      : root_(document.root()),
+        descriptions_(descriptions),
+        is_first_version_(root_.required("version") == "1.0"),
+        ssd_(head(root_.prefix_of(kSsd).value_or(""))),
+        editor_(document.text()) {
+    find_common_prefix();
+    read_units();
+    read_enumerations();
+  }
+
+  std::string result() {
+    const XmlElement system = *root_.child({kSsd, "System"});
+    const XmlElement elements = *system.child({kSsd, "Elements"});
+    for (const XmlElement& component : elements.children()) complete_component(component);
+    add_list("Enumerations", new_enumerations_);
+    add_list("Units", new_units_);
+    return editor_.result();
+  }
+
+ private:
+  void find_common_prefix() {
+    if (const auto prefix = root_.prefix_of(kSsc)) {
+      ssc_ = head(*prefix);
+      return;
+    }
+    ssc_ = root_.attribute("xmlns:ssc") ? "stride_ssc:" : "ssc:";
+    needs_common_prefix_ = true;
+  }
+
+  /// Declares the prefix once, when something is written that uses it.
+  const std::string& ssc() {
+    if (needs_common_prefix_) {
+      editor_.add_attribute(root_.index(), "xmlns:" + ssc_.substr(0, ssc_.size() - 1), kSsc);
+    }
+    needs_common_prefix_ = false;
+    return ssc_;
+  }
+
+  void read_units() {
+    const auto units = root_.child({kSsd, "Units"});
+    if (!units) return;
+    for (const XmlElement& unit : units->children({kSsc, "Unit"})) {
+      const auto base = unit.child({kSsc, "BaseUnit"});
+      if (base) units_.emplace(unit.required("name"), read_base_unit(*base));
+    }
+  }
+
+  void read_enumerations() {
+    const auto enumerations = root_.child({kSsd, "Enumerations"});
+    if (!enumerations) return;
+    for (const XmlElement& enumeration : enumerations->children({kSsc, "Enumeration"})) {
+      enumerations_.insert(enumeration.required("name"));
+    }
+  }
+
+  void complete_component(const XmlElement& component) {
+    const std::string name = component.required("name");
+    const core::UnitDescription& description = *descriptions_.at(name);
+    const auto connectors = component.child({kSsd, "Connectors"});
+    std::set<std::string> declared;
+    if (connectors) {
+      for (const XmlElement& child : connectors->children())
+        declared.insert(child.required("name"));
+    }
+    std::vector<std::string> added;
+    for (const core::Variable& variable : description.variables) {
+      const bool is_connector = variable.causality == core::Causality::Input ||
+                                variable.causality == core::Causality::Output;
+      if (!is_connector || declared.contains(variable.name)) continue;
+      added.push_back(connector(component, description, variable));
+    }
+    if (added.empty()) return;
+    if (connectors) return editor_.append_children(connectors->index(), added);
+    std::string list = fmt::format("<{}Connectors>", ssd_);
+    for (const std::string& piece : added) list += "\n\t" + piece;
+    editor_.prepend_children(component.index(), {list + fmt::format("\n</{}Connectors>", ssd_)});
+  }
+
+  std::string connector(const XmlElement& component, const core::UnitDescription& description,
+                        const core::Variable& variable) {
+    std::string content = type(component, description, variable);
+    if (!is_first_version_) content += dimensions(variable) + clocks(description, variable);
+    const std::string start = fmt::format("<{}Connector name=\"{}\" kind=\"{}\"", ssd_,
+                                          xml_escaped(variable.name), name(variable.causality));
+    if (content.empty()) return start + "/>";
+    return fmt::format("{}>{}</{}Connector>", start, content, ssd_);
+  }
+
+  std::string type(const XmlElement& component, const core::UnitDescription& description,
+                   const core::Variable& variable) {
+    switch (variable.type) {
+      case ValueType::Float32:
+      case ValueType::Float64: {
+        const std::string unit = declared_unit(description, variable.unit);
+        const char* word = is_first_version_ ? "Real" : name(variable.type);
+        return unit.empty() ? fmt::format("<{}{}/>", ssc(), word)
+                            : fmt::format("<{}{} unit=\"{}\"/>", ssc(), word, xml_escaped(unit));
+      }
+      case ValueType::Enumeration:
+        return enumeration(component.required("name") + "." + variable.name, variable);
+      case ValueType::Clock:
+        return clock(component, variable);
+      case ValueType::Boolean:
+      case ValueType::String:
+      case ValueType::Binary:
+        return fmt::format("<{}{}/>", ssc(), name(variable.type));
+      default:
+        return fmt::format("<{}{}/>", ssc(), is_first_version_ ? "Integer" : name(variable.type));
+    }
+  }
+
+  std::string clock(const XmlElement& component, const core::Variable& variable) {
+    if (is_first_version_) {
+      component.fail(fmt::format("SSP 1.0 has no clocks, so '{}.{}' cannot be declared",
+                                 component.required("name"), variable.name),
+                     "write version=\"2.0\" in the root element");
+    }
+    return variable.interval_variability.empty()
+               ? fmt::format("<{}Clock/>", ssc())
+               : fmt::format("<{}Clock intervalVariability=\"{}\"/>", ssc(),
+                             xml_escaped(variable.interval_variability));
+  }
+
+  std::string enumeration(const std::string& enumeration_name, const core::Variable& variable) {
+    if (variable.items.empty()) return "";
+    if (enumerations_.insert(enumeration_name).second) {
+      std::string text =
+          fmt::format("<{}Enumeration name=\"{}\">", ssc(), xml_escaped(enumeration_name));
+      for (const auto& [item, value] : variable.items) {
+        text +=
+            fmt::format("\n\t<{}Item name=\"{}\" value=\"{}\"/>", ssc(), xml_escaped(item), value);
+      }
+      new_enumerations_.push_back(text + fmt::format("\n</{}Enumeration>", ssc()));
+    }
+    return fmt::format("<{}Enumeration name=\"{}\"/>", ssc(), xml_escaped(enumeration_name));
+  }
+
+  /// The unit's name if the file can define it; otherwise nothing, and the FMU's own unit holds.
+  std::string declared_unit(const core::UnitDescription& description, const std::string& unit) {
+    const auto meaning = description.units.find(unit);
+    if (meaning == description.units.end()) return "";
+    const auto [known, is_new] = units_.emplace(unit, meaning->second);
+    if (is_new) new_units_.push_back(unit_definition(unit, meaning->second));
+    return is_same(known->second, meaning->second) ? unit : "";
+  }
+
+  std::string unit_definition(const std::string& unit, const core::BaseUnit& base) {
+    std::string attributes;
+    for (std::size_t i = 0; i < kBaseUnits.size(); ++i) {
+      if (base.exponents[i] == 0) continue;
+      attributes += fmt::format(" {}=\"{}\"", kBaseUnits[i], base.exponents[i]);
+    }
+    if (base.factor != 1) attributes += fmt::format(" factor=\"{}\"", base.factor);
+    if (base.offset != 0) attributes += fmt::format(" offset=\"{}\"", base.offset);
+    return fmt::format("<{0}Unit name=\"{1}\"><{0}BaseUnit{2}/></{0}Unit>", ssc(),
+                       xml_escaped(unit), attributes);
+  }
+
+  std::string dimensions(const core::Variable& variable) {
+    std::string text;
+    for (const std::size_t size : variable.dimensions) {
+      text += fmt::format("<{}Dimension size=\"{}\"/>", ssc(), size);
+    }
+    return text;
+  }
+
+  std::string clocks(const core::UnitDescription& description, const core::Variable& variable) {
+    std::string text;
+    for (const core::ValueReference reference : variable.clocks) {
+      const core::Variable& clock = description.variables[*description.find(reference)];
+      text += fmt::format("<{}Clock name=\"{}\"/>", ssd_, xml_escaped(clock.name));
+    }
+    return text;
+  }
+
+  /// Adds to a list below the root element, or makes it: behind <System>, and <Units> behind
+  /// <Enumerations>, as the schema wants it.
+  void add_list(const char* list, const std::vector<std::string>& pieces) {
+    if (pieces.empty()) return;
+    if (const auto found = root_.child({kSsd, list})) {
+      return editor_.append_children(found->index(), pieces);
+    }
+    std::string text = fmt::format("<{}{}>", ssd_, list);
+    for (const std::string& piece : pieces) {
+      text += "\n\t";
+      for (const char c : piece) text += c == '\n' ? "\n\t" : std::string(1, c);
+    }
+    const auto enumerations = root_.child({kSsd, "Enumerations"});
+    const XmlElement before = enumerations ? *enumerations : *root_.child({kSsd, "System"});
+    editor_.insert_behind(before.index(), text + fmt::format("\n</{}{}>", ssd_, list));
+  }
+
+  XmlElement root_;
+  const Descriptions& descriptions_;
+  bool is_first_version_;
+  std::string ssd_;
+  std::string ssc_;
+  bool needs_common_prefix_ = false;
+  XmlEditor editor_;
+  std::map<std::string, core::BaseUnit> units_;
+  std::set<std::string> enumerations_;
+  std::vector<std::string> new_units_;
+  std::vector<std::string> new_enumerations_;
+};
+
+}  // namespace
+
+std::string complete(const std::filesystem::path& path, const Descriptions& descriptions) {
+  read_scenario(path);  // says what is wrong with the file
+  const XmlDocument document(path);
+  return Completion(document, descriptions).result();
+}
+
+}  // namespace stride::io

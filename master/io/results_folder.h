@@ -1,0 +1,14 @@
+#ifndef STRIDE_MASTER_IO_RESULTS_FOLDER_H
+#define STRIDE_MASTER_IO_RESULTS_FOLDER_H
+
+#include <filesystem>
+
+namespace stride::io {
+
+/// Makes the folder, and those above it, where they do not exist. Throws core::Error (Input) if
+/// that is not possible, or if it is no folder in which files can be written.
+void make_results_folder(const std::filesystem::path& folder);
+
+}  // namespace stride::io
+
+#endif

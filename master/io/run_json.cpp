@@ -1,0 +1,66 @@
+#include "master/io/run_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "master/io/output_file.h"
+
+namespace stride::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double seconds(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+Json unit_entry(const core::Component& component) {
+  return {{"name", component.name},
+          {"model", component.description->model_name},
+          {"fmi_version", component.description->fmi_version}};
+}
+
+void add(Json& entry, const core::UnitStatistics& unit) {
+  entry["steps"] = unit.steps;
+  entry["events"] = unit.events;
+  entry["messages_sent"] = unit.messages_sent;
+  entry["messages_received"] = unit.messages_received;
+  entry["wall_time"] = {{"initialization", seconds(unit.initialization_time)},
+                        {"steps", seconds(unit.step_time)},
+                        {"events", seconds(unit.event_time)}};
+}
+
+const char* outcome(const core::RunStatistics& statistics, bool has_failed) {
+  if (has_failed) return "failed";
+  return statistics.terminated_by_unit ? "ended by a unit" : "completed";
+}
+
+}  // namespace
+
+void write_run_json(const std::filesystem::path& file, const std::filesystem::path& scenario,
+                    const core::System& system, const core::RunOptions& options,
+                    const core::RunStatistics& statistics,
+                    const std::optional<std::string>& error) {
+  Json run = {
+      {"scenario", scenario.string()},      {"system", system.name()},
+      {"start", to_seconds(options.start)}, {"stop", to_seconds(options.stop)},
+      {"step", to_seconds(options.step)},   {"outcome", outcome(statistics, error.has_value())}};
+  if (error) run["error"] = *error;
+  run["reached"] = to_seconds(statistics.reached);
+  run["communication_steps"] = statistics.communication_steps;
+  run["event_iterations"] = statistics.event_iterations;
+  run["recorded_signals"] = options.recorded.size();
+  run["wall_time"] = seconds(statistics.wall_time);
+  run["units"] = Json::array();
+  for (std::size_t i = 0; i < system.components().size(); ++i) {
+    Json entry = unit_entry(system.components()[i]);
+    // there is none where a run failed before it began
+    if (i < statistics.units.size()) add(entry, statistics.units[i]);
+    run["units"].push_back(std::move(entry));
+  }
+  OutputFile output(file);
+  output.write(run.dump(2, ' ', false, Json::error_handler_t::replace));
+  output.write('\n');
+  output.close();
+}
+
+}  // namespace stride::io

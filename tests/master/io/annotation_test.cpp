@@ -1,0 +1,103 @@
+#include "master/io/annotation.h"
+
+#include <catch2/catch.hpp>
+
+#include "master/io/scenario.h"
+#include "tests/master/io/support.h"
+
+using namespace stride;
+using namespace stride::io;
+using Catch::Contains;
+
+namespace {
+
+std::string annotations(const std::string& inside) {
+  return "<ssd:Annotations>\n<ssc:Annotation type='org.stride'>" + inside +
+         "</ssc:Annotation></ssd:Annotations>";
+}
+
+std::string scenario(const std::string& inside) {
+  return "<stride:Scenario xmlns:stride='urn:org.stride:scenario:1'>" + inside +
+         "</stride:Scenario>";
+}
+
+std::string at_root(const std::string& inside) {
+  return ssd(
+      "<ssd:System name='s'><ssd:Elements><ssd:Component name='a' "
+      "source='a.fmu'/></ssd:Elements></ssd:System>" +
+      inside);
+}
+
+ScenarioAnnotation read(const std::string& text) {
+  const TemporaryFolder folder;
+  return read_scenario(folder.write("x.ssd", text)).annotation;
+}
+
+std::string error(const std::string& inside) {
+  return error_of([&] { read(at_root(annotations(scenario(inside)))); });
+}
+
+}  // namespace
+
+TEST_CASE("Everything that the annotation can say") {
+  const ScenarioAnnotation annotation =
+      read(at_root(annotations(scenario("<stride:Step size='0.001'/>"
+                                        "<stride:Record signals=' sensor.*  channel.distance'/>\n"
+                                        "<stride:Record signals='reader.*'/>"
+                                        "<stride:Results signals='s.csv' events='none'/>"))));
+  CHECK(annotation.step == Duration(1'000'000'000));
+  REQUIRE(annotation.record.size() == 3);
+  CHECK(annotation.record[0].text == "sensor.*");
+  CHECK(annotation.record[1].text == "channel.distance");
+  CHECK(annotation.record[1].where.line == 4);
+  CHECK(annotation.record[2].text == "reader.*");
+  CHECK(annotation.record[2].where.line == 5);
+  CHECK(annotation.results.signals == "s.csv");
+  CHECK(annotation.results.events.empty());
+  CHECK(annotation.results.trace == "signals.vcd");
+  CHECK(annotation.results.statistics == "run.json");
+}
+
+TEST_CASE("It may be left out, or stand at the system") {
+  CHECK(read(at_root("")).step == std::nullopt);
+  CHECK(read(at_root("")).results.signals == "signals.csv");
+  CHECK(read(at_root(annotations(scenario("")))).record.empty());
+  CHECK(read(ssd_with("<ssd:Component name='a' source='a.fmu'/>",
+                      annotations(scenario("<stride:Step size='1e-6'/>"))))
+            .step == Duration(1'000'000));
+}
+
+TEST_CASE("A mistake in the annotation is named with its line") {
+  CHECK_THAT(error("<stride:Stpe size='1'/>"),
+             Contains("x.ssd:4: <stride:Stpe> is not known in <stride:Scenario>") &&
+                 Contains("did you mean 'Step'?"));
+  CHECK_THAT(error("<stride:Policy/>"), Contains("known are: Step, Record, Results"));
+  CHECK_THAT(error("<stride:Step siez='1'/>"), Contains("did you mean 'size'?"));
+  CHECK_THAT(error("<stride:Step/>"), Contains("<stride:Step> needs the attribute 'size'"));
+  CHECK_THAT(error("<stride:Step size='1 ms'/>"), Contains("size='1 ms' is no number"));
+  CHECK_THAT(error("<stride:Step size='0'/>"), Contains("step size must be above 0 s"));
+  CHECK_THAT(error("<stride:Step size='1'/><stride:Step size='1'/>"),
+             Contains("a second <stride:Step>"));
+  CHECK_THAT(error("<stride:Record signal='a'/>"), Contains("did you mean 'signals'?"));
+  CHECK_THAT(error("<stride:Results csv='a'/>"),
+             Contains("known are: signals, events, trace, statistics"));
+  CHECK_THAT(error("<stride:Results trace='../a.vcd'/>"), Contains("is no plain file name"));
+  CHECK_THAT(error("<stride:Results trace='run.json'/>"),
+             Contains("two results have the file name 'run.json'"));
+}
+
+TEST_CASE("An annotation without content, in another place, or twice is refused") {
+  CHECK_THROWS_WITH(read(at_root(annotations(""))), Contains("holds no <stride:Scenario>") &&
+                                                        Contains("urn:org.stride:scenario:1"));
+  CHECK_THROWS_WITH(read(at_root(annotations("<s:Scenario xmlns:s='urn:org.stride:scenario:2'/>"))),
+                    Contains("<s:Scenario> is in the namespace 'urn:org.stride:scenario:2'"));
+  CHECK_THROWS_WITH(
+      read(ssd_with("<ssd:Component name='a' source='a.fmu'>" + annotations(scenario("")) +
+                    "</ssd:Component>")),
+      Contains("x.ssd:6: an annotation of the type 'org.stride' does not belong here"));
+  CHECK_THROWS_WITH(
+      read(ssd("<ssd:System name='s'><ssd:Elements><ssd:Component name='a' source='a.fmu'/>"
+               "</ssd:Elements>" +
+               annotations(scenario("")) + "</ssd:System>\n" + annotations(scenario("")))),
+      Contains("x.ssd:6: a second annotation of the type 'org.stride'; the first is in line 4"));
+}

@@ -1,0 +1,164 @@
+#include "master/io/parameters.h"
+
+#include <catch2/catch.hpp>
+
+#include "master/io/scenario.h"
+#include "tests/master/io/support.h"
+
+using namespace stride::io;
+using Catch::Contains;
+using stride::core::StartDeclaration;
+
+namespace {
+
+std::string set(const std::string& parameters, const std::string& version = "2.0") {
+  return "<ssv:ParameterSet xmlns:ssv='http://ssp-standard.org/SSP1/SystemStructureParameterValues'"
+         " version='" +
+         version + "' name='set'><ssv:Parameters>" + parameters +
+         "</ssv:Parameters></ssv:ParameterSet>";
+}
+
+std::string parameter(const std::string& name, const std::string& value) {
+  return "<ssv:Parameter name='" + name + "'>" + value + "</ssv:Parameter>";
+}
+
+std::string inline_binding(const std::string& parameters, const std::string& attributes = "") {
+  return "<ssd:ParameterBinding " + attributes + "><ssd:ParameterValues>" + set(parameters) +
+         "</ssd:ParameterValues></ssd:ParameterBinding>";
+}
+
+std::string bindings(const std::string& inside) {
+  return "<ssd:ParameterBindings>" + inside + "</ssd:ParameterBindings>";
+}
+
+std::string component_with(const std::string& bindings_inside) {
+  return ssd_with("<ssd:Component name='a' source='a.fmu'>" + bindings(bindings_inside) +
+                  "</ssd:Component>");
+}
+
+/// A system of the components a, a.b and c with these bindings.
+std::string system_with(const std::string& bindings_inside,
+                        const std::string& binding_of_a = inline_binding("")) {
+  return ssd("<ssd:System name='s'>" + bindings(bindings_inside) +
+             "<ssd:Elements><ssd:Component name='a' source='a.fmu'>" + bindings(binding_of_a) +
+             "</ssd:Component><ssd:Component name='a.b' source='b.fmu'/>"
+             "<ssd:Component name='c' source='c.fmu'/></ssd:Elements></ssd:System>");
+}
+
+std::vector<StartDeclaration> read(const std::string& text) {
+  const TemporaryFolder folder;
+  return read_scenario(folder.write("x.ssd", text)).system.start_values;
+}
+
+}  // namespace
+
+TEST_CASE("Inline values of a component are read as text, with their unit and line") {
+  const auto values = read(component_with(inline_binding(
+      parameter("r", "<ssv:Real value='1.5' unit='mm'/>") +
+      parameter("v", "\n<ssv:Float64 value='1 2 3'/>") + parameter("i", "<ssv:UInt8 value='7'/>") +
+      parameter("b", "<ssv:Boolean value='true'/>") + parameter("e", "<ssv:String value=''/>") +
+      parameter("m", "<ssv:Enumeration value='on' name='Mode'/>") +
+      parameter("x", "<ssv:Binary value='0aff'/>") +
+      parameter("w", "<ssv:String><ssv:Value value='p'/><ssv:Value value='q'/></ssv:String>"))));
+  REQUIRE(values.size() == 8);
+  CHECK(values[0].component == "a");
+  CHECK(values[0].variable == "r");
+  CHECK(values[0].value == "1.5");
+  CHECK(values[0].unit == "mm");
+  CHECK(values[0].where.line == 5);
+  CHECK(values[1].value == "1 2 3");
+  CHECK(values[1].unit.empty());
+  CHECK(values[1].where.line == 6);
+  CHECK(values[2].value == "7");
+  CHECK(values[3].value == "true");
+  CHECK(values[4].value.empty());
+  CHECK(values[5].value == "on");
+  CHECK(values[6].value == "0aff");
+  CHECK(values[7].value == "p q");
+}
+
+TEST_CASE("A binding's prefix stands before each of its names") {
+  const auto values = read(
+      component_with(inline_binding(parameter("x", "<ssv:Real value='1'/>"), "prefix='adc.'")));
+  REQUIRE(values.size() == 1);
+  CHECK(values[0].variable == "adc.x");
+}
+
+TEST_CASE("Names at the system are those of a component and its variable") {
+  const auto values =
+      read(system_with(inline_binding(parameter("c.adc.x", "<ssv:Real value='1'/>") +
+                                      parameter("a.b.y", "<ssv:Real value='2'/>")) +
+                           inline_binding(parameter("z", "<ssv:Real value='3'/>"), "prefix='c.'"),
+                       inline_binding(parameter("z", "<ssv:Real value='0'/>"))));
+  REQUIRE(values.size() == 4);
+  CHECK(values[0].component == "a");  // what is bound to the system comes later, so it replaces
+  CHECK(values[0].variable == "z");
+  CHECK(values[1].component == "c");
+  CHECK(values[1].variable == "adc.x");
+  CHECK(values[2].component == "a.b");  // the longest name that fits
+  CHECK(values[2].variable == "y");
+  CHECK(values[3].component == "c");
+  CHECK(values[3].variable == "z");
+  CHECK_THROWS_WITH(
+      read(system_with(inline_binding(parameter("channle.x", "<ssv:Real value='1'/>")))),
+      Contains("the parameter 'channle.x' belongs to no component") && Contains("known are: a"));
+}
+
+TEST_CASE("A set in a file of its own is read relative to the scenario") {
+  const TemporaryFolder folder;
+  folder.write("my set.ssv", set(parameter("x", "\n<ssv:Real value='1'/>"), "1.0"));
+  const auto values =
+      read_scenario(folder.write("x.ssd", component_with("<ssd:ParameterBinding "
+                                                         "source='my%20set.ssv' prefix='p.'/>")))
+          .system.start_values;
+  REQUIRE(values.size() == 1);
+  CHECK(values[0].variable == "p.x");
+  CHECK(values[0].where.file == (folder / "my set.ssv").string());
+  CHECK(values[0].where.line == 2);
+}
+
+TEST_CASE("A broken set in a file of its own is named") {
+  const TemporaryFolder folder;
+  const auto text = component_with("<ssd:ParameterBinding source='p.ssv'/>");
+  const auto file = folder.write("x.ssd", text);
+  CHECK_THROWS_WITH(read_scenario(file),
+                    Contains("x.ssd:5: the parameter set '") && Contains("p.ssv' does not exist"));
+  folder.write("p.ssv", "<ssv:ParameterSet>");
+  CHECK_THROWS_WITH(read_scenario(file), Contains("p.ssv:1: this is not well-formed XML"));
+  folder.write("p.ssv", text);
+  CHECK_THROWS_WITH(read_scenario(file), Contains("p.ssv:2:") && Contains("is no parameter set"));
+  folder.write("p.ssv", set("", "9"));
+  CHECK_THROWS_WITH(read_scenario(file), Contains("the version '9' of parameter sets"));
+}
+
+TEST_CASE("Parameters that cannot be meant are refused") {
+  const auto one = [](const std::string& value) {
+    return component_with(inline_binding(parameter("x", value)));
+  };
+  const auto [text, message] = GENERATE_COPY(table<std::string, std::string>({
+      {one(""), "<ssv:Parameter> holds no value"},
+      {one("<ssv:Real/>"), "<ssv:Real> needs the attribute 'value'"},
+      {one("<ssv:Rael value='1'/>"), "<ssv:Rael> is no type of a parameter"},
+      {one("<ssv:Real value='1'/><ssv:Real value='2'/>"), "<ssv:Parameter> has two values"},
+      {one("<ssv:String value='1'><ssv:Value value='2'/></ssv:String>"), "has both"},
+      {one("<ssv:String><ssv:Value value='a b'/><ssv:Value value='c'/></ssv:String>"),
+       "does not support an array with an element that is empty or has blanks"},
+      {one("<ssv:Real valeu='1'/>"), "has no attribute 'valeu'"},
+      {component_with("<ssd:ParameterBinding/>"), "has neither a source nor <ParameterValues>"},
+      {component_with("<ssd:ParameterBinding type='text/csv' source='a.csv'/>"),
+       "does not support parameters of the type 'text/csv'"},
+      {component_with("<ssd:ParameterBinding source='a.ssv' sourceBase='component'/>"),
+       "does not support parameter sets inside a component"},
+      {component_with("<ssd:ParameterBinding source='a.ssv'><ssd:ParameterMapping "
+                      "source='a.ssm'/></ssd:ParameterBinding>"),
+       "does not support parameter mappings (.ssm)"},
+      {component_with(
+           "<ssd:ParameterBinding source='a.ssv'><ssd:ParameterValues/></ssd:ParameterBinding>"),
+       "cannot have values of its own, too"},
+      {component_with("<ssd:ParameterBinding><ssd:ParameterValues/></ssd:ParameterBinding>"),
+       "holds no <ParameterSet>"},
+      {component_with("<ssd:ParameterBinding><ssd:ParameterMaping/></ssd:ParameterBinding>"),
+       "did you mean 'ParameterMapping'?"},
+  }));
+  CHECK_THROWS_WITH(read(text), Contains("x.ssd:5: ") && Contains(message));
+}

@@ -1,0 +1,26 @@
+#include "master/io/results_folder.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/master/io/support.h"
+
+using namespace stride::io;
+using Catch::Contains;
+
+TEST_CASE("The folder is made with those above it, and may exist") {
+  const TemporaryFolder folder;
+  make_results_folder(folder / "a/b/c");
+  CHECK(std::filesystem::is_directory(folder / "a/b/c"));
+  CHECK_NOTHROW(make_results_folder(folder / "a/b/c"));
+}
+
+TEST_CASE("What cannot be a results folder is named with the reason") {
+  const TemporaryFolder folder;
+  folder.write("file", "");
+  CHECK_THROWS_WITH(make_results_folder(folder / "file"),
+                    Contains((folder / "file").string() + ": cannot write results") &&
+                        Contains("it is a file") && Contains("choose another results folder"));
+  CHECK_THROWS_WITH(make_results_folder(folder / "file/b"), Contains("Not a directory"));
+  CHECK_THROWS_WITH(make_results_folder("/proc/stride"), Contains("cannot write results"));
+  CHECK_THROWS_WITH(make_results_folder(""), Contains("its name is empty"));
+}

@@ -1,0 +1,95 @@
+#include "master/io/run_json.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/master/io/support.h"
+
+using namespace stride;
+using namespace stride::io;
+using Catch::Contains;
+using std::chrono::milliseconds;
+
+TEST_CASE("run.json tells what was run and how far it came") {
+  const TemporaryFolder folder;
+  core::RunOptions options;
+  options.stop = Time(milliseconds(14'200));
+  options.step = milliseconds(1);
+  options.recorded = {{0, 1}, {0, 2}};
+  core::RunStatistics statistics;
+  statistics.reached = options.stop;
+  statistics.communication_steps = 14'200;
+  statistics.event_iterations = 3;
+  statistics.wall_time = milliseconds(250);
+  statistics.units = {
+      {14'200, 2, 1, 0, milliseconds(1), milliseconds(2), milliseconds(3)},
+      {14'201, 0, 0, 1, milliseconds(0), milliseconds(0), milliseconds(0)},
+  };
+  write_run_json(folder / "run.json", "scenarios/x.ssd", sample_system(), options, statistics);
+  CHECK(content(folder / "run.json") == R"({
+  "scenario": "scenarios/x.ssd",
+  "system": "sample",
+  "start": 0.0,
+  "stop": 14.2,
+  "step": 0.001,
+  "outcome": "completed",
+  "reached": 14.2,
+  "communication_steps": 14200,
+  "event_iterations": 3,
+  "recorded_signals": 2,
+  "wall_time": 0.25,
+  "units": [
+    {
+      "name": "a",
+      "model": "Sample",
+      "fmi_version": "3.0",
+      "steps": 14200,
+      "events": 2,
+      "messages_sent": 1,
+      "messages_received": 0,
+      "wall_time": {
+        "initialization": 0.001,
+        "steps": 0.002,
+        "events": 0.003
+      }
+    },
+    {
+      "name": "b, c",
+      "model": "Sample",
+      "fmi_version": "3.0",
+      "steps": 14201,
+      "events": 0,
+      "messages_sent": 0,
+      "messages_received": 1,
+      "wall_time": {
+        "initialization": 0.0,
+        "steps": 0.0,
+        "events": 0.0
+      }
+    }
+  ]
+}
+)");
+}
+
+TEST_CASE("An error is told, also when the run never began") {
+  const TemporaryFolder folder;
+  write_run_json(folder / "run.json", "x.ssd", sample_system(), {}, {},
+                 "unit 'a': it said \"no\"\xff");
+  const std::string text = content(folder / "run.json");
+  CHECK_THAT(text,
+             Contains("\"outcome\": \"failed\",\n  \"error\": \"unit 'a': it said \\\"no\\\""));
+  CHECK_THAT(text, Contains("\"name\": \"b, c\"") && !Contains("messages_sent"));
+}
+
+TEST_CASE("A unit may end the run") {
+  const TemporaryFolder folder;
+  core::RunStatistics statistics;
+  statistics.terminated_by_unit = true;
+  write_run_json(folder / "run.json", "x.ssd", sample_system(), {}, statistics);
+  CHECK_THAT(content(folder / "run.json"), Contains("\"outcome\": \"ended by a unit\""));
+}
+
+TEST_CASE("A full disk is noticed") {
+  CHECK_THROWS_WITH(write_run_json("/dev/full", "x.ssd", sample_system(), {}, {}),
+                    Contains("/dev/full: cannot write the file"));
+}
