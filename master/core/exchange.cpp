@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <set>
+#include <utility>
 
 namespace stride::core {
 namespace {
@@ -62,25 +63,31 @@ Exchange::Exchange(const System& system, std::span<const VariableId> recorded) :
   }
 }
 
-Signal Exchange::locate(const Transfers& transfers, VariableId id) {
-  for (const Transfer& transfer : transfers[id.component]) {
+template <class SomeTransfers>
+auto Exchange::locate(SomeTransfers& transfers, VariableId id) {
+  struct Place {
+    decltype(&transfers[0][0].block) block = nullptr;
+    std::size_t first = 0;
+  };
+  for (auto& transfer : transfers[id.component]) {
     const auto found = std::find(transfer.ids.begin(), transfer.ids.end(), id);
     if (found == transfer.ids.end()) continue;
     const auto place = static_cast<std::size_t>(found - transfer.ids.begin());
-    return {id, &transfer.block, transfer.firsts[place]};
+    return Place{&transfer.block, transfer.firsts[place]};
   }
-  return {id, nullptr, 0};
+  return Place{};
 }
 
 Signal Exchange::signal(VariableId id) const {
-  const Signal input = locate(inputs_, id);
-  return input.block != nullptr ? input : locate(outputs_, id);
+  const auto input = locate(inputs_, id);
+  const auto place = input.block != nullptr ? input : locate(outputs_, id);
+  return {id, place.block, place.first};
 }
 
 void Exchange::add_copies(const Connection& connection) {
-  const Signal from = locate(outputs_, connection.from);
-  const Signal to = locate(inputs_, connection.to);
-  auto& target = const_cast<ValueBlock&>(*to.block);  // a block of ours, found by a const look-up
+  const auto from = locate(std::as_const(outputs_), connection.from);
+  const auto to = locate(inputs_, connection.to);
+  ValueBlock& target = *to.block;
   for (std::size_t i = 0; i < system_.variable(connection.from).size; ++i) {
     const std::size_t source_at = from.first + i;
     const std::size_t target_at = to.first + i;

@@ -78,7 +78,9 @@ class Exchange {
   void add_copies(const Connection& connection);
   template <class Real>
   void add_real(RealLists<Real>& lists, const Connection& connection, Real* to, const Real* from);
-  static Signal locate(const Transfers& transfers, VariableId id);
+  /// The block that holds the variable and its place there; null if there is none.
+  template <class SomeTransfers>
+  static auto locate(SomeTransfers& transfers, VariableId id);
 
   const System& system_;
   Transfers outputs_;

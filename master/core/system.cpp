@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -18,6 +19,13 @@ std::vector<std::string> variable_names(const UnitDescription& description) {
   return names;
 }
 
+/// The component is in the context; a swapped one is another model than its name lets expect.
+[[noreturn]] void fail_unknown_variable(const Context& context,
+                                        const UnitDescription& description) {
+  fail_input(context, fmt::format("its model '{}' has no such variable", description.model_name),
+             suggestion(context.variable, variable_names(description)));
+}
+
 bool is_source(const Variable& variable) {
   return variable.causality == Causality::Output ||
          variable.causality == Causality::CalculatedParameter;
@@ -28,6 +36,17 @@ bool is_float(ValueType type) { return type == ValueType::Float32 || type == Val
 std::string shape(const Variable& variable) {
   if (variable.dimensions.empty()) return "a scalar";
   return fmt::format("an array of {} elements", variable.size);
+}
+
+void convert_start(ValueBlock& value, const LinearConversion& conversion) {
+  visit(value, [&](auto elements) {
+    using T = typename decltype(elements)::value_type;
+    if constexpr (std::is_floating_point_v<T>) {
+      for (T& element : elements) {
+        element = static_cast<T>(conversion.factor * element + conversion.offset);
+      }
+    }
+  });
 }
 
 /// The variable that carries a value through a connection between clocked variables also needs its
@@ -69,14 +88,10 @@ void System::add_components(const SystemDeclaration& declaration) {
 }
 
 void System::check_connectors(const ComponentDeclaration& component) const {
-  const std::vector<std::string> names = variable_names(*component.description);
   for (const ConnectorDeclaration& connector : component.connectors) {
     const Context context{connector.where, component.name, connector.name, {}};
     const auto found = component.description->find(connector.name);
-    if (!found) {
-      fail_input(context, "the unit has no variable of this name",
-                 suggestion(connector.name, names));
-    }
+    if (!found) fail_unknown_variable(context, *component.description);
     const Variable& variable = component.description->variables[*found];
     if (connector.causality && *connector.causality != variable.causality) {
       fail_input(context,
@@ -109,8 +124,7 @@ VariableId System::find_variable(const std::string& component, const std::string
   const std::size_t index = find_component(component, where);
   const UnitDescription& description = *components_[index].description;
   if (const auto found = description.find(variable)) return {index, *found};
-  fail_input({where, component, variable, {}}, "the unit has no variable of this name",
-             suggestion(variable, variable_names(description)));
+  fail_unknown_variable({where, component, variable, {}}, description);
 }
 
 void System::add_connections(const SystemDeclaration& declaration) {
@@ -217,11 +231,7 @@ void System::add_start_values(const SystemDeclaration& declaration) {
     }
     try {
       ValueBlock value = parse(target, wanted.value);
-      if (target.type == ValueType::Float64 && !conversion->is_identity()) {
-        for (double& number : value.numbers<double>()) {
-          number = conversion->factor * number + conversion->offset;
-        }
-      }
+      convert_start(value, *conversion);
       values.insert_or_assign(id, std::move(value));
     } catch (const std::invalid_argument& mistake) {
       fail_input(context, mistake.what());

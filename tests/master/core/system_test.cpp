@@ -31,6 +31,7 @@ std::shared_ptr<const UnitDescription> description() {
       .clocked_by(7)
       .output("pair")
       .size(2)
+      .add("short", ValueType::Float32, Causality::Input, "m")
       .input("trio")
       .size(3)
       .done();
@@ -155,4 +156,7 @@ TEST_CASE("start values are converted, parsed and refused where they cannot be s
   declared.start_values = {{"beta", "u", "1500", "mm", {}}};
   const System system(declared);
   CHECK(system.start_values()[0].value.numbers<double>()[0] == Approx(1.5));
+  declared.start_values = {{"beta", "short", "1500", "mm", {}}};
+  const System with_float(declared);
+  CHECK(with_float.start_values()[0].value.numbers<float>()[0] == Approx(1.5F));
 }
