@@ -134,7 +134,7 @@ TEST_CASE("declared connectors must agree with the unit") {
     return reason(system);
   };
   CHECK(with({"u", ValueType::Float64, Causality::Input, "m", {}}) == "accepted");
-  CHECK_THAT(with({"v", {}, {}, "", {}}), Contains("s.ssd:5") && Contains("no variable"));
+  CHECK_THAT(with({"v", {}, {}, "", {}}), Contains("s.ssd:5") && Contains("no such variable"));
   CHECK_THAT(with({"u", {}, Causality::Output, "", {}}),
              Contains("the connector says output, the unit says input"));
   CHECK_THAT(with({"u", ValueType::Int32, {}, "", {}}),
