@@ -144,8 +144,8 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean, fmi3F
                                        fmi3Float64 stop) {
   return call(instance, Function::EnterInitializationMode, [&](Instance& unit) {
     std::optional<Time> end;
-    if (stop_defined) end = stride::time_from_seconds(stop);
-    unit.enter_initialization_mode(stride::time_from_seconds(start), end);
+    if (stop_defined) end = stride::kit::checked_time(stop);
+    unit.enter_initialization_mode(stride::kit::checked_time(start), end);
     return fmi3OK;
   });
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "interfaces/unit/model_description.h"
@@ -11,6 +12,13 @@ namespace stride::kit {
 namespace {
 
 std::string text(Time time) { return to_text(to_seconds(time)); }
+
+/// How far apart two readings of the same instant may be: after two and a half hours a double is
+/// coarser than a picosecond.
+Duration rounding(double seconds) {
+  const double picoseconds = 4 * std::numeric_limits<double>::epsilon() * std::abs(seconds) * 1e12;
+  return Duration(1 + static_cast<std::int64_t>(picoseconds));
+}
 
 void check_range(const Variable& row) {
   if (!row.min && !row.max) return;
@@ -29,8 +37,16 @@ void check_range(const Variable& row) {
 
 }  // namespace
 
+Time checked_time(double seconds) {
+  try {
+    return time_from_seconds(seconds);
+  } catch (const std::out_of_range& error) {
+    throw Misuse(error.what());
+  }
+}
+
 void Importer::message(fmi3Status status, const char* category, const std::string& text) const {
-  if (log != nullptr && (logging || status >= fmi3Error)) {
+  if (log != nullptr && (logging || status != fmi3OK)) {
     log(environment, status, category, text.c_str());
   }
 }
@@ -98,14 +114,14 @@ void Instance::refresh() {
 }
 
 Instance::StepOutcome Instance::do_step(double point, double size) {
-  const Time from = time_from_seconds(point);
-  const Time to = time_from_seconds(point + size);
-  if (!(size > 0)) throw Misuse("the communication step size must be positive");
-  if (std::abs((from - time_).count()) > 1) {
+  const Time from = checked_time(point);
+  const Time to = checked_time(point + size);
+  if (std::chrono::abs(from - time_) > rounding(point)) {
     throw Misuse("the unit stands at " + text(time_) + " s, but the step starts at " + text(from) +
                  " s");
   }
-  if (stop_ && to > *stop_ + Duration(1)) {
+  if (!(size > 0) || to <= time_) throw Misuse("the communication step size must be positive");
+  if (stop_ && to > *stop_ + rounding(point + size)) {
     throw Misuse("the step ends at " + text(to) + " s, behind the stop time " + text(*stop_) +
                  " s");
   }
@@ -148,7 +164,12 @@ bool Instance::any_clock_ticked() const {
   return std::any_of(clocks.begin(), clocks.end(), [](const Clock* c) { return c->ticked(); });
 }
 
+void Instance::require_unit() const {
+  if (!unit_ || !table_) throw Misuse("the last reset failed; reset it again or free it");
+}
+
 const Slot& Instance::slot(fmi3ValueReference reference, Type type) const {
+  require_unit();
   if (reference >= table_->size()) {
     throw Misuse("there is no variable with the value reference " + std::to_string(reference));
   }
@@ -161,15 +182,22 @@ const Slot& Instance::slot(fmi3ValueReference reference, Type type) const {
   return found;
 }
 
-const Slot& Instance::writable(fmi3ValueReference reference, Type type) {
-  const Slot& found = slot(reference, type);
-  if ((found.settable & mode_) == 0) {
+/// Checks a whole set call before any of it is done, so that a refused one changes nothing.
+void Instance::check_writable(const fmi3ValueReference references[], std::size_t count, Type type,
+                              std::size_t size) const {
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Slot& found = slot(references[i], type);
+    total += found.size;
+    if ((found.settable & mode_) != 0) continue;
     const std::string legal = mode_names(found.settable);
-    throw Misuse("variable '" + table_->row(reference).name + "' cannot be set in " +
+    throw Misuse("variable '" + table_->row(references[i]).name + "' cannot be set in " +
                  mode_names(mode_) +
                  (legal.empty() ? ", nor in any other state" : ", only in " + legal));
   }
-  return found;
+  if (total != size) {
+    throw Misuse(std::string("nValues is too ") + (total > size ? "small" : "large"));
+  }
 }
 
 void Instance::get_binary(const fmi3ValueReference references[], std::size_t count,
@@ -190,10 +218,10 @@ void Instance::get_binary(const fmi3ValueReference references[], std::size_t cou
 
 void Instance::set_binary(const fmi3ValueReference references[], std::size_t count,
                           const std::size_t sizes[], const fmi3Binary values[], std::size_t size) {
+  check_writable(references, count, Type::Binary, size);
   std::size_t at = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const Slot& to = writable(references[i], Type::Binary);
-    if (at + to.size > size) throw Misuse("nValues is too small");
+    const Slot& to = table_->slot(references[i]);
     auto* elements = static_cast<Binary*>(to.data);
     for (std::size_t k = 0; k < to.size; ++k, ++at) {
       if (sizes[at] == 0) {
@@ -203,7 +231,6 @@ void Instance::set_binary(const fmi3ValueReference references[], std::size_t cou
       }
     }
   }
-  if (at != size) throw Misuse("nValues is too large");
   inputs_changed_ = true;
 }
 
@@ -224,6 +251,7 @@ void Instance::get_output_derivatives(const fmi3ValueReference references[], std
 }
 
 void Instance::require_state() const {
+  require_unit();
   if (!unit_->lists_state()) {
     throw Misuse("this unit cannot save its state (canGetAndSetFMUState is false)");
   }
@@ -247,16 +275,22 @@ void Instance::save(SavedState& saved) const {
   }
   for (const StateItem& item : unit_->state_items()) item.save(item.object, writer);
   unit_->save_state(writer);
+  writer.write(static_cast<std::uint64_t>(saved.bytes.size()));  // the end, so that it is complete
 }
 
 void Instance::check_saved(const std::uint8_t* bytes, std::size_t size) const {
   require_state();
   std::string token;
+  std::uint64_t size_without_end = 0;
   try {
     StateReader(bytes, size).read(token);
+    const std::size_t end = std::min(size, sizeof size_without_end);
+    StateReader(bytes + size - end, end).read(size_without_end);
   } catch (const std::exception&) {
   }
-  if (token != token_) throw Misuse("these bytes are no saved state of this unit");
+  if (token != token_ || size_without_end + sizeof size_without_end != size) {
+    throw Misuse("these bytes are no saved state of this unit");
+  }
 }
 
 void Instance::restore(const SavedState& saved) {
@@ -282,6 +316,8 @@ void Instance::restore(const SavedState& saved) {
   }
   for (const StateItem& item : unit_->state_items()) item.load(item.object, reader);
   unit_->load_state(reader);
+  std::uint64_t end = 0;
+  reader.read(end);
   if (reader.left() != 0) throw std::runtime_error("the saved state is too long");
 }
 

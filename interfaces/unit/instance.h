@@ -22,6 +22,9 @@ struct Misuse : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
+/// A time that the importer gives [s]; throws Misuse for what is no instant.
+Time checked_time(double seconds);
+
 /// What the importer said when it made the instance.
 struct Importer {
   std::string instance_name;
@@ -93,9 +96,11 @@ class Instance {
  private:
   void build();
   void refresh();
+  void require_unit() const;
   void require_state() const;
   bool any_clock_ticked() const;
-  const Slot& writable(fmi3ValueReference reference, Type type);
+  void check_writable(const fmi3ValueReference references[], std::size_t count, Type type,
+                      std::size_t size) const;
   const Slot& slot(fmi3ValueReference reference, Type type) const;
 
   Importer importer_;
@@ -137,10 +142,10 @@ void Instance::get(const fmi3ValueReference references[], std::size_t count, T v
 template <Type kType, class T>
 void Instance::set(const fmi3ValueReference references[], std::size_t count, const T values[],
                    std::size_t size) {
+  check_writable(references, count, kType, size);
   std::size_t at = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const Slot& to = writable(references[i], kType);
-    if (at + to.size > size) throw Misuse("nValues is too small");
+    const Slot& to = table_->slot(references[i]);
     if constexpr (kType == Type::Clock) {
       auto* clock = static_cast<Clock*>(to.data);
       values[at] ? clock->tick() : clock->clear();
@@ -153,7 +158,6 @@ void Instance::set(const fmi3ValueReference references[], std::size_t count, con
     }
     at += to.size;
   }
-  if (at != size) throw Misuse("nValues is too large");
   inputs_changed_ = true;
 }
 

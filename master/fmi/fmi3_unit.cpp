@@ -1,0 +1,299 @@
+#include "master/fmi/fmi3_unit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace stride::fmi {
+namespace {
+
+constexpr std::size_t kMaxMessages = 8;
+
+const char* status_name(fmi3Status status) {
+  constexpr const char* kNames[] = {"fmi3OK", "fmi3Warning", "fmi3Discard", "fmi3Error",
+                                    "fmi3Fatal"};
+  const auto i = static_cast<std::size_t>(status);
+  return i < std::size(kNames) ? kNames[i] : "a status that FMI 3.0 does not have";
+}
+
+/// The getter and setter of a C type. Enumerations travel as Int64.
+template <class T>
+struct Access;
+#define STRIDE_ACCESS(T)                                  \
+  template <>                                             \
+  struct Access<fmi3##T> {                                \
+    static constexpr const char* kGetName = "fmi3Get" #T; \
+    static constexpr const char* kSetName = "fmi3Set" #T; \
+    static constexpr auto kGet = &Functions::Get##T;      \
+    static constexpr auto kSet = &Functions::Set##T;      \
+  };
+FMI3_VALUE_TYPES(STRIDE_ACCESS)
+#undef STRIDE_ACCESS
+
+/// How far the unit's idea of where a step ended may be from ours: the rounding of doubles, and
+/// what a unit that adds up its own internal steps may have drifted.
+double time_tolerance(double point, double end) {
+  constexpr double kPicosecond = 1e-12;
+  constexpr double kShareOfStep = 1e-6;
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(end);
+  return kPicosecond + rounding + kShareOfStep * (end - point);
+}
+
+}  // namespace
+
+// ---- Life and death ----
+
+Fmi3Unit::Fmi3Unit(std::string name, UnitParts parts, InstanceOptions options)
+    : name_(std::move(name)),
+      parts_(std::move(parts)),
+      options_(std::move(options)),
+      fmi_(parts_.library->functions()) {
+  const core::UnitDescription& description = *parts_.description;
+  const bool has_resources = !parts_.resource_path.empty();
+  instance_ = fmi_.InstantiateCoSimulation(
+      name_.c_str(), description.instantiation_token.c_str(),
+      has_resources ? parts_.resource_path.c_str() : nullptr, fmi3False, options_.debug_logging,
+      description.has_event_mode, options_.early_return_allowed, nullptr, 0, this, &on_log,
+      nullptr);
+  if (instance_ == nullptr) {
+    fail(fmt::format("fmi3InstantiateCoSimulation failed: {}",
+                     take_messages("fmi3InstantiateCoSimulation")));
+  }
+}
+
+Fmi3Unit::~Fmi3Unit() {
+  if (instance_ != nullptr && !is_fatal_) fmi_.FreeInstance(instance_);
+}
+
+void Fmi3Unit::enter_initialization(Time start, std::optional<Time> stop) {
+  time_ = start;
+  call("fmi3EnterInitializationMode", fmi_.EnterInitializationMode, fmi3False, 0.0,
+       to_seconds(start), stop.has_value(), to_seconds(stop.value_or(Time{})));
+}
+
+void Fmi3Unit::exit_initialization() {
+  call("fmi3ExitInitializationMode", fmi_.ExitInitializationMode);
+}
+
+void Fmi3Unit::terminate() {
+  if (failed_in_ == nullptr) call("fmi3Terminate", fmi_.Terminate);
+}
+
+// ---- Calls, messages and failures ----
+
+template <class Function, class... Arguments>
+fmi3Status Fmi3Unit::call(const char* name, Function* function, Arguments... arguments) {
+  if (failed_in_ != nullptr) {
+    fail(fmt::format("{} cannot be called, because {} has failed before", name, failed_in_));
+  }
+  const fmi3Status status = function(instance_, arguments...);
+  if (status == fmi3OK || status == fmi3Warning || status == fmi3Discard) {
+    if (has_messages_.load(std::memory_order_relaxed)) take_messages(name);
+    return status;
+  }
+  fail_call(name, status);
+}
+
+void Fmi3Unit::fail_call(const char* function, fmi3Status status) {
+  failed_in_ = function;
+  is_fatal_ = status != fmi3Error;
+  fail(fmt::format("{} returned {}: {}", function, status_name(status), take_messages(function)),
+       is_fatal_ ? "the unit may have damaged this process; save what you need and end it" : "");
+}
+
+void Fmi3Unit::fail(const std::string& message, const std::string& hint) const {
+  core::fail_run({.where = options_.where, .unit = name_, .time = time_}, message, hint);
+}
+
+void Fmi3Unit::on_log(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category,
+                      fmi3String message) {
+  try {
+    static_cast<Fmi3Unit*>(environment)
+        ->receive(status, category != nullptr ? category : "", message != nullptr ? message : "");
+  } catch (...) {  // nothing may cross the unit's C code
+  }
+}
+
+void Fmi3Unit::receive(fmi3Status status, const std::string& category, const std::string& message) {
+  if (status != fmi3OK && status != fmi3Warning) {
+    const std::lock_guard lock(messages_mutex_);
+    if (messages_.size() < kMaxMessages) messages_.push_back(message);
+    has_messages_ = true;
+  }
+  if (options_.log) options_.log(name_, status, category, message);
+}
+
+/// The failure messages of the call that has just ended, for one line of text.
+std::string Fmi3Unit::take_messages(const std::string& function) {
+  const std::lock_guard lock(messages_mutex_);
+  has_messages_ = false;
+  std::vector<std::string> messages = std::exchange(messages_, {});
+  if (messages.empty()) return "the unit gives no reason";
+  const std::string prefix = function + ": ";
+  for (std::string& message : messages) {
+    if (message.starts_with(prefix)) message.erase(0, prefix.size());
+  }
+  return fmt::format("{}", fmt::join(messages, "; "));
+}
+
+// ---- Values ----
+
+void Fmi3Unit::get(References references, core::ValueBlock& values) {
+  if (values.type() == core::ValueType::Clock) {
+    call("fmi3GetClock", fmi_.GetClock, references.data(), references.size(),
+         values.numbers<bool>().data());
+    return;
+  }
+  core::visit(values, [&]<class T>(std::span<T> elements) {
+    if constexpr (std::is_same_v<T, std::string>) {
+      get_strings(references, elements);
+    } else if constexpr (std::is_same_v<T, core::Binary>) {
+      get_binaries(references, elements);
+    } else {
+      call(Access<T>::kGetName, fmi_.*Access<T>::kGet, references.data(), references.size(),
+           elements.data(), elements.size());
+    }
+  });
+}
+
+void Fmi3Unit::set(References references, const core::ValueBlock& values) {
+  if (values.type() == core::ValueType::Clock) {
+    call("fmi3SetClock", fmi_.SetClock, references.data(), references.size(),
+         values.numbers<bool>().data());
+    return;
+  }
+  core::visit(values, [&]<class T>(std::span<const T> elements) {
+    if constexpr (std::is_same_v<T, std::string>) {
+      set_strings(references, elements);
+    } else if constexpr (std::is_same_v<T, core::Binary>) {
+      set_binaries(references, elements);
+    } else {
+      call(Access<T>::kSetName, fmi_.*Access<T>::kSet, references.data(), references.size(),
+           elements.data(), elements.size());
+    }
+  });
+}
+
+// What a unit returns is its own memory, valid until its next function is called: copied at once.
+
+void Fmi3Unit::get_strings(References references, std::span<std::string> values) {
+  texts_.assign(values.size(), nullptr);
+  call("fmi3GetString", fmi_.GetString, references.data(), references.size(), texts_.data(),
+       texts_.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i].assign(texts_[i] != nullptr ? texts_[i] : "");
+  }
+}
+
+void Fmi3Unit::set_strings(References references, std::span<const std::string> values) {
+  texts_.resize(values.size());
+  std::transform(values.begin(), values.end(), texts_.begin(),
+                 [](const std::string& value) { return value.c_str(); });
+  call("fmi3SetString", fmi_.SetString, references.data(), references.size(),
+       std::as_const(texts_).data(), texts_.size());
+}
+
+void Fmi3Unit::get_binaries(References references, std::span<core::Binary> values) {
+  bytes_.assign(values.size(), nullptr);
+  sizes_.assign(values.size(), 0);
+  call("fmi3GetBinary", fmi_.GetBinary, references.data(), references.size(), sizes_.data(),
+       bytes_.data(), bytes_.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (sizes_[i] != 0 && bytes_[i] == nullptr) {
+      fail(fmt::format("fmi3GetBinary gave {} bytes at the address NULL", sizes_[i]));
+    }
+    values[i].assign(bytes_[i], bytes_[i] + sizes_[i]);
+  }
+}
+
+void Fmi3Unit::set_binaries(References references, std::span<const core::Binary> values) {
+  bytes_.resize(values.size());
+  sizes_.resize(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    bytes_[i] = values[i].data();
+    sizes_[i] = values[i].size();
+  }
+  call("fmi3SetBinary", fmi_.SetBinary, references.data(), references.size(),
+       std::as_const(sizes_).data(), std::as_const(bytes_).data(), bytes_.size());
+}
+
+// ---- Steps and events ----
+
+core::StepResult Fmi3Unit::step(Time from, Time to) {
+  time_ = from;
+  const double point = to_seconds(from);
+  const double end = to_seconds(to);
+  const double size = end - point;  // no other double lands nearer to the end
+  if (!(size > 0)) {
+    fail(fmt::format("the step to {} s is too small for the unit, whose time is a double",
+                     core::to_text(to)),
+         "choose a larger step or an earlier start time");
+  }
+  bool event_needed = false;
+  bool terminate = false;
+  bool early = false;
+  double last_successful = end;
+  const fmi3Status status = call("fmi3DoStep", fmi_.DoStep, point, size, !options_.may_roll_back,
+                                 &event_needed, &terminate, &early, &last_successful);
+  if (status == fmi3Discard) return {.rejected = true, .reached = from};
+  const Time reached = reached_in_step(from, to, early, last_successful);
+  time_ = reached;
+  return {.early_return = early,
+          .event_needed = event_needed,
+          .terminate = terminate,
+          .reached = reached};
+}
+
+Time Fmi3Unit::reached_in_step(Time from, Time to, bool early, double last_successful) const {
+  const double point = to_seconds(from);
+  const double end = to_seconds(to);
+  const double tolerance = time_tolerance(point, end);
+  if (!early) {
+    if (std::abs(last_successful - end) <= tolerance) return to;
+    fail(fmt::format("fmi3DoStep succeeded without an early return, but its lastSuccessfulTime is "
+                     "{} s; expected the end of the step, {} s",
+                     last_successful, core::to_text(to)),
+         "the unit must set earlyReturn where it stops before the end of a step");
+  }
+  if (!options_.early_return_allowed) {
+    fail("fmi3DoStep returned early, which was not allowed at its instantiation");
+  }
+  if (!(last_successful >= point - tolerance && last_successful <= end + tolerance)) {
+    fail(fmt::format("fmi3DoStep returned early at {} s, which is outside of the step to {} s",
+                     last_successful, core::to_text(to)));
+  }
+  return std::clamp(checked_time(last_successful, "lastSuccessfulTime"), from, to);
+}
+
+Time Fmi3Unit::checked_time(double seconds, const char* what) const {
+  try {
+    return time_from_seconds(seconds);
+  } catch (const std::out_of_range& error) {
+    fail(fmt::format("{} is {}: {}", what, seconds, error.what()));
+  }
+}
+
+void Fmi3Unit::enter_event_mode() { call("fmi3EnterEventMode", fmi_.EnterEventMode); }
+
+void Fmi3Unit::enter_step_mode() { call("fmi3EnterStepMode", fmi_.EnterStepMode); }
+
+core::EventResult Fmi3Unit::update_discrete_states() {
+  bool iterate = false;
+  bool terminate = false;
+  bool nominals_changed = false;
+  bool values_changed = false;
+  bool has_next = false;
+  double next = 0;
+  call("fmi3UpdateDiscreteStates", fmi_.UpdateDiscreteStates, &iterate, &terminate,
+       &nominals_changed, &values_changed, &has_next, &next);
+  core::EventResult result{.iterate = iterate, .terminate = terminate, .next_event = {}};
+  // Some units say "never" by a time that no simulation reaches.
+  if (has_next && !(next > kMaxSeconds)) result.next_event = checked_time(next, "nextEventTime");
+  return result;
+}
+
+}  // namespace stride::fmi

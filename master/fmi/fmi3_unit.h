@@ -1,0 +1,109 @@
+// An instance of an FMI 3.0 Co-Simulation unit in this process.
+#ifndef STRIDE_MASTER_FMI_FMI3_UNIT_H
+#define STRIDE_MASTER_FMI_FMI3_UNIT_H
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <stride/fmi3.h>
+
+#include "master/core/error.h"
+#include "master/core/unit.h"
+#include "master/fmi/library.h"
+
+namespace stride::fmi {
+
+/// Receives what units log. It may be called from any thread that a unit has.
+using LogSink = std::function<void(const std::string& unit, fmi3Status status,
+                                   const std::string& category, const std::string& message)>;
+
+struct InstanceOptions {
+  bool early_return_allowed = false;
+  /// Whether a state from before the current communication point may be restored.
+  bool may_roll_back = false;
+  bool debug_logging = false;  ///< everything that the unit can log, not only warnings and errors
+  LogSink log{};
+  core::Location where{};  ///< the component's place in the scenario, for errors
+};
+
+/// What an instance is made of.
+struct UnitParts {
+  std::shared_ptr<const Library> library;
+  std::shared_ptr<const core::UnitDescription> description;
+  std::string resource_path;        ///< as fmi::resource_path() gives it
+  std::shared_ptr<const void> fmu;  ///< kept alive as long as the instance
+};
+
+/// See core::Unit for the order of calls. A status fmi3Error or fmi3Fatal becomes a core::Error of
+/// the kind Run, with the name of the FMI function, the simulated time and the unit's own messages.
+/// After it, terminate() does nothing, and other calls throw; after fmi3Fatal no function of the
+/// instance is called any more, so it is not freed either.
+///
+/// After the first exchange, get(), set() and step() do not allocate, except where a string or
+/// binary value outgrows the longest before it.
+class Fmi3Unit : public core::Unit {
+ public:
+  /// Throws core::Error of the kind Run, with the unit's messages, if it cannot be instantiated.
+  Fmi3Unit(std::string name, UnitParts parts, InstanceOptions options = {});
+  ~Fmi3Unit() override;
+  Fmi3Unit(const Fmi3Unit&) = delete;
+  Fmi3Unit& operator=(const Fmi3Unit&) = delete;
+
+  void enter_initialization(Time start, std::optional<Time> stop) override;
+  void exit_initialization() override;
+  void get(std::span<const core::ValueReference> references, core::ValueBlock& values) override;
+  void set(std::span<const core::ValueReference> references,
+           const core::ValueBlock& values) override;
+  core::StepResult step(Time from, Time to) override;
+  void enter_event_mode() override;
+  core::EventResult update_discrete_states() override;
+  void enter_step_mode() override;
+  void terminate() override;
+
+ private:
+  using References = std::span<const core::ValueReference>;
+
+  static void on_log(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category,
+                     fmi3String message);
+  void receive(fmi3Status status, const std::string& category, const std::string& message);
+  std::string take_messages(const std::string& function);
+
+  template <class Function, class... Arguments>
+  fmi3Status call(const char* name, Function* function, Arguments... arguments);
+  [[noreturn]] void fail_call(const char* function, fmi3Status status);
+  [[noreturn]] void fail(const std::string& message, const std::string& hint = "") const;
+
+  void get_strings(References references, std::span<std::string> values);
+  void set_strings(References references, std::span<const std::string> values);
+  void get_binaries(References references, std::span<core::Binary> values);
+  void set_binaries(References references, std::span<const core::Binary> values);
+
+  Time checked_time(double seconds, const char* what) const;
+  Time reached_in_step(Time from, Time to, bool early, double last_successful) const;
+
+  std::string name_;
+  UnitParts parts_;
+  InstanceOptions options_;
+  const Functions& fmi_;
+  fmi3Instance instance_ = nullptr;
+  std::optional<Time> time_;
+  const char* failed_in_ = nullptr;  ///< the FMI function that returned fmi3Error or fmi3Fatal
+  bool is_fatal_ = false;
+
+  std::vector<fmi3String> texts_;
+  std::vector<fmi3Binary> bytes_;
+  std::vector<std::size_t> sizes_;
+
+  std::mutex messages_mutex_;
+  std::vector<std::string> messages_;  ///< those of the present call that report a failure
+  std::atomic<bool> has_messages_ = false;
+};
+
+}  // namespace stride::fmi
+
+#endif

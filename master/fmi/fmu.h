@@ -1,0 +1,58 @@
+#ifndef STRIDE_MASTER_FMI_FMU_H
+#define STRIDE_MASTER_FMI_FMU_H
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "master/core/unit.h"
+#include "master/fmi/archive.h"
+#include "master/fmi/fmi3_unit.h"
+#include "master/fmi/library.h"
+
+namespace stride::fmi {
+
+/// A unit on disk, of which instances can be made. Each of
+///
+/// - a `.fmu` archive,
+/// - the folder that such an archive unpacks to,
+/// - a bare library (`.so`) made with the unit kit, which describes itself; its resources are the
+///   folder `resources` beside it, if there is one.
+class Fmu : public std::enable_shared_from_this<Fmu> {
+ public:
+  /// Reads the description; the library of an archive or folder is not loaded yet, so units of
+  /// other platforms can be inspected. Throws core::Error of the kind Input; `where` is the place
+  /// that names the unit.
+  static std::shared_ptr<Fmu> load(const std::filesystem::path& path,
+                                   const core::Location& where = {});
+
+  const std::filesystem::path& path() const { return path_; }
+  std::shared_ptr<const core::UnitDescription> description() const { return description_; }
+
+  /// Loads the library, if that has not happened yet. Throws core::Error of the kind Input.
+  std::shared_ptr<const Library> load_library();
+
+  /// Makes an instance, which keeps this object alive. Throws core::Error: Input if the library
+  /// does not load, or if a second instance of a unit is asked for that allows one per process
+  /// only; Run if the unit refuses.
+  std::unique_ptr<core::Unit> instantiate(const std::string& name, InstanceOptions options = {});
+
+ private:
+  Fmu(std::filesystem::path path, core::Location where);
+  void read_folder();
+  void read_bare_library();
+
+  std::filesystem::path path_;
+  core::Location where_;
+  std::optional<UnpackedFmu> unpacked_;
+  std::filesystem::path resources_;
+  std::shared_ptr<const core::UnitDescription> description_;
+  std::mutex library_mutex_;
+  std::shared_ptr<const Library> library_;
+};
+
+}  // namespace stride::fmi
+
+#endif

@@ -1,0 +1,67 @@
+// A unit's shared library and the FMI 3.0 functions in it.
+#ifndef STRIDE_MASTER_FMI_LIBRARY_H
+#define STRIDE_MASTER_FMI_LIBRARY_H
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <stride/fmi3.h>
+#include <stride/self_description.h>
+
+#include "master/core/error.h"
+
+namespace stride::fmi {
+
+/// The FMI 3.0 platform tuple of this build, "x86_64-linux": the name of the folder in binaries/.
+const char* platform();
+
+/// Where the library of this name stands in an unpacked FMU. Throws core::Error of the kind Input
+/// that lists the platforms that there are, if it is not built for this one.
+std::filesystem::path find_library(const std::filesystem::path& fmu_folder,
+                                   const std::string& model_identifier,
+                                   const core::Location& where = {});
+
+/// The entry table: a pointer for each fmi3<Name>, null if the library does not have it.
+struct Functions {
+#define STRIDE_POINTER(name) fmi3##name##TYPE* name = nullptr;
+  FMI3_FUNCTIONS(STRIDE_POINTER)
+#undef STRIDE_POINTER
+};
+
+/// A loaded library; unloaded with the object.
+class Library {
+ public:
+  /// Loads it with all its symbols resolved and kept to itself (RTLD_NOW, RTLD_LOCAL). Throws
+  /// core::Error of the kind Input that names the shared library, the symbol or the FMI function
+  /// that is missing. Functions of the other interface types and optional capabilities may be.
+  explicit Library(const std::filesystem::path& path, const core::Location& where = {});
+
+  const std::filesystem::path& path() const { return path_; }
+  const Functions& functions() const { return functions_; }
+
+  /// Whether the library was made with the unit kit, and so knows its own model description.
+  bool describes_itself() const { return self_description_ != nullptr; }
+  /// The text of its modelDescription.xml with these resources (empty: none). Throws core::Error of
+  /// the kind Input if it cannot.
+  std::string describe(const std::filesystem::path& resources,
+                       const core::Location& where = {}) const;
+
+ private:
+  struct Closer {
+    void operator()(void* handle) const;
+  };
+
+  std::filesystem::path path_;
+  std::unique_ptr<void, Closer> handle_;
+  Functions functions_;
+  strideModelDescriptionTYPE* self_description_ = nullptr;
+};
+
+/// A folder of resources as FMI 3.0 passes it: an absolute native path with the separator at its
+/// end; empty if there is no such folder.
+std::string resource_path(const std::filesystem::path& resources);
+
+}  // namespace stride::fmi
+
+#endif

@@ -1,0 +1,236 @@
+#include "master/fmi/model_variables.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace stride::fmi {
+namespace {
+
+using core::Causality;
+using core::ValueType;
+using core::Variability;
+
+/// Large enough for any model, small enough that a wrong number cannot take the memory.
+constexpr std::size_t kMaxElements = std::size_t{1} << 28;
+
+using TypeDefinitions = std::map<std::string, Element>;
+
+/// The enumerator of this name, of the first `count`.
+template <class Enum>
+std::optional<Enum> find_named(const std::string& word, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (word == core::name(static_cast<Enum>(i))) return static_cast<Enum>(i);
+  }
+  return std::nullopt;
+}
+
+template <class Enum>
+Enum read_word(const Element& element, const char* attribute, Enum otherwise, std::size_t count) {
+  const auto word = element.text(attribute);
+  if (!word) return otherwise;
+  if (const auto found = find_named<Enum>(*word, count)) return *found;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < count; ++i) names.emplace_back(core::name(static_cast<Enum>(i)));
+  element.fail(fmt::format("{}=\"{}\" of <{}>: expected one of {}", attribute, *word,
+                           element.name(), fmt::join(names, ", ")));
+}
+
+/// FMI 3.0, 2.4.7.4: the default of the attribute `variability`.
+Variability default_variability(ValueType type, Causality causality) {
+  switch (causality) {
+    case Causality::Parameter:
+    case Causality::CalculatedParameter:
+    case Causality::StructuralParameter:
+      return Variability::Fixed;
+    default:
+      break;
+  }
+  const bool is_float = type == ValueType::Float32 || type == ValueType::Float64;
+  return is_float ? Variability::Continuous : Variability::Discrete;
+}
+
+TypeDefinitions read_type_definitions(const Element& root) {
+  TypeDefinitions types;
+  const auto definitions = root.child("TypeDefinitions");
+  if (!definitions) return types;
+  for (const Element& definition : definitions->children()) {
+    if (definition.name() == "Annotations") continue;
+    const std::string name = definition.required_text("name");
+    if (!types.emplace(name, definition).second) {
+      definition.fail(fmt::format("the type '{}' is defined twice", name));
+    }
+  }
+  return types;
+}
+
+std::optional<Element> declared_type(const Element& element, const TypeDefinitions& types) {
+  const auto name = element.text("declaredType");
+  if (!name) return std::nullopt;
+  const auto found = types.find(*name);
+  if (found == types.end()) {
+    element.fail(
+        fmt::format("declaredType=\"{}\": there is no such type in <TypeDefinitions>", *name));
+  }
+  if (found->second.name() != element.name() + "Type") {
+    element.fail(fmt::format("declaredType=\"{}\" is a <{}>; expected a <{}Type>", *name,
+                             found->second.name(), element.name()));
+  }
+  return found->second;
+}
+
+/// A String or Binary variable has an element per start value, the other types an attribute.
+std::string read_start(const Element& element, ValueType type) {
+  if (type != ValueType::String && type != ValueType::Binary) return element.text_or("start");
+  std::vector<std::string> values;
+  for (const Element& start : element.children("Start")) values.push_back(start.text_or("value"));
+  return fmt::format("{}", fmt::join(values, " "));
+}
+
+/// An attribute of the variable, or else of its declared type.
+std::string inherited(const Element& element, const std::optional<Element>& type,
+                      const char* attribute) {
+  return element.text_or(attribute, type ? type->text_or(attribute) : "");
+}
+
+core::Variable read_variable(const Element& element, ValueType type, const TypeDefinitions& types) {
+  core::Variable variable;
+  variable.name = element.required_text("name");
+  variable.reference = element.required_number<core::ValueReference>("valueReference");
+  variable.type = type;
+  variable.causality = read_word(element, "causality", Causality::Local, 7);
+  variable.variability =
+      read_word(element, "variability", default_variability(type, variable.causality), 5);
+  variable.description = element.text_or("description");
+  variable.start = read_start(element, type);
+  variable.clocks = element.number_list<core::ValueReference>("clocks");
+  const auto declared = declared_type(element, types);
+  variable.unit = inherited(element, declared, "unit");
+  variable.min = inherited(element, declared, "min");
+  variable.max = inherited(element, declared, "max");
+  variable.interval_variability = inherited(element, declared, "intervalVariability");
+  if (type == ValueType::Clock && variable.interval_variability.empty()) {
+    element.required_text("intervalVariability");
+  }
+  if (type != ValueType::Enumeration) return variable;
+  if (!declared) element.required_text("declaredType");
+  for (const Element& item : declared->children("Item")) {
+    variable.items.emplace_back(item.required_text("name"),
+                                item.required_number<std::int64_t>("value"));
+  }
+  return variable;
+}
+
+/// Finds what stands between single variables: names, references, clocks, dimensions.
+class Linker {
+ public:
+  Linker(std::vector<core::Variable>& variables, const std::vector<Element>& elements)
+      : variables_(variables), elements_(elements) {}
+
+  VariableIndex run() {
+    for (std::size_t i = 0; i < variables_.size(); ++i) add(i);
+    for (std::size_t i = 0; i < variables_.size(); ++i) {
+      check_clocks(i);
+      read_dimensions(i);
+    }
+    return std::move(index_);
+  }
+
+ private:
+  void add(std::size_t i) {
+    const core::Variable& variable = variables_[i];
+    const auto [same_name, is_new_name] = names_.emplace(variable.name, i);
+    if (!is_new_name) {
+      elements_[i].fail(fmt::format("the variable name '{}' is used twice, first in line {}",
+                                    variable.name, line(same_name->second)));
+    }
+    const auto [same_reference, is_new] = index_.emplace(variable.reference, i);
+    if (is_new) return;
+    elements_[i].fail(fmt::format(
+        "variable '{}' has the value reference {} of '{}' in line {}", variable.name,
+        variable.reference, variables_[same_reference->second].name, line(same_reference->second)));
+  }
+
+  void check_clocks(std::size_t i) const {
+    for (const core::ValueReference clock : variables_[i].clocks) {
+      const core::Variable* found = find(clock);
+      if (found == nullptr) {
+        elements_[i].fail(fmt::format("variable '{}' belongs to the clock {}, which does not exist",
+                                      variables_[i].name, clock));
+      }
+      if (found->type == ValueType::Clock) continue;
+      elements_[i].fail(
+          fmt::format("variable '{}' belongs to the clock {}, but '{}' has the type {}",
+                      variables_[i].name, clock, found->name, core::name(found->type)));
+    }
+  }
+
+  void read_dimensions(std::size_t i) {
+    core::Variable& variable = variables_[i];
+    for (const Element& dimension : elements_[i].children("Dimension")) {
+      const std::size_t size = read_size(dimension);
+      if (size > kMaxElements || (size != 0 && variable.size > kMaxElements / size)) {
+        dimension.fail(
+            fmt::format("variable '{}' has more than {} elements", variable.name, kMaxElements));
+      }
+      variable.dimensions.push_back(size);
+      variable.size *= size;
+    }
+  }
+
+  std::size_t read_size(const Element& dimension) const {
+    if (const auto fixed = dimension.number<std::uint64_t>("start")) return *fixed;
+    const auto reference = dimension.number<core::ValueReference>("valueReference");
+    if (!reference) dimension.fail("<Dimension> needs 'start' or 'valueReference'");
+    const core::Variable* source = find(*reference);
+    const bool gives_size =
+        source != nullptr && (source->causality == Causality::StructuralParameter ||
+                              source->variability == Variability::Constant);
+    if (!gives_size) {
+      dimension.fail(
+          fmt::format("the value reference {} of <Dimension> is not that of a "
+                      "structural parameter",
+                      *reference));
+    }
+    const auto words = split(source->start);
+    const auto size = words.size() == 1 ? to_number<std::uint64_t>(words[0]) : std::nullopt;
+    if (!size) {
+      dimension.fail(
+          fmt::format("the structural parameter '{}' has the start value '{}'; "
+                      "expected a number of elements",
+                      source->name, source->start));
+    }
+    return *size;
+  }
+
+  const core::Variable* find(core::ValueReference reference) const {
+    const auto found = index_.find(reference);
+    return found == index_.end() ? nullptr : &variables_[found->second];
+  }
+  int line(std::size_t i) const { return elements_[i].where().line; }
+
+  std::vector<core::Variable>& variables_;
+  const std::vector<Element>& elements_;
+  std::map<std::string, std::size_t> names_;
+  VariableIndex index_;
+};
+
+}  // namespace
+
+VariableIndex read_variables(const Element& root, std::vector<core::Variable>& variables) {
+  const auto list = root.child("ModelVariables");
+  if (!list) root.fail("<ModelVariables> is missing");
+  const TypeDefinitions types = read_type_definitions(root);
+  std::vector<Element> elements;
+  for (const Element& element : list->children()) {
+    if (element.name() == "Annotations") continue;
+    const auto type = find_named<ValueType>(element.name(), core::kValueTypeCount);
+    if (!type) element.fail(fmt::format("<{}> is no type of FMI 3.0", element.name()));
+    variables.push_back(read_variable(element, *type, types));
+    elements.push_back(element);
+  }
+  return Linker(variables, elements).run();
+}
+
+}  // namespace stride::fmi

@@ -1,0 +1,164 @@
+// A small importer for the tests of the unit kit: a library's entry table and an instance.
+#ifndef STRIDE_TESTS_INTERFACES_UNIT_IMPORTER_H
+#define STRIDE_TESTS_INTERFACES_UNIT_IMPORTER_H
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <dlfcn.h>
+
+#include <stride/fmi3.h>
+#include <stride/self_description.h>
+
+namespace stride::tests {
+
+class UnitLibrary {
+ public:
+  explicit UnitLibrary(const std::string& path) : handle_(dlopen(path.c_str(), RTLD_NOW)) {
+    if (handle_ == nullptr) throw std::runtime_error(dlerror());
+#define RESOLVE(name) name = reinterpret_cast<fmi3##name##TYPE*>(symbol("fmi3" #name));
+    FMI3_FUNCTIONS(RESOLVE)
+#undef RESOLVE
+  }
+  ~UnitLibrary() { dlclose(handle_); }
+  UnitLibrary(const UnitLibrary&) = delete;
+  UnitLibrary& operator=(const UnitLibrary&) = delete;
+
+  std::string describe(const std::string& resources = "") const {
+    auto* function =
+        reinterpret_cast<strideModelDescriptionTYPE*>(symbol("strideModelDescription"));
+    const char* error = "";
+    const char* text = function(resources.empty() ? nullptr : resources.c_str(), &error);
+    if (text == nullptr) throw std::runtime_error(error);
+    return text;
+  }
+
+#define POINTER(name) fmi3##name##TYPE* name = nullptr;
+  FMI3_FUNCTIONS(POINTER)
+#undef POINTER
+
+ private:
+  void* symbol(const char* name) const {
+    void* found = dlsym(handle_, name);
+    if (found == nullptr) throw std::runtime_error(name);
+    return found;
+  }
+  void* handle_;
+};
+
+/// The value of an attribute in the element that contains `anchor`.
+inline std::string attribute(const std::string& xml, const std::string& anchor,
+                             const std::string& name) {
+  const std::size_t inside = xml.find(anchor);
+  if (inside == std::string::npos) throw std::runtime_error("no " + anchor + " in the description");
+  const std::size_t end = xml.find('>', inside);
+  const std::string element = xml.substr(xml.rfind('<', inside), end - xml.rfind('<', inside));
+  const std::string key = " " + name + "=\"";
+  const std::size_t at = element.find(key);
+  if (at == std::string::npos) return "";
+  const std::size_t first = at + key.size();
+  return element.substr(first, element.find('"', first) - first);
+}
+
+struct InstanceChoices {
+  bool event_mode = true;
+  bool early_return = false;
+  bool logging = false;
+  std::string resources = "";
+  std::string token = "";  ///< empty: the right one
+};
+
+class UnitInstance {
+ public:
+  explicit UnitInstance(const UnitLibrary& library, const InstanceChoices& choices = {})
+      : fmi(library), xml_(library.describe(choices.resources)) {
+    const std::string right = attribute(xml_, "<fmiModelDescription", "instantiationToken");
+    handle = fmi.InstantiateCoSimulation(
+        "unit", (choices.token.empty() ? right : choices.token).c_str(),
+        choices.resources.empty() ? nullptr : choices.resources.c_str(), false, choices.logging,
+        choices.event_mode, choices.early_return, nullptr, 0, this, &on_log, nullptr);
+  }
+  ~UnitInstance() {
+    if (handle != nullptr) fmi.FreeInstance(handle);
+  }
+  UnitInstance(const UnitInstance&) = delete;
+  UnitInstance& operator=(const UnitInstance&) = delete;
+
+  fmi3ValueReference reference(const std::string& name) const {
+    const std::string number = attribute(xml_, "name=\"" + name + "\"", "valueReference");
+    return static_cast<fmi3ValueReference>(std::stoul(number));
+  }
+
+  fmi3Status initialize(double start = 0, double stop = -1) {
+    const fmi3Status entered =
+        fmi.EnterInitializationMode(handle, false, 0, start, stop >= 0, stop);
+    return entered == fmi3OK ? fmi.ExitInitializationMode(handle) : entered;
+  }
+  fmi3Status start_steps(double start = 0, double stop = -1) {
+    if (initialize(start, stop) != fmi3OK) return fmi3Error;
+    update();
+    return fmi.EnterStepMode(handle);
+  }
+
+  struct Step {
+    bool event = false, terminate = false, early = false;
+    double reached = -1;
+  };
+  fmi3Status step(double point, double size) {
+    last = {};
+    return fmi.DoStep(handle, point, size, true, &last.event, &last.terminate, &last.early,
+                      &last.reached);
+  }
+  fmi3Status update() {
+    bool nominals = false, values = false;
+    return fmi.UpdateDiscreteStates(handle, &iterate, &terminate, &nominals, &values,
+                                    &has_next_event, &next_event);
+  }
+
+  double real(const std::string& name) { return read<double>(fmi.GetFloat64, name); }
+  std::int32_t integer(const std::string& name) { return read<std::int32_t>(fmi.GetInt32, name); }
+  fmi3Status set_real(const std::string& name, double value) {
+    const fmi3ValueReference r = reference(name);
+    return fmi.SetFloat64(handle, &r, 1, &value, 1);
+  }
+  fmi3Status set_clock(const std::string& name, bool value) {
+    const fmi3ValueReference r = reference(name);
+    return fmi.SetClock(handle, &r, 1, &value);
+  }
+  bool clock(const std::string& name) {
+    const fmi3ValueReference r = reference(name);
+    bool value = false;
+    if (fmi.GetClock(handle, &r, 1, &value) != fmi3OK) throw std::runtime_error(last_message());
+    return value;
+  }
+  std::string last_message() const { return messages.empty() ? "" : messages.back(); }
+
+  const UnitLibrary& fmi;
+  fmi3Instance handle = nullptr;
+  std::vector<std::string> messages;
+  Step last;
+  bool iterate = false;
+  bool terminate = false;
+  bool has_next_event = false;
+  double next_event = 0;
+
+ private:
+  template <class T, class Getter>
+  T read(Getter* getter, const std::string& name) {
+    const fmi3ValueReference r = reference(name);
+    T value{};
+    if (getter(handle, &r, 1, &value, 1) != fmi3OK) throw std::runtime_error(last_message());
+    return value;
+  }
+  static void on_log(fmi3InstanceEnvironment environment, fmi3Status, fmi3String,
+                     fmi3String message) {
+    static_cast<UnitInstance*>(environment)->messages.emplace_back(message);
+  }
+
+  std::string xml_;
+};
+
+}  // namespace stride::tests
+
+#endif

@@ -1,0 +1,576 @@
+// The unit kit seen through its C entry points.
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+#include "tests/interfaces/unit/importer.h"
+
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+InstanceChoices early_return() {
+  InstanceChoices choices;
+  choices.early_return = true;
+  return choices;
+}
+
+/// A copy of resources that a test may change.
+class Resources {
+ public:
+  Resources() {
+    std::string name = (std::filesystem::temp_directory_path() / "stride-test-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = name;
+    std::ofstream(path_ / "note.txt") << "a note\n";
+  }
+  ~Resources() { std::filesystem::remove_all(path_); }
+  Resources(const Resources&) = delete;
+  Resources& operator=(const Resources&) = delete;
+
+  std::string path() const { return path_.string() + "/"; }
+  void remove_note() const { std::filesystem::remove(path_ / "note.txt"); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::vector<fmi3Byte> serialize(UnitInstance& unit, fmi3FMUState state) {
+  std::size_t size = 0;
+  REQUIRE(unit.fmi.SerializedFMUStateSize(unit.handle, state, &size) == fmi3OK);
+  std::vector<fmi3Byte> bytes(size);
+  REQUIRE(unit.fmi.SerializeFMUState(unit.handle, state, bytes.data(), size) == fmi3OK);
+  return bytes;
+}
+
+struct SavedState {
+  explicit SavedState(UnitInstance& of) : unit(of) {
+    REQUIRE(unit.fmi.GetFMUState(unit.handle, &state) == fmi3OK);
+  }
+  ~SavedState() { unit.fmi.FreeFMUState(unit.handle, &state); }
+  SavedState(const SavedState&) = delete;
+  SavedState& operator=(const SavedState&) = delete;
+  UnitInstance& unit;
+  fmi3FMUState state = nullptr;
+};
+
+}  // namespace
+
+// ---- Instantiation ----
+
+TEST_CASE("a wrong token is refused, with both tokens") {
+  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  InstanceChoices choices;
+  choices.token = "somebody else's";
+  const UnitInstance unit(library, choices);
+  CHECK(unit.handle == nullptr);
+  CHECK_THAT(unit.last_message(), Contains("fmi3InstantiateCoSimulation: ") &&
+                                      Contains("'somebody else's', this unit's is 'stride-"));
+}
+
+TEST_CASE("a constructor that throws makes no instance and no description") {
+  const UnitLibrary library(STRIDE_STATELESS_LIBRARY);
+  CHECK_THROWS_WITH(library.describe("/absent/"), Contains("note.txt is missing"));
+  std::string message;
+  const fmi3Instance handle = library.InstantiateCoSimulation(
+      "unit", "token", nullptr, false, false, true, false, nullptr, 0, &message,
+      [](fmi3InstanceEnvironment to, fmi3Status status, fmi3String, fmi3String text) {
+        *static_cast<std::string*>(to) = std::to_string(status) + text;
+      },
+      nullptr);
+  CHECK(handle == nullptr);
+  CHECK(message == "3fmi3InstantiateCoSimulation: its resource note.txt is missing");
+}
+
+TEST_CASE("the other interface types are refused with a reason") {
+  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  std::string message;
+  const fmi3LogMessageCallback log = [](fmi3InstanceEnvironment to, fmi3Status, fmi3String,
+                                        fmi3String text) { *static_cast<std::string*>(to) = text; };
+  CHECK(library.InstantiateModelExchange("unit", "token", nullptr, false, false, &message, log) ==
+        nullptr);
+  CHECK_THAT(message, Contains("belongs to Model Exchange"));
+  CHECK(library.InstantiateScheduledExecution("unit", "token", nullptr, false, false, &message, log,
+                                              nullptr, nullptr, nullptr) == nullptr);
+  CHECK_THAT(message, Contains("belongs to Scheduled Execution"));
+}
+
+TEST_CASE("what a Co-Simulation unit does not have answers with an error and a message") {
+  const UnitLibrary fmi(STRIDE_TYPES_LIBRARY);
+  UnitInstance unit(fmi);
+  const fmi3ValueReference r = 1;
+  double x = 0;
+  bool flag = false;
+  std::size_t n = 0;
+  fmi3UInt64 counter = 0;
+  fmi3IntervalQualifier qualifier{};
+  void* const u = unit.handle;
+  const std::pair<const char*, fmi3Status> answers[] = {
+      {"fmi3EnterContinuousTimeMode", fmi.EnterContinuousTimeMode(u)},
+      {"fmi3CompletedIntegratorStep", fmi.CompletedIntegratorStep(u, true, &flag, &flag)},
+      {"fmi3SetTime", fmi.SetTime(u, 1)},
+      {"fmi3SetContinuousStates", fmi.SetContinuousStates(u, &x, 1)},
+      {"fmi3GetContinuousStateDerivatives", fmi.GetContinuousStateDerivatives(u, &x, 1)},
+      {"fmi3GetEventIndicators", fmi.GetEventIndicators(u, &x, 1)},
+      {"fmi3GetContinuousStates", fmi.GetContinuousStates(u, &x, 1)},
+      {"fmi3GetNominalsOfContinuousStates", fmi.GetNominalsOfContinuousStates(u, &x, 1)},
+      {"fmi3GetNumberOfEventIndicators", fmi.GetNumberOfEventIndicators(u, &n)},
+      {"fmi3GetNumberOfContinuousStates", fmi.GetNumberOfContinuousStates(u, &n)},
+      {"fmi3ActivateModelPartition", fmi.ActivateModelPartition(u, 1, 0)},
+      {"fmi3GetIntervalDecimal", fmi.GetIntervalDecimal(u, &r, 1, &x, &qualifier)},
+      {"fmi3SetShiftFraction", fmi.SetShiftFraction(u, &r, 1, &counter, &counter)},
+      {"fmi3GetDirectionalDerivative", fmi.GetDirectionalDerivative(u, &r, 1, &r, 1, &x, 1, &x, 1)},
+      {"fmi3GetNumberOfVariableDependencies", fmi.GetNumberOfVariableDependencies(u, 1, &n)},
+      {"fmi3EnterConfigurationMode", fmi.EnterConfigurationMode(u)},
+      {"fmi3EvaluateDiscreteStates", fmi.EvaluateDiscreteStates(u)},
+  };
+  REQUIRE(unit.messages.size() == std::size(answers));
+  for (std::size_t i = 0; i < std::size(answers); ++i) {
+    CAPTURE(answers[i].first);
+    CHECK(answers[i].second == fmi3Error);
+    CHECK_THAT(unit.messages[i], Catch::Matchers::StartsWith(std::string(answers[i].first) + ": "));
+  }
+  CHECK(unit.initialize() == fmi3OK);
+}
+
+TEST_CASE("a NULL instance is an error, not a crash") {
+  const UnitLibrary fmi(STRIDE_TYPES_LIBRARY);
+  CHECK(fmi.Terminate(nullptr) == fmi3Error);
+  CHECK(fmi.EnterContinuousTimeMode(nullptr) == fmi3Error);
+  CHECK_NOTHROW(fmi.FreeInstance(nullptr));
+}
+
+// ---- Failures of the unit ----
+
+TEST_CASE("an exception becomes fmi3Error, and the instance can be reset") {
+  const UnitLibrary library(STRIDE_THROWER_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  CHECK(unit.step(0, 0.1) == fmi3Error);
+  CHECK(unit.last_message() == "fmi3DoStep: the fuse has blown");
+  CHECK(unit.step(0, 0.1) == fmi3Error);
+  CHECK_THAT(unit.last_message(), Contains("not allowed in Terminated"));
+  CHECK(library.Reset(unit.handle) == fmi3OK);
+  REQUIRE(unit.set_real("throw_at", 1) == fmi3OK);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  CHECK(unit.step(0, 0.1) == fmi3OK);
+  CHECK(unit.integer("steps") == 1);
+}
+
+TEST_CASE("a reset whose constructor throws leaves an instance that can be asked and freed") {
+  const Resources resources;
+  const UnitLibrary library(STRIDE_STATELESS_LIBRARY);
+  InstanceChoices choices;
+  choices.resources = resources.path();
+  UnitInstance unit(library, choices);
+  REQUIRE(unit.initialize() == fmi3OK);
+  const fmi3ValueReference note = unit.reference("note");
+  resources.remove_note();
+  CHECK(library.Reset(unit.handle) == fmi3Error);
+  CHECK_THAT(unit.last_message(), Contains("note.txt is missing"));
+  fmi3String text = nullptr;
+  CHECK(library.GetString(unit.handle, &note, 1, &text, 1) == fmi3Error);
+  fmi3FMUState state = nullptr;
+  CHECK(library.GetFMUState(unit.handle, &state) == fmi3Error);
+}
+
+// ---- Values ----
+
+TEST_CASE("a parameter outside of its range is refused when the initialization ends") {
+  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.set_real("gain", -0.5) == fmi3OK);
+  CHECK(unit.initialize() == fmi3Error);
+  CHECK_THAT(unit.last_message(), Contains("parameter 'gain' is -0.5, expected at least 0"));
+}
+
+TEST_CASE("an array is set and read as a whole, in row-major order") {
+  const UnitLibrary fmi(STRIDE_TYPES_LIBRARY);
+  UnitInstance unit(fmi);
+  const fmi3ValueReference in = unit.reference("matrix");
+  const fmi3ValueReference out = unit.reference("matrix.echo");
+  REQUIRE(fmi.EnterInitializationMode(unit.handle, false, 0, 0, false, 0) == fmi3OK);
+  double values[6] = {};
+  REQUIRE(fmi.GetFloat64(unit.handle, &out, 1, values, 6) == fmi3OK);
+  CHECK((values[0] == 1 && values[5] == 6));
+  values[4] = 42;
+  REQUIRE(fmi.SetFloat64(unit.handle, &in, 1, values, 6) == fmi3OK);
+  double echo[6] = {};
+  REQUIRE(fmi.GetFloat64(unit.handle, &out, 1, echo, 6) == fmi3OK);
+  CHECK(std::memcmp(values, echo, sizeof values) == 0);
+  CHECK(fmi.GetFloat64(unit.handle, &out, 1, echo, 5) == fmi3Error);
+  CHECK_THAT(unit.last_message(), Contains("nValues is too small"));
+  double more[7] = {};
+  CHECK(fmi.GetFloat64(unit.handle, &out, 1, more, 7) == fmi3Error);
+  CHECK_THAT(unit.last_message(), Contains("nValues is too large"));
+}
+
+TEST_CASE("an enumeration travels as Int64, and no other type does") {
+  const UnitLibrary fmi(STRIDE_TYPES_LIBRARY);
+  UnitInstance unit(fmi);
+  const fmi3ValueReference in = unit.reference("colour");
+  const fmi3ValueReference out = unit.reference("colour.echo");
+  REQUIRE(fmi.EnterInitializationMode(unit.handle, false, 0, 0, false, 0) == fmi3OK);
+  fmi3Int64 value = 4;
+  REQUIRE(fmi.SetInt64(unit.handle, &in, 1, &value, 1) == fmi3OK);
+  value = 0;
+  REQUIRE(fmi.GetInt64(unit.handle, &out, 1, &value, 1) == fmi3OK);
+  CHECK(value == 4);
+  fmi3Int32 narrow = 0;
+  CHECK(fmi.GetInt32(unit.handle, &out, 1, &narrow, 1) == fmi3Error);
+  CHECK_THAT(unit.last_message(),
+             Contains("variable 'colour.echo' is of the type Enumeration, not Int32"));
+}
+
+TEST_CASE("references that lead nowhere and variables that cannot be set are named") {
+  const UnitLibrary fmi(STRIDE_TYPES_LIBRARY);
+  UnitInstance unit(fmi);
+  const fmi3ValueReference nowhere = 9999;
+  double value = 0;
+  CHECK(fmi.GetFloat64(unit.handle, &nowhere, 1, &value, 1) == fmi3Error);
+  CHECK_THAT(unit.last_message(), Contains("no variable with the value reference 9999"));
+  CHECK(unit.set_real("float64.echo", 1) == fmi3Error);
+  CHECK_THAT(unit.last_message(), Contains("variable 'float64.echo' cannot be set"));
+  CHECK(unit.set_real("time", 1) == fmi3Error);
+}
+
+TEST_CASE("a refused set changes nothing") {
+  const UnitLibrary fmi(STRIDE_TYPES_LIBRARY);
+  UnitInstance unit(fmi);
+  REQUIRE(fmi.EnterInitializationMode(unit.handle, false, 0, 0, false, 0) == fmi3OK);
+  REQUIRE(unit.set_real("float64", 1) == fmi3OK);
+  const double values[] = {2, 3};
+  const fmi3ValueReference half_wrong[] = {unit.reference("float64"), 9999};
+  CHECK(fmi.SetFloat64(unit.handle, half_wrong, 2, values, 2) == fmi3Error);
+  const fmi3ValueReference right[] = {unit.reference("float64")};
+  CHECK(fmi.SetFloat64(unit.handle, right, 1, values, 2) == fmi3Error);
+  CHECK(unit.real("float64") == 1);
+  CHECK(unit.real("float64.echo") == 1);
+}
+
+TEST_CASE("the independent variable is the time") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.start_steps(0.5) == fmi3OK);
+  CHECK(unit.real("time") == 0.5);
+  REQUIRE(unit.step(0.5, 0.25) == fmi3OK);
+  CHECK(unit.real("time") == 0.75);
+}
+
+// ---- Steps ----
+
+TEST_CASE("a step must start where the unit stands, be positive, and end before the stop time") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.start_steps(0, 1) == fmi3OK);
+  CHECK(unit.step(0.5, 0.1) == fmi3Error);
+  CHECK_THAT(unit.last_message(), Contains("stands at 0 s, but the step starts at 0.5 s"));
+  CHECK(unit.step(0, 0) == fmi3Error);
+  CHECK_THAT(unit.last_message(), Contains("must be positive"));
+  CHECK(unit.step(0, -0.1) == fmi3Error);
+  CHECK(unit.step(0, 1.1) == fmi3Error);
+  CHECK_THAT(unit.last_message(), Contains("behind the stop time 1 s"));
+  CHECK(unit.step(0, std::numeric_limits<double>::quiet_NaN()) == fmi3Error);
+  CHECK(unit.step(std::numeric_limits<double>::infinity(), 1) == fmi3Error);
+  CHECK(unit.step(0, 1) == fmi3OK);
+  CHECK(unit.last.reached == 1);
+}
+
+TEST_CASE("a rejected step is fmi3Discard and leaves the unit as it was") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.set_real("largest_step", 0.1) == fmi3OK);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  CHECK(unit.step(0, 0.2) == fmi3Discard);
+  CHECK(unit.integer("steps") == 0);
+  CHECK(unit.step(0, 0.1) == fmi3OK);
+  CHECK(unit.integer("steps") == 1);
+}
+
+TEST_CASE("an early return stops at its instant and wants an event there") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  UnitInstance unit(library, early_return());
+  REQUIRE(unit.set_real("early_at", 0.04) == fmi3OK);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  REQUIRE(unit.step(0, 0.1) == fmi3OK);
+  CHECK(unit.last.early);
+  CHECK(unit.last.event);
+  CHECK(unit.last.reached == 0.04);
+  CHECK(unit.real("position") == Approx(0.08));
+  REQUIRE(unit.step(0.04, 0.06) == fmi3OK);
+  CHECK_FALSE(unit.last.early);
+}
+
+TEST_CASE("without leave to return early the step goes to its end") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.set_real("early_at", 0.04) == fmi3OK);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  REQUIRE(unit.step(0, 0.1) == fmi3OK);
+  CHECK_FALSE(unit.last.early);
+  CHECK(unit.last.reached == 0.1);
+}
+
+TEST_CASE("late in a long simulation doubles are coarser than picoseconds, and steps still join") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  UnitInstance unit(library, early_return());
+  const double start = 1e6;
+  const double early = 1000000.0012345678;
+  REQUIRE(unit.set_real("early_at", early) == fmi3OK);
+  REQUIRE(unit.start_steps(start, start + 10) == fmi3OK);
+  double point = start;
+  for (int i = 0; i < 1000; ++i) {
+    const double next = start + (i + 1) * 1e-2;
+    REQUIRE(unit.step(point, next - point) == fmi3OK);
+    point = unit.last.reached;
+    if (unit.last.early) {
+      CHECK(point == Approx(early).epsilon(1e-15));
+      REQUIRE(unit.step(point, next - point) == fmi3OK);
+      point = unit.last.reached;
+    }
+  }
+  CHECK(unit.integer("steps") == 1001);
+}
+
+TEST_CASE("a unit can end the simulation") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.set_real("end_at", 0.2) == fmi3OK);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  REQUIRE(unit.step(0, 0.1) == fmi3OK);
+  CHECK_FALSE(unit.last.terminate);
+  REQUIRE(unit.step(0.1, 0.1) == fmi3OK);
+  CHECK(unit.last.terminate);
+}
+
+// ---- Events and clocks ----
+
+TEST_CASE("a tick in a step is seen in the Event Mode that follows, and then withdrawn") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.set_real("tick_at", 0.1) == fmi3OK);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  REQUIRE(unit.step(0, 0.1) == fmi3OK);
+  CHECK(unit.last.event);
+  REQUIRE(library.EnterEventMode(unit.handle) == fmi3OK);
+  CHECK(unit.clock("clock"));
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK_FALSE(unit.iterate);
+  CHECK_FALSE(unit.clock("clock"));
+}
+
+TEST_CASE("a tick in Event Mode asks for another iteration") {
+  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.initialize() == fmi3OK);
+  REQUIRE(unit.set_clock("receive.clock", true) == fmi3OK);
+  CHECK(unit.clock("receive.clock"));
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK(unit.iterate);
+  CHECK(unit.clock("send.clock"));
+  CHECK_FALSE(unit.clock("receive.clock"));
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK_FALSE(unit.iterate);
+  CHECK_FALSE(unit.clock("send.clock"));
+}
+
+TEST_CASE("clocks are set where they are inputs, clocked inputs in Event Mode only") {
+  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.initialize() == fmi3OK);
+  CHECK(unit.set_clock("send.clock", true) == fmi3Error);
+  const fmi3ValueReference frame = unit.reference("receive.frame");
+  const fmi3Byte byte = 7;
+  const fmi3Binary value = &byte;
+  const std::size_t size = 1;
+  CHECK(library.SetBinary(unit.handle, &frame, 1, &size, &value, 1) == fmi3OK);
+  REQUIRE(library.EnterStepMode(unit.handle) == fmi3OK);
+  CHECK(library.SetBinary(unit.handle, &frame, 1, &size, &value, 1) == fmi3Error);
+  CHECK_THAT(unit.last_message(), Contains("'receive.frame' cannot be set in Step Mode"));
+}
+
+TEST_CASE("outputs follow inputs within Event Mode") {
+  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.initialize() == fmi3OK);
+  REQUIRE(unit.set_real("float64", 3) == fmi3OK);
+  REQUIRE(unit.set_real("gain", 2) == fmi3OK);
+  CHECK(unit.real("gained") == 6);
+}
+
+TEST_CASE("the next event and another iteration are passed on") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.set_real("event_at", 0.1) == fmi3OK);
+  REQUIRE(unit.initialize() == fmi3OK);
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK(unit.has_next_event);
+  CHECK(unit.next_event == 0.1);
+  REQUIRE(library.EnterStepMode(unit.handle) == fmi3OK);
+  REQUIRE(unit.step(0, 0.1) == fmi3OK);
+  REQUIRE(library.EnterEventMode(unit.handle) == fmi3OK);
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK(unit.iterate);
+  CHECK_FALSE(unit.has_next_event);
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK_FALSE(unit.iterate);
+}
+
+TEST_CASE("an event that an importer without Event Mode loses is reported") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  InstanceChoices choices;
+  choices.event_mode = false;
+  choices.logging = true;
+  UnitInstance unit(library, choices);
+  REQUIRE(unit.set_real("tick_at", 0.1) == fmi3OK);
+  REQUIRE(unit.initialize() == fmi3OK);
+  REQUIRE(unit.step(0, 0.1) == fmi3OK);
+  CHECK_FALSE(unit.last.event);
+  CHECK_THAT(unit.last_message(), Contains("an event at 0.1 s is lost"));
+}
+
+// ---- Output derivatives ----
+
+TEST_CASE("the first derivative of an output that has one") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  CHECK(attribute(library.describe(), "<CoSimulation", "maxOutputDerivativeOrder") == "1");
+  UnitInstance unit(library);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  REQUIRE(unit.step(0, 0.1) == fmi3OK);
+  const fmi3ValueReference position = unit.reference("position");
+  fmi3Int32 order = 1;
+  double rate = 0;
+  REQUIRE(library.GetOutputDerivatives(unit.handle, &position, 1, &order, &rate, 1) == fmi3OK);
+  CHECK(rate == 2);
+  order = 2;
+  CHECK(library.GetOutputDerivatives(unit.handle, &position, 1, &order, &rate, 1) == fmi3Error);
+  CHECK_THAT(unit.last_message(), Contains("'position' has no derivative of order 2"));
+}
+
+// ---- State ----
+
+TEST_CASE("a restored state continues as if nothing had happened between") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  REQUIRE(unit.step(0, 0.1) == fmi3OK);
+  const SavedState saved(unit);
+  REQUIRE(unit.step(0.1, 0.1) == fmi3OK);
+  const double position = unit.real("position");
+  REQUIRE(unit.step(0.2, 0.3) == fmi3OK);
+  REQUIRE(library.SetFMUState(unit.handle, saved.state) == fmi3OK);
+  CHECK(unit.real("time") == 0.1);
+  CHECK(unit.integer("steps") == 1);
+  REQUIRE(unit.step(0.1, 0.1) == fmi3OK);
+  CHECK(unit.real("position") == position);
+}
+
+TEST_CASE("a restored state brings back the mode and what state() does not list") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.set_real("event_at", 0.0) == fmi3OK);
+  REQUIRE(unit.initialize() == fmi3OK);
+  const SavedState saved(unit);
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK(unit.iterate);
+  REQUIRE(library.EnterStepMode(unit.handle) == fmi3OK);
+  REQUIRE(library.SetFMUState(unit.handle, saved.state) == fmi3OK);
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK(unit.iterate);
+}
+
+TEST_CASE("a saved state is reused where the importer passes it again") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  SavedState saved(unit);
+  const fmi3FMUState before = saved.state;
+  REQUIRE(unit.step(0, 0.1) == fmi3OK);
+  REQUIRE(library.GetFMUState(unit.handle, &saved.state) == fmi3OK);
+  CHECK(saved.state == before);
+  REQUIRE(library.SetFMUState(unit.handle, saved.state) == fmi3OK);
+  CHECK(unit.integer("steps") == 1);
+}
+
+TEST_CASE("a serialised state continues in another instance") {
+  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  UnitInstance first(library);
+  REQUIRE(first.initialize() == fmi3OK);
+  REQUIRE(first.set_real("float64", 2.5) == fmi3OK);
+  const fmi3ValueReference text = first.reference("string");
+  fmi3String words = "some words";
+  REQUIRE(library.SetString(first.handle, &text, 1, &words, 1) == fmi3OK);
+  REQUIRE(first.set_clock("receive.clock", true) == fmi3OK);
+  const SavedState saved(first);
+  const std::vector<fmi3Byte> bytes = serialize(first, saved.state);
+
+  UnitInstance second(library);
+  fmi3FMUState copy = nullptr;
+  REQUIRE(library.DeserializeFMUState(second.handle, bytes.data(), bytes.size(), &copy) == fmi3OK);
+  REQUIRE(library.SetFMUState(second.handle, copy) == fmi3OK);
+  CHECK(serialize(second, copy) == bytes);
+  REQUIRE(library.FreeFMUState(second.handle, &copy) == fmi3OK);
+  CHECK(copy == nullptr);
+  CHECK(second.real("float64.echo") == 2.5);
+  REQUIRE(library.GetString(second.handle, &text, 1, &words, 1) == fmi3OK);
+  CHECK(std::string(words) == "some words");
+  REQUIRE(second.update() == fmi3OK);
+  CHECK(second.clock("send.clock"));
+}
+
+TEST_CASE("bytes that are no state of this unit are refused") {
+  const UnitLibrary types(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary stepper(STRIDE_STEPPER_LIBRARY);
+  UnitInstance source(types);
+  UnitInstance unit(stepper);
+  const SavedState saved(source);
+  const std::vector<fmi3Byte> foreign = serialize(source, saved.state);
+  const SavedState own(unit);
+  const std::vector<fmi3Byte> truncated = [&] {
+    std::vector<fmi3Byte> bytes = serialize(unit, own.state);
+    bytes.pop_back();
+    return bytes;
+  }();
+  fmi3FMUState state = nullptr;
+  for (const auto& bytes : {foreign, std::vector<fmi3Byte>{1, 2, 3}, truncated}) {
+    CAPTURE(bytes.size());
+    CHECK(stepper.DeserializeFMUState(unit.handle, bytes.data(), bytes.size(), &state) ==
+          fmi3Error);
+    CHECK_THAT(unit.last_message(), Contains("no saved state of this unit"));
+    CHECK(state == nullptr);
+  }
+  CHECK(unit.initialize() == fmi3OK);
+}
+
+TEST_CASE("a unit that lists no state says so") {
+  const Resources resources;
+  const UnitLibrary library(STRIDE_STATELESS_LIBRARY);
+  InstanceChoices choices;
+  choices.resources = resources.path();
+  UnitInstance unit(library, choices);
+  CHECK(attribute(library.describe(resources.path()), "<CoSimulation", "canGetAndSetFMUState") ==
+        "");
+  fmi3FMUState state = nullptr;
+  CHECK(library.GetFMUState(unit.handle, &state) == fmi3Error);
+  CHECK_THAT(unit.last_message(), Contains("cannot save its state"));
+}
+
+TEST_CASE("NULL in the place of a state or too small a buffer is a misuse, not a crash") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  UnitInstance unit(library);
+  CHECK(library.SetFMUState(unit.handle, nullptr) == fmi3Error);
+  std::size_t size = 0;
+  CHECK(library.SerializedFMUStateSize(unit.handle, nullptr, &size) == fmi3Error);
+  const SavedState saved(unit);
+  fmi3Byte byte = 0;
+  CHECK(library.SerializeFMUState(unit.handle, saved.state, &byte, 1) == fmi3Error);
+  fmi3FMUState nothing = nullptr;
+  CHECK(library.FreeFMUState(unit.handle, &nothing) == fmi3OK);
+  CHECK(library.FreeFMUState(unit.handle, nullptr) == fmi3OK);
+}

@@ -1,0 +1,67 @@
+#include "master/fmi/xml.h"
+
+#include <limits>
+
+#include "tests/master/fmi/support.h"
+
+using namespace stride;
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+struct Parsed {
+  explicit Parsed(const char* text) { REQUIRE(document.Parse(text) == tinyxml2::XML_SUCCESS); }
+  fmi::Element root() const { return {*document.RootElement(), file}; }
+  tinyxml2::XMLDocument document;
+  std::string file = "unit.xml";
+};
+
+}  // namespace
+
+TEST_CASE("a list is split at blanks of any kind") {
+  using Words = std::vector<std::string_view>;
+  CHECK(fmi::split("").empty());
+  CHECK(fmi::split(" \t\n ").empty());
+  CHECK(fmi::split("1") == Words{"1"});
+  CHECK(fmi::split("\n1  22\t333 ") == Words{"1", "22", "333"});
+}
+
+TEST_CASE("a number is the whole word and within its type") {
+  CHECK(fmi::to_number<int>("-7") == -7);
+  CHECK(fmi::to_number<int>("+7") == 7);
+  CHECK_FALSE(fmi::to_number<int>("7x"));
+  CHECK_FALSE(fmi::to_number<int>(""));
+  CHECK_FALSE(fmi::to_number<std::uint32_t>("-1"));
+  CHECK_FALSE(fmi::to_number<std::uint32_t>("4294967296"));
+  CHECK(fmi::to_number<double>("1e-3") == 1e-3);
+  CHECK(fmi::to_number<double>("INF") == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("attributes are read with their defaults") {
+  const Parsed xml("<a i=' 3 ' f='0.5' yes='1' no='false' list='1 2  3'><b/><c/><b n='2'/></a>");
+  const fmi::Element a = xml.root();
+  CHECK(a.required_number<int>("i") == 3);
+  CHECK(a.number<double>("f") == 0.5);
+  CHECK_FALSE(a.number<double>("absent"));
+  CHECK(a.flag("yes"));
+  CHECK_FALSE(a.flag("no"));
+  CHECK_FALSE(a.flag("absent"));
+  CHECK(a.number_list<unsigned>("list") == std::vector<unsigned>{1, 2, 3});
+  CHECK(a.children("b").size() == 2);
+  CHECK(a.children().size() == 3);
+  CHECK(a.child("c")->name() == "c");
+  CHECK_FALSE(a.child("d"));
+}
+
+TEST_CASE("complaints name file and line") {
+  const Parsed xml("<a>\n<b i='1.5' f='x' flag='maybe' list='1 two'/>\n</a>");
+  const fmi::Element b = *xml.root().child("b");
+  CHECK_THAT(input_error([&] { b.required_text("name"); }),
+             Contains("unit.xml:2: <b> has no attribute 'name'"));
+  CHECK_THAT(input_error([&] { b.number<int>("i"); }),
+             Contains("i=\"1.5\"") && Contains("expected an integer"));
+  CHECK_THAT(input_error([&] { b.number<double>("f"); }), Contains("expected a number"));
+  CHECK_THAT(input_error([&] { b.flag("flag"); }), Contains("expected true or false"));
+  CHECK_THAT(input_error([&] { b.number_list<int>("list"); }), Contains("list=\"two\""));
+}

@@ -1,0 +1,193 @@
+/* A Co-Simulation unit in C99 against the ABI alone. It has no Model Exchange and no Scheduled
+ * Execution functions. The instance's name says how it misbehaves:
+ *
+ *   fatal    fmi3DoStep returns fmi3Fatal      discard  it returns fmi3Discard
+ *   error    it returns fmi3Error, silently    warning  it returns fmi3Warning with a message
+ *   lies     it stops halfway without saying so early   it returns early halfway
+ *   drifts   its time is a little off          refuses  it cannot be instantiated
+ */
+#include <string.h>
+
+#include <stride/fmi3.h>
+
+typedef struct {
+  bool is_used;
+  char name[32];
+  char resources[512];
+  fmi3InstanceEnvironment environment;
+  fmi3LogMessageCallback log;
+} Instance;
+
+/* Not from the heap: an instance that has returned fmi3Fatal is never freed. */
+static Instance instances[8];
+
+/* Read by the tests through dlsym. */
+int raw_living = 0;
+double raw_point = 0;
+double raw_size = 0;
+bool raw_no_restore = false;
+
+#ifdef WITH_UNDEFINED_SYMBOL
+extern void stride_test_nobody_has_this(void);
+#endif
+#ifdef WITH_MISSING_LIBRARY
+extern int stride_test_absent(void);
+#endif
+
+static bool is(const Instance* instance, const char* name) {
+  return strcmp(instance->name, name) == 0;
+}
+
+const char* fmi3GetVersion(void) { return FMI3_VERSION; }
+
+fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources,
+                                         fmi3Boolean visible, fmi3Boolean logging,
+                                         fmi3Boolean event_mode, fmi3Boolean early_return,
+                                         const fmi3ValueReference required[], size_t n_required,
+                                         fmi3InstanceEnvironment environment,
+                                         fmi3LogMessageCallback log,
+                                         fmi3IntermediateUpdateCallback update) {
+  (void)token, (void)visible, (void)logging, (void)event_mode, (void)early_return;
+  (void)required, (void)n_required, (void)update;
+#ifdef WITH_UNDEFINED_SYMBOL
+  stride_test_nobody_has_this();
+#endif
+#ifdef WITH_MISSING_LIBRARY
+  stride_test_absent();
+#endif
+  Instance* instance = instances;
+  while (instance->is_used) {
+    if (++instance == instances + sizeof instances / sizeof *instances) return NULL;
+  }
+  memset(instance, 0, sizeof *instance);
+  strncpy(instance->name, name, sizeof instance->name - 1);
+  strncpy(instance->resources, resources != NULL ? resources : "NULL",
+          sizeof instance->resources - 1);
+  instance->environment = environment;
+  instance->log = log;
+  if (is(instance, "refuses")) {
+    log(environment, fmi3Error, "logStatusError", "there is no licence");
+    return NULL;
+  }
+  instance->is_used = true;
+  ++raw_living;
+  return instance;
+}
+
+void fmi3FreeInstance(fmi3Instance instance) {
+  ((Instance*)instance)->is_used = false;
+  --raw_living;
+}
+
+fmi3Status fmi3EnterInitializationMode(fmi3Instance i, fmi3Boolean d, fmi3Float64 t,
+                                       fmi3Float64 start, fmi3Boolean s, fmi3Float64 stop) {
+  (void)i, (void)d, (void)t, (void)start, (void)s, (void)stop;
+  return fmi3OK;
+}
+
+#define TRANSITION(Name)                         \
+  fmi3Status fmi3##Name(fmi3Instance instance) { \
+    (void)instance;                              \
+    return fmi3OK;                               \
+  }
+TRANSITION(ExitInitializationMode)
+TRANSITION(EnterEventMode)
+TRANSITION(EnterStepMode)
+TRANSITION(Terminate)
+TRANSITION(Reset)
+
+#ifndef WITHOUT_DO_STEP
+fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 point, fmi3Float64 size,
+                      fmi3Boolean no_restore, fmi3Boolean* event, fmi3Boolean* terminate,
+                      fmi3Boolean* early, fmi3Float64* reached) {
+  Instance* instance = handle;
+  raw_point = point;
+  raw_size = size;
+  raw_no_restore = no_restore;
+  *event = false;
+  *terminate = false;
+  *early = is(instance, "early");
+  *reached = point + size;
+  if (is(instance, "lies") || is(instance, "early")) *reached = point + size / 2;
+  if (is(instance, "drifts")) *reached = point + size * (1 + 1e-9);
+  if (is(instance, "warning")) {
+    instance->log(instance->environment, fmi3Warning, "logStatusWarning", "it gets hot");
+    return fmi3Warning;
+  }
+  if (is(instance, "fatal")) {
+    instance->log(instance->environment, fmi3Fatal, "logStatusFatal", "the heap is gone");
+    return fmi3Fatal;
+  }
+  if (is(instance, "discard")) return fmi3Discard;
+  return is(instance, "error") ? fmi3Error : fmi3OK;
+}
+#endif
+
+fmi3Status fmi3UpdateDiscreteStates(fmi3Instance i, fmi3Boolean* update, fmi3Boolean* terminate,
+                                    fmi3Boolean* nominals, fmi3Boolean* values,
+                                    fmi3Boolean* defined, fmi3Float64* next) {
+  (void)i;
+  *update = *terminate = *nominals = *values = false;
+  *defined = true;
+  *next = 1e300;
+  return fmi3OK;
+}
+
+#define ACCESS(T)                                                                                 \
+  fmi3Status fmi3Get##T(fmi3Instance i, const fmi3ValueReference r[], size_t n, fmi3##T values[], \
+                        size_t size) {                                                            \
+    (void)i, (void)r, (void)n;                                                                    \
+    for (size_t k = 0; k < size; ++k) values[k] = 0;                                              \
+    return fmi3OK;                                                                                \
+  }                                                                                               \
+  fmi3Status fmi3Set##T(fmi3Instance i, const fmi3ValueReference r[], size_t n,                   \
+                        const fmi3##T values[], size_t size) {                                    \
+    (void)i, (void)r, (void)n, (void)values, (void)size;                                          \
+    return fmi3OK;                                                                                \
+  }
+ACCESS(Float32)
+ACCESS(Float64)
+ACCESS(Int8)
+ACCESS(UInt8)
+ACCESS(Int16)
+ACCESS(UInt16)
+ACCESS(Int32)
+ACCESS(UInt32)
+ACCESS(Int64)
+ACCESS(UInt64)
+ACCESS(Boolean)
+
+/* The one String is the path of the resources. */
+fmi3Status fmi3GetString(fmi3Instance i, const fmi3ValueReference r[], size_t n,
+                         fmi3String values[], size_t size) {
+  (void)r, (void)n;
+  for (size_t k = 0; k < size; ++k) values[k] = ((Instance*)i)->resources;
+  return fmi3OK;
+}
+fmi3Status fmi3SetString(fmi3Instance i, const fmi3ValueReference r[], size_t n,
+                         const fmi3String values[], size_t size) {
+  (void)i, (void)r, (void)n, (void)values, (void)size;
+  return fmi3OK;
+}
+fmi3Status fmi3GetBinary(fmi3Instance i, const fmi3ValueReference r[], size_t n, size_t sizes[],
+                         fmi3Binary values[], size_t size) {
+  (void)i, (void)r, (void)n;
+  for (size_t k = 0; k < size; ++k) sizes[k] = 3, values[k] = NULL;
+  return fmi3OK;
+}
+fmi3Status fmi3SetBinary(fmi3Instance i, const fmi3ValueReference r[], size_t n,
+                         const size_t sizes[], const fmi3Binary values[], size_t size) {
+  (void)i, (void)r, (void)n, (void)sizes, (void)values, (void)size;
+  return fmi3OK;
+}
+fmi3Status fmi3GetClock(fmi3Instance i, const fmi3ValueReference r[], size_t n,
+                        fmi3Clock values[]) {
+  (void)i, (void)r;
+  for (size_t k = 0; k < n; ++k) values[k] = false;
+  return fmi3OK;
+}
+fmi3Status fmi3SetClock(fmi3Instance i, const fmi3ValueReference r[], size_t n,
+                        const fmi3Clock values[]) {
+  (void)i, (void)r, (void)n, (void)values;
+  return fmi3OK;
+}

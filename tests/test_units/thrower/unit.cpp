@@ -1,0 +1,33 @@
+// Fails in the first step that ends at `throw_at` or later.
+#include <stdexcept>
+
+#include <stride/unit.h>
+
+namespace {
+
+class Thrower : public stride::Unit {
+ public:
+  Thrower() {
+    parameter("throw_at", throw_at_).unit("s").description("instant from which a step fails");
+    parameter("odd", odd_).description("throw something that is no std::exception");
+    output("steps", steps_).exact().depends_on({}).description("steps made");
+    state();
+  }
+
+  void step(stride::Step& step) override {
+    if (stride::to_seconds(step.to()) >= throw_at_) {
+      if (odd_) throw 42;
+      throw std::runtime_error("the fuse has blown");
+    }
+    ++steps_;
+  }
+
+ private:
+  double throw_at_ = 0;
+  bool odd_ = false;
+  std::int32_t steps_ = 0;
+};
+
+}  // namespace
+
+STRIDE_UNIT(Thrower)
