@@ -1,0 +1,57 @@
+"""pages_test.py STRIDE ROOT: links between the pages lead somewhere, lines in docs/ other than a table's are no longer
+than 120 characters, and the command line reference in docs/scenario.md has exactly the options of the program."""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+LINK = re.compile(r"\]\(([^)\s#]+)(#[^)\s]*)?\)")
+OPTION = re.compile(r"--[a-z][a-z-]*")
+
+
+def broken_links(page):
+    for link, _ in LINK.findall(page.read_text(encoding="utf-8")):
+        if not re.match(r"[a-z]+:", link) and not (page.parent / link).exists():
+            yield f"{page}: the link to {link} leads nowhere"
+
+
+def long_lines(page):
+    for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
+        if len(line) > 120 and not line.startswith("|"):
+            yield f"{page}:{number}: {len(line)} characters, expected 120 at most"
+
+
+def wrong_options(program, page):
+    """The section "### stride COMMAND" names each option of that command, and no other."""
+    def help_of(*command):
+        return subprocess.run([program, *command, "--help"], check=True, capture_output=True, text=True).stdout
+
+    sections = dict(re.findall(r"^### `stride (\w+)[^\n]*\n(.*?)(?=^##|\Z)", page.read_text(encoding="utf-8"),
+                               flags=re.MULTILINE | re.DOTALL))
+    commands = re.findall(r"^  (\w+)\s", help_of().split("Subcommands:")[1], flags=re.MULTILINE)
+    if not commands or set(commands) != set(sections):
+        yield f"{page}: the commands are {sorted(commands)}, the page has {sorted(sections)}"
+        return
+    for command in commands:
+        options = set(OPTION.findall(help_of(command).split("Options:")[1].split("Exit codes")[0])) - {"--help"}
+        named = set(re.findall(r"^\| `(?:-\w, )?(--[a-z-]+)", sections[command], flags=re.MULTILINE))
+        for option in sorted(options ^ named):
+            yield f"{page}: stride {command} {option} is {'not described' if option in options else 'no option'}"
+
+
+def main(program, root):
+    root = pathlib.Path(root)
+    docs = sorted((root / "docs").rglob("*.md"))
+    pages = sorted(root.glob("*.md")) + docs + sorted((root / "units").rglob("*.md"))
+    mistakes = list(wrong_options(program, root / "docs" / "scenario.md"))
+    for page in pages:
+        mistakes += broken_links(page)
+    for page in docs:
+        mistakes += long_lines(page)
+    print("\n".join(mistakes) if mistakes else f"{len(pages)} pages are right")
+    return 1 if mistakes else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
