@@ -4,10 +4,14 @@
 # their folders are known to it as STRIDE_FMU_DIR (this repository's units) and STRIDE_TEST_FMU_DIR (units for tests).
 find_package(Catch2 2.13 REQUIRED)
 
+add_library(stride_catch_main STATIC ${CMAKE_CURRENT_SOURCE_DIR}/catch_main.cpp)
+target_link_libraries(stride_catch_main PUBLIC Catch2::Catch2)
+target_compile_options(stride_catch_main PRIVATE -w)  # GCC 12 warns of Catch2 itself under sanitizers
+
 function(stride_add_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES;FMUS")
-  add_executable(${name} ${arg_SOURCES} ${PROJECT_SOURCE_DIR}/tests/catch_main.cpp)
-  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} Catch2::Catch2)
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} stride_catch_main)
   target_compile_definitions(${name} PRIVATE
     STRIDE_FMU_DIR="${CMAKE_BINARY_DIR}/units"
     STRIDE_TEST_FMU_DIR="${CMAKE_BINARY_DIR}/tests/units"

@@ -34,6 +34,6 @@ if [ "$quick" = no ]; then
   scripts/fetch_mujoco3.sh build/mujoco3
   cmake --preset release -B build/release-mujoco3 --log-level=WARNING -DSTRIDE_WARNINGS_AS_ERRORS=ON \
     -DMuJoCo_ROOT="$PWD/build/mujoco3/mujoco"
-  cmake --build build/release-mujoco3 --target mujoco3_tests
+  cmake --build build/release-mujoco3 --target mujoco_tests
   ctest --test-dir build/release-mujoco3 --output-on-failure --label-regex mujoco
 fi

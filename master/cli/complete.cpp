@@ -20,11 +20,22 @@ struct Request {
 
 /// All or nothing: a file that cannot be written whole leaves the old one as it is.
 void replace_file(const std::filesystem::path& path, const std::string& text) {
+  const std::filesystem::path folder = path.parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+    core::fail_input({.where = {path.string(), 0}}, "the folder of this file does not exist",
+                     "make the folder, or choose another output file");
+  }
   const std::filesystem::path fresh = path.string() + ".new";
-  io::OutputFile file(fresh);
-  file.write(text);
-  file.close();
-  std::filesystem::rename(fresh, path);
+  try {
+    io::OutputFile file(fresh);
+    file.write(text);
+    file.close();
+    std::filesystem::rename(fresh, path);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(fresh, ignored);
+    throw;
+  }
 }
 
 void complete(const Request& request) {

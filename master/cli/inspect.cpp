@@ -6,6 +6,7 @@
 
 #include "master/cli/commands.h"
 #include "master/cli/table.h"
+#include "master/cli/unit_path.h"
 #include "master/fmi/fmu.h"
 
 namespace stride::cli {
@@ -52,7 +53,7 @@ std::string capabilities(const core::UnitDescription& unit) {
 }
 
 void inspect(const std::filesystem::path& file) {
-  const auto fmu = fmi::Fmu::load(file);
+  const auto fmu = fmi::Fmu::load(find_unit(file, {}));
   const core::UnitDescription& unit = *fmu->description();
   fmt::print("{}: FMI {} Co-Simulation{}\n", unit.model_name, unit.fmi_version,
              unit.generation_tool.empty() ? "" : ", made with " + unit.generation_tool);

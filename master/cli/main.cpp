@@ -1,4 +1,6 @@
 #include <exception>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -7,6 +9,7 @@
 
 #include "master/cli/commands.h"
 #include "master/core/error.h"
+#include "master/core/suggest.h"
 
 namespace {
 
@@ -18,6 +21,25 @@ void set_up_log() {
   log->set_pattern("%^%l%$: %v");
   log->set_level(spdlog::level::warn);
   spdlog::set_default_logger(log);
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+/// What is wrong with the command line, with the whole help only where there is no command at all.
+std::string explain(const CLI::App* app, const CLI::Error& mistake) {
+  if (const std::vector<std::string> rest = app->remaining(); !rest.empty()) {
+    return fmt::format("stride: error: there is no {} '{}'\n  hint: {}\n",
+                       rest.front().starts_with("-") ? "option" : "command", rest.front(),
+                       stride::core::suggestion(rest.front(), command_names(*app)));
+  }
+  const std::vector<CLI::App*> commands = app->get_subcommands();
+  if (commands.empty()) return fmt::format("stride: error: {}\n\n{}", mistake.what(), app->help());
+  return fmt::format("stride: error: {}\n  hint: 'stride {} --help' tells what it takes\n",
+                     mistake.what(), commands.front()->get_name());
 }
 
 int parse(CLI::App& app, int argc, char** argv) {
@@ -39,7 +61,7 @@ int main(int argc, char** argv) {
       "stride");
   app.set_version_flag("--version", "stride " STRIDE_VERSION);
   app.require_subcommand(1);
-  app.failure_message(CLI::FailureMessage::help);
+  app.failure_message(explain);
   app.footer(
       "Exit codes: 0 good, 1 the run failed, 2 the input was wrong.\n"
       "'stride COMMAND --help' tells more about a command.");

@@ -14,7 +14,9 @@ void add_pack(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "pack", "Make a .fmu from a library of the unit kit and a resources folder");
   const auto request = std::make_shared<fmi::PackRequest>();
-  command->add_option("LIBRARY", request->library, "The unit's shared library (.so)")->required();
+  command->add_option("LIBRARY", request->library, "The unit's shared library (.so)")
+      ->required()
+      ->check(CLI::ExistingFile);
   command->add_option("--output,-o", request->output, "The .fmu to write")->required();
   command->add_option("--resources", request->resources,
                       "Folder with the unit's resources: an MJCF, a program, …");

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "master/cli/commands.h"
 #include "master/cli/progress.h"
@@ -76,7 +77,11 @@ void run(const Request& request) {
   try {
     simulation.run();
   } catch (const std::exception& failure) {
-    write_statistics(failure.what());
+    try {
+      write_statistics(failure.what());
+    } catch (const std::exception& second) {  // the first one is the one to tell
+      spdlog::warn("{}", second.what());
+    }
     throw;
   }
   write_statistics(std::nullopt);

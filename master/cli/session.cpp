@@ -80,6 +80,7 @@ std::vector<std::string> Session::component_names() const {
 
 void Session::swap(const std::string& text) {
   const auto [name, file] = split("--swap", text, "component=FILE.fmu");
+  if (file.empty()) core::fail_input({}, fmt::format("--swap {}: no file is named", text));
   const std::vector<std::string> names = component_names();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {

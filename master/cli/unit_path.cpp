@@ -48,6 +48,9 @@ std::vector<fs::path> unit_folders() {
 fs::path find_unit(const fs::path& path, const core::Location& where) {
   std::error_code unreadable;
   if (fs::exists(path, unreadable)) return path;
+  if (path.filename().empty()) {
+    core::fail_input({where, {}, {}, {}}, fmt::format("there is no unit '{}'", path.string()));
+  }
   const std::vector<fs::path> folders = unit_folders();
   std::string searched;
   for (const fs::path& folder : folders) {

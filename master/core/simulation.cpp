@@ -250,7 +250,6 @@ class Simulation::Run {
   RunStatistics statistics_;
 
   Time time_{};
-  bool started_ = false;
   std::vector<char> active_;  ///< wants the next event iteration
   std::vector<char> in_event_mode_;
   std::vector<std::optional<Time>> next_event_;

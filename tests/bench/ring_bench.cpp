@@ -1,13 +1,14 @@
-// Nanoseconds per unit step for rings of minimal units, each fed by its neighbour: stride's algorithm beside a
-// hand-written loop that makes the same FMI calls, in turn, in one run. What counts is the ratio.
-#include <benchmark/benchmark.h>
-#include <fmt/format.h>
-
+// Nanoseconds per unit step for rings of minimal units, each fed by its neighbour: stride's
+// algorithm beside a hand-written loop that makes the same FMI calls, in turn, in one run. What
+// counts is the ratio.
 #include <chrono>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
 #include "master/core/simulation.h"
 #include "master/fmi/fmu.h"
@@ -65,9 +66,9 @@ double run_by_hand(int size) {
   const fmi3ValueReference y = description.variables[*description.find("y")].reference;
   std::vector<fmi3Instance> units;
   for (int i = 0; i < size; ++i) {
-    units.push_back(fmi.InstantiateCoSimulation(
-        "u", description.instantiation_token.c_str(), nullptr, false, false, false, false, nullptr,
-        0, nullptr, nullptr, nullptr));
+    units.push_back(fmi.InstantiateCoSimulation("u", description.instantiation_token.c_str(),
+                                                nullptr, false, false, false, false, nullptr, 0,
+                                                nullptr, nullptr, nullptr));
     const double start = i == 0 ? 1 : 0;
     fmi.SetFloat64(units.back(), &y, 1, &start, 1);
     fmi.EnterInitializationMode(units.back(), false, 0, 0, false, 0);
@@ -95,7 +96,8 @@ double run_by_hand(int size) {
   return seconds;
 }
 
-/// Both in turn within each iteration, so that a machine that changes its speed changes it for both.
+/// Both in turn within each iteration, so that a machine that changes its speed changes it for
+/// both.
 void ring(benchmark::State& state) {
   const int size = static_cast<int>(state.range(0));
   double stride_seconds = 0;
