@@ -47,6 +47,7 @@ struct UnitInfo {
   std::string description;
   std::string version = "1.0";
   bool early_return = false;           ///< it may return early from a step
+  bool may_reject = false;             ///< it may reject a step
   bool single_instance = false;        ///< no second instance in the same process
   std::optional<Duration> fixed_step;  ///< its internal step size, where that is fixed
 };

@@ -25,9 +25,15 @@ __attribute__((visibility("default"))) strideModelDescriptionTYPE strideModelDes
 
 namespace {
 
-void report(const Importer& importer, Function function, const std::string& text) {
-  importer.message(fmi3Error, "logStatusError",
-                   std::string(stride::kit::name(function)) + ": " + text);
+/// The last thing that a failing call does, so it must not fail itself, be it for want of memory or
+/// because the importer's callback throws.
+void report(const Importer& importer, Function function, const char* text,
+            fmi3Status status = fmi3Error) noexcept {
+  try {
+    importer.message(status, stride::kit::LogErrors,
+                     std::string(stride::kit::name(function)) + ": " + text);
+  } catch (...) {
+  }
 }
 
 /// Runs body(instance) where the function is legal. A failure in a function that runs the unit's
@@ -39,20 +45,18 @@ fmi3Status call(fmi3Instance handle, Function function, Body&& body) {
   try {
     const std::uint8_t legal = stride::kit::legal_modes(function);
     if ((legal & instance.mode()) == 0) {
-      report(instance.importer(), function,
-             "not allowed in " + stride::kit::mode_names(instance.mode()) + ", only in " +
-                 stride::kit::mode_names(legal));
-      return fmi3Error;
+      throw Misuse("not allowed in " + stride::kit::mode_names(instance.mode()) + ", only in " +
+                   stride::kit::mode_names(legal));
     }
     return body(instance);
   } catch (const Misuse& misuse) {
     report(instance.importer(), function, misuse.what());
   } catch (const std::exception& failure) {
+    instance.fail();
     report(instance.importer(), function, failure.what());
-    instance.fail();
   } catch (...) {
-    report(instance.importer(), function, "the unit threw something that is no std::exception");
     instance.fail();
+    report(instance.importer(), function, "the unit threw something that is no std::exception");
   }
   return fmi3Error;
 }
@@ -85,9 +89,10 @@ fmi3Instance refuse(Function function, const char* why, fmi3InstanceEnvironment 
 
 const char* fmi3GetVersion(void) { return FMI3_VERSION; }
 
-fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, size_t, const fmi3String[]) {
+fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, size_t count,
+                               const fmi3String categories[]) {
   return call(instance, Function::SetDebugLogging, [&](Instance& unit) {
-    unit.set_logging(on);
+    unit.set_logging(on, categories, count);
     return fmi3OK;
   });
 }
@@ -98,7 +103,7 @@ fmi3Instance fmi3InstantiateCoSimulation(
     size_t intermediate_count, fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
     fmi3IntermediateUpdateCallback) {
   Importer importer;
-  importer.logging = logging;
+  if (logging) importer.log_categories = stride::kit::kAllLogCategories;
   importer.event_mode_used = event_mode_used;
   importer.early_return_allowed = early_return_allowed;
   importer.environment = environment;
@@ -171,11 +176,14 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 point, fmi3Float64 size
                       fmi3Float64* reached) {
   return call(instance, Function::DoStep, [&](Instance& unit) {
     const Instance::StepOutcome outcome = unit.do_step(point, size);
+    const bool rejected = outcome.rejection.has_value();
+    if (rejected)
+      report(unit.importer(), Function::DoStep, outcome.rejection->c_str(), fmi3Discard);
     *event_needed = outcome.event_needed;
     *terminate = outcome.terminate;
     *early = outcome.early;
     *reached = outcome.early ? stride::to_seconds(outcome.reached) : point + size;
-    return outcome.rejected ? fmi3Discard : fmi3OK;
+    return rejected ? fmi3Discard : fmi3OK;
   });
 }
 
@@ -371,6 +379,13 @@ STRIDE_UNSUPPORTED(EnterContinuousTimeMode, kModelExchange)
 
 const char* strideModelDescription(const char* resources, const char** error) {
   thread_local std::string text;
+  const auto keep = [](const char* message) noexcept {
+    try {
+      return (text = message).c_str();
+    } catch (...) {
+      return "out of memory";
+    }
+  };
   try {
     const stride::UnitFactory factory = stride::unit_factory();
     double time = 0;
@@ -378,10 +393,9 @@ const char* strideModelDescription(const char* resources, const char** error) {
     text = stride::kit::model_description(factory.name, *unit, stride::kit::Table(*unit, time));
     return text.c_str();
   } catch (const std::exception& failure) {
-    text = failure.what();
+    *error = keep(failure.what());
   } catch (...) {
-    text = "the unit's constructor threw something that is no std::exception";
+    *error = "the unit's constructor threw something that is no std::exception";
   }
-  *error = text.c_str();
   return nullptr;
 }

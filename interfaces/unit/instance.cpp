@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 
@@ -18,6 +19,39 @@ std::string text(Time time) { return to_text(to_seconds(time)); }
 Duration rounding(double seconds) {
   const double picoseconds = 4 * std::numeric_limits<double>::epsilon() * std::abs(seconds) * 1e12;
   return Duration(1 + static_cast<std::int64_t>(picoseconds));
+}
+
+void write_optional(StateWriter& writer, const std::optional<Time>& time) {
+  writer.write(time.has_value());
+  writer.write(time.value_or(Time{}));
+}
+
+std::optional<Time> read_optional(StateReader& reader) {
+  bool has_value = false;
+  Time time{};
+  reader.read(has_value);
+  reader.read(time);
+  return has_value ? std::optional(time) : std::nullopt;
+}
+
+/// Whether two instants are at most this far apart. Their difference may be more than a Duration
+/// holds.
+bool are_near(Time one, Time other, Duration distance) {
+  const auto count = [](Time time) {
+    return static_cast<std::uint64_t>(time.time_since_epoch().count());
+  };
+  const std::uint64_t apart = one < other ? count(other) - count(one) : count(one) - count(other);
+  return apart <= static_cast<std::uint64_t>(distance.count());
+}
+
+std::uint8_t log_category(const char* wanted) {
+  std::string known;
+  for (const auto& [category, name] : kLogCategories) {
+    if (wanted != nullptr && std::strcmp(wanted, name) == 0) return category;
+    known.append(known.empty() ? "" : ", ").append(name);
+  }
+  throw Misuse("there is no log category '" + std::string(wanted != nullptr ? wanted : "") +
+               "', only " + known);
 }
 
 void check_range(const Variable& row) {
@@ -45,9 +79,9 @@ Time checked_time(double seconds) {
   }
 }
 
-void Importer::message(fmi3Status status, const char* category, const std::string& text) const {
-  if (log != nullptr && (logging || status != fmi3OK)) {
-    log(environment, status, category, text.c_str());
+void Importer::message(fmi3Status status, LogCategory category, const std::string& text) const {
+  if (log != nullptr && (log_categories & category) != 0) {
+    log(environment, status, name(category), text.c_str());
   }
 }
 
@@ -67,16 +101,23 @@ void Instance::build() {
   unit_ = unit_factory().make({importer_.resources, importer_.instance_name});
   unit_->set_logger([this](Severity severity, const std::string& text) {
     const bool warning = severity == Severity::Warning;
-    importer_.message(warning ? fmi3Warning : fmi3OK, warning ? "logStatusWarning" : "logEvents",
-                      text);
+    importer_.message(warning ? fmi3Warning : fmi3OK, warning ? LogWarnings : LogEvents, text);
   });
   table_ = std::make_unique<Table>(*unit_, time_seconds_);
   mode_ = Instantiated;
   time_seconds_ = 0;
+  next_event_.reset();
   inputs_changed_ = true;
 }
 
 void Instance::reset() { build(); }
+
+void Instance::set_logging(bool on, const fmi3String names[], std::size_t count) {
+  std::uint8_t named = count == 0 ? kAllLogCategories : 0;
+  for (std::size_t i = 0; i < count; ++i) named |= log_category(names[i]);
+  const std::uint8_t others = importer_.log_categories & ~named;
+  importer_.log_categories = on ? others | named : others;
+}
 
 void Instance::enter_initialization_mode(Time start, std::optional<Time> stop) {
   if (stop && *stop < start) throw Misuse("the stop time is before the start time");
@@ -113,50 +154,72 @@ void Instance::refresh() {
   inputs_changed_ = false;
 }
 
-Instance::StepOutcome Instance::do_step(double point, double size) {
-  const Time from = checked_time(point);
-  const Time to = checked_time(point + size);
-  if (std::chrono::abs(from - time_) > rounding(point)) {
+void Instance::check_step(double point, double size, Time from, Time to) const {
+  if (!are_near(from, time_, rounding(point))) {
     throw Misuse("the unit stands at " + text(time_) + " s, but the step starts at " + text(from) +
                  " s");
   }
   if (!(size > 0) || to <= time_) throw Misuse("the communication step size must be positive");
+  if (size > kMaxSeconds) {
+    throw Misuse("the communication step size must be at most " + to_text(kMaxSeconds) + " s");
+  }
   if (stop_ && to > *stop_ + rounding(point + size)) {
     throw Misuse("the step ends at " + text(to) + " s, behind the stop time " + text(*stop_) +
                  " s");
   }
+}
+
+/// What the unit did must be what it has declared and what the importer allows.
+void Instance::check_outcome(const Step& step) const {
+  if (step.rejection()) {
+    if (unit_->info().may_reject) return;
+    throw std::logic_error("step() rejected the step (" + *step.rejection() +
+                           "), but the unit did not declare may_reject");
+  }
+  const Time reached = step.reached().value_or(step.to());
+  if (reached < time_ || reached > step.to()) {
+    throw std::logic_error("step() returned early at an instant outside of the step");
+  }
+  if (reached == step.to()) return;
+  if (!unit_->info().early_return) {
+    throw std::logic_error("step() returned early, but the unit did not declare early_return");
+  }
+  if (!importer_.early_return_allowed) {
+    throw std::logic_error("step() returned early, which the importer does not allow");
+  }
+}
+
+Instance::StepOutcome Instance::do_step(double point, double size) {
+  const Time from = checked_time(point);
+  const Time to = checked_time(point + size);
+  check_step(point, size, from, to);
   for (Clock* clock : table_->output_clocks()) clock->clear();
   Step step(time_, to, importer_.early_return_allowed);
   unit_->step(step);
-  if (step.rejected()) return {true, false, false, false, time_};
-  const Time reached = step.reached().value_or(to);
-  const bool early = reached < to;
-  if (reached < time_ || reached > to) {
-    throw std::logic_error("step() returned early at an instant outside of the step");
-  }
-  if (early && !importer_.early_return_allowed) {
-    throw std::logic_error("step() returned early, which the importer does not allow");
-  }
-  time_ = reached;
-  time_seconds_ = to_seconds(reached);
+  check_outcome(step);
+  if (step.rejection()) return {step.rejection(), false, false, false, time_};
+  time_ = step.reached().value_or(to);
+  time_seconds_ = to_seconds(time_);
   bool event = step.event_needed() || any_clock_ticked();
   if (event && !importer_.event_mode_used) {
-    importer_.message(fmi3Warning, "logStatusWarning",
-                      "an event at " + text(reached) +
-                          " s is lost, because the importer does not use Event Mode");
+    importer_.message(
+        fmi3Warning, LogWarnings,
+        "an event at " + text(time_) + " s is lost, because the importer does not use Event Mode");
     event = false;
   }
-  return {false, event, step.terminates(), early, reached};
+  return {std::nullopt, event, step.terminates(), time_ < to, time_};
 }
 
 Instance::UpdateOutcome Instance::update_discrete_states() {
   for (Clock* clock : table_->output_clocks()) clock->clear();
-  Event event(time_);
+  if (next_event_ && *next_event_ <= time_) next_event_.reset();
+  Event event(time_, next_event_);
   unit_->event(event);
+  next_event_ = event.next();
   unit_->update_outputs();
   for (Clock* clock : table_->input_clocks()) clock->clear();
   inputs_changed_ = false;
-  return {event.iterates() || any_clock_ticked(), event.terminates(), event.next()};
+  return {event.iterates() || any_clock_ticked(), event.terminates(), next_event_};
 }
 
 bool Instance::any_clock_ticked() const {
@@ -264,8 +327,8 @@ void Instance::save(SavedState& saved) const {
   writer.write(mode_);
   writer.write(time_);
   writer.write(start_);
-  writer.write(stop_.has_value());
-  writer.write(stop_.value_or(Time{}));
+  write_optional(writer, stop_);
+  write_optional(writer, next_event_);
   writer.write(inputs_changed_);
   for (std::size_t i = 1; i < table_->size(); ++i) {
     const Variable& row = table_->row(i);
@@ -296,16 +359,12 @@ void Instance::check_saved(const std::uint8_t* bytes, std::size_t size) const {
 void Instance::restore(const SavedState& saved) {
   require_state();
   StateReader reader(saved.bytes.data(), saved.bytes.size());
-  std::string token;
-  reader.read(token);
+  reader.skip(sizeof(std::uint64_t) + token_.size());  // the token, which check_saved() looks at
   reader.read(mode_);
   reader.read(time_);
   reader.read(start_);
-  bool has_stop = false;
-  Time stop{};
-  reader.read(has_stop);
-  reader.read(stop);
-  stop_ = has_stop ? std::optional(stop) : std::nullopt;
+  stop_ = read_optional(reader);
+  next_event_ = read_optional(reader);
   reader.read(inputs_changed_);
   time_seconds_ = to_seconds(time_);
   for (std::size_t i = 1; i < table_->size(); ++i) {

@@ -13,6 +13,7 @@
 #include <stride/unit.h>
 
 #include "interfaces/unit/legal_calls.h"
+#include "interfaces/unit/log_categories.h"
 #include "interfaces/unit/table.h"
 
 namespace stride::kit {
@@ -29,13 +30,13 @@ Time checked_time(double seconds);
 struct Importer {
   std::string instance_name;
   std::filesystem::path resources;
-  bool logging = false;
+  std::uint8_t log_categories = LogErrors;  ///< those that it wants to hear of
   bool event_mode_used = false;
   bool early_return_allowed = false;
   fmi3InstanceEnvironment environment = nullptr;
   fmi3LogMessageCallback log = nullptr;
 
-  void message(fmi3Status status, const char* category, const std::string& text) const;
+  void message(fmi3Status status, LogCategory category, const std::string& text) const;
 };
 
 /// A saved state (fmi3FMUState).
@@ -55,7 +56,8 @@ class Instance {
   /// The unit itself failed: by the standard nothing but a reset, a restored state or the end can
   /// follow.
   void fail() { mode_ = Terminated; }
-  void set_logging(bool on) { importer_.logging = on; }
+  /// Turns the named log categories on or off, all of them if none is named.
+  void set_logging(bool on, const fmi3String names[], std::size_t count);
 
   void enter_initialization_mode(Time start, std::optional<Time> stop);
   void exit_initialization_mode();
@@ -65,7 +67,8 @@ class Instance {
   void reset();
 
   struct StepOutcome {
-    bool rejected, event_needed, terminate, early;
+    std::optional<std::string> rejection;  ///< why; then nothing else has a meaning
+    bool event_needed, terminate, early;
     Time reached;
   };
   StepOutcome do_step(double point, double size);
@@ -95,6 +98,8 @@ class Instance {
 
  private:
   void build();
+  void check_step(double point, double size, Time from, Time to) const;
+  void check_outcome(const Step& step) const;
   void refresh();
   void require_unit() const;
   void require_state() const;
@@ -111,6 +116,7 @@ class Instance {
   Time time_{};
   Time start_{};
   std::optional<Time> stop_;
+  std::optional<Time> next_event_;  ///< as the unit announced it
   Mode mode_ = Instantiated;
   bool inputs_changed_ = true;
 };

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "interfaces/unit/log_categories.h"
 #include "interfaces/unit/si_units.h"
 #include "interfaces/unit/xml_writer.h"
 
@@ -50,7 +51,9 @@ std::string bound_text(Type type, double value) {
     case Type::Float32:
     case Type::Float64:
       return to_text(value);
-    default:
+    case Type::UInt64:
+      return std::to_string(static_cast<std::uint64_t>(value));
+    default:  // Table::check() lets no other value come here than those of the type
       return std::to_string(static_cast<std::int64_t>(value));
   }
 }
@@ -85,6 +88,7 @@ class Writer {
     for (std::size_t i = 0; i < table_.size(); ++i) write_variable(i);
     xml_.close();
     write_structure();
+    write_annotations();
     xml_.close();
     return xml_.text();
   }
@@ -151,8 +155,8 @@ class Writer {
 
   void write_log_categories() {
     xml_.open("LogCategories");
-    for (const char* category : {"logStatusError", "logStatusWarning", "logEvents"}) {
-      xml_.open("Category").attribute("name", category).close();
+    for (const NamedLogCategory& category : kLogCategories) {
+      xml_.open("Category").attribute("name", category.name).close();
     }
     xml_.close();
   }
@@ -219,7 +223,10 @@ class Writer {
   void write_unknown(const std::string& element, std::size_t reference) {
     const Variable& row = table_.row(reference);
     xml_.open(element).attribute("valueReference", static_cast<std::int64_t>(reference));
-    if (row.dependencies) {
+    if (row.type == Type::Clock) {
+      // a tick is made by fmi3DoStep or fmi3UpdateDiscreteStates and seen after it (FMI 3.0, 2.2.9)
+      xml_.attribute("dependencies", "");
+    } else if (row.dependencies) {
       std::set<std::size_t> knowns;
       for (const std::string& name : *row.dependencies) knowns.insert(table_.reference_of(name));
       if (element == "InitialUnknown") add_parameters(knowns);
@@ -228,6 +235,17 @@ class Writer {
       xml_.attribute("dependencies", join(words));
     }
     xml_.close();
+  }
+
+  /// What FMI has no attribute for: an importer that knows nothing of a unit has to expect
+  /// fmi3Discard.
+  void write_annotations() {
+    xml_.open("Annotations").open("Annotation").attribute("type", "org.stride.unit");
+    xml_.open("stride:Unit")
+        .attribute("xmlns:stride", "urn:org.stride:unit:1")
+        .attribute("mayReject", unit_.info().may_reject)
+        .close();
+    xml_.close().close();
   }
 
   void add_parameters(std::set<std::size_t>& knowns) const {

@@ -1,11 +1,15 @@
 #include "interfaces/unit/table.h"
 
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <stdexcept>
 
 #include "interfaces/unit/legal_calls.h"
+#include "interfaces/unit/variable_name.h"
+#include "interfaces/unit/xml_writer.h"
 
 namespace stride {
 
@@ -44,6 +48,57 @@ std::uint8_t settable_modes(const Variable& row) {
 
 [[noreturn]] void reject(const Variable& row, const std::string& mistake) {
   throw std::logic_error("variable '" + row.name + "': " + mistake);
+}
+
+void check_name(const Variable& row) {
+  if (row.name.empty()) throw std::logic_error("a variable has no name");
+  if (is_structured_name(row.name)) return;
+  reject(row,
+         "this is no structured name (FMI 3.0, 2.4.7.5.1); expected identifiers joined by "
+         "dots, such as \"arm.joint_1\", \"axes[2,1]\" or \"der(x)\", with anything else in single "
+         "quotes, such as \"'left arm'.angle\"");
+}
+
+void check_shape(const Variable& row) {
+  const std::size_t product = std::accumulate(row.dimensions.begin(), row.dimensions.end(),
+                                              std::size_t{1}, std::multiplies<>());
+  if (row.size == 0) reject(row, "an array needs at least one element when it is declared");
+  if (product != row.size) {
+    reject(row, "the dimensions make " + std::to_string(product) + " elements, the member has " +
+                    std::to_string(row.size));
+  }
+  if (row.type == Type::Clock && row.size != 1) reject(row, "arrays of clocks are not supported");
+}
+
+/// Whether a type can hold a bound. The largest integers are one less than a power of two, which,
+/// unlike them, each double type has.
+template <class T>
+bool can_hold(double bound) {
+  if (!std::isfinite(bound)) return false;
+  if constexpr (std::is_floating_point_v<T>) {
+    return std::abs(bound) <= static_cast<double>(std::numeric_limits<T>::max());
+  } else {
+    const double end = std::ldexp(1.0, std::numeric_limits<T>::digits);
+    return bound == std::floor(bound) && bound < end && bound >= (std::is_signed_v<T> ? -end : 0);
+  }
+}
+
+void check_bounds(const Variable& row) {
+  if (!row.min && !row.max) return;
+  visit(row.type, row.data, [&](const auto* elements) {
+    using T = std::remove_const_t<std::remove_pointer_t<decltype(elements)>>;
+    if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
+      for (const auto& bound : {row.min, row.max}) {
+        if (!bound || can_hold<T>(*bound)) continue;
+        reject(row, "the bound " + to_text(*bound) + " is no value of the type " + name(row.type));
+      }
+    } else {
+      reject(row, std::string("the type ") + name(row.type) + " has no bounds");
+    }
+  });
+  if (row.min && row.max && *row.min > *row.max) {
+    reject(row, "the minimum " + to_text(*row.min) + " is above the maximum " + to_text(*row.max));
+  }
 }
 
 }  // namespace
@@ -86,15 +141,9 @@ Table::Table(const Unit& unit, double& time) {
 }
 
 void Table::check(const Variable& row) const {
-  if (row.name.empty()) throw std::logic_error("a variable has no name");
-  const std::size_t product = std::accumulate(row.dimensions.begin(), row.dimensions.end(),
-                                              std::size_t{1}, std::multiplies<>());
-  if (row.size == 0) reject(row, "an array needs at least one element when it is declared");
-  if (product != row.size) {
-    reject(row, "the dimensions make " + std::to_string(product) + " elements, the member has " +
-                    std::to_string(row.size));
-  }
-  if (row.type == Type::Clock && row.size != 1) reject(row, "arrays of clocks are not supported");
+  check_name(row);
+  check_shape(row);
+  check_bounds(row);
   if (row.type == Type::Enumeration && row.items.empty()) {
     reject(row, "an enumeration needs its items({{\"name\", value}, ...})");
   }
@@ -105,10 +154,18 @@ void Table::check(const Variable& row) const {
       (row.type != Type::Float64 || row.causality != Causality::Output)) {
     reject(row, "only a Float64 output has an output derivative");
   }
+  check_references(row);
+}
+
+void Table::check_references(const Variable& row) const {
   if (row.clock != nullptr) reference_of(*row.clock);
-  if (row.dependencies) {
-    for (const std::string& dependency : *row.dependencies) reference_of(dependency);
+  if (!row.dependencies) return;
+  if (row.type == Type::Clock) {
+    reject(row,
+           "a clock has no depends_on(): its ticks are seen after the instant of their cause, "
+           "so it depends on no input of its own instant");
   }
+  for (const std::string& dependency : *row.dependencies) reference_of(dependency);
 }
 
 fmi3ValueReference Table::reference_of(const Clock& clock) const {

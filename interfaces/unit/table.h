@@ -63,9 +63,9 @@ struct Slot {
 /// `time`.
 class Table {
  public:
-  /// Checks the unit's rows: names unique and well-formed, dimensions, clocks and dependencies that
-  /// exist. Throws std::logic_error that names the variable and the mistake. `time` and `unit` must
-  /// outlive the table.
+  /// Checks the unit's rows: names unique and well-formed, dimensions, bounds that the type can
+  /// hold, clocks and dependencies that exist. Throws std::logic_error that names the variable and
+  /// the mistake. `time` and `unit` must outlive the table.
   Table(const Unit& unit, double& time);
 
   std::size_t size() const { return rows_.size(); }
@@ -82,6 +82,7 @@ class Table {
 
  private:
   void check(const Variable& row) const;
+  void check_references(const Variable& row) const;
 
   Variable time_;
   std::vector<const Variable*> rows_;

@@ -23,8 +23,12 @@ class LowPass : public stride::Unit {
   void step(stride::Step& step) override {
     const double decay = std::exp(-stride::to_seconds(step.size()) / time_constant_);
     y_ = u_ + (y_ - u_) * decay;
-    rate_ = (u_ - y_) / time_constant_;
+    update_outputs();
   }
+
+  // What follows from the inputs at once: asked for at the start, too, and where inputs change
+  // between two steps.
+  void update_outputs() override { rate_ = (u_ - y_) / time_constant_; }
 
  private:
   double u_ = 0;

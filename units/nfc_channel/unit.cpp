@@ -30,8 +30,8 @@ class NfcChannel : public stride::Unit {
             "power that the reader's transmitter brings into its antenna, 0 while it is off");
     const std::vector<std::string> link = names_of_inputs();
     list_outputs(poses, link);
-    list_port("reader", from_reader_, "tag", to_tag_, link);
-    list_port("tag", from_tag_, "reader", to_reader_, link);
+    list_port("reader", from_reader_, "tag", to_tag_);
+    list_port("tag", from_tag_, "reader", to_reader_);
     list_parameters();
     state(channel_.state());
   }
@@ -146,22 +146,18 @@ class NfcChannel : public stride::Unit {
         .description("probability of a wrong bit at the reader, 106 kbit/s");
   }
 
-  void list_port(const std::string& sender, Port& from, const std::string& receiver, Port& to,
-                 std::vector<std::string> dependencies) {
+  void list_port(const std::string& sender, Port& from, const std::string& receiver, Port& to) {
     const std::string in = "from_" + sender;
     const std::string out = "to_" + receiver;
     input(in + ".clock", from.clock).description("ticks when a frame of the " + sender + " begins");
     input(in + ".frame", from.frame)
         .clocked_by(from.clock)
         .description("the frame as the " + sender + " sends it");
-    dependencies.push_back(in + ".clock");
-    dependencies.push_back(in + ".frame");
     output(out + ".clock", to.clock)
-        .depends_on(dependencies)
         .description("ticks when the " + receiver + " begins to hear a frame");
     output(out + ".frame", to.frame)
         .clocked_by(to.clock)
-        .depends_on(dependencies)
+        .depends_on({})
         .description("the frame as the " + receiver + " hears it, with bit errors");
   }
 

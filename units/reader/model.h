@@ -41,9 +41,10 @@ struct Counts {
   std::uint64_t unanswered = 0;  ///< not at all, or by a damaged answer
 };
 
-/// Call advance() to each communication point, then transmit() there, and receive() for each frame
-/// that arrives there. A point at each next_event_time() makes the reader exact: a command leaves
-/// at the first communication point at or after its programmed instant.
+/// At each communication point call advance(), then receive() for each frame that arrives there and
+/// advance() again, as such a frame may have ended already, then transmit(). A point at each
+/// next_event_time() makes the reader exact: a command leaves at the first communication point at
+/// or after its programmed instant.
 ///
 /// One command is under way at a time; the next one waits until it is answered or its time limit
 /// is over. The limit runs from the end of the command to the start of the answer, as the frame
@@ -80,6 +81,9 @@ class Reader {
   /// Notes what has ended by `now`: an answer, or the time limit for one.
   void advance(stride::Time now);
 
+  /// Whether there is a command to transmit: its instant has come and nothing is under way.
+  bool is_due(stride::Time now) const;
+
   /// The frame of a command that is due, which begins now; nothing if none is.
   std::optional<nfc::Frame> transmit(stride::Time now);
 
@@ -96,7 +100,6 @@ class Reader {
 
  private:
   bool waiting() const;
-  bool is_due(stride::Time now) const;
   void finish_reception();
   void give_up(Outcome outcome);
 

@@ -64,6 +64,7 @@ class ReaderUnit : public stride::Unit {
       step.need_event();
     }
     reader_.advance(end);
+    if (reader_.is_due(end)) step.need_event();
     show(end);
   }
 
@@ -71,13 +72,15 @@ class ReaderUnit : public stride::Unit {
     const stride::Time now = event.time();
     reader_.advance(now);
     if (receive_clock_.ticked()) reader_.receive(nfc::decode(receive_frame_));
+    reader_.advance(now);  // a frame that comes late may have ended already
     if (const auto frame = reader_.transmit(now)) {
       transmit_frame_ = nfc::encode(*frame);
       transmit_clock_.tick();
     }
     show(now);
     report_finished();
-    if (const auto next = reader_.next_event_time(now)) event.next_event(*next);
+    const auto next = reader_.next_event_time(now);
+    next ? event.next_event(*next) : event.no_next_event();
   }
 
   // a state may come from an instance that runs another program
@@ -109,9 +112,7 @@ class ReaderUnit : public stride::Unit {
   }
 
   void list_messages() {
-    output("transmit.clock", transmit_clock_)
-        .depends_on({})
-        .description("ticks when a command begins");
+    output("transmit.clock", transmit_clock_).description("ticks when a command begins");
     output("transmit.frame", transmit_frame_)
         .clocked_by(transmit_clock_)
         .depends_on({})

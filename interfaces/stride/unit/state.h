@@ -76,6 +76,11 @@ class StateReader {
     read_sequence(values);
   }
 
+  void skip(std::size_t size) {
+    if (size > left_) throw std::runtime_error("the saved state ends too early");
+    next_ += size;
+    left_ -= size;
+  }
   std::size_t left() const { return left_; }
 
  private:

@@ -2,6 +2,8 @@
 #define STRIDE_UNIT_STEP_H
 
 #include <optional>
+#include <string>
+#include <utility>
 
 #include <stride/time.h>
 
@@ -22,18 +24,19 @@ class Step {
   bool early_return_allowed() const { return early_return_allowed_; }
 
   /// The unit stopped at this instant (from() <= at <= to()): a communication point is wanted
-  /// there.
+  /// there. Needs UnitInfo::early_return.
   void return_early(Time at) { reached_ = at; }
   /// Event Mode is wanted where the step ends. A tick of an output clock implies it.
   void need_event() { event_needed_ = true; }
-  /// The unit cannot make this step and is as it was before it: fmi3Discard.
-  void reject() { rejected_ = true; }
+  /// The unit cannot make this step and is as it was before it: fmi3Discard, with the reason in the
+  /// importer's log. Needs UnitInfo::may_reject.
+  void reject(std::string reason) { rejection_ = std::move(reason); }
   /// The unit wants the simulation to end where the step ends.
   void terminate_simulation() { terminate_ = true; }
 
   std::optional<Time> reached() const { return reached_; }
   bool event_needed() const { return event_needed_; }
-  bool rejected() const { return rejected_; }
+  const std::optional<std::string>& rejection() const { return rejection_; }
   bool terminates() const { return terminate_; }
 
  private:
@@ -42,19 +45,26 @@ class Step {
   bool early_return_allowed_;
   std::optional<Time> reached_;
   bool event_needed_ = false;
-  bool rejected_ = false;
+  std::optional<std::string> rejection_;
   bool terminate_ = false;
 };
 
 /// One super-dense instant of Event Mode.
 class Event {
  public:
-  explicit Event(Time time) : time_(time) {}
+  /// `announced`: the next event of which the unit has spoken earlier.
+  explicit Event(Time time, std::optional<Time> announced = std::nullopt)
+      : time_(time), next_(announced) {}
 
   Time time() const { return time_; }
 
-  /// The next instant at which the unit wants Event Mode, whatever happens before.
+  /// Announces the next instant at which the unit wants Event Mode, in the place of the one that
+  /// was announced before. It stays announced at each event until one at or after it has come, so a
+  /// unit that has nothing new to say says nothing. The importer comes there, or, if its
+  /// communication points are elsewhere, to the first one after it.
   void next_event(Time time) { next_ = time; }
+  /// Withdraws what was announced.
+  void no_next_event() { next_.reset(); }
   /// Another event iteration at this same instant is wanted. A tick of an output clock implies it.
   void iterate() { iterate_ = true; }
   /// The unit wants the simulation to end here.

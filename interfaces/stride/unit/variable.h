@@ -103,6 +103,7 @@ class VariableBuilder {
   }
   VariableBuilder& unit(std::string symbol) { return row_.unit = std::move(symbol), *this; }
   VariableBuilder& mime_type(std::string type) { return row_.mime_type = std::move(type), *this; }
+  /// Bounds, for numbers and enumerations; the type must be able to hold them.
   VariableBuilder& range(double min, double max) { return row_.min = min, row_.max = max, *this; }
   VariableBuilder& min(double value) { return row_.min = value, *this; }
   VariableBuilder& max(double value) { return row_.max = value, *this; }
@@ -126,7 +127,8 @@ class VariableBuilder {
   VariableBuilder& clocked_by(const Clock& clock) {
     return row_.clock = &clock, row_.variability = Variability::Discrete, *this;
   }
-  /// The names of the inputs that an output depends on at the same instant; {} = none.
+  /// The names of the inputs that an output depends on at the same instant; {} = none. Not for a
+  /// clock, which never does: its ticks are seen one super-dense instant after their cause.
   VariableBuilder& depends_on(std::vector<std::string> names) {
     return row_.dependencies = std::move(names), *this;
   }

@@ -122,6 +122,16 @@ class UnitInstance {
     const fmi3ValueReference r = reference(name);
     return fmi.SetFloat64(handle, &r, 1, &value, 1);
   }
+  fmi3Status set_boolean(const std::string& name, bool value) {
+    const fmi3ValueReference r = reference(name);
+    return fmi.SetBoolean(handle, &r, 1, &value, 1);
+  }
+  fmi3Status set_binary(const std::string& name, const std::vector<fmi3Byte>& bytes) {
+    const fmi3ValueReference r = reference(name);
+    const fmi3Binary value = bytes.data();
+    const std::size_t size = bytes.size();
+    return fmi.SetBinary(handle, &r, 1, &size, &value, 1);
+  }
   fmi3Status set_clock(const std::string& name, bool value) {
     const fmi3ValueReference r = reference(name);
     return fmi.SetClock(handle, &r, 1, &value);
@@ -137,6 +147,9 @@ class UnitInstance {
   const UnitLibrary& fmi;
   fmi3Instance handle = nullptr;
   std::vector<std::string> messages;
+  std::vector<fmi3Status> message_statuses;
+  std::vector<std::string> message_categories;
+  bool log_throws = false;  ///< as an importer in C++ may do by mistake
   Step last;
   bool iterate = false;
   bool terminate = false;
@@ -151,9 +164,13 @@ class UnitInstance {
     if (getter(handle, &r, 1, &value, 1) != fmi3OK) throw std::runtime_error(last_message());
     return value;
   }
-  static void on_log(fmi3InstanceEnvironment environment, fmi3Status, fmi3String,
+  static void on_log(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category,
                      fmi3String message) {
-    static_cast<UnitInstance*>(environment)->messages.emplace_back(message);
+    auto& self = *static_cast<UnitInstance*>(environment);
+    self.messages.emplace_back(message);
+    self.message_statuses.push_back(status);
+    self.message_categories.emplace_back(category);
+    if (self.log_throws) throw std::runtime_error("the log is full");
   }
 
   std::string xml_;

@@ -180,6 +180,95 @@ TEST_CASE("a reset whose constructor throws leaves an instance that can be asked
   CHECK(library.GetFMUState(unit.handle, &state) == fmi3Error);
 }
 
+TEST_CASE("what goes wrong while an error is reported does not cross") {
+  SECTION("in a call that is not allowed") {
+    const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+    UnitInstance unit(library);
+    unit.log_throws = true;
+    fmi3Status status = fmi3OK;
+    CHECK_NOTHROW(status = library.EnterStepMode(unit.handle));
+    CHECK(status == fmi3Error);
+    CHECK_NOTHROW(status = library.EnterContinuousTimeMode(unit.handle));
+    CHECK(status == fmi3Error);
+  }
+  SECTION("where the unit has failed") {
+    const UnitLibrary library(STRIDE_THROWER_LIBRARY);
+    UnitInstance unit(library);
+    REQUIRE(unit.start_steps() == fmi3OK);
+    unit.log_throws = true;
+    fmi3Status status = fmi3OK;
+    CHECK_NOTHROW(status = unit.step(0, 0.1));
+    CHECK(status == fmi3Error);
+    unit.log_throws = false;
+    CHECK(unit.step(0, 0.1) == fmi3Error);
+    CHECK_THAT(unit.last_message(), Contains("not allowed in Terminated"));
+  }
+  SECTION("where no instance is made") {
+    const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+    const fmi3LogMessageCallback log = [](fmi3InstanceEnvironment, fmi3Status, fmi3String,
+                                          fmi3String) { throw std::runtime_error("full"); };
+    const auto instantiate = [&] {
+      return library.InstantiateModelExchange("unit", "", nullptr, false, false, nullptr, log);
+    };
+    CHECK_NOTHROW(instantiate());
+  }
+}
+
+TEST_CASE("a misuse does not end the unit's life") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  CHECK(library.ExitInitializationMode(unit.handle) == fmi3Error);
+  CHECK(unit.set_real("time", 1) == fmi3Error);
+  CHECK(unit.step(0, 0.1) == fmi3OK);
+}
+
+// ---- Log ----
+
+TEST_CASE("without logging an importer hears of errors only") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.set_boolean("logs", true) == fmi3OK);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  REQUIRE(unit.step(0, 0.1) == fmi3OK);
+  CHECK(unit.messages.empty());
+  CHECK(unit.step(7, 0.1) == fmi3Error);
+  CHECK(unit.message_categories == std::vector<std::string>{"logStatusError"});
+}
+
+TEST_CASE("with logging it hears of everything, but for the categories that it turns off") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  InstanceChoices choices;
+  choices.logging = true;
+  UnitInstance unit(library, choices);
+  REQUIRE(unit.set_boolean("logs", true) == fmi3OK);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  auto log_of_step = [&, point = 0]() mutable {
+    unit.message_categories.clear();
+    REQUIRE(unit.step(point++, 1) == fmi3OK);
+    return unit.message_categories;
+  };
+  using Categories = std::vector<std::string>;
+  CHECK(log_of_step() == Categories{"logEvents", "logStatusWarning"});
+  CHECK(unit.message_statuses == std::vector<fmi3Status>{fmi3OK, fmi3Warning});
+
+  const fmi3String events[] = {"logEvents"};
+  CHECK(library.SetDebugLogging(unit.handle, false, 1, events) == fmi3OK);
+  CHECK(log_of_step() == Categories{"logStatusWarning"});
+  CHECK(library.SetDebugLogging(unit.handle, false, 0, nullptr) == fmi3OK);
+  CHECK(log_of_step().empty());
+  CHECK(library.SetDebugLogging(unit.handle, true, 1, events) == fmi3OK);
+  CHECK(log_of_step() == Categories{"logEvents"});
+  CHECK(library.SetDebugLogging(unit.handle, true, 0, nullptr) == fmi3OK);
+  CHECK(log_of_step().size() == 2);
+
+  const fmi3String half_known[] = {"logEvents", "logGossip"};
+  CHECK(library.SetDebugLogging(unit.handle, false, 2, half_known) == fmi3Error);
+  CHECK_THAT(unit.last_message(), Contains("there is no log category 'logGossip', only "
+                                           "logStatusError, logStatusWarning, logEvents"));
+  CHECK(log_of_step().size() == 2);
+}
+
 // ---- Values ----
 
 TEST_CASE("a parameter outside of its range is refused when the initialization ends") {
@@ -282,15 +371,49 @@ TEST_CASE("a step must start where the unit stands, be positive, and end before 
   CHECK(unit.last.reached == 1);
 }
 
-TEST_CASE("a rejected step is fmi3Discard and leaves the unit as it was") {
+TEST_CASE("instants may be further apart than a duration can be") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.set_real("largest_step", 9.2e6) == fmi3OK);
+  REQUIRE(unit.start_steps(-9.1e6) == fmi3OK);
+  CHECK(unit.step(9.1e6, 1) == fmi3Error);
+  CHECK_THAT(unit.last_message(),
+             Contains("stands at -9100000 s, but the step starts at 9100000 s"));
+  CHECK(unit.step(-9.1e6, 18.2e6) == fmi3Error);
+  CHECK_THAT(unit.last_message(), Contains("step size must be at most 9200000 s"));
+  CHECK(unit.step(-9.1e6, 9.1e6) == fmi3OK);
+}
+
+TEST_CASE("a rejected step is fmi3Discard with its reason and leaves the unit as it was") {
   const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
   UnitInstance unit(library);
   REQUIRE(unit.set_real("largest_step", 0.1) == fmi3OK);
   REQUIRE(unit.start_steps() == fmi3OK);
   CHECK(unit.step(0, 0.2) == fmi3Discard);
+  CHECK_THAT(unit.last_message(), Contains("fmi3DoStep: a step may be 0.1") && Contains("at most"));
+  CHECK(unit.message_statuses == std::vector<fmi3Status>{fmi3Discard});
   CHECK(unit.integer("steps") == 0);
   CHECK(unit.step(0, 0.1) == fmi3OK);
   CHECK(unit.integer("steps") == 1);
+}
+
+TEST_CASE("a unit does in a step only what it has declared") {
+  const UnitLibrary library(STRIDE_LIAR_LIBRARY);
+  UnitInstance unit(library, early_return());
+  SECTION("it rejects") {
+    REQUIRE(unit.set_boolean("rejects", true) == fmi3OK);
+    REQUIRE(unit.start_steps() == fmi3OK);
+    CHECK(unit.step(0, 0.1) == fmi3Error);
+    CHECK_THAT(unit.last_message(), Contains("rejected the step (out of spite), but the unit did "
+                                             "not declare may_reject"));
+  }
+  SECTION("it returns early") {
+    REQUIRE(unit.set_real("early_after", 0.05) == fmi3OK);
+    REQUIRE(unit.start_steps() == fmi3OK);
+    CHECK(unit.step(0, 0.1) == fmi3Error);
+    CHECK_THAT(unit.last_message(),
+               Contains("returned early, but the unit did not declare early_return"));
+  }
 }
 
 TEST_CASE("an early return stops at its instant and wants an event there") {
@@ -422,6 +545,50 @@ TEST_CASE("the next event and another iteration are passed on") {
   CHECK_FALSE(unit.iterate);
 }
 
+TEST_CASE("an announced event stays announced until it has come") {
+  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  UnitInstance unit(library);
+  const auto event_after_step = [&](double from, double to) {
+    REQUIRE(library.EnterStepMode(unit.handle) == fmi3OK);
+    REQUIRE(unit.step(from, to - from) == fmi3OK);
+    REQUIRE(library.EnterEventMode(unit.handle) == fmi3OK);
+    REQUIRE(unit.update() == fmi3OK);
+  };
+  REQUIRE(unit.set_real("event_at", 0.5) == fmi3OK);
+
+  SECTION("at further iterations and earlier events it is told again") {
+    REQUIRE(unit.initialize() == fmi3OK);
+    REQUIRE(unit.update() == fmi3OK);
+    REQUIRE(unit.update() == fmi3OK);
+    CHECK((unit.has_next_event && unit.next_event == 0.5));
+    event_after_step(0, 0.25);
+    CHECK((unit.has_next_event && unit.next_event == 0.5));
+    event_after_step(0.25, 0.75);
+    CHECK_FALSE(unit.has_next_event);
+  }
+  SECTION("the unit may withdraw it") {
+    REQUIRE(unit.set_real("withdraw_at", 0.25) == fmi3OK);
+    REQUIRE(unit.initialize() == fmi3OK);
+    REQUIRE(unit.update() == fmi3OK);
+    event_after_step(0, 0.25);
+    CHECK_FALSE(unit.has_next_event);
+  }
+  SECTION("a restored state has it, a reset unit has not") {
+    REQUIRE(unit.initialize() == fmi3OK);
+    REQUIRE(unit.update() == fmi3OK);
+    const SavedState saved(unit);
+    event_after_step(0, 0.5);
+    CHECK_FALSE(unit.has_next_event);
+    REQUIRE(library.SetFMUState(unit.handle, saved.state) == fmi3OK);
+    REQUIRE(unit.update() == fmi3OK);
+    CHECK((unit.has_next_event && unit.next_event == 0.5));
+    REQUIRE(library.Reset(unit.handle) == fmi3OK);
+    REQUIRE(unit.initialize() == fmi3OK);
+    REQUIRE(unit.update() == fmi3OK);
+    CHECK_FALSE(unit.has_next_event);
+  }
+}
+
 TEST_CASE("an event that an importer without Event Mode loses is reported") {
   const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
   InstanceChoices choices;
@@ -451,6 +618,20 @@ TEST_CASE("the first derivative of an output that has one") {
   order = 2;
   CHECK(library.GetOutputDerivatives(unit.handle, &position, 1, &order, &rate, 1) == fmi3Error);
   CHECK_THAT(unit.last_message(), Contains("'position' has no derivative of order 2"));
+}
+
+TEST_CASE("a derivative that depends on inputs is right before the first step") {
+  const UnitLibrary library(STRIDE_MINIMAL_LIBRARY);
+  UnitInstance unit(library);
+  REQUIRE(unit.set_real("u", 3) == fmi3OK);
+  REQUIRE(unit.set_real("y", 1) == fmi3OK);
+  REQUIRE(unit.set_real("time_constant", 0.5) == fmi3OK);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  const fmi3ValueReference y = unit.reference("y");
+  const fmi3Int32 order = 1;
+  double rate = 0;
+  REQUIRE(library.GetOutputDerivatives(unit.handle, &y, 1, &order, &rate, 1) == fmi3OK);
+  CHECK(rate == 4);  // (u - y) / time_constant
 }
 
 // ---- State ----

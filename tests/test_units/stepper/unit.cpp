@@ -1,5 +1,6 @@
 // Does at chosen instants what a step may do. An instant before the start means never.
 #include <optional>
+#include <string>
 
 #include <stride/unit.h>
 
@@ -8,12 +9,16 @@ namespace {
 class Stepper : public stride::Unit {
  public:
   Stepper() {
-    describe("Rejects, returns early, wants events, ends the run").early_return = true;
+    auto& info = describe("Rejects, returns early, wants events, ends the run");
+    info.early_return = true;
+    info.may_reject = true;
     parameter("largest_step", largest_step_).unit("s").description("a larger one is rejected");
     parameter("early_at", early_at_).unit("s").description("steps across it return there");
-    parameter("event_at", event_at_).unit("s").description("asked for as its next event");
+    parameter("event_at", event_at_).unit("s").description("announced once as its next event");
+    parameter("withdraw_at", withdraw_at_).unit("s").description("an event there withdraws it");
     parameter("tick_at", tick_at_).unit("s").description("a step that ends there ticks the clock");
     parameter("end_at", end_at_).unit("s").description("a step that ends there ends the run");
+    parameter("logs", logs_).description("each step logs its number, and a warning");
     output("steps", steps_).exact().depends_on({});
     output("events", events_).exact().depends_on({});
     output("clock", clock_);
@@ -23,7 +28,9 @@ class Stepper : public stride::Unit {
   }
 
   void step(stride::Step& step) override {
-    if (step.size() > stride::duration_from_seconds(largest_step_)) return step.reject();
+    if (step.size() > stride::duration_from_seconds(largest_step_)) {
+      return step.reject("a step may be " + std::to_string(largest_step_) + " s long at most");
+    }
     stride::Time to = step.to();
     if (const auto early = instant(early_at_);
         early && step.early_return_allowed() && step.from() < *early && *early < to) {
@@ -33,6 +40,10 @@ class Stepper : public stride::Unit {
     }
     position_ += speed_ * stride::to_seconds(to - step.from());
     ++steps_;
+    if (logs_) {
+      log(stride::Severity::Info, "step " + std::to_string(steps_));
+      log(stride::Severity::Warning, "steps are tiring");
+    }
     if (instant(tick_at_) == to) {
       ++count_;
       clock_.tick();
@@ -41,9 +52,10 @@ class Stepper : public stride::Unit {
   }
 
   void event(stride::Event& event) override {
-    ++events_;
     const auto next = instant(event_at_);
-    if (next && event.time() < *next) event.next_event(*next);
+    if (events_ == 0 && next && event.time() < *next) event.next_event(*next);
+    if (instant(withdraw_at_) == event.time()) event.no_next_event();
+    ++events_;
     if (next == event.time() && !iterated_) {
       iterated_ = true;
       event.iterate();
@@ -62,8 +74,10 @@ class Stepper : public stride::Unit {
   double largest_step_ = 1e6;
   double early_at_ = -1;
   double event_at_ = -1;
+  double withdraw_at_ = -1;
   double tick_at_ = -1;
   double end_at_ = -1;
+  bool logs_ = false;
   std::int32_t steps_ = 0;
   std::int32_t events_ = 0;
   stride::Clock clock_;

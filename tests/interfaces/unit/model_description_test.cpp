@@ -1,0 +1,56 @@
+#include "interfaces/unit/model_description.h"
+
+#include <cstdint>
+
+#include <catch2/catch.hpp>
+
+using namespace stride;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// Some of what a model description says.
+class Sample : public Unit {
+ public:
+  explicit Sample(bool may_reject = false) {
+    describe("A sample").may_reject = may_reject;
+    parameter("gain", gain_);
+    input("in", in_);
+    output("clock", clock_);
+    output("count", count_).clocked_by(clock_).range(1, 0x1.8p63);
+  }
+  void step(Step&) override {}
+
+ private:
+  double gain_ = 1;
+  double in_ = 0;
+  Clock clock_;
+  std::uint64_t count_ = 1;
+};
+
+std::string describe(const Unit& unit) {
+  double time = 0;
+  return kit::model_description("sample", unit, kit::Table(unit, time));
+}
+
+}  // namespace
+
+TEST_CASE("a clock depends on no input of the same instant, nor on a parameter at the start") {
+  const std::string xml = describe(Sample());
+  CHECK_THAT(xml, Contains(R"(<Output valueReference="3" dependencies=""/>)"));
+  CHECK_THAT(xml, Contains(R"(<InitialUnknown valueReference="3" dependencies=""/>)"));
+}
+
+TEST_CASE("bounds above the range of Int64 are written as they are") {
+  CHECK_THAT(describe(Sample()), Contains(R"(min="1" max="13835058055282163712")"));
+}
+
+TEST_CASE("whether the unit may reject a step is annotated at the end") {
+  const std::string never = describe(Sample());
+  const std::size_t at = never.find(R"(<Annotation type="org.stride.unit">)");
+  REQUIRE(at != std::string::npos);
+  CHECK(at > never.find("</ModelStructure>"));
+  CHECK_THAT(never.substr(at),
+             Contains(R"(<stride:Unit xmlns:stride="urn:org.stride:unit:1" mayReject="false"/>)"));
+  CHECK_THAT(describe(Sample(true)), Contains(R"(mayReject="true")"));
+}

@@ -1,0 +1,87 @@
+#include "interfaces/unit/table.h"
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+using namespace stride;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// A unit with the rows that a test wants.
+class Rows : public Unit {
+ public:
+  explicit Rows(const std::function<void(Rows&)>& list) { list(*this); }
+  void step(Step&) override {}
+
+  using Unit::input;
+  using Unit::output;
+  using Unit::parameter;
+
+  double real = 0;
+  float narrow = 0;
+  std::int8_t small = 0;
+  std::uint32_t natural = 0;
+  std::int64_t integer = 0;
+  std::uint64_t large = 0;
+  bool flag = false;
+  std::string text;
+  Binary bytes;
+  Clock clock;
+};
+
+void check(const std::function<void(Rows&)>& list) {
+  const Rows unit(list);
+  double time = 0;
+  kit::Table(unit, time);
+}
+
+}  // namespace
+
+TEST_CASE("a name that is not structured is refused with the grammar") {
+  CHECK_NOTHROW(check([](Rows& unit) { unit.input("'left arm'.axes[1]", unit.real); }));
+  CHECK_THROWS_WITH(check([](Rows& unit) { unit.input("left arm", unit.real); }),
+                    Contains("variable 'left arm': this is no structured name") &&
+                        Contains("\"'left arm'.angle\""));
+  CHECK_THROWS_WITH(check([](Rows& unit) { unit.input("", unit.real); }), Contains("no name"));
+}
+
+TEST_CASE("bounds are values of the type") {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  CHECK_NOTHROW(check([](Rows& unit) {
+    unit.input("real", unit.real).range(-1e300, 0.5);
+    unit.input("small", unit.small).range(-128, 127);
+    unit.input("natural", unit.natural).range(0, 4294967295.0);
+    unit.input("integer", unit.integer).range(-0x1p63, 0x1p62);
+    unit.input("large", unit.large).max(0x1p63);
+  }));
+  CHECK_THROWS_WITH(check([](Rows& unit) { unit.input("small", unit.small).max(128); }),
+                    "variable 'small': the bound 128 is no value of the type Int8");
+  CHECK_THROWS(check([](Rows& unit) { unit.input("small", unit.small).min(-129); }));
+  CHECK_THROWS(check([](Rows& unit) { unit.input("small", unit.small).max(0.5); }));
+  CHECK_THROWS(check([](Rows& unit) { unit.input("natural", unit.natural).min(-1); }));
+  CHECK_THROWS(check([](Rows& unit) { unit.input("integer", unit.integer).max(0x1p63); }));
+  CHECK_THROWS(check([](Rows& unit) { unit.input("large", unit.large).max(0x1p64); }));
+  CHECK_THROWS(check([](Rows& unit) { unit.input("narrow", unit.narrow).max(1e300); }));
+  CHECK_THROWS(check([](Rows& unit) { unit.input("real", unit.real).max(kInfinity); }));
+  CHECK_THROWS(check([](Rows& unit) { unit.input("real", unit.real).min(std::nan("")); }));
+  CHECK_THROWS_WITH(check([](Rows& unit) { unit.input("real", unit.real).range(1, 0); }),
+                    Contains("the minimum 1 is above the maximum 0"));
+}
+
+TEST_CASE("types without an order have no bounds") {
+  CHECK_THROWS_WITH(check([](Rows& unit) { unit.input("flag", unit.flag).max(1); }),
+                    "variable 'flag': the type Boolean has no bounds");
+  CHECK_THROWS(check([](Rows& unit) { unit.input("text", unit.text).min(0); }));
+  CHECK_THROWS(check([](Rows& unit) { unit.input("bytes", unit.bytes).min(0); }));
+  CHECK_THROWS(check([](Rows& unit) { unit.output("clock", unit.clock).min(0); }));
+}
+
+TEST_CASE("a clock depends on nothing of its own instant, so it cannot say on what") {
+  CHECK_NOTHROW(check([](Rows& unit) { unit.output("clock", unit.clock); }));
+  CHECK_THROWS_WITH(check([](Rows& unit) { unit.output("clock", unit.clock).depends_on({}); }),
+                    Contains("variable 'clock': a clock has no depends_on()"));
+}
