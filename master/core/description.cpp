@@ -23,9 +23,16 @@ const char* name(Variability variability) {
   return kNames[static_cast<std::size_t>(variability)];
 }
 
+const char* name(Initial initial) {
+  constexpr const char* kNames[] = {"exact", "approx", "calculated", "none"};
+  return kNames[static_cast<std::size_t>(initial)];
+}
+
 std::optional<std::size_t> UnitDescription::find(const std::string& variable_name) const {
-  const auto found = std::find_if(variables.begin(), variables.end(),
-                                  [&](const Variable& v) { return v.name == variable_name; });
+  const auto found = std::find_if(variables.begin(), variables.end(), [&](const Variable& v) {
+    return v.name == variable_name ||
+           std::find(v.aliases.begin(), v.aliases.end(), variable_name) != v.aliases.end();
+  });
   if (found == variables.end()) return std::nullopt;
   return static_cast<std::size_t>(found - variables.begin());
 }

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <stride/time.h>
+
 namespace stride::core {
 
 using ValueReference = std::uint32_t;
@@ -44,10 +46,15 @@ enum class Causality : std::uint8_t {
 };
 enum class Variability : std::uint8_t { Constant, Fixed, Tunable, Discrete, Continuous };
 
+/// Where the value at the start comes from: the start value, the unit with the start value as its
+/// first guess, the unit alone. None: the question does not arise, as for the time.
+enum class Initial : std::uint8_t { Exact, Approx, Calculated, None };
+
 /// The words of the standard: "Float64", "input", "continuous".
 const char* name(ValueType type);
 const char* name(Causality causality);
 const char* name(Variability variability);
+const char* name(Initial initial);
 
 /// value in SI base units = factor * value + offset. exponents of kg, m, s, A, K, mol, cd, rad.
 struct BaseUnit {
@@ -58,10 +65,12 @@ struct BaseUnit {
 
 struct Variable {
   std::string name;
+  std::vector<std::string> aliases;  ///< its other names
   ValueReference reference = 0;
   ValueType type = ValueType::Float64;
   Causality causality = Causality::Local;
   Variability variability = Variability::Continuous;
+  Initial initial = Initial::Calculated;
   std::vector<std::size_t> dimensions;  ///< empty for a scalar
   std::size_t size = 1;                 ///< the number of elements
   std::string unit;
@@ -102,11 +111,13 @@ struct UnitDescription {
   bool single_instance = false;
   bool needs_execution_tool = false;
   unsigned max_output_derivative_order = 0;
-  std::optional<double> fixed_internal_step;  ///< [s]
-  std::optional<double> default_step;         ///< [s], DefaultExperiment
-  std::optional<double> default_stop;         ///< [s]
+  /// Whether the unit may reject a step (fmi3Discard); true unless it says otherwise.
+  bool may_reject = true;
+  std::optional<Duration> fixed_internal_step;
+  std::optional<Duration> default_step;  ///< DefaultExperiment
+  std::optional<Time> default_stop;
 
-  /// The variable's place in `variables`, if there is one of that name.
+  /// The variable's place in `variables`, if there is one of that name or alias.
   std::optional<std::size_t> find(const std::string& variable_name) const;
   /// The place of the variable with this value reference.
   std::optional<std::size_t> find(ValueReference reference) const;

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 
 #include <stride/time.h>
 
@@ -50,6 +51,13 @@ class Unit {
   virtual void set(std::span<const ValueReference> references, const ValueBlock& values) = 0;
 
   virtual StepResult step(Time from, Time to) = 0;
+  /// What the unit said when it last rejected a step; empty if it said nothing.
+  virtual std::string rejection_reason() const { return {}; }
+
+  /// Keeps what the unit is now, in place of what was kept before. Only with can_save_state.
+  virtual void save_state() = 0;
+  /// Makes the unit what it was at save_state(), any number of times.
+  virtual void restore_state() = 0;
 
   virtual void enter_event_mode() = 0;
   virtual EventResult update_discrete_states() = 0;

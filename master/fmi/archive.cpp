@@ -33,16 +33,16 @@ const char* kind_name(mode_t type) {
   }
 }
 
-/// A file that is being written.
-class OutputFile {
+/// A new file, never one that is there already.
+class UnpackedFile {
  public:
-  OutputFile(const fs::path& path, mode_t mode)
+  UnpackedFile(const fs::path& path, mode_t mode)
       : file_(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode)) {}
-  ~OutputFile() {
+  ~UnpackedFile() {
     if (file_ >= 0) ::close(file_);
   }
-  OutputFile(const OutputFile&) = delete;
-  OutputFile& operator=(const OutputFile&) = delete;
+  UnpackedFile(const UnpackedFile&) = delete;
+  UnpackedFile& operator=(const UnpackedFile&) = delete;
 
   bool is_open() const { return file_ >= 0; }
   bool write(const char* data, std::size_t size) {
@@ -160,7 +160,7 @@ class Extraction {
 
   void write_file(const fs::path& path) {
     const bool executable = (archive_entry_perm(entry_) & 0100) != 0;
-    OutputFile file(path, executable ? 0700 : 0600);
+    UnpackedFile file(path, executable ? 0700 : 0600);
     if (!file.is_open()) {
       if (errno == EEXIST) fail_entry("which it holds twice");
       fail_writing(path);

@@ -52,6 +52,7 @@ Fmi3Unit::Fmi3Unit(std::string name, UnitParts parts, InstanceOptions options)
       parts_(std::move(parts)),
       options_(std::move(options)),
       fmi_(parts_.library->functions()) {
+  check_callable("fmi3InstantiateCoSimulation");
   const core::UnitDescription& description = *parts_.description;
   const bool has_resources = !parts_.resource_path.empty();
   instance_ = fmi_.InstantiateCoSimulation(
@@ -66,7 +67,12 @@ Fmi3Unit::Fmi3Unit(std::string name, UnitParts parts, InstanceOptions options)
 }
 
 Fmi3Unit::~Fmi3Unit() {
-  if (instance_ != nullptr && !is_fatal_) fmi_.FreeInstance(instance_);
+  if (instance_ == nullptr || parts_.library->is_condemned()) return;
+  if (state_ != nullptr && fmi_.FreeFMUState != nullptr) {
+    const fmi3Status status = fmi_.FreeFMUState(instance_, &state_);
+    if (status == fmi3Fatal) parts_.library->condemn();
+  }
+  if (!parts_.library->is_condemned()) fmi_.FreeInstance(instance_);
 }
 
 void Fmi3Unit::enter_initialization(Time start, std::optional<Time> stop) {
@@ -80,29 +86,47 @@ void Fmi3Unit::exit_initialization() {
 }
 
 void Fmi3Unit::terminate() {
-  if (failed_in_ == nullptr) call("fmi3Terminate", fmi_.Terminate);
+  if (failed_in_ != nullptr || parts_.library->is_condemned()) return;
+  call("fmi3Terminate", fmi_.Terminate);
 }
 
 // ---- Calls, messages and failures ----
 
 template <class Function, class... Arguments>
-fmi3Status Fmi3Unit::call(const char* name, Function* function, Arguments... arguments) {
+fmi3Status Fmi3Unit::call_discardable(const char* name, Function* function,
+                                      Arguments... arguments) {
+  check_callable(name);
+  const fmi3Status status = function(instance_, arguments...);
+  if (status == fmi3Discard) return status;
+  if (status != fmi3OK && status != fmi3Warning) fail_call(name, status);
+  if (has_messages_.load(std::memory_order_relaxed)) take_messages(name);
+  return status;
+}
+
+template <class Function, class... Arguments>
+void Fmi3Unit::call(const char* name, Function* function, Arguments... arguments) {
+  const fmi3Status status = call_discardable(name, function, arguments...);
+  if (status == fmi3Discard) fail_call(name, status);
+}
+
+void Fmi3Unit::check_callable(const char* name) const {
   if (failed_in_ != nullptr) {
     fail(fmt::format("{} cannot be called, because {} has failed before", name, failed_in_));
   }
-  const fmi3Status status = function(instance_, arguments...);
-  if (status == fmi3OK || status == fmi3Warning || status == fmi3Discard) {
-    if (has_messages_.load(std::memory_order_relaxed)) take_messages(name);
-    return status;
+  if (parts_.library->is_condemned()) {
+    fail(
+        fmt::format("{} cannot be called, because an instance of the same FMU has returned "
+                    "fmi3Fatal before",
+                    name));
   }
-  fail_call(name, status);
 }
 
 void Fmi3Unit::fail_call(const char* function, fmi3Status status) {
   failed_in_ = function;
-  is_fatal_ = status != fmi3Error;
+  const bool is_fatal = status != fmi3Error && status != fmi3Discard;
+  if (is_fatal) parts_.library->condemn();
   fail(fmt::format("{} returned {}: {}", function, status_name(status), take_messages(function)),
-       is_fatal_ ? "the unit may have damaged this process; save what you need and end it" : "");
+       is_fatal ? "the unit may have damaged this process; save what you need and end it" : "");
 }
 
 void Fmi3Unit::fail(const std::string& message, const std::string& hint) const {
@@ -237,28 +261,44 @@ core::StepResult Fmi3Unit::step(Time from, Time to) {
   bool terminate = false;
   bool early = false;
   double last_successful = end;
-  const fmi3Status status = call("fmi3DoStep", fmi_.DoStep, point, size, !options_.may_roll_back,
-                                 &event_needed, &terminate, &early, &last_successful);
-  if (status == fmi3Discard) return {.rejected = true, .reached = from};
-  const Time reached = reached_in_step(from, to, early, last_successful);
-  time_ = reached;
+  const fmi3Status status =
+      call_discardable("fmi3DoStep", fmi_.DoStep, point, size, !options_.may_roll_back,
+                       &event_needed, &terminate, &early, &last_successful);
+  if (status == fmi3Discard) {
+    rejection_reason_ = has_messages_ ? take_messages("fmi3DoStep") : "";
+    return {.rejected = true, .reached = from};
+  }
+  if (!early) compare_times(from, to, last_successful);
+  time_ = early ? reached_early(from, to, last_successful) : to;
   return {.early_return = early,
           .event_needed = event_needed,
           .terminate = terminate,
-          .reached = reached};
+          .reached = *time_};
 }
 
-Time Fmi3Unit::reached_in_step(Time from, Time to, bool early, double last_successful) const {
+/// FMI 3.0, 4.2: a unit with a fixed internal step may stand elsewhere than where it was sent.
+void Fmi3Unit::compare_times(Time from, Time to, double last_successful) {
+  const double end = to_seconds(to);
+  if (std::abs(last_successful - end) <= time_tolerance(to_seconds(from), end)) return;
+  checked_time(last_successful, "lastSuccessfulTime");
+  if (std::exchange(has_time_warning_, true) || !options_.log) return;
+  const auto& internal_step = parts_.description->fixed_internal_step;
+  options_.log(
+      name_, fmi3Warning, "stride",
+      fmt::format("the step to {} s ended at the unit's own time {} s (lastSuccessfulTime) without "
+                  "an early return{}; its outputs are taken as those at {} s, here and in later "
+                  "steps",
+                  core::to_text(to), last_successful,
+                  internal_step ? fmt::format(", since its fixedInternalStepSize is {} s",
+                                              core::to_text(Time(*internal_step)))
+                                : "",
+                  core::to_text(to)));
+}
+
+Time Fmi3Unit::reached_early(Time from, Time to, double last_successful) const {
   const double point = to_seconds(from);
   const double end = to_seconds(to);
   const double tolerance = time_tolerance(point, end);
-  if (!early) {
-    if (std::abs(last_successful - end) <= tolerance) return to;
-    fail(fmt::format("fmi3DoStep succeeded without an early return, but its lastSuccessfulTime is "
-                     "{} s; expected the end of the step, {} s",
-                     last_successful, core::to_text(to)),
-         "the unit must set earlyReturn where it stops before the end of a step");
-  }
   if (!options_.early_return_allowed) {
     fail("fmi3DoStep returned early, which was not allowed at its instantiation");
   }
@@ -275,6 +315,25 @@ Time Fmi3Unit::checked_time(double seconds, const char* what) const {
   } catch (const std::out_of_range& error) {
     fail(fmt::format("{} is {}: {}", what, seconds, error.what()));
   }
+}
+
+void Fmi3Unit::save_state() {
+  if (fmi_.GetFMUState == nullptr) {
+    fail("its library does not export fmi3GetFMUState",
+         "a unit that is to be rolled back must have it (canGetAndSetFMUState)");
+  }
+  call("fmi3GetFMUState", fmi_.GetFMUState, &state_);  // the unit uses the state's memory again
+  state_time_ = time_;
+}
+
+void Fmi3Unit::restore_state() {
+  if (state_ == nullptr) fail("no state of it has been saved that could be restored");
+  if (fmi_.SetFMUState == nullptr) {
+    fail("its library does not export fmi3SetFMUState",
+         "a unit that is to be rolled back must have it (canGetAndSetFMUState)");
+  }
+  call("fmi3SetFMUState", fmi_.SetFMUState, state_);
+  time_ = state_time_;
 }
 
 void Fmi3Unit::enter_event_mode() { call("fmi3EnterEventMode", fmi_.EnterEventMode); }

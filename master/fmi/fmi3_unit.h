@@ -39,10 +39,14 @@ struct UnitParts {
   std::shared_ptr<const void> fmu;  ///< kept alive as long as the instance
 };
 
-/// See core::Unit for the order of calls. A status fmi3Error or fmi3Fatal becomes a core::Error of
-/// the kind Run, with the name of the FMI function, the simulated time and the unit's own messages.
-/// After it, terminate() does nothing, and other calls throw; after fmi3Fatal no function of the
-/// instance is called any more, so it is not freed either.
+/// See core::Unit for the order of calls. A status fmi3Error or fmi3Fatal, and fmi3Discard of any
+/// function but fmi3DoStep, becomes a core::Error of the kind Run, with the name of the FMI
+/// function, the simulated time and the unit's own messages. After it, terminate() does nothing,
+/// and other calls throw. After fmi3Fatal that holds for all instances of the FMU, no function of
+/// them is called any more, so they are not freed either, and the library stays loaded.
+///
+/// A step that succeeds without an early return ends at its end, also where the unit's own time
+/// (lastSuccessfulTime) is another, as with a fixed internal step; the log says so once.
 ///
 /// After the first exchange, get(), set() and step() do not allocate, except where a string or
 /// binary value outgrows the longest before it.
@@ -60,6 +64,9 @@ class Fmi3Unit : public core::Unit {
   void set(std::span<const core::ValueReference> references,
            const core::ValueBlock& values) override;
   core::StepResult step(Time from, Time to) override;
+  std::string rejection_reason() const override { return rejection_reason_; }
+  void save_state() override;
+  void restore_state() override;
   void enter_event_mode() override;
   core::EventResult update_discrete_states() override;
   void enter_step_mode() override;
@@ -73,8 +80,12 @@ class Fmi3Unit : public core::Unit {
   void receive(fmi3Status status, const std::string& category, const std::string& message);
   std::string take_messages(const std::string& function);
 
+  /// call() for the function that may answer fmi3Discard.
   template <class Function, class... Arguments>
-  fmi3Status call(const char* name, Function* function, Arguments... arguments);
+  fmi3Status call_discardable(const char* name, Function* function, Arguments... arguments);
+  template <class Function, class... Arguments>
+  void call(const char* name, Function* function, Arguments... arguments);
+  void check_callable(const char* name) const;
   [[noreturn]] void fail_call(const char* function, fmi3Status status);
   [[noreturn]] void fail(const std::string& message, const std::string& hint = "") const;
 
@@ -84,7 +95,8 @@ class Fmi3Unit : public core::Unit {
   void set_binaries(References references, std::span<const core::Binary> values);
 
   Time checked_time(double seconds, const char* what) const;
-  Time reached_in_step(Time from, Time to, bool early, double last_successful) const;
+  Time reached_early(Time from, Time to, double last_successful) const;
+  void compare_times(Time from, Time to, double last_successful);
 
   std::string name_;
   UnitParts parts_;
@@ -92,8 +104,12 @@ class Fmi3Unit : public core::Unit {
   const Functions& fmi_;
   fmi3Instance instance_ = nullptr;
   std::optional<Time> time_;
-  const char* failed_in_ = nullptr;  ///< the FMI function that returned fmi3Error or fmi3Fatal
-  bool is_fatal_ = false;
+  const char* failed_in_ = nullptr;  ///< the FMI function after whose status nothing goes on
+  bool has_time_warning_ = false;
+  std::string rejection_reason_;
+
+  fmi3FMUState state_ = nullptr;
+  std::optional<Time> state_time_;  ///< time_ when the state was saved
 
   std::vector<fmi3String> texts_;
   std::vector<fmi3Binary> bytes_;

@@ -1,6 +1,8 @@
 #include "master/fmi/library.h"
 
 #include <algorithm>
+#include <map>
+#include <mutex>
 #include <string_view>
 #include <vector>
 
@@ -106,6 +108,15 @@ std::string_view between(std::string_view text, std::string_view before, std::st
                    fmt::format("expected a shared library for {}", platform()));
 }
 
+/// One flag per library in the process: dlopen gives the same handle however often it is opened.
+/// Lives as long as the process, since a condemned library does.
+std::atomic<bool>& condemned_flag(void* handle) {
+  static std::mutex mutex;
+  static auto& flags = *new std::map<void*, std::atomic<bool>>;
+  const std::lock_guard lock(mutex);
+  return flags[handle];
+}
+
 }  // namespace
 
 const char* platform() { return STRIDE_ARCHITECTURE "-linux"; }
@@ -136,6 +147,7 @@ void Library::Closer::operator()(void* handle) const { ::dlclose(handle); }
 Library::Library(const fs::path& path, const core::Location& where) : path_(fs::absolute(path)) {
   handle_.reset(::dlopen(path_.c_str(), RTLD_NOW | RTLD_LOCAL));
   if (!handle_) fail_to_load(path_, ::dlerror(), where);
+  is_condemned_ = &condemned_flag(handle_.get());
   const auto resolve = [&]<class F>(F*& function, const char* symbol) {
     function = reinterpret_cast<F*>(::dlsym(handle_.get(), symbol));
     return function != nullptr;
@@ -154,6 +166,10 @@ Library::Library(const fs::path& path, const core::Location& where) : path_(fs::
                                "Co-Simulation unit must",
                                path_.string(), fmt::join(missing, ", ")),
                    "export it with C linkage, default visibility and exactly this name");
+}
+
+Library::~Library() {
+  if (is_condemned()) static_cast<void>(handle_.release());
 }
 
 std::string Library::describe(const fs::path& resources, const core::Location& where) const {

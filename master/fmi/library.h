@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_FMI_LIBRARY_H
 #define STRIDE_MASTER_FMI_LIBRARY_H
 
+#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -29,13 +30,14 @@ struct Functions {
 #undef STRIDE_POINTER
 };
 
-/// A loaded library; unloaded with the object.
+/// A loaded library; unloaded with the object, unless it is condemned.
 class Library {
  public:
   /// Loads it with all its symbols resolved and kept to itself (RTLD_NOW, RTLD_LOCAL). Throws
   /// core::Error of the kind Input that names the shared library, the symbol or the FMI function
   /// that is missing. Functions of the other interface types and optional capabilities may be.
   explicit Library(const std::filesystem::path& path, const core::Location& where = {});
+  ~Library();
 
   const std::filesystem::path& path() const { return path_; }
   const Functions& functions() const { return functions_; }
@@ -47,6 +49,11 @@ class Library {
   std::string describe(const std::filesystem::path& resources,
                        const core::Location& where = {}) const;
 
+  /// To be said when an instance has returned fmi3Fatal: after it no function of any instance may
+  /// be called (FMI 3.0, 2.2.3). Holds for all objects of the same library, until the process ends.
+  void condemn() const { *is_condemned_ = true; }
+  bool is_condemned() const { return *is_condemned_; }
+
  private:
   struct Closer {
     void operator()(void* handle) const;
@@ -54,6 +61,7 @@ class Library {
 
   std::filesystem::path path_;
   std::unique_ptr<void, Closer> handle_;
+  std::atomic<bool>* is_condemned_ = nullptr;
   Functions functions_;
   strideModelDescriptionTYPE* self_description_ = nullptr;
 };

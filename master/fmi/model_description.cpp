@@ -3,6 +3,7 @@
 #include <cctype>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -50,6 +51,27 @@ std::string read_model_identifier(const Element& co_simulation) {
   return identifier;
 }
 
+/// Nothing if there is no such attribute.
+std::optional<Duration> read_seconds(const Element& element, const char* attribute) {
+  const auto seconds = element.number<double>(attribute);
+  if (!seconds) return std::nullopt;
+  try {
+    return duration_from_seconds(*seconds);
+  } catch (const std::out_of_range& error) {
+    element.fail(fmt::format("{}=\"{}\" of <{}>: {}", attribute, *element.text(attribute),
+                             element.name(), error.what()));
+  }
+}
+
+std::optional<Duration> read_step_size(const Element& element, const char* attribute) {
+  const auto size = read_seconds(element, attribute);
+  if (!size || *size > Duration{}) return size;
+  element.fail(
+      fmt::format("{}=\"{}\" of <{}>: expected a positive number of seconds, at least the "
+                  "picosecond that times are counted in",
+                  attribute, *element.text(attribute), element.name()));
+}
+
 void read_co_simulation(const Element& element, core::UnitDescription& unit) {
   unit.model_identifier = read_model_identifier(element);
   unit.has_event_mode = element.flag("hasEventMode");
@@ -61,7 +83,7 @@ void read_co_simulation(const Element& element, core::UnitDescription& unit) {
   unit.needs_execution_tool = element.flag("needsExecutionTool");
   unit.max_output_derivative_order =
       element.number<unsigned>("maxOutputDerivativeOrder").value_or(0);
-  unit.fixed_internal_step = element.number<double>("fixedInternalStepSize");
+  unit.fixed_internal_step = read_step_size(element, "fixedInternalStepSize");
 }
 
 core::BaseUnit read_base_unit(const Element& element) {
@@ -109,8 +131,30 @@ std::vector<core::Unknown> read_unknowns(const Element& structure, const char* n
 void read_default_experiment(const Element& root, core::UnitDescription& unit) {
   const auto experiment = root.child("DefaultExperiment");
   if (!experiment) return;
-  unit.default_step = experiment->number<double>("stepSize");
-  unit.default_stop = experiment->number<double>("stopTime");
+  unit.default_step = read_step_size(*experiment, "stepSize");
+  const Duration start = read_seconds(*experiment, "startTime").value_or(Duration{});
+  const auto stop = read_seconds(*experiment, "stopTime");
+  if (!stop) return;
+  if (*stop <= start) {
+    experiment->fail(
+        fmt::format("stopTime=\"{}\" of <DefaultExperiment>: expected a time at least a "
+                    "picosecond after the start, {} s",
+                    *experiment->text("stopTime"), core::to_text(Time(start))));
+  }
+  unit.default_stop = Time(*stop);
+}
+
+/// What FMI has no word for, in the annotation that the unit kit writes.
+void read_annotation(const Element& root, core::UnitDescription& unit) {
+  const auto annotations = root.child("Annotations");
+  if (!annotations) return;
+  for (const Element& annotation : annotations->children("Annotation")) {
+    if (annotation.text_or("type") != "org.stride.unit") continue;
+    for (const Element& element : annotation.children()) {
+      if (!element.is("urn:org.stride:unit:1", "Unit")) continue;
+      unit.may_reject = element.flag("mayReject", unit.may_reject);
+    }
+  }
 }
 
 core::UnitDescription read(const Element& root) {
@@ -129,6 +173,7 @@ core::UnitDescription read(const Element& root) {
   unit.outputs = read_unknowns(*structure, "Output", index);
   unit.initial_unknowns = read_unknowns(*structure, "InitialUnknown", index);
   read_default_experiment(root, unit);
+  read_annotation(root, unit);
   return unit;
 }
 

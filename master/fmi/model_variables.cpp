@@ -9,6 +9,7 @@ namespace stride::fmi {
 namespace {
 
 using core::Causality;
+using core::Initial;
 using core::ValueType;
 using core::Variability;
 
@@ -49,6 +50,46 @@ Variability default_variability(ValueType type, Causality causality) {
   }
   const bool is_float = type == ValueType::Float32 || type == ValueType::Float64;
   return is_float ? Variability::Continuous : Variability::Discrete;
+}
+
+/// FMI 3.0, 2.4.7.5, the table that defines `initial`: what it may be, its default first. Nothing
+/// for what cannot have the attribute.
+std::vector<Initial> possible_initials(const core::Variable& variable) {
+  if (variable.type == ValueType::Clock) return {};
+  switch (variable.causality) {
+    case Causality::Independent:
+      return {};
+    case Causality::Parameter:
+    case Causality::StructuralParameter:
+    case Causality::Input:
+      return {Initial::Exact};
+    default:
+      break;
+  }
+  switch (variable.variability) {
+    case Variability::Constant:
+      return {Initial::Exact};
+    case Variability::Fixed:
+    case Variability::Tunable:
+      return {Initial::Calculated, Initial::Approx};
+    default:
+      return {Initial::Calculated, Initial::Exact, Initial::Approx};
+  }
+}
+
+Initial read_initial(const Element& element, const core::Variable& variable) {
+  const std::vector<Initial> possible = possible_initials(variable);
+  const auto word = element.text("initial");
+  if (!word) return possible.empty() ? Initial::None : possible.front();
+  for (const Initial initial : possible) {
+    if (*word == core::name(initial)) return initial;
+  }
+  std::vector<std::string> names;
+  for (const Initial initial : possible) names.emplace_back(core::name(initial));
+  element.fail(fmt::format("initial=\"{}\" of the {} {} '{}': expected {}", *word,
+                           core::name(variable.variability), core::name(variable.causality),
+                           variable.name,
+                           names.empty() ? "none" : fmt::format("{}", fmt::join(names, " or "))));
 }
 
 TypeDefinitions read_type_definitions(const Element& root) {
@@ -102,7 +143,11 @@ core::Variable read_variable(const Element& element, ValueType type, const TypeD
   variable.causality = read_word(element, "causality", Causality::Local, 7);
   variable.variability =
       read_word(element, "variability", default_variability(type, variable.causality), 5);
+  variable.initial = read_initial(element, variable);
   variable.description = element.text_or("description");
+  for (const Element& alias : element.children("Alias")) {
+    variable.aliases.push_back(alias.required_text("name"));
+  }
   variable.start = read_start(element, type);
   variable.clocks = element.number_list<core::ValueReference>("clocks");
   const auto declared = declared_type(element, types);
@@ -140,16 +185,22 @@ class Linker {
  private:
   void add(std::size_t i) {
     const core::Variable& variable = variables_[i];
-    const auto [same_name, is_new_name] = names_.emplace(variable.name, i);
-    if (!is_new_name) {
-      elements_[i].fail(fmt::format("the variable name '{}' is used twice, first in line {}",
-                                    variable.name, line(same_name->second)));
+    add_name(variable.name, elements_[i]);
+    for (const Element& alias : elements_[i].children("Alias")) {
+      add_name(alias.required_text("name"), alias);
     }
     const auto [same_reference, is_new] = index_.emplace(variable.reference, i);
     if (is_new) return;
     elements_[i].fail(fmt::format(
         "variable '{}' has the value reference {} of '{}' in line {}", variable.name,
         variable.reference, variables_[same_reference->second].name, line(same_reference->second)));
+  }
+
+  void add_name(const std::string& name, const Element& place) {
+    const auto [same, is_new] = names_.emplace(name, place.where().line);
+    if (is_new) return;
+    place.fail(
+        fmt::format("the variable name '{}' is used twice, first in line {}", name, same->second));
   }
 
   void check_clocks(std::size_t i) const {
@@ -212,7 +263,7 @@ class Linker {
 
   std::vector<core::Variable>& variables_;
   const std::vector<Element>& elements_;
-  std::map<std::string, std::size_t> names_;
+  std::map<std::string, int> names_;  ///< and aliases, with their lines
   VariableIndex index_;
 };
 

@@ -17,6 +17,21 @@ std::vector<std::string_view> split(std::string_view list) {
   }
 }
 
+bool Element::is(std::string_view name_space, std::string_view local_name) const {
+  const std::string_view qualified = element_->Name();
+  const std::size_t colon = qualified.find(':');
+  const bool has_prefix = colon != std::string_view::npos;
+  if (qualified.substr(has_prefix ? colon + 1 : 0) != local_name) return false;
+  const std::string declaration =
+      has_prefix ? fmt::format("xmlns:{}", qualified.substr(0, colon)) : "xmlns";
+  for (const tinyxml2::XMLNode* node = element_; node != nullptr; node = node->Parent()) {
+    const tinyxml2::XMLElement* element = node->ToElement();
+    const char* uri = element != nullptr ? element->Attribute(declaration.c_str()) : nullptr;
+    if (uri != nullptr) return uri == name_space;
+  }
+  return name_space.empty();
+}
+
 void Element::fail(const std::string& message, const std::string& hint) const {
   core::fail_input({.where = where()}, message, hint);
 }
@@ -50,8 +65,8 @@ std::string Element::required_text(const char* attribute) const {
   return *value;
 }
 
-bool Element::flag(const char* attribute) const {
-  const std::string value = text_or(attribute, "false");
+bool Element::flag(const char* attribute, bool otherwise) const {
+  const std::string value = text_or(attribute, otherwise ? "true" : "false");
   if (value == "true" || value == "1") return true;
   if (value == "false" || value == "0") return false;
   fail(fmt::format("{}=\"{}\" of <{}>: expected true or false", attribute, value, name()));

@@ -35,6 +35,8 @@ class Element {
       : element_(&element), file_(&file) {}
 
   std::string name() const { return element_->Name(); }
+  /// Whether it is this element, whatever the prefix by which it knows the namespace.
+  bool is(std::string_view name_space, std::string_view local_name) const;
   core::Location where() const { return {*file_, element_->GetLineNum()}; }
   /// Throws core::Error of the kind Input with this element's place.
   [[noreturn]] void fail(const std::string& message, const std::string& hint = "") const;
@@ -46,7 +48,7 @@ class Element {
   std::optional<std::string> text(const char* attribute) const;
   std::string text_or(const char* attribute, const std::string& otherwise = "") const;
   std::string required_text(const char* attribute) const;
-  bool flag(const char* attribute) const;
+  bool flag(const char* attribute, bool otherwise = false) const;
 
   template <class T>
   std::optional<T> number(const char* attribute) const {

@@ -21,6 +21,10 @@ Json unit_entry(const core::Component& component) {
 
 void add(Json& entry, const core::UnitStatistics& unit) {
   entry["steps"] = unit.steps;
+  entry["early_returns"] = unit.early_returns;
+  entry["rejections"] = unit.rejections;
+  entry["rollbacks"] = unit.rollbacks;
+  entry["saves"] = unit.saves;
   entry["events"] = unit.events;
   entry["messages_sent"] = unit.messages_sent;
   entry["messages_received"] = unit.messages_received;

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -96,17 +95,6 @@ Scenario read_scenario(const std::filesystem::path& path) {
   read_default_experiment(root, scenario);
   scenario.annotation = read_annotation(root);
   return scenario;
-}
-
-void require_sources(const Scenario& scenario) {
-  for (std::size_t i = 0; i < scenario.sources.size(); ++i) {
-    std::error_code error;
-    if (std::filesystem::exists(scenario.sources[i], error)) continue;
-    const core::ComponentDeclaration& component = scenario.system.components[i];
-    core::fail_input({.where = component.where, .unit = component.name},
-                     fmt::format("its source '{}' does not exist", scenario.sources[i].string()),
-                     "the path of a source is relative to the scenario's file");
-  }
 }
 
 }  // namespace stride::io

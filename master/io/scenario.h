@@ -34,9 +34,6 @@ struct Scenario {
 /// (geometry, graphics, meta data, other tools' annotations).
 Scenario read_scenario(const std::filesystem::path& path);
 
-/// Throws core::Error (Input), naming the component and its line, if a source does not exist.
-void require_sources(const Scenario& scenario);
-
 }  // namespace stride::io
 
 #endif

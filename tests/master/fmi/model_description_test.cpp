@@ -4,8 +4,10 @@
 
 using namespace stride;
 using namespace stride::tests;
+using namespace std::chrono_literals;
 using Catch::Matchers::Contains;
 using core::Causality;
+using core::Initial;
 using core::ValueType;
 using core::Variability;
 
@@ -60,14 +62,36 @@ const core::Variable& variable(const core::UnitDescription& unit, const std::str
   return unit.variables[*place];
 }
 
-/// The complaint about the complete description after one change to its text.
-std::string error_with(const std::string& from, const std::string& to) {
+/// The complete description after one change to its text.
+core::UnitDescription parse_with(const std::string& from, const std::string& to) {
   std::string text = kComplete;
   const std::size_t at = text.find(from);
   REQUIRE(at != std::string::npos);
   text.replace(at, from.size(), to);
+  return fmi::parse_model_description(text, "unit.xml");
+}
+
+/// The complaint about it.
+std::string error_with(const std::string& from, const std::string& to) {
   CAPTURE(from, to);
-  return input_error([&] { fmi::parse_model_description(text, "unit.xml"); });
+  return input_error([&] { parse_with(from, to); });
+}
+
+/// The description with an annotation of this type and content at its end.
+core::UnitDescription annotated(const std::string& type, const std::string& content) {
+  return parse_with("</fmiModelDescription>", "<Annotations><Annotation type=\"" + type + "\">" +
+                                                  content +
+                                                  "</Annotation></Annotations>"
+                                                  "</fmiModelDescription>");
+}
+
+/// What the description says of `initial` for a variable with these attributes.
+Initial initial_of(const std::string& attributes, const std::string& type = "Float64") {
+  const std::string variable =
+      "<" + type + " name=\"x\" valueReference=\"1\" " + attributes + "/>\n";
+  return fmi::parse_model_description(description_text("x", "", variable), "unit.xml")
+      .variables[0]
+      .initial;
 }
 
 }  // namespace
@@ -88,9 +112,9 @@ TEST_CASE("the unit as a whole") {
   CHECK(unit.single_instance);
   CHECK(unit.needs_execution_tool);
   CHECK(unit.max_output_derivative_order == 2);
-  CHECK(unit.fixed_internal_step == 1e-3);
-  CHECK(unit.default_step == 0.01);
-  CHECK(unit.default_stop == 12.5);
+  CHECK(unit.fixed_internal_step == Duration(1ms));
+  CHECK(unit.default_step == Duration(10ms));
+  CHECK(unit.default_stop == Time(12500ms));
 }
 
 TEST_CASE("capabilities are absent unless they are declared") {
@@ -145,6 +169,93 @@ TEST_CASE("a declared type gives what the variable leaves open") {
   CHECK(variable(unit, "tick").interval_variability == "triggered");
   using Items = std::vector<std::pair<std::string, std::int64_t>>;
   CHECK(variable(unit, "mode").items == Items{{"off", 0}, {"on", 7}});
+}
+
+TEST_CASE("an alias is another name of its variable") {
+  const auto unit = parse_with("<Alias name=\"height\"/>",
+                               "<Alias name=\"height\"/><Alias name=\"rise\" description=\"x\"/>");
+  CHECK(variable(unit, "level").aliases == std::vector<std::string>{"height", "rise"});
+  CHECK(variable(unit, "height").name == "level");
+  CHECK(variable(unit, "rise").name == "level");
+  CHECK(variable(unit, "on").aliases.empty());
+}
+
+TEST_CASE("what `initial` is where it is not said depends on causality and variability") {
+  const std::string fixed = "variability=\"fixed\" ";
+  const std::string tunable = "variability=\"tunable\" ";
+  const std::string discrete = "variability=\"discrete\" ";
+  const std::string constant = "variability=\"constant\" start=\"1\" ";
+  CHECK(initial_of("causality=\"parameter\"") == Initial::Exact);
+  CHECK(initial_of(tunable + "causality=\"parameter\"") == Initial::Exact);
+  CHECK(initial_of("causality=\"structuralParameter\"", "UInt64") == Initial::Exact);
+  CHECK(initial_of("causality=\"input\"") == Initial::Exact);
+  CHECK(initial_of(discrete + "causality=\"input\"") == Initial::Exact);
+  CHECK(initial_of(constant + "causality=\"output\"") == Initial::Exact);
+  CHECK(initial_of(constant + "causality=\"local\"") == Initial::Exact);
+  CHECK(initial_of("causality=\"calculatedParameter\"") == Initial::Calculated);
+  CHECK(initial_of(fixed + "causality=\"local\"") == Initial::Calculated);
+  CHECK(initial_of(tunable + "causality=\"local\"") == Initial::Calculated);
+  CHECK(initial_of("causality=\"output\"") == Initial::Calculated);
+  CHECK(initial_of(discrete + "causality=\"output\"") == Initial::Calculated);
+  CHECK(initial_of("") == Initial::Calculated);
+  CHECK(initial_of("causality=\"input\" intervalVariability=\"triggered\"", "Clock") ==
+        Initial::None);
+  const auto unit = fmi::parse_model_description(kComplete, "unit.xml");
+  CHECK(variable(unit, "time").initial == Initial::None);
+}
+
+TEST_CASE("what `initial` is where it is said must be possible") {
+  CHECK(initial_of("causality=\"output\" initial=\"exact\" start=\"1\"") == Initial::Exact);
+  CHECK(initial_of("causality=\"output\" initial=\"approx\" start=\"1\"") == Initial::Approx);
+  CHECK(initial_of("causality=\"calculatedParameter\" initial=\"approx\" start=\"1\"") ==
+        Initial::Approx);
+  CHECK_THAT(error_with("initial=\"calculated\"", "initial=\"guessed\""),
+             Contains("unit.xml:23: initial=\"guessed\" of the continuous output 'field': expected "
+                      "calculated or exact or approx"));
+  CHECK_THAT(input_error([] { initial_of("causality=\"parameter\" initial=\"calculated\""); }),
+             Contains("of the fixed parameter 'x': expected exact"));
+  CHECK_THAT(input_error([] { initial_of("causality=\"calculatedParameter\" initial=\"exact\""); }),
+             Contains("expected calculated or approx"));
+  CHECK_THAT(error_with("causality=\"independent\"", "causality=\"independent\" initial=\"exact\""),
+             Contains("of the continuous independent 'time': expected none"));
+}
+
+TEST_CASE("the default experiment and the internal step are times that can be counted") {
+  for (const std::string step : {"0", "-0.01", "1e-13", "inf", "nan", "1e7"}) {
+    CHECK_THAT(error_with("stepSize=\"0.01\"", "stepSize=\"" + step + "\""),
+               Contains("unit.xml:19: stepSize=\"" + step + "\" of <DefaultExperiment>: "));
+    CHECK_THAT(
+        error_with("fixedInternalStepSize=\"1e-3\"", "fixedInternalStepSize=\"" + step + "\""),
+        Contains("unit.xml:5: fixedInternalStepSize=\"" + step + "\" of <CoSimulation>: "));
+  }
+  for (const std::string stop : {"0", "-1", "1e-13", "inf", "nan", "1e7"}) {
+    CHECK_THAT(error_with("stopTime=\"12.5\"", "stopTime=\"" + stop + "\""),
+               Contains("unit.xml:19: stopTime=\"" + stop + "\" of <DefaultExperiment>: "));
+  }
+  for (const std::string start : {"inf", "nan", "1e7"}) {
+    CHECK_THAT(error_with("startTime=\"0\"", "startTime=\"" + start + "\""),
+               Contains("unit.xml:19: startTime=\"" + start + "\" of <DefaultExperiment>: "));
+  }
+  CHECK_THAT(error_with("startTime=\"0\"", "startTime=\"12.5\""),
+             Contains("stopTime=\"12.5\"") && Contains("after the start, 12.5 s"));
+  CHECK(parse_with("stepSize=\"0.01\"", "stepSize=\"1e-12\"").default_step == Duration(1));
+}
+
+TEST_CASE("whether the unit may reject a step") {
+  const std::string unit = "<stride:Unit xmlns:stride=\"urn:org.stride:unit:1\" mayReject=";
+  CHECK(fmi::parse_model_description(kComplete, "unit.xml").may_reject);
+  CHECK_FALSE(annotated("org.stride.unit", unit + "\"false\"/>").may_reject);
+  CHECK_FALSE(
+      annotated("org.stride.unit", "<Unit xmlns=\"urn:org.stride:unit:1\" mayReject=\"0\"/>")
+          .may_reject);
+  CHECK(annotated("org.stride.unit", unit + "\"true\"/>").may_reject);
+  CHECK(annotated("org.stride.unit", "<stride:Unit xmlns:stride=\"urn:org.stride:unit:1\"/>")
+            .may_reject);
+  CHECK(annotated("org.stride.unit", "<s:Unit xmlns:s=\"urn:another\" mayReject=\"false\"/>")
+            .may_reject);
+  CHECK(annotated("org.another", unit + "\"false\"/>").may_reject);
+  CHECK_THAT(input_error([&] { annotated("org.stride.unit", unit + "\"perhaps\"/>"); }),
+             Contains("unit.xml:") && Contains("mayReject=\"perhaps\""));
 }
 
 TEST_CASE("start values and clocks") {
@@ -219,6 +330,9 @@ TEST_CASE("missing parts and wrong values are errors with their line") {
 TEST_CASE("names and value references are unique") {
   CHECK_THAT(error_with("name=\"level\"", "name=\"on\""),
              Contains("unit.xml:34: ") && Contains("'on' is used twice, first in line 33"));
+  CHECK_THAT(error_with("name=\"height\"", "name=\"on\""),
+             Contains("unit.xml:35: ") && Contains("'on' is used twice, first in line 33"));
+  CHECK_THAT(error_with("<Alias name=\"height\"/>", "<Alias/>"), Contains("'name'"));
   CHECK_THAT(error_with("valueReference=\"9\" causality", "valueReference=\"8\" causality"),
              Contains("variable 'level' has the value reference 8 of 'on' in line 33"));
 }

@@ -54,6 +54,18 @@ TEST_CASE("attributes are read with their defaults") {
   CHECK_FALSE(a.child("d"));
 }
 
+TEST_CASE("an element is known by its namespace, not by its prefix") {
+  const Parsed xml("<a xmlns:p='urn:x'><p:b/><b/><c xmlns='urn:x'><b/></c><q:b/></a>");
+  const auto children = xml.root().children();
+  CHECK(children[0].is("urn:x", "b"));
+  CHECK_FALSE(children[0].is("urn:x", "c"));
+  CHECK_FALSE(children[0].is("", "b"));
+  CHECK(children[1].is("", "b"));
+  CHECK_FALSE(children[1].is("urn:x", "b"));
+  CHECK(children[2].child("b")->is("urn:x", "b"));
+  CHECK_FALSE(children[3].is("urn:x", "b"));
+}
+
 TEST_CASE("complaints name file and line") {
   const Parsed xml("<a>\n<b i='1.5' f='x' flag='maybe' list='1 two'/>\n</a>");
   const fmi::Element b = *xml.root().child("b");

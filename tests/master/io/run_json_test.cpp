@@ -21,8 +21,8 @@ TEST_CASE("run.json tells what was run and how far it came") {
   statistics.event_iterations = 3;
   statistics.wall_time = milliseconds(250);
   statistics.units = {
-      {14'200, 2, 1, 0, milliseconds(1), milliseconds(2), milliseconds(3)},
-      {14'201, 0, 0, 1, milliseconds(0), milliseconds(0), milliseconds(0)},
+      {14'200, 5, 3, 8, 14'190, 2, 1, 0, milliseconds(1), milliseconds(2), milliseconds(3)},
+      {14'201, 0, 0, 0, 0, 0, 0, 1, milliseconds(0), milliseconds(0), milliseconds(0)},
   };
   write_run_json(folder / "run.json", "scenarios/x.ssd", sample_system(), options, statistics);
   CHECK(content(folder / "run.json") == R"({
@@ -43,6 +43,10 @@ TEST_CASE("run.json tells what was run and how far it came") {
       "model": "Sample",
       "fmi_version": "3.0",
       "steps": 14200,
+      "early_returns": 5,
+      "rejections": 3,
+      "rollbacks": 8,
+      "saves": 14190,
       "events": 2,
       "messages_sent": 1,
       "messages_received": 0,
@@ -57,6 +61,10 @@ TEST_CASE("run.json tells what was run and how far it came") {
       "model": "Sample",
       "fmi_version": "3.0",
       "steps": 14201,
+      "early_returns": 0,
+      "rejections": 0,
+      "rollbacks": 0,
+      "saves": 0,
       "events": 0,
       "messages_sent": 0,
       "messages_received": 1,

@@ -267,15 +267,3 @@ TEST_CASE("Start and stop time are exact and make sense") {
                     Contains("the run would end at 1.5 s, before or where it starts (2 s)"));
   CHECK_THROWS_WITH(read(ssd(experiment("stopTime='0'"))), Contains("the run would end at 0 s"));
 }
-
-TEST_CASE("A source that does not exist is named with its component and line") {
-  const TemporaryFolder folder;
-  folder.write("a.fmu", "");
-  const Scenario scenario = read_scenario(
-      folder.write("x.ssd", ssd_with(kComponent + "\n<ssd:Component name='b' source='b.fmu'/>")));
-  CHECK_THROWS_WITH(require_sources(scenario),
-                    Contains("x.ssd:6: unit 'b': its source '" + (folder / "b.fmu").string() +
-                             "' does not exist"));
-  folder.write("b.fmu", "");
-  CHECK_NOTHROW(require_sources(scenario));
-}

@@ -1,0 +1,65 @@
+/* The raw unit of tests/test_units with a state, and with more to go wrong, chosen by the
+ * instance's name:
+ *
+ *   sets       fmi3SetFloat64 returns fmi3Discard with a reason
+ *   coarse     fmi3DoStep returns fmi3Discard with a reason
+ *   endless    fmi3DoStep says that it has come as far as infinity
+ *   forgetful  fmi3SetFMUState returns fmi3Discard
+ */
+#include <stdlib.h>
+
+#include <stride/fmi3.h>
+
+#define fmi3DoStep raw_do_step
+#define fmi3SetFloat64 raw_set_float64
+#include "tests/test_units/raw/unit.c"
+#undef fmi3DoStep
+#undef fmi3SetFloat64
+
+/* Read by the tests through dlsym. */
+int raw_states_made = 0;
+int raw_states_living = 0;
+
+static fmi3Status discard(Instance* instance, const char* reason) {
+  instance->log(instance->environment, fmi3Discard, "logStatusDiscard", reason);
+  return fmi3Discard;
+}
+
+fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 point, fmi3Float64 size,
+                      fmi3Boolean no_restore, fmi3Boolean* event, fmi3Boolean* terminate,
+                      fmi3Boolean* early, fmi3Float64* reached) {
+  const fmi3Status status =
+      raw_do_step(handle, point, size, no_restore, event, terminate, early, reached);
+  if (is(handle, "coarse") && size > 0.5) return discard(handle, "the mesh is too coarse");
+  if (is(handle, "endless")) *reached = 1e300 * 1e300;
+  return status;
+}
+
+fmi3Status fmi3SetFloat64(fmi3Instance handle, const fmi3ValueReference references[], size_t n,
+                          const fmi3Float64 values[], size_t size) {
+  if (is(handle, "sets")) return discard(handle, "the value is out of range");
+  return raw_set_float64(handle, references, n, values, size);
+}
+
+fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState* state) {
+  (void)instance;
+  if (*state != NULL) return fmi3OK;
+  *state = malloc(1);
+  ++raw_states_made;
+  ++raw_states_living;
+  return fmi3OK;
+}
+
+fmi3Status fmi3SetFMUState(fmi3Instance handle, fmi3FMUState state) {
+  (void)state;
+  return is(handle, "forgetful") ? fmi3Discard : fmi3OK;
+}
+
+fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState* state) {
+  (void)instance;
+  if (*state == NULL) return fmi3OK;
+  free(*state);
+  *state = NULL;
+  --raw_states_living;
+  return fmi3OK;
+}
