@@ -14,26 +14,36 @@ bool exchanged(const System& system, VariableId id) {
   return variable.type != ValueType::Clock && !variable.is_clocked();
 }
 
-/// One transfer for each type that occurs, variables in the order of their ids.
+/// Adds a transfer of the variables among `ids` of this component, type and kind, if there are any.
+template <class Transfers>
+void add_transfer(Transfers& transfers, const System& system, const std::set<VariableId>& ids,
+                  std::size_t component, ValueType type, bool discrete) {
+  typename Transfers::value_type::value_type transfer{
+      ValueBlock(type, 0), discrete, ValueBlock(type, 0), true, {}, {}, {}};
+  std::size_t size = 0;
+  for (const VariableId id : ids) {
+    const Variable& variable = system.variable(id);
+    const bool is_discrete = variable.variability != Variability::Continuous;
+    if (id.component != component || variable.type != type || is_discrete != discrete) continue;
+    transfer.references.push_back(variable.reference);
+    transfer.ids.push_back(id);
+    transfer.firsts.push_back(size);
+    size += variable.size;
+  }
+  if (size == 0) return;
+  transfer.block = transfer.delivered = ValueBlock(type, size);
+  transfers[component].push_back(std::move(transfer));
+}
+
+/// At most two transfers for each type that occurs: what is continuous, and what is discrete.
 template <class Transfers>
 void plan(Transfers& transfers, const System& system, const std::set<VariableId>& ids) {
   transfers.resize(system.components().size());
-  for (std::size_t type = 0; type < kValueTypeCount; ++type) {
-    for (std::size_t component = 0; component < transfers.size(); ++component) {
-      typename Transfers::value_type::value_type transfer{
-          ValueBlock(static_cast<ValueType>(type), 0), {}, {}, {}};
-      std::size_t size = 0;
-      for (const VariableId id : ids) {
-        const Variable& variable = system.variable(id);
-        if (id.component != component || variable.type != static_cast<ValueType>(type)) continue;
-        transfer.references.push_back(variable.reference);
-        transfer.ids.push_back(id);
-        transfer.firsts.push_back(size);
-        size += variable.size;
+  for (std::size_t component = 0; component < transfers.size(); ++component) {
+    for (std::size_t type = 0; type < kValueTypeCount; ++type) {
+      for (const bool discrete : {false, true}) {
+        add_transfer(transfers, system, ids, component, static_cast<ValueType>(type), discrete);
       }
-      if (size == 0) continue;
-      transfer.block = ValueBlock(static_cast<ValueType>(type), size);
-      transfers[component].push_back(std::move(transfer));
     }
   }
 }
@@ -133,21 +143,30 @@ void Exchange::fetch(std::size_t component, Unit& unit) {
   for (Transfer& transfer : outputs_[component]) unit.get(transfer.references, transfer.block);
 }
 
-void Exchange::deliver(std::size_t component, Unit& unit) const {
-  for (const Transfer& transfer : inputs_[component]) unit.set(transfer.references, transfer.block);
+bool Exchange::has_discrete_change(std::size_t component) const {
+  for (const Transfer& transfer : inputs_[component]) {
+    if (transfer.discrete && !(transfer.block == transfer.delivered)) return true;
+  }
+  return false;
 }
 
-void Exchange::route(Time time) {
-  check_nan(time);
-  copy();
+void Exchange::deliver(std::size_t component, Unit& unit) {
+  for (Transfer& transfer : inputs_[component]) {
+    if (transfer.discrete) {
+      if (!transfer.is_new && transfer.block == transfer.delivered) continue;
+      transfer.delivered = transfer.block;
+      transfer.is_new = false;
+    }
+    unit.set(transfer.references, transfer.block);
+  }
 }
 
-bool Exchange::route_and_compare(Time time) {
+bool Exchange::route_and_compare() {
   std::vector<ValueBlock> before;
   for (const auto& transfers : inputs_) {
     for (const Transfer& transfer : transfers) before.push_back(transfer.block);
   }
-  route(time);
+  route();
   auto old = before.begin();
   bool changed = false;
   for (const auto& transfers : inputs_) {
@@ -156,7 +175,7 @@ bool Exchange::route_and_compare(Time time) {
   return changed;
 }
 
-void Exchange::copy() {
+void Exchange::route() {
   copy_numbers<1>(numbers_[0]);
   copy_numbers<2>(numbers_[1]);
   copy_numbers<4>(numbers_[2]);

@@ -26,14 +26,18 @@ class Exchange {
 
   /// Reads a unit's outputs and recorded variables.
   void fetch(std::size_t component, Unit& unit);
-  /// Copies the outputs of all units to the inputs of all units. Throws Error where a connected
-  /// output is NaN.
-  void route(Time time);
-  /// Writes a unit's inputs.
-  void deliver(std::size_t component, Unit& unit) const;
+  /// Copies the outputs of all units to the inputs of all units.
+  void route();
+  /// Throws Error (Run) where a connected output is NaN.
+  void check_nan(Time time) const;
+  /// Whether a discrete input of the unit is not what was delivered last; FMI wants Event Mode
+  /// then.
+  bool has_discrete_change(std::size_t component) const;
+  /// Writes a unit's continuous inputs, and the discrete ones if they changed.
+  void deliver(std::size_t component, Unit& unit);
 
   /// Like route(); tells whether an input changed. Not for the hot loop.
-  bool route_and_compare(Time time);
+  bool route_and_compare();
 
   /// Where the variable's value stands. An input that is connected is seen as its source left it.
   Signal signal(VariableId id) const;
@@ -42,6 +46,9 @@ class Exchange {
   /// Variables of one type of one unit, read or written by one call.
   struct Transfer {
     ValueBlock block;
+    bool discrete;         ///< written only where the values changed
+    ValueBlock delivered;  ///< of a discrete one: what was written last
+    bool is_new = true;    ///< nothing was written yet
     std::vector<ValueReference> references;
     std::vector<VariableId> ids;
     std::vector<std::size_t> firsts;  ///< where each variable begins in the block
@@ -71,8 +78,6 @@ class Exchange {
     std::vector<Checked<Real>> checked;
   };
 
-  void copy();
-  void check_nan(Time time) const;
   template <class Real>
   void check_nan(const RealLists<Real>& lists, Time time) const;
   void add_copies(const Connection& connection);

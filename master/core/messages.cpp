@@ -24,7 +24,7 @@ MessageExchange::MessageExchange(const System& system, std::span<const std::uniq
     for (std::size_t i = 0; i < description.variables.size(); ++i) {
       const Variable& clock = description.variables[i];
       if (clock.type != ValueType::Clock || clock.causality != Causality::Output) continue;
-      OutputClock output{{component, i}, {}, targets_of(system, {component, i})};
+      OutputClock output{{component, i}, {}, targets_of(system, {component, i}), false};
       for (std::size_t k = 0; k < description.variables.size(); ++k) {
         const Variable& variable = description.variables[k];
         const auto& clocks = variable.clocks;
@@ -40,6 +40,12 @@ MessageExchange::MessageExchange(const System& system, std::span<const std::uniq
       line.clocks.push_back(std::move(output));
     }
     line.ticked = ValueBlock(ValueType::Clock, line.clocks.size());
+  }
+}
+
+void MessageExchange::begin_instant() {
+  for (Line& line : lines_) {
+    for (OutputClock& clock : line.clocks) clock.is_handed_over = false;
   }
 }
 

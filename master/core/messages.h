@@ -19,15 +19,20 @@ class MessageExchange {
  public:
   MessageExchange(const System& system, std::span<const std::unique_ptr<Unit>> units);
 
-  /// Reads the output clocks of a unit in Event Mode and hands over what ticks. `prepare` is called
-  /// with each receiving component before anything is set there (it must be in Event Mode then),
-  /// `tell` with each message sent or received.
+  /// A new super-dense instant begins: each clock may tick once in it.
+  void begin_instant();
+
+  /// Reads the output clocks of a unit in Event Mode and hands over those that tick and were not
+  /// handed over in this instant. `prepare` is called with each receiving component before anything
+  /// is set there (it must be in Event Mode then), `tell` with each message sent or received.
   template <class Prepare, class Tell>
   void transmit(std::size_t component, Prepare&& prepare, Tell&& tell) {
     if (!poll(component)) return;
     Line& line = lines_[component];
     for (std::size_t i = 0; i < line.clocks.size(); ++i) {
-      if (line.ticked.numbers<bool>()[i]) hand_over(component, line.clocks[i], prepare, tell);
+      if (!line.ticked.numbers<bool>()[i] || line.clocks[i].is_handed_over) continue;
+      line.clocks[i].is_handed_over = true;
+      hand_over(component, line.clocks[i], prepare, tell);
     }
   }
 
@@ -43,6 +48,7 @@ class MessageExchange {
     VariableId id;
     std::vector<Payload> payloads;
     std::vector<VariableId> targets;
+    bool is_handed_over = false;  ///< in this instant
   };
   /// All that leaves one component.
   struct Line {

@@ -10,6 +10,7 @@
 
 #include "master/core/exchange.h"
 #include "master/core/messages.h"
+#include "master/core/stepper.h"
 
 namespace stride::core {
 namespace {
@@ -29,10 +30,13 @@ class Simulation::Run {
         options_(std::move(options)),
         exchange_(system, options_.recorded),
         messages_(system, units_),
+        statistics_{.units = std::vector<UnitStatistics>(units_.size())},
+        stepper_(system, units_, statistics_.units,
+                 {options_.step, options_.minimum_step, options_.measure_time}),
         active_(units_.size()),
         in_event_mode_(units_.size()),
+        polled_(units_.size()),
         next_event_(units_.size()) {
-    statistics_.units.resize(units_.size());
     statistics_.start = statistics_.reached = options_.start;
   }
 
@@ -100,20 +104,18 @@ class Simulation::Run {
       active_[i] = in_event_mode_[i] = description(i).has_event_mode;
     }
     start_observers();
-    iterate_events();
-    exchange();
+    settle();
     for (Observer* observer : observers_) observer->on_communication_point(time_);
   }
 
-  /// Outputs reach inputs until nothing changes: without a loop, one pass for each unit in the
-  /// longest chain.
+  /// Outputs reach inputs until nothing changes. Without a loop a value crosses each connection
+  /// once, so it takes no more passes than there are connections.
   void propagate_initial_values() {
-    for (std::size_t pass = 0; pass <= count() + 1; ++pass) {
+    for (std::size_t pass = 0; pass <= system_.connections().size() + 1; ++pass) {
       for (std::size_t i = 0; i < count(); ++i) {
         timed(statistics_.units[i].initialization_time, [&] { exchange_.fetch(i, *units_[i]); });
       }
-      const bool changed = exchange_.route_and_compare(time_);
-      if (!changed && pass > 0) return;
+      if (!exchange_.route_and_compare() && pass > 0) return exchange_.check_nan(time_);
       for (std::size_t i = 0; i < count(); ++i) exchange_.deliver(i, *units_[i]);
     }
     fail_run({{}, {}, {}, time_},
@@ -128,68 +130,56 @@ class Simulation::Run {
   }
 
   void communication_step() {
-    const Time next = std::min(time_ + options_.step, options_.stop);
-    bool any_event = false;
+    const Time reached = stepper_.advance(time_, next_target());
+    note_progress(reached);
+    time_ = reached;
     for (std::size_t i = 0; i < count(); ++i) {
-      any_event |= step(i, next);
+      const StepResult& result = stepper_.result(i);
+      statistics_.terminated_by_unit |= result.terminate;
+      active_[i] = result.event_needed || (next_event_[i] && *next_event_[i] <= time_);
     }
-    time_ = next;
-    exchange();
-    if (any_event) {
-      handle_events();
-      exchange();
-    }
+    settle();
     ++statistics_.communication_steps;
     statistics_.reached = time_;
     for (Observer* observer : observers_) observer->on_communication_point(time_);
   }
 
-  /// Tells whether the unit wants Event Mode at the end of the step.
-  bool step(std::size_t i, Time next) {
-    UnitStatistics& statistics = statistics_.units[i];
-    const StepResult result =
-        timed(statistics.step_time, [&] { return units_[i]->step(time_, next); });
-    if (result.rejected || result.early_return) fail_step(i, next, result);
-    ++statistics.steps;
-    statistics_.terminated_by_unit |= result.terminate;
-    active_[i] = result.event_needed || (next_event_[i] && *next_event_[i] <= next);
-    return active_[i];
-  }
-
-  [[noreturn]] void fail_step(std::size_t i, Time next, const StepResult& result) const {
-    const Context context{{}, system_.components()[i].name, {}, time_};
-    fail_run(context,
-             result.rejected
-                 ? fmt::format("the unit rejected the step to {} s", to_text(next))
-                 : fmt::format("the unit stopped at {} s on the way to {} s, although early return "
-                               "is not allowed",
-                               to_text(result.reached), to_text(next)),
-             "try a smaller step size");
-  }
-
-  void exchange() {
-    for (std::size_t i = 0; i < count(); ++i) exchange_.fetch(i, *units_[i]);
-    exchange_.route(time_);
-    for (std::size_t i = 0; i < count(); ++i) exchange_.deliver(i, *units_[i]);
-  }
-
-  void enter_event_mode(std::size_t i) {
-    if (in_event_mode_[i]) return;
-    units_[i]->enter_event_mode();
-    in_event_mode_[i] = true;
-  }
-
-  void handle_events() {
-    for (std::size_t i = 0; i < count(); ++i) {
-      if (active_[i]) enter_event_mode(i);
+  /// The next point of the grid, unless an event or the end is nearer.
+  Time next_target() const {
+    Time target = options_.stop;
+    const Duration since = (time_ - options_.start) % options_.step;
+    if (options_.stop - time_ > options_.step - since) target = time_ + (options_.step - since);
+    for (const std::optional<Time>& event : next_event_) {
+      if (event && *event > time_) target = std::min(target, *event);
     }
-    iterate_events();
+    return target;
   }
 
-  /// Super-dense instants at the present time, until no unit wants another.
-  void iterate_events() {
-    for (std::uint32_t index = 0; event_iteration(index); ++index) {
+  void note_progress(Time reached) {
+    stalled_steps_ = reached > time_ ? 0 : stalled_steps_ + 1;
+    if (stalled_steps_ < kEventLimit) return;
+    std::string names;
+    for (std::size_t i = 0; i < count(); ++i) {
+      if (stepper_.result(i).early_return) add_name(names, i);
+    }
+    fail_run(
+        {{}, {}, {}, time_},
+        fmt::format("{} steps in a row ended where they began, because these units stopped: {}",
+                    kEventLimit, names));
+  }
+
+  /// Exchanges values and handles events at the present instant until nothing wants another round.
+  /// `active_` says who has an event; at the start the units are in Event Mode already.
+  void settle() {
+    for (std::size_t i = 0; i < count(); ++i) exchange_.fetch(i, *units_[i]);
+    route();
+    for (std::uint32_t index = 0; prepare_events(); ++index) {
       if (index == kEventLimit) fail_ticking();
+      event_iteration(index);
+      for (std::size_t i = 0; i < count(); ++i) {
+        if (in_event_mode_[i]) exchange_.fetch(i, *units_[i]);
+      }
+      route();
     }
     for (std::size_t i = 0; i < count(); ++i) {
       if (!in_event_mode_[i]) continue;
@@ -198,13 +188,35 @@ class Simulation::Run {
     }
   }
 
-  /// Tells whether another one is wanted.
-  bool event_iteration(std::uint32_t index) {
-    ++statistics_.event_iterations;
+  void route() {
+    exchange_.check_nan(time_);
+    exchange_.route();
+  }
+
+  /// Delivers all inputs; units that have an event, or an input that changes discretely, are in
+  /// Event Mode then. Tells whether there are any.
+  bool prepare_events() {
+    bool any = false;
     for (std::size_t i = 0; i < count(); ++i) {
-      if (active_[i]) transmit(i, index);
+      if (description(i).has_event_mode && exchange_.has_discrete_change(i)) active_[i] = true;
+      if (active_[i]) enter_event_mode(i);
+      any |= static_cast<bool>(active_[i]);
+      exchange_.deliver(i, *units_[i]);
     }
-    bool again = false;
+    return any;
+  }
+
+  void enter_event_mode(std::size_t i) {
+    if (in_event_mode_[i]) return;
+    units_[i]->enter_event_mode();
+    in_event_mode_[i] = true;
+  }
+
+  /// One super-dense instant: messages, then the units' discrete states. Leaves in `active_` who
+  /// wants another.
+  void event_iteration(std::uint32_t index) {
+    ++statistics_.event_iterations;
+    exchange_messages(index);
     for (std::size_t i = 0; i < count(); ++i) {
       if (!in_event_mode_[i]) continue;
       const EventResult result = timed(statistics_.units[i].event_time,
@@ -213,14 +225,32 @@ class Simulation::Run {
       statistics_.terminated_by_unit |= result.terminate;
       next_event_[i] = result.next_event;
       active_[i] = result.iterate;
-      again |= result.iterate;
     }
-    return again;
+  }
+
+  /// A clock that is set may make the receiver's own clocks tick at once, so receivers are asked
+  /// again.
+  void exchange_messages(std::uint32_t index) {
+    messages_.begin_instant();
+    polled_ = in_event_mode_;
+    for (bool again = true; again;) {
+      again = false;
+      for (std::size_t i = 0; i < count(); ++i) {
+        if (!polled_[i]) continue;
+        polled_[i] = false;
+        again = true;
+        transmit(i, index);
+      }
+    }
   }
 
   void transmit(std::size_t sender, std::uint32_t index) {
     messages_.transmit(
-        sender, [&](std::size_t receiver) { enter_event_mode(receiver); },
+        sender,
+        [&](std::size_t receiver) {
+          enter_event_mode(receiver);
+          polled_[receiver] = true;
+        },
         [&](VariableId id, bool received, const ValueBlock* block) {
           UnitStatistics& statistics = statistics_.units[id.component];
           ++(received ? statistics.messages_received : statistics.messages_sent);
@@ -229,10 +259,14 @@ class Simulation::Run {
         });
   }
 
+  void add_name(std::string& names, std::size_t i) const {
+    names += (names.empty() ? "'" : ", '") + system_.components()[i].name + "'";
+  }
+
   [[noreturn]] void fail_ticking() const {
     std::string names;
     for (std::size_t i = 0; i < count(); ++i) {
-      if (active_[i]) names += (names.empty() ? "'" : ", '") + system_.components()[i].name + "'";
+      if (active_[i]) add_name(names, i);
     }
     fail_run({{}, {}, {}, time_},
              fmt::format("after {} event iterations at one instant these units still want another: "
@@ -248,10 +282,13 @@ class Simulation::Run {
   MessageExchange messages_;
   std::vector<Observer*> observers_;
   RunStatistics statistics_;
+  Stepper stepper_;
 
   Time time_{};
+  std::uint32_t stalled_steps_ = 0;
   std::vector<char> active_;  ///< wants the next event iteration
   std::vector<char> in_event_mode_;
+  std::vector<char> polled_;  ///< its output clocks are to be read
   std::vector<std::optional<Time>> next_event_;
 };
 

@@ -17,7 +17,10 @@ namespace stride::core {
 struct RunOptions {
   Time start{};
   Time stop{};
-  Duration step{};                   ///< the fixed communication step size
+  Duration
+      step{};  ///< between the points of the grid; there are others where units stop or have events
+  Duration minimum_step =
+      std::chrono::nanoseconds(1);   ///< no shorter one is tried after a rejection
   std::vector<VariableId> recorded;  ///< what the observers see, in this order
   bool measure_time = true;  ///< wall-clock time per unit; costs two clock readings a unit step
 };

@@ -10,8 +10,12 @@
 namespace stride::core {
 
 struct UnitStatistics {
-  std::uint64_t steps = 0;
-  std::uint64_t events = 0;  ///< super-dense instants handled in Event Mode
+  std::uint64_t steps = 0;          ///< that it made, redone ones included
+  std::uint64_t early_returns = 0;  ///< steps that it ended before their end
+  std::uint64_t rejections = 0;     ///< steps that it refused
+  std::uint64_t rollbacks = 0;      ///< steps of it that were undone, because another unit stopped
+  std::uint64_t saves = 0;          ///< of its state
+  std::uint64_t events = 0;         ///< super-dense instants handled in Event Mode
   std::uint64_t messages_sent = 0;
   std::uint64_t messages_received = 0;
   std::chrono::nanoseconds

@@ -1,6 +1,8 @@
 #include "master/core/system.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -36,6 +38,43 @@ bool is_float(ValueType type) { return type == ValueType::Float32 || type == Val
 std::string shape(const Variable& variable) {
   if (variable.dimensions.empty()) return "a scalar";
   return fmt::format("an array of {} elements", variable.size);
+}
+
+/// Only what FMI calls initial = exact or approx can be set before the start.
+void check_settable(const Variable& variable, const Context& context) {
+  if (variable.causality == Causality::StructuralParameter) {
+    fail_input(context, "structural parameters cannot be set yet");
+  }
+  const bool exact = variable.initial == Initial::Exact || variable.initial == Initial::Approx;
+  if (exact && variable.variability != Variability::Constant && variable.type != ValueType::Clock) {
+    return;
+  }
+  fail_input(context,
+             fmt::format("a {} {} with initial = {} cannot be set", name(variable.variability),
+                         name(variable.causality), name(variable.initial)),
+             "parameters, inputs and what the unit declares as initial = exact can");
+}
+
+/// Whether the element lies within min and max, which stand as texts in the description.
+void check_range(const Variable& variable, const ValueBlock& value, const Context& context) {
+  visit(value, [&](auto elements) {
+    using T = typename decltype(elements)::value_type;
+    if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<std::remove_const_t<T>, bool>) {
+      const auto bound = [&](const std::string& text, double otherwise) {
+        return text.empty() ? otherwise : std::strtod(text.c_str(), nullptr);
+      };
+      constexpr double kInfinity = std::numeric_limits<double>::infinity();
+      const double least = bound(variable.min, -kInfinity);
+      const double most = bound(variable.max, kInfinity);
+      for (const auto element : elements) {
+        const double number = static_cast<double>(element);
+        if (number >= least && number <= most) continue;
+        fail_input(context, fmt::format("the value {} is out of range, expected {}", element,
+                                        number < least ? "at least " + variable.min
+                                                       : "at most " + variable.max));
+      }
+    }
+  });
 }
 
 void convert_start(ValueBlock& value, const LinearConversion& conversion) {
@@ -83,6 +122,7 @@ void System::add_components(const SystemDeclaration& declaration) {
                  "give one of them another name");
     }
     check_connectors(component);
+    check_clocks(component);
     components_.push_back({component.name, component.description});
   }
 }
@@ -107,6 +147,20 @@ void System::check_connectors(const ComponentDeclaration& component) const {
       fail_input(context, fmt::format("the connector is in '{}', the unit's variable in '{}'",
                                       connector.unit, variable.unit));
     }
+  }
+}
+
+void System::check_clocks(const ComponentDeclaration& component) const {
+  for (const Variable& variable : component.description->variables) {
+    const bool time_based = variable.type == ValueType::Clock &&
+                            variable.causality == Causality::Input &&
+                            variable.interval_variability != "triggered";
+    if (!time_based) continue;
+    fail_input({component.where, component.name, variable.name, {}},
+               fmt::format("this is a {} clock, which the master would have to tick by the time; "
+                           "that is not supported yet",
+                           variable.interval_variability),
+               "use a unit whose input clocks are triggered");
   }
 }
 
@@ -192,11 +246,6 @@ Connection System::connect(const ConnectionDeclaration& wanted) const {
     fail_input(context,
                fmt::format("cannot connect {}: only one of the two belongs to a clock", wire));
   }
-  if (target.type == ValueType::Clock && target.interval_variability != "triggered") {
-    fail_input(context, fmt::format("cannot connect {}: '{}' is a {} clock, only triggered clocks "
-                                    "can be connected",
-                                    wire, full_name(to), target.interval_variability));
-  }
   const auto conversion = convert(*components_[from.component].description, source.unit,
                                   *components_[to.component].description, target.unit);
   if (!conversion && !wanted.suppress_unit_conversion) {
@@ -216,11 +265,7 @@ void System::add_start_values(const SystemDeclaration& declaration) {
     const VariableId id = find_variable(wanted.component, wanted.variable, wanted.where);
     const Variable& target = variable(id);
     const Context context{wanted.where, wanted.component, wanted.variable, {}};
-    if (target.causality == Causality::Independent || target.variability == Variability::Constant ||
-        target.causality == Causality::CalculatedParameter || target.type == ValueType::Clock) {
-      fail_input(context, fmt::format("a {} {} cannot be set", core::name(target.variability),
-                                      core::name(target.causality)));
-    }
+    check_settable(target, context);
     const UnitDescription& description = *components_[id.component].description;
     const auto conversion = convert(description, wanted.unit, description, target.unit);
     if (!conversion) {
@@ -232,6 +277,7 @@ void System::add_start_values(const SystemDeclaration& declaration) {
     try {
       ValueBlock value = parse(target, wanted.value);
       convert_start(value, *conversion);
+      check_range(target, value, context);
       values.insert_or_assign(id, std::move(value));
     } catch (const std::invalid_argument& mistake) {
       fail_input(context, mistake.what());

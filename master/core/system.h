@@ -89,6 +89,7 @@ class System {
   VariableId find_variable(const std::string& component, const std::string& variable,
                            const Location& where) const;
   void check_connectors(const ComponentDeclaration& component) const;
+  void check_clocks(const ComponentDeclaration& component) const;
   Connection connect(const ConnectionDeclaration& declaration) const;
 
   std::string name_;

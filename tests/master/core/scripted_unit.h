@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,10 @@ inline Variable make_variable(std::string name, ValueReference reference, ValueT
   variable.variability = causality == Causality::Parameter ? Variability::Fixed
                          : real                            ? Variability::Continuous
                                                            : Variability::Discrete;
+  const bool given = causality == Causality::Parameter || causality == Causality::Input;
+  variable.initial = type == ValueType::Clock ? Initial::None
+                     : given                  ? Initial::Exact
+                                              : Initial::Calculated;
   if (type == ValueType::Clock) variable.interval_variability = "triggered";
   return variable;
 }
@@ -55,16 +60,28 @@ class Describe {
     description_->variables.back().size = elements;
     return *this;
   }
+  Describe& range(const std::string& min, const std::string& max) {
+    description_->variables.back().min = min;
+    description_->variables.back().max = max;
+    return *this;
+  }
   Describe& unit(const std::string& symbol, BaseUnit base) {
     description_->units[symbol] = base;
     return *this;
   }
   Describe& event_mode() { return description_->has_event_mode = true, *this; }
+  Describe& can_save_state() { return description_->can_save_state = true, *this; }
+  Describe& may_return_early() { return description_->may_return_early = true, *this; }
+  Describe& never_rejects() { return description_->may_reject = false, *this; }
 
   std::shared_ptr<const UnitDescription> done() const { return description_; }
 
  private:
-  std::shared_ptr<UnitDescription> description_ = std::make_shared<UnitDescription>();
+  std::shared_ptr<UnitDescription> description_ = [] {
+    auto description = std::make_shared<UnitDescription>();
+    description->can_vary_step = true;
+    return description;
+  }();
 };
 
 class ScriptedUnit : public Unit {
@@ -84,7 +101,11 @@ class ScriptedUnit : public Unit {
     result.reached = to;
     return result;
   };
+  /// Called when an input clock is set.
+  std::function<void(ScriptedUnit&)> on_set_clock = [](ScriptedUnit&) {};
   std::function<EventResult(ScriptedUnit&)> on_event = [](ScriptedUnit&) { return EventResult{}; };
+  /// Keeps or brings back what the script holds beside the values.
+  std::function<void(bool save)> on_state = [](bool) {};
   Calls calls;
 
   double& number(ValueReference reference) { return values_.at(reference).numbers<double>()[0]; }
@@ -107,8 +128,17 @@ class ScriptedUnit : public Unit {
   }
   void set(std::span<const ValueReference> references, const ValueBlock& values) override {
     move_values(references, values, [](auto& inside, auto& outside) { inside = outside; });
+    if (values.type() == ValueType::Clock) on_set_clock(*this);
   }
   StepResult step(Time from, Time to) override { return on_step(*this, from, to); }
+  void save_state() override {
+    saved_values_ = values_;
+    on_state(true);
+  }
+  void restore_state() override {
+    values_ = saved_values_.value();
+    on_state(false);
+  }
   void enter_event_mode() override { calls.push_back("enter_event_mode"); }
   EventResult update_discrete_states() override {
     calls.push_back("update_discrete_states");
@@ -143,6 +173,7 @@ class ScriptedUnit : public Unit {
 
   std::shared_ptr<const UnitDescription> description_;
   std::map<ValueReference, ValueBlock> values_;
+  std::optional<std::map<ValueReference, ValueBlock>> saved_values_;
   bool initializing_ = false;
 };
 

@@ -31,6 +31,8 @@ std::shared_ptr<const UnitDescription> description() {
       .clocked_by(7)
       .output("pair")
       .size(2)
+      .add("ranged", ValueType::Float64, Causality::Parameter)
+      .range("0", "2")
       .add("short", ValueType::Float32, Causality::Input, "m")
       .input("trio")
       .size(3)
@@ -151,6 +153,13 @@ TEST_CASE("start values are converted, parsed and refused where they cannot be s
   };
   CHECK_THAT(with({"beta", "gain", "big", "", {}}), Contains("expected a Float64 number"));
   CHECK_THAT(with({"beta", "clock_in", "true", "", {}}), Contains("cannot be set"));
+  CHECK_THAT(with({"beta", "y", "1", "", {}}), Contains("initial = calculated cannot be set"));
+  CHECK_THAT(with({"beta", "ranged", "-1", "", {}}),
+             Contains("-1 is out of range, expected at least 0"));
+  CHECK_THAT(with({"beta", "ranged", "2.5", "", {}}),
+             Contains("2.5 is out of range, expected at most 2"));
+  CHECK_THAT(with({"beta", "ranged", "nan", "", {}}), Contains("out of range"));
+  CHECK(with({"beta", "ranged", "2", "", {}}) == "accepted");
   CHECK_THAT(with({"beta", "u", "1", "s", {}}), Contains("the value is in 's'"));
   SystemDeclaration declared = declaration();
   declared.start_values = {{"beta", "u", "1500", "mm", {}}};

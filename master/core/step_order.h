@@ -1,0 +1,41 @@
+// In which order the units of a system make a communication step, so that a step that one of them
+// rejects or cuts short can be redone by all.
+#ifndef STRIDE_MASTER_CORE_STEP_ORDER_H
+#define STRIDE_MASTER_CORE_STEP_ORDER_H
+
+#include <string>
+#include <vector>
+
+#include "master/core/system.h"
+
+namespace stride::core {
+
+/// What a unit can do when a step turns out to be too long.
+enum class StepRole {
+  CanRollBack,   ///< its state can be saved and restored
+  MayStopEarly,  ///< it may return early and cannot be rolled back
+  DoesAsTold,    ///< it cannot be rolled back, and does not stop on its own
+};
+
+struct StepPlace {
+  std::size_t component;
+  StepRole role;
+  bool can_vary_step;
+  bool saves_state;    ///< whether its state is saved before each step
+  std::string reason;  ///< for people: why it stands here
+};
+
+/// Those that can be rolled back come first: if one of them stops, the others go back and follow.
+/// Then the one unit, at most, that may stop early and cannot be rolled back: what it reaches is
+/// final, and the units before it, which go back once more, accept a shorter step where they
+/// accepted a longer one (Broman et al., "Determinate Composition of FMUs for Co-Simulation",
+/// 2013). Last those that do as they are told. Within a role the order is that of the file; it
+/// changes no result.
+///
+/// A state is saved only where another unit may stop. Throws Error (Input) where two units may stop
+/// early and neither can be rolled back.
+std::vector<StepPlace> step_order(const System& system);
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,114 @@
+#include "master/core/stepper.h"
+
+#include <fmt/format.h>
+
+namespace stride::core {
+namespace {
+
+std::string times(std::uint64_t count) {
+  return count == 1 ? "once" : fmt::format("{} times", count);
+}
+
+}  // namespace
+
+Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units,
+                 std::vector<UnitStatistics>& statistics, Options options)
+    : system_(system),
+      units_(units),
+      statistics_(statistics),
+      options_(options),
+      order_(step_order(system)),
+      results_(units.size()) {}
+
+Time Stepper::advance(Time from, Time target) {
+  rejections_ = 0;
+  save(from);
+  while (true) {
+    const Time reached = step_all(from, target);
+    if (reached == target) return target;
+    target = reached;
+  }
+}
+
+void Stepper::save(Time from) {
+  for (const StepPlace& place : order_) {
+    results_[place.component] = {.reached = from};
+    if (!place.saves_state) continue;
+    units_[place.component]->save_state();
+    ++statistics_[place.component].saves;
+  }
+}
+
+/// One pass. Returns the target if all units stand there, else the nearer one for the next pass.
+Time Stepper::step_all(Time from, Time target) {
+  for (const StepPlace& place : order_) {
+    const StepResult& result = results_[place.component];
+    if (result.reached > target) roll_back(place, from);
+    if (result.reached == target) continue;
+    if (!step(place, from, target)) return shortened(place, from, target);
+    if (result.reached == target) continue;
+    stopped_ = &place;
+    ++statistics_[place.component].early_returns;
+    return result.reached;
+  }
+  return target;
+}
+
+/// Returns whether the unit made a step, of whatever size.
+bool Stepper::step(const StepPlace& place, Time from, Time target) {
+  const std::size_t i = place.component;
+  if (!place.can_vary_step && target - from != options_.regular) fail_size(place, from, target);
+  const auto began = options_.measure_time ? Clock::now() : Clock::time_point{};
+  const StepResult result = units_[i]->step(from, target);
+  if (options_.measure_time) statistics_[i].step_time += Clock::now() - began;
+  if (result.rejected) return false;
+  ++statistics_[i].steps;
+  results_[i] = result;
+  return true;
+}
+
+void Stepper::roll_back(const StepPlace& place, Time from) {
+  if (!place.saves_state) fail_final(place);
+  units_[place.component]->restore_state();
+  ++statistics_[place.component].rollbacks;
+  results_[place.component] = {.reached = from};
+}
+
+Time Stepper::shortened(const StepPlace& place, Time from, Time target) {
+  stopped_ = &place;
+  ++rejections_;
+  ++statistics_[place.component].rejections;
+  const Time nearer = from + (target - from) / 2;
+  if (nearer - from >= options_.minimum && nearer > from) return nearer;
+  const std::string reason = units_[place.component]->rejection_reason();
+  fail_run({{}, system_.components()[place.component].name, {}, from},
+           fmt::format("the unit rejected the step to {} s, {} in all, and half of it would be "
+                       "shorter than the minimum of "
+                       "{} s{}{}",
+                       to_text(target), times(rejections_), to_text(Time(options_.minimum)),
+                       reason.empty() ? "" : "; it says: ", reason),
+           "look at what the unit received before this instant");
+}
+
+void Stepper::fail_size(const StepPlace& place, Time from, Time target) const {
+  fail_run(
+      {{}, system_.components()[place.component].name, {}, from},
+      fmt::format(
+          "the unit takes steps of one size only, {} s, but another unit's event or stop asks for "
+          "one of {} s",
+          to_text(Time(options_.regular)), to_text(Time(target - from))),
+      "use a unit with canHandleVariableCommunicationStepSize, or none that has events or stops "
+      "early");
+}
+
+void Stepper::fail_final(const StepPlace& ahead) const {
+  const StepResult& reached = results_[ahead.component];
+  const StepResult& stopped = results_[stopped_->component];
+  fail_run(
+      {{}, system_.components()[stopped_->component].name, {}, stopped.reached},
+      fmt::format("the unit stopped here, but '{}' is at {} s already and cannot be rolled back",
+                  system_.components()[ahead.component].name, to_text(reached.reached)),
+      "use a unit that can save its state in place of one of the two, or a smaller step");
+}
+
+}  // namespace stride::core

@@ -1,0 +1,67 @@
+#include "master/core/step_order.h"
+
+#include <catch2/catch.hpp>
+
+#include "scripted_unit.h"
+
+using namespace stride::core;
+using Catch::Matchers::Contains;
+
+namespace {
+
+System system_of(std::vector<Describe> units) {
+  SystemDeclaration declaration;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    declaration.components.push_back(
+        {std::string(1, static_cast<char>('a' + i)), units[i].done(), {}, {}});
+  }
+  return System(declaration);
+}
+
+std::string names(const System& system) {
+  std::string text;
+  for (const StepPlace& place : step_order(system))
+    text += system.components()[place.component].name;
+  return text;
+}
+
+Describe obedient() { return Describe("obedient").never_rejects(); }
+Describe unknown() { return Describe("unknown"); }
+Describe rollback() { return Describe("rollback").never_rejects().can_save_state(); }
+Describe early() { return Describe("early").never_rejects().may_return_early(); }
+
+}  // namespace
+
+TEST_CASE("first what can go back, then what stops on its own, then what does as it is told") {
+  CHECK(names(system_of({obedient(), early(), rollback(), unknown(), rollback()})) == "cebda");
+}
+
+TEST_CASE("within a role the order is that of the file") {
+  CHECK(names(system_of({rollback(), rollback(), rollback()})) == "abc");
+  CHECK(names(system_of({obedient(), obedient(), obedient()})) == "abc");
+}
+
+TEST_CASE("a state is saved only where another unit may stop") {
+  const auto saves = [](std::vector<Describe> units) {
+    std::string text;
+    for (const StepPlace& place : step_order(system_of(std::move(units)))) {
+      text += place.saves_state ? 's' : '-';
+    }
+    return text;
+  };
+  CHECK(saves({rollback(), rollback(), obedient()}) == "---");
+  CHECK(saves({rollback(), rollback(), early()}) == "ss-");
+  CHECK(saves({rollback(), rollback(), unknown()}) == "ss-");
+  CHECK(saves({rollback(), rollback().may_return_early()}) == "s-");
+  CHECK(saves({rollback().may_return_early(), rollback().may_return_early()}) == "ss");
+}
+
+TEST_CASE("two units that stop early and cannot go back are refused by name") {
+  try {
+    step_order(system_of({early(), rollback(), early()}));
+    FAIL("accepted");
+  } catch (const Error& error) {
+    CHECK(error.kind() == Error::Kind::Input);
+    CHECK_THAT(error.what(), Contains("'a' and 'c'") && Contains("canGetAndSetFMUState"));
+  }
+}

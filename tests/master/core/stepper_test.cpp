@@ -1,0 +1,192 @@
+#include "master/core/stepper.h"
+
+#include <random>
+#include <set>
+
+#include <catch2/catch.hpp>
+
+#include "scripted_system.h"
+
+using namespace stride;
+using namespace stride::core;
+using Catch::Matchers::Contains;
+using namespace std::chrono_literals;
+
+namespace {
+
+Describe integrator() {
+  return Describe("integrator").input("u").output("y").never_rejects().event_mode();
+}
+
+/// y' = u + 1, exactly in each step, so that a step too many or too few shows.
+StepResult integrate(ScriptedUnit& unit, Time from, Time to) {
+  unit.number(1) += (unit.number(0) + 1) * to_seconds(to - from);
+  return reached(to);
+}
+
+/// Integrates to the first of the instants inside the step, and stops there with an event.
+auto stopping_at(std::set<Time> instants) {
+  return [instants](ScriptedUnit& unit, Time from, Time to) {
+    const auto stop = instants.upper_bound(from);
+    const bool stops = stop != instants.end() && *stop < to;
+    StepResult result = integrate(unit, from, stops ? *stop : to);
+    result.early_return = stops;
+    result.event_needed = stop != instants.end() && *stop <= to;
+    return result;
+  };
+}
+
+struct Points : Observer {
+  std::vector<Time> times;
+  void on_communication_point(Time time) override { times.push_back(time); }
+};
+
+std::vector<Time> points(ScriptedSystem& system, double stop, Duration step) {
+  Points points;
+  system.build(stop, step).add_observer(points);
+  system.simulation->run();
+  return points.times;
+}
+
+std::string failure(Simulation& simulation) {
+  try {
+    simulation.run();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+Time at(double seconds) { return time_from_seconds(seconds); }
+
+}  // namespace
+
+TEST_CASE("a unit that stops early makes a communication point for all") {
+  const bool can_go_back = GENERATE(true, false);
+  ScriptedSystem f;
+  auto& a = f.add("a", integrator().can_save_state().done());
+  auto stopper = integrator().may_return_early();
+  auto& b = f.add("b", (can_go_back ? stopper.can_save_state() : stopper).done());
+  auto& c = f.add("c", integrator().done());
+  a.on_step = c.on_step = integrate;
+  b.on_step = stopping_at({at(0.0013), at(0.0027)});
+  const auto times = points(f, 0.003, 1ms);
+  CHECK(times == std::vector<Time>{at(0), at(0.001), at(0.0013), at(0.002), at(0.0027), at(0.003)});
+  for (ScriptedUnit* unit : {&a, &b, &c}) CHECK(unit->number(1) == Approx(0.003).epsilon(1e-12));
+  const auto& statistics = f.simulation->statistics();
+  CHECK(statistics.units[0].rollbacks == 2);
+  CHECK(statistics.units[1].early_returns == 2);
+  CHECK(statistics.units[2].rollbacks == 0);
+  CHECK(statistics.units[2].steps == 5);
+}
+
+TEST_CASE("the earliest of several stops counts, in whatever order the units stand") {
+  const bool swapped = GENERATE(false, true);
+  ScriptedSystem f;
+  const auto description = integrator().may_return_early().can_save_state().done();
+  auto& a = f.add("a", description);
+  auto& b = f.add("b", description);
+  a.on_step = stopping_at({at(0.0002), at(0.0004), at(0.0007)});
+  b.on_step = stopping_at({at(0.0003), at(0.0004), at(0.0009)});
+  if (swapped) std::swap(a.on_step, b.on_step);
+  const auto times = points(f, 0.001, 1ms);
+  CHECK(times == std::vector<Time>{at(0), at(0.0002), at(0.0003), at(0.0004), at(0.0007),
+                                   at(0.0009), at(0.001)});
+  CHECK(a.number(1) == Approx(0.001).epsilon(1e-12));
+  CHECK(b.number(1) == Approx(0.001).epsilon(1e-12));
+}
+
+TEST_CASE("a unit that rejects at random changes nothing but the statistics") {
+  const auto run = [](bool rejects) {
+    ScriptedSystem f;
+    auto& a = f.add("a", integrator().can_save_state().done());
+    auto& b = f.add("b", Describe("b").input("u").output("y").can_save_state().done());
+    f.wire("a", "y", "b", "u");
+    a.on_step = integrate;
+    std::mt19937 random(7);
+    std::set<std::int64_t> asked;
+    b.on_step = [&, rejects](ScriptedUnit& unit, Time from, Time to) {
+      if (rejects && to - from > 300us && asked.insert(from.time_since_epoch().count()).second &&
+          random() % 3 == 0) {
+        StepResult result;
+        result.rejected = true;
+        result.reached = from;
+        return result;
+      }
+      unit.number(1) += to_seconds(to - from);
+      return reached(to);
+    };
+    f.build(0.2, 1ms).run();
+    const auto& statistics = f.simulation->statistics();
+    CHECK((statistics.units[1].rejections > 20) == rejects);
+    CHECK((statistics.units[0].rollbacks > 20) == rejects);
+    return std::pair(a.number(1), b.number(1));
+  };
+  const auto plain = run(false);
+  const auto rejecting = run(true);
+  CHECK(rejecting.first == Approx(plain.first).epsilon(1e-12));
+  CHECK(rejecting.second == Approx(plain.second).epsilon(1e-12));
+}
+
+TEST_CASE("a unit that always rejects is named, with how often and where") {
+  ScriptedSystem f;
+  f.add("calm", integrator().can_save_state().done()).on_step = integrate;
+  f.add("stubborn", Describe("stubborn").output("y").done()).on_step = [](ScriptedUnit&, Time from,
+                                                                          Time to) {
+    StepResult result = reached(to);
+    if (to > at(0.005)) result = {.rejected = true, .reached = from};
+    return result;
+  };
+  CHECK_THAT(failure(f.build(1, 1ms)), Contains("unit 'stubborn', at 0.005 s") &&
+                                           Contains("20 times") &&
+                                           Contains("minimum of 0.000000001 s"));
+}
+
+TEST_CASE("who rejects after another has made a final step is told so") {
+  ScriptedSystem f;
+  f.add("first", Describe("first").output("y").done()).on_step = [](ScriptedUnit&, Time, Time to) {
+    return reached(to);
+  };
+  f.add("second", Describe("second").output("y").done()).on_step =
+      [](ScriptedUnit&, Time from, Time) { return StepResult{.rejected = true, .reached = from}; };
+  CHECK_THAT(failure(f.build(1, 1ms)),
+             Contains("unit 'second'") && Contains("'first' is at 0.001 s already"));
+}
+
+TEST_CASE("a unit that stops for ever at one instant is named") {
+  ScriptedSystem f;
+  f.add("stuck", integrator().may_return_early().done()).on_step = [](ScriptedUnit&, Time from,
+                                                                      Time) {
+    return StepResult{.early_return = true, .reached = from};
+  };
+  CHECK_THAT(failure(f.build(1, 1ms)), Contains("'stuck'") && Contains("in a row"));
+}
+
+TEST_CASE("a unit of one step size is not given another") {
+  ScriptedSystem f;
+  auto description = std::make_shared<UnitDescription>(*integrator().done());
+  description->can_vary_step = false;
+  f.add("rigid", description).on_step = integrate;
+  f.add("b", integrator().may_return_early().can_save_state().done()).on_step =
+      stopping_at({at(0.0013)});
+  CHECK_THAT(failure(f.build(1, 1ms)),
+             Contains("unit 'rigid', at 0.001 s") && Contains("one size only"));
+}
+
+TEST_CASE("run to T is run to T/2, then on: any grid gives the same stops") {
+  const auto stops = [](Duration step) {
+    ScriptedSystem f;
+    auto& a = f.add("a", integrator().may_return_early().can_save_state().done());
+    f.add("b", integrator().can_save_state().done()).on_step = integrate;
+    a.on_step = stopping_at({at(0.00123), at(0.0042), at(0.0077)});
+    std::vector<Time> events;
+    a.on_event = [&](ScriptedUnit&) {
+      events.push_back(at(f.instances[1]->number(1)));
+      return EventResult{};
+    };
+    f.build(0.01, step).run();
+    return events;
+  };
+  CHECK(stops(1ms) == stops(5ms));
+  CHECK(stops(1ms) == stops(333us));
+}
