@@ -18,6 +18,15 @@ install(FILES
   interfaces/unit/exports.map
   DESTINATION ${package_dir})
 
-install(DIRECTORY "${PROJECT_BINARY_DIR}/units/" DESTINATION "${CMAKE_INSTALL_PREFIX}/lib/stride/units" FILES_MATCHING PATTERN "*.fmu")
-install(DIRECTORY scenarios/ DESTINATION ${CMAKE_INSTALL_DATADIR}/stride/scenarios PATTERN CMakeLists.txt EXCLUDE)
+# lib, whatever the libraries' folder is called here: the program looks for units in ../lib/stride/units beside itself
+get_property(fmus GLOBAL PROPERTY STRIDE_FMUS)
+foreach(fmu IN LISTS fmus)
+  cmake_path(GET fmu PARENT_PATH folder)
+  if(folder STREQUAL "${PROJECT_BINARY_DIR}/units")  # the others are made for tests
+    install(FILES "${fmu}" DESTINATION lib/stride/units)
+  endif()
+endforeach()
+install(DIRECTORY scenarios/ DESTINATION ${CMAKE_INSTALL_DATADIR}/stride/scenarios
+  PATTERN CMakeLists.txt EXCLUDE
+  PATTERN golden EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -1,0 +1,139 @@
+// Arguments, options and exit codes.
+#include "tests/cli/scenarios.h"
+
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+/// Whatever is wrong with the input: code 2, a message, and nothing on the standard output.
+std::string input_error_of(const Outcome& outcome) {
+  CHECK(outcome.exit_code == 2);
+  CHECK(outcome.out == "");
+  return outcome.err;
+}
+
+}  // namespace
+
+TEST_CASE("without a command, the help is shown as an error") {
+  const Outcome outcome = run_program({});
+  CHECK(outcome.exit_code == 2);
+  for (const char* command : {"run", "check", "inspect", "complete", "pack"}) {
+    CHECK_THAT(outcome.err, Contains(std::string("\n  ") + command + " "));
+  }
+}
+
+TEST_CASE("--help and --version are answered on the standard output") {
+  const Outcome help = run_program({"--help"});
+  CHECK(help.exit_code == 0);
+  CHECK(help.err == "");
+  CHECK_THAT(help.out, Contains("Usage: stride") && Contains("Exit codes: 0 good, 1 the run "
+                                                             "failed, 2 the input was wrong."));
+  const Outcome run_help = run_program({"run", "--help"});
+  CHECK(run_help.exit_code == 0);
+  for (const char* option :
+       {"--stop", "--step", "--set", "--swap", "--signals", "--out", "--no-trace", "--quiet"}) {
+    CHECK_THAT(run_help.out, Contains(option));
+  }
+  const Outcome version = run_program({"--version"});
+  CHECK(version.exit_code == 0);
+  CHECK(version.out == "stride " STRIDE_VERSION "\n");
+}
+
+TEST_CASE("an unknown command is answered with the nearest one") {
+  CHECK_THAT(
+      input_error_of(run_program({"rnu", "test.ssd"})),
+      StartsWith("stride: error: there is no command 'rnu'") && Contains("did you mean 'run'?"));
+}
+
+TEST_CASE("a mistake in a command's arguments names the argument and points to the help") {
+  CHECK_THAT(input_error_of(run_program({"run"})),
+             Contains("FILE is required") && Contains("stride run --help"));
+  CHECK_THAT(input_error_of(run_program({"check", "test.ssd", "--frobnicate"})),
+             Contains("--frobnicate") && Contains("stride check --help"));
+  CHECK_THAT(input_error_of(run_program({"pack", "nothing.so", "--output", "x.fmu"})),
+             Contains("nothing.so"));
+}
+
+TEST_CASE("times on the command line are numbers of seconds that make sense") {
+  const Workspace workspace(two_filters());
+  CHECK_THAT(input_error_of(workspace.run({"--stop", "-1"})),
+             Contains("--stop -1: '-1' is negative"));
+  CHECK_THAT(input_error_of(workspace.run({"--stop", "soon"})),
+             Contains("--stop soon: 'soon' is no number; expected a number of seconds"));
+  CHECK_THAT(input_error_of(workspace.run({"--stop", "1e9"})), Contains("beyond 9.2e6 s"));
+  CHECK_THAT(input_error_of(workspace.run({"--step", "0"})), Contains("must be positive"));
+  CHECK_FALSE(fs::exists(workspace / "out"));
+}
+
+TEST_CASE("a stop time before the start time is refused") {
+  Parts parts = two_filters();
+  parts.experiment = "<ssd:DefaultExperiment startTime=\"2\" stopTime=\"3\"/>\n";
+  const Workspace workspace(parts);
+  CHECK_THAT(input_error_of(workspace.run({"--stop", "1"})),
+             Contains("the stop time 1 s is before the start time 2 s"));
+}
+
+TEST_CASE("without a stop time anywhere, the message says where to give one") {
+  Parts parts = two_filters();
+  parts.experiment = "";
+  const Workspace workspace(parts);
+  CHECK_THAT(input_error_of(workspace.run()),
+             Contains("has no stop time") && Contains("--stop SECONDS"));
+  CHECK(workspace.run({"--stop", "0.1", "--quiet"}).exit_code == 0);
+}
+
+TEST_CASE("--set explains what is wrong with it") {
+  const Workspace workspace(two_filters());
+  const auto error = [&](const std::string& text) {
+    const std::string message = input_error_of(workspace.run({"--set", text}));
+    CHECK_THAT(message, StartsWith("stride: error: --set " + text + ": "));
+    return message;
+  };
+  CHECK_THAT(error("first.u"), Contains("expected component.variable=value"));
+  CHECK_THAT(error("=1"), Contains("expected component.variable=value"));
+  CHECK_THAT(error("frist.u=1"),
+             Contains("no component 'frist'") && Contains("did you mean 'first'?"));
+  CHECK_THAT(error("first.time_constnat=1"), Contains("unit 'first', variable 'time_constnat'") &&
+                                                 Contains("did you mean 'time_constant'?"));
+  CHECK_THAT(error("first.u=high"), Contains("'high' is no value for it, expected a Float64"));
+  CHECK_THAT(error("first.u="), Contains("expected one Float64 value"));
+  CHECK_THAT(error("first.time=1"), Contains("cannot be set"));
+  CHECK_FALSE(fs::exists(workspace / "out"));
+}
+
+TEST_CASE("--swap explains what is wrong with it") {
+  const Workspace workspace(two_filters());
+  const auto error = [&](const std::string& text) {
+    return input_error_of(workspace.run({"--swap", text}));
+  };
+  CHECK_THAT(error("first"), Contains("--swap first: expected component=FILE.fmu"));
+  CHECK_THAT(error("first="), Contains("--swap first=: no file is named"));
+  CHECK_THAT(error("frist=minimal.fmu"),
+             Contains("no component 'frist'") && Contains("did you mean 'first'?"));
+  CHECK_THAT(error("first=minimum.fmu"), Contains("--swap first=minimum.fmu: there is no unit") &&
+                                             Contains("did you mean 'minimal.fmu'?"));
+}
+
+TEST_CASE("a unit that lacks what the scenario connects cannot be swapped in") {
+  const Workspace workspace(two_filters());
+  CHECK_THAT(input_error_of(workspace.run({"--swap", "first=thrower.fmu"})),
+             Contains(workspace.at("<ssd:Connection ") + "unit 'first', variable 'y'") &&
+                 Contains("its model 'thrower' has no such variable") && Contains("steps"));
+}
+
+TEST_CASE("a pattern of signals that matches nothing is a mistake") {
+  const Workspace workspace(two_filters());
+  CHECK_THAT(input_error_of(workspace.run({"--signals", "first.z*"})),
+             Contains("'first.z*' matches no variable to record"));
+}
+
+TEST_CASE("results go into a folder only") {
+  const Workspace workspace(two_filters());
+  CHECK_THAT(input_error_of(workspace.stride({"run", "test.ssd", "--out", "test.ssd"})),
+             Contains("test.ssd: cannot write results into this folder: it is a file"));
+  CHECK_THAT(input_error_of(workspace.stride({"run", "test.ssd", "--out", "test.ssd/out"})),
+             Contains("test.ssd/out: cannot write results into this folder") &&
+                 Contains("choose another results folder"));
+}

@@ -1,0 +1,35 @@
+// The same scenario gives the same bytes.
+#include "tests/cli/scenarios.h"
+
+using namespace stride::tests;
+
+TEST_CASE("two runs write the same signals, events and trace") {
+  const Workspace workspace(Parts{component("source", "not_a_number.fmu") +
+                                      component("filter", "minimal.fmu") +
+                                      component("stepper", "stepper.fmu"),
+                                  connection("source.y", "filter.u")});
+  const Arguments options{"--quiet",
+                          "--set",
+                          "source.nan_at=10",
+                          "--set",
+                          "filter.time_constant=0.3",
+                          "--set",
+                          "stepper.tick_at=0.125",
+                          "--set",
+                          "stepper.event_at=0.5"};
+  const auto record = [&] {
+    fs::remove_all(workspace / "out");
+    REQUIRE(workspace.run(options).exit_code == 0);
+    std::vector<std::string> files;
+    for (const char* file : {"signals.csv", "events.csv", "signals.vcd"}) {
+      files.push_back(workspace.result(file));
+      CHECK(std::count(files.back().begin(), files.back().end(), '\n') > 1);
+    }
+    return files;
+  };
+  const auto first = record();
+  const auto second = record();
+  CHECK(first[0] == second[0]);
+  CHECK(first[1] == second[1]);
+  CHECK(first[2] == second[2]);
+}

@@ -1,0 +1,164 @@
+// Runs that fail on the way: exit code 1, who failed when and why, and complete results up to
+// there.
+#include <csignal>
+#include <cstdlib>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/scenarios.h"
+
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::vector<std::string> kFiles{"signals.csv", "events.csv", "signals.vcd", "run.json"};
+
+nlohmann::json run_json(const Workspace& workspace) {
+  return nlohmann::json::parse(workspace.result("run.json"));
+}
+
+std::string last_time(const Workspace& workspace) {
+  const Csv signals = workspace.signals();
+  return signals.row(signals.size() - 1).front();
+}
+
+/// The message is on the standard error stream and in run.json, the results end at `last`.
+std::string failure_of(const Workspace& workspace, const Arguments& options,
+                       const std::string& last) {
+  Arguments arguments{"--quiet"};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const Outcome outcome = workspace.run(arguments);
+  CHECK(outcome.exit_code == 1);
+  CHECK(outcome.out == "");
+  CHECK(last_time(workspace) == last);
+  const nlohmann::json run = run_json(workspace);
+  CHECK(run["outcome"] == "failed");
+  CHECK(run["reached"] == std::stod(last));
+  CHECK_THAT(outcome.err, Contains("stride: error: " + run["error"].get<std::string>()));
+  CHECK(workspace.left_behind().empty());
+  return run["error"];
+}
+
+Workspace beside_a_filter(const std::string& name, const std::string& source,
+                          const std::string& connections = "") {
+  return Workspace(
+      Parts{component("filter", "minimal.fmu") + component(name, source), connections});
+}
+
+/// A run that takes hours, once its first results are on the disk.
+void start(Process& process, const Workspace& workspace) {
+  using namespace std::chrono_literals;
+  std::error_code none;
+  while (process.is_running()) {
+    const auto size = fs::file_size(workspace / "out/signals.csv", none);
+    if (!none && size > 0) return;
+    std::this_thread::sleep_for(1ms);
+  }
+  FAIL("the run ended by itself: " << process.wait().err);
+}
+
+}  // namespace
+
+TEST_CASE("a unit that throws is named, with the time and what it said") {
+  const Workspace workspace = beside_a_filter("fuse", "thrower.fmu");
+  CHECK_THAT(failure_of(workspace, {"--set", "fuse.throw_at=0.5"}, "0.499"),
+             Contains(workspace.at("thrower.fmu") + "unit 'fuse', at 0.499 s: ") &&
+                 Contains("fmi3Error") && Contains("the fuse has blown"));
+}
+
+TEST_CASE("a unit that throws something else is named, too") {
+  const Workspace workspace = beside_a_filter("fuse", "thrower.fmu");
+  CHECK_THAT(
+      failure_of(workspace, {"--set", "fuse.throw_at=0.5", "--set", "fuse.odd=true"}, "0.499"),
+      Contains("unit 'fuse', at 0.499 s: ") && Contains("no std::exception"));
+}
+
+TEST_CASE("a unit that answers fmi3Error without a word") {
+  const Workspace workspace = beside_a_filter("error", "raw");
+  make_raw_fmu(workspace.scratch(), "raw");
+  CHECK_THAT(failure_of(workspace, {}, "0"),
+             Contains(workspace.at("source=\"raw\"") + "unit 'error', at 0 s: ") &&
+                 Contains("fmi3DoStep returned fmi3Error"));
+}
+
+TEST_CASE("an output that is no number is named, with the time") {
+  const Workspace workspace =
+      beside_a_filter("source", "not_a_number.fmu", connection("source.y", "filter.u"));
+  CHECK_THAT(failure_of(workspace, {"--set", "source.nan_at=0.25"}, "0.249"),
+             Contains("unit 'source', variable 'y', at 0.25 s: ") && Contains("NaN"));
+}
+
+TEST_CASE("a unit that rejects each step, however small") {
+  const Workspace workspace = beside_a_filter("stepper", "stepper.fmu");
+  CHECK_THAT(failure_of(workspace, {"--set", "stepper.largest_step=0"}, "0"),
+             Contains("unit 'stepper', at 0 s: ") && Contains("rejected"));
+}
+
+TEST_CASE("a full disk is an error, whichever file it hits") {
+  const Workspace workspace(two_filters());
+  const std::string full = GENERATE(from_range(kFiles));
+  fs::create_directory(workspace / "out");
+  fs::create_symlink("/dev/full", workspace / "out" / full);
+  const Outcome outcome = workspace.run({"--quiet"});
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("stride: error: out/" + full) &&
+                              Contains("No space left on device") && Contains("make room"));
+  for (const std::string& file : kFiles) {
+    if (file != full) CHECK_FALSE(workspace.result(file).empty());
+  }
+  if (full != "signals.csv") CHECK(last_time(workspace) == "1");
+  if (full != "run.json") CHECK_THAT(run_json(workspace)["error"], Contains(full));
+}
+
+TEST_CASE("where all files fail, the first failure is the one that is told") {
+  const Workspace workspace(two_filters());
+  fs::create_directory(workspace / "out");
+  for (const std::string& file : kFiles) {
+    fs::create_symlink("/dev/full", workspace / "out" / file);
+  }
+  const Outcome outcome = workspace.run({"--quiet"});
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("stride: error: out/signals.csv: at 1 s: "));
+}
+
+TEST_CASE("an interrupted run keeps what it has recorded") {
+  const Workspace workspace(two_filters());
+  const int signal = GENERATE(SIGINT, SIGTERM);
+  Process process(stride_command(Workspace::run_arguments({"--stop", "1e6", "--no-trace"})),
+                  workspace.scratch().path());
+  start(process, workspace);
+  process.send(signal);
+  const Outcome outcome = process.wait();
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("interrupted"));
+  const nlohmann::json run = run_json(workspace);
+  CHECK(run["outcome"] == "failed");
+  const Csv signals = workspace.signals();  // throws for a row that is cut
+  CHECK(signals.number(signals.size() - 1, 0) == run["reached"]);
+  CHECK(signals.size() == run["communication_steps"].get<std::size_t>() + 1);
+  CHECK(workspace.left_behind().empty());
+}
+
+TEST_CASE("what a killed run leaves goes with the next one") {
+  const Workspace workspace(two_filters());
+  {
+    Process process(stride_command(Workspace::run_arguments({"--stop", "1e6", "--no-trace"})),
+                    workspace.scratch().path());
+    start(process, workspace);
+    process.send(SIGKILL);
+    CHECK(process.wait().exit_code == -SIGKILL);
+  }
+  CHECK_FALSE(workspace.left_behind().empty());
+  CHECK(workspace.run({"--quiet"}).exit_code == 0);
+  CHECK(workspace.left_behind().empty());
+}
+
+TEST_CASE("without a folder for temporary files, units cannot be unpacked") {
+  const Workspace workspace(two_filters());
+  ::setenv("TMPDIR", (workspace / "nowhere").c_str(), 1);  // Scratch resets it
+  const Outcome outcome = workspace.run();
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("nowhere/stride-") && Contains("set TMPDIR to a folder"));
+}

@@ -1,0 +1,193 @@
+// Good runs: what they print, what they write, and what the numbers in it are.
+#include <cmath>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/scenarios.h"
+
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::vector<std::string> files_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// One low-pass. Its own source, `u`, is held, so y = u + (y0 - u) exp(-t/T) exactly.
+Parts one_filter() { return {component("filter", "minimal.fmu")}; }
+
+void unpack(const fs::path& archive, const fs::path& folder) {
+  const auto fail = [&] { throw std::runtime_error(archive.string() + " cannot be unpacked"); };
+  const std::unique_ptr<::archive, decltype(&archive_read_free)> reader(archive_read_new(),
+                                                                        &archive_read_free);
+  archive_read_support_format_zip(reader.get());
+  if (archive_read_open_filename(reader.get(), archive.c_str(), 1 << 16) != ARCHIVE_OK) fail();
+  archive_entry* entry = nullptr;
+  while (archive_read_next_header(reader.get(), &entry) == ARCHIVE_OK) {
+    archive_entry_set_pathname(entry, (folder / archive_entry_pathname(entry)).c_str());
+    if (archive_read_extract(reader.get(), entry, 0) != ARCHIVE_OK) fail();
+  }
+}
+
+Csv run(const Workspace& workspace, Arguments options) {
+  options.push_back("--quiet");
+  const Outcome outcome = workspace.run(options);
+  REQUIRE(outcome.err == "");
+  REQUIRE(outcome.exit_code == 0);
+  return workspace.signals();
+}
+
+}  // namespace
+
+TEST_CASE("a run writes four files, prints a summary, and leaves nothing else") {
+  const Workspace workspace(two_filters());
+  const Outcome outcome = workspace.run();
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.out, Contains("1 s simulated") && Contains("1000 communication steps") &&
+                              Contains("first.y") && Contains("second.y") &&
+                              Contains("Results in out: signals.csv events.csv signals.vcd"));
+  CHECK(files_in(workspace / "out") ==
+        std::vector<std::string>{"events.csv", "run.json", "signals.csv", "signals.vcd"});
+  CHECK(files_in(workspace.scratch().path()) == std::vector<std::string>{"out", "test.ssd", "tmp"});
+  CHECK(workspace.left_behind().empty());
+}
+
+TEST_CASE("without --out, the results lie in results/ under the scenario's name") {
+  const Workspace workspace(two_filters());
+  CHECK(workspace.stride({"run", "test.ssd", "--quiet"}).exit_code == 0);
+  CHECK(files_in(workspace / "results/test").size() == 4);
+}
+
+TEST_CASE("run.json tells what was run and how far it came") {
+  const Workspace workspace(two_filters());
+  run(workspace, {"--stop", "0.25"});
+  const auto json = nlohmann::json::parse(workspace.result("run.json"));
+  CHECK(json["scenario"] == "test.ssd");
+  CHECK(json["outcome"] == "completed");
+  CHECK(json["reached"] == 0.25);
+  CHECK(json["communication_steps"] == 250);
+  CHECK(json["units"].size() == 2);
+  CHECK(json["units"][1]["name"] == "second");
+  CHECK(json["units"][1]["steps"] == 250);
+  CHECK_FALSE(json.contains("error"));
+}
+
+TEST_CASE("--quiet prints nothing") {
+  const Workspace workspace(two_filters());
+  const Outcome outcome = workspace.run({"--quiet"});
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.out == "");
+  CHECK(outcome.err == "");
+}
+
+TEST_CASE("--no-trace writes no VCD") {
+  const Workspace workspace(two_filters());
+  run(workspace, {"--no-trace"});
+  CHECK(files_in(workspace / "out") ==
+        std::vector<std::string>{"events.csv", "run.json", "signals.csv"});
+}
+
+TEST_CASE("--signals chooses the columns, instead of the scenario") {
+  Parts parts = two_filters();
+  parts.annotation = "<stride:Record signals=\"first.y\"/>\n";
+  const Workspace workspace(parts);
+  CHECK(run(workspace, {}).titles() == std::vector<std::string>{"time", "first.y"});
+  CHECK(run(workspace, {"--signals", "second.*", "--signals", "first.u"}).titles() ==
+        std::vector<std::string>{"time", "second.u", "second.y", "second.time_constant [s]",
+                                 "first.u"});
+}
+
+TEST_CASE("--stop and --step choose the communication points") {
+  const Workspace workspace(two_filters());
+  const Csv signals = run(workspace, {"--stop", "0.5", "--step", "0.125"});
+  CHECK(signals.numbers("time") == std::vector<double>{0, 0.125, 0.25, 0.375, 0.5});
+  CHECK(run(workspace, {"--stop", "0.3", "--step", "0.125"}).row(3).front() == "0.3");
+  CHECK(run(workspace, {"--stop", "0"}).size() == 1);
+}
+
+TEST_CASE("--set changes start values, as the closed form of the low-pass says") {
+  const Workspace workspace(one_filter());
+  const Csv signals = run(workspace, {"--set", "filter.u=2", "--set", "filter.time_constant=0.5",
+                                      "--set", "filter.y=-1"});
+  const auto time = signals.numbers("time");
+  const auto y = signals.numbers("filter.y");
+  REQUIRE(time.size() == 1001);
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    CAPTURE(time[i]);
+    REQUIRE(y[i] == Approx(2 - 3 * std::exp(-time[i] / 0.5)).epsilon(1e-12).margin(1e-12));
+  }
+  CHECK(y.back() == Approx(2 - 3 * std::exp(-2.0)).epsilon(1e-12));
+}
+
+TEST_CASE("the later --set wins, also over the scenario's own parameters") {
+  Parts parts = one_filter();
+  parts.components = component(
+      "filter", "minimal.fmu",
+      "<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues>"
+      "<ssv:ParameterSet xmlns:ssv=\"http://ssp-standard.org/SSP1/SystemStructureParameterValues\" "
+      "version=\"2.0\" name=\"p\"><ssv:Parameters><ssv:Parameter name=\"y\">"
+      "<ssv:Float64 value=\"5\"/></ssv:Parameter></ssv:Parameters></ssv:ParameterSet>"
+      "</ssd:ParameterValues></ssd:ParameterBinding></ssd:ParameterBindings>");
+  const Workspace workspace(parts);
+  CHECK(run(workspace, {"--stop", "0"}).numbers("filter.y") == std::vector<double>{5});
+  CHECK(run(workspace, {"--stop", "0", "--set", "filter.y=6", "--set", "filter.y=7"})
+            .numbers("filter.y") == std::vector<double>{7});
+}
+
+TEST_CASE("--swap puts another unit in a component's place") {
+  const Workspace workspace(two_filters());
+  const auto decaying = run(workspace, {"--set", "first.y=1"}).numbers("first.y");
+  CHECK(decaying.back() == Approx(std::exp(-1.0)));
+  const Csv signals =
+      run(workspace, {"--swap", "first=not_a_number.fmu", "--set", "first.nan_at=10"});
+  CHECK(signals.numbers("first.y") == signals.numbers("time"));  // what that unit gives
+  CHECK(signals.numbers("second.y").back() > 0.3);
+}
+
+TEST_CASE("a unit may be an archive, its unpacked folder, or a bare library of the kit") {
+  const Workspace workspace(one_filter());
+  const Arguments settings{"--set", "filter.u=1"};
+  run(workspace, settings);
+  const std::string expected = workspace.result("signals.csv");
+  const auto with = [&](const std::string& unit) {
+    Arguments options = settings;
+    options.insert(options.end(), {"--swap", "filter=" + unit});
+    run(workspace, options);
+    return workspace.result("signals.csv");
+  };
+  unpack(fs::path(STRIDE_FMU_DIR) / "minimal.fmu", workspace / "unpacked");
+  CHECK(with("unpacked") == expected);
+  CHECK(with(STRIDE_MINIMAL_LIBRARY) == expected);
+}
+
+TEST_CASE("a unit ends the run") {
+  const Workspace workspace(Parts{component("stepper", "stepper.fmu")});
+  const Csv signals = run(workspace, {"--set", "stepper.end_at=0.1"});
+  CHECK(signals.row(signals.size() - 1).front() == "0.1");
+  CHECK(nlohmann::json::parse(workspace.result("run.json"))["outcome"] == "ended by a unit");
+}
+
+TEST_CASE("messages are recorded at their instants") {
+  const Workspace workspace(Parts{component("stepper", "stepper.fmu")});
+  run(workspace, {"--set", "stepper.tick_at=0.3"});
+  const Csv events(workspace / "out/events.csv");
+  REQUIRE(events.size() == 1);
+  CHECK(events.row(0)[0] == "0.3");
+  CHECK(events.row(0)[2] == "stepper");
+  CHECK(events.row(0)[4] == "sent");
+}
+
+TEST_CASE("--verbose shows what units log") {
+  const Workspace workspace(Parts{component("warning", "raw")});
+  make_raw_fmu(workspace.scratch(), "raw");
+  const Outcome outcome = workspace.run({"--quiet", "--stop", "0.001"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("warning: unit 'warning': ") && Contains("it gets hot"));
+}

@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# Installs a built tree, moves it, builds a unit against it, and runs scenarios with it.
+#   install_test.sh CMAKE BUILD-FOLDER
+set -euo pipefail
+
+cmake=$1
+build=$2
+project=$(cd "$(dirname "$0")" && pwd)/project
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+unset STRIDE_UNITS LD_LIBRARY_PATH
+
+fail() { echo "install_test: $*" >&2; exit 1; }
+step() { echo "== $*"; }
+
+step "Install, and move to another place"
+"$cmake" --install "$build" --prefix "$work/first" > /dev/null
+mv "$work/first" "$work/stride"
+stride=$work/stride/bin/stride
+if grep -rlF -e "$build" -e "$work/first" "$work/stride/lib" --include='*.cmake'; then
+  fail "these files name a folder of the machine that built them"
+fi
+
+step "Libraries in the units look for others beside themselves only"
+for unit in "$work"/stride/lib/stride/units/*.fmu; do
+  mkdir -p "$work/unpacked" && (cd "$work/unpacked" && "$cmake" -E tar xf "$unit")
+  for library in "$work"/unpacked/binaries/*/*.so*; do
+    readelf -d "$library" | grep -E '\((RUNPATH|RPATH)\)' | grep -vF '[$ORIGIN]' && fail "$unit: ${library##*/}"
+  done
+  rm -r "$work/unpacked"
+done
+
+step "A unit outside of the repository, and each header by itself"
+cp -r "$project" "$work/project"
+"$cmake" -S "$work/project" -B "$work/project/build" -DCMAKE_PREFIX_PATH="$work/stride" > "$work/log" ||
+  { cat "$work/log"; fail "the project does not configure"; }
+"$cmake" --build "$work/project/build" --parallel 2 > "$work/log" ||
+  { cat "$work/log"; fail "the project does not build"; }
+oscillator=$work/project/build/units/oscillator.fmu
+[ -f "$oscillator" ] || fail "there is no $oscillator"
+
+step "stride inspect"
+"$stride" inspect "$oscillator" > "$work/table"
+grep -Eq '^  frequency +parameter +Float64 +Hz +0.5 ' "$work/table" || { cat "$work/table"; fail "no frequency"; }
+grep -Eq '^  position +output +Float64 +m ' "$work/table" || { cat "$work/table"; fail "no position"; }
+
+# position = cos(pi t); behind the low-pass of 1 s, held over 1 ms, (cos(pi t) + pi sin(pi t) - exp(-t)) / (1 + pi^2)
+step "stride run: half a period leads to the other side, and the installed filter follows"
+"$stride" run "$work/project/oscillator.ssd" --out "$work/out" --quiet
+[ "$(head -n 1 "$work/out/signals.csv")" = "time,oscillator.position [m],filter.y" ] || fail "other columns"
+awk -F, '
+  $1 == "0.5" { half_way = $2 * $2 < 1e-18 }
+  $1 == "1" { there = ($2 + 1) ^ 2 < 1e-18; follows = ($3 + 0.1258) ^ 2 < 1e-5 }
+  END { exit !(half_way && there && follows) }' "$work/out/signals.csv" || fail "other numbers in signals.csv"
+
+step "The installed scenarios run with the installed units"
+for scenario in "$work"/stride/share/stride/scenarios/*/*.ssd; do
+  "$stride" run "$scenario" --out "$work/out" --stop 0.5 --quiet
+done
+for unit in "$work"/stride/lib/stride/units/*.fmu; do
+  "$stride" inspect "$unit" > /dev/null
+done
