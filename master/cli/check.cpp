@@ -8,6 +8,7 @@
 #include "master/cli/session.h"
 #include "master/cli/session_options.h"
 #include "master/cli/table.h"
+#include "master/core/step_order.h"
 
 namespace stride::cli {
 namespace {
@@ -38,6 +39,15 @@ std::string connection_table(const core::System& system) {
   return table.text();
 }
 
+std::string order_table(const core::System& system) {
+  Table table({{"", Table::Align::Right}, {"component"}, {"why here"}});
+  for (const core::StepPlace& place : core::step_order(system)) {
+    const std::string number = std::to_string(table.size() + 1);
+    table.add({number, system.components()[place.component].name, place.reason});
+  }
+  return table.text();
+}
+
 void check(const SessionRequest& request) {
   const Session session(request);
   session.instantiate();
@@ -48,13 +58,7 @@ void check(const SessionRequest& request) {
   fmt::print("from {} s to {} s in steps of {} s\n", core::to_text(options.start),
              core::to_text(options.stop), core::to_text(Time(options.step)));
   fmt::print("\nUnits\n{}\nConnections\n{}", unit_table(session), connection_table(system));
-  fmt::print("\nStep order: ");
-  for (std::size_t i = 0; i < system.components().size(); ++i) {
-    fmt::print("{}{}", i == 0 ? "" : ", ", system.components()[i].name);
-  }
-  fmt::print(
-      " (as in the file; each unit sees the others' outputs of the last communication "
-      "point)\n");
+  fmt::print("\nStep order\n{}", order_table(system));
 }
 
 }  // namespace

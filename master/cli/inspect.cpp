@@ -46,7 +46,8 @@ std::string capabilities(const core::UnitDescription& unit) {
   add(unit.max_output_derivative_order > 0,
       fmt::format("output derivatives up to order {}", unit.max_output_derivative_order));
   add(unit.fixed_internal_step.has_value(),
-      fmt::format("internal step {} s", unit.fixed_internal_step.value_or(0)));
+      fmt::format("internal step {} s",
+                  core::to_text(Time(unit.fixed_internal_step.value_or(Duration{})))));
   add(unit.single_instance, "one instance per process");
   add(unit.needs_execution_tool, "needs its own tool");
   return text;
@@ -75,7 +76,8 @@ void add_inspect(CLI::App& app) {
   const auto file = std::make_shared<std::filesystem::path>();
   command
       ->add_option("FILE", *file, "An FMU: a .fmu, its unpacked folder, or a .so of the unit kit")
-      ->required();
+      ->required()
+      ->type_name("");
   command->callback([file] { inspect(*file); });
 }
 

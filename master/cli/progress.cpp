@@ -1,6 +1,5 @@
 #include "master/cli/progress.h"
 
-#include <csignal>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -33,7 +32,8 @@ void Progress::on_communication_point(Time time) {
   show(time, now);
   shown_ = true;
   next_redraw_ = now + std::chrono::milliseconds(100);
-  while (next_line_ <= time) next_line_ += std::max((stop_ - start_) / 10, Duration(1));
+  const Duration tenth = std::max((stop_ - start_) / 10, Duration(1));
+  next_line_ = time + (tenth - (time - start_) % tenth);
 }
 
 void Progress::on_finish() {
@@ -60,13 +60,18 @@ void Progress::show(Time time, Clock::time_point now) const {
 
 Interruption::Interruption() {
   interrupted = 0;
-  std::signal(SIGINT, note_interruption);
-  std::signal(SIGTERM, note_interruption);
+  for (Handled& handled : handled_) {
+    struct sigaction action {};
+    action.sa_handler = note_interruption;
+    action.sa_flags =
+        SA_RESETHAND;  // a second signal ends what does not come to a communication point
+    sigaction(handled.signal, nullptr, &handled.before);
+    if (handled.before.sa_handler != SIG_IGN) sigaction(handled.signal, &action, nullptr);
+  }
 }
 
 Interruption::~Interruption() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (const Handled& handled : handled_) sigaction(handled.signal, &handled.before, nullptr);
 }
 
 void Interruption::on_communication_point(Time time) {

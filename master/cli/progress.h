@@ -1,7 +1,9 @@
 #ifndef STRIDE_MASTER_CLI_PROGRESS_H
 #define STRIDE_MASTER_CLI_PROGRESS_H
 
+#include <array>
 #include <chrono>
+#include <csignal>
 
 #include "master/core/observer.h"
 
@@ -39,6 +41,13 @@ class Interruption : public core::Observer {
   Interruption();
   ~Interruption() override;
   void on_communication_point(Time time) override;
+
+ private:
+  struct Handled {
+    int signal;
+    struct sigaction before;
+  };
+  std::array<Handled, 2> handled_{{{SIGINT, {}}, {SIGTERM, {}}}};
 };
 
 }  // namespace stride::cli

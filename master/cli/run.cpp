@@ -99,8 +99,10 @@ void add_run(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "Run a scenario and record what happens");
   const auto request = std::make_shared<Request>();
   add_session_options(*command, request->session);
-  command->add_option("--out,-o", request->out,
-                      "Results folder; otherwise results/ and the scenario's name");
+  command
+      ->add_option("--out,-o", request->out,
+                   "Results folder; otherwise results/ and the scenario's name")
+      ->type_name("FOLDER");
   command->add_flag("--no-trace", request->no_trace, "Write no signals.vcd");
   command->add_flag("--quiet,-q", request->quiet, "Print nothing but errors");
   command->callback([request] { run(*request); });

@@ -94,13 +94,14 @@ void Session::swap(const std::string& text) {
 
 void Session::set(const std::string& text) {
   const auto [name, value] = split("--set", text, "component.variable=value");
+  std::string owner;  // the longest name that fits: component names may contain dots
   for (const std::string& component : component_names()) {
-    if (!name.starts_with(component + ".")) continue;
-    scenario_.system.start_values.push_back({component,
-                                             name.substr(component.size() + 1),
-                                             value,
-                                             "",
-                                             {fmt::format("--set {}", text), 0}});
+    if (name.starts_with(component + ".") && component.size() > owner.size()) owner = component;
+  }
+  if (!owner.empty()) {
+    const core::Location where{fmt::format("--set {}", text), 0};
+    scenario_.system.start_values.push_back(
+        {owner, name.substr(owner.size() + 1), value, "", where});
     return;
   }
   const std::string component = name.substr(0, name.find('.'));
@@ -116,8 +117,8 @@ void Session::load_units() {
 }
 
 void Session::choose_times(const SessionRequest& request) {
-  std::optional<double> unit_step;
-  std::optional<double> unit_stop;
+  std::optional<Duration> unit_step;
+  std::optional<Time> unit_stop;
   for (const auto& fmu : fmus_) {
     const core::UnitDescription& description = *fmu->description();
     if (description.default_step) {
@@ -135,19 +136,34 @@ void Session::choose_times(const SessionRequest& request) {
   } else if (scenario_.stop) {
     options_.stop = *scenario_.stop;
   } else if (unit_stop) {
-    options_.stop = time_from_seconds(*unit_stop);
+    options_.stop = *unit_stop;
   } else {
     core::fail_input({{scenario_.path.string(), 0}, {}, {}, {}}, "the scenario has no stop time",
                      "say --stop SECONDS, or write <ssd:DefaultExperiment stopTime=\"…\"/>");
   }
   options_.step = !request.step.empty()       ? parse_option("--step", request.step)
                   : scenario_.annotation.step ? *scenario_.annotation.step
-                  : unit_step                 ? duration_from_seconds(*unit_step)
+                  : unit_step                 ? *unit_step
                                               : kDefaultStep;
   if (options_.step <= Duration{}) core::fail_input({}, "the step size must be positive");
   if (options_.stop < options_.start) {
     core::fail_input({}, fmt::format("the stop time {} s is before the start time {} s",
                                      core::to_text(options_.stop), core::to_text(options_.start)));
+  }
+  check_fixed_steps();
+}
+
+void Session::check_fixed_steps() const {
+  const Duration rest = (options_.stop - options_.start) % options_.step;
+  if (rest == Duration{}) return;
+  for (std::size_t i = 0; i < fmus_.size(); ++i) {
+    if (fmus_[i]->description()->can_vary_step) continue;
+    const auto& component = scenario_.system.components[i];
+    core::fail_input({component.where, component.name, {}, {}},
+                     fmt::format("the unit takes steps of one size only, and the run is no whole "
+                                 "number of steps of {} s",
+                                 core::to_text(Time(options_.step))),
+                     fmt::format("stop at {} s", core::to_text(options_.stop - rest)));
   }
 }
 
@@ -157,7 +173,9 @@ std::vector<std::unique_ptr<core::Unit>> Session::instantiate() const {
     const auto& component = scenario_.system.components[i];
     fmi::InstanceOptions options;
     options.log = log_message;
-    options.debug_logging = spdlog::should_log(spdlog::level::info);
+    options.debug_logging = true;  // the log's level decides what is shown
+    options.early_return_allowed = true;
+    options.may_roll_back = true;
     options.where = component.where;
     units.push_back(fmus_[i]->instantiate(component.name, options));
   }

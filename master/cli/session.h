@@ -45,6 +45,7 @@ class Session {
   void set(const std::string& text);
   void load_units();
   void choose_times(const SessionRequest& request);
+  void check_fixed_steps() const;
   std::vector<std::string> component_names() const;
 
   io::Scenario scenario_;

@@ -6,21 +6,27 @@ namespace stride::cli {
 
 void add_session_options(CLI::App& command, SessionRequest& request) {
   command.add_option("FILE", request.scenario, "The scenario, an SSP system file (.ssd)")
-      ->required();
-  command.add_option("--stop", request.stop, "Simulated time at which to end [s]");
-  command.add_option("--step", request.step, "Communication step size [s]");
+      ->required()
+      ->type_name("");
+  command.add_option("--stop", request.stop, "Simulated time at which to end")
+      ->type_name("SECONDS");
+  command.add_option("--step", request.step, "Communication step size")->type_name("SECONDS");
   command
       .add_option("--set", request.sets,
-                  "Start value of a parameter or input, as component.variable=value; several times")
+                  "Start value of a parameter or input; may be given several times")
+      ->type_name("COMPONENT.VARIABLE=VALUE")
       ->allow_extra_args(false);
   command
       .add_option("--swap", request.swaps,
-                  "Another unit for a component, as component=FILE.fmu; several times")
+                  "Another unit for a component; may be given several times")
+      ->type_name("COMPONENT=FILE.fmu")
       ->allow_extra_args(false);
   command
-      .add_option("--signals", request.signals,
-                  "Which variables to record, as a glob over component.variable such as "
-                  "'sensor.*'; several times; instead of the scenario's choice")
+      .add_option(
+          "--signals", request.signals,
+          "Which variables to record, instead of the scenario's choice, such as 'sensor.*'; "
+          "may be given several times")
+      ->type_name("GLOB")
       ->allow_extra_args(false);
 }
 

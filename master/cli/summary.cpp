@@ -121,6 +121,9 @@ std::string Summary::signal_table() const {
 std::string Summary::unit_table(const core::RunStatistics& statistics) const {
   Table table({{"unit"},
                {"steps", Table::Align::Right},
+               {"early", Table::Align::Right},
+               {"rejected", Table::Align::Right},
+               {"undone", Table::Align::Right},
                {"events", Table::Align::Right},
                {"sent", Table::Align::Right},
                {"received", Table::Align::Right},
@@ -130,9 +133,11 @@ std::string Summary::unit_table(const core::RunStatistics& statistics) const {
   for (std::size_t i = 0; i < statistics.units.size(); ++i) {
     const core::UnitStatistics& unit = statistics.units[i];
     table.add({system_.components()[i].name, std::to_string(unit.steps),
-               std::to_string(unit.events), std::to_string(unit.messages_sent),
-               std::to_string(unit.messages_received), seconds(unit.initialization_time),
-               seconds(unit.step_time), seconds(unit.event_time)});
+               std::to_string(unit.early_returns), std::to_string(unit.rejections),
+               std::to_string(unit.rollbacks), std::to_string(unit.events),
+               std::to_string(unit.messages_sent), std::to_string(unit.messages_received),
+               seconds(unit.initialization_time), seconds(unit.step_time),
+               seconds(unit.event_time)});
   }
   return table.text();
 }

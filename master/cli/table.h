@@ -18,7 +18,7 @@ class Table {
   explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
   /// One text per column.
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-  bool empty() const { return rows_.empty(); }
+  std::size_t size() const { return rows_.size(); }
   /// The lines, each indented by two blanks and ended by a newline.
   std::string text() const;
 
