@@ -1,4 +1,5 @@
-/* How a library made with the unit kit describes itself: the one symbol that it exports beside the FMI 3.0 table. */
+/* How a library made with the unit kit describes itself: the one symbol that it exports beside the
+ * FMI 3.0 table. */
 #ifndef STRIDE_SELF_DESCRIPTION_H
 #define STRIDE_SELF_DESCRIPTION_H
 
@@ -6,8 +7,9 @@
 extern "C" {
 #endif
 
-/* The text of modelDescription.xml for the unit with these resources (a folder, or NULL if there is none). On failure
- * NULL, and *error holds the reason. Both texts live in the library until the next call from the same thread. */
+/* The text of modelDescription.xml for the unit with these resources (a folder, or NULL if there is
+ * none). On failure NULL, and *error holds the reason. Both texts live in the library until the
+ * next call from the same thread. */
 typedef const char* strideModelDescriptionTYPE(const char* resourcePath, const char** error);
 
 #ifdef __cplusplus
