@@ -19,7 +19,7 @@ build_and_test() {
   fixed_addresses ctest --preset "$1" --parallel 2
 }
 
-# The leak sanitizer of GCC 12 crashes now and then where the kernel randomises addresses; without, never.
+# GCC 12's leak sanitizer was seen to crash where the kernel randomises addresses.
 fixed_addresses() {
   if [ "$preset" = asan ] && setarch --addr-no-randomize true 2>/dev/null; then
     setarch --addr-no-randomize "$@"
