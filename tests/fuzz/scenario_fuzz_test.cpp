@@ -1,7 +1,5 @@
 // Whatever a file holds, reading it gives a scenario or a core::Error, and completing what was read
 // gives a text that reads back.
-#include <algorithm>
-#include <random>
 #include <string>
 
 #include <catch2/catch.hpp>
@@ -9,6 +7,7 @@
 #include "master/core/error.h"
 #include "master/io/complete.h"
 #include "master/io/scenario.h"
+#include "tests/fuzz/mutator.h"
 #include "tests/master/io/support.h"
 
 using namespace stride;
@@ -43,50 +42,11 @@ const std::string kScenario = ssd(R"(<ssd:System name="root" description="&lt;&#
   </stride:Scenario>
 </ssc:Annotation></ssd:Annotations>)");
 
-class Mutator {
- public:
-  explicit Mutator(unsigned seed) : random_(seed) {}
-
-  std::string mutate(std::string text) {
-    for (std::size_t left = 1 + below(4); left > 0 && !text.empty(); --left) mutate_once(text);
-    return text;
-  }
-
- private:
-  std::size_t below(std::size_t limit) { return random_() % limit; }
-
-  void mutate_once(std::string& text) {
-    const std::size_t at = below(text.size());
-    const std::size_t length = std::min(below(40), text.size() - at);
-    switch (below(6)) {
-      case 0:
-        text.resize(at);
-        return;
-      case 1:
-        text[at] = static_cast<char>(below(256));
-        return;
-      case 2:
-        text.erase(at, length);
-        return;
-      case 3:
-        text.insert(below(text.size()), text.substr(at, length));
-        return;
-      case 4:
-        text.insert(at, std::string(1, "<>&\"'/=:.%-0 \n"[below(14)]));
-        return;
-      default:
-        std::swap(text[at], text[below(text.size())]);
-    }
-  }
-
-  std::mt19937 random_;
-};
-
 }  // namespace
 
 TEST_CASE("A mutated scenario is read or refused, and never anything else") {
   const TemporaryFolder folder;
-  Mutator mutator(20240117);
+  tests::Mutator mutator(20240117);
   const Descriptions descriptions{{"a", sample_description()}, {"b", sample_description()}};
   REQUIRE_NOTHROW(read_scenario(folder.write("x.ssd", kScenario)));
   int read = 0;

@@ -1,0 +1,61 @@
+// Whatever an FMU holds, loading its description gives a description or a core::Error.
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "master/fmi/fmu.h"
+#include "master/fmi/model_description.h"
+#include "tests/fuzz/mutator.h"
+#include "tests/master/fmi/support.h"
+
+using namespace stride;
+using namespace stride::tests;
+
+namespace {
+
+/// Units with all types and with messages.
+const fs::path kFmu = fs::path(STRIDE_TEST_FMU_DIR) / "types.fmu";
+
+}  // namespace
+
+TEST_CASE("a mutated model description is read or refused, and never anything else") {
+  const fmi::UnpackedFmu unpacked(kFmu);
+  const std::string xml = read(unpacked.folder() / "modelDescription.xml");
+  REQUIRE_NOTHROW(fmi::parse_model_description(xml, "x.xml"));
+  Mutator mutator(20240118);
+  int accepted = 0;
+  int refused = 0;
+  for (int i = 0; i < 4000; ++i) {
+    try {
+      fmi::parse_model_description(mutator.mutate(xml), "x.xml");
+      ++accepted;
+    } catch (const core::Error& error) {
+      ++refused;
+      CHECK(error.kind() == core::Error::Kind::Input);
+      CHECK(error.context().where.file == "x.xml");
+    }
+  }
+  CHECK(accepted > 50);
+  CHECK(refused > 1000);
+}
+
+TEST_CASE("a mutated archive is unpacked or refused, and leaves nothing behind") {
+  const Scratch scratch;
+  const std::string bytes = read(kFmu);
+  Mutator mutator(20240119);
+  int refused = 0;
+  for (int i = 0; i < 300; ++i) {
+    const fs::path file = scratch.write("x.fmu", mutator.mutate(bytes));
+    try {
+      fmi::Fmu::load(file);
+    } catch (const core::Error& error) {
+      ++refused;
+      CHECK(error.kind() == core::Error::Kind::Input);
+    }
+  }
+  CHECK(refused > 30);
+  for (const auto& entry : fs::recursive_directory_iterator(scratch / "tmp")) {
+    INFO(entry.path().string());
+    CHECK(entry.path().filename() != "modelDescription.xml");
+  }
+}

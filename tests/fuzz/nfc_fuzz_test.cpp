@@ -1,0 +1,65 @@
+// What the NFC units read: frames from whoever is wired to them, and the reader's program.
+#include <stdexcept>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "tests/fuzz/mutator.h"
+#include "units/nfc/frame.h"
+#include "units/nfc/iso14443a.h"
+#include "units/reader/program.h"
+
+using stride::tests::Mutator;
+
+TEST_CASE("mutated bytes are a frame that encodes to them, or are refused") {
+  const nfc::Frame frame{stride::time_from_seconds(14.2), 106, nfc::to_bits(nfc::with_crc({2, 7}))};
+  const nfc::Bytes payload = nfc::encode(frame);
+  const std::string bytes(payload.begin(), payload.end());
+  Mutator mutator(20240120);
+  int read = 0;
+  int damaged = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const std::string mutated = mutator.mutate(bytes);
+    try {
+      const nfc::Frame decoded = nfc::decode({mutated.begin(), mutated.end()});
+      ++read;
+      CHECK(nfc::decode(nfc::encode(decoded)) == decoded);
+      const auto contents = nfc::to_bytes(decoded.bits);
+      damaged += !contents || !nfc::without_crc(*contents);
+    } catch (const std::invalid_argument&) {
+    }
+  }
+  CHECK(read > 500);
+  CHECK(damaged > 100);
+}
+
+TEST_CASE("a mutated program is read or refused with its file") {
+  const std::string program = R"(<reader-program version="1">
+  <axes><axis name="shoulder"/><axis name="elbow"/></axes>
+  <poses>
+    <pose name="rest" shoulder="0.0" elbow="0.3"/>
+    <pose name="near" shoulder="0.6" elbow="1.2"/>
+  </poses>
+  <motion><waypoint at="0.5" pose="rest"/><waypoint at="2.0" pose="near"/></motion>
+  <antenna on="1.8" off="3.2" power="0.5"/>
+  <command at="2.2" name="identify"/>
+  <command at="2.4" name="set_led" led="on"/>
+  <command at="2.6" name="read_temperature" timeout="0.1" bit_rate="212"/>
+</reader-program>
+)";
+  REQUIRE_NOTHROW(reader::parse_program(program, "x.xml"));
+  Mutator mutator(20240121);
+  int accepted = 0;
+  int refused = 0;
+  for (int i = 0; i < 4000; ++i) {
+    try {
+      reader::parse_program(mutator.mutate(program), "x.xml");
+      ++accepted;
+    } catch (const std::runtime_error& error) {
+      ++refused;
+      CHECK(std::string(error.what()).find("x.xml") != std::string::npos);
+    }
+  }
+  CHECK(accepted > 20);
+  CHECK(refused > 1000);
+}
