@@ -48,6 +48,15 @@ void plan(Transfers& transfers, const System& system, const std::set<VariableId>
   }
 }
 
+/// Whether two blocks of the same shape differ in these elements; their texts tell values apart to
+/// the bit, but for NaN.
+bool differ(const ValueBlock& a, const ValueBlock& b, std::size_t first, std::size_t size) {
+  for (std::size_t i = first; i < first + size; ++i) {
+    if (element_text(a, i) != element_text(b, i)) return true;
+  }
+  return false;
+}
+
 template <std::size_t kSize, class Copies>
 void copy_numbers(const Copies& copies) {
   for (const auto& copy : copies) std::memcpy(copy.to, copy.from, kSize);
@@ -161,16 +170,23 @@ void Exchange::deliver(std::size_t component, Unit& unit) {
   }
 }
 
-bool Exchange::route_and_compare() {
+std::vector<VariableId> Exchange::route_and_compare() {
   std::vector<ValueBlock> before;
   for (const auto& transfers : inputs_) {
     for (const Transfer& transfer : transfers) before.push_back(transfer.block);
   }
   route();
   auto old = before.begin();
-  bool changed = false;
+  std::vector<VariableId> changed;
   for (const auto& transfers : inputs_) {
-    for (const Transfer& transfer : transfers) changed |= !(transfer.block == *old++);
+    for (const Transfer& transfer : transfers) {
+      const ValueBlock& previous = *old++;
+      for (std::size_t i = 0; i < transfer.ids.size(); ++i) {
+        const std::size_t size = system_.variable(transfer.ids[i]).size;
+        const bool differs = differ(transfer.block, previous, transfer.firsts[i], size);
+        if (differs) changed.push_back(transfer.ids[i]);
+      }
+    }
   }
   return changed;
 }

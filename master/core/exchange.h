@@ -36,8 +36,8 @@ class Exchange {
   /// Writes a unit's continuous inputs, and the discrete ones if they changed.
   void deliver(std::size_t component, Unit& unit);
 
-  /// Like route(); tells whether an input changed. Not for the hot loop.
-  bool route_and_compare();
+  /// Like route(); returns the inputs that changed. Not for the hot loop.
+  std::vector<VariableId> route_and_compare();
 
   /// Where the variable's value stands. An input that is connected is seen as its source left it.
   Signal signal(VariableId id) const;

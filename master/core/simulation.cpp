@@ -111,15 +111,23 @@ class Simulation::Run {
   /// Outputs reach inputs until nothing changes. Without a loop a value crosses each connection
   /// once, so it takes no more passes than there are connections.
   void propagate_initial_values() {
+    std::vector<VariableId> changed;
     for (std::size_t pass = 0; pass <= system_.connections().size() + 1; ++pass) {
       for (std::size_t i = 0; i < count(); ++i) {
         timed(statistics_.units[i].initialization_time, [&] { exchange_.fetch(i, *units_[i]); });
       }
-      if (!exchange_.route_and_compare() && pass > 0) return exchange_.check_nan(time_);
+      changed = exchange_.route_and_compare();
+      if (changed.empty() && pass > 0) return exchange_.check_nan(time_);
       for (std::size_t i = 0; i < count(); ++i) exchange_.deliver(i, *units_[i]);
     }
+    std::string names;
+    for (const VariableId id : changed) {
+      names += (names.empty() ? "'" : ", '") + system_.full_name(id) + "'";
+    }
     fail_run({{}, {}, {}, time_},
-             "the initial values do not settle: units feed each other in an algebraic loop",
+             fmt::format("the initial values do not settle: units feed each other in an algebraic "
+                         "loop, through the inputs {}",
+                         names),
              "give one of the units in the loop an output that does not depend on its input");
   }
 

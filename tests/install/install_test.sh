@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Installs a built tree, moves it, builds a unit against it, and runs scenarios with it.
-#   install_test.sh CMAKE BUILD-FOLDER
+#   install_test.sh CMAKE BUILD-FOLDER GENERATOR
 set -euo pipefail
 
 cmake=$1
 build=$2
+generator=$3
 project=$(cd "$(dirname "$0")" && pwd)/project
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -32,7 +33,7 @@ done
 
 step "A unit outside of the repository, and each header by itself"
 cp -r "$project" "$work/project"
-"$cmake" -S "$work/project" -B "$work/project/build" -DCMAKE_PREFIX_PATH="$work/stride" > "$work/log" ||
+"$cmake" -G "$generator" -S "$work/project" -B "$work/project/build" -DCMAKE_PREFIX_PATH="$work/stride" > "$work/log" ||
   { cat "$work/log"; fail "the project does not configure"; }
 "$cmake" --build "$work/project/build" --parallel 2 > "$work/log" ||
   { cat "$work/log"; fail "the project does not build"; }

@@ -128,7 +128,7 @@ TEST_CASE("an algebraic loop at the start is an error") {
   f.wire("b", "y", "a", "u");
   a.on_initialize =
       b.on_initialize = [](ScriptedUnit& unit) { unit.number(1) = unit.number(0) + 1; };
-  CHECK_THAT(failure(f.build(1, 1ms)), Contains("algebraic loop"));
+  CHECK_THAT(failure(f.build(1, 1ms)), Contains("algebraic loop, through the inputs 'a.u', 'b.u'"));
 }
 
 TEST_CASE("values are converted between units of measurement") {
