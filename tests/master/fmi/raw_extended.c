@@ -6,8 +6,6 @@
  *   endless    fmi3DoStep says that it has come as far as infinity
  *   forgetful  fmi3SetFMUState returns fmi3Discard
  */
-#include <stdlib.h>
-
 #include <stride/fmi3.h>
 
 #define fmi3DoStep raw_do_step
@@ -19,6 +17,10 @@
 /* Read by the tests through dlsym. */
 int raw_states_made = 0;
 int raw_states_living = 0;
+
+/* States are places in here, so that one which must not be freed any more, after fmi3Fatal, is no
+ * leak. */
+static char states[64];
 
 static fmi3Status discard(Instance* instance, const char* reason) {
   instance->log(instance->environment, fmi3Discard, "logStatusDiscard", reason);
@@ -44,8 +46,7 @@ fmi3Status fmi3SetFloat64(fmi3Instance handle, const fmi3ValueReference referenc
 fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState* state) {
   (void)instance;
   if (*state != NULL) return fmi3OK;
-  *state = malloc(1);
-  ++raw_states_made;
+  *state = &states[raw_states_made++ % (int)sizeof states];
   ++raw_states_living;
   return fmi3OK;
 }
@@ -58,7 +59,6 @@ fmi3Status fmi3SetFMUState(fmi3Instance handle, fmi3FMUState state) {
 fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState* state) {
   (void)instance;
   if (*state == NULL) return fmi3OK;
-  free(*state);
   *state = NULL;
   --raw_states_living;
   return fmi3OK;
