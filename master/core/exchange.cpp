@@ -77,6 +77,10 @@ Exchange::Exchange(const System& system, std::span<const VariableId> recorded) :
   }
   plan(outputs_, system, outputs);
   plan(inputs_, system, inputs);
+  for (const auto& transfers : inputs_) {
+    has_discrete_inputs_.push_back(std::any_of(transfers.begin(), transfers.end(),
+                                               [](const Transfer& t) { return t.discrete; }));
+  }
   for (const Connection& connection : system.connections()) {
     if (exchanged(system, connection.from)) add_copies(connection);
   }
@@ -152,7 +156,7 @@ void Exchange::fetch(std::size_t component, Unit& unit) {
   for (Transfer& transfer : outputs_[component]) unit.get(transfer.references, transfer.block);
 }
 
-bool Exchange::has_discrete_change(std::size_t component) const {
+bool Exchange::any_discrete_change(std::size_t component) const {
   for (const Transfer& transfer : inputs_[component]) {
     if (transfer.discrete && !(transfer.block == transfer.delivered)) return true;
   }

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,7 +31,9 @@ class Exchange {
   void check_nan(Time time) const;
   /// Whether a discrete input of the unit is not what was delivered last; FMI wants Event Mode
   /// then.
-  bool has_discrete_change(std::size_t component) const;
+  bool has_discrete_change(std::size_t component) const {
+    return has_discrete_inputs_[component] && any_discrete_change(component);
+  }
   /// Writes a unit's continuous inputs, and the discrete ones if they changed.
   void deliver(std::size_t component, Unit& unit);
 
@@ -53,8 +54,7 @@ class Exchange {
     std::vector<VariableId> ids;
     std::vector<std::size_t> firsts;  ///< where each variable begins in the block
   };
-  using Transfers =
-      std::vector<std::deque<Transfer>>;  // by component; elements of a deque stay in place
+  using Transfers = std::vector<std::vector<Transfer>>;  // by component; final once it is planned
 
   template <class T>
   struct Copy {
@@ -78,6 +78,7 @@ class Exchange {
     std::vector<Checked<Real>> checked;
   };
 
+  bool any_discrete_change(std::size_t component) const;
   template <class Real>
   void check_nan(const RealLists<Real>& lists, Time time) const;
   void add_copies(const Connection& connection);
@@ -90,6 +91,7 @@ class Exchange {
   const System& system_;
   Transfers outputs_;
   Transfers inputs_;
+  std::vector<char> has_discrete_inputs_;                ///< by component
   std::array<std::vector<Copy<std::byte>>, 4> numbers_;  // of 1, 2, 4 and 8 bytes
   std::vector<Copy<std::string>> strings_;
   std::vector<Copy<Binary>> binaries_;

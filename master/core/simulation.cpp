@@ -206,7 +206,7 @@ class Simulation::Run {
   bool prepare_events() {
     bool any = false;
     for (std::size_t i = 0; i < count(); ++i) {
-      if (description(i).has_event_mode && exchange_.has_discrete_change(i)) active_[i] = true;
+      if (exchange_.has_discrete_change(i) && description(i).has_event_mode) active_[i] = true;
       if (active_[i]) enter_event_mode(i);
       any |= static_cast<bool>(active_[i]);
       exchange_.deliver(i, *units_[i]);

@@ -249,9 +249,11 @@ void Fmi3Unit::set_binaries(References references, std::span<const core::Binary>
 
 core::StepResult Fmi3Unit::step(Time from, Time to) {
   time_ = from;
-  const double point = to_seconds(from);
+  const double point = from == last_end_ ? last_end_seconds_ : to_seconds(from);
   const double end = to_seconds(to);
   const double size = end - point;  // no other double lands nearer to the end
+  last_end_ = to;
+  last_end_seconds_ = end;
   if (!(size > 0)) {
     fail(fmt::format("the step to {} s is too small for the unit, whose time is a double",
                      core::to_text(to)),
@@ -268,7 +270,7 @@ core::StepResult Fmi3Unit::step(Time from, Time to) {
     rejection_reason_ = has_messages_ ? take_messages("fmi3DoStep") : "";
     return {.rejected = true, .reached = from};
   }
-  if (!early) compare_times(from, to, last_successful);
+  if (!early && last_successful != end) compare_times(from, to, last_successful);
   time_ = early ? reached_early(from, to, last_successful) : to;
   return {.early_return = early,
           .event_needed = event_needed,

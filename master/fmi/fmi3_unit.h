@@ -104,6 +104,8 @@ class Fmi3Unit : public core::Unit {
   const Functions& fmi_;
   fmi3Instance instance_ = nullptr;
   std::optional<Time> time_;
+  Time last_end_{};  ///< of a step, and the same as a double, since the next step begins there
+  double last_end_seconds_ = 0;
   const char* failed_in_ = nullptr;  ///< the FMI function after whose status nothing goes on
   bool has_time_warning_ = false;
   std::string rejection_reason_;
