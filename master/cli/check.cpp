@@ -5,20 +5,20 @@
 #include <fmt/format.h>
 
 #include "master/cli/commands.h"
-#include "master/cli/session.h"
-#include "master/cli/session_options.h"
+#include "master/cli/loaded_scenario.h"
+#include "master/cli/scenario_options.h"
 #include "master/cli/table.h"
 #include "master/core/step_order.h"
 
 namespace stride::cli {
 namespace {
 
-std::string unit_table(const Session& session) {
+std::string unit_table(const LoadedScenario& loaded) {
   Table table({{"component"}, {"unit"}, {"FMI"}, {"variables", Table::Align::Right}, {"file"}});
-  for (std::size_t i = 0; i < session.fmus().size(); ++i) {
-    const core::UnitDescription& unit = *session.fmus()[i]->description();
-    table.add({session.system().components()[i].name, unit.model_name, unit.fmi_version,
-               std::to_string(unit.variables.size()), session.fmus()[i]->path().string()});
+  for (std::size_t i = 0; i < loaded.fmus().size(); ++i) {
+    const core::UnitDescription& unit = *loaded.fmus()[i]->description();
+    table.add({loaded.system().components()[i].name, unit.model_name, unit.fmi_version,
+               std::to_string(unit.variables.size()), loaded.fmus()[i]->path().string()});
   }
   return table.text();
 }
@@ -48,16 +48,16 @@ std::string order_table(const core::System& system) {
   return table.text();
 }
 
-void check(const SessionRequest& request) {
-  const Session session(request);
-  session.instantiate();
-  const core::System& system = session.system();
-  const core::RunOptions& options = session.options();
+void check(const ScenarioRequest& request) {
+  const LoadedScenario loaded(request);
+  loaded.instantiate();
+  const core::System& system = loaded.system();
+  const core::RunOptions& options = loaded.options();
   fmt::print("{}: {} components, {} connections, {} recorded signals\n", system.name(),
              system.components().size(), system.connections().size(), options.recorded.size());
   fmt::print("from {} s to {} s in steps of {} s\n", core::to_text(options.start),
              core::to_text(options.stop), core::to_text(Time(options.step)));
-  fmt::print("\nUnits\n{}\nConnections\n{}", unit_table(session), connection_table(system));
+  fmt::print("\nUnits\n{}\nConnections\n{}", unit_table(loaded), connection_table(system));
   fmt::print("\nStep order\n{}", order_table(system));
 }
 
@@ -67,8 +67,8 @@ void add_check(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "check",
       "Load a scenario and its units, print units, connections and step order; run nothing");
-  const auto request = std::make_shared<SessionRequest>();
-  add_session_options(*command, *request);
+  const auto request = std::make_shared<ScenarioRequest>();
+  add_scenario_options(*command, *request);
   command->callback([request] { check(*request); });
 }
 

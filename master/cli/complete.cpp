@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "master/cli/commands.h"
-#include "master/cli/session.h"
+#include "master/cli/loaded_scenario.h"
 #include "master/io/output_file.h"
 
 namespace stride::cli {

@@ -8,9 +8,9 @@
 #include <spdlog/spdlog.h>
 
 #include "master/cli/commands.h"
+#include "master/cli/loaded_scenario.h"
 #include "master/cli/progress.h"
-#include "master/cli/session.h"
-#include "master/cli/session_options.h"
+#include "master/cli/scenario_options.h"
 #include "master/cli/summary.h"
 #include "master/io/csv_recorder.h"
 #include "master/io/event_recorder.h"
@@ -22,7 +22,7 @@ namespace stride::cli {
 namespace {
 
 struct Request {
-  SessionRequest session;
+  ScenarioRequest scenario;
   std::filesystem::path out;
   bool no_trace = false;
   bool quiet = false;
@@ -49,19 +49,19 @@ struct Recorders {
 };
 
 void run(const Request& request) {
-  const Session session(request.session);
-  const io::Scenario& scenario = session.scenario();
+  const LoadedScenario loaded(request.scenario);
+  const io::Scenario& scenario = loaded.scenario();
   io::ResultFiles files = scenario.annotation.results;
   if (request.no_trace) files.trace.clear();
   const std::filesystem::path folder =
       request.out.empty() ? std::filesystem::path("results") / scenario.path.stem() : request.out;
   io::make_results_folder(folder);
 
-  core::Simulation simulation(session.system(), session.instantiate(), session.options());
-  Recorders recorders(session.system(), files, folder);
+  core::Simulation simulation(loaded.system(), loaded.instantiate(), loaded.options());
+  Recorders recorders(loaded.system(), files, folder);
   recorders.add_to(simulation);
-  Summary summary(session.system());
-  Progress progress(session.options().start, session.options().stop);
+  Summary summary(loaded.system());
+  Progress progress(loaded.options().start, loaded.options().stop);
   if (!request.quiet) {
     simulation.add_observer(summary);
     simulation.add_observer(progress);
@@ -71,8 +71,8 @@ void run(const Request& request) {
 
   const auto write_statistics = [&](const std::optional<std::string>& error) {
     if (files.statistics.empty()) return;
-    io::write_run_json(folder / files.statistics, scenario.path, session.system(),
-                       session.options(), simulation.statistics(), error);
+    io::write_run_json(folder / files.statistics, scenario.path, loaded.system(), loaded.options(),
+                       simulation.statistics(), error);
   };
   try {
     simulation.run();
@@ -98,7 +98,7 @@ void run(const Request& request) {
 void add_run(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "Run a scenario and record what happens");
   const auto request = std::make_shared<Request>();
-  add_session_options(*command, request->session);
+  add_scenario_options(*command, request->scenario);
   command
       ->add_option("--out,-o", request->out,
                    "Results folder; otherwise results/ and the scenario's name")

@@ -1,6 +1,6 @@
 // A scenario with its units: what `run` and `check` have in common.
-#ifndef STRIDE_MASTER_CLI_SESSION_H
-#define STRIDE_MASTER_CLI_SESSION_H
+#ifndef STRIDE_MASTER_CLI_LOADED_SCENARIO_H
+#define STRIDE_MASTER_CLI_LOADED_SCENARIO_H
 
 #include <filesystem>
 #include <memory>
@@ -16,7 +16,7 @@
 namespace stride::cli {
 
 /// What the command line says about a scenario.
-struct SessionRequest {
+struct ScenarioRequest {
   std::filesystem::path scenario;
   std::vector<std::string> swaps;    ///< "component=FILE"
   std::vector<std::string> sets;     ///< "component.variable=value"
@@ -27,9 +27,9 @@ struct SessionRequest {
 
 /// The scenario with each component's FMU, and the system built from them. Throws core::Error
 /// (Input) for whatever is wrong with what the user gave.
-class Session {
+class LoadedScenario {
  public:
-  explicit Session(const SessionRequest& request);
+  explicit LoadedScenario(const ScenarioRequest& request);
 
   const io::Scenario& scenario() const { return scenario_; }
   const core::System& system() const { return *system_; }
@@ -44,7 +44,7 @@ class Session {
   void swap(const std::string& text);
   void set(const std::string& text);
   void load_units();
-  void choose_times(const SessionRequest& request);
+  void choose_times(const ScenarioRequest& request);
   void check_fixed_steps() const;
   std::vector<std::string> component_names() const;
 

@@ -1,10 +1,10 @@
-#include "master/cli/session_options.h"
+#include "master/cli/scenario_options.h"
 
 #include <CLI/CLI.hpp>
 
 namespace stride::cli {
 
-void add_session_options(CLI::App& command, SessionRequest& request) {
+void add_scenario_options(CLI::App& command, ScenarioRequest& request) {
   command.add_option("FILE", request.scenario, "The scenario, an SSP system file (.ssd)")
       ->required()
       ->type_name("");

@@ -1,4 +1,4 @@
-#include "master/cli/session.h"
+#include "master/cli/loaded_scenario.h"
 
 #include <algorithm>
 #include <map>
@@ -58,7 +58,8 @@ std::vector<std::shared_ptr<fmi::Fmu>> load_fmus(const io::Scenario& scenario) {
   return fmus;
 }
 
-Session::Session(const SessionRequest& request) : scenario_(io::read_scenario(request.scenario)) {
+LoadedScenario::LoadedScenario(const ScenarioRequest& request)
+    : scenario_(io::read_scenario(request.scenario)) {
   for (const std::string& text : request.swaps) swap(text);
   for (const std::string& text : request.sets) set(text);
   load_units();
@@ -72,13 +73,13 @@ Session::Session(const SessionRequest& request) : scenario_(io::read_scenario(re
   options_.recorded = io::select_signals(*system_, patterns);
 }
 
-std::vector<std::string> Session::component_names() const {
+std::vector<std::string> LoadedScenario::component_names() const {
   std::vector<std::string> names;
   for (const auto& component : scenario_.system.components) names.push_back(component.name);
   return names;
 }
 
-void Session::swap(const std::string& text) {
+void LoadedScenario::swap(const std::string& text) {
   const auto [name, file] = split("--swap", text, "component=FILE.fmu");
   if (file.empty()) core::fail_input({}, fmt::format("--swap {}: no file is named", text));
   const std::vector<std::string> names = component_names();
@@ -92,7 +93,7 @@ void Session::swap(const std::string& text) {
   scenario_.system.components[i].where = {fmt::format("--swap {}", text), 0};
 }
 
-void Session::set(const std::string& text) {
+void LoadedScenario::set(const std::string& text) {
   const auto [name, value] = split("--set", text, "component.variable=value");
   std::string owner;  // the longest name that fits: component names may contain dots
   for (const std::string& component : component_names()) {
@@ -109,14 +110,14 @@ void Session::set(const std::string& text) {
                    core::suggestion(component, component_names()));
 }
 
-void Session::load_units() {
+void LoadedScenario::load_units() {
   fmus_ = load_fmus(scenario_);
   for (std::size_t i = 0; i < fmus_.size(); ++i) {
     scenario_.system.components[i].description = fmus_[i]->description();
   }
 }
 
-void Session::choose_times(const SessionRequest& request) {
+void LoadedScenario::choose_times(const ScenarioRequest& request) {
   std::optional<Duration> unit_step;
   std::optional<Time> unit_stop;
   for (const auto& fmu : fmus_) {
@@ -153,7 +154,7 @@ void Session::choose_times(const SessionRequest& request) {
   check_fixed_steps();
 }
 
-void Session::check_fixed_steps() const {
+void LoadedScenario::check_fixed_steps() const {
   const Duration rest = (options_.stop - options_.start) % options_.step;
   if (rest == Duration{}) return;
   for (std::size_t i = 0; i < fmus_.size(); ++i) {
@@ -167,7 +168,7 @@ void Session::check_fixed_steps() const {
   }
 }
 
-std::vector<std::unique_ptr<core::Unit>> Session::instantiate() const {
+std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate() const {
   std::vector<std::unique_ptr<core::Unit>> units;
   for (std::size_t i = 0; i < fmus_.size(); ++i) {
     const auto& component = scenario_.system.components[i];

@@ -1,0 +1,17 @@
+#ifndef STRIDE_MASTER_CLI_SCENARIO_OPTIONS_H
+#define STRIDE_MASTER_CLI_SCENARIO_OPTIONS_H
+
+#include "master/cli/loaded_scenario.h"
+
+namespace CLI {
+class App;
+}
+
+namespace stride::cli {
+
+/// The options that every command on a scenario has. `request` must outlive the command line.
+void add_scenario_options(CLI::App& command, ScenarioRequest& request);
+
+}  // namespace stride::cli
+
+#endif
