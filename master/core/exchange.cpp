@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace stride::core {
@@ -14,37 +16,35 @@ bool exchanged(const System& system, VariableId id) {
   return variable.type != ValueType::Clock && !variable.is_clocked();
 }
 
-/// Adds a transfer of the variables among `ids` of this component, type and kind, if there are any.
-template <class Transfers>
-void add_transfer(Transfers& transfers, const System& system, const std::set<VariableId>& ids,
-                  std::size_t component, ValueType type, bool discrete) {
-  typename Transfers::value_type::value_type transfer{
-      ValueBlock(type, 0), discrete, ValueBlock(type, 0), true, {}, {}, {}};
+/// One transfer for the variables of a component that have this type and are discrete, or not.
+template <class Transfer>
+Transfer make_transfer(const System& system, ValueType type, bool discrete,
+                       const std::vector<VariableId>& ids) {
+  Transfer transfer{ValueBlock(type, 0), discrete, ValueBlock(type, 0), true, {}, ids, {}};
   std::size_t size = 0;
   for (const VariableId id : ids) {
-    const Variable& variable = system.variable(id);
-    const bool is_discrete = variable.variability != Variability::Continuous;
-    if (id.component != component || variable.type != type || is_discrete != discrete) continue;
-    transfer.references.push_back(variable.reference);
-    transfer.ids.push_back(id);
+    transfer.references.push_back(system.variable(id).reference);
     transfer.firsts.push_back(size);
-    size += variable.size;
+    size += system.variable(id).size;
   }
-  if (size == 0) return;
   transfer.block = transfer.delivered = ValueBlock(type, size);
-  transfers[component].push_back(std::move(transfer));
+  return transfer;
 }
 
 /// At most two transfers for each type that occurs: what is continuous, and what is discrete.
 template <class Transfers>
 void plan(Transfers& transfers, const System& system, const std::set<VariableId>& ids) {
+  using Transfer = typename Transfers::value_type::value_type;
+  std::map<std::tuple<std::size_t, ValueType, bool>, std::vector<VariableId>> groups;
+  for (const VariableId id : ids) {
+    const Variable& variable = system.variable(id);
+    const bool discrete = variable.variability != Variability::Continuous;
+    groups[{id.component, variable.type, discrete}].push_back(id);
+  }
   transfers.resize(system.components().size());
-  for (std::size_t component = 0; component < transfers.size(); ++component) {
-    for (std::size_t type = 0; type < kValueTypeCount; ++type) {
-      for (const bool discrete : {false, true}) {
-        add_transfer(transfers, system, ids, component, static_cast<ValueType>(type), discrete);
-      }
-    }
+  for (const auto& [key, members] : groups) {
+    const auto& [component, type, discrete] = key;
+    transfers[component].push_back(make_transfer<Transfer>(system, type, discrete, members));
   }
 }
 
