@@ -13,19 +13,9 @@ section() { printf '\n== %s\n' "$*"; }
 
 # build_and_test PRESET
 build_and_test() {
-  local preset=$1
   cmake --preset "$1" --log-level=WARNING -DSTRIDE_WARNINGS_AS_ERRORS=ON -DSTRIDE_BUILD_TESTS=ON
-  fixed_addresses cmake --build --preset "$1"
-  fixed_addresses ctest --preset "$1" --parallel 2
-}
-
-# GCC 12's leak sanitizer was seen to crash where the kernel randomises addresses.
-fixed_addresses() {
-  if [ "$preset" = asan ] && setarch --addr-no-randomize true 2>/dev/null; then
-    setarch --addr-no-randomize "$@"
-  else
-    "$@"
-  fi
+  cmake --build --preset "$1"
+  ctest --preset "$1" --parallel 2
 }
 
 section "Format"
