@@ -40,6 +40,15 @@ void fail_run(Context context, const std::string& message, const std::string& hi
   throw Error(Error::Kind::Run, std::move(context), message, hint);
 }
 
+std::string quoted(std::span<const std::string> names) {
+  std::string text;
+  for (const std::string& name : names) {
+    if (!text.empty()) text += ", ";
+    text += "'" + name + "'";
+  }
+  return text;
+}
+
 std::string to_text(Time time) {
   const std::int64_t ticks = time.time_since_epoch().count();
   const std::uint64_t magnitude =

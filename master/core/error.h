@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_CORE_ERROR_H
 
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -48,6 +49,9 @@ class Error : public std::runtime_error {
                              const std::string& hint = "");
 [[noreturn]] void fail_run(Context context, const std::string& message,
                            const std::string& hint = "");
+
+/// "'a', 'b'"
+std::string quoted(std::span<const std::string> names);
 
 /// The exact decimal text of a time in seconds, without trailing zeros: "14.2".
 std::string to_text(Time time);

@@ -9,16 +9,14 @@
 #include <fmt/format.h>
 
 #include "master/core/exchange.h"
-#include "master/core/messages.h"
+#include "master/core/instant.h"
 #include "master/core/stepper.h"
 
 namespace stride::core {
 namespace {
 
-using WallClock = std::chrono::steady_clock;
-
-/// Event iterations at one instant after which units are taken to tick for ever.
-constexpr std::uint32_t kEventLimit = 1000;
+/// Steps in a row that end where they began, after which a unit is taken to be stuck.
+constexpr std::uint32_t kStallLimit = 1000;
 
 }  // namespace
 
@@ -29,14 +27,11 @@ class Simulation::Run {
         units_(std::move(units)),
         options_(std::move(options)),
         exchange_(system, options_.recorded),
-        messages_(system, units_),
         statistics_{.units = std::vector<UnitStatistics>(units_.size())},
-        stepper_(system, units_, statistics_.units,
-                 {options_.step, options_.minimum_step, options_.measure_time}),
-        active_(units_.size()),
-        in_event_mode_(units_.size()),
-        polled_(units_.size()),
-        next_event_(units_.size()) {
+        clock_(options_.measure_time),
+        instant_(system, units_, exchange_, observers_, statistics_, clock_),
+        stepper_(system, units_, statistics_.units, clock_,
+                 {options_.step, options_.minimum_step}) {
     statistics_.start = statistics_.reached = options_.start;
   }
 
@@ -44,7 +39,7 @@ class Simulation::Run {
   const RunStatistics& statistics() const { return statistics_; }
 
   void run() {
-    const auto began = WallClock::now();
+    const auto began = WallClock::Source::now();
     std::exception_ptr failure;
     try {
       initialize();
@@ -53,30 +48,13 @@ class Simulation::Run {
     } catch (...) {
       failure = std::current_exception();
     }
-    statistics_.wall_time = WallClock::now() - began;
+    statistics_.wall_time = WallClock::Source::now() - began;
     finish_observers(failure);
     if (failure) std::rethrow_exception(failure);
   }
 
  private:
   std::size_t count() const { return units_.size(); }
-  const UnitDescription& description(std::size_t i) const {
-    return *system_.components()[i].description;
-  }
-
-  /// Runs the action and adds its wall-clock time to the sum.
-  template <class Action>
-  decltype(auto) timed(std::chrono::nanoseconds& sum, Action&& action) {
-    struct Adder {
-      std::chrono::nanoseconds* sum;
-      WallClock::time_point began;
-      ~Adder() {
-        if (sum != nullptr) *sum += WallClock::now() - began;
-      }
-    };
-    const Adder adder = options_.measure_time ? Adder{&sum, WallClock::now()} : Adder{nullptr, {}};
-    return action();
-  }
 
   /// All are told, also where one of them fails; the first failure is kept.
   void finish_observers(std::exception_ptr& failure) {
@@ -95,16 +73,17 @@ class Simulation::Run {
       units_[start.id.component]->set({&system_.variable(start.id).reference, 1}, start.value);
     }
     for (std::size_t i = 0; i < count(); ++i) {
-      timed(statistics_.units[i].initialization_time,
-            [&] { units_[i]->enter_initialization(options_.start, options_.stop); });
+      clock_.timed(statistics_.units[i].initialization_time,
+                   [&] { units_[i]->enter_initialization(options_.start, options_.stop); });
     }
     propagate_initial_values();
     for (std::size_t i = 0; i < count(); ++i) {
-      timed(statistics_.units[i].initialization_time, [&] { units_[i]->exit_initialization(); });
-      active_[i] = in_event_mode_[i] = description(i).has_event_mode;
+      clock_.timed(statistics_.units[i].initialization_time,
+                   [&] { units_[i]->exit_initialization(); });
     }
     start_observers();
-    settle();
+    instant_.begin();
+    instant_.settle(time_);
     for (Observer* observer : observers_) observer->on_communication_point(time_);
   }
 
@@ -114,20 +93,19 @@ class Simulation::Run {
     std::vector<VariableId> changed;
     for (std::size_t pass = 0; pass <= system_.connections().size() + 1; ++pass) {
       for (std::size_t i = 0; i < count(); ++i) {
-        timed(statistics_.units[i].initialization_time, [&] { exchange_.fetch(i, *units_[i]); });
+        clock_.timed(statistics_.units[i].initialization_time,
+                     [&] { exchange_.fetch(i, *units_[i]); });
       }
       changed = exchange_.route_and_compare();
       if (changed.empty() && pass > 0) return exchange_.check_nan(time_);
       for (std::size_t i = 0; i < count(); ++i) exchange_.deliver(i, *units_[i]);
     }
-    std::string names;
-    for (const VariableId id : changed) {
-      names += (names.empty() ? "'" : ", '") + system_.full_name(id) + "'";
-    }
+    std::vector<std::string> names;
+    for (const VariableId id : changed) names.push_back(system_.full_name(id));
     fail_run({{}, {}, {}, time_},
              fmt::format("the initial values do not settle: units feed each other in an algebraic "
                          "loop, through the inputs {}",
-                         names),
+                         quoted(names)),
              "give one of the units in the loop an output that does not depend on its input");
   }
 
@@ -144,9 +122,9 @@ class Simulation::Run {
     for (std::size_t i = 0; i < count(); ++i) {
       const StepResult& result = stepper_.result(i);
       statistics_.terminated_by_unit |= result.terminate;
-      active_[i] = result.event_needed || (next_event_[i] && *next_event_[i] <= time_);
+      if (result.event_needed) instant_.request_event(i);
     }
-    settle();
+    instant_.settle(time_);
     ++statistics_.communication_steps;
     statistics_.reached = time_;
     for (Observer* observer : observers_) observer->on_communication_point(time_);
@@ -157,147 +135,34 @@ class Simulation::Run {
     Time target = options_.stop;
     const Duration since = (time_ - options_.start) % options_.step;
     if (options_.stop - time_ > options_.step - since) target = time_ + (options_.step - since);
-    for (const std::optional<Time>& event : next_event_) {
-      if (event && *event > time_) target = std::min(target, *event);
-    }
-    return target;
+    return std::min(target, instant_.next_event(time_).value_or(target));
   }
 
   void note_progress(Time reached) {
     stalled_steps_ = reached > time_ ? 0 : stalled_steps_ + 1;
-    if (stalled_steps_ < kEventLimit) return;
-    std::string names;
+    if (stalled_steps_ < kStallLimit) return;
+    std::vector<std::string> names;
     for (std::size_t i = 0; i < count(); ++i) {
-      if (stepper_.result(i).early_return) add_name(names, i);
+      if (stepper_.result(i).early_return) names.push_back(system_.components()[i].name);
     }
     fail_run(
         {{}, {}, {}, time_},
         fmt::format("{} steps in a row ended where they began, because these units stopped: {}",
-                    kEventLimit, names));
-  }
-
-  /// Exchanges values and handles events at the present instant until nothing wants another round.
-  /// `active_` says who has an event; at the start the units are in Event Mode already.
-  void settle() {
-    for (std::size_t i = 0; i < count(); ++i) exchange_.fetch(i, *units_[i]);
-    route();
-    for (std::uint32_t index = 0; prepare_events(); ++index) {
-      if (index == kEventLimit) fail_ticking();
-      event_iteration(index);
-      for (std::size_t i = 0; i < count(); ++i) {
-        if (in_event_mode_[i]) exchange_.fetch(i, *units_[i]);
-      }
-      route();
-    }
-    for (std::size_t i = 0; i < count(); ++i) {
-      if (!in_event_mode_[i]) continue;
-      units_[i]->enter_step_mode();
-      in_event_mode_[i] = false;
-    }
-  }
-
-  void route() {
-    exchange_.check_nan(time_);
-    exchange_.route();
-  }
-
-  /// Delivers all inputs; units that have an event, or an input that changes discretely, are in
-  /// Event Mode then. Tells whether there are any.
-  bool prepare_events() {
-    bool any = false;
-    for (std::size_t i = 0; i < count(); ++i) {
-      if (exchange_.has_discrete_change(i) && description(i).has_event_mode) active_[i] = true;
-      if (active_[i]) enter_event_mode(i);
-      any |= static_cast<bool>(active_[i]);
-      exchange_.deliver(i, *units_[i]);
-    }
-    return any;
-  }
-
-  void enter_event_mode(std::size_t i) {
-    if (in_event_mode_[i]) return;
-    units_[i]->enter_event_mode();
-    in_event_mode_[i] = true;
-  }
-
-  /// One super-dense instant: messages, then the units' discrete states. Leaves in `active_` who
-  /// wants another.
-  void event_iteration(std::uint32_t index) {
-    ++statistics_.event_iterations;
-    exchange_messages(index);
-    for (std::size_t i = 0; i < count(); ++i) {
-      if (!in_event_mode_[i]) continue;
-      const EventResult result = timed(statistics_.units[i].event_time,
-                                       [&] { return units_[i]->update_discrete_states(); });
-      ++statistics_.units[i].events;
-      statistics_.terminated_by_unit |= result.terminate;
-      next_event_[i] = result.next_event;
-      active_[i] = result.iterate;
-    }
-  }
-
-  /// A clock that is set may make the receiver's own clocks tick at once, so receivers are asked
-  /// again.
-  void exchange_messages(std::uint32_t index) {
-    messages_.begin_instant();
-    polled_ = in_event_mode_;
-    for (bool again = true; again;) {
-      again = false;
-      for (std::size_t i = 0; i < count(); ++i) {
-        if (!polled_[i]) continue;
-        polled_[i] = false;
-        again = true;
-        transmit(i, index);
-      }
-    }
-  }
-
-  void transmit(std::size_t sender, std::uint32_t index) {
-    messages_.transmit(
-        sender,
-        [&](std::size_t receiver) {
-          enter_event_mode(receiver);
-          polled_[receiver] = true;
-        },
-        [&](VariableId id, bool received, const ValueBlock* block) {
-          UnitStatistics& statistics = statistics_.units[id.component];
-          ++(received ? statistics.messages_received : statistics.messages_sent);
-          const Message message{time_, index, id, received, block, 0};
-          for (Observer* observer : observers_) observer->on_message(message);
-        });
-  }
-
-  void add_name(std::string& names, std::size_t i) const {
-    names += (names.empty() ? "'" : ", '") + system_.components()[i].name + "'";
-  }
-
-  [[noreturn]] void fail_ticking() const {
-    std::string names;
-    for (std::size_t i = 0; i < count(); ++i) {
-      if (active_[i]) add_name(names, i);
-    }
-    fail_run({{}, {}, {}, time_},
-             fmt::format("after {} event iterations at one instant these units still want another: "
-                         "{}",
-                         kEventLimit, names),
-             "look for messages that answer each other without any delay");
+                    kStallLimit, quoted(names)));
   }
 
   const System& system_;
   std::vector<std::unique_ptr<Unit>> units_;
   RunOptions options_;
   Exchange exchange_;
-  MessageExchange messages_;
   std::vector<Observer*> observers_;
   RunStatistics statistics_;
+  WallClock clock_;
+  Instant instant_;
   Stepper stepper_;
 
   Time time_{};
   std::uint32_t stalled_steps_ = 0;
-  std::vector<char> active_;  ///< wants the next event iteration
-  std::vector<char> in_event_mode_;
-  std::vector<char> polled_;  ///< its output clocks are to be read
-  std::vector<std::optional<Time>> next_event_;
 };
 
 Simulation::Simulation(const System& system, std::vector<std::unique_ptr<Unit>> units,

@@ -12,10 +12,11 @@ std::string times(std::uint64_t count) {
 }  // namespace
 
 Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                 std::vector<UnitStatistics>& statistics, Options options)
+                 std::vector<UnitStatistics>& statistics, WallClock clock, Options options)
     : system_(system),
       units_(units),
       statistics_(statistics),
+      clock_(clock),
       options_(options),
       order_(step_order(system)),
       results_(units.size()) {}
@@ -58,9 +59,8 @@ Time Stepper::step_all(Time from, Time target) {
 bool Stepper::step(const StepPlace& place, Time from, Time target) {
   const std::size_t i = place.component;
   if (!place.can_vary_step && target - from != options_.regular) fail_size(place, from, target);
-  const auto began = options_.measure_time ? Clock::now() : Clock::time_point{};
-  const StepResult result = units_[i]->step(from, target);
-  if (options_.measure_time) statistics_[i].step_time += Clock::now() - began;
+  const StepResult result =
+      clock_.timed(statistics_[i].step_time, [&] { return units_[i]->step(from, target); });
   if (result.rejected) return false;
   ++statistics_[i].steps;
   results_[i] = result;

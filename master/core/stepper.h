@@ -2,7 +2,6 @@
 #ifndef STRIDE_MASTER_CORE_STEPPER_H
 #define STRIDE_MASTER_CORE_STEPPER_H
 
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -14,6 +13,7 @@
 #include "master/core/step_order.h"
 #include "master/core/system.h"
 #include "master/core/unit.h"
+#include "master/core/wall_clock.h"
 
 namespace stride::core {
 
@@ -23,14 +23,13 @@ namespace stride::core {
 class Stepper {
  public:
   struct Options {
-    Duration regular{};        ///< the size that units which cannot vary theirs must be given
-    Duration minimum{};        ///< a shorter step than this is not asked for after a rejection
-    bool measure_time = true;  ///< wall-clock time of each unit's steps
+    Duration regular{};  ///< the size that units which cannot vary theirs must be given
+    Duration minimum{};  ///< a shorter step than this is not asked for after a rejection
   };
 
   /// `units` in the order of system.components(). Throws Error as step_order() does.
   Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units,
-          std::vector<UnitStatistics>& statistics, Options options);
+          std::vector<UnitStatistics>& statistics, WallClock clock, Options options);
 
   const std::vector<StepPlace>& order() const { return order_; }
 
@@ -43,8 +42,6 @@ class Stepper {
   const StepResult& result(std::size_t component) const { return results_[component]; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   void save(Time from);
   Time step_all(Time from, Time target);
   bool step(const StepPlace& place, Time from, Time target);
@@ -56,6 +53,7 @@ class Stepper {
   const System& system_;
   std::span<const std::unique_ptr<Unit>> units_;
   std::vector<UnitStatistics>& statistics_;
+  WallClock clock_;
   Options options_;
   std::vector<StepPlace> order_;
   std::vector<StepResult> results_;

@@ -1,0 +1,147 @@
+#include "master/core/instant.h"
+
+#include <fmt/format.h>
+
+namespace stride::core {
+namespace {
+
+/// Event iterations at one instant after which units are taken to tick for ever.
+constexpr std::uint32_t kEventLimit = 1000;
+
+}  // namespace
+
+Instant::Instant(const System& system, std::span<const std::unique_ptr<Unit>> units,
+                 Exchange& exchange, std::vector<Observer*>& observers, RunStatistics& statistics,
+                 WallClock clock)
+    : system_(system),
+      units_(units),
+      exchange_(exchange),
+      messages_(system, units),
+      observers_(observers),
+      statistics_(statistics),
+      clock_(clock),
+      active_(units.size()),
+      in_event_mode_(units.size()),
+      polled_(units.size()),
+      next_event_(units.size()) {}
+
+void Instant::begin() {
+  for (std::size_t i = 0; i < count(); ++i) {
+    active_[i] = in_event_mode_[i] = description(i).has_event_mode;
+  }
+}
+
+std::optional<Time> Instant::next_event(Time time) const {
+  std::optional<Time> next;
+  for (const std::optional<Time>& event : next_event_) {
+    if (event && *event > time && (!next || *event < *next)) next = event;
+  }
+  return next;
+}
+
+void Instant::settle(Time time) {
+  time_ = time;
+  for (std::size_t i = 0; i < count(); ++i) {
+    if (next_event_[i] && *next_event_[i] <= time) active_[i] = true;
+  }
+  for (std::size_t i = 0; i < count(); ++i) exchange_.fetch(i, *units_[i]);
+  route();
+  for (std::uint32_t index = 0; prepare_events(); ++index) {
+    if (index == kEventLimit) fail_ticking();
+    event_iteration(index);
+    for (std::size_t i = 0; i < count(); ++i) {
+      if (in_event_mode_[i]) exchange_.fetch(i, *units_[i]);
+    }
+    route();
+  }
+  for (std::size_t i = 0; i < count(); ++i) {
+    if (!in_event_mode_[i]) continue;
+    units_[i]->enter_step_mode();
+    in_event_mode_[i] = false;
+  }
+}
+
+void Instant::route() {
+  exchange_.check_nan(time_);
+  exchange_.route();
+}
+
+/// Delivers all inputs; units that have an event, or an input that changes discretely, are in
+/// Event Mode then. Tells whether there are any.
+bool Instant::prepare_events() {
+  bool any = false;
+  for (std::size_t i = 0; i < count(); ++i) {
+    if (exchange_.has_discrete_change(i) && description(i).has_event_mode) active_[i] = true;
+    if (active_[i]) enter_event_mode(i);
+    any |= static_cast<bool>(active_[i]);
+    exchange_.deliver(i, *units_[i]);
+  }
+  return any;
+}
+
+void Instant::enter_event_mode(std::size_t i) {
+  if (in_event_mode_[i]) return;
+  units_[i]->enter_event_mode();
+  in_event_mode_[i] = true;
+}
+
+/// One super-dense instant: messages, then the units' discrete states. Leaves in `active_` who
+/// wants another.
+void Instant::event_iteration(std::uint32_t index) {
+  ++statistics_.event_iterations;
+  exchange_messages(index);
+  for (std::size_t i = 0; i < count(); ++i) {
+    if (!in_event_mode_[i]) continue;
+    const EventResult result = clock_.timed(statistics_.units[i].event_time,
+                                            [&] { return units_[i]->update_discrete_states(); });
+    ++statistics_.units[i].events;
+    statistics_.terminated_by_unit |= result.terminate;
+    next_event_[i] = result.next_event;
+    active_[i] = result.iterate;
+  }
+}
+
+/// A clock that is set may make the receiver's own clocks tick at once, so receivers are asked
+/// again.
+void Instant::exchange_messages(std::uint32_t index) {
+  messages_.begin_instant();
+  polled_ = in_event_mode_;
+  for (bool again = true; again;) {
+    again = false;
+    for (std::size_t i = 0; i < count(); ++i) {
+      if (!polled_[i]) continue;
+      polled_[i] = false;
+      again = true;
+      transmit(i, index);
+    }
+  }
+}
+
+void Instant::transmit(std::size_t sender, std::uint32_t index) {
+  messages_.transmit(
+      sender,
+      [&](std::size_t receiver) {
+        enter_event_mode(receiver);
+        polled_[receiver] = true;
+      },
+      [&](VariableId id, bool received, const ValueBlock* block) {
+        UnitStatistics& statistics = statistics_.units[id.component];
+        ++(received ? statistics.messages_received : statistics.messages_sent);
+        const Message message{time_, index, id, received, block, 0};
+        for (Observer* observer : observers_) observer->on_message(message);
+      });
+}
+
+void Instant::fail_ticking() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < count(); ++i) {
+    if (active_[i]) names.push_back(system_.components()[i].name);
+  }
+  fail_run({{}, {}, {}, time_},
+           fmt::format("after {} event iterations at one instant these units still want another: "
+                       "{}",
+                       kEventLimit, quoted(names)),
+           "look for messages that answer each other without any delay");
+}
+
+}  // namespace stride::core

@@ -1,0 +1,74 @@
+// One instant of a run: values are exchanged and events handled until nothing wants another round.
+#ifndef STRIDE_MASTER_CORE_INSTANT_H
+#define STRIDE_MASTER_CORE_INSTANT_H
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/core/exchange.h"
+#include "master/core/messages.h"
+#include "master/core/observer.h"
+#include "master/core/statistics.h"
+#include "master/core/system.h"
+#include "master/core/unit.h"
+#include "master/core/wall_clock.h"
+
+namespace stride::core {
+
+/// What the units do between two communication steps, and who has an event when.
+class Instant {
+ public:
+  /// `units` in the order of system.components(); `observers` hear of the messages. All of them
+  /// must outlive this object.
+  Instant(const System& system, std::span<const std::unique_ptr<Unit>> units, Exchange& exchange,
+          std::vector<Observer*>& observers, RunStatistics& statistics, WallClock clock);
+
+  /// Initialization Mode is over: the units with Event Mode stand in it, and each handles one event
+  /// at least.
+  void begin();
+  /// The unit has an event at the next settle(), beside those whose announced time has come.
+  void request_event(std::size_t component) { active_[component] = true; }
+  /// Exchanges values and handles events until nothing wants another round. Leaves the units in
+  /// Step Mode. Throws Error (Run) where a connected output is NaN, or units tick for ever.
+  void settle(Time time);
+
+  /// The earliest event announced for later than `time`.
+  std::optional<Time> next_event(Time time) const;
+
+ private:
+  std::size_t count() const { return units_.size(); }
+  const UnitDescription& description(std::size_t i) const {
+    return *system_.components()[i].description;
+  }
+  void route();
+  bool prepare_events();
+  void enter_event_mode(std::size_t i);
+  void event_iteration(std::uint32_t index);
+  void exchange_messages(std::uint32_t index);
+  void transmit(std::size_t sender, std::uint32_t index);
+  [[noreturn]] void fail_ticking() const;
+
+  const System& system_;
+  std::span<const std::unique_ptr<Unit>> units_;
+  Exchange& exchange_;
+  MessageExchange messages_;
+  std::vector<Observer*>& observers_;
+  RunStatistics& statistics_;
+  WallClock clock_;
+
+  Time time_{};
+  std::vector<char> active_;  ///< wants the next event iteration
+  std::vector<char> in_event_mode_;
+  std::vector<char> polled_;  ///< its output clocks are to be read
+  std::vector<std::optional<Time>> next_event_;
+};
+
+}  // namespace stride::core
+
+#endif
