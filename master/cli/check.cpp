@@ -40,10 +40,12 @@ std::string connection_table(const core::System& system) {
 }
 
 std::string order_table(const core::System& system) {
-  Table table({{"", Table::Align::Right}, {"component"}, {"why here"}});
+  Table table(
+      {{"", Table::Align::Right}, {"stage", Table::Align::Right}, {"component"}, {"why here"}});
   for (const core::StepPlace& place : core::step_order(system)) {
     const std::string number = std::to_string(table.size() + 1);
-    table.add({number, system.components()[place.component].name, place.reason});
+    table.add({number, std::to_string(place.stage + 1), system.components()[place.component].name,
+               place.reason});
   }
   return table.text();
 }

@@ -31,7 +31,7 @@ class Simulation::Run {
         clock_(options_.measure_time),
         instant_(system, units_, exchange_, observers_, statistics_, clock_),
         stepper_(system, units_, statistics_.units, clock_,
-                 {options_.step, options_.minimum_step}) {
+                 {options_.step, options_.minimum_step, options_.threads}) {
     statistics_.start = statistics_.reached = options_.start;
   }
 
@@ -126,6 +126,7 @@ class Simulation::Run {
     }
     instant_.settle(time_);
     ++statistics_.communication_steps;
+    statistics_.parallel_steps += stepper_.was_parallel();
     statistics_.reached = time_;
     for (Observer* observer : observers_) observer->on_communication_point(time_);
   }

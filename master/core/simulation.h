@@ -11,6 +11,7 @@
 #include "master/core/statistics.h"
 #include "master/core/system.h"
 #include "master/core/unit.h"
+#include "master/core/work_split.h"
 
 namespace stride::core {
 
@@ -22,6 +23,7 @@ struct RunOptions {
   Duration minimum_step =
       std::chrono::nanoseconds(1);   ///< no shorter one is tried after a rejection
   std::vector<VariableId> recorded;  ///< what the observers see, in this order
+  ThreadOptions threads{};
   bool measure_time = true;  ///< wall-clock time per unit; costs two clock readings a unit step
 };
 

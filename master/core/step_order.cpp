@@ -43,6 +43,19 @@ void check_single(const System& system, const std::vector<StepPlace>& order) {
              "use a unit that can save its state (canGetAndSetFMUState) in place of one of them");
 }
 
+void form_stages(const System& system, std::vector<StepPlace>& order) {
+  std::size_t stage = 0;
+  bool stage_may_stop = false;
+  for (StepPlace& place : order) {
+    if (place.role != StepRole::CanRollBack && stage_may_stop) {
+      ++stage;
+      stage_may_stop = false;
+    }
+    place.stage = stage;
+    stage_may_stop |= may_stop(*system.components()[place.component].description);
+  }
+}
+
 }  // namespace
 
 std::vector<StepPlace> step_order(const System& system) {
@@ -56,7 +69,7 @@ std::vector<StepPlace> step_order(const System& system) {
       another_may_stop |= k != i && may_stop(*components[k].description);
     }
     const bool saves_state = role == StepRole::CanRollBack && another_may_stop;
-    order.push_back({i, role, unit.can_vary_step, saves_state, reason(unit, role, saves_state)});
+    order.push_back({i, role, unit.can_vary_step, saves_state, reason(unit, role, saves_state), 0});
   }
   std::stable_sort(order.begin(), order.end(), [&](const StepPlace& a, const StepPlace& b) {
     if (a.role != b.role) return a.role < b.role;
@@ -66,6 +79,7 @@ std::vector<StepPlace> step_order(const System& system) {
            !components[b.component].description->may_reject;
   });
   check_single(system, order);
+  form_stages(system, order);
   return order;
 }
 

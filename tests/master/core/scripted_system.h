@@ -19,6 +19,7 @@ struct ScriptedSystem {
   std::vector<std::unique_ptr<Unit>> units;
   std::unique_ptr<System> system;
   std::unique_ptr<Simulation> simulation;
+  ThreadOptions threads{};
 
   ScriptedUnit& add(const std::string& name, std::shared_ptr<const UnitDescription> description) {
     declaration.components.push_back({name, description, {}, {}});
@@ -37,6 +38,7 @@ struct ScriptedSystem {
     options.stop = time_from_seconds(stop);
     options.step = step;
     options.recorded = std::move(recorded);
+    options.threads = threads;
     simulation = std::make_unique<Simulation>(*system, std::move(units), options);
     return *simulation;
   }

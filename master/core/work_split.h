@@ -1,0 +1,104 @@
+// Which units step on which thread, and whether threads pay at all.
+#ifndef STRIDE_MASTER_CORE_WORK_SPLIT_H
+#define STRIDE_MASTER_CORE_WORK_SPLIT_H
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace stride::core {
+
+/// On how many threads a run may step its units. Changes the speed of a run, never its results.
+struct ThreadOptions {
+  std::size_t count = 1;  ///< the thread that runs the simulation included
+  /// Components, by their places in System::components(), that step on that thread only, as for
+  /// units that must not run beside each other.
+  std::vector<std::size_t> main_only{};
+  /// Threads are used from the first step on, whether they pay or not: for tests.
+  bool always = false;
+};
+
+/// The units of one thread, by their places in the step order, in that order.
+using WorkShare = std::vector<std::size_t>;
+
+/// Shares out `places` among at most `threads` threads, so that the longest share is short: units
+/// that are bound to the first thread, then the others, the dearest first, each to the thread that
+/// has least to do (Graham, "Bounds on Multiprocessing Timing Anomalies", 1969). Equal costs are
+/// taken in the order of the places. `costs` and `main_only` are indexed by place.
+std::vector<WorkShare> share_out(std::span<const std::size_t> places,
+                                 std::span<const std::chrono::nanoseconds> costs,
+                                 std::span<const char> main_only, std::size_t threads);
+
+/// Watches communication steps and decides how the next ones are made. At first all units step one
+/// after another and are measured. Where the gain that the shares promise is well above the cost of
+/// a hand-over, some steps are made on threads, and if they are faster, all those that follow are.
+/// The measurement is repeated now and then, less often where threads did not pay.
+///
+/// For each communication step: shares() for each stage, note_cost() for each unit while
+/// is_measuring(), then end_step(). Used by one thread.
+class WorkSplit {
+ public:
+  using Nanoseconds = std::chrono::nanoseconds;
+
+  struct Plan {
+    std::vector<std::vector<std::size_t>> stages;  ///< places in the step order that step together
+    std::vector<char> main_only;                   ///< by place
+    std::size_t threads = 1;
+    bool always = false;
+    /// Measures a hand-over; called only where the shares promise a gain that could pay for it.
+    std::function<Nanoseconds()> hand_over;
+  };
+
+  /// Units measured, and steps tried on threads, before a decision; fewer where they take long.
+  static constexpr std::size_t kWindow = 16;
+  /// Communication steps after which a decision is looked at again.
+  static constexpr std::uint64_t kPatience = 4096;
+
+  explicit WorkSplit(Plan plan);
+
+  std::size_t threads() const { return plan_.threads; }
+  /// Whether there is a choice at all. If not, only shares() need be called.
+  bool is_adaptive() const { return phase_ != Phase::Fixed; }
+  /// Whether this communication step is made by one thread, to note what each unit costs.
+  bool is_measuring() const { return phase_ == Phase::Measuring; }
+  /// Whether any stage of this communication step is made on several threads.
+  bool is_parallel() const { return parallel_; }
+
+  /// How the stage is made: one share for each thread, or none if its units step one after another.
+  std::span<const WorkShare> shares(std::size_t stage) const {
+    return parallel_ ? std::span<const WorkShare>(shares_[stage]) : std::span<const WorkShare>();
+  }
+
+  void note_cost(std::size_t place, Nanoseconds cost) { costs_[place] += cost; }
+  /// The communication step is over; stepping its units took that long.
+  void end_step(Nanoseconds elapsed);
+
+ private:
+  enum class Phase { Fixed, Measuring, Trying, Settled };
+
+  void enter(Phase phase, bool parallel);
+  bool is_window_full() const;
+  void keep_sample(Nanoseconds elapsed);
+  void decide();
+  bool promises_gain();
+  void settle(bool parallel);
+
+  Plan plan_;
+  Phase phase_ = Phase::Fixed;
+  bool parallel_ = false;
+  std::vector<std::vector<WorkShare>> shares_;  ///< by stage; empty where threads do not pay
+  std::vector<Nanoseconds> costs_;              ///< by place, of the present communication step
+  std::vector<std::vector<Nanoseconds>> cost_samples_;  ///< by place
+  std::vector<Nanoseconds> samples_;                    ///< of whole communication steps
+  Nanoseconds window_time_{};
+  Nanoseconds serial_time_{};  ///< of a communication step, when it was last measured
+  std::uint64_t patience_ = kPatience;
+  std::uint64_t steps_left_ = 0;  ///< until the next measurement
+};
+
+}  // namespace stride::core
+
+#endif
