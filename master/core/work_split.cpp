@@ -14,10 +14,9 @@ constexpr Nanoseconds kLeastHandOver{300};
 constexpr int kMargin = 2;
 /// Of the serial time; threads that do not come below it are not worth having.
 constexpr double kWorthwhile = 0.95;
-/// Units that take longer than this together are not measured for a whole window.
-constexpr std::chrono::milliseconds kLongWindow{20};
-constexpr std::size_t kFewestSamples = 3;
-constexpr std::uint64_t kMostPatience = 64 * WorkSplit::kPatience;
+/// Units that take longer than this together are not measured as often as others.
+constexpr std::chrono::milliseconds kLongMeasurement{20};
+constexpr std::uint64_t kFewestMeasured = 3;
 
 Nanoseconds median(std::vector<Nanoseconds>& samples) {
   const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
@@ -66,7 +65,7 @@ WorkSplit::WorkSplit(Plan plan)
     : plan_(std::move(plan)),
       shares_(plan_.stages.size()),
       costs_(plan_.main_only.size(), Nanoseconds(1)),
-      cost_samples_(plan_.main_only.size()) {
+      samples_(plan_.main_only.size()) {
   for (std::size_t stage = 0; stage < shares_.size(); ++stage) {
     shares_[stage] = share_out(plan_.stages[stage], costs_, plan_.main_only, plan_.threads);
     if (shares_[stage].size() < 2) shares_[stage].clear();
@@ -77,53 +76,72 @@ WorkSplit::WorkSplit(Plan plan)
   if (plan_.always) {
     parallel_ = true;
   } else {
-    enter(Phase::Measuring, false);
+    begin_measuring();
   }
 }
 
-void WorkSplit::enter(Phase phase, bool parallel) {
-  phase_ = phase;
-  parallel_ = parallel;
-  samples_.clear();
-  window_time_ = {};
-  for (auto& samples : cost_samples_) samples.clear();
+void WorkSplit::begin_measuring() {
+  phase_ = Phase::Measuring;
+  parallel_ = false;
+  steps_ = 0;
+  turn_pace_ = {};
+  for (auto& samples : samples_) samples.clear();
   std::fill(costs_.begin(), costs_.end(), Nanoseconds{});
+}
+
+void WorkSplit::begin_turn(std::size_t turn) {
+  phase_ = Phase::Racing;
+  parallel_ = turn % 2 == 1;
+  turn_ = turn;
+  turn_pace_ = {};
+}
+
+void WorkSplit::settle(bool parallel) {
+  phase_ = Phase::Settled;
+  parallel_ = parallel;
+  patience_ = parallel ? kPatience : std::min(2 * patience_, kMostPatience);
+  steps_ *= patience_;
 }
 
 void WorkSplit::end_step(Nanoseconds elapsed) {
   if (phase_ == Phase::Settled) {
-    if (--steps_left_ == 0) enter(Phase::Measuring, false);
+    if (--steps_ == 0) begin_measuring();
     return;
   }
-  keep_sample(elapsed);
-  if (!is_window_full()) return;
-  if (phase_ == Phase::Measuring) {
-    decide();
-  } else {
-    settle(median(samples_) < kWorthwhile * serial_time_);
-  }
+  ++steps_;
+  turn_pace_.time += elapsed;
+  ++turn_pace_.steps;
+  phase_ == Phase::Measuring ? measure() : race();
 }
 
-void WorkSplit::keep_sample(Nanoseconds elapsed) {
-  samples_.push_back(elapsed);
-  window_time_ += elapsed;
-  if (phase_ != Phase::Measuring) return;
+void WorkSplit::measure() {
   for (std::size_t place = 0; place < costs_.size(); ++place) {
-    cost_samples_[place].push_back(std::exchange(costs_[place], Nanoseconds{}));
+    samples_[place].push_back(std::exchange(costs_[place], Nanoseconds{}));
   }
-}
-
-bool WorkSplit::is_window_full() const {
-  return samples_.size() == kWindow ||
-         (window_time_ >= kLongWindow && samples_.size() >= kFewestSamples);
-}
-
-void WorkSplit::decide() {
-  serial_time_ = median(samples_);
+  const bool is_long = turn_pace_.time >= kLongMeasurement && turn_pace_.steps >= kFewestMeasured;
+  if (turn_pace_.steps < kMeasured && !is_long) return;
   for (std::size_t place = 0; place < costs_.size(); ++place) {
-    costs_[place] = median(cost_samples_[place]);
+    costs_[place] = median(samples_[place]);
   }
-  promises_gain() ? enter(Phase::Trying, true) : settle(false);
+  if (!promises_gain()) return settle(false);
+  paces_[0] = paces_[1] = {};
+  begin_turn(0);
+}
+
+void WorkSplit::race() {
+  if (turn_pace_.time < kTurn) return;
+  Pace& pace = paces_[parallel_];
+  pace.time += turn_pace_.time;
+  pace.steps += turn_pace_.steps;
+  if (turn_ + 1 < kTurns) return begin_turn(turn_ + 1);
+  settle(is_parallel_faster());
+}
+
+bool WorkSplit::is_parallel_faster() const {
+  const auto mean = [](const Pace& pace) {
+    return static_cast<double>(pace.time.count()) / static_cast<double>(pace.steps);
+  };
+  return mean(paces_[1]) < kWorthwhile * mean(paces_[0]);
 }
 
 /// Shares the stages out by the units' costs; those where threads cannot pay get no shares.
@@ -146,12 +164,6 @@ bool WorkSplit::promises_gain() {
     }
   }
   return any;
-}
-
-void WorkSplit::settle(bool parallel) {
-  patience_ = parallel ? kPatience : std::min(2 * patience_, kMostPatience);
-  steps_left_ = patience_;
-  enter(Phase::Settled, parallel);
 }
 
 }  // namespace stride::core

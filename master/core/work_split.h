@@ -34,8 +34,11 @@ std::vector<WorkShare> share_out(std::span<const std::size_t> places,
 
 /// Watches communication steps and decides how the next ones are made. At first all units step one
 /// after another and are measured. Where the gain that the shares promise is well above the cost of
-/// a hand-over, some steps are made on threads, and if they are faster, all those that follow are.
-/// The measurement is repeated now and then, less often where threads did not pay.
+/// a hand-over, the two ways race: they take turns for some steps each, and the faster one is kept.
+/// All of it is repeated now and then, less often where threads did not pay.
+///
+/// The race is what counts, for only it knows of units that wait for each other's lock, of memory
+/// that is shared, and of other programs that want the cores.
 ///
 /// For each communication step: shares() for each stage, note_cost() for each unit while
 /// is_measuring(), then end_step(). Used by one thread.
@@ -52,10 +55,15 @@ class WorkSplit {
     std::function<Nanoseconds()> hand_over;
   };
 
-  /// Units measured, and steps tried on threads, before a decision; fewer where they take long.
-  static constexpr std::size_t kWindow = 16;
-  /// Communication steps after which a decision is looked at again.
-  static constexpr std::uint64_t kPatience = 4096;
+  /// Communication steps in which units are measured; fewer where they take long.
+  static constexpr std::size_t kMeasured = 16;
+  /// Turns of a race, every second one on threads, and how long one of them takes at least.
+  static constexpr std::size_t kTurns = 8;
+  static constexpr Nanoseconds kTurn = std::chrono::microseconds(2500);
+  /// A decision holds for so many times the communication steps that it took. Each time that it
+  /// goes against threads it holds twice as long as before, up to the second number.
+  static constexpr std::uint64_t kPatience = 64;
+  static constexpr std::uint64_t kMostPatience = 4096;
 
   explicit WorkSplit(Plan plan);
 
@@ -77,26 +85,32 @@ class WorkSplit {
   void end_step(Nanoseconds elapsed);
 
  private:
-  enum class Phase { Fixed, Measuring, Trying, Settled };
+  enum class Phase { Fixed, Measuring, Racing, Settled };
 
-  void enter(Phase phase, bool parallel);
-  bool is_window_full() const;
-  void keep_sample(Nanoseconds elapsed);
-  void decide();
-  bool promises_gain();
+  struct Pace {
+    Nanoseconds time{};
+    std::uint64_t steps = 0;
+  };
+
+  void begin_measuring();
+  void begin_turn(std::size_t turn);
   void settle(bool parallel);
+  void measure();
+  void race();
+  bool promises_gain();
+  bool is_parallel_faster() const;
 
   Plan plan_;
   Phase phase_ = Phase::Fixed;
   bool parallel_ = false;
-  std::vector<std::vector<WorkShare>> shares_;  ///< by stage; empty where threads do not pay
-  std::vector<Nanoseconds> costs_;              ///< by place, of the present communication step
-  std::vector<std::vector<Nanoseconds>> cost_samples_;  ///< by place
-  std::vector<Nanoseconds> samples_;                    ///< of whole communication steps
-  Nanoseconds window_time_{};
-  Nanoseconds serial_time_{};  ///< of a communication step, when it was last measured
+  std::vector<std::vector<WorkShare>> shares_;     ///< by stage; empty where threads do not pay
+  std::vector<Nanoseconds> costs_;                 ///< by place, of the present communication step
+  std::vector<std::vector<Nanoseconds>> samples_;  ///< by place
+  std::size_t turn_ = 0;
+  Pace turn_pace_;           ///< of the present turn, or while measuring
+  Pace paces_[2]{};          ///< of all turns: one after another, on threads
+  std::uint64_t steps_ = 0;  ///< that the present decision has taken, or until the next one
   std::uint64_t patience_ = kPatience;
-  std::uint64_t steps_left_ = 0;  ///< until the next measurement
 };
 
 }  // namespace stride::core

@@ -26,6 +26,7 @@ struct Trace : Observer {
   std::vector<std::uint64_t> words;
   std::vector<Signal> signals;
   std::set<std::thread::id> threads;
+  std::uint64_t rollbacks = 0;
 
   void on_start(std::span<const Signal> all) override { signals.assign(all.begin(), all.end()); }
   void on_communication_point(Time time) override {
@@ -40,6 +41,7 @@ struct Trace : Observer {
   void add(const RunStatistics& run) {
     words.insert(words.end(), {run.communication_steps, run.event_iterations});
     for (const UnitStatistics& unit : run.units) {
+      rollbacks += unit.rollbacks;
       words.insert(words.end(), {unit.steps, unit.early_returns, unit.rejections, unit.rollbacks,
                                  unit.saves, unit.events});
     }
@@ -90,7 +92,7 @@ void make_random_system(ScriptedSystem& system, unsigned seed) {
     if (stops) {
       describe.may_return_early();
       has_final_stopper |= !can_roll_back;
-      for (int k = 0; k < 30; ++k) behaviour.stops.insert(at(Duration(1us) * (random() % 50'000)));
+      for (int k = 0; k < 12; ++k) behaviour.stops.insert(at(Duration(1us) * (random() % 20'000)));
     }
     if (can_roll_back && chance(30)) {
       behaviour.rejects = 1 + random() % 1000;
@@ -121,7 +123,7 @@ Trace run_random(unsigned seed, ThreadOptions threads) {
   make_random_system(system, seed);
   system.threads = std::move(threads);
   Trace trace;
-  system.build(0.05, 1ms, all_outputs(system)).add_observer(trace);
+  system.build(0.02, 1ms, all_outputs(system)).add_observer(trace);
   system.simulation->run();
   trace.add(system.simulation->statistics());
   return trace;
@@ -150,17 +152,17 @@ StepResult pass_on(ScriptedUnit& unit, Time from, Time to) {
 }  // namespace
 
 TEST_CASE("random systems give the same bits and the same counts on any number of threads") {
-  std::size_t stops = 0;
-  for (unsigned seed = 1; seed <= 60; ++seed) {
+  std::size_t with_rollbacks = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
     const Trace serial = run_random(seed, {});
     INFO("seed " << seed);
     CHECK(run_random(seed, forced(2)).words == serial.words);
     CHECK(run_random(seed, forced(4)).words == serial.words);
     CHECK(run_random(seed, {4, {}, false}).words == serial.words);
     CHECK(run_random(seed, {3, {0, 1}, true}).words == serial.words);
-    stops += serial.words.size() > 51 * 3 ? 1 : 0;
+    with_rollbacks += serial.rollbacks > 10 ? 1 : 0;
   }
-  CHECK(stops > 30);  // the systems are no idle ones
+  CHECK(with_rollbacks > 15);
 }
 
 TEST_CASE("the units of a stage step at the same time") {

@@ -1,0 +1,122 @@
+// Serial against parallel: communication steps of units that burn a given time each, on one thread
+// and on two. What counts is the ratio, serial : parallel. Where threads cannot pay it is 1, for
+// then they are not used.
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "master/core/simulation.h"
+
+namespace {
+
+using namespace stride;
+using Wall = std::chrono::steady_clock;
+
+double burn(double value, std::int64_t rounds) {
+  for (std::int64_t i = 0; i < rounds; ++i) value = value * 0.999 + 0.001;
+  return value;
+}
+
+/// Rounds of burn() in a nanosecond, on a core that has nothing else to do: the best of many.
+double rounds_per_nanosecond() {
+  constexpr std::int64_t kRounds = 20'000;
+  auto best = Wall::duration::max();
+  for (int i = 0; i < 200; ++i) {
+    const auto began = Wall::now();
+    benchmark::DoNotOptimize(burn(static_cast<double>(i), kRounds));
+    best = std::min(best, Wall::now() - began);
+  }
+  return kRounds / std::chrono::duration<double, std::nano>(best).count();
+}
+
+/// A unit without variables whose steps take as long as they are told to.
+class BusyUnit : public core::Unit {
+ public:
+  explicit BusyUnit(std::int64_t rounds) : rounds_(rounds) {}
+
+  void enter_initialization(Time, std::optional<Time>) override {}
+  void exit_initialization() override {}
+  void get(std::span<const core::ValueReference>, core::ValueBlock&) override {}
+  void set(std::span<const core::ValueReference>, const core::ValueBlock&) override {}
+  core::StepResult step(Time, Time to) override {
+    value_ = burn(value_, rounds_);
+    benchmark::DoNotOptimize(value_);
+    return {.reached = to};
+  }
+  void save_state() override {}
+  void restore_state() override {}
+  void enter_event_mode() override {}
+  core::EventResult update_discrete_states() override { return {}; }
+  void enter_step_mode() override {}
+  void terminate() override {}
+
+ private:
+  std::int64_t rounds_;
+  double value_ = 0;
+};
+
+struct Outcome {
+  double seconds;
+  double parallel_share;  ///< of the communication steps
+};
+
+Outcome run(std::size_t units, std::int64_t rounds, std::size_t threads, int steps) {
+  const auto description = std::make_shared<core::UnitDescription>();
+  description->can_vary_step = true;
+  description->may_reject = false;
+  core::SystemDeclaration declaration;
+  std::vector<std::unique_ptr<core::Unit>> instances;
+  for (std::size_t i = 0; i < units; ++i) {
+    declaration.components.push_back({"u" + std::to_string(i), description, {}, {}});
+    instances.push_back(std::make_unique<BusyUnit>(rounds));
+  }
+  const core::System system(declaration);
+  core::RunOptions options;
+  options.step = std::chrono::milliseconds(1);
+  options.stop = Time(options.step * steps);
+  options.threads.count = threads;
+  options.measure_time = false;
+  core::Simulation simulation(system, std::move(instances), options);
+  simulation.run();
+  const core::RunStatistics& statistics = simulation.statistics();
+  return {std::chrono::duration<double>(statistics.wall_time).count(),
+          static_cast<double>(statistics.parallel_steps) / steps};
+}
+
+/// Arguments: units, nanoseconds of a unit's step. Serial and parallel in turn within each
+/// iteration, so that a machine that changes its speed changes it for both.
+void parallel(benchmark::State& state) {
+  static const double speed = rounds_per_nanosecond();
+  const auto units = static_cast<std::size_t>(state.range(0));
+  const auto cost = static_cast<double>(state.range(1));
+  const auto rounds = static_cast<std::int64_t>(cost * speed);
+  const int steps = static_cast<int>(2e8 / (cost * static_cast<double>(units)));  // 0.2 s each
+  double serial_seconds = 0;
+  double parallel_seconds = 0;
+  double share = 0;
+  for (auto _ : state) {
+    serial_seconds += run(units, rounds, 1, steps).seconds;
+    const Outcome mine = run(units, rounds, 2, steps);
+    parallel_seconds += mine.seconds;
+    share += mine.parallel_share;
+    state.SetIterationTime(mine.seconds);
+  }
+  const double count = static_cast<double>(state.iterations());
+  state.counters["serial_us"] = 1e6 * serial_seconds / (count * steps);
+  state.counters["parallel_us"] = 1e6 * parallel_seconds / (count * steps);
+  state.counters["ratio"] = serial_seconds / parallel_seconds;
+  state.counters["parallel_share"] = share / count;
+}
+
+BENCHMARK(parallel)
+    ->ArgNames({"units", "ns"})
+    ->ArgsProduct({{2, 8}, {100, 5'000, 50'000, 500'000}})
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();
