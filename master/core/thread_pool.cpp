@@ -14,8 +14,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Longer than the exchange between two passes takes; sleeping and waking up costs as much again.
-constexpr std::chrono::microseconds kSpin{100};
+/// Longer than the exchange between two steps takes; sleeping and waking up costs as much again.
+constexpr std::chrono::microseconds kMostSpin{100};
+constexpr std::chrono::microseconds kLeastSpin{1};
 
 void pause() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -46,12 +47,12 @@ class BlockedSignals {
 
 ThreadPool::ThreadPool(std::size_t threads)
     // where there are more threads than cores, who spins only keeps the others from working
-    : spin_(threads <= std::thread::hardware_concurrency() ? kSpin : kSpin.zero()),
+    : waiter_{threads <= std::thread::hardware_concurrency() ? kMostSpin : kMostSpin.zero()},
       workers_(std::max<std::size_t>(threads, 1) - 1) {
   const BlockedSignals blocked;
   try {
     for (std::size_t i = 0; i < workers_.size(); ++i) {
-      workers_[i].thread = std::thread([this, i] { work(i + 1); });
+      workers_[i].thread = std::thread([this, i] { work(i + 1, waiter_); });
     }
   } catch (const std::system_error& failure) {
     stop();
@@ -85,28 +86,34 @@ void ThreadPool::run_batch(std::size_t count, Call call, const void* task) {
   }
   call(task, 0);
   while (const std::uint32_t left = unfinished_.load(std::memory_order_acquire)) {
-    wait_while(unfinished_, left);
+    waiter_.wait_while(unfinished_, left);
   }
 }
 
-void ThreadPool::work(std::size_t k) {
+void ThreadPool::work(std::size_t k, Waiter waiter) {
   const Worker& worker = workers_[k - 1];
   for (std::uint32_t batch = 0;; ++batch) {
-    wait_while(worker.batches, batch);
+    waiter.wait_while(worker.batches, batch);
     if (call_ == nullptr) return;
     call_(task_, k);
     if (--unfinished_ == 0) unfinished_.notify_one();
   }
 }
 
-void ThreadPool::wait_while(const std::atomic<std::uint32_t>& word, std::uint32_t value) const {
-  const auto enough = Clock::now() + spin_;
+// Spinning in vain is worst where the other thread has no core to run on, for then it keeps it from
+// running at all.
+void ThreadPool::Waiter::wait_while(const std::atomic<std::uint32_t>& word, std::uint32_t value) {
+  const auto enough = Clock::now() + spin;
   do {
     for (int i = 0; i < 64; ++i) {
-      if (word.load(std::memory_order_acquire) != value) return;
+      if (word.load(std::memory_order_acquire) != value) {
+        spin = std::min(2 * spin, most);
+        return;
+      }
       pause();
     }
   } while (Clock::now() < enough);
+  spin = std::min(std::max<std::chrono::nanoseconds>(spin / 2, kLeastSpin), most);
   word.wait(value, std::memory_order_acquire);
 }
 

@@ -14,9 +14,9 @@ namespace stride::core {
 
 /// All functions are called from the thread that made the pool; only the tasks run on the others.
 ///
-/// A worker waits for its next batch by spinning for about 0.1 ms, then asleep. It starts with the
-/// floating-point environment of the thread that makes the pool, and takes no asynchronous signal,
-/// so handlers run elsewhere.
+/// Who waits for another spins for 0.1 ms at most, and less the more often that was in vain, then
+/// sleeps. A worker starts with the floating-point environment of the thread that makes the pool,
+/// and takes no asynchronous signal, so handlers run elsewhere.
 class ThreadPool {
  public:
   /// Starts `threads` - 1 workers. Throws Error (Run) if the system refuses.
@@ -49,6 +49,13 @@ class ThreadPool {
  private:
   using Call = void (*)(const void* task, std::size_t k) noexcept;
 
+  /// How one thread waits.
+  struct Waiter {
+    std::chrono::nanoseconds most{};  ///< that it spins
+    std::chrono::nanoseconds spin = most;
+
+    void wait_while(const std::atomic<std::uint32_t>& word, std::uint32_t value);
+  };
   /// On a cache line of its own, so that waiting for one does not slow the others down.
   struct alignas(64) Worker {
     std::atomic<std::uint32_t> batches = 0;  ///< handed to it; a change wakes it up
@@ -56,11 +63,10 @@ class ThreadPool {
   };
 
   void run_batch(std::size_t count, Call call, const void* task);
-  void work(std::size_t k);
+  void work(std::size_t k, Waiter waiter);
   void stop();
-  void wait_while(const std::atomic<std::uint32_t>& word, std::uint32_t value) const;
 
-  std::chrono::nanoseconds spin_;
+  Waiter waiter_;  ///< of the calling thread
   std::vector<Worker> workers_;
   Call call_ = nullptr;  ///< null: the workers are to end
   const void* task_ = nullptr;
