@@ -40,19 +40,29 @@ void Stepper::save(Time from) {
   }
 }
 
-/// One pass. Returns the target if all units stand there, else the nearer one for the next pass.
+/// One pass. Returns the target if all units stand there, else the nearest instant at which one of
+/// them stopped, for the next pass. All that can go back are asked for the same target, so that
+/// their order changes nothing; the others only once these agree.
 Time Stepper::step_all(Time from, Time target) {
+  Time nearest = target;
   for (const StepPlace& place : order_) {
-    const StepResult& result = results_[place.component];
-    if (result.reached > target) roll_back(place, from);
-    if (result.reached == target) continue;
-    if (!step(place, from, target)) return shortened(place, from, target);
-    if (result.reached == target) continue;
+    if (nearest < target && place.role != StepRole::CanRollBack) break;
+    const Time reached = step_one(place, from, target);
+    if (reached >= nearest) continue;
+    nearest = reached;
     stopped_ = &place;
-    ++statistics_[place.component].early_returns;
-    return result.reached;
   }
-  return target;
+  return nearest;
+}
+
+/// Where the unit stands then, or, if it rejects the step, half the way.
+Time Stepper::step_one(const StepPlace& place, Time from, Time target) {
+  const StepResult& result = results_[place.component];
+  if (result.reached > target) roll_back(place, from);
+  if (result.reached == target) return target;
+  if (!step(place, from, target)) return shortened(place, from, target);
+  if (result.reached < target) ++statistics_[place.component].early_returns;
+  return result.reached;
 }
 
 /// Returns whether the unit made a step, of whatever size.
@@ -75,7 +85,6 @@ void Stepper::roll_back(const StepPlace& place, Time from) {
 }
 
 Time Stepper::shortened(const StepPlace& place, Time from, Time target) {
-  stopped_ = &place;
   ++rejections_;
   ++statistics_[place.component].rejections;
   const Time nearer = from + (target - from) / 2;

@@ -44,6 +44,7 @@ class Stepper {
  private:
   void save(Time from);
   Time step_all(Time from, Time target);
+  Time step_one(const StepPlace& place, Time from, Time target);
   bool step(const StepPlace& place, Time from, Time target);
   void roll_back(const StepPlace& place, Time from);
   Time shortened(const StepPlace& place, Time from, Time target);
