@@ -21,15 +21,16 @@ namespace {
 constexpr unsigned kSystems = kSanitized ? 5 : 50;
 constexpr Time kStop{100ms};
 
-/// A random system with two units that hear of it, but feed nothing: one that rejects steps longer
-/// than a random limit, or, for comparison, none.
+/// A random system, and two units that hear of it but feed nothing. They reject steps longer than a
+/// random limit, or, for comparison, none.
 Assembly with_rejecters(unsigned seed, Wiring wiring, bool rejects) {
   Assembly system = random_system(seed, wiring);
   system.add("source", "linear");
-  for (const char* name : {"r1", "r2"}) {
-    system.add(name, "rejecter", {{"shortest", "0.00003"}, {"longest", rejects ? "0.001" : "1"}});
-    if (!rejects) system.set(std::string(name) + ".shortest", "1");
-    system.wire("source.x", std::string(name) + ".u");
+  const char* const shortest = rejects ? "0.00003" : "1";
+  const char* const longest = rejects ? "0.001" : "1";
+  for (const std::string name : {"r1", "r2"}) {
+    system.add(name, "rejecter", {{"shortest", shortest}, {"longest", longest}});
+    system.wire("source.x", name + ".u");
   }
   return system.set("r2.seed", "2");
 }
