@@ -39,9 +39,11 @@ std::string connection_table(const core::System& system) {
   return table.text();
 }
 
-std::string order_table(const core::System& system) {
+std::string order_table(const LoadedScenario& loaded) {
+  const core::System& system = loaded.system();
   Table table({{"", Table::Align::Right}, {"component"}, {"why here"}});
-  for (const core::StepPlace& place : core::step_order(system)) {
+  for (const core::StepPlace& place :
+       core::step_order(loaded.system(), loaded.options().step.policy, loaded.options().coupling)) {
     const std::string number = std::to_string(table.size() + 1);
     table.add({number, system.components()[place.component].name, place.reason});
   }
@@ -56,9 +58,9 @@ void check(const ScenarioRequest& request) {
   fmt::print("{}: {} components, {} connections, {} recorded signals\n", system.name(),
              system.components().size(), system.connections().size(), options.recorded.size());
   fmt::print("from {} s to {} s in steps of {} s\n", core::to_text(options.start),
-             core::to_text(options.stop), core::to_text(Time(options.step)));
+             core::to_text(options.stop), core::to_text(Time(options.step.size)));
   fmt::print("\nUnits\n{}\nConnections\n{}", unit_table(loaded), connection_table(system));
-  fmt::print("\nStep order\n{}", order_table(system));
+  fmt::print("\nStep order\n{}", order_table(loaded));
 }
 
 }  // namespace

@@ -142,11 +142,11 @@ void LoadedScenario::choose_times(const ScenarioRequest& request) {
     core::fail_input({{scenario_.path.string(), 0}, {}, {}, {}}, "the scenario has no stop time",
                      "say --stop SECONDS, or write <ssd:DefaultExperiment stopTime=\"…\"/>");
   }
-  options_.step = !request.step.empty()       ? parse_option("--step", request.step)
-                  : scenario_.annotation.step ? *scenario_.annotation.step
-                  : unit_step                 ? *unit_step
-                                              : kDefaultStep;
-  if (options_.step <= Duration{}) core::fail_input({}, "the step size must be positive");
+  options_.step.size = !request.step.empty()       ? parse_option("--step", request.step)
+                       : scenario_.annotation.step ? *scenario_.annotation.step
+                       : unit_step                 ? *unit_step
+                                                   : kDefaultStep;
+  if (options_.step.size <= Duration{}) core::fail_input({}, "the step size must be positive");
   if (options_.stop < options_.start) {
     core::fail_input({}, fmt::format("the stop time {} s is before the start time {} s",
                                      core::to_text(options_.stop), core::to_text(options_.start)));
@@ -155,7 +155,7 @@ void LoadedScenario::choose_times(const ScenarioRequest& request) {
 }
 
 void LoadedScenario::check_fixed_steps() const {
-  const Duration rest = (options_.stop - options_.start) % options_.step;
+  const Duration rest = (options_.stop - options_.start) % options_.step.size;
   if (rest == Duration{}) return;
   for (std::size_t i = 0; i < fmus_.size(); ++i) {
     if (fmus_[i]->description()->can_vary_step) continue;
@@ -163,7 +163,7 @@ void LoadedScenario::check_fixed_steps() const {
     core::fail_input({component.where, component.name, {}, {}},
                      fmt::format("the unit takes steps of one size only, and the run is no whole "
                                  "number of steps of {} s",
-                                 core::to_text(Time(options_.step))),
+                                 core::to_text(Time(options_.step.size))),
                      fmt::format("stop at {} s", core::to_text(options_.stop - rest)));
   }
 }

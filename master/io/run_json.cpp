@@ -45,9 +45,9 @@ void write_run_json(const std::filesystem::path& file, const std::filesystem::pa
                     const core::RunStatistics& statistics,
                     const std::optional<std::string>& error) {
   Json run = {
-      {"scenario", scenario.string()},      {"system", system.name()},
-      {"start", to_seconds(options.start)}, {"stop", to_seconds(options.stop)},
-      {"step", to_seconds(options.step)},   {"outcome", outcome(statistics, error.has_value())}};
+      {"scenario", scenario.string()},         {"system", system.name()},
+      {"start", to_seconds(options.start)},    {"stop", to_seconds(options.stop)},
+      {"step", to_seconds(options.step.size)}, {"outcome", outcome(statistics, error.has_value())}};
   if (error) run["error"] = *error;
   run["reached"] = to_seconds(statistics.reached);
   run["communication_steps"] = statistics.communication_steps;

@@ -13,7 +13,7 @@ TEST_CASE("run.json tells what was run and how far it came") {
   const TemporaryFolder folder;
   core::RunOptions options;
   options.stop = Time(milliseconds(14'200));
-  options.step = milliseconds(1);
+  options.step.size = milliseconds(1);
   options.recorded = {{0, 1}, {0, 2}};
   core::RunStatistics statistics;
   statistics.reached = options.stop;
