@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_CORE_RUN_OPTIONS_H
 #define STRIDE_MASTER_CORE_RUN_OPTIONS_H
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -29,6 +30,13 @@ enum class Coupling : std::uint8_t {
 /// How an input goes on from its last values during a step: as a polynomial of this degree.
 enum class Extrapolation : std::uint8_t { Hold, Linear, Quadratic };
 
+inline constexpr std::array kStepPolicies{StepPolicy::Fixed, StepPolicy::EventDriven,
+                                          StepPolicy::ErrorControlled};
+inline constexpr std::array kCouplings{Coupling::Jacobi, Coupling::GaussSeidel};
+inline constexpr std::array kExtrapolations{Extrapolation::Hold, Extrapolation::Linear,
+                                            Extrapolation::Quadratic};
+
+/// As scenarios and the command line have them: "event-driven".
 const char* name(StepPolicy policy);
 const char* name(Coupling coupling);
 const char* name(Extrapolation extrapolation);
