@@ -243,9 +243,11 @@ class Writer {
     xml_.open("Annotations").open("Annotation").attribute("type", "org.stride.unit");
     xml_.open("stride:Unit")
         .attribute("xmlns:stride", "urn:org.stride:unit:1")
-        .attribute("mayReject", unit_.info().may_reject)
-        .close();
-    xml_.close().close();
+        .attribute("mayReject", unit_.info().may_reject);
+    if (const auto& longest = unit_.info().maximum_step) {
+      xml_.attribute("maximumStep", to_seconds(*longest));
+    }
+    xml_.close().close().close();
   }
 
   void add_parameters(std::set<std::size_t>& knowns) const {

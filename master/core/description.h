@@ -114,6 +114,7 @@ struct UnitDescription {
   /// Whether the unit may reject a step (fmi3Discard); true unless it says otherwise.
   bool may_reject = true;
   std::optional<Duration> fixed_internal_step;
+  std::optional<Duration> maximum_step;  ///< no step may be longer
   std::optional<Duration> default_step;  ///< DefaultExperiment
   std::optional<Time> default_stop;
 

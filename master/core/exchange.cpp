@@ -174,6 +174,33 @@ void Exchange::deliver(std::size_t component, Unit& unit) {
   }
 }
 
+void Exchange::deliver_continuous(std::size_t component, Unit& unit) {
+  for (const Transfer& transfer : inputs_[component]) {
+    if (!transfer.discrete) unit.set(transfer.references, transfer.block);
+  }
+}
+
+std::vector<ContinuousLink> Exchange::continuous_links() {
+  const auto element = [](ValueBlock& block, std::size_t i) {
+    return RealElement{block.type(), block.bytes() + i * element_size(block.type())};
+  };
+  std::vector<ContinuousLink> links;
+  for (const Connection& connection : system_.connections()) {
+    const Variable& source = system_.variable(connection.from);
+    const Variable& target = system_.variable(connection.to);
+    const bool continuous = source.variability == Variability::Continuous &&
+                            target.variability == Variability::Continuous;
+    if (!continuous || !exchanged(system_, connection.from)) continue;
+    const auto from = locate(outputs_, connection.from);
+    const auto to = locate(inputs_, connection.to);
+    for (std::size_t i = 0; i < source.size; ++i) {
+      links.push_back({connection.from, connection.to, element(*from.block, from.first + i),
+                       element(*to.block, to.first + i), connection.conversion});
+    }
+  }
+  return links;
+}
+
 std::vector<VariableId> Exchange::route_and_compare() {
   std::vector<ValueBlock> before;
   for (const auto& transfers : inputs_) {

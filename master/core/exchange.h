@@ -15,6 +15,31 @@
 
 namespace stride::core {
 
+/// One element of a Float64 or Float32 variable, where it stands in an exchange's blocks.
+struct RealElement {
+  ValueType type = ValueType::Float64;
+  void* place = nullptr;
+
+  double get() const {
+    return type == ValueType::Float64 ? *static_cast<const double*>(place)
+                                      : *static_cast<const float*>(place);
+  }
+  void set(double value) const {
+    if (type == ValueType::Float64) {
+      *static_cast<double*>(place) = value;
+    } else {
+      *static_cast<float*>(place) = static_cast<float>(value);
+    }
+  }
+};
+
+/// A connection between continuous variables, for one element.
+struct ContinuousLink {
+  VariableId from, to;
+  RealElement source, target;
+  LinearConversion conversion;
+};
+
 /// For each unit and type one contiguous block of outputs and one of inputs, and a list of copies
 /// between them. Clocked variables are not part of it: see messages.h. Nothing here allocates after
 /// construction, except where a String or a Binary grows.
@@ -36,6 +61,12 @@ class Exchange {
   }
   /// Writes a unit's continuous inputs, and the discrete ones if they changed.
   void deliver(std::size_t component, Unit& unit);
+
+  /// Writes a unit's continuous inputs.
+  void deliver_continuous(std::size_t component, Unit& unit);
+
+  /// All connections between continuous variables, sorted by target.
+  std::vector<ContinuousLink> continuous_links();
 
   /// Like route(); returns the inputs that changed. Not for the hot loop.
   std::vector<VariableId> route_and_compare();

@@ -22,6 +22,7 @@ Instant::Instant(const System& system, std::span<const std::unique_ptr<Unit>> un
       clock_(clock),
       active_(units.size()),
       in_event_mode_(units.size()),
+      had_event_(units.size()),
       polled_(units.size()),
       next_event_(units.size()) {}
 
@@ -54,6 +55,7 @@ void Instant::settle(Time time) {
     }
     route();
   }
+  had_event_ = in_event_mode_;
   for (std::size_t i = 0; i < count(); ++i) {
     if (!in_event_mode_[i]) continue;
     units_[i]->enter_step_mode();

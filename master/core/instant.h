@@ -38,6 +38,9 @@ class Instant {
   /// Step Mode. Throws Error (Run) where a connected output is NaN, or units tick for ever.
   void settle(Time time);
 
+  /// Who handled an event in the last settle(), by component.
+  std::span<const char> had_event() const { return had_event_; }
+
   /// The earliest event announced for later than `time`.
   std::optional<Time> next_event(Time time) const;
 
@@ -65,6 +68,7 @@ class Instant {
   Time time_{};
   std::vector<char> active_;  ///< wants the next event iteration
   std::vector<char> in_event_mode_;
+  std::vector<char> had_event_;
   std::vector<char> polled_;  ///< its output clocks are to be read
   std::vector<std::optional<Time>> next_event_;
 };

@@ -12,13 +12,16 @@ std::string times(std::uint64_t count) {
 }  // namespace
 
 Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                 std::vector<UnitStatistics>& statistics, WallClock clock, Options options)
+                 std::vector<UnitStatistics>& statistics, WallClock clock,
+                 const RunOptions& options, StepInputs* inputs)
     : system_(system),
       units_(units),
       statistics_(statistics),
       clock_(clock),
-      options_(options),
-      order_(step_order(system)),
+      inputs_(inputs),
+      regular_(options.step.size),
+      minimum_(options.step.minimum),
+      order_(step_order(system, options.step.policy, options.coupling)),
       results_(units.size()) {}
 
 Time Stepper::advance(Time from, Time target) {
@@ -29,6 +32,10 @@ Time Stepper::advance(Time from, Time target) {
     if (reached == target) return target;
     target = reached;
   }
+}
+
+void Stepper::undo(Time from) {
+  for (const StepPlace& place : order_) roll_back(place, from);
 }
 
 void Stepper::save(Time from) {
@@ -68,12 +75,14 @@ Time Stepper::step_one(const StepPlace& place, Time from, Time target) {
 /// Returns whether the unit made a step, of whatever size.
 bool Stepper::step(const StepPlace& place, Time from, Time target) {
   const std::size_t i = place.component;
-  if (!place.can_vary_step && target - from != options_.regular) fail_size(place, from, target);
+  if (!place.can_vary_step && target - from != regular_) fail_size(place, from, target);
+  if (inputs_ != nullptr) inputs_->before_step(i, *units_[i], from, target);
   const StepResult result =
       clock_.timed(statistics_[i].step_time, [&] { return units_[i]->step(from, target); });
   if (result.rejected) return false;
   ++statistics_[i].steps;
   results_[i] = result;
+  if (inputs_ != nullptr) inputs_->after_step(i, *units_[i], result.reached);
   return true;
 }
 
@@ -82,19 +91,20 @@ void Stepper::roll_back(const StepPlace& place, Time from) {
   units_[place.component]->restore_state();
   ++statistics_[place.component].rollbacks;
   results_[place.component] = {.reached = from};
+  if (inputs_ != nullptr) inputs_->undo_step(place.component);
 }
 
 Time Stepper::shortened(const StepPlace& place, Time from, Time target) {
   ++rejections_;
   ++statistics_[place.component].rejections;
   const Time nearer = from + (target - from) / 2;
-  if (nearer - from >= options_.minimum && nearer > from) return nearer;
+  if (nearer - from >= minimum_ && nearer > from) return nearer;
   const std::string reason = units_[place.component]->rejection_reason();
   fail_run({{}, system_.components()[place.component].name, {}, from},
            fmt::format("the unit rejected the step to {} s, {} in all, and half of it would be "
                        "shorter than the minimum of "
                        "{} s{}{}",
-                       to_text(target), times(rejections_), to_text(Time(options_.minimum)),
+                       to_text(target), times(rejections_), to_text(Time(minimum_)),
                        reason.empty() ? "" : "; it says: ", reason),
            "look at what the unit received before this instant");
 }
@@ -105,7 +115,7 @@ void Stepper::fail_size(const StepPlace& place, Time from, Time target) const {
       fmt::format(
           "the unit takes steps of one size only, {} s, but another unit's event or stop asks for "
           "one of {} s",
-          to_text(Time(options_.regular)), to_text(Time(target - from))),
+          to_text(Time(regular_)), to_text(Time(target - from))),
       "use a unit with canHandleVariableCommunicationStepSize, or none that has events or stops "
       "early");
 }

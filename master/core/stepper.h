@@ -9,7 +9,9 @@
 
 #include <stride/time.h>
 
+#include "master/core/run_options.h"
 #include "master/core/statistics.h"
+#include "master/core/step_inputs.h"
 #include "master/core/step_order.h"
 #include "master/core/system.h"
 #include "master/core/unit.h"
@@ -22,14 +24,11 @@ namespace stride::core {
 /// follow.
 class Stepper {
  public:
-  struct Options {
-    Duration regular{};  ///< the size that units which cannot vary theirs must be given
-    Duration minimum{};  ///< a shorter step than this is not asked for after a rejection
-  };
-
-  /// `units` in the order of system.components(). Throws Error as step_order() does.
+  /// `units` in the order of system.components(). `inputs`: who sets them before each step; null
+  /// if they stay what they are. Throws Error as step_order() does.
   Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units,
-          std::vector<UnitStatistics>& statistics, WallClock clock, Options options);
+          std::vector<UnitStatistics>& statistics, WallClock clock, const RunOptions& options,
+          StepInputs* inputs = nullptr);
 
   const std::vector<StepPlace>& order() const { return order_; }
 
@@ -37,6 +36,10 @@ class Stepper {
   /// them stopped. Throws Error (Run) naming the unit: a step shorter than the minimum was
   /// rejected, or a unit stopped when another could not go back.
   Time advance(Time from, Time target);
+
+  /// Takes all units back to `from`, where the last advance() began. Their states must have been
+  /// saved, as they are with an error-controlled step.
+  void undo(Time from);
 
   /// How the unit's last accepted step ended.
   const StepResult& result(std::size_t component) const { return results_[component]; }
@@ -55,7 +58,9 @@ class Stepper {
   std::span<const std::unique_ptr<Unit>> units_;
   std::vector<UnitStatistics>& statistics_;
   WallClock clock_;
-  Options options_;
+  StepInputs* inputs_;
+  Duration regular_;  ///< the size that units which cannot vary theirs must be given
+  Duration minimum_;  ///< a shorter step than this is not asked for after a rejection
   std::vector<StepPlace> order_;
   std::vector<StepResult> results_;
   const StepPlace* stopped_ = nullptr;  ///< who stopped last

@@ -38,7 +38,7 @@ double run_stride(int size) {
     units.push_back(minimal()->instantiate(component.name));
   }
   core::RunOptions options;
-  options.step = kStep;
+  options.step.size = kStep;
   options.stop = Time(kStep * (kUnitSteps / size));
   options.measure_time = false;
   core::Simulation simulation(system, std::move(units), options);

@@ -47,7 +47,7 @@ double run_stride(std::size_t units, std::size_t steps) {
     instances.push_back(wide()->instantiate(component.name));
   }
   core::RunOptions options;
-  options.step = kStep;
+  options.step.size = kStep;
   options.stop = Time(kStep * static_cast<std::int64_t>(steps));
   options.measure_time = false;
   core::Simulation simulation(system, std::move(instances), options);

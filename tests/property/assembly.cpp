@@ -161,7 +161,7 @@ std::vector<std::string> Results::event_rows() const {
 
 core::RunOptions fixed_steps(Duration step, Time stop) {
   core::RunOptions options;
-  options.step = step;
+  options.step.size = step;
   options.stop = stop;
   options.measure_time = false;
   return options;

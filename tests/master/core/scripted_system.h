@@ -19,6 +19,7 @@ struct ScriptedSystem {
   std::vector<std::unique_ptr<Unit>> units;
   std::unique_ptr<System> system;
   std::unique_ptr<Simulation> simulation;
+  RunOptions options;
 
   ScriptedUnit& add(const std::string& name, std::shared_ptr<const UnitDescription> description) {
     declaration.components.push_back({name, description, {}, {}});
@@ -33,9 +34,8 @@ struct ScriptedSystem {
   }
   Simulation& build(double stop, Duration step, std::vector<VariableId> recorded = {}) {
     system = std::make_unique<System>(declaration);
-    RunOptions options;
     options.stop = time_from_seconds(stop);
-    options.step = step;
+    options.step.size = step;
     options.recorded = std::move(recorded);
     simulation = std::make_unique<Simulation>(*system, std::move(units), options);
     return *simulation;

@@ -72,6 +72,11 @@ class Describe {
   Describe& event_mode() { return description_->has_event_mode = true, *this; }
   Describe& can_save_state() { return description_->can_save_state = true, *this; }
   Describe& may_return_early() { return description_->may_return_early = true, *this; }
+  Describe& fixed_step() { return description_->can_vary_step = false, *this; }
+  Describe& maximum_step(Duration step) { return description_->maximum_step = step, *this; }
+  Describe& fixed_internal_step(Duration step) {
+    return description_->fixed_internal_step = step, *this;
+  }
   Describe& never_rejects() { return description_->may_reject = false, *this; }
 
   std::shared_ptr<const UnitDescription> done() const { return description_; }

@@ -20,7 +20,7 @@ System system_of(std::vector<Describe> units) {
 
 std::string names(const System& system) {
   std::string text;
-  for (const StepPlace& place : step_order(system))
+  for (const StepPlace& place : step_order(system, StepPolicy::Fixed, Coupling::Jacobi))
     text += system.components()[place.component].name;
   return text;
 }
@@ -44,7 +44,8 @@ TEST_CASE("within a role the order is that of the file") {
 TEST_CASE("a state is saved only where another unit may stop") {
   const auto saves = [](std::vector<Describe> units) {
     std::string text;
-    for (const StepPlace& place : step_order(system_of(std::move(units)))) {
+    for (const StepPlace& place :
+         step_order(system_of(std::move(units)), StepPolicy::Fixed, Coupling::Jacobi)) {
       text += place.saves_state ? 's' : '-';
     }
     return text;
@@ -58,7 +59,7 @@ TEST_CASE("a state is saved only where another unit may stop") {
 
 TEST_CASE("two units that stop early and cannot go back are refused by name") {
   try {
-    step_order(system_of({early(), rollback(), early()}));
+    step_order(system_of({early(), rollback(), early()}), StepPolicy::Fixed, Coupling::Jacobi);
     FAIL("accepted");
   } catch (const Error& error) {
     CHECK(error.kind() == Error::Kind::Input);

@@ -248,6 +248,8 @@ TEST_CASE("whether the unit may reject a step") {
   CHECK_FALSE(
       annotated("org.stride.unit", "<Unit xmlns=\"urn:org.stride:unit:1\" mayReject=\"0\"/>")
           .may_reject);
+  CHECK(annotated("org.stride.unit", unit + "\"true\" maximumStep=\"0.25\"/>").maximum_step ==
+        Duration(std::chrono::milliseconds(250)));
   CHECK(annotated("org.stride.unit", unit + "\"true\"/>").may_reject);
   CHECK(annotated("org.stride.unit", "<stride:Unit xmlns:stride=\"urn:org.stride:unit:1\"/>")
             .may_reject);
