@@ -77,6 +77,7 @@ class Simulation::Run {
                    [&] { units_[i]->enter_initialization(options_.start, options_.stop); });
     }
     propagate_initial_values();
+    instant_.begin_clocks(time_);
     for (std::size_t i = 0; i < count(); ++i) {
       clock_.timed(statistics_.units[i].initialization_time,
                    [&] { units_[i]->exit_initialization(); });

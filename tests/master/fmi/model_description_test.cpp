@@ -8,6 +8,7 @@ using namespace std::chrono_literals;
 using Catch::Matchers::Contains;
 using core::Causality;
 using core::Initial;
+using core::IntervalVariability;
 using core::ValueType;
 using core::Variability;
 
@@ -166,7 +167,7 @@ TEST_CASE("a declared type gives what the variable leaves open") {
   CHECK(variable(unit, "temperature").unit == "degC");
   CHECK(variable(unit, "temperature").min == "-273.15");
   CHECK(variable(unit, "temperature").max == "100");
-  CHECK(variable(unit, "tick").interval_variability == "triggered");
+  CHECK(variable(unit, "tick").clock.value().variability == IntervalVariability::Triggered);
   using Items = std::vector<std::pair<std::string, std::int64_t>>;
   CHECK(variable(unit, "mode").items == Items{{"off", 0}, {"on", 7}});
 }
