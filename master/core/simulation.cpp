@@ -37,6 +37,7 @@ class Simulation::Run {
         stepper_(system, units_, statistics_.units, clock_, options_,
                  inputs_ && inputs_->change_in_steps() ? &*inputs_ : nullptr) {
     statistics_.start = statistics_.reached = options_.start;
+    if (inputs_ && inputs_->change_in_steps()) lead_inputs_within_steps();
   }
 
   void add_observer(Observer& observer) { observers_.push_back(&observer); }
@@ -81,6 +82,7 @@ class Simulation::Run {
                    [&] { units_[i]->enter_initialization(options_.start, options_.stop); });
     }
     propagate_initial_values();
+    instant_.begin_clocks(time_);
     for (std::size_t i = 0; i < count(); ++i) {
       clock_.timed(statistics_.units[i].initialization_time,
                    [&] { units_[i]->exit_initialization(); });
@@ -123,6 +125,14 @@ class Simulation::Run {
     StepInputs inputs(system_, exchange_, options_.coupling, options_.extrapolation);
     if (!inputs.change_in_steps() && !step_size_.controls_error()) return std::nullopt;
     return inputs;
+  }
+
+  void lead_inputs_within_steps() {
+    for (std::size_t i = 0; i < count(); ++i) {
+      Unit& unit = *units_[i];
+      unit.set_input_update(
+          [this, i, &unit](double seconds) { inputs_->within_step(i, unit, seconds); });
+    }
   }
 
   void communication_step() {

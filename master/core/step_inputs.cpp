@@ -11,13 +11,15 @@ StepInputs::StepInputs(const System& system, Exchange& exchange, Coupling coupli
       sequential_(coupling == Coupling::GaussSeidel),
       change_in_steps_(sequential_ || extrapolation != Extrapolation::Hold),
       sources_(system.components().size()),
+      step_begins_(system.components().size()),
       feeds_(system.components().size()) {
   for (const ContinuousLink& link : exchange.continuous_links()) {
     std::vector<Feed>& feeds = feeds_[link.to.component];
     auto feed = std::find_if(feeds.begin(), feeds.end(),
                              [&](const Feed& f) { return f.source == link.from.component; });
     if (feed == feeds.end()) feed = feeds.insert(feed, {link.from.component, {}});
-    feed->links.push_back({signal_of(link), link.target, link.conversion});
+    feed->links.push_back({signal_of(link), system.variable(link.to).intermediate_update,
+                           link.target, link.conversion});
   }
   for (Source& source : sources_) {
     source.history = SignalHistory(source.signals.size(), static_cast<unsigned>(extrapolation));
@@ -52,17 +54,32 @@ void StepInputs::accept(Time time, std::span<const char> had_event) {
   }
 }
 
+void StepInputs::set_targets(const Feed& feed, const SignalHistory& history,
+                             const SignalHistory::Weights& weights, bool within_step) {
+  for (const Link& link : feed.links) {
+    if (link.within_step != within_step) continue;
+    const double value = history.value(link.signal, weights);
+    link.target.set(link.conversion.factor * value + link.conversion.offset);
+  }
+}
+
 void StepInputs::before_step(std::size_t component, Unit& unit, Time from, Time to) {
   if (feeds_[component].empty()) return;
+  step_begins_[component] = from;
   for (const Feed& feed : feeds_[component]) {
     const SignalHistory& history = sources_[feed.source].history;
-    const SignalHistory::Weights weights = history.mean(from, to);
-    for (const Link& link : feed.links) {
-      const double value = history.value(link.signal, weights);
-      link.target.set(link.conversion.factor * value + link.conversion.offset);
-    }
+    set_targets(feed, history, history.mean(from, to), false);
+    set_targets(feed, history, history.at(from, 0), true);
   }
   exchange_.deliver_continuous(component, unit);
+}
+
+void StepInputs::within_step(std::size_t component, Unit& unit, double seconds_into_step) {
+  for (const Feed& feed : feeds_[component]) {
+    const SignalHistory& history = sources_[feed.source].history;
+    set_targets(feed, history, history.at(step_begins_[component], seconds_into_step), true);
+  }
+  exchange_.deliver_within_step(component, unit);
 }
 
 void StepInputs::after_step(std::size_t component, Unit& unit, Time reached) {

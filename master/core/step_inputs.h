@@ -28,7 +28,8 @@ struct Excess {
 /// end of the step, for those units that have made it already.
 ///
 /// FMI 3.0 Co-Simulation holds an input during a step, so the value set is the polynomial's mean
-/// over the step: what a unit integrates is then right up to the next order.
+/// over the step: what a unit integrates is then right up to the next order. Inputs that may change
+/// within a step have the polynomial's own value at its begin and wherever the unit asks for it.
 class StepInputs {
  public:
   StepInputs(const System& system, Exchange& exchange, Coupling coupling,
@@ -37,6 +38,9 @@ class StepInputs {
   /// Whether there is anything to set: with Jacobi and held inputs all is done at the communication
   /// point, and only excess() below has a use.
   bool change_in_steps() const { return change_in_steps_; }
+
+  /// Sets a unit's inputs to their values within the step for which before_step() was called last.
+  void within_step(std::size_t component, Unit& unit, double seconds_into_step);
 
   /// All units stand at a communication point, and their outputs have been fetched. The history of
   /// those that had an event begins anew: nothing is extrapolated across a jump.
@@ -62,6 +66,7 @@ class StepInputs {
   };
   struct Link {
     std::size_t signal;
+    bool within_step;  ///< whether the target may change there
     RealElement target;
     LinearConversion conversion;
   };
@@ -73,11 +78,15 @@ class StepInputs {
 
   std::size_t signal_of(const ContinuousLink& link);
   void sample(Source& source, Time time);
+  /// Sets the targets that may change within a step, or the others.
+  static void set_targets(const Feed& feed, const SignalHistory& history,
+                          const SignalHistory::Weights& weights, bool within_step);
 
   Exchange& exchange_;
   bool sequential_;
   bool change_in_steps_;
   std::vector<Source> sources_;           ///< by component
+  std::vector<Time> step_begins_;         ///< by target component
   std::vector<std::vector<Feed>> feeds_;  ///< by target component
 };
 

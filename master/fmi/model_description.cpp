@@ -81,6 +81,7 @@ void read_co_simulation(const Element& element, core::UnitDescription& unit) {
   unit.may_return_early = element.flag("mightReturnEarlyFromDoStep");
   unit.single_instance = element.flag("canBeInstantiatedOnlyOncePerProcess");
   unit.needs_execution_tool = element.flag("needsExecutionTool");
+  unit.provides_intermediate_update = element.flag("providesIntermediateUpdate");
   unit.max_output_derivative_order =
       element.number<unsigned>("maxOutputDerivativeOrder").value_or(0);
   unit.fixed_internal_step = read_step_size(element, "fixedInternalStepSize");

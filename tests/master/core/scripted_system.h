@@ -21,12 +21,14 @@ struct ScriptedSystem {
   std::unique_ptr<Simulation> simulation;
   RunOptions options;
 
-  ScriptedUnit& add(const std::string& name, std::shared_ptr<const UnitDescription> description) {
+  template <class SomeUnit = ScriptedUnit>
+  SomeUnit& add(const std::string& name, std::shared_ptr<const UnitDescription> description) {
     declaration.components.push_back({name, description, {}, {}});
-    auto unit = std::make_unique<ScriptedUnit>(description);
-    instances.push_back(unit.get());
+    auto unit = std::make_unique<SomeUnit>(description);
+    SomeUnit& added = *unit;
+    instances.push_back(&added);
     units.push_back(std::move(unit));
-    return *instances.back();
+    return added;
   }
   void wire(const std::string& from, const std::string& from_connector, const std::string& to,
             const std::string& to_connector) {
