@@ -46,10 +46,11 @@ enum class Severity { Info, Warning };
 struct UnitInfo {
   std::string description;
   std::string version = "1.0";
-  bool early_return = false;           ///< it may return early from a step
-  bool may_reject = false;             ///< it may reject a step
-  bool single_instance = false;        ///< no second instance in the same process
-  std::optional<Duration> fixed_step;  ///< its internal step size, where that is fixed
+  bool early_return = false;             ///< it may return early from a step
+  bool may_reject = false;               ///< it may reject a step
+  bool single_instance = false;          ///< no second instance in the same process
+  std::optional<Duration> fixed_step;    ///< its internal step size, where that is fixed
+  std::optional<Duration> maximum_step;  ///< no communication step may be longer
 };
 
 /// A unit. The kit calls the virtual functions in this order and never at the same time:

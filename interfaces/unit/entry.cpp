@@ -1,74 +1,26 @@
 // The exported FMI 3.0 entry table. Each function checks that it is legal now, calls the instance,
 // and turns an exception into fmi3Error and a message; none crosses.
+#include <algorithm>
 #include <exception>
 
-#include <stride/fmi3.h>
-#include <stride/self_description.h>
-
-#include "interfaces/unit/instance.h"
+#include "interfaces/unit/entry_call.h"
 #include "interfaces/unit/model_description.h"
 
 using stride::Time;
 using stride::Type;
+using stride::kit::call;
 using stride::kit::Function;
 using stride::kit::Importer;
 using stride::kit::Instance;
 using stride::kit::Misuse;
+using stride::kit::report;
 using stride::kit::SavedState;
-
-extern "C" {
-#define STRIDE_EXPORT(name) __attribute__((visibility("default"))) fmi3##name##TYPE fmi3##name;
-FMI3_FUNCTIONS(STRIDE_EXPORT)
-#undef STRIDE_EXPORT
-__attribute__((visibility("default"))) strideModelDescriptionTYPE strideModelDescription;
-}
+using stride::kit::unsupported;
 
 namespace {
 
-/// The last thing that a failing call does, so it must not fail itself, be it for want of memory or
-/// because the importer's callback throws.
-void report(const Importer& importer, Function function, const char* text,
-            fmi3Status status = fmi3Error) noexcept {
-  try {
-    importer.message(status, stride::kit::LogErrors,
-                     std::string(stride::kit::name(function)) + ": " + text);
-  } catch (...) {
-  }
-}
-
-/// Runs body(instance) where the function is legal. A failure in a function that runs the unit's
-/// own code ends the simulation of this instance; a misuse by the importer changes nothing.
-template <class Body>
-fmi3Status call(fmi3Instance handle, Function function, Body&& body) {
-  if (handle == nullptr) return fmi3Error;
-  Instance& instance = *static_cast<Instance*>(handle);
-  try {
-    const std::uint8_t legal = stride::kit::legal_modes(function);
-    if ((legal & instance.mode()) == 0) {
-      throw Misuse("not allowed in " + stride::kit::mode_names(instance.mode()) + ", only in " +
-                   stride::kit::mode_names(legal));
-    }
-    return body(instance);
-  } catch (const Misuse& misuse) {
-    report(instance.importer(), function, misuse.what());
-  } catch (const std::exception& failure) {
-    instance.fail();
-    report(instance.importer(), function, failure.what());
-  } catch (...) {
-    instance.fail();
-    report(instance.importer(), function, "the unit threw something that is no std::exception");
-  }
-  return fmi3Error;
-}
-
-fmi3Status unsupported(fmi3Instance handle, Function function, const char* why) {
-  if (handle != nullptr) report(static_cast<Instance*>(handle)->importer(), function, why);
-  return fmi3Error;
-}
-
 constexpr const char* kModelExchange = "belongs to Model Exchange; this unit is for Co-Simulation";
 constexpr const char* kScheduled = "belongs to Scheduled Execution; this unit is for Co-Simulation";
-constexpr const char* kNoTimeBasedClock = "this unit has no time-based clock, only triggered ones";
 constexpr const char* kNoStructure = "this unit has no structural parameter";
 constexpr const char* kNoDependencies = "this unit does not provide per-element dependencies";
 constexpr const char* kNoDerivatives = "this unit does not provide partial derivatives";
@@ -99,9 +51,10 @@ fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, size_t cou
 
 fmi3Instance fmi3InstantiateCoSimulation(
     fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean, fmi3Boolean logging,
-    fmi3Boolean event_mode_used, fmi3Boolean early_return_allowed, const fmi3ValueReference[],
-    size_t intermediate_count, fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
-    fmi3IntermediateUpdateCallback) {
+    fmi3Boolean event_mode_used, fmi3Boolean early_return_allowed,
+    const fmi3ValueReference intermediate[], size_t intermediate_count,
+    fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
+    fmi3IntermediateUpdateCallback intermediate_update) {
   Importer importer;
   if (logging) importer.log_categories = stride::kit::kAllLogCategories;
   importer.event_mode_used = event_mode_used;
@@ -111,9 +64,9 @@ fmi3Instance fmi3InstantiateCoSimulation(
   try {
     importer.instance_name = name != nullptr ? name : "";
     importer.resources = resources != nullptr ? resources : "";
-    if (intermediate_count != 0) {
-      throw Misuse("this unit has no intermediate variables");
-    }
+    importer.intermediate_variables.assign(intermediate, intermediate + intermediate_count);
+    std::sort(importer.intermediate_variables.begin(), importer.intermediate_variables.end());
+    importer.intermediate_update = intermediate_update;
     return new Instance(importer, token != nullptr ? token : "");
   } catch (const std::exception& failure) {
     report(importer, Function::InstantiateCoSimulation, failure.what());
@@ -337,22 +290,6 @@ STRIDE_UNSUPPORTED(GetDirectionalDerivative, kNoDerivatives, const fmi3ValueRefe
 STRIDE_UNSUPPORTED(GetAdjointDerivative, kNoDerivatives, const fmi3ValueReference[], size_t,
                    const fmi3ValueReference[], size_t, const fmi3Float64[], size_t, fmi3Float64[],
                    size_t)
-STRIDE_UNSUPPORTED(GetIntervalDecimal, kNoTimeBasedClock, const fmi3ValueReference[], size_t,
-                   fmi3Float64[], fmi3IntervalQualifier[])
-STRIDE_UNSUPPORTED(GetIntervalFraction, kNoTimeBasedClock, const fmi3ValueReference[], size_t,
-                   fmi3UInt64[], fmi3UInt64[], fmi3IntervalQualifier[])
-STRIDE_UNSUPPORTED(GetShiftDecimal, kNoTimeBasedClock, const fmi3ValueReference[], size_t,
-                   fmi3Float64[])
-STRIDE_UNSUPPORTED(GetShiftFraction, kNoTimeBasedClock, const fmi3ValueReference[], size_t,
-                   fmi3UInt64[], fmi3UInt64[])
-STRIDE_UNSUPPORTED(SetIntervalDecimal, kNoTimeBasedClock, const fmi3ValueReference[], size_t,
-                   const fmi3Float64[])
-STRIDE_UNSUPPORTED(SetIntervalFraction, kNoTimeBasedClock, const fmi3ValueReference[], size_t,
-                   const fmi3UInt64[], const fmi3UInt64[])
-STRIDE_UNSUPPORTED(SetShiftDecimal, kNoTimeBasedClock, const fmi3ValueReference[], size_t,
-                   const fmi3Float64[])
-STRIDE_UNSUPPORTED(SetShiftFraction, kNoTimeBasedClock, const fmi3ValueReference[], size_t,
-                   const fmi3UInt64[], const fmi3UInt64[])
 STRIDE_UNSUPPORTED(CompletedIntegratorStep, kModelExchange, fmi3Boolean, fmi3Boolean*, fmi3Boolean*)
 STRIDE_UNSUPPORTED(SetTime, kModelExchange, fmi3Float64)
 STRIDE_UNSUPPORTED(SetContinuousStates, kModelExchange, const fmi3Float64[], size_t)

@@ -71,13 +71,7 @@ void check_range(const Variable& row) {
 
 }  // namespace
 
-Time checked_time(double seconds) {
-  try {
-    return time_from_seconds(seconds);
-  } catch (const std::out_of_range& error) {
-    throw Misuse(error.what());
-  }
-}
+Time checked_time(double seconds) { return Time(duration_of_seconds(seconds)); }
 
 void Importer::message(fmi3Status status, LogCategory category, const std::string& text) const {
   if (log != nullptr && (log_categories & category) != 0) {
@@ -93,6 +87,7 @@ Instance::Instance(Importer importer, const std::string& token) : importer_(std:
                  "': the model description belongs to another build of the unit or "
                  "to other resources; pack the unit again");
   }
+  check_intermediate_variables();
 }
 
 void Instance::build() {
@@ -144,6 +139,7 @@ void Instance::refresh() {
   if (!inputs_changed_) return;
   if (mode_ == InitializationMode) {
     for (const Variable& row : unit_->variables()) check_range(row);
+    forget_intervals();
     unit_->initialize(start_);
     unit_->update_outputs();
   } else if (mode_ == EventMode) {
@@ -194,7 +190,11 @@ Instance::StepOutcome Instance::do_step(double point, double size) {
   const Time to = checked_time(point + size);
   check_step(point, size, from, to);
   for (Clock* clock : table_->output_clocks()) clock->clear();
-  Step step(time_, to, importer_.early_return_allowed);
+  step_point_ = point;
+  step_size_ = size;
+  const bool can_update =
+      importer_.intermediate_update != nullptr && !importer_.intermediate_variables.empty();
+  Step step(time_, to, importer_.early_return_allowed, can_update ? this : nullptr);
   unit_->step(step);
   check_outcome(step);
   if (step.rejection()) return {step.rejection(), false, false, false, time_};
@@ -216,10 +216,44 @@ Instance::UpdateOutcome Instance::update_discrete_states() {
   Event event(time_, next_event_);
   unit_->event(event);
   next_event_ = event.next();
-  unit_->update_outputs();
   for (Clock* clock : table_->input_clocks()) clock->clear();
+  unit_->update_outputs();
   inputs_changed_ = false;
   return {event.iterates() || any_clock_ticked(), event.terminates(), next_event_};
+}
+
+void Instance::check_intermediate_variables() const {
+  for (const fmi3ValueReference reference : importer_.intermediate_variables) {
+    if (reference < table_->size() && table_->row(reference).intermediate) continue;
+    throw Misuse("the value reference " + std::to_string(reference) +
+                 " is not that of an intermediate variable (intermediateUpdate)");
+  }
+}
+
+bool Instance::is_intermediate(fmi3ValueReference reference) const {
+  const auto& known = importer_.intermediate_variables;
+  return std::binary_search(known.begin(), known.end(), reference);
+}
+
+/// Gives the importer occasion to set its intermediate inputs (FMI 3.0, 4.2.2). It is always free
+/// to be called for an earlier instant, since no instant is said to be finished.
+void Instance::update_inputs(double seconds_into_step) {
+  const double rounding = 1e-9 * step_size_;
+  if (!(seconds_into_step >= -rounding && seconds_into_step <= step_size_ + rounding)) {
+    throw std::logic_error("step() asked for the inputs at " + to_text(seconds_into_step) +
+                           " s after the beginning of a step of " + to_text(step_size_) + " s");
+  }
+  const double time =
+      std::min(std::max(step_point_ + seconds_into_step, step_point_), step_point_ + step_size_);
+  mode_ = IntermediateUpdateMode;
+  struct Guard {
+    Mode& mode;
+    ~Guard() { mode = StepMode; }
+  } guard{mode_};  // the importer may be C++ and throw
+  fmi3Boolean early_return_requested = fmi3False;
+  fmi3Float64 early_return_time = 0;
+  importer_.intermediate_update(importer_.environment, time, fmi3True, fmi3False, fmi3False,
+                                fmi3False, &early_return_requested, &early_return_time);
 }
 
 bool Instance::any_clock_ticked() const {
@@ -252,6 +286,10 @@ void Instance::check_writable(const fmi3ValueReference references[], std::size_t
   for (std::size_t i = 0; i < count; ++i) {
     const Slot& found = slot(references[i], type);
     total += found.size;
+    if (mode_ == IntermediateUpdateMode && !is_intermediate(references[i])) {
+      throw Misuse("variable '" + table_->row(references[i]).name +
+                   "' is not among the requiredIntermediateVariables of the instance");
+    }
     if ((found.settable & mode_) != 0) continue;
     const std::string legal = mode_names(found.settable);
     throw Misuse("variable '" + table_->row(references[i]).name + "' cannot be set in " +

@@ -25,6 +25,9 @@ struct Misuse : std::invalid_argument {
 
 /// A time that the importer gives [s]; throws Misuse for what is no instant.
 Time checked_time(double seconds);
+/// A length of time that it gives, to the nearest picosecond; throws Misuse likewise.
+Duration duration_of_seconds(double seconds);
+Duration duration_of_fraction(std::uint64_t counter, std::uint64_t resolution);
 
 /// What the importer said when it made the instance.
 struct Importer {
@@ -35,6 +38,9 @@ struct Importer {
   bool early_return_allowed = false;
   fmi3InstanceEnvironment environment = nullptr;
   fmi3LogMessageCallback log = nullptr;
+  /// The inputs that it sets within steps, sorted, and the function that gives it occasion to.
+  std::vector<fmi3ValueReference> intermediate_variables;
+  fmi3IntermediateUpdateCallback intermediate_update = nullptr;
 
   void message(fmi3Status status, LogCategory category, const std::string& text) const;
 };
@@ -46,7 +52,7 @@ struct SavedState {
 
 /// The functions have the meaning of the FMI functions of the same name; a misuse or a failure of
 /// the unit is an exception, whose text is the message for the importer.
-class Instance {
+class Instance final : private InputUpdater {
  public:
   /// Throws if the token is not the one of this library with these resources.
   Instance(Importer importer, const std::string& token);
@@ -91,6 +97,19 @@ class Instance {
   void get_output_derivatives(const fmi3ValueReference references[], std::size_t count,
                               const fmi3Int32 orders[], double values[], std::size_t size);
 
+  struct ClockInterval {
+    Duration interval;
+    fmi3IntervalQualifier qualifier;
+  };
+  ClockInterval clock_interval(fmi3ValueReference reference);
+  Duration clock_shift(fmi3ValueReference reference);
+  void check_has_interval(fmi3ValueReference reference) const { time_based_clock(reference); }
+  /// To be called, for all clocks of a call, before set_clock_interval() and set_clock_shift().
+  void check_clock_interval(fmi3ValueReference reference, Duration interval) const;
+  void check_clock_shift(fmi3ValueReference reference, Duration shift) const;
+  void set_clock_interval(fmi3ValueReference reference, Duration interval);
+  void set_clock_shift(fmi3ValueReference reference, Duration shift);
+
   void save(SavedState& state) const;
   /// Throws if the bytes are not a state that save() of this unit wrote.
   void check_saved(const std::uint8_t* bytes, std::size_t size) const;
@@ -100,7 +119,16 @@ class Instance {
   void build();
   void check_step(double point, double size, Time from, Time to) const;
   void check_outcome(const Step& step) const;
+  void check_intermediate_variables() const;
+  bool is_intermediate(fmi3ValueReference reference) const;
+  void update_inputs(double seconds_into_step) override;
   void refresh();
+  const Variable& time_based_clock(fmi3ValueReference reference) const;
+  const Variable& periodic_clock(fmi3ValueReference reference) const;
+  const Variable& adjustable_clock(fmi3ValueReference reference) const;
+  static Clock& clock_of(const Variable& row);
+  void forget_intervals();
+  void activate(fmi3ValueReference reference);
   void require_unit() const;
   void require_state() const;
   bool any_clock_ticked() const;
@@ -119,6 +147,8 @@ class Instance {
   std::optional<Time> next_event_;  ///< as the unit announced it
   Mode mode_ = Instantiated;
   bool inputs_changed_ = true;
+  double step_point_ = 0;  ///< the present step as the importer gave it
+  double step_size_ = 0;
 };
 
 /// fmi3Boolean is bool and an Enumeration travels as Int64, so the element of a slot has the type
@@ -153,8 +183,7 @@ void Instance::set(const fmi3ValueReference references[], std::size_t count, con
   for (std::size_t i = 0; i < count; ++i) {
     const Slot& to = table_->slot(references[i]);
     if constexpr (kType == Type::Clock) {
-      auto* clock = static_cast<Clock*>(to.data);
-      values[at] ? clock->tick() : clock->clear();
+      values[at] ? activate(references[i]) : static_cast<Clock*>(to.data)->clear();
     } else if constexpr (kType == Type::String) {
       auto* texts = static_cast<std::string*>(to.data);
       for (std::size_t k = 0; k < to.size; ++k) texts[k] = values[at + k] ? values[at + k] : "";

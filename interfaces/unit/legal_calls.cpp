@@ -49,8 +49,8 @@ constexpr Rule kRules[] = {
     {Function::GetClock, InitializationMode | EventMode},
     {Function::GetOutputDerivatives, StepMode | Terminated},
 
-    {Function::SetFloat32, kSetting},
-    {Function::SetFloat64, kSetting},
+    {Function::SetFloat32, kSetting | IntermediateUpdateMode},
+    {Function::SetFloat64, kSetting | IntermediateUpdateMode},
     {Function::SetInt8, kSetting},
     {Function::SetUInt8, kSetting},
     {Function::SetInt16, kSetting},
@@ -63,6 +63,15 @@ constexpr Rule kRules[] = {
     {Function::SetString, kSetting},
     {Function::SetBinary, kSetting},
     {Function::SetClock, EventMode},
+
+    {Function::GetIntervalDecimal, InitializationMode | EventMode},
+    {Function::GetIntervalFraction, InitializationMode | EventMode},
+    {Function::GetShiftDecimal, InitializationMode},
+    {Function::GetShiftFraction, InitializationMode},
+    {Function::SetIntervalDecimal, InitializationMode | EventMode},
+    {Function::SetIntervalFraction, InitializationMode | EventMode},
+    {Function::SetShiftDecimal, InitializationMode},
+    {Function::SetShiftFraction, InitializationMode},
 
     {Function::GetFMUState, kAny},
     {Function::SetFMUState, kAny},
@@ -97,7 +106,7 @@ std::string mode_names(std::uint8_t modes) {
   constexpr std::pair<Mode, const char*> kNames[] = {
       {Instantiated, "Instantiated"}, {InitializationMode, "Initialization Mode"},
       {EventMode, "Event Mode"},      {StepMode, "Step Mode"},
-      {Terminated, "Terminated"},
+      {Terminated, "Terminated"},     {IntermediateUpdateMode, "Intermediate Update Mode"},
   };
   std::string text;
   for (const auto& [mode, mode_name] : kNames) {

@@ -22,6 +22,7 @@ enum Mode : std::uint8_t {
   EventMode = 4,
   StepMode = 8,
   Terminated = 16,
+  IntermediateUpdateMode = 32,
 };
 
 /// The states in which the function may be called; 0 where a Co-Simulation unit of this kit never

@@ -107,6 +107,9 @@ class Writer {
     if (std::any_of(rows.begin(), rows.end(), [](const Variable& r) { return r.derivative; })) {
       xml_.attribute("maxOutputDerivativeOrder", "1");
     }
+    if (std::any_of(rows.begin(), rows.end(), [](const Variable& r) { return r.intermediate; })) {
+      xml_.attribute("providesIntermediateUpdate", true);
+    }
     if (info.early_return) xml_.attribute("mightReturnEarlyFromDoStep", true);
     xml_.attribute("hasEventMode", true).close();
   }
@@ -169,7 +172,8 @@ class Writer {
     if (!row.description.empty()) xml_.attribute("description", row.description);
     xml_.attribute("causality", name(row.causality));
     if (row.type == Type::Clock) {
-      xml_.attribute("intervalVariability", "triggered").close();
+      write_timing(row);
+      xml_.close();
       return;
     }
     write_variability(row);
@@ -178,8 +182,26 @@ class Writer {
     if (row.min) xml_.attribute("min", bound_text(row.type, *row.min));
     if (row.max) xml_.attribute("max", bound_text(row.type, *row.max));
     if (!row.mime_type.empty()) xml_.attribute("mimeType", row.mime_type);
+    if (row.intermediate) xml_.attribute("intermediateUpdate", true);
     write_start_and_dimensions(row);
     xml_.close();
+  }
+
+  /// Intervals as decimals for everybody, and as counts of the picoseconds that they are.
+  void write_timing(const Variable& row) {
+    xml_.attribute("intervalVariability", name(row.interval_variability));
+    if (!is_time_based(row)) return;
+    const auto& clock = *static_cast<const Clock*>(row.data);
+    const bool is_shifted = clock.shift() != Duration{};
+    if (row.has_interval) {
+      xml_.attribute("intervalDecimal", to_seconds(clock.interval()));
+      if (is_shifted) xml_.attribute("shiftDecimal", to_seconds(clock.shift()));
+    }
+    xml_.attribute("supportsFraction", true);
+    if (!row.has_interval) return;
+    xml_.attribute("resolution", std::int64_t{Duration::period::den})
+        .attribute("intervalCounter", std::int64_t{clock.interval().count()});
+    if (is_shifted) xml_.attribute("shiftCounter", std::int64_t{clock.shift().count()});
   }
 
   void write_variability(const Variable& row) {
@@ -214,10 +236,12 @@ class Writer {
     xml_.close();
   }
 
-  /// Outputs that are computed at the start, clocks included, but not what comes with a clock.
-  static bool is_initial_unknown(const Variable& row) {
+  /// Outputs that are computed at the start, clocks included, but not what comes with the tick of a
+  /// triggered one. What is sampled at the ticks of another has a value before the first of them.
+  bool is_initial_unknown(const Variable& row) const {
     const bool computed = row.initial == Initial::Calculated || row.type == Type::Clock;
-    return row.causality == Causality::Output && computed && row.clock == nullptr;
+    if (row.causality != Causality::Output || !computed) return false;
+    return row.clock == nullptr || is_time_based(table_.row(table_.reference_of(*row.clock)));
   }
 
   void write_unknown(const std::string& element, std::size_t reference) {
@@ -243,9 +267,11 @@ class Writer {
     xml_.open("Annotations").open("Annotation").attribute("type", "org.stride.unit");
     xml_.open("stride:Unit")
         .attribute("xmlns:stride", "urn:org.stride:unit:1")
-        .attribute("mayReject", unit_.info().may_reject)
-        .close();
-    xml_.close().close();
+        .attribute("mayReject", unit_.info().may_reject);
+    if (const auto& longest = unit_.info().maximum_step) {
+      xml_.attribute("maximumStep", to_seconds(*longest));
+    }
+    xml_.close().close().close();
   }
 
   void add_parameters(std::set<std::size_t>& knowns) const {

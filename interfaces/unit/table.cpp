@@ -43,6 +43,7 @@ std::uint8_t settable_modes(const Variable& row) {
       row.causality == Causality::Parameter && row.variability == Variability::Tunable;
   if (row.causality == Causality::Input || tunable) modes |= EventMode;
   if ((row.causality == Causality::Input && row.clock == nullptr) || tunable) modes |= StepMode;
+  if (row.intermediate) modes |= IntermediateUpdateMode;
   return modes;
 }
 
@@ -101,6 +102,17 @@ void check_bounds(const Variable& row) {
   }
 }
 
+void check_timing(const Variable& row) {
+  const bool is_input = row.causality == Causality::Input;
+  const bool is_timed = row.interval_variability != IntervalVariability::Triggered;
+  if (is_timed && (row.type != Type::Clock || !is_input)) {
+    reject(row, "only an input clock can tick by the time");
+  }
+  if (row.intermediate && (!is_input || row.variability != Variability::Continuous)) {
+    reject(row, "only a continuous input can be intermediate()");
+  }
+}
+
 }  // namespace
 
 const char* name(Type type) {
@@ -117,6 +129,12 @@ const char* name(Causality causality) {
 
 const char* name(Variability variability) {
   constexpr const char* kNames[] = {"constant", "fixed", "tunable", "discrete", "continuous"};
+  return kNames[static_cast<std::size_t>(variability)];
+}
+
+const char* name(IntervalVariability variability) {
+  constexpr const char* kNames[] = {"constant", "fixed",     "tunable",
+                                    "changing", "countdown", "triggered"};
   return kNames[static_cast<std::size_t>(variability)];
 }
 
@@ -144,6 +162,7 @@ void Table::check(const Variable& row) const {
   check_name(row);
   check_shape(row);
   check_bounds(row);
+  check_timing(row);
   if (row.type == Type::Enumeration && row.items.empty()) {
     reject(row, "an enumeration needs its items({{\"name\", value}, ...})");
   }

@@ -14,6 +14,7 @@ namespace stride::kit {
 const char* name(Type type);
 const char* name(Causality causality);
 const char* name(Variability variability);
+const char* name(IntervalVariability variability);
 
 /// Calls visitor(T* elements) with the C++ type that stands behind an FMI type.
 template <class Visitor>
@@ -49,6 +50,13 @@ void visit(Type type, void* data, Visitor&& visitor) {
     case Type::Clock:
       return visitor(static_cast<Clock*>(data));
   }
+}
+
+inline bool is_time_based(const Variable& row) {
+  return row.interval_variability != IntervalVariability::Triggered;
+}
+inline bool is_periodic(const Variable& row) {
+  return row.interval_variability <= IntervalVariability::Tunable;
 }
 
 /// What the access functions need of a row, and no more.

@@ -39,10 +39,35 @@ std::string connection_table(const core::System& system) {
   return table.text();
 }
 
-std::string order_table(const core::System& system) {
+std::string steps(const core::RunOptions& options) {
+  const auto text = [](Duration duration) { return core::to_text(Time(duration)); };
+  const core::StepOptions& step = options.step;
+  std::string steps;
+  switch (step.policy) {
+    case core::StepPolicy::Fixed:
+      steps = fmt::format("in steps of {} s", text(step.size));
+      break;
+    case core::StepPolicy::EventDriven:
+      steps = "from event to event";
+      break;
+    case core::StepPolicy::ErrorControlled:
+      steps = fmt::format("in steps that keep the inputs' error within {} + {} of their values",
+                          step.absolute_tolerance, step.relative_tolerance);
+      break;
+  }
+  if (step.maximum) steps += fmt::format(", of {} s at most", text(*step.maximum));
+  return fmt::format("{}\ncoupling {}, inputs {}", steps, name(options.coupling),
+                     options.extrapolation == core::Extrapolation::Hold
+                         ? "held"
+                         : fmt::format("extrapolated ({})", name(options.extrapolation)));
+}
+
+std::string order_table(const LoadedScenario& loaded) {
+  const core::System& system = loaded.system();
   Table table(
       {{"", Table::Align::Right}, {"stage", Table::Align::Right}, {"component"}, {"why here"}});
-  for (const core::StepPlace& place : core::step_order(system)) {
+  for (const core::StepPlace& place :
+       core::step_order(loaded.system(), loaded.options().step.policy, loaded.options().coupling)) {
     const std::string number = std::to_string(table.size() + 1);
     table.add({number, std::to_string(place.stage + 1), system.components()[place.component].name,
                place.reason});
@@ -57,10 +82,10 @@ void check(const ScenarioRequest& request) {
   const core::RunOptions& options = loaded.options();
   fmt::print("{}: {} components, {} connections, {} recorded signals\n", system.name(),
              system.components().size(), system.connections().size(), options.recorded.size());
-  fmt::print("from {} s to {} s in steps of {} s\n", core::to_text(options.start),
-             core::to_text(options.stop), core::to_text(Time(options.step)));
+  fmt::print("from {} s to {} s, {}\n", core::to_text(options.start), core::to_text(options.stop),
+             steps(options));
   fmt::print("\nUnits\n{}\nConnections\n{}", unit_table(loaded), connection_table(system));
-  fmt::print("\nStep order\n{}", order_table(system));
+  fmt::print("\nStep order\n{}", order_table(loaded));
 }
 
 }  // namespace

@@ -22,6 +22,8 @@ std::string range(const core::Variable& variable) {
 std::string type(const core::Variable& variable) {
   std::string text = core::name(variable.type);
   for (const std::size_t size : variable.dimensions) text += fmt::format("[{}]", size);
+  if (variable.is_time_based_clock())
+    text += fmt::format(" ({})", name(variable.clock->variability));
   return text;
 }
 
@@ -43,6 +45,7 @@ std::string capabilities(const core::UnitDescription& unit) {
   add(unit.can_serialize_state, "state can be serialised");
   add(unit.can_vary_step, "variable step");
   add(unit.may_return_early, "may return early");
+  add(unit.provides_intermediate_update, "inputs may change within a step");
   add(unit.max_output_derivative_order > 0,
       fmt::format("output derivatives up to order {}", unit.max_output_derivative_order));
   add(unit.fixed_internal_step.has_value(),

@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include "master/cli/unit_path.h"
+#include "master/core/step_size.h"
 #include "master/core/suggest.h"
 #include "master/io/component_selection.h"
 #include "master/io/signal_selection.h"
@@ -66,6 +67,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   load_units();
   system_.emplace(scenario_.system);
   choose_times(request);
+  choose_steps(request.step);
   std::vector<io::SignalPattern> patterns = scenario_.annotation.record;
   if (!request.signals.empty()) {
     patterns.clear();
@@ -120,17 +122,10 @@ void LoadedScenario::load_units() {
 }
 
 void LoadedScenario::choose_times(const ScenarioRequest& request) {
-  std::optional<Duration> unit_step;
   std::optional<Time> unit_stop;
   for (const auto& fmu : fmus_) {
-    const core::UnitDescription& description = *fmu->description();
-    if (description.default_step) {
-      unit_step =
-          std::min(unit_step.value_or(*description.default_step), *description.default_step);
-    }
-    if (description.default_stop) {
-      unit_stop =
-          std::max(unit_stop.value_or(*description.default_stop), *description.default_stop);
+    if (const auto& stop = fmu->description()->default_stop) {
+      unit_stop = std::max(unit_stop.value_or(*stop), *stop);
     }
   }
   options_.start = scenario_.start.value_or(Time{});
@@ -144,20 +139,41 @@ void LoadedScenario::choose_times(const ScenarioRequest& request) {
     core::fail_input({{scenario_.path.string(), 0}, {}, {}, {}}, "the scenario has no stop time",
                      "say --stop SECONDS, or write <ssd:DefaultExperiment stopTime=\"…\"/>");
   }
-  options_.step = !request.step.empty()       ? parse_option("--step", request.step)
-                  : scenario_.annotation.step ? *scenario_.annotation.step
-                  : unit_step                 ? *unit_step
-                                              : kDefaultStep;
-  if (options_.step <= Duration{}) core::fail_input({}, "the step size must be positive");
   if (options_.stop < options_.start) {
     core::fail_input({}, fmt::format("the stop time {} s is before the start time {} s",
                                      core::to_text(options_.stop), core::to_text(options_.start)));
   }
+}
+
+void LoadedScenario::choose_steps(const io::StepChoice& request) {
+  std::optional<Duration> unit_step;
+  for (const auto& fmu : fmus_) {
+    if (const auto& step = fmu->description()->default_step) {
+      unit_step = std::min(unit_step.value_or(*step), *step);
+    }
+  }
+  options_.step.size = unit_step.value_or(kDefaultStep);
+  scenario_.annotation.step.apply(options_);
+  request.apply(options_);
+  if (options_.step.maximum && *options_.step.maximum < options_.step.minimum) {
+    core::fail_input({}, fmt::format("the maximum step of {} s is below the minimum of {} s",
+                                     core::to_text(Time(*options_.step.maximum)),
+                                     core::to_text(Time(options_.step.minimum))));
+  }
+  const core::StepOptions& step = options_.step;
+  if (step.policy == core::StepPolicy::ErrorControlled && step.relative_tolerance == 0 &&
+      step.absolute_tolerance == 0) {
+    core::fail_input({}, "both tolerances are 0, so no step is good enough",
+                     "give a relative or an absolute tolerance above 0");
+  }
+  core::StepSize(*system_, options_);  // throws where a unit cannot do what the policy needs
+  if (step.policy != core::StepPolicy::Fixed) return;
   check_fixed_steps();
+  warn_of_internal_steps();
 }
 
 void LoadedScenario::check_fixed_steps() const {
-  const Duration rest = (options_.stop - options_.start) % options_.step;
+  const Duration rest = (options_.stop - options_.start) % options_.step.size;
   if (rest == Duration{}) return;
   for (std::size_t i = 0; i < fmus_.size(); ++i) {
     if (fmus_[i]->description()->can_vary_step) continue;
@@ -165,8 +181,22 @@ void LoadedScenario::check_fixed_steps() const {
     core::fail_input({component.where, component.name, {}, {}},
                      fmt::format("the unit takes steps of one size only, and the run is no whole "
                                  "number of steps of {} s",
-                                 core::to_text(Time(options_.step))),
+                                 core::to_text(Time(options_.step.size))),
                      fmt::format("stop at {} s", core::to_text(options_.stop - rest)));
+  }
+}
+
+void LoadedScenario::warn_of_internal_steps() const {
+  for (std::size_t i = 0; i < fmus_.size(); ++i) {
+    const auto& internal = fmus_[i]->description()->fixed_internal_step;
+    if (!internal || *internal <= Duration{} || options_.step.size % *internal == Duration{}) {
+      continue;
+    }
+    spdlog::warn(
+        "unit '{}': its internal step of {} s is no part of the communication step of {} s, so it "
+        "is not always where the others are",
+        scenario_.system.components[i].name, core::to_text(Time(*internal)),
+        core::to_text(Time(options_.step.size)));
   }
 }
 
@@ -179,6 +209,8 @@ std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate() const {
     options.debug_logging = true;  // the log's level decides what is shown
     options.early_return_allowed = true;
     options.may_roll_back = true;
+    options.intermediate_update = options_.coupling != core::Coupling::Jacobi ||
+                                  options_.extrapolation != core::Extrapolation::Hold;
     options.where = component.where;
     units.push_back(fmus_[i]->instantiate(component.name, options));
   }

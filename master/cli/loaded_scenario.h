@@ -22,7 +22,7 @@ struct ScenarioRequest {
   std::vector<std::string> sets;     ///< "component.variable=value"
   std::vector<std::string> signals;  ///< globs that replace the scenario's
   std::string stop;                  ///< seconds; empty = the scenario's
-  std::string step;                  ///< likewise
+  io::StepChoice step;               ///< replaces what the scenario says
 };
 
 /// The scenario with each component's FMU, and the system built from them. Throws core::Error
@@ -45,7 +45,9 @@ class LoadedScenario {
   void set(const std::string& text);
   void load_units();
   void choose_times(const ScenarioRequest& request);
+  void choose_steps(const io::StepChoice& request);
   void check_fixed_steps() const;
+  void warn_of_internal_steps() const;
   std::vector<std::string> component_names() const;
 
   io::Scenario scenario_;

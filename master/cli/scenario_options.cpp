@@ -1,8 +1,58 @@
 #include "master/cli/scenario_options.h"
 
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 namespace stride::cli {
+namespace {
+
+/// An option whose text the setter takes.
+CLI::Option* add_choice(CLI::App& command, const std::string& name, io::StepChoice& choice,
+                        void (io::StepChoice::*set)(std::string_view), const std::string& help) {
+  return command.add_option_function<std::string>(
+      name,
+      [&choice, name, set](const std::string& text) {
+        try {
+          (choice.*set)(text);
+        } catch (const std::invalid_argument& mistake) {
+          core::fail_input({}, fmt::format("{} {}: {}", name, text, mistake.what()));
+        }
+      },
+      help);
+}
+
+void add_step_options(CLI::App& command, io::StepChoice& choice) {
+  using io::StepChoice;
+  add_choice(command, "--step", choice, &StepChoice::set_size,
+             "Communication step size; the first one where the error controls it")
+      ->type_name("SECONDS");
+  add_choice(command, "--policy", choice, &StepChoice::set_policy,
+             "What decides on the steps: fixed, event-driven or error-controlled")
+      ->type_name("POLICY");
+  add_choice(command, "--max-step", choice, &StepChoice::set_maximum, "No step is longer")
+      ->type_name("SECONDS");
+  add_choice(command, "--min-step", choice, &StepChoice::set_minimum,
+             "No shorter one is tried after a rejection")
+      ->type_name("SECONDS");
+  add_choice(command, "--relative-tolerance", choice, &StepChoice::set_relative_tolerance,
+             "Of the inputs, where their error controls the steps")
+      ->type_name("NUMBER");
+  add_choice(command, "--absolute-tolerance", choice, &StepChoice::set_absolute_tolerance,
+             "Likewise, in the unit of the output that feeds the input")
+      ->type_name("NUMBER");
+  add_choice(command, "--coupling", choice, &StepChoice::set_coupling,
+             "What a unit sees of the others during a step: jacobi or gauss-seidel")
+      ->type_name("METHOD");
+  add_choice(command, "--extrapolation", choice, &StepChoice::set_extrapolation,
+             "How inputs go on during a step: hold, linear or quadratic")
+      ->type_name("DEGREE");
+}
+
+}  // namespace
 
 void add_scenario_options(CLI::App& command, ScenarioRequest& request) {
   command.add_option("FILE", request.scenario, "The scenario, an SSP system file (.ssd)")
@@ -10,7 +60,7 @@ void add_scenario_options(CLI::App& command, ScenarioRequest& request) {
       ->type_name("");
   command.add_option("--stop", request.stop, "Simulated time at which to end")
       ->type_name("SECONDS");
-  command.add_option("--step", request.step, "Communication step size")->type_name("SECONDS");
+  add_step_options(command, request.step);
   command
       .add_option("--set", request.sets,
                   "Start value of a parameter or input; may be given several times")

@@ -28,6 +28,12 @@ const char* name(Initial initial) {
   return kNames[static_cast<std::size_t>(initial)];
 }
 
+const char* name(IntervalVariability variability) {
+  constexpr const char* kNames[] = {"constant", "fixed",     "tunable",
+                                    "changing", "countdown", "triggered"};
+  return kNames[static_cast<std::size_t>(variability)];
+}
+
 std::optional<std::size_t> UnitDescription::find(const std::string& variable_name) const {
   const auto found = std::find_if(variables.begin(), variables.end(), [&](const Variable& v) {
     return v.name == variable_name ||
@@ -42,6 +48,14 @@ std::optional<std::size_t> UnitDescription::find(ValueReference reference) const
                                   [&](const Variable& v) { return v.reference == reference; });
   if (found == variables.end()) return std::nullopt;
   return static_cast<std::size_t>(found - variables.begin());
+}
+
+bool UnitDescription::is_sampled(const Variable& variable) const {
+  return variable.is_clocked() &&
+         std::all_of(variable.clocks.begin(), variable.clocks.end(), [&](ValueReference clock) {
+           const auto place = find(clock);
+           return place && variables[*place].is_time_based_clock();
+         });
 }
 
 std::optional<LinearConversion> convert(const UnitDescription& from_description,

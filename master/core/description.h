@@ -12,6 +12,8 @@
 
 #include <stride/time.h>
 
+#include "master/core/interval.h"
+
 namespace stride::core {
 
 using ValueReference = std::uint32_t;
@@ -50,17 +52,44 @@ enum class Variability : std::uint8_t { Constant, Fixed, Tunable, Discrete, Cont
 /// first guess, the unit alone. None: the question does not arise, as for the time.
 enum class Initial : std::uint8_t { Exact, Approx, Calculated, None };
 
-/// The words of the standard: "Float64", "input", "continuous".
+/// When a clock ticks (FMI 3.0, 2.2.8). Triggered ones tick when something happens; the others, the
+/// time-based ones, by the time: periodically, the interval known from the description (Constant),
+/// from the start on (Fixed) or until it changes (Tunable); or once after each interval that the
+/// unit names, when it has just ticked (Changing) or at any event (Countdown).
+enum class IntervalVariability : std::uint8_t {
+  Constant,
+  Fixed,
+  Tunable,
+  Changing,
+  Countdown,
+  Triggered,
+};
+inline constexpr std::size_t kIntervalVariabilityCount = 6;
+
+/// The words of the standard: "Float64", "input", "continuous", "countdown".
 const char* name(ValueType type);
 const char* name(Causality causality);
 const char* name(Variability variability);
 const char* name(Initial initial);
+const char* name(IntervalVariability variability);
 
 /// value in SI base units = factor * value + offset. exponents of kg, m, s, A, K, mol, cd, rad.
 struct BaseUnit {
   std::array<int, 8> exponents{};
   double factor = 1;
   double offset = 0;
+};
+
+/// What a description says of a Clock.
+struct ClockAttributes {
+  IntervalVariability variability = IntervalVariability::Triggered;
+  std::optional<Interval> interval;  ///< of a periodic clock, if it is not the unit that says it
+  Interval shift;                  ///< from the start to the first tick, where there is an interval
+  bool supports_fraction = false;  ///< the unit can give intervals as fractions
+  bool can_be_deactivated = false;
+  std::optional<std::uint32_t> priority;  ///< of no meaning in Co-Simulation
+
+  bool is_periodic() const { return variability <= IntervalVariability::Tunable; }
 };
 
 struct Variable {
@@ -78,11 +107,19 @@ struct Variable {
   std::string start;  ///< as it stands in the description; elements separated by blanks
   std::string min;    ///< likewise, empty if there is none
   std::string max;
-  std::vector<ValueReference> clocks;  ///< the clocks that it belongs to
-  std::string interval_variability;    ///< of a Clock: "triggered", "constant", …
+  std::vector<ValueReference> clocks;                       ///< the clocks that it belongs to
+  std::optional<ClockAttributes> clock;                     ///< of a Clock
   std::vector<std::pair<std::string, std::int64_t>> items;  ///< of an Enumeration
 
+  /// Of a continuous input or an output: it may be accessed within a step.
+  bool intermediate_update = false;
+
   bool is_clocked() const { return !clocks.empty(); }
+  /// Whether it is a clock that the master ticks by the time.
+  bool is_time_based_clock() const {
+    return clock && causality == Causality::Input &&
+           clock->variability != IntervalVariability::Triggered;
+  }
 };
 
 /// An output or initial unknown, and what it depends on. Nothing = not said, so all inputs.
@@ -110,10 +147,13 @@ struct UnitDescription {
   bool may_return_early = false;
   bool single_instance = false;
   bool needs_execution_tool = false;
+  /// It can ask for its inputs within a step (fmi3IntermediateUpdateCallback).
+  bool provides_intermediate_update = false;
   unsigned max_output_derivative_order = 0;
   /// Whether the unit may reject a step (fmi3Discard); true unless it says otherwise.
   bool may_reject = true;
   std::optional<Duration> fixed_internal_step;
+  std::optional<Duration> maximum_step;  ///< no step may be longer
   std::optional<Duration> default_step;  ///< DefaultExperiment
   std::optional<Time> default_stop;
 
@@ -121,6 +161,10 @@ struct UnitDescription {
   std::optional<std::size_t> find(const std::string& variable_name) const;
   /// The place of the variable with this value reference.
   std::optional<std::size_t> find(ValueReference reference) const;
+
+  /// Whether the variable belongs to time-based clocks only: its value is exchanged at their ticks,
+  /// and holds between them.
+  bool is_sampled(const Variable& variable) const;
 };
 
 /// target = factor * source + offset

@@ -13,14 +13,16 @@ namespace {
 
 bool exchanged(const System& system, VariableId id) {
   const Variable& variable = system.variable(id);
-  return variable.type != ValueType::Clock && !variable.is_clocked();
+  return variable.type != ValueType::Clock && (!variable.is_clocked() || system.is_sampled(id));
 }
 
-/// One transfer for the variables of a component that have this type and are discrete, or not.
+/// One transfer for the variables of a component that have this type, are written at these
+/// occasions, and belong to these clocks.
 template <class Transfer>
-Transfer make_transfer(const System& system, ValueType type, bool discrete,
+Transfer make_transfer(const System& system, ValueType type, Occasion occasion,
+                       const std::vector<ValueReference>& clocks,
                        const std::vector<VariableId>& ids) {
-  Transfer transfer{ValueBlock(type, 0), discrete, ValueBlock(type, 0), true, {}, ids, {}};
+  Transfer transfer{ValueBlock(type, 0), occasion, ValueBlock(type, 0), true, clocks, {}, ids, {}};
   std::size_t size = 0;
   for (const VariableId id : ids) {
     transfer.references.push_back(system.variable(id).reference);
@@ -31,20 +33,30 @@ Transfer make_transfer(const System& system, ValueType type, bool discrete,
   return transfer;
 }
 
-/// At most two transfers for each type that occurs: what is continuous, and what is discrete.
+Occasion occasion_of(const Variable& variable, bool jumps) {
+  if (jumps || variable.variability != Variability::Continuous) return Occasion::Change;
+  return variable.intermediate_update ? Occasion::PointAndWithin : Occasion::Point;
+}
+
+/// At most three transfers for each type that occurs, one for each occasion, and further ones for
+/// each set of time-based clocks. `jumps`: what is discrete whatever it says.
 template <class Transfers>
-void plan(Transfers& transfers, const System& system, const std::set<VariableId>& ids) {
+void plan(Transfers& transfers, Transfers& sampled, const System& system,
+          const std::set<VariableId>& ids, const std::set<VariableId>& jumps) {
   using Transfer = typename Transfers::value_type::value_type;
-  std::map<std::tuple<std::size_t, ValueType, bool>, std::vector<VariableId>> groups;
+  using Key = std::tuple<std::size_t, ValueType, Occasion, std::vector<ValueReference>>;
+  std::map<Key, std::vector<VariableId>> groups;
   for (const VariableId id : ids) {
     const Variable& variable = system.variable(id);
-    const bool discrete = variable.variability != Variability::Continuous;
-    groups[{id.component, variable.type, discrete}].push_back(id);
+    const Occasion occasion = occasion_of(variable, jumps.contains(id));
+    groups[{id.component, variable.type, occasion, variable.clocks}].push_back(id);
   }
   transfers.resize(system.components().size());
+  sampled.resize(system.components().size());
   for (const auto& [key, members] : groups) {
-    const auto& [component, type, discrete] = key;
-    transfers[component].push_back(make_transfer<Transfer>(system, type, discrete, members));
+    const auto& [component, type, occasion, clocks] = key;
+    auto& list = clocks.empty() ? transfers : sampled;
+    list[component].push_back(make_transfer<Transfer>(system, type, occasion, clocks, members));
   }
 }
 
@@ -67,19 +79,21 @@ void copy_numbers(const Copies& copies) {
 Exchange::Exchange(const System& system, std::span<const VariableId> recorded) : system_(system) {
   std::set<VariableId> outputs;
   std::set<VariableId> inputs;
+  std::set<VariableId> jumps;  // a value that is held between ticks changes by an event
   for (const Connection& connection : system.connections()) {
     if (!exchanged(system, connection.from)) continue;
     outputs.insert(connection.from);
     inputs.insert(connection.to);
+    if (system.is_sampled(connection.from)) jumps.insert(connection.to);
   }
   for (const VariableId id : recorded) {
     if (!inputs.contains(id)) outputs.insert(id);
   }
-  plan(outputs_, system, outputs);
-  plan(inputs_, system, inputs);
+  plan(outputs_, sampled_outputs_, system, outputs, {});
+  plan(inputs_, sampled_inputs_, system, inputs, jumps);
   for (const auto& transfers : inputs_) {
     has_discrete_inputs_.push_back(std::any_of(transfers.begin(), transfers.end(),
-                                               [](const Transfer& t) { return t.discrete; }));
+                                               [](const Transfer& t) { return t.is_discrete(); }));
   }
   for (const Connection& connection : system.connections()) {
     if (exchanged(system, connection.from)) add_copies(connection);
@@ -91,25 +105,33 @@ auto Exchange::locate(SomeTransfers& transfers, VariableId id) {
   struct Place {
     decltype(&transfers[0][0].block) block = nullptr;
     std::size_t first = 0;
+    decltype(&transfers[0][0]) transfer = nullptr;
   };
   for (auto& transfer : transfers[id.component]) {
     const auto found = std::find(transfer.ids.begin(), transfer.ids.end(), id);
     if (found == transfer.ids.end()) continue;
     const auto place = static_cast<std::size_t>(found - transfer.ids.begin());
-    return Place{&transfer.block, transfer.firsts[place]};
+    return Place{&transfer.block, transfer.firsts[place], &transfer};
   }
   return Place{};
 }
 
 Signal Exchange::signal(VariableId id) const {
-  const auto input = locate(inputs_, id);
-  const auto place = input.block != nullptr ? input : locate(outputs_, id);
-  return {id, place.block, place.first};
+  const bool sampled = system_.variable(id).is_clocked();
+  const auto input = locate(sampled ? sampled_inputs_ : inputs_, id);
+  if (input.block != nullptr) {
+    return {id, sampled ? &input.transfer->delivered : input.block, input.first};
+  }
+  const auto output = locate(sampled ? sampled_outputs_ : outputs_, id);
+  return {id, output.block, output.first};
 }
 
 void Exchange::add_copies(const Connection& connection) {
-  const auto from = locate(std::as_const(outputs_), connection.from);
-  const auto to = locate(inputs_, connection.to);
+  const bool from_sampled = system_.is_sampled(connection.from);
+  const bool to_sampled = system_.is_sampled(connection.to);
+  const auto from =
+      locate(std::as_const(from_sampled ? sampled_outputs_ : outputs_), connection.from);
+  const auto to = locate(to_sampled ? sampled_inputs_ : inputs_, connection.to);
   ValueBlock& target = *to.block;
   for (std::size_t i = 0; i < system_.variable(connection.from).size; ++i) {
     const std::size_t source_at = from.first + i;
@@ -154,45 +176,139 @@ void Exchange::add_real(RealLists<Real>& lists, const Connection& connection, Re
 
 void Exchange::fetch(std::size_t component, Unit& unit) {
   for (Transfer& transfer : outputs_[component]) unit.get(transfer.references, transfer.block);
+  if (!is_initializing_) [[likely]]
+    return;
+  for (Transfer& transfer : sampled_outputs_[component]) {
+    unit.get(transfer.references, transfer.block);
+  }
 }
 
 bool Exchange::any_discrete_change(std::size_t component) const {
   for (const Transfer& transfer : inputs_[component]) {
-    if (transfer.discrete && !(transfer.block == transfer.delivered)) return true;
+    if (transfer.is_discrete() && !(transfer.block == transfer.delivered)) return true;
   }
   return false;
 }
 
 void Exchange::deliver(std::size_t component, Unit& unit) {
   for (Transfer& transfer : inputs_[component]) {
-    if (transfer.discrete) {
-      if (!transfer.is_new && transfer.block == transfer.delivered) continue;
-      transfer.delivered = transfer.block;
-      transfer.is_new = false;
+    if (!transfer.is_discrete()) {
+      unit.set(transfer.references, transfer.block);
+    } else if (is_changed(transfer)) {
+      write(transfer, unit);
     }
+  }
+  if (!is_initializing_) [[likely]]
+    return;
+  for (Transfer& transfer : sampled_inputs_[component]) {
+    if (is_changed(transfer)) write(transfer, unit);
+  }
+}
+
+void Exchange::write(Transfer& transfer, Unit& unit) {
+  transfer.delivered = transfer.block;
+  transfer.is_new = false;
+  unit.set(transfer.references, transfer.block);
+}
+
+bool Exchange::is_of(const Transfer& transfer, std::span<const ValueReference> ticking) {
+  return std::ranges::find_first_of(transfer.clocks, ticking) != transfer.clocks.end();
+}
+
+void Exchange::fetch_sampled(std::size_t component, Unit& unit,
+                             std::span<const ValueReference> ticking) {
+  for (Transfer& transfer : sampled_outputs_[component]) {
+    if (is_of(transfer, ticking)) unit.get(transfer.references, transfer.block);
+  }
+}
+
+void Exchange::deliver_sampled(std::size_t component, Unit& unit,
+                               std::span<const ValueReference> ticking) {
+  for (Transfer& transfer : sampled_inputs_[component]) {
+    if (is_of(transfer, ticking) && is_changed(transfer)) write(transfer, unit);
+  }
+}
+
+bool Exchange::has_sampled_change(std::size_t component,
+                                  std::span<const ValueReference> ticking) const {
+  const auto& transfers = sampled_inputs_[component];
+  return std::any_of(transfers.begin(), transfers.end(), [&](const Transfer& transfer) {
+    return is_of(transfer, ticking) && is_changed(transfer);
+  });
+}
+
+std::vector<VariableId> Exchange::sampled_changes(std::size_t component,
+                                                  std::span<const ValueReference> ticking) const {
+  std::vector<VariableId> changes;
+  for (const Transfer& transfer : sampled_inputs_[component]) {
+    if (is_of(transfer, ticking)) add_changes(transfer, transfer.delivered, changes);
+  }
+  return changes;
+}
+
+void Exchange::deliver_continuous(std::size_t component, Unit& unit) {
+  for (const Transfer& transfer : inputs_[component]) {
+    if (!transfer.is_discrete()) unit.set(transfer.references, transfer.block);
+  }
+}
+
+void Exchange::deliver_within_step(std::size_t component, Unit& unit) {
+  for (const Transfer& transfer : inputs_[component]) {
+    if (transfer.occasion != Occasion::PointAndWithin) continue;
     unit.set(transfer.references, transfer.block);
   }
 }
 
+std::vector<ContinuousLink> Exchange::continuous_links() {
+  const auto element = [](ValueBlock& block, std::size_t i) {
+    return RealElement{block.type(), block.bytes() + i * element_size(block.type())};
+  };
+  std::vector<ContinuousLink> links;
+  for (const Connection& connection : system_.connections()) {
+    const Variable& source = system_.variable(connection.from);
+    const Variable& target = system_.variable(connection.to);
+    const bool continuous = source.variability == Variability::Continuous &&
+                            target.variability == Variability::Continuous;
+    if (!continuous || source.is_clocked() || target.is_clocked()) continue;
+    const auto from = locate(outputs_, connection.from);
+    const auto to = locate(inputs_, connection.to);
+    for (std::size_t i = 0; i < source.size; ++i) {
+      links.push_back({connection.from, connection.to, element(*from.block, from.first + i),
+                       element(*to.block, to.first + i), connection.conversion});
+    }
+  }
+  return links;
+}
+
 std::vector<VariableId> Exchange::route_and_compare() {
   std::vector<ValueBlock> before;
-  for (const auto& transfers : inputs_) {
-    for (const Transfer& transfer : transfers) before.push_back(transfer.block);
+  for (const Transfers* inputs : {&inputs_, &sampled_inputs_}) {
+    for (const auto& transfers : *inputs) {
+      for (const Transfer& transfer : transfers) before.push_back(transfer.block);
+    }
   }
   route();
   auto old = before.begin();
   std::vector<VariableId> changed;
-  for (const auto& transfers : inputs_) {
-    for (const Transfer& transfer : transfers) {
-      const ValueBlock& previous = *old++;
-      for (std::size_t i = 0; i < transfer.ids.size(); ++i) {
-        const std::size_t size = system_.variable(transfer.ids[i]).size;
-        const bool differs = differ(transfer.block, previous, transfer.firsts[i], size);
-        if (differs) changed.push_back(transfer.ids[i]);
+  for (const Transfers* inputs : {&inputs_, &sampled_inputs_}) {
+    for (const auto& transfers : *inputs) {
+      for (const Transfer& transfer : transfers) {
+        add_changes(transfer, *old++, changed);
       }
     }
   }
   return changed;
+}
+
+/// The variables of which a value is not what it was.
+void Exchange::add_changes(const Transfer& transfer, const ValueBlock& before,
+                           std::vector<VariableId>& changes) const {
+  for (std::size_t i = 0; i < transfer.ids.size(); ++i) {
+    const std::size_t size = system_.variable(transfer.ids[i]).size;
+    if (differ(transfer.block, before, transfer.firsts[i], size)) {
+      changes.push_back(transfer.ids[i]);
+    }
+  }
 }
 
 void Exchange::route() {

@@ -15,15 +15,49 @@
 
 namespace stride::core {
 
+/// One element of a Float64 or Float32 variable, where it stands in an exchange's blocks.
+struct RealElement {
+  ValueType type = ValueType::Float64;
+  void* place = nullptr;
+
+  double get() const {
+    return type == ValueType::Float64 ? *static_cast<const double*>(place)
+                                      : *static_cast<const float*>(place);
+  }
+  void set(double value) const {
+    if (type == ValueType::Float64) {
+      *static_cast<double*>(place) = value;
+    } else {
+      *static_cast<float*>(place) = static_cast<float>(value);
+    }
+  }
+};
+
+/// When variables are written.
+enum class Occasion {
+  Point,           ///< at each communication point
+  PointAndWithin,  ///< and at instants within a step, if the unit asks for it
+  Change,          ///< where they changed: what is discrete
+};
+
+/// A connection between continuous variables, for one element.
+struct ContinuousLink {
+  VariableId from, to;
+  RealElement source, target;
+  LinearConversion conversion;
+};
+
 /// For each unit and type one contiguous block of outputs and one of inputs, and a list of copies
-/// between them. Clocked variables are not part of it: see messages.h. Nothing here allocates after
+/// between them. What belongs to time-based clocks is read and written at their ticks, and holds
+/// between them. Messages are not part of it: see messages.h. Nothing here allocates after
 /// construction, except where a String or a Binary grows.
 class Exchange {
  public:
   /// `recorded`: variables that are read although nobody is connected to them.
   Exchange(const System& system, std::span<const VariableId> recorded);
 
-  /// Reads a unit's outputs and recorded variables.
+  /// Reads a unit's outputs and recorded variables; until end_initialization() the sampled ones,
+  /// too.
   void fetch(std::size_t component, Unit& unit);
   /// Copies the outputs of all units to the inputs of all units.
   void route();
@@ -34,25 +68,49 @@ class Exchange {
   bool has_discrete_change(std::size_t component) const {
     return has_discrete_inputs_[component] && any_discrete_change(component);
   }
-  /// Writes a unit's continuous inputs, and the discrete ones if they changed.
+  /// Writes a unit's continuous inputs, and the discrete ones if they changed; until
+  /// end_initialization() the sampled ones, too.
   void deliver(std::size_t component, Unit& unit);
+
+  /// Writes a unit's continuous inputs.
+  void deliver_continuous(std::size_t component, Unit& unit);
+  /// Writes those of them that may change within a step.
+  void deliver_within_step(std::size_t component, Unit& unit);
+
+  /// All connections between continuous variables, sorted by target.
+  std::vector<ContinuousLink> continuous_links();
+
+  /// From now on what belongs to time-based clocks is exchanged at their ticks only.
+  void end_initialization() { is_initializing_ = false; }
+  /// The same for what belongs to one of these clocks of the unit, which tick.
+  void fetch_sampled(std::size_t component, Unit& unit, std::span<const ValueReference> ticking);
+  void deliver_sampled(std::size_t component, Unit& unit, std::span<const ValueReference> ticking);
+  /// Whether deliver_sampled() has something new to write.
+  bool has_sampled_change(std::size_t component, std::span<const ValueReference> ticking) const;
+  /// The inputs of which that holds, for people.
+  std::vector<VariableId> sampled_changes(std::size_t component,
+                                          std::span<const ValueReference> ticking) const;
 
   /// Like route(); returns the inputs that changed. Not for the hot loop.
   std::vector<VariableId> route_and_compare();
 
-  /// Where the variable's value stands. An input that is connected is seen as its source left it.
+  /// Where the variable's value stands. An input that is connected is seen as its source left it,
+  /// one that belongs to a time-based clock as it was at its last tick.
   Signal signal(VariableId id) const;
 
  private:
   /// Variables of one type of one unit, read or written by one call.
   struct Transfer {
     ValueBlock block;
-    bool discrete;         ///< written only where the values changed
-    ValueBlock delivered;  ///< of a discrete one: what was written last
-    bool is_new = true;    ///< nothing was written yet
+    Occasion occasion;
+    ValueBlock delivered;                ///< of a discrete one: what was written last
+    bool is_new = true;                  ///< nothing was written yet
+    std::vector<ValueReference> clocks;  ///< those at whose ticks it is exchanged; empty: always
     std::vector<ValueReference> references;
     std::vector<VariableId> ids;
     std::vector<std::size_t> firsts;  ///< where each variable begins in the block
+
+    bool is_discrete() const { return occasion == Occasion::Change; }
   };
   using Transfers = std::vector<std::vector<Transfer>>;  // by component; final once it is planned
 
@@ -78,7 +136,14 @@ class Exchange {
     std::vector<Checked<Real>> checked;
   };
 
+  static bool is_of(const Transfer& transfer, std::span<const ValueReference> ticking);
+  static bool is_changed(const Transfer& transfer) {
+    return transfer.is_new || !(transfer.block == transfer.delivered);
+  }
+  static void write(Transfer& transfer, Unit& unit);
   bool any_discrete_change(std::size_t component) const;
+  void add_changes(const Transfer& transfer, const ValueBlock& before,
+                   std::vector<VariableId>& changes) const;
   template <class Real>
   void check_nan(const RealLists<Real>& lists, Time time) const;
   void add_copies(const Connection& connection);
@@ -91,6 +156,9 @@ class Exchange {
   const System& system_;
   Transfers outputs_;
   Transfers inputs_;
+  Transfers sampled_outputs_;  ///< what belongs to time-based clocks
+  Transfers sampled_inputs_;
+  bool is_initializing_ = true;
   std::vector<char> has_discrete_inputs_;                ///< by component
   std::array<std::vector<Copy<std::byte>>, 4> numbers_;  // of 1, 2, 4 and 8 bytes
   std::vector<Copy<std::string>> strings_;

@@ -1,5 +1,7 @@
 #include "master/core/instant.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace stride::core {
@@ -17,22 +19,25 @@ Instant::Instant(const System& system, std::span<const std::unique_ptr<Unit>> un
       units_(units),
       exchange_(exchange),
       messages_(system, units),
+      clocks_(system, units),
       observers_(observers),
       statistics_(statistics),
       clock_(clock),
       active_(units.size()),
       in_event_mode_(units.size()),
+      had_event_(units.size()),
       polled_(units.size()),
       next_event_(units.size()) {}
 
 void Instant::begin() {
+  exchange_.end_initialization();
   for (std::size_t i = 0; i < count(); ++i) {
     active_[i] = in_event_mode_[i] = description(i).has_event_mode;
   }
 }
 
 std::optional<Time> Instant::next_event(Time time) const {
-  std::optional<Time> next;
+  std::optional<Time> next = clocks_.next();
   for (const std::optional<Time>& event : next_event_) {
     if (event && *event > time && (!next || *event < *next)) next = event;
   }
@@ -54,6 +59,7 @@ void Instant::settle(Time time) {
     }
     route();
   }
+  had_event_ = in_event_mode_;
   for (std::size_t i = 0; i < count(); ++i) {
     if (!in_event_mode_[i]) continue;
     units_[i]->enter_step_mode();
@@ -70,6 +76,7 @@ void Instant::route() {
 /// Event Mode then. Tells whether there are any.
 bool Instant::prepare_events() {
   bool any = false;
+  for (const std::size_t i : clocks_.due(time_)) active_[i] = true;
   for (std::size_t i = 0; i < count(); ++i) {
     if (exchange_.has_discrete_change(i) && description(i).has_event_mode) active_[i] = true;
     if (active_[i]) enter_event_mode(i);
@@ -85,10 +92,11 @@ void Instant::enter_event_mode(std::size_t i) {
   in_event_mode_[i] = true;
 }
 
-/// One super-dense instant: messages, then the units' discrete states. Leaves in `active_` who
-/// wants another.
+/// One super-dense instant: ticks and what is sampled at them, messages, then the units' discrete
+/// states. Leaves in `active_` who wants another.
 void Instant::event_iteration(std::uint32_t index) {
   ++statistics_.event_iterations;
+  tick_clocks();
   exchange_messages(index);
   for (std::size_t i = 0; i < count(); ++i) {
     if (!in_event_mode_[i]) continue;
@@ -98,7 +106,33 @@ void Instant::event_iteration(std::uint32_t index) {
     statistics_.terminated_by_unit |= result.terminate;
     next_event_[i] = result.next_event;
     active_[i] = result.iterate;
+    clocks_.update(i, time_);
   }
+}
+
+/// A value that goes from one ticking clock to another is that of this instant. Without a loop it
+/// crosses each connection once.
+void Instant::tick_clocks() {
+  const std::span<const std::size_t> ticking = clocks_.tick(time_);
+  if (ticking.empty()) return;
+  for (std::size_t pass = 0; pass <= system_.connections().size() + 1; ++pass) {
+    if (!exchange_samples(ticking)) return;
+  }
+  fail_sample_loop(ticking);
+}
+
+/// One pass; tells whether an input has yet to be written.
+bool Instant::exchange_samples(std::span<const std::size_t> ticking) {
+  for (const std::size_t i : ticking) {
+    exchange_.deliver_sampled(i, *units_[i], clocks_.ticking(i));
+  }
+  for (const std::size_t i : ticking) {
+    exchange_.fetch_sampled(i, *units_[i], clocks_.ticking(i));
+  }
+  route();
+  return std::any_of(ticking.begin(), ticking.end(), [&](std::size_t i) {
+    return exchange_.has_sampled_change(i, clocks_.ticking(i));
+  });
 }
 
 /// A clock that is set may make the receiver's own clocks tick at once, so receivers are asked
@@ -142,6 +176,21 @@ void Instant::fail_ticking() const {
                        "{}",
                        kEventLimit, quoted(names)),
            "look for messages that answer each other without any delay");
+}
+
+void Instant::fail_sample_loop(std::span<const std::size_t> ticking) const {
+  std::vector<std::string> names;
+  for (const std::size_t i : ticking) {
+    for (const VariableId id : exchange_.sampled_changes(i, clocks_.ticking(i))) {
+      names.push_back(system_.full_name(id));
+    }
+  }
+  fail_run({{}, {}, {}, time_},
+           fmt::format("the values that are sampled at one instant do not settle: units feed each "
+                       "other in an algebraic loop, through the inputs {}",
+                       quoted(names)),
+           "let the clocks of the units in the loop tick at different instants, or give one of the "
+           "units an output that does not depend on its input");
 }
 
 }  // namespace stride::core

@@ -11,6 +11,7 @@
 
 #include <stride/time.h>
 
+#include "master/core/clocks.h"
 #include "master/core/exchange.h"
 #include "master/core/messages.h"
 #include "master/core/observer.h"
@@ -29,6 +30,8 @@ class Instant {
   Instant(const System& system, std::span<const std::unique_ptr<Unit>> units, Exchange& exchange,
           std::vector<Observer*>& observers, RunStatistics& statistics, WallClock clock);
 
+  /// Before the end of Initialization Mode: asks for the first ticks of the time-based clocks.
+  void begin_clocks(Time start) { clocks_.begin(start); }
   /// Initialization Mode is over: the units with Event Mode stand in it, and each handles one event
   /// at least.
   void begin();
@@ -38,7 +41,10 @@ class Instant {
   /// Step Mode. Throws Error (Run) where a connected output is NaN, or units tick for ever.
   void settle(Time time);
 
-  /// The earliest event announced for later than `time`.
+  /// Who handled an event in the last settle(), by component.
+  std::span<const char> had_event() const { return had_event_; }
+
+  /// The earliest event announced, or tick of a time-based clock, for later than `time`.
   std::optional<Time> next_event(Time time) const;
 
  private:
@@ -50,14 +56,18 @@ class Instant {
   bool prepare_events();
   void enter_event_mode(std::size_t i);
   void event_iteration(std::uint32_t index);
+  void tick_clocks();
+  bool exchange_samples(std::span<const std::size_t> ticking);
   void exchange_messages(std::uint32_t index);
   void transmit(std::size_t sender, std::uint32_t index);
   [[noreturn]] void fail_ticking() const;
+  [[noreturn]] void fail_sample_loop(std::span<const std::size_t> ticking) const;
 
   const System& system_;
   std::span<const std::unique_ptr<Unit>> units_;
   Exchange& exchange_;
   MessageExchange messages_;
+  Clocks clocks_;
   std::vector<Observer*>& observers_;
   RunStatistics& statistics_;
   WallClock clock_;
@@ -65,6 +75,7 @@ class Instant {
   Time time_{};
   std::vector<char> active_;  ///< wants the next event iteration
   std::vector<char> in_event_mode_;
+  std::vector<char> had_event_;
   std::vector<char> polled_;  ///< its output clocks are to be read
   std::vector<std::optional<Time>> next_event_;
 };

@@ -10,6 +10,8 @@
 
 #include "master/core/exchange.h"
 #include "master/core/instant.h"
+#include "master/core/step_inputs.h"
+#include "master/core/step_size.h"
 #include "master/core/stepper.h"
 
 namespace stride::core {
@@ -26,13 +28,16 @@ class Simulation::Run {
       : system_(system),
         units_(std::move(units)),
         options_(std::move(options)),
+        step_size_(system, options_),
         exchange_(system, options_.recorded),
+        inputs_(make_inputs()),
         statistics_{.units = std::vector<UnitStatistics>(units_.size())},
         clock_(options_.measure_time),
         instant_(system, units_, exchange_, observers_, statistics_, clock_),
-        stepper_(system, units_, statistics_.units, clock_,
-                 {options_.step, options_.minimum_step, options_.threads}) {
+        stepper_(system, units_, statistics_.units, clock_, options_,
+                 inputs_ && inputs_->change_in_steps() ? &*inputs_ : nullptr) {
     statistics_.start = statistics_.reached = options_.start;
+    if (inputs_ && inputs_->change_in_steps()) lead_inputs_within_steps();
   }
 
   void add_observer(Observer& observer) { observers_.push_back(&observer); }
@@ -77,13 +82,14 @@ class Simulation::Run {
                    [&] { units_[i]->enter_initialization(options_.start, options_.stop); });
     }
     propagate_initial_values();
+    instant_.begin_clocks(time_);
     for (std::size_t i = 0; i < count(); ++i) {
       clock_.timed(statistics_.units[i].initialization_time,
                    [&] { units_[i]->exit_initialization(); });
     }
     start_observers();
     instant_.begin();
-    instant_.settle(time_);
+    settle();
     for (Observer* observer : observers_) observer->on_communication_point(time_);
   }
 
@@ -115,8 +121,22 @@ class Simulation::Run {
     for (Observer* observer : observers_) observer->on_start(signals);
   }
 
+  std::optional<StepInputs> make_inputs() {
+    StepInputs inputs(system_, exchange_, options_.coupling, options_.extrapolation);
+    if (!inputs.change_in_steps() && !step_size_.controls_error()) return std::nullopt;
+    return inputs;
+  }
+
+  void lead_inputs_within_steps() {
+    for (std::size_t i = 0; i < count(); ++i) {
+      Unit& unit = *units_[i];
+      unit.set_input_update(
+          [this, i, &unit](double seconds) { inputs_->within_step(i, unit, seconds); });
+    }
+  }
+
   void communication_step() {
-    const Time reached = stepper_.advance(time_, next_target());
+    const Time reached = advance();
     note_progress(reached);
     time_ = reached;
     for (std::size_t i = 0; i < count(); ++i) {
@@ -124,19 +144,36 @@ class Simulation::Run {
       statistics_.terminated_by_unit |= result.terminate;
       if (result.event_needed) instant_.request_event(i);
     }
-    instant_.settle(time_);
+    settle();
     ++statistics_.communication_steps;
     statistics_.parallel_steps += stepper_.was_parallel();
     statistics_.reached = time_;
     for (Observer* observer : observers_) observer->on_communication_point(time_);
   }
 
-  /// The next point of the grid, unless an event or the end is nearer.
+  /// Takes all units to the next communication point, as far as its errors are tolerable.
+  Time advance() {
+    while (true) {
+      const Time reached = stepper_.advance(time_, next_target());
+      if (!step_size_.controls_error()) return reached;
+      for (std::size_t i = 0; i < count(); ++i) exchange_.fetch(i, *units_[i]);
+      const Excess excess = inputs_->excess(reached, options_.step.absolute_tolerance,
+                                            options_.step.relative_tolerance);
+      if (step_size_.accept(time_, reached, excess)) return reached;
+      stepper_.undo(time_);
+      ++statistics_.undone_steps;
+    }
+  }
+
+  /// Where the policy leads to, unless an event is nearer.
   Time next_target() const {
-    Time target = options_.stop;
-    const Duration since = (time_ - options_.start) % options_.step;
-    if (options_.stop - time_ > options_.step - since) target = time_ + (options_.step - since);
+    const Time target = step_size_.next(time_);
     return std::min(target, instant_.next_event(time_).value_or(target));
+  }
+
+  void settle() {
+    instant_.settle(time_);
+    if (inputs_) inputs_->accept(time_, instant_.had_event());
   }
 
   void note_progress(Time reached) {
@@ -155,7 +192,9 @@ class Simulation::Run {
   const System& system_;
   std::vector<std::unique_ptr<Unit>> units_;
   RunOptions options_;
+  StepSize step_size_;
   Exchange exchange_;
+  std::optional<StepInputs> inputs_;
   std::vector<Observer*> observers_;
   RunStatistics statistics_;
   WallClock clock_;

@@ -8,24 +8,12 @@
 #include <stride/time.h>
 
 #include "master/core/observer.h"
+#include "master/core/run_options.h"
 #include "master/core/statistics.h"
 #include "master/core/system.h"
 #include "master/core/unit.h"
-#include "master/core/work_split.h"
 
 namespace stride::core {
-
-struct RunOptions {
-  Time start{};
-  Time stop{};
-  Duration
-      step{};  ///< between the points of the grid; there are others where units stop or have events
-  Duration minimum_step =
-      std::chrono::nanoseconds(1);   ///< no shorter one is tried after a rejection
-  std::vector<VariableId> recorded;  ///< what the observers see, in this order
-  ThreadOptions threads{};
-  bool measure_time = true;  ///< wall-clock time per unit; costs two clock readings a unit step
-};
 
 /// Runs a system once. The pseudocode is in docs/stepping.md.
 class Simulation {

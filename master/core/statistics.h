@@ -28,6 +28,7 @@ struct RunStatistics {
   Time start{};
   Time reached{};  ///< the last accepted instant
   std::uint64_t communication_steps = 0;
+  std::uint64_t undone_steps = 0;  ///< of all units, since an input's error was too large
   std::uint64_t event_iterations = 0;
   std::uint64_t parallel_steps = 0;  ///< communication steps that were made on several threads
   std::chrono::nanoseconds wall_time{};

@@ -1,6 +1,10 @@
 #include "master/core/step_order.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -43,6 +47,59 @@ void check_single(const System& system, const std::vector<StepPlace>& order) {
              "use a unit that can save its state (canGetAndSetFMUState) in place of one of them");
 }
 
+/// Whom each component feeds with values that exist between events too.
+std::vector<std::set<std::size_t>> fed_components(const System& system) {
+  std::vector<std::set<std::size_t>> fed(system.components().size());
+  for (const Connection& connection : system.connections()) {
+    const bool feeds = connection.from.component != connection.to.component &&
+                       !system.variable(connection.from).is_clocked();
+    if (feeds) fed[connection.from.component].insert(connection.to.component);
+  }
+  return fed;
+}
+
+/// Kahn's topological sort of the places of one role; where all that are left wait for each other,
+/// the first of them goes on.
+void sort_along_connections(const std::vector<std::set<std::size_t>>& fed,
+                            std::span<StepPlace> places) {
+  std::map<std::size_t, std::size_t> position;  // by component
+  for (std::size_t i = 0; i < places.size(); ++i) position[places[i].component] = i;
+  const auto for_each_fed = [&](std::size_t i, auto&& action) {
+    for (const std::size_t target : fed[places[i].component]) {
+      if (const auto found = position.find(target); found != position.end()) action(found->second);
+    }
+  };
+  std::vector<std::size_t> sources(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for_each_fed(i, [&](std::size_t target) { ++sources[target]; });
+  }
+  std::set<std::pair<bool, std::size_t>> left;  // those that wait for nobody first
+  for (std::size_t i = 0; i < places.size(); ++i) left.insert({sources[i] > 0, i});
+  std::vector<std::size_t> order;
+  while (!left.empty()) {
+    const std::size_t next = left.extract(left.begin()).value().second;
+    order.push_back(next);
+    for_each_fed(next, [&](std::size_t target) {
+      if (left.erase({sources[target] > 0, target}) == 0) return;
+      --sources[target];
+      left.insert({sources[target] > 0, target});
+    });
+  }
+  std::vector<StepPlace> sorted;
+  for (const std::size_t i : order) sorted.push_back(places[i]);
+  std::move(sorted.begin(), sorted.end(), places.begin());
+}
+
+void sort_along_connections(const System& system, std::vector<StepPlace>& order) {
+  const auto fed = fed_components(system);
+  for (auto first = order.begin(); first != order.end();) {
+    const auto end = std::find_if(
+        first, order.end(), [&](const StepPlace& place) { return place.role != first->role; });
+    sort_along_connections(fed, {first, end});
+    first = end;
+  }
+}
+
 void form_stages(const System& system, std::vector<StepPlace>& order) {
   std::size_t stage = 0;
   bool stage_may_stop = false;
@@ -58,13 +115,13 @@ void form_stages(const System& system, std::vector<StepPlace>& order) {
 
 }  // namespace
 
-std::vector<StepPlace> step_order(const System& system) {
+std::vector<StepPlace> step_order(const System& system, StepPolicy policy, Coupling coupling) {
   const auto& components = system.components();
   std::vector<StepPlace> order;
   for (std::size_t i = 0; i < components.size(); ++i) {
     const UnitDescription& unit = *components[i].description;
     const StepRole role = role_of(unit);
-    bool another_may_stop = false;
+    bool another_may_stop = policy == StepPolicy::ErrorControlled;
     for (std::size_t k = 0; k < components.size(); ++k) {
       another_may_stop |= k != i && may_stop(*components[k].description);
     }
@@ -79,6 +136,7 @@ std::vector<StepPlace> step_order(const System& system) {
            !components[b.component].description->may_reject;
   });
   check_single(system, order);
+  if (coupling == Coupling::GaussSeidel) sort_along_connections(system, order);
   form_stages(system, order);
   return order;
 }

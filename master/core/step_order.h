@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "master/core/run_options.h"
 #include "master/core/system.h"
 
 namespace stride::core {
@@ -32,15 +33,16 @@ struct StepPlace {
 /// Then the one unit, at most, that may stop early and cannot be rolled back: what it reaches is
 /// final, and the units before it, which go back once more, accept a shorter step where they
 /// accepted a longer one (Broman et al., "Determinate Composition of FMUs for Co-Simulation",
-/// 2013). Last those that do as they are told. Within a role the order is that of the file; it
-/// changes no result.
+/// 2013). Last those that do as they are told. Within a role the order is that of the file, which
+/// changes no result; with Gauss-Seidel a unit stands behind those that feed it, as far as they do
+/// not feed each other in a ring, which is cut at the unit that comes first in the file.
 ///
-/// A state is saved only where another unit may stop. Throws Error (Input) where two units may stop
-/// early and neither can be rolled back.
+/// A state is saved only where another unit may stop, and with an error-controlled step always.
+/// Throws Error (Input) where two units may stop early and neither can be rolled back.
 ///
 /// A unit that cannot be rolled back begins a new stage where the stage before it has a unit that
 /// may stop: it must not go further than that one does.
-std::vector<StepPlace> step_order(const System& system);
+std::vector<StepPlace> step_order(const System& system, StepPolicy policy, Coupling coupling);
 
 }  // namespace stride::core
 

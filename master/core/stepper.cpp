@@ -24,27 +24,30 @@ std::vector<std::span<const StepPlace>> stages_of(std::span<const StepPlace> ord
 }  // namespace
 
 Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                 std::vector<UnitStatistics>& statistics, WallClock clock, Options options)
+                 std::vector<UnitStatistics>& statistics, WallClock clock,
+                 const RunOptions& options, StepInputs* inputs)
     : system_(system),
       units_(units),
       statistics_(statistics),
       clock_(clock),
       step_clock_(clock),
-      options_(std::move(options)),
-      order_(step_order(system)),
+      inputs_(inputs),
+      regular_(options.step.size),
+      minimum_(options.step.minimum),
+      order_(step_order(system, options.step.policy, options.coupling)),
       stages_(stages_of(order_)),
       progress_(units.size()),
-      split_(plan()) {}
+      split_(plan(options)) {}
 
-WorkSplit::Plan Stepper::plan() {
+WorkSplit::Plan Stepper::plan(const RunOptions& options) {
   WorkSplit::Plan plan;
-  plan.threads = options_.threads.count;
-  plan.always = options_.threads.always;
+  plan.threads = options.coupling == Coupling::GaussSeidel ? 1 : options.threads.count;
+  plan.always = options.threads.always;
   if (!plan.always) {
     plan.threads = std::min<std::size_t>(plan.threads, std::thread::hardware_concurrency());
   }
   plan.threads = std::clamp<std::size_t>(plan.threads, 1, std::max<std::size_t>(1, units_.size()));
-  const auto& main_only = options_.threads.main_only;
+  const auto& main_only = options.threads.main_only;
   for (std::size_t i = 0; i < order_.size(); ++i) {
     plan.stages.resize(order_[i].stage + 1);
     plan.stages.back().push_back(i);
@@ -73,6 +76,13 @@ Time Stepper::advance(Time from, Time target) {
   const Time reached = make_passes(from, target);
   split_.end_step(WallClock::Source::now() - began);
   return reached;
+}
+
+void Stepper::undo(Time from) {
+  for (const StepPlace& place : order_) {
+    roll_back(place.component, from);
+    ++statistics_[place.component].rollbacks;
+  }
 }
 
 Time Stepper::make_passes(Time from, Time target) {
@@ -141,16 +151,23 @@ inline Stepper::Outcome Stepper::go(const StepPlace& place, Progress& unit, Time
   }
   if (unit.result.reached > target) {
     if (!place.saves_state) return Outcome::TooFar;
-    instance.restore_state();
+    roll_back(place.component, from);
     unit.rolled_back = true;
-    unit.result = {.reached = from};
   }
   if (unit.result.reached == target) return Outcome::Stood;
-  if (!place.can_vary_step && target - from != options_.regular) fail_size(place, from, target);
+  if (!place.can_vary_step && target - from != regular_) fail_size(place, from, target);
+  if (inputs_ != nullptr) inputs_->before_step(place.component, instance, from, target);
   const StepResult result = instance.step(from, target);
   if (result.rejected) return Outcome::Rejected;
   unit.result = result;
+  if (inputs_ != nullptr) inputs_->after_step(place.component, instance, result.reached);
   return Outcome::Stepped;
+}
+
+void Stepper::roll_back(std::size_t component, Time from) {
+  units_[component]->restore_state();
+  progress_[component].result = {.reached = from};
+  if (inputs_ != nullptr) inputs_->undo_step(component);
 }
 
 /// Counts what the unit did, and returns how far it lets the others go.
@@ -200,14 +217,14 @@ void Stepper::rethrow_failure(const StepPlace& first) const {
 }
 
 void Stepper::check_minimum(Time from, Time reached, Time target) const {
-  const bool is_large_enough = reached - from >= options_.minimum && reached > from;
+  const bool is_large_enough = reached - from >= minimum_ && reached > from;
   if (is_large_enough || progress_[stopped_->component].outcome != Outcome::Rejected) return;
   const std::string reason = units_[stopped_->component]->rejection_reason();
   fail_run({{}, system_.components()[stopped_->component].name, {}, from},
            fmt::format("the unit rejected the step to {} s, {} in all, and half of it would be "
                        "shorter than the minimum of "
                        "{} s{}{}",
-                       to_text(target), times(rejections_), to_text(Time(options_.minimum)),
+                       to_text(target), times(rejections_), to_text(Time(minimum_)),
                        reason.empty() ? "" : "; it says: ", reason),
            "look at what the unit received before this instant");
 }
@@ -218,7 +235,7 @@ void Stepper::fail_size(const StepPlace& place, Time from, Time target) const {
       fmt::format(
           "the unit takes steps of one size only, {} s, but another unit's event or stop asks for "
           "one of {} s",
-          to_text(Time(options_.regular)), to_text(Time(target - from))),
+          to_text(Time(regular_)), to_text(Time(target - from))),
       "use a unit with canHandleVariableCommunicationStepSize, or none that has events or stops "
       "early");
 }

@@ -12,7 +12,9 @@
 
 #include <stride/time.h>
 
+#include "master/core/run_options.h"
 #include "master/core/statistics.h"
+#include "master/core/step_inputs.h"
 #include "master/core/step_order.h"
 #include "master/core/system.h"
 #include "master/core/thread_pool.h"
@@ -31,15 +33,11 @@ namespace stride::core {
 /// fail, the first one's error is thrown, when all threads have come to rest.
 class Stepper {
  public:
-  struct Options {
-    Duration regular{};  ///< the size that units which cannot vary theirs must be given
-    Duration minimum{};  ///< a shorter step than this is not asked for after a rejection
-    ThreadOptions threads{};
-  };
-
-  /// `units` in the order of system.components(). Throws Error as step_order() does.
+  /// `units` in the order of system.components(). `inputs`: who sets them before each step; null
+  /// if they stay what they are. Throws Error as step_order() does.
   Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units,
-          std::vector<UnitStatistics>& statistics, WallClock clock, Options options);
+          std::vector<UnitStatistics>& statistics, WallClock clock, const RunOptions& options,
+          StepInputs* inputs = nullptr);
 
   const std::vector<StepPlace>& order() const { return order_; }
 
@@ -47,6 +45,10 @@ class Stepper {
   /// them stopped. Throws Error (Run) naming the unit: a step shorter than the minimum was
   /// rejected, or a unit stopped when another could not go back.
   Time advance(Time from, Time target);
+
+  /// Takes all units back to `from`, where the last advance() began. Their states must have been
+  /// saved, as they are with an error-controlled step.
+  void undo(Time from);
 
   /// How the unit's last accepted step ended.
   const StepResult& result(std::size_t component) const { return progress_[component].result; }
@@ -78,13 +80,14 @@ class Stepper {
   void step_on_threads(std::span<const WorkShare> shares, Time from, Time target);
   void step(const StepPlace& place, Time from, Time target) noexcept;
   Outcome go(const StepPlace& place, Progress& unit, Time from, Time target);
+  void roll_back(std::size_t component, Time from);
   Time take_down(const StepPlace& place, Time from, Time target);
   void take_down_time(const StepPlace& place, std::chrono::nanoseconds time);
   [[noreturn]] void rethrow_failure(const StepPlace& first) const;
   void check_minimum(Time from, Time reached, Time target) const;
   [[noreturn]] void fail_size(const StepPlace& place, Time from, Time target) const;
   [[noreturn]] void fail_final(const StepPlace& ahead) const;
-  WorkSplit::Plan plan();
+  WorkSplit::Plan plan(const RunOptions& options);
   ThreadPool& pool();
 
   const System& system_;
@@ -92,7 +95,9 @@ class Stepper {
   std::vector<UnitStatistics>& statistics_;
   WallClock clock_;
   WallClock step_clock_;  ///< measures where the work is to be split, too
-  Options options_;
+  StepInputs* inputs_;
+  Duration regular_;  ///< the size that units which cannot vary theirs must be given
+  Duration minimum_;  ///< a shorter step than this is not asked for after a rejection
   std::vector<StepPlace> order_;
   std::vector<Stage> stages_;  ///< of order_
   std::vector<Progress> progress_;

@@ -151,16 +151,15 @@ void System::check_connectors(const ComponentDeclaration& component) const {
 }
 
 void System::check_clocks(const ComponentDeclaration& component) const {
-  for (const Variable& variable : component.description->variables) {
-    const bool time_based = variable.type == ValueType::Clock &&
-                            variable.causality == Causality::Input &&
-                            variable.interval_variability != "triggered";
-    if (!time_based) continue;
+  const UnitDescription& description = *component.description;
+  if (description.has_event_mode) return;
+  for (const Variable& variable : description.variables) {
+    if (!variable.is_time_based_clock()) continue;
     fail_input({component.where, component.name, variable.name, {}},
-               fmt::format("this is a {} clock, which the master would have to tick by the time; "
-                           "that is not supported yet",
-                           variable.interval_variability),
-               "use a unit whose input clocks are triggered");
+               fmt::format("this is a {} clock, which ticks in Event Mode, and the unit has none "
+                           "(hasEventMode)",
+                           core::name(variable.clock->variability)),
+               "use a unit that has Event Mode");
   }
 }
 
@@ -199,20 +198,49 @@ void System::add_connections(const SystemDeclaration& declaration) {
   std::sort(connections_.begin(), connections_.end(),
             [](const Connection& a, const Connection& b) { return a.to < b.to; });
   for (const Connection& connection : connections_) {
-    const auto from_clocks = clocks_of(*this, connection.from);
-    for (const VariableId to_clock : clocks_of(*this, connection.to)) {
-      const bool wired = std::any_of(connections_.begin(), connections_.end(), [&](const auto& c) {
-        return c.to == to_clock &&
-               std::find(from_clocks.begin(), from_clocks.end(), c.from) != from_clocks.end();
-      });
-      if (wired) continue;
-      const ConnectionDeclaration& wanted = *sources.at(connection.to);
-      fail_input({wanted.where, wanted.to_component, wanted.to_connector, {}},
-                 fmt::format("its clock '{}' is not connected to the clock of '{}'",
-                             full_name(to_clock), full_name(connection.from)),
-                 "a message needs two connections: one for its value, one for its clock");
-    }
+    check_message(*sources.at(connection.to), connection);
   }
+}
+
+/// What carries a message from clock to clock needs its clock connected, too.
+void System::check_message(const ConnectionDeclaration& wanted,
+                           const Connection& connection) const {
+  if (is_sampled(connection.to)) return;
+  const auto from_clocks = clocks_of(*this, connection.from);
+  for (const VariableId to_clock : clocks_of(*this, connection.to)) {
+    const bool wired = std::any_of(connections_.begin(), connections_.end(), [&](const auto& c) {
+      return c.to == to_clock &&
+             std::find(from_clocks.begin(), from_clocks.end(), c.from) != from_clocks.end();
+    });
+    if (wired) continue;
+    fail_input({wanted.where, wanted.to_component, wanted.to_connector, {}},
+               fmt::format("its clock '{}' is not connected to the clock of '{}'",
+                           full_name(to_clock), full_name(connection.from)),
+               "a message needs two connections: one for its value, one for its clock");
+  }
+}
+
+/// A message goes to a message. A value that is sampled at a time-based clock's ticks, on either
+/// side, may be connected to any other value that is no message.
+void System::check_clocked(const ConnectionDeclaration& wanted, VariableId from,
+                           VariableId to) const {
+  const std::string wire = fmt::format("'{}' to '{}'", full_name(from), full_name(to));
+  const Context context{wanted.where, {}, {}, {}};
+  if (variable(to).is_time_based_clock()) {
+    fail_input(context,
+               fmt::format("cannot connect {}: '{}' is a {} clock, which ticks by the time alone",
+                           wire, full_name(to), core::name(variable(to).clock->variability)),
+               "remove the connection; the master ticks such a clock when its unit says");
+  }
+  const bool from_message = variable(from).is_clocked() && !is_sampled(from);
+  const bool to_message = variable(to).is_clocked() && !is_sampled(to);
+  if (from_message == to_message) return;
+  const VariableId message = from_message ? from : to;
+  fail_input(context,
+             fmt::format("cannot connect {}: '{}' is a message, which exists at the ticks of its "
+                         "triggered clock only, and the other is not",
+                         wire, full_name(message)),
+             "connect a message, and its clock, to another message");
 }
 
 Connection System::connect(const ConnectionDeclaration& wanted) const {
@@ -242,10 +270,7 @@ Connection System::connect(const ConnectionDeclaration& wanted) const {
     fail_input(context,
                fmt::format("cannot connect {}: {} and {}", wire, shape(source), shape(target)));
   }
-  if (source.is_clocked() != target.is_clocked()) {
-    fail_input(context,
-               fmt::format("cannot connect {}: only one of the two belongs to a clock", wire));
-  }
+  check_clocked(wanted, from, to);
   const auto conversion = convert(*components_[from.component].description, source.unit,
                                   *components_[to.component].description, target.unit);
   if (!conversion && !wanted.suppress_unit_conversion) {

@@ -78,6 +78,10 @@ class System {
   const Variable& variable(VariableId id) const {
     return components_[id.component].description->variables[id.variable];
   }
+  /// Whether the variable belongs to time-based clocks only; see UnitDescription::is_sampled().
+  bool is_sampled(VariableId id) const {
+    return components_[id.component].description->is_sampled(variable(id));
+  }
   /// "component.variable"
   std::string full_name(VariableId id) const;
 
@@ -90,6 +94,9 @@ class System {
                            const Location& where) const;
   void check_connectors(const ComponentDeclaration& component) const;
   void check_clocks(const ComponentDeclaration& component) const;
+  void check_clocked(const ConnectionDeclaration& declaration, VariableId from,
+                     VariableId to) const;
+  void check_message(const ConnectionDeclaration& declaration, const Connection& connection) const;
   Connection connect(const ConnectionDeclaration& declaration) const;
 
   std::string name_;

@@ -2,6 +2,8 @@
 #ifndef STRIDE_MASTER_CORE_UNIT_H
 #define STRIDE_MASTER_CORE_UNIT_H
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,6 +30,17 @@ struct EventResult {
   bool terminate = false;
   std::optional<Time> next_event;
 };
+
+/// What a unit says of the interval of one of its time-based clocks.
+struct ClockInterval {
+  enum class State { NotYetKnown, Unchanged, Changed };
+  State state = State::NotYetKnown;
+  Interval interval{};  ///< with Unchanged, the one that was told before
+};
+
+/// Called by a unit within a step, `seconds_into_step` after its begin: sets those of its inputs
+/// that have `intermediate_update` to their values at that instant. Instants come in any order.
+using InputUpdate = std::function<void(double seconds_into_step)>;
 
 /// One instance of a unit. Call order, as in FMI 3.0 Co-Simulation:
 ///
@@ -63,7 +76,21 @@ class Unit {
   virtual EventResult update_discrete_states() = 0;
   virtual void enter_step_mode() = 0;
 
+  /// The interval of a time-based clock that does not stand in the description. In Initialization
+  /// Mode it counts from the first tick of a periodic clock, and from the start to the first tick
+  /// of another; in Event Mode, after update_discrete_states(), from the present instant.
+  virtual ClockInterval clock_interval(const Variable& /*clock*/) { return {}; }
+  /// From the start to the first tick of a periodic clock; in Initialization Mode only.
+  virtual Interval clock_shift(const Variable& /*clock*/) { return {}; }
+
+  /// Whom to ask for inputs within a step; an empty function ends it. A unit that has no use for it
+  /// steps with the inputs that it was given before.
+  virtual void set_input_update(InputUpdate /*update*/) {}
+
   virtual void terminate() = 0;
+
+  /// How many functions of the unit's interface were called so far, where they are counted.
+  virtual std::uint64_t calls() const { return 0; }
 };
 
 }  // namespace stride::core

@@ -11,16 +11,6 @@
 
 namespace stride::core {
 
-/// On how many threads a run may step its units. Changes the speed of a run, never its results.
-struct ThreadOptions {
-  std::size_t count = 1;  ///< the thread that runs the simulation included
-  /// Components, by their places in System::components(), that step on that thread only, as for
-  /// units that must not run beside each other.
-  std::vector<std::size_t> main_only{};
-  /// Threads are used from the first step on, whether they pay or not: for tests.
-  bool always = false;
-};
-
 /// The units of one thread, by their places in the step order, in that order.
 using WorkShare = std::vector<std::size_t>;
 

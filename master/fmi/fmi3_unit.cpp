@@ -43,6 +43,18 @@ double time_tolerance(double point, double end) {
   return kPicosecond + rounding + kShareOfStep * (end - point);
 }
 
+/// The inputs that may be set within a step.
+std::vector<core::ValueReference> intermediate_inputs(const core::UnitDescription& description) {
+  std::vector<core::ValueReference> references;
+  if (!description.provides_intermediate_update) return references;
+  for (const core::Variable& variable : description.variables) {
+    const bool is_input = variable.causality == core::Causality::Input &&
+                          variable.variability == core::Variability::Continuous;
+    if (is_input && variable.intermediate_update) references.push_back(variable.reference);
+  }
+  return references;
+}
+
 }  // namespace
 
 // ---- Life and death ----
@@ -55,11 +67,14 @@ Fmi3Unit::Fmi3Unit(std::string name, UnitParts parts, InstanceOptions options)
   check_callable("fmi3InstantiateCoSimulation");
   const core::UnitDescription& description = *parts_.description;
   const bool has_resources = !parts_.resource_path.empty();
+  std::vector<core::ValueReference> intermediate;
+  if (options_.intermediate_update) intermediate = intermediate_inputs(description);
+  ++calls_;
   instance_ = fmi_.InstantiateCoSimulation(
       name_.c_str(), description.instantiation_token.c_str(),
       has_resources ? parts_.resource_path.c_str() : nullptr, fmi3False, options_.debug_logging,
-      description.has_event_mode, options_.early_return_allowed, nullptr, 0, this, &on_log,
-      nullptr);
+      description.has_event_mode, options_.early_return_allowed, intermediate.data(),
+      intermediate.size(), this, &on_log, intermediate.empty() ? nullptr : &on_intermediate_update);
   if (instance_ == nullptr) {
     fail(fmt::format("fmi3InstantiateCoSimulation failed: {}",
                      take_messages("fmi3InstantiateCoSimulation")));
@@ -91,23 +106,6 @@ void Fmi3Unit::terminate() {
 }
 
 // ---- Calls, messages and failures ----
-
-template <class Function, class... Arguments>
-fmi3Status Fmi3Unit::call_discardable(const char* name, Function* function,
-                                      Arguments... arguments) {
-  check_callable(name);
-  const fmi3Status status = function(instance_, arguments...);
-  if (status == fmi3Discard) return status;
-  if (status != fmi3OK && status != fmi3Warning) fail_call(name, status);
-  if (has_messages_.load(std::memory_order_relaxed)) take_messages(name);
-  return status;
-}
-
-template <class Function, class... Arguments>
-void Fmi3Unit::call(const char* name, Function* function, Arguments... arguments) {
-  const fmi3Status status = call_discardable(name, function, arguments...);
-  if (status == fmi3Discard) fail_call(name, status);
-}
 
 void Fmi3Unit::check_callable(const char* name) const {
   if (failed_in_ != nullptr) {
@@ -264,9 +262,7 @@ core::StepResult Fmi3Unit::step(Time from, Time to) {
   bool terminate = false;
   bool early = false;
   double last_successful = end;
-  const fmi3Status status =
-      call_discardable("fmi3DoStep", fmi_.DoStep, point, size, !options_.may_roll_back,
-                       &event_needed, &terminate, &early, &last_successful);
+  const fmi3Status status = do_step(point, size, event_needed, terminate, early, last_successful);
   if (status == fmi3Discard) {
     rejection_reason_ = has_messages_ ? take_messages("fmi3DoStep") : "";
     return {.rejected = true, .reached = from};
@@ -277,6 +273,46 @@ core::StepResult Fmi3Unit::step(Time from, Time to) {
           .event_needed = event_needed,
           .terminate = terminate,
           .reached = *time_};
+}
+
+fmi3Status Fmi3Unit::do_step(double point, double size, fmi3Boolean& event_needed,
+                             fmi3Boolean& terminate, fmi3Boolean& early, double& last_successful) {
+  step_point_ = point;
+  try {
+    const fmi3Status status =
+        call_discardable("fmi3DoStep", fmi_.DoStep, point, size, !options_.may_roll_back,
+                         &event_needed, &terminate, &early, &last_successful);
+    if (update_failure_) [[unlikely]]
+      rethrow_update_failure();
+    return status;
+  } catch (...) {
+    rethrow_update_failure();  // it is the cause of what the unit answered
+    throw;
+  }
+}
+
+// ---- Inputs within a step ----
+
+void Fmi3Unit::on_intermediate_update(fmi3InstanceEnvironment environment, fmi3Float64 time,
+                                      fmi3Boolean set_requested, fmi3Boolean, fmi3Boolean,
+                                      fmi3Boolean, fmi3Boolean* early_return_requested,
+                                      fmi3Float64*) {
+  if (early_return_requested != nullptr) *early_return_requested = fmi3False;
+  if (set_requested) static_cast<Fmi3Unit*>(environment)->update_inputs(time);
+}
+
+/// Nothing may cross the unit's C code: step() throws what goes wrong here.
+void Fmi3Unit::update_inputs(double time) noexcept {
+  if (!input_update_ || update_failure_) return;
+  try {
+    input_update_(time - step_point_);
+  } catch (...) {
+    update_failure_ = std::current_exception();
+  }
+}
+
+void Fmi3Unit::rethrow_update_failure() {
+  if (update_failure_) std::rethrow_exception(std::exchange(update_failure_, nullptr));
 }
 
 /// FMI 3.0, 4.2: a unit with a fixed internal step may stand elsewhere than where it was sent.

@@ -3,6 +3,8 @@
 #define STRIDE_MASTER_FMI_FMI3_UNIT_H
 
 #include <atomic>
+#include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -26,6 +28,8 @@ struct InstanceOptions {
   bool early_return_allowed = false;
   /// Whether a state from before the current communication point may be restored.
   bool may_roll_back = false;
+  /// Whether the unit may ask for its inputs within a step, where it can (set_input_update()).
+  bool intermediate_update = false;
   bool debug_logging = false;  ///< everything that the unit can log, not only warnings and errors
   LogSink log{};
   core::Location where{};  ///< the component's place in the scenario, for errors
@@ -47,6 +51,8 @@ struct UnitParts {
 ///
 /// A step that succeeds without an early return ends at its end, also where the unit's own time
 /// (lastSuccessfulTime) is another, as with a fixed internal step; the log says so once.
+///
+/// What an input update throws within a step is thrown by step(), which has ended then.
 ///
 /// After the first exchange, get(), set() and step() do not allocate, except where a string or
 /// binary value outgrows the longest before it.
@@ -70,10 +76,24 @@ class Fmi3Unit : public core::Unit {
   void enter_event_mode() override;
   core::EventResult update_discrete_states() override;
   void enter_step_mode() override;
+  core::ClockInterval clock_interval(const core::Variable& clock) override;
+  core::Interval clock_shift(const core::Variable& clock) override;
+  void set_input_update(core::InputUpdate update) override { input_update_ = std::move(update); }
   void terminate() override;
+  std::uint64_t calls() const override { return calls_; }
 
  private:
   using References = std::span<const core::ValueReference>;
+
+  static void on_intermediate_update(fmi3InstanceEnvironment environment, fmi3Float64 time,
+                                     fmi3Boolean set_requested, fmi3Boolean get_allowed,
+                                     fmi3Boolean step_finished, fmi3Boolean can_return_early,
+                                     fmi3Boolean* early_return_requested,
+                                     fmi3Float64* early_return_time);
+  void update_inputs(double time) noexcept;
+  void rethrow_update_failure();
+  fmi3Status do_step(double point, double size, fmi3Boolean& event_needed, fmi3Boolean& terminate,
+                     fmi3Boolean& early, double& last_successful);
 
   static void on_log(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category,
                      fmi3String message);
@@ -94,6 +114,13 @@ class Fmi3Unit : public core::Unit {
   void get_binaries(References references, std::span<core::Binary> values);
   void set_binaries(References references, std::span<const core::Binary> values);
 
+  template <class Function, class... Arguments>
+  void call_clock(const char* name, Function* function, const core::Variable& clock,
+                  Arguments... arguments);
+  template <class Make>
+  core::Interval checked_interval(const char* function, const core::Variable& clock,
+                                  Make&& make) const;
+
   Time checked_time(double seconds, const char* what) const;
   Time reached_early(Time from, Time to, double last_successful) const;
   void compare_times(Time from, Time to, double last_successful);
@@ -110,6 +137,11 @@ class Fmi3Unit : public core::Unit {
   bool has_time_warning_ = false;
   std::string rejection_reason_;
 
+  core::InputUpdate input_update_;
+  double step_point_ = 0;  ///< where the present step began, as the unit knows it
+  std::exception_ptr update_failure_;
+  std::uint64_t calls_ = 0;
+
   fmi3FMUState state_ = nullptr;
   std::optional<Time> state_time_;  ///< time_ when the state was saved
 
@@ -121,6 +153,24 @@ class Fmi3Unit : public core::Unit {
   std::vector<std::string> messages_;  ///< those of the present call that report a failure
   std::atomic<bool> has_messages_ = false;
 };
+
+template <class Function, class... Arguments>
+fmi3Status Fmi3Unit::call_discardable(const char* name, Function* function,
+                                      Arguments... arguments) {
+  check_callable(name);
+  ++calls_;
+  const fmi3Status status = function(instance_, arguments...);
+  if (status == fmi3Discard) return status;
+  if (status != fmi3OK && status != fmi3Warning) fail_call(name, status);
+  if (has_messages_.load(std::memory_order_relaxed)) take_messages(name);
+  return status;
+}
+
+template <class Function, class... Arguments>
+void Fmi3Unit::call(const char* name, Function* function, Arguments... arguments) {
+  const fmi3Status status = call_discardable(name, function, arguments...);
+  if (status == fmi3Discard) fail_call(name, status);
+}
 
 }  // namespace stride::fmi
 

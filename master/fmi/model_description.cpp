@@ -81,6 +81,7 @@ void read_co_simulation(const Element& element, core::UnitDescription& unit) {
   unit.may_return_early = element.flag("mightReturnEarlyFromDoStep");
   unit.single_instance = element.flag("canBeInstantiatedOnlyOncePerProcess");
   unit.needs_execution_tool = element.flag("needsExecutionTool");
+  unit.provides_intermediate_update = element.flag("providesIntermediateUpdate");
   unit.max_output_derivative_order =
       element.number<unsigned>("maxOutputDerivativeOrder").value_or(0);
   unit.fixed_internal_step = read_step_size(element, "fixedInternalStepSize");
@@ -153,6 +154,7 @@ void read_annotation(const Element& root, core::UnitDescription& unit) {
     for (const Element& element : annotation.children()) {
       if (!element.is("urn:org.stride:unit:1", "Unit")) continue;
       unit.may_reject = element.flag("mayReject", unit.may_reject);
+      unit.maximum_step = read_step_size(element, "maximumStep");
     }
   }
 }

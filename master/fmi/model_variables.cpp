@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "master/fmi/clock_attributes.h"
+
 namespace stride::fmi {
 namespace {
 
@@ -150,14 +152,17 @@ core::Variable read_variable(const Element& element, ValueType type, const TypeD
   }
   variable.start = read_start(element, type);
   variable.clocks = element.number_list<core::ValueReference>("clocks");
+  // a clocked variable is discrete (FMI 3.0, 2.2.8.3), whatever the default for its type
+  const bool continuous = variable.variability == Variability::Continuous;
+  if (variable.is_clocked() && continuous) variable.variability = Variability::Discrete;
   const auto declared = declared_type(element, types);
   variable.unit = inherited(element, declared, "unit");
   variable.min = inherited(element, declared, "min");
   variable.max = inherited(element, declared, "max");
-  variable.interval_variability = inherited(element, declared, "intervalVariability");
-  if (type == ValueType::Clock && variable.interval_variability.empty()) {
-    element.required_text("intervalVariability");
+  if (type == ValueType::Clock) {
+    variable.clock = read_clock_attributes(element, declared, variable.causality);
   }
+  variable.intermediate_update = element.flag("intermediateUpdate");
   if (type != ValueType::Enumeration) return variable;
   if (!declared) element.required_text("declaredType");
   for (const Element& item : declared->children("Item")) {

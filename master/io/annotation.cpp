@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "master/io/time_text.h"
 #include "master/io/xml.h"
 
 namespace stride::io {
@@ -34,17 +33,40 @@ bool is_of_root_or_system(const XmlElement& annotation, const XmlElement& root) 
   return owner->is(kSsd, "System") && above && above->index() == root.index();
 }
 
-void read_step(const XmlElement& element, ScenarioAnnotation& annotation) {
-  element.allow_attributes({"size"});
+using SetChoice = void (StepChoice::*)(std::string_view);
+
+/// Attributes that each set a part of the choice.
+void read_choices(const XmlElement& element, StepChoice& choice,
+                  std::initializer_list<std::pair<const char*, SetChoice>> attributes) {
+  for (const auto& [name, set] : attributes) {
+    if (!element.attribute(name)) continue;
+    try {
+      (choice.*set)(element.required(name));
+    } catch (const std::invalid_argument& mistake) {
+      element.fail(fmt::format("{}: {}", name, mistake.what()));
+    }
+  }
+}
+
+void read_step(const XmlElement& element, StepChoice& choice) {
+  element.allow_attributes(
+      {"policy", "size", "maximum", "minimum", "relativeTolerance", "absoluteTolerance"});
   element.allow_children({});
-  try {
-    annotation.step = parse_seconds(element.required("size"));
-  } catch (const std::invalid_argument& mistake) {
-    element.fail(fmt::format("size={}", mistake.what()));
-  }
-  if (*annotation.step <= Duration::zero()) {
-    element.fail("the communication step size must be above 0 s", "write size=\"0.001\" for 1 ms");
-  }
+  read_choices(element, choice,
+               {{"policy", &StepChoice::set_policy},
+                {"size", &StepChoice::set_size},
+                {"maximum", &StepChoice::set_maximum},
+                {"minimum", &StepChoice::set_minimum},
+                {"relativeTolerance", &StepChoice::set_relative_tolerance},
+                {"absoluteTolerance", &StepChoice::set_absolute_tolerance}});
+}
+
+void read_exchange(const XmlElement& element, StepChoice& choice) {
+  element.allow_attributes({"coupling", "extrapolation"});
+  element.allow_children({});
+  read_choices(
+      element, choice,
+      {{"coupling", &StepChoice::set_coupling}, {"extrapolation", &StepChoice::set_extrapolation}});
 }
 
 void read_record(const XmlElement& element, ScenarioAnnotation& annotation) {
@@ -91,11 +113,16 @@ void read_results(const XmlElement& element, ScenarioAnnotation& annotation) {
 ScenarioAnnotation read_scenario_element(const XmlElement& scenario) {
   scenario.allow_attributes({});
   scenario.allow_children({{kStrideScenario, "Step"},
+                           {kStrideScenario, "Exchange"},
                            {kStrideScenario, "Record"},
                            {kStrideScenario, "Results"},
                            {kStrideScenario, "MainThread"}});
   ScenarioAnnotation annotation;
-  if (const auto step = scenario.child({kStrideScenario, "Step"})) read_step(*step, annotation);
+  if (const auto step = scenario.child({kStrideScenario, "Step"}))
+    read_step(*step, annotation.step);
+  if (const auto exchange = scenario.child({kStrideScenario, "Exchange"})) {
+    read_exchange(*exchange, annotation.step);
+  }
   for (const XmlElement& record : scenario.children({kStrideScenario, "Record"})) {
     read_record(record, annotation);
   }

@@ -2,13 +2,13 @@
 #ifndef STRIDE_MASTER_IO_ANNOTATION_H
 #define STRIDE_MASTER_IO_ANNOTATION_H
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <stride/time.h>
 
 #include "master/core/error.h"
+#include "master/io/step_choice.h"
 
 namespace stride::io {
 
@@ -36,7 +36,7 @@ struct ComponentPattern {
 
 /// All of it is optional.
 struct ScenarioAnnotation {
-  std::optional<Duration> step;       ///< the communication step size
+  StepChoice step;
   std::vector<SignalPattern> record;  ///< none: every output
   ResultFiles results;
   std::vector<ComponentPattern> main_thread;  ///< who steps on the simulation's own thread only

@@ -166,10 +166,9 @@ class Completion {
                                  component.required("name"), variable.name),
                      "write version=\"2.0\" in the root element");
     }
-    return variable.interval_variability.empty()
-               ? fmt::format("<{}Clock/>", ssc())
-               : fmt::format("<{}Clock intervalVariability=\"{}\"/>", ssc(),
-                             xml_escaped(variable.interval_variability));
+    return !variable.clock ? fmt::format("<{}Clock/>", ssc())
+                           : fmt::format("<{}Clock intervalVariability=\"{}\"/>", ssc(),
+                                         name(variable.clock->variability));
   }
 
   std::string enumeration(const std::string& enumeration_name, const core::Variable& variable) {

@@ -33,6 +33,20 @@ void add(Json& entry, const core::UnitStatistics& unit) {
                         {"events", seconds(unit.event_time)}};
 }
 
+Json step_entry(const core::RunOptions& options) {
+  Json entry = {{"policy", name(options.step.policy)},
+                {"size", to_seconds(options.step.size)},
+                {"minimum", to_seconds(options.step.minimum)}};
+  if (options.step.maximum) entry["maximum"] = to_seconds(*options.step.maximum);
+  if (options.step.policy == core::StepPolicy::ErrorControlled) {
+    entry["relative_tolerance"] = options.step.relative_tolerance;
+    entry["absolute_tolerance"] = options.step.absolute_tolerance;
+  }
+  entry["coupling"] = name(options.coupling);
+  entry["extrapolation"] = name(options.extrapolation);
+  return entry;
+}
+
 const char* outcome(const core::RunStatistics& statistics, bool has_failed) {
   if (has_failed) return "failed";
   return statistics.terminated_by_unit ? "ended by a unit" : "completed";
@@ -47,10 +61,11 @@ void write_run_json(const std::filesystem::path& file, const std::filesystem::pa
   Json run = {
       {"scenario", scenario.string()},      {"system", system.name()},
       {"start", to_seconds(options.start)}, {"stop", to_seconds(options.stop)},
-      {"step", to_seconds(options.step)},   {"outcome", outcome(statistics, error.has_value())}};
+      {"step", step_entry(options)},        {"outcome", outcome(statistics, error.has_value())}};
   if (error) run["error"] = *error;
   run["reached"] = to_seconds(statistics.reached);
   run["communication_steps"] = statistics.communication_steps;
+  run["undone_steps"] = statistics.undone_steps;
   run["event_iterations"] = statistics.event_iterations;
   run["threads"] = options.threads.count;
   run["parallel_steps"] = statistics.parallel_steps;

@@ -1,8 +1,6 @@
 // Nanoseconds per unit step for rings of minimal units, each fed by its neighbour: stride's
 // algorithm beside a hand-written loop that makes the same FMI calls, in turn, in one run. What
 // counts is the ratio.
-#include <chrono>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,13 +8,13 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "master/core/simulation.h"
 #include "master/fmi/fmu.h"
+#include "tests/bench/stopwatch.h"
 
 namespace {
 
 using namespace stride;
-using Wall = std::chrono::steady_clock;
+using namespace stride::bench;
 
 constexpr Duration kStep = std::chrono::milliseconds(1);
 constexpr int kUnitSteps = 200'000;  // per measured run, whatever the size of the ring
@@ -25,14 +23,6 @@ std::shared_ptr<fmi::Fmu> minimal() {
   static const auto fmu = fmi::Fmu::load(STRIDE_FMU_DIR "/minimal.fmu");
   return fmu;
 }
-
-/// Notes when the initial instant is done.
-struct Started : core::Observer {
-  Wall::time_point at{};
-  void on_communication_point(Time time) override {
-    if (time == Time{}) at = Wall::now();
-  }
-};
 
 double run_stride(int size) {
   core::SystemDeclaration declaration;
@@ -48,14 +38,11 @@ double run_stride(int size) {
     units.push_back(minimal()->instantiate(component.name));
   }
   core::RunOptions options;
-  options.step = kStep;
+  options.step.size = kStep;
   options.stop = Time(kStep * (kUnitSteps / size));
   options.measure_time = false;
   core::Simulation simulation(system, std::move(units), options);
-  Started started;
-  simulation.add_observer(started);
-  simulation.run();
-  return std::chrono::duration<double>(Wall::now() - started.at).count();
+  return time_steps(simulation);
 }
 
 double run_by_hand(int size) {
@@ -91,7 +78,7 @@ double run_by_hand(int size) {
       fmi.SetFloat64(units[(i + 1) % count], &u, 1, &outputs[i], 1);
     }
   }
-  const double seconds = std::chrono::duration<double>(Wall::now() - began).count();
+  const double seconds = seconds_since(began);
   for (const fmi3Instance unit : units) fmi.FreeInstance(unit);
   return seconds;
 }

@@ -5,17 +5,6 @@ using namespace stride::tests;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 
-namespace {
-
-/// Whatever is wrong with the input: code 2, a message, and nothing on the standard output.
-std::string input_error_of(const Outcome& outcome) {
-  CHECK(outcome.exit_code == 2);
-  CHECK(outcome.out == "");
-  return outcome.err;
-}
-
-}  // namespace
-
 TEST_CASE("without a command, the help is shown as an error") {
   const Outcome outcome = run_program({});
   CHECK(outcome.exit_code == 2);
@@ -63,7 +52,7 @@ TEST_CASE("times on the command line are numbers of seconds that make sense") {
   CHECK_THAT(input_error_of(workspace.run({"--stop", "soon"})),
              Contains("--stop soon: 'soon' is no number; expected a number of seconds"));
   CHECK_THAT(input_error_of(workspace.run({"--stop", "1e9"})), Contains("beyond 9.2e6 s"));
-  CHECK_THAT(input_error_of(workspace.run({"--step", "0"})), Contains("must be positive"));
+  CHECK_THAT(input_error_of(workspace.run({"--step", "0"})), Contains("a step must be above 0 s"));
   CHECK_FALSE(fs::exists(workspace / "out"));
 }
 

@@ -110,6 +110,13 @@ class Workspace {
   std::string text_;
 };
 
+/// Whatever is wrong with the input: code 2, a message, and nothing on the standard output.
+inline std::string input_error_of(const Outcome& outcome) {
+  CHECK(outcome.exit_code == 2);
+  CHECK(outcome.out == "");
+  return outcome.err;
+}
+
 }  // namespace stride::tests
 
 #endif

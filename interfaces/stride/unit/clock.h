@@ -1,22 +1,80 @@
 #ifndef STRIDE_UNIT_CLOCK_H
 #define STRIDE_UNIT_CLOCK_H
 
+#include <cstdint>
+#include <stdexcept>
+#include <type_traits>
+
+#include <stride/time.h>
+
 namespace stride {
 
-/// A triggered clock of a unit (FMI 3.0, 2.2.8): the instant of a message, separate from its value.
+/// When a clock ticks (FMI 3.0, 2.2.8): by the time, in the manner that the word says, or
+/// triggered.
+enum class IntervalVariability : std::uint8_t {
+  Constant,
+  Fixed,
+  Tunable,
+  Changing,
+  Countdown,
+  Triggered,
+};
+
+/// A clock of a unit (FMI 3.0, 2.2.8): the instant at which something happens, separate from its
+/// value. It is triggered, unless its row in the variable table says otherwise.
 ///
-/// As an output the unit calls tick() in step() or event(); the importer sees the tick in the Event
-/// Mode that follows and the kit withdraws it when that super-dense instant is over. As an input it
-/// has ticked during event() if the importer set it in this super-dense instant.
+/// A triggered output: the unit calls tick() in step() or event(); the importer sees the tick in
+/// the Event Mode that follows, and the kit withdraws it when that super-dense instant is over. An
+/// input has ticked during update_outputs() and event() if the importer set it in this super-dense
+/// instant; if it is a time-based clock, the importer does that by the time that the unit said.
 class Clock {
  public:
-  void tick() { ticked_ = true; }
-  bool ticked() const { return ticked_; }
-  void clear() { ticked_ = false; }
+  void tick() { ticked_ = 1; }
+  bool ticked() const { return ticked_ != 0; }
+  void clear() { ticked_ = 0; }
+
+  /// Of a periodic clock: from tick to tick, as it is declared, or as the importer or the unit has
+  /// set it. Of a changing or countdown clock: what count_down() said last.
+  Duration interval() const { return interval_; }
+  /// Of a periodic clock: from the start to the first tick.
+  Duration shift() const { return shift_; }
+
+  /// For a fixed or tunable clock that is declared without an interval: says it, in initialize();
+  /// a tunable one also in event(), from which on the new interval counts.
+  void set_interval(Duration interval) {
+    if (interval <= Duration{}) throw std::invalid_argument("a clock's interval must be positive");
+    if (knowledge_ == Knowledge::None || interval != interval_) knowledge_ = Knowledge::New;
+    interval_ = interval;
+  }
+  /// The same for the time to its first tick, in initialize().
+  void set_shift(Duration shift) {
+    if (shift < Duration{}) throw std::invalid_argument("a clock's shift must not be negative");
+    shift_ = shift;
+  }
+
+  /// For a countdown or changing clock: it ticks once, `interval` from now on, in the place of an
+  /// earlier count that has not ended. In initialize(), from the start on, or in event(); a
+  /// changing clock in each event() in which it ticks, and in no other. A count of 0 ticks in
+  /// another super-dense instant of the same time.
+  void count_down(Duration interval) {
+    if (interval < Duration{}) throw std::invalid_argument("a clock counts down from 0 at least");
+    interval_ = interval;
+    knowledge_ = Knowledge::New;
+  }
 
  private:
-  bool ticked_ = false;
+  friend class ClockAccess;
+  /// What the importer knows of the interval: nothing yet, not what it is now, all.
+  enum class Knowledge : std::uint32_t { None, New, Told };
+
+  Duration interval_{};
+  Duration shift_{};
+  std::uint32_t ticked_ = 0;
+  Knowledge knowledge_ = Knowledge::None;
 };
+
+// a saved state holds its bytes, so there must be none without a meaning
+static_assert(std::has_unique_object_representations_v<Clock>);
 
 }  // namespace stride
 

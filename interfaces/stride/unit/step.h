@@ -9,15 +9,33 @@
 
 namespace stride {
 
+/// Sets inputs within a step.
+class InputUpdater {
+ public:
+  virtual void update_inputs(double seconds_into_step) = 0;
+
+ protected:
+  ~InputUpdater() = default;
+};
+
 /// One communication step, from one communication point to the next.
 class Step {
  public:
-  Step(Time from, Time to, bool early_return_allowed)
-      : from_(from), to_(to), early_return_allowed_(early_return_allowed) {}
+  /// `updater`: who sets the intermediate inputs, if anybody does.
+  Step(Time from, Time to, bool early_return_allowed, InputUpdater* updater = nullptr)
+      : from_(from), to_(to), early_return_allowed_(early_return_allowed), updater_(updater) {}
 
   Time from() const { return from_; }
   Time to() const { return to_; }
   Duration size() const { return to_ - from_; }
+
+  /// Brings the inputs that are listed as intermediate() to this instant, from 0 to
+  /// to_seconds(size()) after the beginning of the step, for an importer that lets them follow
+  /// something; with another they stay what they are. Instants may come in any order, as the stages
+  /// of a solver do.
+  void update_inputs(double seconds_into_step) const {
+    if (updater_ != nullptr) updater_->update_inputs(seconds_into_step);
+  }
 
   /// Whether return_early() may be called. An importer that does not allow it gets its events at
   /// to().
@@ -43,6 +61,7 @@ class Step {
   Time from_;
   Time to_;
   bool early_return_allowed_;
+  InputUpdater* updater_;
   std::optional<Time> reached_;
   bool event_needed_ = false;
   std::optional<std::string> rejection_;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <stride/time.h>
 #include <stride/unit/clock.h>
 
 namespace stride {
@@ -88,6 +89,9 @@ struct Variable {
   std::optional<double> max;
   std::vector<std::pair<std::string, std::int64_t>> items;  ///< of an Enumeration
   const Clock* clock = nullptr;                             ///< the clock that it belongs to
+  bool intermediate = false;  ///< of an input: Step::update_inputs() asks for it
+  IntervalVariability interval_variability = IntervalVariability::Triggered;  ///< of a Clock
+  bool has_interval = false;  ///< of a periodic Clock: it is declared, not said by the unit
   const double* derivative = nullptr;  ///< of an output: its first derivative, element by element
   std::optional<std::vector<std::string>> dependencies;  ///< of an output: nothing = unknown = all
 };
@@ -127,6 +131,31 @@ class VariableBuilder {
   VariableBuilder& clocked_by(const Clock& clock) {
     return row_.clock = &clock, row_.variability = Variability::Discrete, *this;
   }
+  /// Step::update_inputs() asks for this continuous input within a step.
+  VariableBuilder& intermediate() { return row_.intermediate = true, *this; }
+
+  // When an input clock ticks by the time; without such a word it is triggered.
+
+  /// At start + shift, and at each interval from then on.
+  VariableBuilder& every(Duration interval, Duration shift = {}) {
+    return periodic(IntervalVariability::Constant, interval, shift);
+  }
+  /// The same, but the importer may choose other lengths before the start.
+  VariableBuilder& every_fixed(Duration interval, Duration shift = {}) {
+    return periodic(IntervalVariability::Fixed, interval, shift);
+  }
+  /// The same, and another interval at any event.
+  VariableBuilder& every_tunable(Duration interval, Duration shift = {}) {
+    return periodic(IntervalVariability::Tunable, interval, shift);
+  }
+  /// Periodically, too, with the lengths that the unit says: Clock::set_interval(), set_shift().
+  VariableBuilder& every_fixed() { return timed(IntervalVariability::Fixed); }
+  VariableBuilder& every_tunable() { return timed(IntervalVariability::Tunable); }
+  /// Once after each Clock::count_down(), which each tick must be followed by.
+  VariableBuilder& changing() { return timed(IntervalVariability::Changing); }
+  /// Once after each Clock::count_down(), which any event may say.
+  VariableBuilder& countdown() { return timed(IntervalVariability::Countdown); }
+
   /// The names of the inputs that an output depends on at the same instant; {} = none. Not for a
   /// clock, which never does: its ticks are seen one super-dense instant after their cause.
   VariableBuilder& depends_on(std::vector<std::string> names) {
@@ -136,6 +165,18 @@ class VariableBuilder {
   VariableBuilder& derivative(const double& member) { return row_.derivative = &member, *this; }
 
  private:
+  VariableBuilder& timed(IntervalVariability variability) {
+    return row_.interval_variability = variability, *this;
+  }
+  VariableBuilder& periodic(IntervalVariability variability, Duration interval, Duration shift) {
+    row_.has_interval = true;
+    if (row_.type == Type::Clock) {
+      static_cast<Clock*>(row_.data)->set_interval(interval);
+      static_cast<Clock*>(row_.data)->set_shift(shift);
+    }
+    return timed(variability);
+  }
+
   Variable& row_;
 };
 

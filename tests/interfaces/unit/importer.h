@@ -2,6 +2,7 @@
 #ifndef STRIDE_TESTS_INTERFACES_UNIT_IMPORTER_H
 #define STRIDE_TESTS_INTERFACES_UNIT_IMPORTER_H
 
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -66,7 +67,8 @@ struct InstanceChoices {
   bool early_return = false;
   bool logging = false;
   std::string resources = "";
-  std::string token = "";  ///< empty: the right one
+  std::string token = "";                 ///< empty: the right one
+  std::vector<std::string> intermediate;  ///< the variables that it sets within steps
 };
 
 class UnitInstance {
@@ -74,10 +76,13 @@ class UnitInstance {
   explicit UnitInstance(const UnitLibrary& library, const InstanceChoices& choices = {})
       : fmi(library), xml_(library.describe(choices.resources)) {
     const std::string right = attribute(xml_, "<fmiModelDescription", "instantiationToken");
+    std::vector<fmi3ValueReference> intermediate;
+    for (const std::string& name : choices.intermediate) intermediate.push_back(reference(name));
     handle = fmi.InstantiateCoSimulation(
         "unit", (choices.token.empty() ? right : choices.token).c_str(),
         choices.resources.empty() ? nullptr : choices.resources.c_str(), false, choices.logging,
-        choices.event_mode, choices.early_return, nullptr, 0, this, &on_log, nullptr);
+        choices.event_mode, choices.early_return, intermediate.data(), intermediate.size(), this,
+        &on_log, &on_update);
   }
   ~UnitInstance() {
     if (handle != nullptr) fmi.FreeInstance(handle);
@@ -142,6 +147,45 @@ class UnitInstance {
     if (fmi.GetClock(handle, &r, 1, &value) != fmi3OK) throw std::runtime_error(last_message());
     return value;
   }
+  struct Interval {
+    double seconds = -1;
+    fmi3UInt64 counter = 0, resolution = 0;
+    fmi3IntervalQualifier qualifier = fmi3IntervalNotYetKnown;
+  };
+  /// By the decimal function; counter and resolution stay 0.
+  Interval interval(const std::string& clock) {
+    const fmi3ValueReference r = reference(clock);
+    Interval said;
+    if (fmi.GetIntervalDecimal(handle, &r, 1, &said.seconds, &said.qualifier) != fmi3OK) {
+      throw std::runtime_error(last_message());
+    }
+    return said;
+  }
+  Interval interval_fraction(const std::string& clock) {
+    const fmi3ValueReference r = reference(clock);
+    Interval said;
+    if (fmi.GetIntervalFraction(handle, &r, 1, &said.counter, &said.resolution, &said.qualifier) !=
+        fmi3OK) {
+      throw std::runtime_error(last_message());
+    }
+    return said;
+  }
+  double shift(const std::string& clock) {
+    const fmi3ValueReference r = reference(clock);
+    double seconds = -1;
+    if (fmi.GetShiftDecimal(handle, &r, 1, &seconds) != fmi3OK) {
+      throw std::runtime_error(last_message());
+    }
+    return seconds;
+  }
+  fmi3Status set_interval(const std::string& clock, double seconds) {
+    const fmi3ValueReference r = reference(clock);
+    return fmi.SetIntervalDecimal(handle, &r, 1, &seconds);
+  }
+  fmi3Status set_shift(const std::string& clock, double seconds) {
+    const fmi3ValueReference r = reference(clock);
+    return fmi.SetShiftDecimal(handle, &r, 1, &seconds);
+  }
   std::string last_message() const { return messages.empty() ? "" : messages.back(); }
 
   const UnitLibrary& fmi;
@@ -150,6 +194,8 @@ class UnitInstance {
   std::vector<fmi3Status> message_statuses;
   std::vector<std::string> message_categories;
   bool log_throws = false;  ///< as an importer in C++ may do by mistake
+  /// What the importer does in Intermediate Update Mode, at this time [s].
+  std::function<void(double)> on_intermediate_update = [](double) {};
   Step last;
   bool iterate = false;
   bool terminate = false;
@@ -171,6 +217,17 @@ class UnitInstance {
     self.message_statuses.push_back(status);
     self.message_categories.emplace_back(category);
     if (self.log_throws) throw std::runtime_error("the log is full");
+  }
+
+  static void on_update(fmi3InstanceEnvironment environment, fmi3Float64 time,
+                        fmi3Boolean set_requested, fmi3Boolean get_allowed,
+                        fmi3Boolean step_finished, fmi3Boolean can_return_early,
+                        fmi3Boolean* early_return_requested, fmi3Float64*) {
+    if (!set_requested || get_allowed || step_finished || can_return_early) {
+      throw std::runtime_error("this is no request for inputs");
+    }
+    *early_return_requested = true;  // which has no meaning then
+    static_cast<UnitInstance*>(environment)->on_intermediate_update(time);
   }
 
   std::string xml_;

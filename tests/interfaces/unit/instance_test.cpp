@@ -108,8 +108,6 @@ TEST_CASE("what a Co-Simulation unit does not have answers with an error and a m
   double x = 0;
   bool flag = false;
   std::size_t n = 0;
-  fmi3UInt64 counter = 0;
-  fmi3IntervalQualifier qualifier{};
   void* const u = unit.handle;
   const std::pair<const char*, fmi3Status> answers[] = {
       {"fmi3EnterContinuousTimeMode", fmi.EnterContinuousTimeMode(u)},
@@ -123,8 +121,6 @@ TEST_CASE("what a Co-Simulation unit does not have answers with an error and a m
       {"fmi3GetNumberOfEventIndicators", fmi.GetNumberOfEventIndicators(u, &n)},
       {"fmi3GetNumberOfContinuousStates", fmi.GetNumberOfContinuousStates(u, &n)},
       {"fmi3ActivateModelPartition", fmi.ActivateModelPartition(u, 1, 0)},
-      {"fmi3GetIntervalDecimal", fmi.GetIntervalDecimal(u, &r, 1, &x, &qualifier)},
-      {"fmi3SetShiftFraction", fmi.SetShiftFraction(u, &r, 1, &counter, &counter)},
       {"fmi3GetDirectionalDerivative", fmi.GetDirectionalDerivative(u, &r, 1, &r, 1, &x, 1, &x, 1)},
       {"fmi3GetNumberOfVariableDependencies", fmi.GetNumberOfVariableDependencies(u, 1, &n)},
       {"fmi3EnterConfigurationMode", fmi.EnterConfigurationMode(u)},

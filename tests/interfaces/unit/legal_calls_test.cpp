@@ -144,9 +144,60 @@ std::vector<Call> states() {
   };
 }
 
+std::vector<Call> clocks() {
+  const auto reference = [](UnitInstance& u) { return u.reference("tunable"); };
+  return {
+      {"fmi3GetIntervalDecimal", "NE",
+       [=](UnitInstance& u) {
+         const fmi3ValueReference r = reference(u);
+         double seconds = 0;
+         fmi3IntervalQualifier qualifier{};
+         return u.fmi.GetIntervalDecimal(u.handle, &r, 1, &seconds, &qualifier);
+       }},
+      {"fmi3GetIntervalFraction", "NE",
+       [=](UnitInstance& u) {
+         const fmi3ValueReference r = reference(u);
+         fmi3UInt64 counter = 0;
+         fmi3UInt64 resolution = 0;
+         fmi3IntervalQualifier qualifier{};
+         return u.fmi.GetIntervalFraction(u.handle, &r, 1, &counter, &resolution, &qualifier);
+       }},
+      {"fmi3GetShiftDecimal", "N",
+       [=](UnitInstance& u) {
+         const fmi3ValueReference r = reference(u);
+         double seconds = 0;
+         return u.fmi.GetShiftDecimal(u.handle, &r, 1, &seconds);
+       }},
+      {"fmi3GetShiftFraction", "N",
+       [=](UnitInstance& u) {
+         const fmi3ValueReference r = reference(u);
+         fmi3UInt64 counter = 0;
+         fmi3UInt64 resolution = 0;
+         return u.fmi.GetShiftFraction(u.handle, &r, 1, &counter, &resolution);
+       }},
+      {"fmi3SetIntervalDecimal", "NE",
+       [=](UnitInstance& u) { return u.set_interval("tunable", 0.25); }},
+      {"fmi3SetIntervalFraction", "NE",
+       [=](UnitInstance& u) {
+         const fmi3ValueReference r = reference(u);
+         const fmi3UInt64 counter = 1;
+         const fmi3UInt64 resolution = 4;
+         return u.fmi.SetIntervalFraction(u.handle, &r, 1, &counter, &resolution);
+       }},
+      {"fmi3SetShiftDecimal", "N", [=](UnitInstance& u) { return u.set_shift("tunable", 0.25); }},
+      {"fmi3SetShiftFraction", "N",
+       [=](UnitInstance& u) {
+         const fmi3ValueReference r = reference(u);
+         const fmi3UInt64 counter = 1;
+         const fmi3UInt64 resolution = 4;
+         return u.fmi.SetShiftFraction(u.handle, &r, 1, &counter, &resolution);
+       }},
+  };
+}
+
 /// Calls each function in each state, each time on a fresh instance.
-void check(const std::vector<Call>& calls) {
-  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+void check(const std::vector<Call>& calls, const char* unit_library = STRIDE_TYPES_LIBRARY) {
+  const UnitLibrary library(unit_library);
   for (const Call& call : calls) {
     for (const char state : kStates) {
       CAPTURE(call.name, state);
@@ -169,6 +220,7 @@ void check(const std::vector<Call>& calls) {
 TEST_CASE("the life cycle in every state") { check(life_cycle()); }
 TEST_CASE("access to values in every state") { check(values()); }
 TEST_CASE("access to the unit's state in every state") { check(states()); }
+TEST_CASE("the intervals of clocks in every state") { check(clocks(), STRIDE_CLOCKS_LIBRARY); }
 
 TEST_CASE("a call out of order changes nothing") {
   const UnitLibrary library(STRIDE_STEPPER_LIBRARY);

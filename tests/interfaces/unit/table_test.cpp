@@ -1,5 +1,6 @@
 #include "interfaces/unit/table.h"
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -84,4 +85,27 @@ TEST_CASE("a clock depends on nothing of its own instant, so it cannot say on wh
   CHECK_NOTHROW(check([](Rows& unit) { unit.output("clock", unit.clock); }));
   CHECK_THROWS_WITH(check([](Rows& unit) { unit.output("clock", unit.clock).depends_on({}); }),
                     Contains("variable 'clock': a clock has no depends_on()"));
+}
+
+TEST_CASE("only an input clock ticks by the time, with an interval that can be") {
+  using namespace std::chrono_literals;
+  CHECK_NOTHROW(check([](Rows& unit) { unit.input("clock", unit.clock).every(Duration(1)); }));
+  CHECK_NOTHROW(check([](Rows& unit) { unit.input("clock", unit.clock).every_tunable(); }));
+  CHECK_THROWS_WITH(check([](Rows& unit) { unit.output("clock", unit.clock).countdown(); }),
+                    "variable 'clock': only an input clock can tick by the time");
+  CHECK_THROWS_WITH(check([](Rows& unit) { unit.input("real", unit.real).every(1ms); }),
+                    "variable 'real': only an input clock can tick by the time");
+  CHECK_THROWS_WITH(check([](Rows& unit) { unit.input("clock", unit.clock).every(0ms); }),
+                    "a clock's interval must be positive");
+  CHECK_THROWS_WITH(check([](Rows& unit) { unit.input("clock", unit.clock).every(1ms, -1ms); }),
+                    "a clock's shift must not be negative");
+}
+
+TEST_CASE("only a continuous input changes within a step") {
+  CHECK_NOTHROW(check([](Rows& unit) { unit.input("real", unit.real).intermediate(); }));
+  const std::string reason = "only a continuous input can be intermediate()";
+  CHECK_THROWS_WITH(check([](Rows& unit) { unit.input("flag", unit.flag).intermediate(); }),
+                    Contains(reason));
+  CHECK_THROWS_WITH(check([](Rows& unit) { unit.output("real", unit.real).intermediate(); }),
+                    Contains(reason));
 }

@@ -121,7 +121,8 @@ std::vector<VariableId> all_outputs(const ScriptedSystem& system) {
 Trace run_random(unsigned seed, ThreadOptions threads) {
   ScriptedSystem system;
   make_random_system(system, seed);
-  system.threads = std::move(threads);
+  system.options.extrapolation = kExtrapolations[seed % kExtrapolations.size()];
+  system.options.threads = std::move(threads);
   Trace trace;
   system.build(0.02, 1ms, all_outputs(system)).add_observer(trace);
   system.simulation->run();
@@ -165,6 +166,38 @@ TEST_CASE("random systems give the same bits and the same counts on any number o
   CHECK(with_rollbacks > 15);
 }
 
+TEST_CASE("with Gauss-Seidel or an error-controlled step the bits are the same, too") {
+  const auto run = [](Coupling coupling, ThreadOptions threads) {
+    ScriptedSystem system;
+    for (const char* name : {"a", "b", "c"}) {
+      auto& unit = system.add(
+          name,
+          Describe("moving").input("u").output("y").can_save_state().may_return_early().done());
+      unit.on_step = Behaviour{{at(1500us), at(7ms)}, 17};
+      unit.number(1) = *name;
+    }
+    system.wire("a", "y", "b", "u");
+    system.wire("b", "y", "c", "u");
+    system.wire("c", "y", "a", "u");
+    system.options.coupling = coupling;
+    system.options.step.policy = StepPolicy::ErrorControlled;
+    system.options.threads = std::move(threads);
+    Trace trace;
+    system.build(0.5, 1ms, all_outputs(system)).add_observer(trace);
+    system.simulation->run();
+    const auto& statistics = system.simulation->statistics();
+    CHECK((statistics.parallel_steps > 0) ==
+          (coupling == Coupling::Jacobi && system.options.threads.always));
+    trace.add(statistics);
+    trace.words.push_back(statistics.undone_steps);
+    return trace.words;
+  };
+  for (const Coupling coupling : kCouplings) {
+    CHECK(run(coupling, forced(3)) == run(coupling, {}));
+    CHECK(run(coupling, forced(2)) == run(coupling, {}));
+  }
+}
+
 TEST_CASE("the units of a stage step at the same time") {
   ScriptedSystem system;
   std::atomic<int> arrived = 0;
@@ -182,7 +215,7 @@ TEST_CASE("the units of a stage step at the same time") {
       return reached(to);
     };
   }
-  system.threads = forced(2);
+  system.options.threads = forced(2);
   system.build(0.02, 1ms).run();
   CHECK(met);
   CHECK(system.simulation->statistics().parallel_steps == 20);
@@ -203,7 +236,7 @@ TEST_CASE("observers and all but the steps stay on the thread that runs the simu
       return EventResult{};
     };
   }
-  system.threads = {4, {1, 3}, true};
+  system.options.threads = {4, {1, 3}, true};
   Trace trace;
   system.build(0.05, 1ms).add_observer(trace);
   system.simulation->run();
@@ -230,7 +263,7 @@ TEST_CASE("of several failures the first in the step order is told, when all thr
       return pass_on(unit, from, to);
     };
   }
-  system.threads = forced(threads);
+  system.options.threads = forced(threads);
   CHECK_THAT(failure(system.build(1, 1ms)), Contains("unit 'b', at 0.005 s"));
   CHECK(running == 0);
   const auto& statistics = system.simulation->statistics();
@@ -250,7 +283,7 @@ TEST_CASE("a unit that fails because another one did is not the one to tell of")
     condemned = true;
     fail_as("culprit", from);
   };
-  system.threads = forced(2);
+  system.options.threads = forced(2);
   CHECK_THAT(failure(system.build(1, 1ms)), Contains("unit 'culprit', at 0 s: it broke"));
 }
 
@@ -267,7 +300,7 @@ TEST_CASE("a stop in a stage is followed by all, and those behind it were not as
     system.add("s" + std::to_string(stop.count()), plain().may_return_early().done()).on_step =
         Behaviour{{at(stop)}};
   }
-  system.threads = forced(threads);
+  system.options.threads = forced(threads);
   system.build(0.001, 1ms).run();
   CHECK(asked == std::vector<Time>{at(200us), at(300us), at(1ms)});
   const auto& statistics = system.simulation->statistics();
@@ -289,7 +322,7 @@ TEST_CASE("threads that do not pay are not used, and those that do change nothin
     system.wire("a", "y", "b", "u");
     system.wire("b", "y", "c", "u");
     system.wire("c", "y", "a", "u");
-    system.threads.count = threads;
+    system.options.threads.count = threads;
     Trace trace;
     system.build(0.3, 1ms, all_outputs(system)).add_observer(trace);
     system.simulation->run();

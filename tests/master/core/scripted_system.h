@@ -19,14 +19,16 @@ struct ScriptedSystem {
   std::vector<std::unique_ptr<Unit>> units;
   std::unique_ptr<System> system;
   std::unique_ptr<Simulation> simulation;
-  ThreadOptions threads{};
+  RunOptions options;
 
-  ScriptedUnit& add(const std::string& name, std::shared_ptr<const UnitDescription> description) {
+  template <class SomeUnit = ScriptedUnit>
+  SomeUnit& add(const std::string& name, std::shared_ptr<const UnitDescription> description) {
     declaration.components.push_back({name, description, {}, {}});
-    auto unit = std::make_unique<ScriptedUnit>(description);
-    instances.push_back(unit.get());
+    auto unit = std::make_unique<SomeUnit>(description);
+    SomeUnit& added = *unit;
+    instances.push_back(&added);
     units.push_back(std::move(unit));
-    return *instances.back();
+    return added;
   }
   void wire(const std::string& from, const std::string& from_connector, const std::string& to,
             const std::string& to_connector) {
@@ -34,11 +36,9 @@ struct ScriptedSystem {
   }
   Simulation& build(double stop, Duration step, std::vector<VariableId> recorded = {}) {
     system = std::make_unique<System>(declaration);
-    RunOptions options;
     options.stop = time_from_seconds(stop);
-    options.step = step;
+    options.step.size = step;
     options.recorded = std::move(recorded);
-    options.threads = threads;
     simulation = std::make_unique<Simulation>(*system, std::move(units), options);
     return *simulation;
   }

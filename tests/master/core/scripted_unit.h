@@ -28,7 +28,7 @@ inline Variable make_variable(std::string name, ValueReference reference, ValueT
   variable.initial = type == ValueType::Clock ? Initial::None
                      : given                  ? Initial::Exact
                                               : Initial::Calculated;
-  if (type == ValueType::Clock) variable.interval_variability = "triggered";
+  if (type == ValueType::Clock) variable.clock.emplace();
   return variable;
 }
 
@@ -50,8 +50,17 @@ class Describe {
   Describe& output(const std::string& name, const std::string& unit = "") {
     return add(name, ValueType::Float64, Causality::Output, unit);
   }
+  /// A time-based input clock; without an interval the unit says it.
+  Describe& clock(const std::string& name, IntervalVariability variability,
+                  std::optional<Interval> interval = std::nullopt, Interval shift = {}) {
+    add(name, ValueType::Clock, Causality::Input);
+    *description_->variables.back().clock = {variability, interval, shift, true, false, {}};
+    description_->has_event_mode = true;
+    return *this;
+  }
   Describe& clocked_by(ValueReference clock) {
     description_->variables.back().clocks = {clock};
+    description_->variables.back().variability = Variability::Discrete;
     description_->has_event_mode = true;
     return *this;
   }
@@ -72,6 +81,11 @@ class Describe {
   Describe& event_mode() { return description_->has_event_mode = true, *this; }
   Describe& can_save_state() { return description_->can_save_state = true, *this; }
   Describe& may_return_early() { return description_->may_return_early = true, *this; }
+  Describe& fixed_step() { return description_->can_vary_step = false, *this; }
+  Describe& maximum_step(Duration step) { return description_->maximum_step = step, *this; }
+  Describe& fixed_internal_step(Duration step) {
+    return description_->fixed_internal_step = step, *this;
+  }
   Describe& never_rejects() { return description_->may_reject = false, *this; }
 
   std::shared_ptr<const UnitDescription> done() const { return description_; }
@@ -104,6 +118,11 @@ class ScriptedUnit : public Unit {
   /// Called when an input clock is set.
   std::function<void(ScriptedUnit&)> on_set_clock = [](ScriptedUnit&) {};
   std::function<EventResult(ScriptedUnit&)> on_event = [](ScriptedUnit&) { return EventResult{}; };
+  /// What it says of its time-based clocks.
+  std::function<ClockInterval(ScriptedUnit&, ValueReference)> on_clock_interval =
+      [](ScriptedUnit&, ValueReference) { return ClockInterval{}; };
+  std::function<Interval(ScriptedUnit&, ValueReference)> on_clock_shift =
+      [](ScriptedUnit&, ValueReference) { return Interval{}; };
   /// Keeps or brings back what the script holds beside the values.
   std::function<void(bool save)> on_state = [](bool) {};
   Calls calls;
@@ -151,6 +170,12 @@ class ScriptedUnit : public Unit {
     return result;
   }
   void enter_step_mode() override { calls.push_back("enter_step_mode"); }
+  ClockInterval clock_interval(const Variable& clock) override {
+    return on_clock_interval(*this, clock.reference);
+  }
+  Interval clock_shift(const Variable& clock) override {
+    return on_clock_shift(*this, clock.reference);
+  }
   void terminate() override { calls.push_back("terminate"); }
 
  private:

@@ -20,7 +20,7 @@ System system_of(std::vector<Describe> units) {
 
 std::string names(const System& system) {
   std::string text;
-  for (const StepPlace& place : step_order(system))
+  for (const StepPlace& place : step_order(system, StepPolicy::Fixed, Coupling::Jacobi))
     text += system.components()[place.component].name;
   return text;
 }
@@ -45,7 +45,9 @@ TEST_CASE("who cannot go back begins a new stage where one before it may stop") 
   const auto stages = [](std::vector<Describe> units) {
     std::string text;
     const System system = system_of(std::move(units));
-    for (const StepPlace& place : step_order(system)) text += std::to_string(place.stage);
+    for (const StepPlace& place : step_order(system, StepPolicy::Fixed, Coupling::Jacobi)) {
+      text += std::to_string(place.stage);
+    }
     return text;
   };
   CHECK(stages({rollback(), rollback().may_return_early(), rollback()}) == "000");
@@ -59,7 +61,8 @@ TEST_CASE("who cannot go back begins a new stage where one before it may stop") 
 TEST_CASE("a state is saved only where another unit may stop") {
   const auto saves = [](std::vector<Describe> units) {
     std::string text;
-    for (const StepPlace& place : step_order(system_of(std::move(units)))) {
+    for (const StepPlace& place :
+         step_order(system_of(std::move(units)), StepPolicy::Fixed, Coupling::Jacobi)) {
       text += place.saves_state ? 's' : '-';
     }
     return text;
@@ -73,7 +76,7 @@ TEST_CASE("a state is saved only where another unit may stop") {
 
 TEST_CASE("two units that stop early and cannot go back are refused by name") {
   try {
-    step_order(system_of({early(), rollback(), early()}));
+    step_order(system_of({early(), rollback(), early()}), StepPolicy::Fixed, Coupling::Jacobi);
     FAIL("accepted");
   } catch (const Error& error) {
     CHECK(error.kind() == Error::Kind::Input);

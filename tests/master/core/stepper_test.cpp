@@ -128,6 +128,27 @@ TEST_CASE("a unit that rejects at random changes nothing but the statistics") {
   CHECK(rejecting.second == Approx(plain.second).epsilon(1e-12));
 }
 
+TEST_CASE("where one unit rejects a step that another stops in, their order changes nothing") {
+  const bool swapped = GENERATE(false, true);
+  ScriptedSystem f;
+  const auto rejects = [&] {
+    f.add("rejects", Describe("r").can_save_state().done()).on_step = [](ScriptedUnit&, Time from,
+                                                                         Time to) {
+      if (to - from > 800us) return StepResult{.rejected = true, .reached = from};
+      return reached(to);
+    };
+  };
+  const auto stops = [&] {
+    f.add("stops", integrator().may_return_early().can_save_state().done()).on_step =
+        stopping_at({at(0.0007)});
+  };
+  swapped ? (stops(), rejects()) : (rejects(), stops());
+  f.add("follows", integrator().can_save_state().done()).on_step = integrate;
+  // half of the rejected step is nearer than the stop
+  CHECK(points(f, 0.001, 1ms) == std::vector<Time>{at(0), at(0.0005), at(0.0007), at(0.001)});
+  CHECK(f.instances[2]->number(1) == Approx(0.001).epsilon(1e-12));
+}
+
 TEST_CASE("a unit that always rejects is named, with how often and where") {
   ScriptedSystem f;
   f.add("calm", integrator().can_save_state().done()).on_step = integrate;

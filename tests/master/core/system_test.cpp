@@ -121,6 +121,52 @@ TEST_CASE("a message needs its clock wired too") {
   CHECK(reason({wire("frame_out", "frame_in"), wire("clock_out", "clock_in")}) == "accepted");
 }
 
+TEST_CASE("what belongs to a time-based clock may be connected to any value but a message") {
+  const Interval second = Interval::from_fraction(1, 1);
+  const auto sampler = Describe("sampler")
+                           .clock("tick", IntervalVariability::Constant, second)
+                           .input("in")
+                           .clocked_by(0)
+                           .output("out")
+                           .clocked_by(0)
+                           .input("u")
+                           .output("y")
+                           .add("clock_out", ValueType::Clock, Causality::Output)
+                           .output("message_out")
+                           .clocked_by(5)
+                           .add("clock_in", ValueType::Clock, Causality::Input)
+                           .input("message_in")
+                           .clocked_by(7)
+                           .done();
+  const auto with = [&](const std::string& from, const std::string& to) {
+    SystemDeclaration system;
+    system.components = {{"alpha", sampler, {}, {}}, {"beta", sampler, {}, {}}};
+    system.connections = {wire(from, to)};
+    return reason(system);
+  };
+  CHECK(with("out", "in") == "accepted");
+  CHECK(with("out", "u") == "accepted");
+  CHECK(with("y", "in") == "accepted");
+  CHECK_THAT(with("message_out", "in"), Contains("s.ssd:9") &&
+                                            Contains("'alpha.message_out' is a message") &&
+                                            Contains("to another message"));
+  CHECK_THAT(with("out", "message_in"), Contains("'beta.message_in' is a message"));
+  CHECK_THAT(with("y", "message_in"), Contains("'beta.message_in' is a message"));
+  CHECK_THAT(with("message_out", "u"), Contains("'alpha.message_out' is a message"));
+  CHECK_THAT(with("clock_out", "tick"), Contains("s.ssd:9") && Contains("a constant clock") &&
+                                            Contains("remove the connection"));
+}
+
+TEST_CASE("a time-based clock needs Event Mode") {
+  auto unit = std::make_shared<UnitDescription>(
+      *Describe("model").clock("tick", IntervalVariability::Countdown).done());
+  unit->has_event_mode = false;
+  SystemDeclaration system;
+  system.components = {{"alpha", unit, {}, {"s.ssd", 3}}};
+  CHECK_THAT(reason(system), Contains("s.ssd:3") && Contains("unit 'alpha', variable 'tick'") &&
+                                 Contains("countdown clock") && Contains("hasEventMode"));
+}
+
 TEST_CASE("two components of one name, and a system without any, are refused") {
   SystemDeclaration twice = declaration();
   twice.components[1].name = "alpha";

@@ -8,6 +8,7 @@ using namespace std::chrono_literals;
 using Catch::Matchers::Contains;
 using core::Causality;
 using core::Initial;
+using core::IntervalVariability;
 using core::ValueType;
 using core::Variability;
 
@@ -83,6 +84,25 @@ core::UnitDescription annotated(const std::string& type, const std::string& cont
                                                   content +
                                                   "</Annotation></Annotations>"
                                                   "</fmiModelDescription>");
+}
+
+/// A clock with these attributes, of a declared type with those.
+core::Variable clock_of(const std::string& attributes, const std::string& type_attributes = "") {
+  const bool has_type = !type_attributes.empty();
+  const std::string type = has_type ? "declaredType=\"Tick\" " : "";
+  std::string text =
+      description_text("x", "hasEventMode=\"true\"",
+                       "<Clock name=\"tick\" valueReference=\"1\" causality=\"input\" " + type +
+                           attributes + "/>\n");
+  if (has_type) {
+    text.insert(text.find("<ModelVariables>"), "<TypeDefinitions><ClockType name=\"Tick\" " +
+                                                   type_attributes + "/></TypeDefinitions>\n");
+  }
+  return fmi::parse_model_description(text, "unit.xml").variables[0];
+}
+std::string clock_error(const std::string& attributes) {
+  CAPTURE(attributes);
+  return input_error([&] { clock_of(attributes); });
 }
 
 /// What the description says of `initial` for a variable with these attributes.
@@ -166,7 +186,7 @@ TEST_CASE("a declared type gives what the variable leaves open") {
   CHECK(variable(unit, "temperature").unit == "degC");
   CHECK(variable(unit, "temperature").min == "-273.15");
   CHECK(variable(unit, "temperature").max == "100");
-  CHECK(variable(unit, "tick").interval_variability == "triggered");
+  CHECK(variable(unit, "tick").clock.value().variability == IntervalVariability::Triggered);
   using Items = std::vector<std::pair<std::string, std::int64_t>>;
   CHECK(variable(unit, "mode").items == Items{{"off", 0}, {"on", 7}});
 }
@@ -248,6 +268,8 @@ TEST_CASE("whether the unit may reject a step") {
   CHECK_FALSE(
       annotated("org.stride.unit", "<Unit xmlns=\"urn:org.stride:unit:1\" mayReject=\"0\"/>")
           .may_reject);
+  CHECK(annotated("org.stride.unit", unit + "\"true\" maximumStep=\"0.25\"/>").maximum_step ==
+        Duration(std::chrono::milliseconds(250)));
   CHECK(annotated("org.stride.unit", unit + "\"true\"/>").may_reject);
   CHECK(annotated("org.stride.unit", "<stride:Unit xmlns:stride=\"urn:org.stride:unit:1\"/>")
             .may_reject);
@@ -264,6 +286,95 @@ TEST_CASE("start values and clocks") {
   CHECK(variable(unit, "words").start == "one two");
   CHECK(variable(unit, "frame").start == "00ff");
   CHECK(variable(unit, "frame").clocks == std::vector<core::ValueReference>{5});
+}
+
+TEST_CASE("a clock's interval is the fraction, else the decimal, else for the unit to say") {
+  using core::Interval;
+  const auto exact = clock_of(R"(intervalVariability="constant" intervalDecimal="0.3333333"
+      supportsFraction="true" resolution="3000" intervalCounter="1000" shiftCounter="500"
+      canBeDeactivated="true" priority="3")");
+  REQUIRE(exact.clock);
+  CHECK(exact.clock->variability == IntervalVariability::Constant);
+  CHECK(exact.clock->interval == Interval::from_fraction(1, 3));
+  CHECK(exact.clock->shift == Interval::from_fraction(1, 6));
+  CHECK(exact.clock->supports_fraction);
+  CHECK(exact.clock->can_be_deactivated);
+  CHECK(exact.clock->priority == 3);
+  CHECK(exact.is_time_based_clock());
+
+  const auto decimal =
+      clock_of(R"(intervalVariability="tunable" intervalDecimal="1e-3" shiftDecimal="0.1")");
+  CHECK(decimal.clock->interval == Interval::from_fraction(1, 1000));
+  CHECK(decimal.clock->shift == Interval::from_fraction(1, 10));
+  CHECK_FALSE(decimal.clock->supports_fraction);
+
+  const auto fixed = clock_of(R"(intervalVariability="fixed" supportsFraction="true")");
+  CHECK_FALSE(fixed.clock->interval);
+  CHECK_FALSE(clock_of(R"(intervalVariability="countdown")").clock->interval);
+  CHECK_FALSE(clock_of(R"(intervalVariability="changing")").clock->priority);
+  CHECK_FALSE(clock_of(R"(intervalVariability="triggered")").is_time_based_clock());
+}
+
+TEST_CASE("a clock's declared type gives what the clock leaves open") {
+  const auto clock = clock_of(R"(intervalDecimal="0.5")",
+                              R"(intervalVariability="constant" intervalDecimal="1"
+                                 shiftDecimal="0.25" supportsFraction="true")");
+  CHECK(clock.clock->variability == IntervalVariability::Constant);
+  CHECK(clock.clock->interval == core::Interval::from_fraction(1, 2));
+  CHECK(clock.clock->shift == core::Interval::from_fraction(1, 4));
+  CHECK(clock.clock->supports_fraction);
+}
+
+TEST_CASE("a clock that cannot tick is an error with its line") {
+  CHECK_THAT(clock_error(""), Contains("unit.xml:5") && Contains("'intervalVariability'"));
+  CHECK_THAT(clock_error(R"(intervalVariability="often")"),
+             Contains("intervalVariability=\"often\" of the clock 'tick'") &&
+                 Contains("expected one of constant, fixed"));
+  CHECK_THAT(clock_error(R"(intervalVariability="constant")"), Contains("'intervalDecimal'"));
+  const std::string constant = R"(intervalVariability="constant" )";
+  CHECK_THAT(clock_error(constant + R"(intervalDecimal="-1")"), Contains("it is negative"));
+  CHECK_THAT(clock_error(constant + R"(intervalDecimal="0")"), Contains("at least the picosecond"));
+  CHECK_THAT(clock_error(constant + R"(intervalDecimal="1e-13")"),
+             Contains("intervalDecimal=\"1e-13\"") && Contains("at least the picosecond"));
+  CHECK_THAT(clock_error(constant + R"(intervalDecimal="nan")"), Contains("not a number"));
+  CHECK_THAT(clock_error(constant + R"(intervalDecimal="soon")"), Contains("soon"));
+  CHECK_THAT(clock_error(constant + R"(intervalDecimal="1" shiftDecimal="-1")"),
+             Contains("shiftDecimal=\"-1\"") && Contains("it is negative"));
+  CHECK_THAT(clock_error(constant + R"(intervalCounter="0" resolution="1")"),
+             Contains("intervalCounter=\"0\"") && Contains("at least the picosecond"));
+  CHECK_THAT(clock_error(constant + R"(intervalCounter="1")"), Contains("resolution"));
+  CHECK_THAT(clock_error(constant + R"(intervalCounter="1" resolution="0")"),
+             Contains("resolution=\"0\"") && Contains("resolution is 0"));
+  CHECK_THAT(clock_error(constant + R"(intervalDecimal="1" priority="-1")"), Contains("-1"));
+  const std::string output =
+      "<Clock name=\"out\" valueReference=\"1\" causality=\"output\" "
+      "intervalVariability=\"countdown\"/>\n";
+  CHECK_THAT(input_error([&] {
+               fmi::parse_model_description(description_text("x", "", output), "unit.xml");
+             }),
+             Contains("only an input can be a time-based clock"));
+}
+
+TEST_CASE("what belongs to a clock is discrete") {
+  const std::string variables =
+      "<Clock name=\"tick\" valueReference=\"1\" causality=\"input\" "
+      "intervalVariability=\"countdown\"/>\n"
+      "<Float64 name=\"u\" valueReference=\"2\" causality=\"input\" start=\"0\" clocks=\"1\"/>\n";
+  const auto unit = fmi::parse_model_description(description_text("x", "", variables), "unit.xml");
+  CHECK(variable(unit, "u").variability == Variability::Discrete);
+  CHECK(unit.is_sampled(variable(unit, "u")));
+  CHECK_FALSE(unit.is_sampled(variable(unit, "tick")));
+}
+
+TEST_CASE("what may change within a step") {
+  const std::string variables =
+      "<Float64 name=\"u\" valueReference=\"2\" causality=\"input\" start=\"0\" "
+      "intermediateUpdate=\"true\"/>\n";
+  const auto unit = fmi::parse_model_description(
+      description_text("x", "providesIntermediateUpdate=\"true\"", variables), "unit.xml");
+  CHECK(unit.provides_intermediate_update);
+  CHECK(variable(unit, "u").intermediate_update);
+  CHECK_FALSE(variable(unit, "time").intermediate_update);
 }
 
 TEST_CASE("no dependencies said and none at all are not the same") {

@@ -5,7 +5,15 @@
  *   coarse     fmi3DoStep returns fmi3Discard with a reason
  *   endless    fmi3DoStep says that it has come as far as infinity
  *   forgetful  fmi3SetFMUState returns fmi3Discard
+ *   backwards  fmi3GetIntervalDecimal gives a negative interval
+ *   vague      it gives NaN
+ *   wise       it does not know the interval yet
+ *
+ * Otherwise its clocks have the interval 0.25 s and the shift 0.125 s. It has no functions for
+ * fractions.
  */
+#include <math.h>
+
 #include <stride/fmi3.h>
 
 #define fmi3DoStep raw_do_step
@@ -61,5 +69,23 @@ fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState* state) {
   if (*state == NULL) return fmi3OK;
   *state = NULL;
   --raw_states_living;
+  return fmi3OK;
+}
+
+fmi3Status fmi3GetIntervalDecimal(fmi3Instance handle, const fmi3ValueReference references[],
+                                  size_t n, fmi3Float64 intervals[],
+                                  fmi3IntervalQualifier qualifiers[]) {
+  (void)references;
+  for (size_t i = 0; i < n; ++i) {
+    intervals[i] = is(handle, "backwards") ? -0.25 : is(handle, "vague") ? NAN : 0.25;
+    qualifiers[i] = is(handle, "wise") ? fmi3IntervalNotYetKnown : fmi3IntervalChanged;
+  }
+  return fmi3OK;
+}
+
+fmi3Status fmi3GetShiftDecimal(fmi3Instance handle, const fmi3ValueReference references[], size_t n,
+                               fmi3Float64 shifts[]) {
+  (void)handle, (void)references;
+  for (size_t i = 0; i < n; ++i) shifts[i] = 0.125;
   return fmi3OK;
 }

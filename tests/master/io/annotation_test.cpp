@@ -46,7 +46,7 @@ TEST_CASE("Everything that the annotation can say") {
                                         "<stride:Record signals='reader.*'/>"
                                         "<stride:Results signals='s.csv' events='none'/>"
                                         "<stride:MainThread components='plant legacy.*'/>"))));
-  CHECK(annotation.step == Duration(1'000'000'000));
+  CHECK(annotation.step.size == Duration(1'000'000'000));
   REQUIRE(annotation.record.size() == 3);
   CHECK(annotation.record[0].text == "sensor.*");
   CHECK(annotation.record[1].text == "channel.distance");
@@ -63,24 +63,50 @@ TEST_CASE("Everything that the annotation can say") {
   CHECK(annotation.results.statistics == "run.json");
 }
 
+TEST_CASE("Everything about the stepping can be chosen") {
+  const StepChoice step =
+      read(at_root(annotations(scenario(
+               "<stride:Step policy='error-controlled' size='0.01' maximum='0.1' minimum='1e-6' "
+               "relativeTolerance='1e-4' absoluteTolerance='0'/>"
+               "<stride:Exchange coupling='gauss-seidel' extrapolation='quadratic'/>"))))
+          .step;
+  core::RunOptions options;
+  step.apply(options);
+  CHECK(options.step.policy == core::StepPolicy::ErrorControlled);
+  CHECK(options.step.size == std::chrono::milliseconds(10));
+  CHECK(options.step.maximum == Duration(std::chrono::milliseconds(100)));
+  CHECK(options.step.minimum == std::chrono::microseconds(1));
+  CHECK(options.step.relative_tolerance == 1e-4);
+  CHECK(options.step.absolute_tolerance == 0);
+  CHECK(options.coupling == core::Coupling::GaussSeidel);
+  CHECK(options.extrapolation == core::Extrapolation::Quadratic);
+}
+
 TEST_CASE("It may be left out, or stand at the system") {
-  CHECK(read(at_root("")).step == std::nullopt);
+  CHECK(read(at_root("")).step.size == std::nullopt);
   CHECK(read(at_root("")).results.signals == "signals.csv");
   CHECK(read(at_root(annotations(scenario("")))).record.empty());
   CHECK(read(ssd_with("<ssd:Component name='a' source='a.fmu'/>",
                       annotations(scenario("<stride:Step size='1e-6'/>"))))
-            .step == Duration(1'000'000));
+            .step.size == Duration(1'000'000));
 }
 
 TEST_CASE("A mistake in the annotation is named with its line") {
   CHECK_THAT(error("<stride:Stpe size='1'/>"),
              Contains("x.ssd:4: <stride:Stpe> is not known in <stride:Scenario>") &&
                  Contains("did you mean 'Step'?"));
-  CHECK_THAT(error("<stride:Policy/>"), Contains("known are: Step, Record, Results, MainThread"));
+  CHECK_THAT(error("<stride:Policy/>"),
+             Contains("known are: Step, Exchange, Record, Results, MainThread"));
   CHECK_THAT(error("<stride:Step siez='1'/>"), Contains("did you mean 'size'?"));
-  CHECK_THAT(error("<stride:Step/>"), Contains("<stride:Step> needs the attribute 'size'"));
-  CHECK_THAT(error("<stride:Step size='1 ms'/>"), Contains("size='1 ms' is no number"));
-  CHECK_THAT(error("<stride:Step size='0'/>"), Contains("step size must be above 0 s"));
+  CHECK_THAT(error("<stride:Step size=''/>"),
+             Contains("the attribute 'size' of <stride:Step> is empty"));
+  CHECK_THAT(error("<stride:Step size='1 ms'/>"), Contains("size: '1 ms' is no number"));
+  CHECK_THAT(error("<stride:Step maximum='0'/>"), Contains("maximum: a step must be above 0 s"));
+  CHECK_THAT(error("<stride:Step policy='fixt'/>"),
+             Contains("policy: 'fixt' is none of them; did you mean 'fixed'?"));
+  CHECK_THAT(error("<stride:Step relativeTolerance='-1'/>"),
+             Contains("relativeTolerance: '-1' is no number of at least 0"));
+  CHECK_THAT(error("<stride:Exchange coupling='x'/>"), Contains("jacobi, gauss-seidel"));
   CHECK_THAT(error("<stride:Step size='1'/><stride:Step size='1'/>"),
              Contains("a second <stride:Step>"));
   CHECK_THAT(error("<stride:Record signal='a'/>"), Contains("did you mean 'signals'?"));

@@ -13,7 +13,7 @@ TEST_CASE("run.json tells what was run and how far it came") {
   const TemporaryFolder folder;
   core::RunOptions options;
   options.stop = Time(milliseconds(14'200));
-  options.step = milliseconds(1);
+  options.step.size = milliseconds(1);
   options.recorded = {{0, 1}, {0, 2}};
   options.threads.count = 4;
   core::RunStatistics statistics;
@@ -32,10 +32,17 @@ TEST_CASE("run.json tells what was run and how far it came") {
   "system": "sample",
   "start": 0.0,
   "stop": 14.2,
-  "step": 0.001,
+  "step": {
+    "policy": "fixed",
+    "size": 0.001,
+    "minimum": 1e-09,
+    "coupling": "jacobi",
+    "extrapolation": "hold"
+  },
   "outcome": "completed",
   "reached": 14.2,
   "communication_steps": 14200,
+  "undone_steps": 0,
   "event_iterations": 3,
   "threads": 4,
   "parallel_steps": 14000,

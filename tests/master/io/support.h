@@ -114,11 +114,11 @@ inline std::shared_ptr<core::UnitDescription> sample_description() {
   variables.push_back(variable("label", 5, ValueType::String));
   variables.push_back(variable("digest", 6, ValueType::Binary));
   variables.push_back(variable("transmit.clock", 7, ValueType::Clock));
-  variables.back().interval_variability = "triggered";
+  variables.back().clock.emplace();
   variables.push_back(variable("transmit.frame", 8, ValueType::Binary));
   variables.back().clocks = {7};
   variables.push_back(variable("tick", 9, ValueType::Clock));
-  variables.back().interval_variability = "triggered";
+  variables.back().clock.emplace();
   variables.push_back(variable("gain", 10, ValueType::Float64, Causality::Parameter));
   variables.push_back(variable("temperature", 11, ValueType::Float64, Causality::Input, "degC"));
   variables.push_back(variable("mode", 12, ValueType::Enumeration));

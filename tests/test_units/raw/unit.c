@@ -5,7 +5,9 @@
  *   error    it returns fmi3Error, silently    warning  it returns fmi3Warning with a message
  *   lies     it stops halfway without saying so early   it returns early halfway
  *   drifts   its time is a little off          refuses  it cannot be instantiated
+ *   insists  it rejects what is not the next step of raw_step picoseconds by its own count
  */
+#include <math.h>
 #include <string.h>
 
 #include <stride/fmi3.h>
@@ -13,6 +15,7 @@
 typedef struct {
   bool is_used;
   char name[32];
+  long long steps;
   char resources[512];
   fmi3InstanceEnvironment environment;
   fmi3LogMessageCallback log;
@@ -20,6 +23,9 @@ typedef struct {
 
 /* Not from the heap: an instance that has returned fmi3Fatal is never freed. */
 static Instance instances[8];
+
+/* Written by the tests through dlsym. */
+long long raw_step = 0;
 
 /* Read by the tests through dlsym. */
 int raw_living = 0;
@@ -97,6 +103,13 @@ TRANSITION(Terminate)
 TRANSITION(Reset)
 
 #ifndef WITHOUT_DO_STEP
+/* Whether the step begins at the double nearest to steps * raw_step, and has that size. */
+static bool is_next_step(const Instance* instance, double point, double size) {
+  const double step = (double)raw_step / 1e12;
+  const double expected = (double)(instance->steps * raw_step) / 1e12;
+  return point == expected && fabs(size - step) <= 1e-9 * step;
+}
+
 fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 point, fmi3Float64 size,
                       fmi3Boolean no_restore, fmi3Boolean* event, fmi3Boolean* terminate,
                       fmi3Boolean* early, fmi3Float64* reached) {
@@ -104,6 +117,8 @@ fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 point, fmi3Float64 size,
   raw_point = point;
   raw_size = size;
   raw_no_restore = no_restore;
+  if (is(instance, "insists") && !is_next_step(instance, point, size)) return fmi3Discard;
+  ++instance->steps;
   *event = false;
   *terminate = false;
   *early = is(instance, "early");

@@ -96,12 +96,13 @@ Trace run(std::size_t sensors, bool may_stop, ThreadOptions threads) {
       recorded.push_back({i, *fmu->description()->find(name)});
     }
   }
-  system.threads = std::move(threads);
+  system.options.threads = std::move(threads);
   Trace trace;
   system.build(0.05, 500us, recorded).add_observer(trace);
   system.simulation->run();
   const auto& statistics = system.simulation->statistics();
-  CHECK((statistics.parallel_steps == statistics.communication_steps) == system.threads.always);
+  CHECK((statistics.parallel_steps == statistics.communication_steps) ==
+        system.options.threads.always);
   return trace;
 }
 

@@ -1,0 +1,26 @@
+// The side of a unit's clock that only the kit sees: what the importer was told of it.
+#ifndef STRIDE_INTERFACES_UNIT_CLOCK_ACCESS_H
+#define STRIDE_INTERFACES_UNIT_CLOCK_ACCESS_H
+
+#include <stride/fmi3.h>
+#include <stride/unit/clock.h>
+
+namespace stride {
+
+class ClockAccess {
+ public:
+  /// What fmi3GetInterval answers where it is the unit that says the interval; it is told then.
+  static fmi3IntervalQualifier tell(Clock& clock) {
+    if (clock.knowledge_ == Clock::Knowledge::None) return fmi3IntervalNotYetKnown;
+    const bool is_new = clock.knowledge_ == Clock::Knowledge::New;
+    clock.knowledge_ = Clock::Knowledge::Told;
+    return is_new ? fmi3IntervalChanged : fmi3IntervalUnchanged;
+  }
+  static bool has_news(const Clock& clock) { return clock.knowledge_ == Clock::Knowledge::New; }
+  /// What the unit said counts no longer: the count has ended, or the unit will say it anew.
+  static void forget(Clock& clock) { clock.knowledge_ = Clock::Knowledge::None; }
+};
+
+}  // namespace stride
+
+#endif

@@ -1,0 +1,116 @@
+#include "master/core/step_inputs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stride::core {
+
+StepInputs::StepInputs(const System& system, Exchange& exchange, Coupling coupling,
+                       Extrapolation extrapolation)
+    : exchange_(exchange),
+      sequential_(coupling == Coupling::GaussSeidel),
+      change_in_steps_(sequential_ || extrapolation != Extrapolation::Hold),
+      sources_(system.components().size()),
+      step_begins_(system.components().size()),
+      feeds_(system.components().size()) {
+  for (const ContinuousLink& link : exchange.continuous_links()) {
+    std::vector<Feed>& feeds = feeds_[link.to.component];
+    auto feed = std::find_if(feeds.begin(), feeds.end(),
+                             [&](const Feed& f) { return f.source == link.from.component; });
+    if (feed == feeds.end()) feed = feeds.insert(feed, {link.from.component, {}});
+    feed->links.push_back({signal_of(link), system.variable(link.to).intermediate_update,
+                           link.target, link.conversion});
+  }
+  for (Source& source : sources_) {
+    source.history = SignalHistory(source.signals.size(), static_cast<unsigned>(extrapolation));
+  }
+}
+
+std::size_t StepInputs::signal_of(const ContinuousLink& link) {
+  Source& source = sources_[link.from.component];
+  const auto [place, is_new] = source.places.emplace(link.source.place, source.signals.size());
+  if (is_new) {
+    source.signals.push_back(link.source);
+    source.ids.push_back(link.from);
+  }
+  return place->second;
+}
+
+void StepInputs::sample(Source& source, Time time) {
+  const std::span<double> values = source.history.add(time);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = source.signals[i].get();
+}
+
+void StepInputs::accept(Time time, std::span<const char> had_event) {
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    Source& source = sources_[i];
+    if (source.signals.empty()) continue;
+    SignalHistory& history = source.history;
+    if (had_event[i]) history.clear();
+    // what was fetched after a step may have changed since, and a step may end where it began
+    if (!history.empty() && history.newest() == time) history.remove_newest();
+    source.is_ahead = false;
+    sample(source, time);
+  }
+}
+
+void StepInputs::set_targets(const Feed& feed, const SignalHistory& history,
+                             const SignalHistory::Weights& weights, bool within_step) {
+  for (const Link& link : feed.links) {
+    if (link.within_step != within_step) continue;
+    const double value = history.value(link.signal, weights);
+    link.target.set(link.conversion.factor * value + link.conversion.offset);
+  }
+}
+
+void StepInputs::before_step(std::size_t component, Unit& unit, Time from, Time to) {
+  if (feeds_[component].empty()) return;
+  step_begins_[component] = from;
+  for (const Feed& feed : feeds_[component]) {
+    const SignalHistory& history = sources_[feed.source].history;
+    set_targets(feed, history, history.mean(from, to), false);
+    set_targets(feed, history, history.at(from, 0), true);
+  }
+  exchange_.deliver_continuous(component, unit);
+}
+
+void StepInputs::within_step(std::size_t component, Unit& unit, double seconds_into_step) {
+  for (const Feed& feed : feeds_[component]) {
+    const SignalHistory& history = sources_[feed.source].history;
+    set_targets(feed, history, history.at(step_begins_[component], seconds_into_step), true);
+  }
+  exchange_.deliver_within_step(component, unit);
+}
+
+void StepInputs::after_step(std::size_t component, Unit& unit, Time reached) {
+  Source& source = sources_[component];
+  if (!sequential_ || source.signals.empty() || source.history.newest() == reached) return;
+  exchange_.fetch(component, unit);
+  sample(source, reached);
+  source.is_ahead = true;
+}
+
+void StepInputs::undo_step(std::size_t component) {
+  Source& source = sources_[component];
+  if (source.is_ahead) source.history.remove_newest();
+  source.is_ahead = false;
+}
+
+Excess StepInputs::excess(Time time, double absolute, double relative) {
+  Excess worst;
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    const Source& source = sources_[i];
+    if (source.signals.empty()) continue;
+    undo_step(i);
+    const SignalHistory::Weights weights = source.history.at(time, 0);
+    for (std::size_t k = 0; k < source.signals.size(); ++k) {
+      const double actual = source.signals[k].get();
+      const double error = std::abs(actual - source.history.value(k, weights));
+      const double ratio = error / (absolute + relative * std::abs(actual));
+      if (ratio > worst.ratio) worst = {ratio, source.ids[k]};
+    }
+  }
+  return worst;
+}
+
+}  // namespace stride::core

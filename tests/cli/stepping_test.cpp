@@ -1,0 +1,126 @@
+// What decides on the steps, and what a unit sees of the others during one.
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/scenarios.h"
+
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// Two low-passes of 1 s in a row, the first fed with 1 from the start: y2 = 1 - (1 + t) exp(-t).
+const Arguments kFilters{
+    "--set",  "first.u=1", "--set", "first.time_constant=1", "--set", "second.time_constant=1",
+    "--quiet"};
+
+struct Result {
+  double deviation = 0;  ///< the largest of second.y from the closed form
+  std::size_t steps = 0;
+  nlohmann::json run;
+};
+
+Result run(const Workspace& workspace, const Arguments& options) {
+  Arguments arguments = kFilters;
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const Outcome outcome = workspace.run(arguments);
+  REQUIRE(outcome.err == "");
+  REQUIRE(outcome.exit_code == 0);
+  const Csv signals = workspace.signals();
+  const auto time = signals.numbers("time");
+  const auto y = signals.numbers("second.y");
+  Result result;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    const double exact = 1 - (1 + time[i]) * std::exp(-time[i]);
+    result.deviation = std::max(result.deviation, std::abs(y[i] - exact));
+  }
+  result.run = nlohmann::json::parse(read(workspace / "out/run.json"));
+  result.steps = result.run.at("communication_steps");
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("coupling and extrapolation make a run more accurate at the same steps") {
+  const Workspace workspace(two_filters());
+  const double held = run(workspace, {"--step", "0.05"}).deviation;
+  const Result sequential = run(workspace, {"--step", "0.05", "--coupling", "gauss-seidel"});
+  const Result linear = run(workspace, {"--step", "0.05", "--extrapolation", "linear"});
+  const Result both =
+      run(workspace, {"--step", "0.05", "--extrapolation", "linear", "--coupling", "gauss-seidel"});
+  CHECK(held > 5e-3);
+  CHECK(sequential.deviation < 1.01 * held);
+  CHECK(linear.deviation < held / 5);
+  CHECK(both.deviation < held / 50);
+  CHECK(both.run["step"]["coupling"] == "gauss-seidel");
+  CHECK(both.run["step"]["extrapolation"] == "linear");
+}
+
+TEST_CASE("an error-controlled run takes few steps where little happens") {
+  const Workspace workspace(two_filters());
+  const Arguments options{"--policy",
+                          "error-controlled",
+                          "--extrapolation",
+                          "quadratic",
+                          "--relative-tolerance",
+                          "1e-4",
+                          "--absolute-tolerance",
+                          "1e-5",
+                          "--step",
+                          "0.01",
+                          "--max-step",
+                          "1",
+                          "--stop",
+                          "10"};
+  const Result result = run(workspace, options);
+  CHECK(result.deviation < 2e-3);
+  CHECK(result.steps < 250);
+  CHECK(result.run["reached"] == 10);
+  CHECK(result.run["step"]["policy"] == "error-controlled");
+  CHECK(result.run["step"]["maximum"] == 1);
+}
+
+TEST_CASE("the annotation chooses, and the command line chooses otherwise") {
+  Parts parts = two_filters();
+  parts.annotation =
+      "<stride:Step policy=\"event-driven\" maximum=\"0.25\"/><stride:Exchange "
+      "coupling=\"gauss-seidel\"/>";
+  const Workspace workspace(parts);
+  CHECK(run(workspace, {}).steps == 4);
+  CHECK(run(workspace, {"--max-step", "0.5"}).steps == 2);
+  const Result other =
+      run(workspace, {"--policy", "fixed", "--step", "0.1", "--coupling", "jacobi"});
+  CHECK(other.steps == 10);
+  CHECK(other.run["step"]["coupling"] == "jacobi");
+}
+
+TEST_CASE("check prints how it would step") {
+  const Workspace workspace(two_filters());
+  const auto head = [&](const Arguments& options) {
+    Arguments arguments{"check", "test.ssd"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return workspace.stride(arguments).out;
+  };
+  CHECK_THAT(head({"--policy", "event-driven", "--max-step", "0.5"}),
+             Contains("from event to event, of 0.5 s at most\ncoupling jacobi, inputs held\n"));
+  CHECK_THAT(head({"--policy", "error-controlled", "--extrapolation", "linear"}),
+             Contains("keep the inputs' error within 1e-06 + 0.001 of their values\n") &&
+                 Contains("inputs extrapolated (linear)") &&
+                 Contains("its state is saved before each step"));
+}
+
+TEST_CASE("what a policy cannot do is said before the run") {
+  const Workspace workspace(
+      Parts{component("filter", "minimal.fmu") + component("s", "stateless.fmu")});
+  const Outcome refused = workspace.run({"--policy", "error-controlled"});
+  CHECK_THAT(input_error_of(refused), Contains("cannot be rolled back: 's'"));
+  CHECK_FALSE(fs::exists(workspace / "out"));
+  CHECK_THAT(input_error_of(workspace.run({"--policy", "fast"})),
+             Contains("--policy fast: 'fast' is none of them; known are: fixed, event-driven"));
+  CHECK_THAT(input_error_of(workspace.run({"--max-step", "1e-10"})),
+             Contains("the maximum step of 0.0000000001 s is below the minimum"));
+  CHECK_THAT(input_error_of(workspace.run({"--policy", "error-controlled", "--relative-tolerance",
+                                           "0", "--absolute-tolerance", "0"})),
+             Contains("both tolerances are 0"));
+}

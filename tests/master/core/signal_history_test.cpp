@@ -1,0 +1,69 @@
+#include "master/core/signal_history.h"
+
+#include <catch2/catch.hpp>
+
+using namespace stride;
+using namespace stride::core;
+using namespace std::chrono_literals;
+
+namespace {
+
+double polynomial(double t) { return 3 - 2 * t + 5 * t * t; }
+double mean_of_polynomial(double a, double b) {
+  const auto integral = [](double t) { return 3 * t - t * t + 5 * t * t * t / 3; };
+  return (integral(b) - integral(a)) / (b - a);
+}
+
+/// At 0, 0.3 and 1 s.
+SignalHistory sampled(unsigned degree) {
+  SignalHistory history(2, degree);
+  for (const auto time : {0ms, 300ms, 1000ms}) {
+    const auto values = history.add(Time(time));
+    values[0] = polynomial(to_seconds(Time(time)));
+    values[1] = -7;
+  }
+  return history;
+}
+
+}  // namespace
+
+TEST_CASE("a polynomial of the second degree is found again from three samples") {
+  const SignalHistory history = sampled(2);
+  for (const double t : {0.0, 0.3, 1.0, 1.25, 2.0}) {
+    const auto weights = history.at(Time(1s), t - 1);
+    CHECK(history.value(0, weights) == Approx(polynomial(t)).epsilon(1e-12));
+    CHECK(history.value(1, weights) == Approx(-7).epsilon(1e-12));
+  }
+  CHECK(history.value(0, history.mean(Time(1s), Time(1500ms))) ==
+        Approx(mean_of_polynomial(1, 1.5)).epsilon(1e-12));
+  CHECK(history.value(0, history.mean(Time(1s), Time(1s))) == Approx(polynomial(1)));
+}
+
+TEST_CASE("a lower degree takes the newest samples only") {
+  const double slope = (polynomial(1) - polynomial(0.3)) / 0.7;
+  const SignalHistory line = sampled(1);
+  CHECK(line.value(0, line.at(Time(1s), 0.5)) == Approx(polynomial(1) + 0.5 * slope));
+  CHECK(line.value(0, line.mean(Time(1s), Time(2s))) == Approx(polynomial(1) + 0.5 * slope));
+  const SignalHistory held = sampled(0);
+  CHECK(held.value(0, held.at(Time(1s), 0.5)) == polynomial(1));
+  CHECK(held.value(0, held.mean(Time(1s), Time(2s))) == polynomial(1));
+}
+
+TEST_CASE("with too few samples the degree is lower") {
+  SignalHistory history(1, 2);
+  CHECK(history.empty());
+  history.add(Time(1s))[0] = 4;
+  CHECK(history.value(0, history.at(Time(1s), 10)) == 4);
+  history.add(Time(2s))[0] = 6;
+  CHECK(history.value(0, history.at(Time(2s), 1)) == Approx(8));
+  history.clear();
+  CHECK(history.empty());
+}
+
+TEST_CASE("the newest sample can be taken back without a loss of degree") {
+  SignalHistory history = sampled(2);
+  history.add(Time(1100ms))[0] = 1e6;
+  history.remove_newest();
+  CHECK(history.newest() == Time(1s));
+  CHECK(history.value(0, history.at(Time(1s), 1)) == Approx(polynomial(2)).epsilon(1e-12));
+}

@@ -1,0 +1,104 @@
+// The whole loop takes nothing from the heap: exchange, steps, saved states, early returns, events
+// and messages.
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "tests/property/assembly.h"
+
+namespace {
+
+std::atomic<long> allocations = 0;
+
+}  // namespace
+
+// Counts what this program and the units in it take from the heap. Inlined, GCC takes new and free
+// for a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* const memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  ++allocations;
+  return std::malloc(size);
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace {
+
+using namespace stride;
+using namespace stride::tests;
+using namespace std::chrono_literals;
+
+constexpr Time kWarm{100ms};  // by then each kind of step and event has been there
+
+/// Counts from kWarm on.
+struct AllocationCounter : core::Observer {
+  long at_start = 0;
+  long at_warm = 0;
+  long last = 0;
+  std::uint64_t points = 0;
+  std::uint64_t messages = 0;
+  void on_start(std::span<const core::Signal>) override { at_start = allocations; }
+  void on_message(const core::Message& message) override { messages += message.time > kWarm; }
+  void on_communication_point(Time time) override {
+    if (time <= kWarm) at_warm = allocations;
+    last = allocations;
+    points += time > kWarm;
+  }
+};
+
+/// Ten units, each fed by its neighbour.
+Assembly ring() {
+  Assembly system;
+  for (int i = 0; i < 10; ++i) system.add("r" + std::to_string(i), "linear");
+  for (int i = 0; i < 10; ++i) {
+    system.wire("r" + std::to_string(i) + ".x", "r" + std::to_string((i + 1) % 10) + ".u");
+  }
+  return system;
+}
+
+core::RunStatistics run_counted(const Assembly& assembly, AllocationCounter& counter) {
+  const core::System system(assembly.declaration());
+  core::Simulation simulation(system, assembly.instantiate(), fixed_steps(1ms, Time(1s)));
+  simulation.add_observer(counter);
+  simulation.run();
+  return simulation.statistics();
+}
+
+}  // namespace
+
+TEST_CASE("a ring of ten in fixed steps does not allocate") {
+  AllocationCounter counter;
+  run_counted(ring(), counter);
+  CHECK(counter.points == 900);
+  CHECK(counter.last - counter.at_warm == 0);
+  CHECK(counter.at_start > 100);  // the counting works
+}
+
+TEST_CASE("nor does it beside units that return early, announce events and send messages") {
+  Assembly system = ring();
+  system.add("finds", "ticker", {{"period", "0.0047"}, {"announces", "0"}})
+      .add("announces", "ticker", {{"period", "0.0033"}})
+      .add("listener", "listener")
+      .add("stops", "early", {{"instants", "0.05 0.2 0.3 0.4 0.5 0.6 0.7 0.8"}})
+      .wire("r3.x", "stops.u")
+      .wire_message("finds.tick", "listener.message");
+  AllocationCounter counter;
+  const core::RunStatistics statistics = run_counted(system, counter);
+  CHECK(counter.messages > 300);
+  CHECK(counter.last - counter.at_warm == 0);
+  std::uint64_t saves = 0;
+  std::uint64_t rollbacks = 0;
+  for (const core::UnitStatistics& unit : statistics.units) {
+    saves += unit.saves;
+    rollbacks += unit.rollbacks;
+  }
+  CHECK(saves > 10'000);
+  CHECK(rollbacks > 100);
+}

@@ -1,0 +1,196 @@
+#include "tests/property/assembly.h"
+
+#include <algorithm>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+#include <type_traits>
+
+#include "master/io/csv_recorder.h"
+#include "master/io/event_recorder.h"
+#include "tests/master/fmi/support.h"
+
+namespace stride::tests {
+namespace {
+
+std::pair<std::string, std::string> split(const std::string& name) {
+  const std::size_t dot = name.find('.');
+  return {name.substr(0, dot), name.substr(dot + 1)};
+}
+
+bool is_recorded(const core::Variable& variable) {
+  return variable.causality == core::Causality::Output && variable.type != core::ValueType::Clock &&
+         !variable.is_clocked();
+}
+
+std::vector<core::VariableId> all_outputs(const core::System& system) {
+  std::map<std::string, std::size_t> components;
+  for (std::size_t i = 0; i < system.components().size(); ++i) {
+    components.emplace(system.components()[i].name, i);
+  }
+  std::vector<core::VariableId> ids;
+  for (const auto& [name, component] : components) {
+    const auto& variables = system.components()[component].description->variables;
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      if (is_recorded(variables[i])) ids.push_back({component, i});
+    }
+  }
+  return ids;
+}
+
+/// Keeps the values of all scalar numbers.
+class ValueRecorder : public core::Observer {
+ public:
+  ValueRecorder(const core::System& system, Results& results)
+      : system_(system), results_(results) {}
+
+  void on_start(std::span<const core::Signal> signals) override {
+    signals_.assign(signals.begin(), signals.end());
+    for (const core::Signal& signal : signals_) {
+      results_.names.push_back(system_.full_name(signal.id));
+    }
+  }
+  void on_communication_point(Time time) override {
+    std::vector<double>& row = results_.values[time];
+    row.clear();
+    for (const core::Signal& signal : signals_) {
+      core::visit(*signal.block, [&](auto elements) {
+        using T = std::remove_cvref_t<decltype(elements[0])>;
+        if constexpr (std::is_arithmetic_v<T>) {
+          row.push_back(static_cast<double>(elements[signal.first]));
+        }
+      });
+    }
+  }
+
+ private:
+  const core::System& system_;
+  Results& results_;
+  std::vector<core::Signal> signals_;
+};
+
+}  // namespace
+
+std::shared_ptr<fmi::Fmu> test_unit(const std::string& name) {
+  static std::map<std::string, std::shared_ptr<fmi::Fmu>> loaded;
+  std::shared_ptr<fmi::Fmu>& fmu = loaded[name];
+  if (!fmu) fmu = fmi::Fmu::load(test_fmu(name));
+  return fmu;
+}
+
+Assembly& Assembly::add(const std::string& name, const std::string& unit,
+                        const Values& start_values) {
+  return add(name, test_unit(unit), start_values);
+}
+
+Assembly& Assembly::add(const std::string& name, std::shared_ptr<fmi::Fmu> unit,
+                        const Values& start_values) {
+  declaration_.components.push_back({name, unit->description(), {}, {}});
+  units_[name] = std::move(unit);
+  for (const auto& [variable, value] : start_values) set(name + "." + variable, value);
+  return *this;
+}
+
+Assembly& Assembly::wire(const std::string& from, const std::string& to) {
+  const auto [source, output] = split(from);
+  const auto [target, input] = split(to);
+  declaration_.connections.push_back({source, output, target, input, false, {}});
+  return *this;
+}
+
+Assembly& Assembly::wire_message(const std::string& from, const std::string& to) {
+  for (const char* part : {".clock", ".number", ".picoseconds"}) wire(from + part, to + part);
+  return *this;
+}
+
+Assembly& Assembly::set(const std::string& variable, const std::string& value) {
+  const auto [component, name] = split(variable);
+  declaration_.start_values.push_back({component, name, value, "", {}});
+  return *this;
+}
+
+Assembly Assembly::shuffled(unsigned seed) const {
+  Assembly other = *this;
+  std::mt19937 random(seed);
+  std::shuffle(other.declaration_.components.begin(), other.declaration_.components.end(), random);
+  std::shuffle(other.declaration_.connections.begin(), other.declaration_.connections.end(),
+               random);
+  return other;
+}
+
+std::vector<std::unique_ptr<core::Unit>> Assembly::instantiate() const {
+  std::vector<std::unique_ptr<core::Unit>> units;
+  for (const core::ComponentDeclaration& component : declaration_.components) {
+    units.push_back(
+        units_.at(component.name)
+            ->instantiate(component.name, {.early_return_allowed = true, .may_roll_back = true}));
+  }
+  return units;
+}
+
+std::string Assembly::text() const {
+  std::string text;
+  for (const auto& component : declaration_.components) {
+    text += component.name + ": " + component.description->model_name + "\n";
+  }
+  for (const auto& wire : declaration_.connections) {
+    text += wire.from_component + "." + wire.from_connector + " -> " + wire.to_component + "." +
+            wire.to_connector + "\n";
+  }
+  for (const auto& start : declaration_.start_values) {
+    text += start.component + "." + start.variable + " = " + start.value + "\n";
+  }
+  return text;
+}
+
+double Results::value(Time time, const std::string& name) const {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) throw std::out_of_range("there is no output " + name);
+  return values.at(time).at(static_cast<std::size_t>(found - names.begin()));
+}
+
+std::vector<std::string> Results::event_rows() const {
+  std::vector<std::string> rows;
+  std::istringstream lines(events);
+  std::string row;
+  std::getline(lines, row);
+  while (std::getline(lines, row)) rows.push_back(row);
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+core::RunOptions fixed_steps(Duration step, Time stop) {
+  core::RunOptions options;
+  options.step.size = step;
+  options.stop = stop;
+  options.measure_time = false;
+  return options;
+}
+
+Results run(const Assembly& assembly, Duration step, Time stop,
+            const core::ThreadOptions& threads) {
+  const Scratch scratch;
+  const core::System system(assembly.declaration());
+  core::RunOptions options = fixed_steps(step, stop);
+  options.recorded = all_outputs(system);
+  options.threads = threads;
+  Results results;
+  io::CsvRecorder signals(system, scratch / "signals.csv");
+  io::EventRecorder events(system, scratch / "events.csv");
+  ValueRecorder values(system, results);
+  core::Simulation simulation(system, assembly.instantiate(), options);
+  for (core::Observer* observer :
+       std::initializer_list<core::Observer*>{&signals, &events, &values}) {
+    simulation.add_observer(*observer);
+  }
+  simulation.run();
+  results.signals = read(scratch / "signals.csv");
+  results.events = read(scratch / "events.csv");
+  results.statistics = simulation.statistics();
+  for (std::size_t i = 0; i < system.components().size(); ++i) {
+    results.units[system.components()[i].name] = results.statistics.units[i];
+  }
+  return results;
+}
+
+}  // namespace stride::tests

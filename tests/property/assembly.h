@@ -1,0 +1,71 @@
+// Systems of real FMUs, wired by a test and run with all that can be recorded.
+#ifndef STRIDE_TESTS_PROPERTY_ASSEMBLY_H
+#define STRIDE_TESTS_PROPERTY_ASSEMBLY_H
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "master/core/simulation.h"
+#include "master/core/system.h"
+#include "master/fmi/fmu.h"
+
+namespace stride::tests {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kSanitized = true;  ///< there, long tests are shorter
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
+/// A unit made for tests, loaded once.
+std::shared_ptr<fmi::Fmu> test_unit(const std::string& name);
+
+class Assembly {
+ public:
+  using Values = std::vector<std::pair<std::string, std::string>>;
+
+  Assembly& add(const std::string& name, const std::string& unit, const Values& start_values = {});
+  Assembly& add(const std::string& name, std::shared_ptr<fmi::Fmu> unit,
+                const Values& start_values = {});
+  /// "a.y", "b.u"
+  Assembly& wire(const std::string& from, const std::string& to);
+  /// The three connections of a numbered message: "ticker.tick", "listener.message".
+  Assembly& wire_message(const std::string& from, const std::string& to);
+  Assembly& set(const std::string& variable, const std::string& value);
+  /// The same system with its components and connections in another order.
+  Assembly shuffled(unsigned seed) const;
+
+  const core::SystemDeclaration& declaration() const { return declaration_; }
+  std::vector<std::unique_ptr<core::Unit>> instantiate() const;
+  /// For the messages of a test that fails.
+  std::string text() const;
+
+ private:
+  core::SystemDeclaration declaration_;
+  std::map<std::string, std::shared_ptr<fmi::Fmu>> units_;  ///< by component
+};
+
+struct Results {
+  std::string signals;  ///< signals.csv with all outputs, sorted by component
+  std::string events;   ///< events.csv
+  core::RunStatistics statistics;
+  std::map<std::string, core::UnitStatistics> units;
+  std::map<Time, std::vector<double>> values;  ///< of all numeric outputs, by instant
+  std::vector<std::string> names;              ///< of the values
+
+  double value(Time time, const std::string& name) const;
+  std::vector<std::string> event_rows() const;  ///< sorted, without the header
+};
+
+core::RunOptions fixed_steps(Duration step, Time stop);
+
+/// Runs from 0 s to `stop` in fixed steps.
+Results run(const Assembly& assembly, Duration step, Time stop,
+            const core::ThreadOptions& threads = {});
+
+}  // namespace stride::tests
+
+#endif

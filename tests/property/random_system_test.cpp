@@ -1,0 +1,86 @@
+// What holds for every system, tried on many that are drawn at random.
+#include "tests/property/random_system.h"
+
+#include <string_view>
+
+#include <catch2/catch.hpp>
+
+using namespace stride;
+using namespace stride::tests;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr unsigned kSystems = kSanitized ? 10 : 100;
+constexpr Duration kStep = 1ms;
+constexpr Time kStop{100ms};
+
+/// Whether `text` begins with `head`, said so that a failure shows the place.
+void check_begins_with(const std::string& text, const std::string& head) {
+  const auto [in_text, in_head] = std::mismatch(text.begin(), text.end(), head.begin(), head.end());
+  INFO("they differ behind: " << std::string_view(head).substr(
+           0, static_cast<std::size_t>(in_head - head.begin())));
+  CHECK(in_head == head.end());
+}
+
+}  // namespace
+
+TEST_CASE("the random systems have all that they should have") {
+  core::UnitStatistics sum;
+  std::uint64_t events = 0;
+  for (unsigned seed = 0; seed < kSystems; ++seed) {
+    const Results results = run(random_system(seed, Wiring::Continuous), kStep, kStop);
+    for (const auto& [name, unit] : results.units) {
+      sum.rejections += unit.rejections;
+      sum.early_returns += unit.early_returns;
+      sum.rollbacks += unit.rollbacks;
+      sum.messages_received += unit.messages_received;
+    }
+    events += results.statistics.event_iterations;
+  }
+  CHECK(sum.rejections > 10 * kSystems);
+  CHECK(sum.early_returns > 10 * kSystems);
+  CHECK(sum.rollbacks > 10 * kSystems);
+  CHECK(sum.messages_received > 10 * kSystems);
+  CHECK(events > 10 * kSystems);
+}
+
+TEST_CASE("a run that is repeated writes the same bytes") {
+  for (unsigned seed = 0; seed < kSystems; ++seed) {
+    const Assembly system = random_system(seed, Wiring::Continuous);
+    INFO("seed " << seed << "\n" << system.text());
+    const Results first = run(system, kStep, kStop);
+    const Results second = run(system, kStep, kStop);
+    CHECK(first.signals == second.signals);
+    CHECK(first.events == second.events);
+  }
+}
+
+TEST_CASE("the order of the components and connections changes no result") {
+  for (unsigned seed = 0; seed < kSystems; ++seed) {
+    const Assembly system = random_system(seed, Wiring::Continuous);
+    const Results expected = run(system, kStep, kStop);
+    for (unsigned order = 1; order <= 3; ++order) {
+      const Assembly shuffled = system.shuffled(order);
+      INFO("seed " << seed << ", order " << order << "\n" << shuffled.text());
+      const Results results = run(shuffled, kStep, kStop);
+      CHECK(results.values.size() == expected.values.size());
+      const bool same_signals = results.signals == expected.signals;
+      CHECK(same_signals);
+      CHECK(results.event_rows() == expected.event_rows());
+    }
+  }
+}
+
+TEST_CASE("a run to the half of the time is the beginning of the whole run") {
+  for (unsigned seed = 0; seed < kSystems; ++seed) {
+    const Assembly system = random_system(seed, Wiring::Continuous);
+    INFO("seed " << seed << "\n" << system.text());
+    const Results half = run(system, kStep, Time(50ms));
+    const Results whole = run(system, kStep, kStop);
+    CHECK(half.values.size() > 50);
+    CHECK(half.values.size() < whole.values.size());
+    check_begins_with(whole.signals, half.signals);
+    check_begins_with(whole.events, half.events);
+  }
+}
