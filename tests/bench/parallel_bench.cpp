@@ -119,6 +119,7 @@ void parallel(benchmark::State& state) {
 BENCHMARK(parallel)
     ->ArgNames({"units", "ns"})
     ->ArgsProduct({{2, 8}, {100, 5'000, 50'000, 500'000}})
+    ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
