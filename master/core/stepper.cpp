@@ -69,12 +69,18 @@ Time Stepper::advance(Time from, Time target) {
     unit.result = {.reached = from};
     unit.is_saved = false;
   }
-  if (!split_.is_adaptive()) [[likely]]
-    return make_passes(from, target);
+  if (split_.is_deciding()) return make_timed_passes(from, target);
+  const Time reached = make_passes(from, target);
+  split_.end_step();
+  return reached;
+}
+
+Time Stepper::make_timed_passes(Time from, Time target) {
   step_clock_ = WallClock(clock_.measures() || split_.is_measuring());
   const auto began = WallClock::Source::now();
   const Time reached = make_passes(from, target);
   split_.end_step(WallClock::Source::now() - began);
+  step_clock_ = clock_;
   return reached;
 }
 

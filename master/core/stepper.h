@@ -74,6 +74,7 @@ class Stepper {
   };
   using Stage = std::span<const StepPlace>;
 
+  Time make_timed_passes(Time from, Time target);
   Time make_passes(Time from, Time target);
   Time step_all(Time from, Time target);
   Time step_stage(std::size_t stage, Time from, Time target);

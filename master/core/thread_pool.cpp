@@ -17,6 +17,7 @@ using Clock = std::chrono::steady_clock;
 /// Longer than the exchange between two steps takes; sleeping and waking up costs as much again.
 constexpr std::chrono::microseconds kMostSpin{100};
 constexpr std::chrono::microseconds kLeastSpin{1};
+constexpr std::uint32_t kRetry = 100;
 
 void pause() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -113,7 +114,8 @@ void ThreadPool::Waiter::wait_while(const std::atomic<std::uint32_t>& word, std:
       pause();
     }
   } while (Clock::now() < enough);
-  spin = std::min(std::max<std::chrono::nanoseconds>(spin / 2, kLeastSpin), most);
+  const bool retries = ++in_vain % kRetry == 0;
+  spin = retries ? most : std::min(std::max<std::chrono::nanoseconds>(spin / 2, kLeastSpin), most);
   word.wait(value, std::memory_order_acquire);
 }
 

@@ -14,9 +14,10 @@ namespace stride::core {
 
 /// All functions are called from the thread that made the pool; only the tasks run on the others.
 ///
-/// Who waits for another spins for 0.1 ms at most, and less the more often that was in vain, then
-/// sleeps. A worker starts with the floating-point environment of the thread that makes the pool,
-/// and takes no asynchronous signal, so handlers run elsewhere.
+/// Who waits for another spins for 0.1 ms at most, then sleeps. It spins less where that was in
+/// vain, but for one time in a hundred, to find out whether it still is. A worker starts with the
+/// floating-point environment of the thread that makes the pool, and takes no asynchronous signal,
+/// so handlers run elsewhere.
 class ThreadPool {
  public:
   /// Starts `threads` - 1 workers. Throws Error (Run) if the system refuses.
@@ -53,6 +54,7 @@ class ThreadPool {
   struct Waiter {
     std::chrono::nanoseconds most{};  ///< that it spins
     std::chrono::nanoseconds spin = most;
+    std::uint32_t in_vain = 0;
 
     void wait_while(const std::atomic<std::uint32_t>& word, std::uint32_t value);
   };

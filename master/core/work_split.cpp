@@ -103,11 +103,7 @@ void WorkSplit::settle(bool parallel) {
   steps_ *= patience_;
 }
 
-void WorkSplit::end_step(Nanoseconds elapsed) {
-  if (phase_ == Phase::Settled) {
-    if (--steps_ == 0) begin_measuring();
-    return;
-  }
+void WorkSplit::take_in(Nanoseconds elapsed) {
   ++steps_;
   turn_pace_.time += elapsed;
   ++turn_pace_.steps;

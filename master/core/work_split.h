@@ -58,8 +58,8 @@ class WorkSplit {
   explicit WorkSplit(Plan plan);
 
   std::size_t threads() const { return plan_.threads; }
-  /// Whether there is a choice at all. If not, only shares() need be called.
-  bool is_adaptive() const { return phase_ != Phase::Fixed; }
+  /// Whether the next decision needs to know how long this communication step takes.
+  bool is_deciding() const { return phase_ == Phase::Measuring || phase_ == Phase::Racing; }
   /// Whether this communication step is made by one thread, to note what each unit costs.
   bool is_measuring() const { return phase_ == Phase::Measuring; }
   /// Whether any stage of this communication step is made on several threads.
@@ -71,8 +71,11 @@ class WorkSplit {
   }
 
   void note_cost(std::size_t place, Nanoseconds cost) { costs_[place] += cost; }
-  /// The communication step is over; stepping its units took that long.
-  void end_step(Nanoseconds elapsed);
+  /// The communication step is over. While is_deciding(): stepping its units took that long.
+  void end_step(Nanoseconds elapsed = {}) {
+    if (is_deciding()) return take_in(elapsed);
+    if (phase_ == Phase::Settled && --steps_ == 0) begin_measuring();
+  }
 
  private:
   enum class Phase { Fixed, Measuring, Racing, Settled };
@@ -82,6 +85,7 @@ class WorkSplit {
     std::uint64_t steps = 0;
   };
 
+  void take_in(Nanoseconds elapsed);
   void begin_measuring();
   void begin_turn(std::size_t turn);
   void settle(bool parallel);

@@ -152,18 +152,19 @@ TEST_CASE("long steps are decided on after a few") {
 }
 
 TEST_CASE("with one thread or one unit there is nothing to decide") {
-  CHECK_FALSE(Bench({50us, 50us}, 1).split.is_adaptive());
-  CHECK_FALSE(Bench({50us}, 4).split.is_adaptive());
-  CHECK_FALSE(Bench({}, 4).split.is_adaptive());
+  CHECK_FALSE(Bench({50us, 50us}, 1).split.is_deciding());
+  CHECK_FALSE(Bench({50us}, 4).split.is_deciding());
+  CHECK_FALSE(Bench({}, 4).split.is_deciding());
 }
 
 TEST_CASE("a forced split is there from the first step on, without a measurement") {
   Bench bench({1ns, 1ns, 1ns}, 2, true);
-  CHECK_FALSE(bench.split.is_adaptive());
+  CHECK_FALSE(bench.split.is_deciding());
   CHECK(bench.split.is_parallel());
   REQUIRE(bench.split.shares(0).size() == 2);
   CHECK(bench.split.shares(0)[0] == WorkShare{0, 2});
   CHECK(bench.split.shares(0)[1] == WorkShare{1});
+  CHECK(bench.steps(100'000) == 100'000);
   CHECK(bench.hand_overs == 0);
 }
 
