@@ -62,8 +62,12 @@ struct Results {
 
 core::RunOptions fixed_steps(Duration step, Time stop);
 
+/// Records all outputs, whatever the options say of it.
+Results run(const Assembly& assembly, core::RunOptions options);
 /// Runs from 0 s to `stop` in fixed steps.
-Results run(const Assembly& assembly, Duration step, Time stop);
+inline Results run(const Assembly& assembly, Duration step, Time stop) {
+  return run(assembly, fixed_steps(step, stop));
+}
 
 }  // namespace stride::tests
 
