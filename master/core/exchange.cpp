@@ -48,15 +48,6 @@ void plan(Transfers& transfers, const System& system, const std::set<VariableId>
   }
 }
 
-/// Whether two blocks of the same shape differ in these elements; their texts tell values apart to
-/// the bit, but for NaN.
-bool differ(const ValueBlock& a, const ValueBlock& b, std::size_t first, std::size_t size) {
-  for (std::size_t i = first; i < first + size; ++i) {
-    if (element_text(a, i) != element_text(b, i)) return true;
-  }
-  return false;
-}
-
 template <std::size_t kSize, class Copies>
 void copy_numbers(const Copies& copies) {
   for (const auto& copy : copies) std::memcpy(copy.to, copy.from, kSize);
@@ -93,8 +84,8 @@ auto Exchange::locate(SomeTransfers& transfers, VariableId id) {
     std::size_t first = 0;
   };
   for (auto& transfer : transfers[id.component]) {
-    const auto found = std::find(transfer.ids.begin(), transfer.ids.end(), id);
-    if (found == transfer.ids.end()) continue;
+    const auto found = std::lower_bound(transfer.ids.begin(), transfer.ids.end(), id);
+    if (found == transfer.ids.end() || *found != id) continue;
     const auto place = static_cast<std::size_t>(found - transfer.ids.begin());
     return Place{&transfer.block, transfer.firsts[place]};
   }
@@ -105,6 +96,12 @@ Signal Exchange::signal(VariableId id) const {
   const auto input = locate(inputs_, id);
   const auto place = input.block != nullptr ? input : locate(outputs_, id);
   return {id, place.block, place.first};
+}
+
+Exchange::Place Exchange::place(VariableId id) {
+  const auto input = locate(inputs_, id);
+  const auto place = input.block != nullptr ? input : locate(outputs_, id);
+  return {place.block, place.first};
 }
 
 void Exchange::add_copies(const Connection& connection) {
@@ -172,27 +169,6 @@ void Exchange::deliver(std::size_t component, Unit& unit) {
     }
     unit.set(transfer.references, transfer.block);
   }
-}
-
-std::vector<VariableId> Exchange::route_and_compare() {
-  std::vector<ValueBlock> before;
-  for (const auto& transfers : inputs_) {
-    for (const Transfer& transfer : transfers) before.push_back(transfer.block);
-  }
-  route();
-  auto old = before.begin();
-  std::vector<VariableId> changed;
-  for (const auto& transfers : inputs_) {
-    for (const Transfer& transfer : transfers) {
-      const ValueBlock& previous = *old++;
-      for (std::size_t i = 0; i < transfer.ids.size(); ++i) {
-        const std::size_t size = system_.variable(transfer.ids[i]).size;
-        const bool differs = differ(transfer.block, previous, transfer.firsts[i], size);
-        if (differs) changed.push_back(transfer.ids[i]);
-      }
-    }
-  }
-  return changed;
 }
 
 void Exchange::route() {

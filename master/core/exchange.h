@@ -37,11 +37,16 @@ class Exchange {
   /// Writes a unit's continuous inputs, and the discrete ones if they changed.
   void deliver(std::size_t component, Unit& unit);
 
-  /// Like route(); returns the inputs that changed. Not for the hot loop.
-  std::vector<VariableId> route_and_compare();
-
   /// Where the variable's value stands. An input that is connected is seen as its source left it.
   Signal signal(VariableId id) const;
+
+  /// Likewise, of a variable that is connected, for who evaluates single variables: an output that
+  /// was read belongs there, and deliver() takes an input from there. See evaluation.h.
+  struct Place {
+    ValueBlock* block = nullptr;
+    std::size_t first = 0;
+  };
+  Place place(VariableId id);
 
  private:
   /// Variables of one type of one unit, read or written by one call.
@@ -51,7 +56,7 @@ class Exchange {
     ValueBlock delivered;  ///< of a discrete one: what was written last
     bool is_new = true;    ///< nothing was written yet
     std::vector<ValueReference> references;
-    std::vector<VariableId> ids;
+    std::vector<VariableId> ids;      ///< sorted
     std::vector<std::size_t> firsts;  ///< where each variable begins in the block
   };
   using Transfers = std::vector<std::vector<Transfer>>;  // by component; final once it is planned

@@ -23,7 +23,11 @@ Instant::Instant(const System& system, std::span<const std::unique_ptr<Unit>> un
       active_(units.size()),
       in_event_mode_(units.size()),
       polled_(units.size()),
-      next_event_(units.size()) {}
+      next_event_(units.size()) {
+  evaluation_.emplace(system, units, exchange, Phase::Events,
+                      UnitTimer(clock, statistics.units, &UnitStatistics::event_time));
+  if (evaluation_->is_trivial()) evaluation_.reset();
+}
 
 void Instant::begin() {
   for (std::size_t i = 0; i < count(); ++i) {
@@ -49,10 +53,7 @@ void Instant::settle(Time time) {
   for (std::uint32_t index = 0; prepare_events(); ++index) {
     if (index == kEventLimit) fail_ticking();
     event_iteration(index);
-    for (std::size_t i = 0; i < count(); ++i) {
-      if (in_event_mode_[i]) exchange_.fetch(i, *units_[i]);
-    }
-    route();
+    exchange_after_events();
   }
   for (std::size_t i = 0; i < count(); ++i) {
     if (!in_event_mode_[i]) continue;
@@ -101,6 +102,32 @@ void Instant::event_iteration(std::uint32_t index) {
   }
 }
 
+/// Who joins brings outputs up to date that may stand before its place in the order.
+void Instant::exchange_after_events() {
+  for (bool again = evaluation_.has_value(); again; again = has_joined_) {
+    has_joined_ = false;
+    evaluation_->run(time_, *this);
+  }
+  for (std::size_t i = 0; i < count(); ++i) {
+    if (in_event_mode_[i]) exchange_.fetch(i, *units_[i]);
+  }
+  evaluation_ ? exchange_.check_nan(time_) : route();
+}
+
+/// FMI wants Event Mode where a continuous input is discontinuous.
+void Instant::on_jump(VariableId input) {
+  join(input.component);
+  active_[input.component] = true;
+}
+
+bool Instant::join(std::size_t i) {
+  if (in_event_mode_[i]) return false;
+  enter_event_mode(i);
+  active_[i] = true;
+  has_joined_ = true;
+  return true;
+}
+
 /// A clock that is set may make the receiver's own clocks tick at once, so receivers are asked
 /// again.
 void Instant::exchange_messages(std::uint32_t index) {
@@ -141,7 +168,7 @@ void Instant::fail_ticking() const {
            fmt::format("after {} event iterations at one instant these units still want another: "
                        "{}",
                        kEventLimit, quoted(names)),
-           "look for messages that answer each other without any delay");
+           "look for messages or values that answer each other without any delay");
 }
 
 }  // namespace stride::core

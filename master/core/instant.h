@@ -11,6 +11,7 @@
 
 #include <stride/time.h>
 
+#include "master/core/evaluation.h"
 #include "master/core/exchange.h"
 #include "master/core/messages.h"
 #include "master/core/observer.h"
@@ -22,7 +23,7 @@
 namespace stride::core {
 
 /// What the units do between two communication steps, and who has an event when.
-class Instant {
+class Instant : private Evaluation::Participants {
  public:
   /// `units` in the order of system.components(); `observers` hear of the messages. All of them
   /// must outlive this object.
@@ -34,8 +35,10 @@ class Instant {
   void begin();
   /// The unit has an event at the next settle(), beside those whose announced time has come.
   void request_event(std::size_t component) { active_[component] = true; }
-  /// Exchanges values and handles events until nothing wants another round. Leaves the units in
-  /// Step Mode. Throws Error (Run) where a connected output is NaN, or units tick for ever.
+  /// Exchanges values and handles events until nothing wants another round. Outputs of units in
+  /// Event Mode that depend directly on inputs follow them at once, and algebraic loops between
+  /// such units are solved. Leaves the units in Step Mode. Throws Error (Run) where a connected
+  /// output is NaN, a loop has no solution that could be found, or units tick for ever.
   void settle(Time time);
 
   /// The earliest event announced for later than `time`.
@@ -50,14 +53,20 @@ class Instant {
   bool prepare_events();
   void enter_event_mode(std::size_t i);
   void event_iteration(std::uint32_t index);
+  void exchange_after_events();
   void exchange_messages(std::uint32_t index);
   void transmit(std::size_t sender, std::uint32_t index);
   [[noreturn]] void fail_ticking() const;
+
+  bool takes_part(std::size_t i) const override { return in_event_mode_[i]; }
+  void on_jump(VariableId input) override;
+  bool join(std::size_t i) override;
 
   const System& system_;
   std::span<const std::unique_ptr<Unit>> units_;
   Exchange& exchange_;
   MessageExchange messages_;
+  std::optional<Evaluation> evaluation_;  ///< where outputs follow inputs at once
   std::vector<Observer*>& observers_;
   RunStatistics& statistics_;
   WallClock clock_;
@@ -65,6 +74,7 @@ class Instant {
   Time time_{};
   std::vector<char> active_;  ///< wants the next event iteration
   std::vector<char> in_event_mode_;
+  bool has_joined_ = false;   ///< a unit has entered Event Mode during an evaluation
   std::vector<char> polled_;  ///< its output clocks are to be read
   std::vector<std::optional<Time>> next_event_;
 };
