@@ -22,3 +22,13 @@ function(stride_add_test name)
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES TIMEOUT 300)
 endfunction()
+
+# stride_parallel_tests(NAME...)
+#
+# Tests with several threads: the label `parallel` and the target `parallel_tests`, for the build with the thread
+# sanitizer.
+add_custom_target(parallel_tests)
+function(stride_parallel_tests)
+  set_tests_properties(${ARGV} PROPERTIES LABELS parallel)
+  add_dependencies(parallel_tests ${ARGV})
+endfunction()

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds stride and runs all tests, then the same under the address and undefined-behaviour sanitizers.
+# Builds stride and runs all tests, then the same under the address and undefined-behaviour sanitizers, and those with
+# several threads under the thread sanitizer.
 #   --quick   leaves the sanitizers and MuJoCo 3 out
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -27,6 +28,11 @@ build_and_test release
 if [ "$quick" = no ]; then
   section "Address and undefined-behaviour sanitizers"
   build_and_test asan
+
+  section "Thread sanitizer, the tests with several threads"
+  cmake --preset tsan --log-level=WARNING -DSTRIDE_WARNINGS_AS_ERRORS=ON -DSTRIDE_BUILD_TESTS=ON
+  cmake --build --preset tsan --target parallel_tests
+  ctest --preset tsan --label-regex parallel
 
   section "MuJoCo 3"
   scripts/fetch_mujoco3.sh build/mujoco3

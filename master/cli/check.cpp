@@ -65,11 +65,13 @@ std::string steps(const core::RunOptions& options) {
 
 std::string order_table(const LoadedScenario& loaded) {
   const core::System& system = loaded.system();
-  Table table({{"", Table::Align::Right}, {"component"}, {"why here"}});
+  Table table(
+      {{"", Table::Align::Right}, {"stage", Table::Align::Right}, {"component"}, {"why here"}});
   for (const core::StepPlace& place :
        core::step_order(loaded.system(), loaded.options().step.policy, loaded.options().coupling)) {
     const std::string number = std::to_string(table.size() + 1);
-    table.add({number, system.components()[place.component].name, place.reason});
+    table.add({number, std::to_string(place.stage + 1), system.components()[place.component].name,
+               place.reason});
   }
   return table.text();
 }

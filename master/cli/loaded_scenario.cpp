@@ -10,6 +10,7 @@
 #include "master/cli/unit_path.h"
 #include "master/core/step_size.h"
 #include "master/core/suggest.h"
+#include "master/io/component_selection.h"
 #include "master/io/signal_selection.h"
 #include "master/io/time_text.h"
 
@@ -73,6 +74,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
     for (const std::string& text : request.signals) patterns.push_back({text, {"--signals", 0}});
   }
   options_.recorded = io::select_signals(*system_, patterns);
+  options_.threads.main_only = io::select_components(*system_, scenario_.annotation.main_thread);
 }
 
 std::vector<std::string> LoadedScenario::component_names() const {

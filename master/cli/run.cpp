@@ -21,9 +21,12 @@
 namespace stride::cli {
 namespace {
 
+constexpr int kMostThreads = 1024;
+
 struct Request {
   ScenarioRequest scenario;
   std::filesystem::path out;
+  std::size_t threads = 1;
   bool no_trace = false;
   bool quiet = false;
 };
@@ -57,11 +60,13 @@ void run(const Request& request) {
       request.out.empty() ? std::filesystem::path("results") / scenario.path.stem() : request.out;
   io::make_results_folder(folder);
 
-  core::Simulation simulation(loaded.system(), loaded.instantiate(), loaded.options());
+  core::RunOptions options = loaded.options();
+  options.threads.count = request.threads;
+  core::Simulation simulation(loaded.system(), loaded.instantiate(), options);
   Recorders recorders(loaded.system(), files, folder);
   recorders.add_to(simulation);
   Summary summary(loaded.system());
-  Progress progress(loaded.options().start, loaded.options().stop);
+  Progress progress(options.start, options.stop);
   if (!request.quiet) {
     simulation.add_observer(summary);
     simulation.add_observer(progress);
@@ -71,7 +76,7 @@ void run(const Request& request) {
 
   const auto write_statistics = [&](const std::optional<std::string>& error) {
     if (files.statistics.empty()) return;
-    io::write_run_json(folder / files.statistics, scenario.path, loaded.system(), loaded.options(),
+    io::write_run_json(folder / files.statistics, scenario.path, loaded.system(), options,
                        simulation.statistics(), error);
   };
   try {
@@ -103,6 +108,11 @@ void add_run(CLI::App& app) {
       ->add_option("--out,-o", request->out,
                    "Results folder; otherwise results/ and the scenario's name")
       ->type_name("FOLDER");
+  command
+      ->add_option("--threads", request->threads,
+                   "Step units on up to N threads where that is faster; the results are the same")
+      ->type_name("N")
+      ->check(CLI::Range(1, kMostThreads));
   command->add_flag("--no-trace", request->no_trace, "Write no signals.vcd");
   command->add_flag("--quiet,-q", request->quiet, "Print nothing but errors");
   command->callback([request] { run(*request); });

@@ -44,6 +44,13 @@ class Error : public std::runtime_error {
   Context context_;
 };
 
+/// A unit cannot be called, because another one has failed before. Where units step at the same
+/// time the other's failure is the one to tell.
+class ConsequentError : public Error {
+ public:
+  using Error::Error;
+};
+
 /// Shorthands for the two kinds.
 [[noreturn]] void fail_input(Context context, const std::string& message,
                              const std::string& hint = "");

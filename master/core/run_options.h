@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -54,12 +55,23 @@ struct StepOptions {
   double absolute_tolerance = 1e-6;
 };
 
+/// On how many threads a run may step its units. Changes the speed of a run, never its results.
+struct ThreadOptions {
+  std::size_t count = 1;  ///< the thread that runs the simulation included
+  /// Components, by their places in System::components(), that step on that thread only, as for
+  /// units that must not run beside each other.
+  std::vector<std::size_t> main_only{};
+  /// Threads are used from the first step on, whether they pay or not: for tests.
+  bool always = false;
+};
+
 struct RunOptions {
   Time start{};
   Time stop{};
   StepOptions step{};
   Coupling coupling = Coupling::Jacobi;
   Extrapolation extrapolation = Extrapolation::Hold;
+  ThreadOptions threads{};  ///< not with Gauss-Seidel, where units step one after another
   std::vector<VariableId> recorded{};  ///< what the observers see, in this order
   bool measure_time = true;  ///< wall-clock time per unit; costs two clock readings a unit step
 };

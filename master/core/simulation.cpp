@@ -127,6 +127,7 @@ class Simulation::Run {
     }
     settle();
     ++statistics_.communication_steps;
+    statistics_.parallel_steps += stepper_.was_parallel();
     statistics_.reached = time_;
     for (Observer* observer : observers_) observer->on_communication_point(time_);
   }

@@ -19,8 +19,8 @@ struct UnitStatistics {
   std::uint64_t messages_sent = 0;
   std::uint64_t messages_received = 0;
   std::chrono::nanoseconds
-      initialization_time{};  ///< wall-clock time within the unit's own functions
-  std::chrono::nanoseconds step_time{};
+      initialization_time{};             ///< wall-clock time within the unit's own functions
+  std::chrono::nanoseconds step_time{};  ///< likewise, its state saved and restored included
   std::chrono::nanoseconds event_time{};
 };
 
@@ -30,6 +30,7 @@ struct RunStatistics {
   std::uint64_t communication_steps = 0;
   std::uint64_t undone_steps = 0;  ///< of all units, since an input's error was too large
   std::uint64_t event_iterations = 0;
+  std::uint64_t parallel_steps = 0;  ///< communication steps that were made on several threads
   std::chrono::nanoseconds wall_time{};
   bool terminated_by_unit = false;
   std::vector<UnitStatistics> units;  ///< in the order of System::components()

@@ -100,6 +100,19 @@ void sort_along_connections(const System& system, std::vector<StepPlace>& order)
   }
 }
 
+void form_stages(const System& system, std::vector<StepPlace>& order) {
+  std::size_t stage = 0;
+  bool stage_may_stop = false;
+  for (StepPlace& place : order) {
+    if (place.role != StepRole::CanRollBack && stage_may_stop) {
+      ++stage;
+      stage_may_stop = false;
+    }
+    place.stage = stage;
+    stage_may_stop |= may_stop(*system.components()[place.component].description);
+  }
+}
+
 }  // namespace
 
 std::vector<StepPlace> step_order(const System& system, StepPolicy policy, Coupling coupling) {
@@ -113,7 +126,7 @@ std::vector<StepPlace> step_order(const System& system, StepPolicy policy, Coupl
       another_may_stop |= k != i && may_stop(*components[k].description);
     }
     const bool saves_state = role == StepRole::CanRollBack && another_may_stop;
-    order.push_back({i, role, unit.can_vary_step, saves_state, reason(unit, role, saves_state)});
+    order.push_back({i, role, unit.can_vary_step, saves_state, reason(unit, role, saves_state), 0});
   }
   std::stable_sort(order.begin(), order.end(), [&](const StepPlace& a, const StepPlace& b) {
     if (a.role != b.role) return a.role < b.role;
@@ -124,6 +137,7 @@ std::vector<StepPlace> step_order(const System& system, StepPolicy policy, Coupl
   });
   check_single(system, order);
   if (coupling == Coupling::GaussSeidel) sort_along_connections(system, order);
+  form_stages(system, order);
   return order;
 }
 

@@ -24,6 +24,9 @@ struct StepPlace {
   bool can_vary_step;
   bool saves_state;    ///< whether its state is saved before each step
   std::string reason;  ///< for people: why it stands here
+  /// Counted from 0. All units of a stage are asked for the same step, and may make it at the same
+  /// time; a stage begins when the one before it has made its step to the end.
+  std::size_t stage = 0;
 };
 
 /// Those that can be rolled back come first: if one of them stops, the others go back and follow.
@@ -36,6 +39,9 @@ struct StepPlace {
 ///
 /// A state is saved only where another unit may stop, and with an error-controlled step always.
 /// Throws Error (Input) where two units may stop early and neither can be rolled back.
+///
+/// A unit that cannot be rolled back begins a new stage where the stage before it has a unit that
+/// may stop: it must not go further than that one does.
 std::vector<StepPlace> step_order(const System& system, StepPolicy policy, Coupling coupling);
 
 }  // namespace stride::core

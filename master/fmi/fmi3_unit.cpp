@@ -112,7 +112,8 @@ void Fmi3Unit::check_callable(const char* name) const {
     fail(fmt::format("{} cannot be called, because {} has failed before", name, failed_in_));
   }
   if (parts_.library->is_condemned()) {
-    fail(
+    throw core::ConsequentError(
+        core::Error::Kind::Run, {.where = options_.where, .unit = name_, .time = time_},
         fmt::format("{} cannot be called, because an instance of the same FMU has returned "
                     "fmi3Fatal before",
                     name));

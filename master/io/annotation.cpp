@@ -76,6 +76,13 @@ void read_record(const XmlElement& element, ScenarioAnnotation& annotation) {
   for (std::string word; words >> word;) annotation.record.push_back({word, element.where()});
 }
 
+void read_main_thread(const XmlElement& element, ScenarioAnnotation& annotation) {
+  element.allow_attributes({"components"});
+  element.allow_children({});
+  std::istringstream words(element.required("components"));
+  for (std::string word; words >> word;) annotation.main_thread.push_back({word, element.where()});
+}
+
 void check_file_name(const XmlElement& element, const char* attribute, const std::string& name) {
   if (name == "." || name == ".." || name.find('/') != std::string::npos) {
     element.fail(fmt::format("{}=\"{}\" is no plain file name", attribute, name),
@@ -108,7 +115,8 @@ ScenarioAnnotation read_scenario_element(const XmlElement& scenario) {
   scenario.allow_children({{kStrideScenario, "Step"},
                            {kStrideScenario, "Exchange"},
                            {kStrideScenario, "Record"},
-                           {kStrideScenario, "Results"}});
+                           {kStrideScenario, "Results"},
+                           {kStrideScenario, "MainThread"}});
   ScenarioAnnotation annotation;
   if (const auto step = scenario.child({kStrideScenario, "Step"}))
     read_step(*step, annotation.step);
@@ -117,6 +125,9 @@ ScenarioAnnotation read_scenario_element(const XmlElement& scenario) {
   }
   for (const XmlElement& record : scenario.children({kStrideScenario, "Record"})) {
     read_record(record, annotation);
+  }
+  for (const XmlElement& element : scenario.children({kStrideScenario, "MainThread"})) {
+    read_main_thread(element, annotation);
   }
   if (const auto results = scenario.child({kStrideScenario, "Results"})) {
     read_results(*results, annotation);

@@ -28,11 +28,18 @@ struct ResultFiles {
   std::string statistics = "run.json";
 };
 
+/// A glob over the names of components, and where it was written.
+struct ComponentPattern {
+  std::string text;
+  core::Location where{};
+};
+
 /// All of it is optional.
 struct ScenarioAnnotation {
   StepChoice step;
   std::vector<SignalPattern> record;  ///< none: every output
   ResultFiles results;
+  std::vector<ComponentPattern> main_thread;  ///< who steps on the simulation's own thread only
 };
 
 /// Reads the <stride:Scenario> of a <ssd:SystemStructureDescription>, which stands in the root's

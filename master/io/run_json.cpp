@@ -67,6 +67,8 @@ void write_run_json(const std::filesystem::path& file, const std::filesystem::pa
   run["communication_steps"] = statistics.communication_steps;
   run["undone_steps"] = statistics.undone_steps;
   run["event_iterations"] = statistics.event_iterations;
+  run["threads"] = options.threads.count;
+  run["parallel_steps"] = statistics.parallel_steps;
   run["recorded_signals"] = options.recorded.size();
   run["wall_time"] = seconds(statistics.wall_time);
   run["units"] = Json::array();

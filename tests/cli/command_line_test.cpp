@@ -21,8 +21,8 @@ TEST_CASE("--help and --version are answered on the standard output") {
                                                              "failed, 2 the input was wrong."));
   const Outcome run_help = run_program({"run", "--help"});
   CHECK(run_help.exit_code == 0);
-  for (const char* option :
-       {"--stop", "--step", "--set", "--swap", "--signals", "--out", "--no-trace", "--quiet"}) {
+  for (const char* option : {"--stop", "--step", "--set", "--swap", "--signals", "--out",
+                             "--threads", "--no-trace", "--quiet"}) {
     CHECK_THAT(run_help.out, Contains(option));
   }
   const Outcome version = run_program({"--version"});
@@ -53,6 +53,14 @@ TEST_CASE("times on the command line are numbers of seconds that make sense") {
              Contains("--stop soon: 'soon' is no number; expected a number of seconds"));
   CHECK_THAT(input_error_of(workspace.run({"--stop", "1e9"})), Contains("beyond 9.2e6 s"));
   CHECK_THAT(input_error_of(workspace.run({"--step", "0"})), Contains("a step must be above 0 s"));
+  CHECK_FALSE(fs::exists(workspace / "out"));
+}
+
+TEST_CASE("the number of threads is a sensible one") {
+  const Workspace workspace(two_filters());
+  for (const char* number : {"0", "-1", "1025", "99999999999999999999", "2.5", "many"}) {
+    CHECK_THAT(input_error_of(workspace.run({"--threads", number})), Contains("--threads"));
+  }
   CHECK_FALSE(fs::exists(workspace / "out"));
 }
 

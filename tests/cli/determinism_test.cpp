@@ -3,7 +3,7 @@
 
 using namespace stride::tests;
 
-TEST_CASE("two runs write the same signals, events and trace") {
+TEST_CASE("two runs write the same signals, events and trace, on any number of threads") {
   const Workspace workspace(Parts{component("source", "not_a_number.fmu") +
                                       component("filter", "minimal.fmu") +
                                       component("stepper", "stepper.fmu"),
@@ -17,9 +17,11 @@ TEST_CASE("two runs write the same signals, events and trace") {
                           "stepper.tick_at=0.125",
                           "--set",
                           "stepper.event_at=0.5"};
-  const auto record = [&] {
+  const auto record = [&](const std::string& threads) {
     fs::remove_all(workspace / "out");
-    REQUIRE(workspace.run(options).exit_code == 0);
+    Arguments all = options;
+    all.insert(all.end(), {"--threads", threads});
+    REQUIRE(workspace.run(all).exit_code == 0);
     std::vector<std::string> files;
     for (const char* file : {"signals.csv", "events.csv", "signals.vcd"}) {
       files.push_back(workspace.result(file));
@@ -27,9 +29,11 @@ TEST_CASE("two runs write the same signals, events and trace") {
     }
     return files;
   };
-  const auto first = record();
-  const auto second = record();
-  CHECK(first[0] == second[0]);
-  CHECK(first[1] == second[1]);
-  CHECK(first[2] == second[2]);
+  const auto first = record("1");
+  for (const char* threads : {"1", "2", "64"}) {
+    const auto second = record(threads);
+    CHECK(first[0] == second[0]);
+    CHECK(first[1] == second[1]);
+    CHECK(first[2] == second[2]);
+  }
 }

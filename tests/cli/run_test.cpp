@@ -76,7 +76,18 @@ TEST_CASE("run.json tells what was run and how far it came") {
   CHECK(json["units"].size() == 2);
   CHECK(json["units"][1]["name"] == "second");
   CHECK(json["units"][1]["steps"] == 250);
+  CHECK(json["threads"] == 1);
+  CHECK(json["parallel_steps"] == 0);
   CHECK_FALSE(json.contains("error"));
+}
+
+TEST_CASE("--threads may be more than there are units, and cheap units do not use them") {
+  const Workspace workspace(two_filters());
+  run(workspace, {"--threads", "64"});
+  const auto json = nlohmann::json::parse(workspace.result("run.json"));
+  CHECK(json["threads"] == 64);
+  CHECK(json["communication_steps"] == 1000);
+  CHECK(json["parallel_steps"] <= 1000);
 }
 
 TEST_CASE("--quiet prints nothing") {

@@ -151,6 +151,15 @@ TEST_CASE("an input with two sources names both and both lines") {
                                         Contains("remove one of the two connections"));
 }
 
+TEST_CASE("a unit bound to the main thread that is not there") {
+  Parts parts = two_filters();
+  parts.annotation = "<stride:MainThread components=\"second frist\"/>\n";
+  const Workspace workspace(parts);
+  CHECK_THAT(mistake_in(workspace), Contains(workspace.at("<stride:MainThread ")) &&
+                                        Contains("'frist' matches no component") &&
+                                        Contains("did you mean 'first'?"));
+}
+
 TEST_CASE("two components of one name") {
   Parts parts = two_filters();
   parts.components += component("first", "types.fmu");

@@ -29,13 +29,13 @@ std::string text_of(const fs::path& file) {
 /// One run of the scenario, in a folder that goes with the object.
 class Run {
  public:
-  explicit Run(const std::string& step = "0.001") {
+  explicit Run(const std::string& step = "0.001", const std::string& threads = "1") {
     std::string name = (fs::temp_directory_path() / "stride-golden-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
     folder_ = name;
     const std::string scenario = STRIDE_SOURCE_DIR "/scenarios/nfc_approach/nfc_approach.ssd";
-    const Outcome outcome =
-        run_program({"run", scenario, "--step", step, "--out", folder_.string(), "--quiet"});
+    const Outcome outcome = run_program({"run", scenario, "--step", step, "--threads", threads,
+                                         "--out", folder_.string(), "--quiet"});
     if (outcome.exit_code != 0) throw std::runtime_error("the run failed: " + outcome.err);
   }
   ~Run() { fs::remove_all(folder_); }
@@ -140,8 +140,8 @@ TEST_CASE("the signals are the golden ones, within the tolerances beside them") 
   }
 }
 
-TEST_CASE("a second run writes the same bytes") {
-  const Run second;
+TEST_CASE("a second run writes the same bytes, on two threads too") {
+  const Run second("0.001", GENERATE("1", "2"));
   for (const char* file : {"signals.csv", "events.csv", "signals.vcd"}) {
     INFO(file);
     const std::string first = text_of(run().file(file));

@@ -65,8 +65,11 @@ core::RunOptions fixed_steps(Duration step, Time stop);
 /// Records all outputs, whatever the options say of it.
 Results run(const Assembly& assembly, core::RunOptions options);
 /// Runs from 0 s to `stop` in fixed steps.
-inline Results run(const Assembly& assembly, Duration step, Time stop) {
-  return run(assembly, fixed_steps(step, stop));
+inline Results run(const Assembly& assembly, Duration step, Time stop,
+                   const core::ThreadOptions& threads = {}) {
+  core::RunOptions options = fixed_steps(step, stop);
+  options.threads = threads;
+  return run(assembly, options);
 }
 
 }  // namespace stride::tests

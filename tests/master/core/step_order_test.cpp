@@ -41,6 +41,23 @@ TEST_CASE("within a role the order is that of the file") {
   CHECK(names(system_of({obedient(), obedient(), obedient()})) == "abc");
 }
 
+TEST_CASE("who cannot go back begins a new stage where one before it may stop") {
+  const auto stages = [](std::vector<Describe> units) {
+    std::string text;
+    const System system = system_of(std::move(units));
+    for (const StepPlace& place : step_order(system, StepPolicy::Fixed, Coupling::Jacobi)) {
+      text += std::to_string(place.stage);
+    }
+    return text;
+  };
+  CHECK(stages({rollback(), rollback().may_return_early(), rollback()}) == "000");
+  CHECK(stages({rollback(), rollback().may_return_early(), obedient(), obedient()}) == "0011");
+  CHECK(stages({rollback(), early(), obedient()}) == "001");
+  CHECK(stages({rollback(), rollback().may_return_early(), early(), obedient()}) == "0012");
+  CHECK(stages({rollback(), rollback(), obedient(), obedient()}) == "0000");
+  CHECK(stages({unknown(), unknown(), obedient(), obedient()}) == "0122");
+}
+
 TEST_CASE("a state is saved only where another unit may stop") {
   const auto saves = [](std::vector<Describe> units) {
     std::string text;

@@ -446,6 +446,7 @@ TEST_CASE("after fmi3Fatal no other instance of the FMU is touched, and its libr
     CHECK_THAT(run_error([&] { unit->step({}, Time(1ms)); }),
                Contains("fmi3DoStep cannot be called, because an instance of the same FMU has "
                         "returned fmi3Fatal before"));
+    CHECK_THROWS_AS(unit->step({}, Time(1ms)), core::ConsequentError);
     CHECK_NOTHROW(unit->terminate());
   }
   CHECK_THAT(run_error([&] { fmu->instantiate("another"); }),

@@ -44,7 +44,8 @@ TEST_CASE("Everything that the annotation can say") {
       read(at_root(annotations(scenario("<stride:Step size='0.001'/>"
                                         "<stride:Record signals=' sensor.*  channel.distance'/>\n"
                                         "<stride:Record signals='reader.*'/>"
-                                        "<stride:Results signals='s.csv' events='none'/>"))));
+                                        "<stride:Results signals='s.csv' events='none'/>"
+                                        "<stride:MainThread components='plant legacy.*'/>"))));
   CHECK(annotation.step.size == Duration(1'000'000'000));
   REQUIRE(annotation.record.size() == 3);
   CHECK(annotation.record[0].text == "sensor.*");
@@ -52,6 +53,10 @@ TEST_CASE("Everything that the annotation can say") {
   CHECK(annotation.record[1].where.line == 4);
   CHECK(annotation.record[2].text == "reader.*");
   CHECK(annotation.record[2].where.line == 5);
+  REQUIRE(annotation.main_thread.size() == 2);
+  CHECK(annotation.main_thread[0].text == "plant");
+  CHECK(annotation.main_thread[1].text == "legacy.*");
+  CHECK(annotation.main_thread[1].where.line == 5);
   CHECK(annotation.results.signals == "s.csv");
   CHECK(annotation.results.events.empty());
   CHECK(annotation.results.trace == "signals.vcd");
@@ -90,7 +95,8 @@ TEST_CASE("A mistake in the annotation is named with its line") {
   CHECK_THAT(error("<stride:Stpe size='1'/>"),
              Contains("x.ssd:4: <stride:Stpe> is not known in <stride:Scenario>") &&
                  Contains("did you mean 'Step'?"));
-  CHECK_THAT(error("<stride:Policy/>"), Contains("known are: Step, Exchange, Record, Results"));
+  CHECK_THAT(error("<stride:Policy/>"),
+             Contains("known are: Step, Exchange, Record, Results, MainThread"));
   CHECK_THAT(error("<stride:Step siez='1'/>"), Contains("did you mean 'size'?"));
   CHECK_THAT(error("<stride:Step size=''/>"),
              Contains("the attribute 'size' of <stride:Step> is empty"));

@@ -15,10 +15,12 @@ TEST_CASE("run.json tells what was run and how far it came") {
   options.stop = Time(milliseconds(14'200));
   options.step.size = milliseconds(1);
   options.recorded = {{0, 1}, {0, 2}};
+  options.threads.count = 4;
   core::RunStatistics statistics;
   statistics.reached = options.stop;
   statistics.communication_steps = 14'200;
   statistics.event_iterations = 3;
+  statistics.parallel_steps = 14'000;
   statistics.wall_time = milliseconds(250);
   statistics.units = {
       {14'200, 5, 3, 8, 14'190, 2, 1, 0, milliseconds(1), milliseconds(2), milliseconds(3)},
@@ -42,6 +44,8 @@ TEST_CASE("run.json tells what was run and how far it came") {
   "communication_steps": 14200,
   "undone_steps": 0,
   "event_iterations": 3,
+  "threads": 4,
+  "parallel_steps": 14000,
   "recorded_signals": 2,
   "wall_time": 0.25,
   "units": [

@@ -1,0 +1,33 @@
+#include "master/io/component_selection.h"
+
+#include <set>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "master/core/suggest.h"
+#include "master/io/glob.h"
+
+namespace stride::io {
+
+std::vector<std::size_t> select_components(const core::System& system,
+                                           std::span<const ComponentPattern> patterns) {
+  std::set<std::size_t> selected;
+  for (const ComponentPattern& pattern : patterns) {
+    bool has_match = false;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < system.components().size(); ++i) {
+      const std::string& name = names.emplace_back(system.components()[i].name);
+      if (name != pattern.text && !matches_glob(pattern.text, name)) continue;
+      has_match = true;
+      selected.insert(i);
+    }
+    if (has_match) continue;
+    core::fail_input({.where = pattern.where},
+                     fmt::format("'{}' matches no component", pattern.text),
+                     core::suggestion(pattern.text, names));
+  }
+  return {selected.begin(), selected.end()};
+}
+
+}  // namespace stride::io

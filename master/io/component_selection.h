@@ -1,0 +1,20 @@
+#ifndef STRIDE_MASTER_IO_COMPONENT_SELECTION_H
+#define STRIDE_MASTER_IO_COMPONENT_SELECTION_H
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "master/core/system.h"
+#include "master/io/annotation.h"
+
+namespace stride::io {
+
+/// The components, by their places in System::components() and in that order, whose names match a
+/// pattern. Throws core::Error (Input) for a pattern that matches none, naming what is near.
+std::vector<std::size_t> select_components(const core::System& system,
+                                           std::span<const ComponentPattern> patterns);
+
+}  // namespace stride::io
+
+#endif

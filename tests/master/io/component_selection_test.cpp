@@ -1,0 +1,30 @@
+#include "master/io/component_selection.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/master/io/support.h"
+
+using namespace stride::io;
+using Catch::Contains;
+
+namespace {
+
+std::vector<std::size_t> selected(const std::vector<std::string>& patterns) {
+  std::vector<ComponentPattern> wanted;
+  for (const std::string& pattern : patterns) wanted.push_back({pattern, {"x.ssd", 7}});
+  return select_components(sample_system(), wanted);  // "a" and "b, c"
+}
+
+using Places = std::vector<std::size_t>;
+
+}  // namespace
+
+TEST_CASE("Components are selected by name or glob, each once and in the system's order") {
+  CHECK(selected({}) == Places{});
+  CHECK(selected({"a"}) == Places{0});
+  CHECK(selected({"*c", "?", "a"}) == Places{0, 1});
+}
+
+TEST_CASE("A pattern that matches no component is refused with its place") {
+  CHECK_THROWS_WITH(selected({"a", "x*"}), Contains("x.ssd:7: 'x*' matches no component"));
+}
