@@ -75,7 +75,7 @@ class Unit {
   /// Handles the clocks that ticked and the discrete changes of inputs; may tick output clocks.
   virtual void event(Event& /*event*/) {}
   /// Recomputes the outputs that depend directly on inputs; called in Event Mode before outputs are
-  /// read, where inputs were set.
+  /// read, where inputs or clocks were set, so what a tick puts out at once is computed here.
   virtual void update_outputs() {}
   virtual void terminate() {}
 

@@ -236,12 +236,11 @@ class Writer {
     xml_.close();
   }
 
-  /// Outputs that are computed at the start, clocks included, but not what comes with the tick of a
-  /// triggered one. What is sampled at the ticks of another has a value before the first of them.
-  bool is_initial_unknown(const Variable& row) const {
+  /// Outputs that are computed at the start, clocks included, but not what comes with a clock: it
+  /// may be listed, but FMPy takes that for a mistake.
+  static bool is_initial_unknown(const Variable& row) {
     const bool computed = row.initial == Initial::Calculated || row.type == Type::Clock;
-    if (row.causality != Causality::Output || !computed) return false;
-    return row.clock == nullptr || is_time_based(table_.row(table_.reference_of(*row.clock)));
+    return row.causality == Causality::Output && computed && row.clock == nullptr;
   }
 
   void write_unknown(const std::string& element, std::size_t reference) {

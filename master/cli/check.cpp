@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "master/cli/commands.h"
+#include "master/cli/evaluation_text.h"
 #include "master/cli/loaded_scenario.h"
 #include "master/cli/scenario_options.h"
 #include "master/cli/table.h"
@@ -86,14 +87,16 @@ void check(const ScenarioRequest& request) {
              steps(options));
   fmt::print("\nUnits\n{}\nConnections\n{}", unit_table(loaded), connection_table(system));
   fmt::print("\nStep order\n{}", order_table(loaded));
+  fmt::print("\nOrder of the initial values\n{}", initial_order_text(system));
+  fmt::print("\nAlgebraic loops\n{}", loops_text(system));
 }
 
 }  // namespace
 
 void add_check(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "check",
-      "Load a scenario and its units, print units, connections and step order; run nothing");
+  CLI::App* command = app.add_subcommand("check",
+                                         "Load a scenario and its units, print units, connections, "
+                                         "orders and algebraic loops; run nothing");
   const auto request = std::make_shared<ScenarioRequest>();
   add_scenario_options(*command, *request);
   command->callback([request] { check(*request); });

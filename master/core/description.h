@@ -107,6 +107,7 @@ struct Variable {
   std::string start;  ///< as it stands in the description; elements separated by blanks
   std::string min;    ///< likewise, empty if there is none
   std::string max;
+  double nominal = 0;  ///< of a floating-point number, the magnitude to expect; 0 = not said
   std::vector<ValueReference> clocks;                       ///< the clocks that it belongs to
   std::optional<ClockAttributes> clock;                     ///< of a Clock
   std::vector<std::pair<std::string, std::int64_t>> items;  ///< of an Enumeration

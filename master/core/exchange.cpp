@@ -60,15 +60,6 @@ void plan(Transfers& transfers, Transfers& sampled, const System& system,
   }
 }
 
-/// Whether two blocks of the same shape differ in these elements; their texts tell values apart to
-/// the bit, but for NaN.
-bool differ(const ValueBlock& a, const ValueBlock& b, std::size_t first, std::size_t size) {
-  for (std::size_t i = first; i < first + size; ++i) {
-    if (element_text(a, i) != element_text(b, i)) return true;
-  }
-  return false;
-}
-
 template <std::size_t kSize, class Copies>
 void copy_numbers(const Copies& copies) {
   for (const auto& copy : copies) std::memcpy(copy.to, copy.from, kSize);
@@ -108,8 +99,8 @@ auto Exchange::locate(SomeTransfers& transfers, VariableId id) {
     decltype(&transfers[0][0]) transfer = nullptr;
   };
   for (auto& transfer : transfers[id.component]) {
-    const auto found = std::find(transfer.ids.begin(), transfer.ids.end(), id);
-    if (found == transfer.ids.end()) continue;
+    const auto found = std::lower_bound(transfer.ids.begin(), transfer.ids.end(), id);
+    if (found == transfer.ids.end() || *found != id) continue;
     const auto place = static_cast<std::size_t>(found - transfer.ids.begin());
     return Place{&transfer.block, transfer.firsts[place], &transfer};
   }
@@ -124,6 +115,14 @@ Signal Exchange::signal(VariableId id) const {
   }
   const auto output = locate(sampled ? sampled_outputs_ : outputs_, id);
   return {id, output.block, output.first};
+}
+
+Exchange::Place Exchange::place(VariableId id) {
+  const bool sampled = system_.variable(id).is_clocked();
+  const auto input = locate(sampled ? sampled_inputs_ : inputs_, id);
+  if (input.block != nullptr) return {input.block, input.first};
+  const auto output = locate(sampled ? sampled_outputs_ : outputs_, id);
+  return {output.block, output.first};
 }
 
 void Exchange::add_copies(const Connection& connection) {
@@ -176,10 +175,15 @@ void Exchange::add_real(RealLists<Real>& lists, const Connection& connection, Re
 
 void Exchange::fetch(std::size_t component, Unit& unit) {
   for (Transfer& transfer : outputs_[component]) unit.get(transfer.references, transfer.block);
-  if (!is_initializing_) [[likely]]
-    return;
+}
+
+void Exchange::begin_samples(std::size_t component, Unit& unit) {
   for (Transfer& transfer : sampled_outputs_[component]) {
     unit.get(transfer.references, transfer.block);
+  }
+  for (Transfer& transfer : sampled_inputs_[component]) {
+    transfer.delivered = transfer.block;
+    transfer.is_new = false;
   }
 }
 
@@ -197,11 +201,6 @@ void Exchange::deliver(std::size_t component, Unit& unit) {
     } else if (is_changed(transfer)) {
       write(transfer, unit);
     }
-  }
-  if (!is_initializing_) [[likely]]
-    return;
-  for (Transfer& transfer : sampled_inputs_[component]) {
-    if (is_changed(transfer)) write(transfer, unit);
   }
 }
 
@@ -280,34 +279,15 @@ std::vector<ContinuousLink> Exchange::continuous_links() {
   return links;
 }
 
-std::vector<VariableId> Exchange::route_and_compare() {
-  std::vector<ValueBlock> before;
-  for (const Transfers* inputs : {&inputs_, &sampled_inputs_}) {
-    for (const auto& transfers : *inputs) {
-      for (const Transfer& transfer : transfers) before.push_back(transfer.block);
-    }
-  }
-  route();
-  auto old = before.begin();
-  std::vector<VariableId> changed;
-  for (const Transfers* inputs : {&inputs_, &sampled_inputs_}) {
-    for (const auto& transfers : *inputs) {
-      for (const Transfer& transfer : transfers) {
-        add_changes(transfer, *old++, changed);
-      }
-    }
-  }
-  return changed;
-}
-
 /// The variables of which a value is not what it was.
 void Exchange::add_changes(const Transfer& transfer, const ValueBlock& before,
                            std::vector<VariableId>& changes) const {
   for (std::size_t i = 0; i < transfer.ids.size(); ++i) {
-    const std::size_t size = system_.variable(transfer.ids[i]).size;
-    if (differ(transfer.block, before, transfer.firsts[i], size)) {
-      changes.push_back(transfer.ids[i]);
-    }
+    const std::size_t first = transfer.firsts[i];
+    const std::size_t end = first + system_.variable(transfer.ids[i]).size;
+    bool differs = false;
+    for (std::size_t k = first; k < end; ++k) differs |= !is_same(transfer.block, k, before, k);
+    if (differs) changes.push_back(transfer.ids[i]);
   }
 }
 

@@ -56,8 +56,7 @@ class Exchange {
   /// `recorded`: variables that are read although nobody is connected to them.
   Exchange(const System& system, std::span<const VariableId> recorded);
 
-  /// Reads a unit's outputs and recorded variables; until end_initialization() the sampled ones,
-  /// too.
+  /// Reads a unit's outputs and recorded variables.
   void fetch(std::size_t component, Unit& unit);
   /// Copies the outputs of all units to the inputs of all units.
   void route();
@@ -68,8 +67,7 @@ class Exchange {
   bool has_discrete_change(std::size_t component) const {
     return has_discrete_inputs_[component] && any_discrete_change(component);
   }
-  /// Writes a unit's continuous inputs, and the discrete ones if they changed; until
-  /// end_initialization() the sampled ones, too.
+  /// Writes a unit's continuous inputs, and the discrete ones if they changed.
   void deliver(std::size_t component, Unit& unit);
 
   /// Writes a unit's continuous inputs.
@@ -80,9 +78,10 @@ class Exchange {
   /// All connections between continuous variables, sorted by target.
   std::vector<ContinuousLink> continuous_links();
 
-  /// From now on what belongs to time-based clocks is exchanged at their ticks only.
-  void end_initialization() { is_initializing_ = false; }
-  /// The same for what belongs to one of these clocks of the unit, which tick.
+  /// In Initialization Mode, when its inputs have been set: what belongs to the unit's time-based
+  /// clocks is exchanged at their ticks from now on, and holds what it is until then.
+  void begin_samples(std::size_t component, Unit& unit);
+  /// fetch() and deliver() for what belongs to one of these clocks of the unit, which tick.
   void fetch_sampled(std::size_t component, Unit& unit, std::span<const ValueReference> ticking);
   void deliver_sampled(std::size_t component, Unit& unit, std::span<const ValueReference> ticking);
   /// Whether deliver_sampled() has something new to write.
@@ -91,12 +90,17 @@ class Exchange {
   std::vector<VariableId> sampled_changes(std::size_t component,
                                           std::span<const ValueReference> ticking) const;
 
-  /// Like route(); returns the inputs that changed. Not for the hot loop.
-  std::vector<VariableId> route_and_compare();
-
   /// Where the variable's value stands. An input that is connected is seen as its source left it,
   /// one that belongs to a time-based clock as it was at its last tick.
   Signal signal(VariableId id) const;
+
+  /// Likewise, of a variable that is connected, for who evaluates single variables: an output that
+  /// was read belongs there, and deliver() takes an input from there. See evaluation.h.
+  struct Place {
+    ValueBlock* block = nullptr;
+    std::size_t first = 0;
+  };
+  Place place(VariableId id);
 
  private:
   /// Variables of one type of one unit, read or written by one call.
@@ -107,7 +111,7 @@ class Exchange {
     bool is_new = true;                  ///< nothing was written yet
     std::vector<ValueReference> clocks;  ///< those at whose ticks it is exchanged; empty: always
     std::vector<ValueReference> references;
-    std::vector<VariableId> ids;
+    std::vector<VariableId> ids;      ///< sorted
     std::vector<std::size_t> firsts;  ///< where each variable begins in the block
 
     bool is_discrete() const { return occasion == Occasion::Change; }
@@ -158,7 +162,6 @@ class Exchange {
   Transfers inputs_;
   Transfers sampled_outputs_;  ///< what belongs to time-based clocks
   Transfers sampled_inputs_;
-  bool is_initializing_ = true;
   std::vector<char> has_discrete_inputs_;                ///< by component
   std::array<std::vector<Copy<std::byte>>, 4> numbers_;  // of 1, 2, 4 and 8 bytes
   std::vector<Copy<std::string>> strings_;

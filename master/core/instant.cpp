@@ -27,10 +27,13 @@ Instant::Instant(const System& system, std::span<const std::unique_ptr<Unit>> un
       in_event_mode_(units.size()),
       had_event_(units.size()),
       polled_(units.size()),
-      next_event_(units.size()) {}
+      next_event_(units.size()) {
+  evaluation_.emplace(system, units, exchange, Phase::Events,
+                      UnitTimer(clock, statistics.units, &UnitStatistics::event_time));
+  if (evaluation_->is_trivial()) evaluation_.reset();
+}
 
 void Instant::begin() {
-  exchange_.end_initialization();
   for (std::size_t i = 0; i < count(); ++i) {
     active_[i] = in_event_mode_[i] = description(i).has_event_mode;
   }
@@ -54,10 +57,7 @@ void Instant::settle(Time time) {
   for (std::uint32_t index = 0; prepare_events(); ++index) {
     if (index == kEventLimit) fail_ticking();
     event_iteration(index);
-    for (std::size_t i = 0; i < count(); ++i) {
-      if (in_event_mode_[i]) exchange_.fetch(i, *units_[i]);
-    }
-    route();
+    exchange_after_events();
   }
   had_event_ = in_event_mode_;
   for (std::size_t i = 0; i < count(); ++i) {
@@ -135,6 +135,32 @@ bool Instant::exchange_samples(std::span<const std::size_t> ticking) {
   });
 }
 
+/// Who joins brings outputs up to date that may stand before its place in the order.
+void Instant::exchange_after_events() {
+  for (bool again = evaluation_.has_value(); again; again = has_joined_) {
+    has_joined_ = false;
+    evaluation_->run(time_, *this);
+  }
+  for (std::size_t i = 0; i < count(); ++i) {
+    if (in_event_mode_[i]) exchange_.fetch(i, *units_[i]);
+  }
+  evaluation_ ? exchange_.check_nan(time_) : route();
+}
+
+/// FMI wants Event Mode where a continuous input is discontinuous.
+void Instant::on_jump(VariableId input) {
+  join(input.component);
+  active_[input.component] = true;
+}
+
+bool Instant::join(std::size_t i) {
+  if (in_event_mode_[i]) return false;
+  enter_event_mode(i);
+  active_[i] = true;
+  has_joined_ = true;
+  return true;
+}
+
 /// A clock that is set may make the receiver's own clocks tick at once, so receivers are asked
 /// again.
 void Instant::exchange_messages(std::uint32_t index) {
@@ -175,7 +201,7 @@ void Instant::fail_ticking() const {
            fmt::format("after {} event iterations at one instant these units still want another: "
                        "{}",
                        kEventLimit, quoted(names)),
-           "look for messages that answer each other without any delay");
+           "look for messages or values that answer each other without any delay");
 }
 
 void Instant::fail_sample_loop(std::span<const std::size_t> ticking) const {

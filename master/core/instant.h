@@ -12,6 +12,7 @@
 #include <stride/time.h>
 
 #include "master/core/clocks.h"
+#include "master/core/evaluation.h"
 #include "master/core/exchange.h"
 #include "master/core/messages.h"
 #include "master/core/observer.h"
@@ -23,7 +24,7 @@
 namespace stride::core {
 
 /// What the units do between two communication steps, and who has an event when.
-class Instant {
+class Instant : private Evaluation::Participants {
  public:
   /// `units` in the order of system.components(); `observers` hear of the messages. All of them
   /// must outlive this object.
@@ -37,8 +38,10 @@ class Instant {
   void begin();
   /// The unit has an event at the next settle(), beside those whose announced time has come.
   void request_event(std::size_t component) { active_[component] = true; }
-  /// Exchanges values and handles events until nothing wants another round. Leaves the units in
-  /// Step Mode. Throws Error (Run) where a connected output is NaN, or units tick for ever.
+  /// Exchanges values and handles events until nothing wants another round. Outputs of units in
+  /// Event Mode that depend directly on inputs follow them at once, and algebraic loops between
+  /// such units are solved. Leaves the units in Step Mode. Throws Error (Run) where a connected
+  /// output is NaN, a loop has no solution that could be found, or units tick for ever.
   void settle(Time time);
 
   /// Who handled an event in the last settle(), by component.
@@ -58,16 +61,22 @@ class Instant {
   void event_iteration(std::uint32_t index);
   void tick_clocks();
   bool exchange_samples(std::span<const std::size_t> ticking);
+  void exchange_after_events();
   void exchange_messages(std::uint32_t index);
   void transmit(std::size_t sender, std::uint32_t index);
   [[noreturn]] void fail_ticking() const;
   [[noreturn]] void fail_sample_loop(std::span<const std::size_t> ticking) const;
+
+  bool takes_part(std::size_t i) const override { return in_event_mode_[i]; }
+  void on_jump(VariableId input) override;
+  bool join(std::size_t i) override;
 
   const System& system_;
   std::span<const std::unique_ptr<Unit>> units_;
   Exchange& exchange_;
   MessageExchange messages_;
   Clocks clocks_;
+  std::optional<Evaluation> evaluation_;  ///< where outputs follow inputs at once
   std::vector<Observer*>& observers_;
   RunStatistics& statistics_;
   WallClock clock_;
@@ -76,6 +85,7 @@ class Instant {
   std::vector<char> active_;  ///< wants the next event iteration
   std::vector<char> in_event_mode_;
   std::vector<char> had_event_;
+  bool has_joined_ = false;   ///< a unit has entered Event Mode during an evaluation
   std::vector<char> polled_;  ///< its output clocks are to be read
   std::vector<std::optional<Time>> next_event_;
 };

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "master/core/exchange.h"
+#include "master/core/initial_values.h"
 #include "master/core/instant.h"
 #include "master/core/step_inputs.h"
 #include "master/core/step_size.h"
@@ -81,7 +82,9 @@ class Simulation::Run {
       clock_.timed(statistics_.units[i].initialization_time,
                    [&] { units_[i]->enter_initialization(options_.start, options_.stop); });
     }
-    propagate_initial_values();
+    set_initial_values(system_, units_, exchange_,
+                       {clock_, statistics_.units, &UnitStatistics::initialization_time}, time_);
+    for (std::size_t i = 0; i < count(); ++i) exchange_.begin_samples(i, *units_[i]);
     instant_.begin_clocks(time_);
     for (std::size_t i = 0; i < count(); ++i) {
       clock_.timed(statistics_.units[i].initialization_time,
@@ -91,28 +94,6 @@ class Simulation::Run {
     instant_.begin();
     settle();
     for (Observer* observer : observers_) observer->on_communication_point(time_);
-  }
-
-  /// Outputs reach inputs until nothing changes. Without a loop a value crosses each connection
-  /// once, so it takes no more passes than there are connections.
-  void propagate_initial_values() {
-    std::vector<VariableId> changed;
-    for (std::size_t pass = 0; pass <= system_.connections().size() + 1; ++pass) {
-      for (std::size_t i = 0; i < count(); ++i) {
-        clock_.timed(statistics_.units[i].initialization_time,
-                     [&] { exchange_.fetch(i, *units_[i]); });
-      }
-      changed = exchange_.route_and_compare();
-      if (changed.empty() && pass > 0) return exchange_.check_nan(time_);
-      for (std::size_t i = 0; i < count(); ++i) exchange_.deliver(i, *units_[i]);
-    }
-    std::vector<std::string> names;
-    for (const VariableId id : changed) names.push_back(system_.full_name(id));
-    fail_run({{}, {}, {}, time_},
-             fmt::format("the initial values do not settle: units feed each other in an algebraic "
-                         "loop, through the inputs {}",
-                         quoted(names)),
-             "give one of the units in the loop an output that does not depend on its input");
   }
 
   void start_observers() {

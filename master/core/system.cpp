@@ -262,6 +262,7 @@ Connection System::connect(const ConnectionDeclaration& wanted) const {
                            core::name(target.causality)),
                "a connection starts at an output and ends at an input");
   }
+  check_clocked(wanted, from, to);
   if (source.type != target.type) {
     fail_input(context, fmt::format("cannot connect {}: {} and {} are different types", wire,
                                     core::name(source.type), core::name(target.type)));
@@ -270,7 +271,6 @@ Connection System::connect(const ConnectionDeclaration& wanted) const {
     fail_input(context,
                fmt::format("cannot connect {}: {} and {}", wire, shape(source), shape(target)));
   }
-  check_clocked(wanted, from, to);
   const auto conversion = convert(*components_[from.component].description, source.unit,
                                   *components_[to.component].description, target.unit);
   if (!conversion && !wanted.suppress_unit_conversion) {

@@ -2,6 +2,8 @@
 
 #include <charconv>
 #include <stdexcept>
+#include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -67,6 +69,27 @@ void parse_enumeration(const Variable& variable, const std::string& text, std::i
   reject(text, "one of " + names);
 }
 
+template <class T>
+std::span<const T> elements(const ValueBlock& block) {
+  if constexpr (std::is_same_v<T, std::string>) {
+    return block.strings();
+  } else if constexpr (std::is_same_v<T, Binary>) {
+    return block.binaries();
+  } else {
+    return block.numbers<T>();
+  }
+}
+
+template <class T>
+T converted(const T& value, const LinearConversion& conversion) {
+  if constexpr (std::is_floating_point_v<T>) {
+    if (conversion.is_identity()) return value;
+    return static_cast<T>(conversion.factor * value + conversion.offset);
+  } else {
+    return value;
+  }
+}
+
 }  // namespace
 
 std::size_t element_size(ValueType type) {
@@ -85,6 +108,28 @@ ValueBlock::ValueBlock(ValueType type, std::size_t size) : type_(type), size_(si
     default:
       data_ = Bytes(size * element_size(type));
   }
+}
+
+bool copy_elements(ValueBlock& to, std::size_t to_first, const ValueBlock& from,
+                   std::size_t from_first, std::size_t size, const LinearConversion& conversion) {
+  return visit(to, [&]<class T>(std::span<T> targets) {
+    const std::span<const T> sources = elements<T>(from);
+    bool changes = false;
+    for (std::size_t i = 0; i < size; ++i) {
+      T value = converted(sources[from_first + i], conversion);
+      T& target = targets[to_first + i];
+      changes |= !(target == value);
+      target = std::move(value);
+    }
+    return changes;
+  });
+}
+
+bool is_same(const ValueBlock& a, std::size_t a_element, const ValueBlock& b,
+             std::size_t b_element) {
+  return visit(a, [&]<class T>(std::span<const T> values) {
+    return values[a_element] == elements<T>(b)[b_element];
+  });
 }
 
 ValueBlock parse(const Variable& variable, const std::string& text) {

@@ -94,6 +94,16 @@ decltype(auto) visit(Block& block, Visitor&& visitor) {
   return visitor(block.binaries());
 }
 
+/// Copies elements to a block of the same type, floating-point numbers converted; returns whether
+/// the target changes. NaN is another value each time.
+bool copy_elements(ValueBlock& to, std::size_t to_first, const ValueBlock& from,
+                   std::size_t from_first, std::size_t size,
+                   const LinearConversion& conversion = {});
+
+/// Whether two elements of blocks of the same type are equal.
+bool is_same(const ValueBlock& a, std::size_t a_element, const ValueBlock& b,
+             std::size_t b_element);
+
 /// Parses a variable's value: numbers separated by blanks for an array, "true"/"false"/"1"/"0" for
 /// Boolean, the item's name or number for Enumeration, hexadecimal digits for Binary, the text
 /// itself for String. Throws std::invalid_argument whose text says what was expected.

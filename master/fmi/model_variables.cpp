@@ -1,6 +1,7 @@
 #include "master/fmi/model_variables.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -137,6 +138,14 @@ std::string inherited(const Element& element, const std::optional<Element>& type
   return element.text_or(attribute, type ? type->text_or(attribute) : "");
 }
 
+double read_nominal(const Element& element, ValueType type,
+                    const std::optional<Element>& declared) {
+  if (type != ValueType::Float32 && type != ValueType::Float64) return 0;
+  const auto own = element.number<double>("nominal");
+  const auto nominal = own || !declared ? own : declared->number<double>("nominal");
+  return std::isfinite(nominal.value_or(0)) ? std::abs(nominal.value_or(0)) : 0;
+}
+
 core::Variable read_variable(const Element& element, ValueType type, const TypeDefinitions& types) {
   core::Variable variable;
   variable.name = element.required_text("name");
@@ -159,6 +168,7 @@ core::Variable read_variable(const Element& element, ValueType type, const TypeD
   variable.unit = inherited(element, declared, "unit");
   variable.min = inherited(element, declared, "min");
   variable.max = inherited(element, declared, "max");
+  variable.nominal = read_nominal(element, type, declared);
   if (type == ValueType::Clock) {
     variable.clock = read_clock_attributes(element, declared, variable.causality);
   }

@@ -77,10 +77,13 @@ void write_change(OutputFile& file, const T& value, std::string_view code) {
   file.write('\n');
 }
 
-bool is_message_variable(const core::Variable& variable) {
+/// What travels as a message; a clock that the master ticks, and what it samples, does not.
+bool is_message_variable(const core::UnitDescription& unit, const core::Variable& variable) {
   const bool is_connector =
       variable.causality == core::Causality::Input || variable.causality == core::Causality::Output;
-  return is_connector && (variable.type == core::ValueType::Clock || variable.is_clocked());
+  if (!is_connector || variable.is_time_based_clock()) return false;
+  return variable.type == core::ValueType::Clock ||
+         (variable.is_clocked() && !unit.is_sampled(variable));
 }
 
 }  // namespace
@@ -121,7 +124,7 @@ void VcdRecorder::declare_messages(VcdScope& top) {
     std::vector<MessageCodes>& codes = messages_.emplace_back(description.variables.size());
     for (std::size_t v = 0; v < codes.size(); ++v) {
       const core::Variable& variable = description.variables[v];
-      if (!is_message_variable(variable)) continue;
+      if (!is_message_variable(description, variable)) continue;
       const bool is_clock = variable.type == core::ValueType::Clock;
       std::vector<std::string>& own = is_clock ? codes[v].clocks : codes[v].elements;
       for (std::size_t i = 0; i < variable.size; ++i) own.push_back(declare(top, {c, v}, i));

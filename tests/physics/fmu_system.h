@@ -66,7 +66,7 @@ class FmuSystem {
     const core::System system(declaration_);
     core::RunOptions options;
     options.stop = Time(stop);
-    options.step = step;
+    options.step.size = step;
     for (const std::string& name : recorded) options.recorded.push_back(find(system, name));
     core::Simulation simulation(system, std::move(units_), options);
     Record record;

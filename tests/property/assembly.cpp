@@ -121,9 +121,10 @@ Assembly Assembly::shuffled(unsigned seed) const {
 std::vector<std::unique_ptr<core::Unit>> Assembly::instantiate() const {
   std::vector<std::unique_ptr<core::Unit>> units;
   for (const core::ComponentDeclaration& component : declaration_.components) {
-    units.push_back(
-        units_.at(component.name)
-            ->instantiate(component.name, {.early_return_allowed = true, .may_roll_back = true}));
+    units.push_back(units_.at(component.name)
+                        ->instantiate(component.name, {.early_return_allowed = true,
+                                                       .may_roll_back = true,
+                                                       .intermediate_update = true}));
   }
   return units;
 }
@@ -167,13 +168,10 @@ core::RunOptions fixed_steps(Duration step, Time stop) {
   return options;
 }
 
-Results run(const Assembly& assembly, Duration step, Time stop,
-            const core::ThreadOptions& threads) {
+Results run(const Assembly& assembly, core::RunOptions options) {
   const Scratch scratch;
   const core::System system(assembly.declaration());
-  core::RunOptions options = fixed_steps(step, stop);
   options.recorded = all_outputs(system);
-  options.threads = threads;
   Results results;
   io::CsvRecorder signals(system, scratch / "signals.csv");
   io::EventRecorder events(system, scratch / "events.csv");

@@ -62,9 +62,15 @@ struct Results {
 
 core::RunOptions fixed_steps(Duration step, Time stop);
 
+/// Records all outputs, whatever the options say of it.
+Results run(const Assembly& assembly, core::RunOptions options);
 /// Runs from 0 s to `stop` in fixed steps.
-Results run(const Assembly& assembly, Duration step, Time stop,
-            const core::ThreadOptions& threads = {});
+inline Results run(const Assembly& assembly, Duration step, Time stop,
+                   const core::ThreadOptions& threads = {}) {
+  core::RunOptions options = fixed_steps(step, stop);
+  options.threads = threads;
+  return run(assembly, options);
+}
 
 }  // namespace stride::tests
 

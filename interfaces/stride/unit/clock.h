@@ -25,8 +25,9 @@ enum class IntervalVariability : std::uint8_t {
 ///
 /// A triggered output: the unit calls tick() in step() or event(); the importer sees the tick in
 /// the Event Mode that follows, and the kit withdraws it when that super-dense instant is over. An
-/// input has ticked during update_outputs() and event() if the importer set it in this super-dense
-/// instant; if it is a time-based clock, the importer does that by the time that the unit said.
+/// input has ticked during the update_outputs() before event() and during event() if the importer
+/// set it in this super-dense instant, as it does with a time-based clock at the times that the
+/// unit said.
 class Clock {
  public:
   void tick() { ticked_ = 1; }

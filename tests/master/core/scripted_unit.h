@@ -74,6 +74,20 @@ class Describe {
     description_->variables.back().max = max;
     return *this;
   }
+  /// Of the output listed last; without it, nothing is declared.
+  Describe& depends_on(std::vector<ValueReference> inputs) {
+    description_->outputs.push_back({description_->variables.back().reference, std::move(inputs)});
+    return *this;
+  }
+  Describe& depends_initially_on(std::vector<ValueReference> knowns) {
+    description_->initial_unknowns.push_back(
+        {description_->variables.back().reference, std::move(knowns)});
+    return *this;
+  }
+  Describe& exact() {
+    description_->variables.back().initial = Initial::Exact;
+    return *this;
+  }
   Describe& unit(const std::string& symbol, BaseUnit base) {
     description_->units[symbol] = base;
     return *this;
@@ -110,6 +124,8 @@ class ScriptedUnit : public Unit {
   }
 
   std::function<void(ScriptedUnit&)> on_initialize = [](ScriptedUnit&) {};
+  /// Called before values are read in Event Mode: outputs that depend directly on inputs.
+  std::function<void(ScriptedUnit&)> on_read_in_event_mode = [](ScriptedUnit&) {};
   std::function<StepResult(ScriptedUnit&, Time, Time)> on_step = [](ScriptedUnit&, Time, Time to) {
     StepResult result;
     result.reached = to;
@@ -126,6 +142,7 @@ class ScriptedUnit : public Unit {
   /// Keeps or brings back what the script holds beside the values.
   std::function<void(bool save)> on_state = [](bool) {};
   Calls calls;
+  int gets = 0;
 
   double& number(ValueReference reference) { return values_.at(reference).numbers<double>()[0]; }
   bool& clock(ValueReference reference) { return values_.at(reference).numbers<bool>()[0]; }
@@ -140,9 +157,12 @@ class ScriptedUnit : public Unit {
     calls.push_back("exit_initialization");
     on_initialize(*this);
     initializing_ = false;
+    in_event_mode_ = description_->has_event_mode;
   }
   void get(std::span<const ValueReference> references, ValueBlock& values) override {
+    ++gets;
     if (initializing_) on_initialize(*this);
+    if (in_event_mode_) on_read_in_event_mode(*this);
     move_values(references, values, [](auto& inside, auto& outside) { outside = inside; });
   }
   void set(std::span<const ValueReference> references, const ValueBlock& values) override {
@@ -158,7 +178,10 @@ class ScriptedUnit : public Unit {
     values_ = saved_values_.value();
     on_state(false);
   }
-  void enter_event_mode() override { calls.push_back("enter_event_mode"); }
+  void enter_event_mode() override {
+    calls.push_back("enter_event_mode");
+    in_event_mode_ = true;
+  }
   EventResult update_discrete_states() override {
     calls.push_back("update_discrete_states");
     const EventResult result = on_event(*this);
@@ -169,7 +192,10 @@ class ScriptedUnit : public Unit {
     }
     return result;
   }
-  void enter_step_mode() override { calls.push_back("enter_step_mode"); }
+  void enter_step_mode() override {
+    calls.push_back("enter_step_mode");
+    in_event_mode_ = false;
+  }
   ClockInterval clock_interval(const Variable& clock) override {
     return on_clock_interval(*this, clock.reference);
   }
@@ -200,6 +226,7 @@ class ScriptedUnit : public Unit {
   std::map<ValueReference, ValueBlock> values_;
   std::optional<std::map<ValueReference, ValueBlock>> saved_values_;
   bool initializing_ = false;
+  bool in_event_mode_ = false;
 };
 
 }  // namespace stride::core

@@ -28,7 +28,7 @@ constexpr const char* kComplete = R"(<?xml version="1.0" encoding="UTF-8"?>
     <Unit name="furlong"/>
   </UnitDefinitions>
   <TypeDefinitions>
-    <Float64Type name="Temperature" unit="degC" min="-273.15" max="1000"/>
+    <Float64Type name="Temperature" unit="degC" min="-273.15" max="1000" nominal="300"/>
     <EnumerationType name="Mode"><Item name="off" value="0"/><Item name="on" value="7"/></EnumerationType>
     <ClockType name="Tick" intervalVariability="triggered"/>
   </TypeDefinitions>
@@ -186,6 +186,8 @@ TEST_CASE("a declared type gives what the variable leaves open") {
   CHECK(variable(unit, "temperature").unit == "degC");
   CHECK(variable(unit, "temperature").min == "-273.15");
   CHECK(variable(unit, "temperature").max == "100");
+  CHECK(variable(unit, "temperature").nominal == 300);
+  CHECK(variable(unit, "level").nominal == 0);
   CHECK(variable(unit, "tick").clock.value().variability == IntervalVariability::Triggered);
   using Items = std::vector<std::pair<std::string, std::int64_t>>;
   CHECK(variable(unit, "mode").items == Items{{"off", 0}, {"on", 7}});

@@ -56,3 +56,14 @@ TEST_CASE("A pattern that matches nothing is refused, and the nearest name sugge
   CHECK_THROWS_WITH(selected({"a.led", "nothing.*"}), Contains("'nothing.*' matches no variable"));
   CHECK_THROWS_WITH(selected({"a.time"}), Contains("'a.time' matches no variable"));
 }
+
+TEST_CASE("What is sampled at the ticks of a time-based clock is a signal, the clock is not") {
+  const core::System system = sampled_system();
+  const auto outputs = select_signals(system, {});
+  REQUIRE(outputs.size() == 1);
+  CHECK(system.full_name(outputs[0]) == "s.y");
+  const std::vector<SignalPattern> all = {{"s.*", {"x.ssd", 12}}};
+  CHECK(select_signals(system, all).size() == 2);
+  const std::vector<SignalPattern> clock = {{"s.tick", {"x.ssd", 12}}};
+  CHECK_THROWS_WITH(select_signals(system, clock), Contains("cannot be recorded as a signal"));
+}

@@ -126,6 +126,24 @@ inline std::shared_ptr<core::UnitDescription> sample_description() {
   return description;
 }
 
+/// A unit with a time-based clock, and what is sampled and put out at its ticks.
+inline core::System sampled_system() {
+  using core::Causality;
+  using core::ValueType;
+  auto description = std::make_shared<core::UnitDescription>();
+  description->has_event_mode = true;
+  auto& variables = description->variables;
+  variables.push_back(variable("tick", 1, ValueType::Clock, Causality::Input));
+  variables.back().clock.emplace().variability = core::IntervalVariability::Countdown;
+  variables.push_back(variable("u", 2, ValueType::Float64, Causality::Input));
+  variables.back().clocks = {1};
+  variables.push_back(variable("y", 3, ValueType::Float64, Causality::Output));
+  variables.back().clocks = {1};
+  core::SystemDeclaration declaration;
+  declaration.components = {{"s", description, {}, {}}};
+  return core::System(declaration);
+}
+
 inline core::System sample_system() {
   core::SystemDeclaration declaration;
   declaration.name = "sample";

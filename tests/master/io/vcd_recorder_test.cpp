@@ -157,3 +157,16 @@ TEST_CASE("A dot at an end of a name opens no scope") {
         "$scope module u $end\n$var wire 1 ! .a $end\n$var wire 16 \" b. $end\n"
         "$scope module c $end\n$var integer 8 # d_e $end\n$upscope $end\n$upscope $end\n");
 }
+
+TEST_CASE("What is sampled at the ticks of a time-based clock is declared once, the clock is not") {
+  const TemporaryFolder folder;
+  const core::System system = sampled_system();
+  const core::ValueBlock value(core::ValueType::Float64, 1);
+  const core::Signal signal{{0, 2}, &value, 0};
+  VcdRecorder recorder(system, folder / "s.vcd");
+  recorder.on_start(std::span(&signal, 1));
+  recorder.on_finish();
+  const std::string text = content(folder / "s.vcd");
+  CHECK_THAT(text, Contains("$var real 64 ! y $end"));
+  CHECK(text.find("$var", text.find("$var") + 1) == std::string::npos);
+}

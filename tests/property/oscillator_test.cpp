@@ -1,0 +1,84 @@
+// Two masses, a unit each: how fast the error of a coupling method falls with the step.
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "tests/property/assembly.h"
+
+using namespace stride;
+using namespace stride::tests;
+using namespace std::chrono_literals;
+using core::Coupling;
+using core::Extrapolation;
+
+namespace {
+
+/// m = 1 kg, k = 10 N/m to the ground, 5 N/m between the masses, no damping; the first is let go at
+/// 1 m. The modes are cos(sqrt(10) t) and cos(sqrt(20) t).
+Assembly oscillator() {
+  const Assembly::Values undamped{{"damping", "0"}, {"coupling_damping", "0"}};
+  Assembly system;
+  system.add("first", "oscillator_mass", undamped).add("second", "oscillator_mass", undamped);
+  system.set("first.start_displacement", "1").set("second.start_displacement", "0");
+  system.wire("first.x", "second.x_other").wire("first.v", "second.v_other");
+  system.wire("second.x", "first.x_other").wire("second.v", "first.v_other");
+  return system;
+}
+
+/// The largest deviation of a displacement from the closed form.
+double deviation(const Results& results) {
+  double largest = 0;
+  for (const auto& [time, values] : results.values) {
+    const double t = to_seconds(time);
+    const double slow = std::cos(std::sqrt(10.0) * t) / 2;
+    const double fast = std::cos(std::sqrt(20.0) * t) / 2;
+    largest = std::max(largest, std::abs(results.value(time, "first.x") - (slow + fast)));
+    largest = std::max(largest, std::abs(results.value(time, "second.x") - (slow - fast)));
+  }
+  return largest;
+}
+
+double deviation(Coupling coupling, Extrapolation extrapolation, Duration step) {
+  core::RunOptions options = fixed_steps(step, Time(2s));
+  options.coupling = coupling;
+  options.extrapolation = extrapolation;
+  return deviation(run(oscillator(), options));
+}
+
+}  // namespace
+
+TEST_CASE("units that ask for inputs within a step gain an order for each degree") {
+  struct Case {
+    Coupling coupling;
+    Extrapolation extrapolation;
+    double order;
+  };
+  const auto c = GENERATE(Case{Coupling::Jacobi, Extrapolation::Hold, 1},
+                          Case{Coupling::Jacobi, Extrapolation::Linear, 2},
+                          Case{Coupling::Jacobi, Extrapolation::Quadratic, 3},
+                          Case{Coupling::GaussSeidel, Extrapolation::Hold, 1},
+                          Case{Coupling::GaussSeidel, Extrapolation::Linear, 2},
+                          Case{Coupling::GaussSeidel, Extrapolation::Quadratic, 3});
+  const double coarse = deviation(c.coupling, c.extrapolation, 8ms);
+  const double fine = deviation(c.coupling, c.extrapolation, 2ms);
+  CAPTURE(name(c.coupling), name(c.extrapolation), coarse, fine);
+  CHECK(std::log(coarse / fine) / std::log(4) == Approx(c.order).margin(0.15));
+}
+
+TEST_CASE("the error-controlled oscillator gets as accurate as it is asked to be") {
+  double last = 1;
+  for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5}) {
+    core::RunOptions options = fixed_steps(10ms, Time(2s));
+    options.step.policy = core::StepPolicy::ErrorControlled;
+    options.step.relative_tolerance = 0;
+    options.step.absolute_tolerance = tolerance;
+    options.extrapolation = Extrapolation::Quadratic;
+    const Results results = run(oscillator(), options);
+    CAPTURE(tolerance, results.statistics.communication_steps, results.statistics.undone_steps);
+    const double error = deviation(results);
+    CHECK(error < 20 * tolerance);
+    CHECK(error < last / 3);
+    last = error;
+  }
+}
