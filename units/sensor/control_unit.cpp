@@ -1,12 +1,21 @@
 #include "units/sensor/control_unit.h"
 
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
 #include "units/sensor/adc.h"
+#include "units/systemc/time.h"
 
 namespace sensor {
 namespace {
 
 using nfc::Command;
 using nfc::Status;
+using stride::systemc::current_time;
+using stride::systemc::to_sc_time;
+
+constexpr stride::Duration kSecond = std::chrono::seconds(1);
 
 template <class Unsigned>
 nfc::Bytes most_significant_first(Unsigned value) {
@@ -17,36 +26,60 @@ nfc::Bytes most_significant_first(Unsigned value) {
   return bytes;
 }
 
-/// The number of argument bytes of a command, -1 if there is no such command.
-int argument_count(Command command) {
-  switch (command) {
-    case Command::kIdentify:
-    case Command::kReadTemperature:
-      return 0;
-    case Command::kSetLed:
-      return 1;
-  }
-  return -1;
+/// By those that are not selected, too.
+bool answered_by_all(Command command) {
+  return command == Command::kIdentify || command == Command::kSelect;
+}
+
+/// The number that the arguments of a command are.
+std::uint32_t argument(const nfc::Bytes& command) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 1; i < command.size(); ++i) value = value << 8 | command[i];
+  return value;
+}
+
+void append(nfc::Bytes& bytes, const nfc::Bytes& more) {
+  bytes.insert(bytes.end(), more.begin(), more.end());
+}
+
+std::uint16_t age_in_seconds(stride::Time taken) {
+  constexpr std::int64_t kOldest = std::numeric_limits<std::uint16_t>::max();
+  const std::int64_t age = (current_time() - taken) / kSecond;
+  return static_cast<std::uint16_t>(std::min(age, kOldest));
 }
 
 }  // namespace
 
-ControlUnit::ControlUnit(sc_core::sc_module_name name, const ControlUnitParameters& parameters,
-                         const AdcParameters& adc, CommandFifo& fifo)
-    : sc_module(name), parameters_(parameters), adc_(adc), fifo_(fifo) {
+ControlUnit::ControlUnit(sc_core::sc_module_name name, const SensorParameters& parameters,
+                         CommandFifo& fifo)
+    : sc_module(name),
+      parameters_(parameters.control_unit),
+      adc_(parameters.adc),
+      always_selected_(parameters.transceiver.always_selected),
+      fifo_(fifo) {
   SC_HAS_PROCESS(ControlUnit);
   SC_METHOD(run);
-  sensitive << clock.pos() << powered << fifo_.written();
+  sensitive << clock.pos() << powered << carrier << fifo_.written() << sample_event_;
+  SC_METHOD(on_timer);
+  sensitive << timer_;
+  dont_initialize();
 }
 
 void ControlUnit::run() {
   if (!powered.read()) return switch_off();
+  if (!carrier.read()) selected_ = false;
   if (state_ == State::kOff) return switch_on();
   if (state_ == State::kStop) {
-    if (!fifo_.empty()) enter(State::kWakeUp, parameters_.wake_up_cycles);
+    if (!fifo_.empty() || sample_due_) enter(State::kWakeUp, parameters_.wake_up_cycles);
     return;
   }
   if (clock.posedge()) on_clock();
+}
+
+void ControlUnit::on_timer() {
+  timer_.notify(to_sc_time(sampling_period_));
+  sample_due_ = true;
+  sample_event_.notify(sc_core::SC_ZERO_TIME);
 }
 
 void ControlUnit::switch_on() { enter(State::kBoot, parameters_.boot_cycles); }
@@ -54,6 +87,11 @@ void ControlUnit::switch_on() { enter(State::kBoot, parameters_.boot_cycles); }
 void ControlUnit::switch_off() {
   state_ = State::kOff;
   fifo_.clear();
+  log_.clear();
+  timer_.cancel();
+  sampling_period_ = {};
+  sample_due_ = false;
+  selected_ = false;
   clock_enable.write(false);
   adc_start.write(false);
   current.write(0);
@@ -64,13 +102,17 @@ void ControlUnit::enter(State state, std::int32_t cycles) {
   state_ = state;
   remaining_cycles_ = cycles;
   clock_enable.write(true);
-  current.write(parameters_.active_current);
+  current.write(parameters_.active_current + timer_current());
 }
 
 void ControlUnit::stop() {
   state_ = State::kStop;
   clock_enable.write(false);
-  current.write(parameters_.sleep_current);
+  current.write(parameters_.sleep_current + timer_current());
+}
+
+double ControlUnit::timer_current() const {
+  return sampling_period_ > stride::Duration{} ? parameters_.timer_current : 0;
 }
 
 void ControlUnit::on_clock() {
@@ -99,52 +141,105 @@ void ControlUnit::finish_state() {
 }
 
 void ControlUnit::fetch() {
-  if (fifo_.empty()) return stop();
-  command_ = fifo_.pop();
-  enter(State::kDecode, parameters_.decode_cycles);
+  if (!fifo_.empty()) {
+    command_ = fifo_.pop();
+    return enter(State::kDecode, parameters_.decode_cycles);
+  }
+  if (!sample_due_) return stop();
+  sample_due_ = false;
+  sampling_ = true;
+  start_conversion();
 }
 
 void ControlUnit::decode() {
-  if (command_.data.empty()) return answer(Status::kUnknownCommand);
-  const auto command = static_cast<Command>(command_.data.front());
-  const int expected = argument_count(command);
+  const int expected = command_.data.empty() ? -1 : nfc::argument_bytes(command());
+  const bool well_formed =
+      expected >= 0 && command_.data.size() == static_cast<std::size_t>(expected) + 1;
+  if (!selected() && !(well_formed && answered_by_all(command()))) return fetch();
   if (expected < 0) return answer(Status::kUnknownCommand);
-  if (command_.data.size() != static_cast<std::size_t>(expected) + 1) {
-    return answer(Status::kBadArgument);
+  if (!well_formed) return answer(Status::kBadArgument);
+  if (command() != Command::kReadTemperature) {
+    return enter(State::kExecute, parameters_.execute_cycles);
   }
-  if (command == Command::kReadTemperature) {
-    adc_start.write(true);
-    return enter(State::kStart, 1);
-  }
-  enter(State::kExecute, parameters_.execute_cycles);
+  sampling_ = false;
+  start_conversion();
 }
 
 void ControlUnit::execute() {
-  if (static_cast<Command>(command_.data.front()) == Command::kIdentify) {
-    return answer(Status::kOk,
-                  most_significant_first(static_cast<std::uint32_t>(parameters_.identifier)));
+  switch (command()) {
+    case Command::kIdentify:
+      return answer(Status::kOk, most_significant_first(identifier()));
+    case Command::kSelect:
+      return select();
+    case Command::kSetLed:
+      if (argument(command_.data) > 1) return answer(Status::kBadArgument);
+      set_led(argument(command_.data) == 1);
+      return answer(Status::kOk);
+    case Command::kSetSamplingPeriod:
+      set_sampling_period();
+      return answer(Status::kOk);
+    case Command::kReadLog:
+      return answer(Status::kOk, log_data());
+    case Command::kSleep:
+      set_led(false);
+      selected_ = false;
+      return answer(Status::kOk);
+    case Command::kReadTemperature:
+      return;  // has been converted instead
   }
-  const std::uint8_t argument = command_.data[1];
-  if (argument > 1) return answer(Status::kBadArgument);
-  set_led(argument == 1);
+}
+
+std::uint32_t ControlUnit::identifier() const {
+  return static_cast<std::uint32_t>(parameters_.identifier);
+}
+
+void ControlUnit::select() {
+  selected_ = argument(command_.data) == identifier() && carrier.read();
+  if (!selected_) return fetch();
   answer(Status::kOk);
+}
+
+void ControlUnit::set_sampling_period() {
+  timer_.cancel();
+  sample_due_ = false;
+  sampling_period_ = argument(command_.data) * kSecond;
+  if (sampling_period_ > stride::Duration{}) timer_.notify(to_sc_time(sampling_period_));
+}
+
+nfc::Bytes ControlUnit::log_data() const {
+  nfc::Bytes data;
+  for (std::size_t i = 0; i < log_.size(); ++i) {
+    append(data, most_significant_first(age_in_seconds(log_[i].taken)));
+    append(data, most_significant_first(static_cast<std::uint16_t>(log_[i].centidegrees)));
+  }
+  return data;
+}
+
+void ControlUnit::start_conversion() {
+  adc_start.write(true);
+  enter(State::kStart, 1);
 }
 
 void ControlUnit::begin_conversion() {
   if (!adc_busy.read()) return;
   adc_start.write(false);
+  sampled_at_ = current_time();
   enter(State::kConvert, 1);
 }
 
 void ControlUnit::finish_conversion() {
   if (adc_busy.read()) return;
   const std::int16_t result = to_centidegrees(adc_, adc_code.read());
-  answer(Status::kOk, most_significant_first(static_cast<std::uint16_t>(result)));
+  if (!sampling_) {
+    return answer(Status::kOk, most_significant_first(static_cast<std::uint16_t>(result)));
+  }
+  log_.add({sampled_at_, result});
+  fetch();
 }
 
 void ControlUnit::answer(Status status, const nfc::Bytes& data) {
   answer_ = {static_cast<std::uint8_t>(status)};
-  answer_.insert(answer_.end(), data.begin(), data.end());
+  append(answer_, data);
   enter(State::kHandOver, parameters_.cycles_per_byte * static_cast<std::int32_t>(answer_.size()));
 }
 

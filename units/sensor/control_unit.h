@@ -5,21 +5,27 @@
 #include <cstdint>
 #include <systemc>
 
+#include <stride/time.h>
+
 #include "units/nfc/commands.h"
 #include "units/sensor/command_fifo.h"
 #include "units/sensor/parameters.h"
+#include "units/sensor/sample_log.h"
 #include "units/sensor/transceiver.h"
 
 namespace sensor {
 
 /// boot -> stop <-> wake up -> decode -> execute or convert -> hand over -> decode ... stop.
+///                  wake up -> convert -> log -> stop.
 ///
-/// In stop mode it needs no clock; a command in the FIFO wakes it. When power fails it is reset at
-/// once, the commands and the LED's state are lost, and it boots when power is back.
+/// In stop mode it needs no clock; a command in the FIFO wakes it, and the timer when a sample is
+/// due. Commands come first. When power fails it is reset at once: the commands, the LED's state,
+/// the selection, the sampling period and the log are lost, and it boots when power is back.
 class ControlUnit : public sc_core::sc_module {
  public:
   sc_core::sc_in<bool> clock{"clock"};
   sc_core::sc_in<bool> powered{"powered"};
+  sc_core::sc_in<bool> carrier{"carrier"};             ///< its loss deselects
   sc_core::sc_out<bool> clock_enable{"clock_enable"};  ///< set while it is awake
   sc_core::sc_out<double> current{"current"};          ///< its own [A]
   sc_core::sc_out<bool> led{"led"};
@@ -31,37 +37,59 @@ class ControlUnit : public sc_core::sc_module {
 
   sc_core::sc_port<TransmitInterface> transmitter{"transmitter"};
 
-  ControlUnit(sc_core::sc_module_name name, const ControlUnitParameters& parameters,
-              const AdcParameters& adc, CommandFifo& fifo);
+  /// The fifo has to outlive it.
+  ControlUnit(sc_core::sc_module_name name, const SensorParameters& parameters, CommandFifo& fifo);
+
+  bool selected() const { return selected_ || always_selected_; }
+  const SampleLog& log() const { return log_; }
 
  private:
   enum class State { kOff, kBoot, kStop, kWakeUp, kDecode, kExecute, kStart, kConvert, kHandOver };
 
   void run();
+  void on_timer();
   void switch_on();
   void switch_off();
   void on_clock();
   void finish_state();
   void enter(State state, std::int32_t cycles);
+  void stop();
 
   void fetch();
-  void stop();
   void decode();
   void execute();
+  void select();
+  void set_sampling_period();
+  void start_conversion();
   void begin_conversion();
   void finish_conversion();
   void answer(nfc::Status status, const nfc::Bytes& data = {});
   void hand_over();
   void set_led(bool on);
+  double timer_current() const;
+
+  nfc::Command command() const { return static_cast<nfc::Command>(command_.data.front()); }
+  std::uint32_t identifier() const;
+  nfc::Bytes log_data() const;
 
   ControlUnitParameters parameters_;
   AdcParameters adc_;
+  bool always_selected_;
   CommandFifo& fifo_;
 
   State state_ = State::kOff;
   std::int32_t remaining_cycles_ = 0;
   ReceivedCommand command_;
   nfc::Bytes answer_;
+  bool selected_ = false;
+
+  sc_core::sc_event timer_{"timer"};
+  sc_core::sc_event sample_event_{"sample_event"};
+  stride::Duration sampling_period_{};  ///< zero: no samples
+  bool sample_due_ = false;
+  bool sampling_ = false;  ///< the conversion is for the log
+  stride::Time sampled_at_;
+  SampleLog log_;
 };
 
 }  // namespace sensor

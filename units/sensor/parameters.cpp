@@ -30,6 +30,8 @@ void check(const SensorParameters& parameters) {
   const AdcParameters& adc = parameters.adc;
   check_order("adc.minimum", adc.minimum, "adc.maximum", adc.maximum);
   const PowerParameters& power = parameters.power;
+  check_order("power.supply_voltage", power.supply_voltage, "power.brown_out_voltage",
+              power.brown_out_voltage);
   check_order("power.brown_out_voltage", power.brown_out_voltage, "power.power_on_voltage",
               power.power_on_voltage);
   check_order("power.power_on_voltage", power.power_on_voltage, "power.maximum_voltage",

@@ -9,6 +9,8 @@ namespace sensor {
 struct TransceiverParameters {
   std::int32_t fifo_depth = 4;       ///< commands that can wait for the control unit
   double transmit_current = 1.0e-3;  ///< of the load modulator while it transmits [A]
+  double carrier_threshold = 1e-6;   ///< field power from which on there is a carrier [W]
+  bool always_selected = true;       ///< answers all commands without having been selected
 };
 
 struct ControlUnitParameters {
@@ -21,6 +23,7 @@ struct ControlUnitParameters {
   std::int32_t cycles_per_byte = 24;     ///< to hand one byte of the answer to the transceiver
   double active_current = 2.0e-3;        ///< [A]
   double sleep_current = 2.0e-6;         ///< in stop mode, the rest of the device included [A]
+  double timer_current = 0.3e-6;         ///< of the timer, in addition, while it samples [A]
   double led_current = 1.0e-3;           ///< [A]
   std::int32_t identifier = 0x53454E53;  ///< what kIdentify answers
 };
@@ -35,13 +38,15 @@ struct AdcParameters {
 struct PowerParameters {
   double rectifier_efficiency = 0.5;
   double capacitance = 100e-6;       ///< [F]
-  double leakage_resistance = 10e6;  ///< parallel to the capacitor [Ohm]
+  double series_resistance = 100;    ///< of the capacitor [Ohm]
+  double leakage_resistance = 10e6;  ///< parallel to the capacitance [Ohm]
   double initial_voltage = 0.0;      ///< [V]
-  double maximum_voltage = 5.0;      ///< at which the charger stops [V]
+  double maximum_voltage = 5.0;      ///< of limiter, supply rail and capacitor [V]
+  double charging_current = 10e-3;   ///< the most that the charger gives [A]
   double power_on_voltage = 3.0;     ///< [V]
+  double start_up_delay = 1e-3;      ///< from power_on_voltage until the loads are switched on [s]
   double brown_out_voltage = 1.9;    ///< [V]
   double supply_voltage = 1.8;       ///< that the regulator gives to the loads [V]
-  double regulator_efficiency = 0.85;
 };
 
 struct SensorParameters {
@@ -74,6 +79,10 @@ void visit_parameters(Parameters& parameters, Visitor&& visit) {
       "commands that can wait for the control unit");
   add(transceiver.transmit_current, "transceiver.transmit_current", "A", 0, 1,
       "current of the load modulator while it transmits");
+  add(transceiver.carrier_threshold, "transceiver.carrier_threshold", "W", 0, 1,
+      "field power from which on there is a carrier to answer with");
+  add(transceiver.always_selected, "transceiver.always_selected", "", 0, 1,
+      "whether all commands are answered without a selection");
 
   add(control_unit.clock_frequency, "control_unit.clock_frequency", "Hz", 1e3, 1e9,
       "frequency of the control unit's clock");
@@ -93,6 +102,8 @@ void visit_parameters(Parameters& parameters, Visitor&& visit) {
       "current of the control unit while it is awake");
   add(control_unit.sleep_current, "control_unit.sleep_current", "A", 0, 1,
       "current in stop mode, the rest of the device included");
+  add(control_unit.timer_current, "control_unit.timer_current", "A", 0, 1,
+      "current of the timer, in addition, while samples are taken");
   add(control_unit.led_current, "control_unit.led_current", "A", 0, 1, "current of the LED");
   add(control_unit.identifier, "control_unit.identifier", "", -2147483648.0, 2147483647.0,
       "the 32-bit identifier, as a signed number");
@@ -103,21 +114,25 @@ void visit_parameters(Parameters& parameters, Visitor&& visit) {
   add(adc.current, "adc.current", "A", 0, 1, "current while it converts");
 
   add(power.rectifier_efficiency, "power.rectifier_efficiency", "1", 0, 1,
-      "share of the field's power that reaches the capacitor");
+      "share of the antenna's power that is left after the rectifier");
   add(power.capacitance, "power.capacitance", "F", 1e-9, 100, "capacitance of the supercapacitor");
+  add(power.series_resistance, "power.series_resistance", "Ohm", 1e-3, 1e6,
+      "resistance in series with the supercapacitor");
   add(power.leakage_resistance, "power.leakage_resistance", "Ohm", 1, 1e18,
       "resistance parallel to the supercapacitor, through which it leaks");
   add(power.initial_voltage, "power.initial_voltage", "V", 0, 100, "voltage at the start");
   add(power.maximum_voltage, "power.maximum_voltage", "V", 1e-3, 100,
-      "voltage at which the charger stops");
+      "voltage of the limiter, to which the supercapacitor is charged");
+  add(power.charging_current, "power.charging_current", "A", 1e-9, 100,
+      "the most that the charger gives to the supercapacitor");
   add(power.power_on_voltage, "power.power_on_voltage", "V", 1e-3, 100,
-      "voltage at which the device is switched on");
+      "voltage of the supercapacitor at which the device is switched on");
+  add(power.start_up_delay, "power.start_up_delay", "s", 1e-6, 1000,
+      "time from that voltage until the device is switched on");
   add(power.brown_out_voltage, "power.brown_out_voltage", "V", 1e-3, 100,
-      "voltage at which the device is switched off");
+      "voltage of the supercapacitor at which the device is switched off");
   add(power.supply_voltage, "power.supply_voltage", "V", 1e-3, 100,
-      "voltage that the regulator gives to the loads");
-  add(power.regulator_efficiency, "power.regulator_efficiency", "1", 1e-3, 1,
-      "efficiency of the regulator");
+      "voltage that the linear regulator gives to the loads");
 }
 
 /// Throws std::invalid_argument, which names the parameter, its value and its range, if one is out

@@ -1,6 +1,5 @@
 #include "units/sensor/power_unit.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -10,122 +9,177 @@ namespace sensor {
 
 using stride::systemc::current_time;
 using stride::systemc::to_sc_time;
+using Mode = Flow::Mode;
 
 PowerUnit::PowerUnit(sc_core::sc_module_name name, const PowerParameters& parameters)
     : sc_module(name),
       parameters_(parameters),
-      storage_(parameters.capacitance, parameters.leakage_resistance),
-      energy_(storage_.energy(parameters.initial_voltage)),
-      on_(parameters.initial_voltage >= parameters.power_on_voltage) {
+      supply_(parameters),
+      voltage_(parameters.initial_voltage),
+      good_(parameters.initial_voltage >= parameters.power_on_voltage),
+      on_(good_) {
   SC_HAS_PROCESS(PowerUnit);
   SC_METHOD(on_power_event);
   sensitive << field_power << control_unit_current << transceiver_current << adc_current
-            << led_current << crossing_;
+            << led_current << crossing_event_ << start_up_event_;
 }
 
 double PowerUnit::seconds_since_event() const {
   return stride::to_seconds(current_time() - last_event_);
 }
 
-double PowerUnit::energy_now() const {
-  if (full_) return energy_;
-  return storage_.after(energy_, intake_ - load_, seconds_since_event());
+double PowerUnit::voltage_now() const {
+  return supply_.capacitor(flow_).after(voltage_, seconds_since_event());
 }
 
-double PowerUnit::charge_now() const { return storage_.charge(energy_now()); }
-double PowerUnit::voltage_now() const { return storage_.voltage(energy_now()); }
+double PowerUnit::charge_now() const { return parameters_.capacitance * voltage_now(); }
 
-double PowerUnit::charging_current_now() const {
-  constexpr double kLeastVoltage = 1e-3;  // below it a constant power means a current without bound
-  if (full_ || voltage_now() < kLeastVoltage) return 0;
-  return (intake_ - load_ - storage_.leakage(energy_now())) / voltage_now();
+double PowerUnit::charge_rate_now() const {
+  return parameters_.capacitance * supply_.capacitor(flow_).slope(voltage_now());
+}
+
+double PowerUnit::terminal_voltage_now() const { return supply_.terminal(flow_, voltage_now()); }
+
+double PowerUnit::terminal_rate_now() const {
+  if (flow_.mode == Mode::kConstantVoltage) return 0;
+  return supply_.capacitor(flow_).slope(voltage_now());
+}
+
+double PowerUnit::rail_voltage_now() const { return supply_.rail(flow_, voltage_now()); }
+
+double PowerUnit::rail_rate_now() const {
+  return flow_.mode == Mode::kFromCapacitor ? terminal_rate_now() : 0;
+}
+
+double PowerUnit::intake_now() const { return supply_.intake(flow_, voltage_now()); }
+double PowerUnit::load_now() const { return supply_.load(flow_, voltage_now()); }
+
+double PowerUnit::stored_now() const {
+  const double start = parameters_.initial_voltage;
+  const double now = voltage_now();
+  return parameters_.capacitance / 2 * (now - start) * (now + start);
 }
 
 EnergyBooks PowerUnit::books_now() const {
-  const double seconds = seconds_since_event();
   EnergyBooks books = books_;
-  books.intake += intake_ * seconds;
-  books.load += load_ * seconds;
-  books.leakage += (intake_ - load_) * seconds - (energy_now() - energy_);
+  books += supply_.books(flow_, voltage_, seconds_since_event());
   return books;
 }
 
 void PowerUnit::on_power_event() {
-  settle_books();
+  settle();
   arrive();
-  take_powers();
+  take_currents();
+  supervise();
   schedule();
   publish();
 }
 
-void PowerUnit::settle_books() {
+void PowerUnit::settle() {
   books_ = books_now();
-  energy_ = energy_now();
+  voltage_ = voltage_now();
   last_event_ = current_time();
 }
 
-// the instant was rounded up to a picosecond; the threshold itself is taken as reached
+// A crossing's instant was rounded up to a picosecond, and the voltage is rounded, too: that the
+// threshold has been reached is known from the event, not from comparing.
 void PowerUnit::arrive() {
-  if (next_ == Threshold::kNone || current_time() < next_instant_) return;
-  energy_ = threshold_energy(next_);
-  if (next_ == Threshold::kPowerOn) on_ = true;
-  if (next_ == Threshold::kBrownOut) on_ = false;
-  if (next_ == Threshold::kFull) full_ = true;
+  at_knee_ = false;
+  if (good_ && !on_ && current_time() >= start_up_) on_ = true;
+  if (!crossing_ || current_time() < crossing_->instant) return;
+  if (crossing_->threshold == Threshold::kPowerGood) power_good();
+  if (crossing_->threshold == Threshold::kBrownOut) brown_out();
+  at_knee_ = crossing_->threshold == Threshold::kKnee;
 }
 
-void PowerUnit::take_powers() {
-  const double current = control_unit_current.read() + transceiver_current.read() +
-                         adc_current.read() + led_current.read();
+void PowerUnit::take_currents() {
   if (!(field_power.read() >= 0)) {
     const std::string found = std::to_string(field_power.read());
     SC_REPORT_ERROR("field_power", ("it is " + found + " W, expected 0 or more").c_str());
   }
-  const double rectified = parameters_.rectifier_efficiency * field_power.read();
-  load_ = on_ ? current * parameters_.supply_voltage / parameters_.regulator_efficiency : 0;
-
-  const double needed = load_ + storage_.leakage(energy_);
-  full_ = energy_ >= threshold_energy(Threshold::kFull) && rectified >= needed;
-  intake_ = full_ ? needed : rectified;
+  Flow flow = supply_.flow(field_power.read(), currents(), voltage_);
+  if (flow.same_currents(flow_)) {
+    flow.mode = flow_.mode;
+    if (at_knee_) {
+      flow.mode =
+          flow_.mode == Mode::kConstantVoltage ? Mode::kConstantCurrent : Mode::kConstantVoltage;
+    }
+  }
+  at_knee_ = false;
+  flow_ = flow;
 }
 
-double PowerUnit::threshold_energy(Threshold threshold) const {
-  switch (threshold) {
-    case Threshold::kPowerOn:
-      return storage_.energy(parameters_.power_on_voltage);
-    case Threshold::kBrownOut:
-      return storage_.energy(parameters_.brown_out_voltage);
-    case Threshold::kFull:
-      return storage_.energy(parameters_.maximum_voltage);
-    case Threshold::kNone:
-      break;
+Currents PowerUnit::currents() const {
+  if (!on_) return {};
+  return {control_unit_current.read(), transceiver_current.read(), adc_current.read(),
+          led_current.read()};
+}
+
+void PowerUnit::supervise() {
+  if (good_ && terminal() <= parameters_.brown_out_voltage) {
+    brown_out();
+    take_currents();
   }
-  return energy_;
+  if (!good_ && terminal() >= parameters_.power_on_voltage) power_good();
+}
+
+void PowerUnit::power_good() {
+  const stride::Duration delay = stride::duration_from_seconds(parameters_.start_up_delay);
+  good_ = true;
+  start_up_ = current_time() + delay;
+  start_up_event_.notify(to_sc_time(delay));
+}
+
+void PowerUnit::brown_out() {
+  good_ = false;
+  on_ = false;
+  start_up_event_.cancel();
 }
 
 void PowerUnit::schedule() {
-  crossing_.cancel();
-  next_ = Threshold::kNone;
-  if (full_) return;
-  const bool rises = intake_ >= load_ + storage_.leakage(energy_);
-  if (!rises && !on_) return;
-  const Threshold target =
-      !rises ? Threshold::kBrownOut : (on_ ? Threshold::kFull : Threshold::kPowerOn);
-  const double goal = threshold_energy(target);
-  const bool there = rises ? energy_ >= goal : energy_ <= goal;
-  const double seconds = there ? 0 : storage_.time_to(energy_, goal, intake_ - load_);
-  if (seconds > stride::kMaxSeconds / 2) return;
-  next_ = target;
-  const stride::Duration wait(static_cast<std::int64_t>(std::ceil(seconds * 1e12)));
-  next_instant_ = last_event_ + wait;
-  crossing_.notify(to_sc_time(wait));
+  crossing_event_.cancel();
+  crossing_ = next_crossing();
+  if (crossing_) crossing_event_.notify(to_sc_time(crossing_->instant - current_time()));
+}
+
+std::optional<PowerUnit::Crossing> PowerUnit::next_crossing() const {
+  const Relaxation law = supply_.capacitor(flow_);
+  const bool rises = law.slope(voltage_) > 0;
+  std::optional<Crossing> next;
+  const auto consider = [&](Threshold threshold, double target) {
+    const double seconds = law.time_to(voltage_, target);
+    if (seconds > stride::kMaxSeconds / 2) return;
+    const stride::Duration wait(static_cast<std::int64_t>(std::ceil(seconds * 1e12)));
+    if (!next || last_event_ + wait < next->instant) next = {threshold, last_event_ + wait};
+  };
+  const double knee = supply_.knee(flow_);
+  switch (flow_.mode) {
+    case Mode::kConstantVoltage:
+      if (!rises && voltage_ > knee) consider(Threshold::kKnee, knee);
+      return next;
+    case Mode::kConstantCurrent:
+      if (rises && voltage_ < knee) consider(Threshold::kKnee, knee);
+      break;
+    case Mode::kFromCapacitor:
+      break;
+  }
+  if (rises && !good_) {
+    consider(Threshold::kPowerGood,
+             supply_.voltage_for_terminal(flow_, parameters_.power_on_voltage));
+  }
+  if (!rises && good_) {
+    consider(Threshold::kBrownOut,
+             supply_.voltage_for_terminal(flow_, parameters_.brown_out_voltage));
+  }
+  return next;
 }
 
 void PowerUnit::publish() {
   powered.write(on_);
-  energy_intake.write(intake_);
-  energy_load.write(load_);
-  charge.write(storage_.charge(energy_));
-  voltage.write(storage_.voltage(energy_));
+  energy_intake.write(supply_.intake(flow_, voltage_));
+  energy_load.write(supply_.load(flow_, voltage_));
+  charge.write(parameters_.capacitance * voltage_);
+  voltage.write(supply_.rail(flow_, voltage_));
 }
 
 }  // namespace sensor

@@ -1,30 +1,26 @@
-// The power unit: rectifier, charger, supercapacitor and brown-out detector.
+// The power unit: rectifier, limiter, charger, supercapacitor, regulator and supervisor.
 #ifndef STRIDE_UNITS_SENSOR_POWER_UNIT_H
 #define STRIDE_UNITS_SENSOR_POWER_UNIT_H
 
+#include <optional>
 #include <systemc>
 
 #include <stride/time.h>
 
 #include "units/sensor/parameters.h"
-#include "units/sensor/storage.h"
+#include "units/sensor/supply.h"
 
 namespace sensor {
 
-/// Where energy has gone since the start [J]: intake = load + leakage + what is stored since.
-struct EnergyBooks {
-  double intake = 0;
-  double load = 0;
-  double leakage = 0;
-};
-
-/// Event driven. Between events each power is constant and the capacitor's energy has a closed
-/// form; the instant at which it reaches a threshold is computed and scheduled, so that nothing is
-/// polled and nothing depends on how the simulation is cut into steps.
+/// Event driven. Between events each current of Flow follows a closed form; the instant at which a
+/// voltage reaches a threshold is computed and scheduled, so that nothing is polled and nothing
+/// depends on how the simulation is cut into steps.
 ///
-/// The load's power is the sum of the currents times the supply voltage over the regulator's
-/// efficiency. The rectifier gives a constant share of the field's power; once the capacitor is
-/// full the charger takes only what the load and the leakage use.
+/// The supervisor watches the voltage at the capacitor's terminal. The device is switched on when
+/// that has reached power_on_voltage, after start_up_delay, unless it has fallen to
+/// brown_out_voltage meanwhile; at brown_out_voltage it is switched off at once. So the drop that
+/// the device's own current causes can switch it on and off again and again, but no faster than the
+/// delay.
 class PowerUnit : public sc_core::sc_module {
  public:
   sc_core::sc_in<double> field_power{"field_power"};  ///< at the antenna [W], not negative
@@ -33,46 +29,63 @@ class PowerUnit : public sc_core::sc_module {
   sc_core::sc_in<double> adc_current{"adc_current"};                    ///< [A]
   sc_core::sc_in<double> led_current{"led_current"};                    ///< [A]
   sc_core::sc_out<bool> powered{"powered"};
-  sc_core::sc_out<double> energy_intake{"energy_intake"};  ///< taken by the charger [W]
-  sc_core::sc_out<double> energy_load{"energy_load"};      ///< drawn from the capacitor [W]
-  sc_core::sc_out<double> charge{"charge"};                ///< at the last power event [C]
-  sc_core::sc_out<double> voltage{"voltage"};              ///< at the last power event [V]
+  // As they are right after the last power event.
+  sc_core::sc_out<double> energy_intake{"energy_intake"};  ///< rectified and not shunted [W]
+  sc_core::sc_out<double> energy_load{"energy_load"};      ///< of regulator and parts [W]
+  sc_core::sc_out<double> charge{"charge"};                ///< [C]
+  sc_core::sc_out<double> voltage{"voltage"};              ///< of the supply rail [V]
 
   PowerUnit(sc_core::sc_module_name name, const PowerParameters& parameters);
 
   // At the current instant, between events too.
-  double energy_now() const;            ///< [J]
   double charge_now() const;            ///< [C]
-  double voltage_now() const;           ///< [V]
-  double charging_current_now() const;  ///< into the capacitor, less its leakage [A]
-  EnergyBooks books_now() const;
+  double charge_rate_now() const;       ///< [C/s]
+  double terminal_voltage_now() const;  ///< of the capacitor [V]
+  double terminal_rate_now() const;     ///< [V/s]
+  double rail_voltage_now() const;      ///< [V]
+  double rail_rate_now() const;         ///< [V/s]
+  double intake_now() const;            ///< [W]
+  double load_now() const;              ///< [W]
+  double stored_now() const;      ///< energy that the capacitor has gained since the start [J]
+  EnergyBooks books_now() const;  ///< since the start
 
  private:
-  enum class Threshold { kNone, kPowerOn, kBrownOut, kFull };
+  enum class Threshold { kPowerGood, kBrownOut, kKnee };
+  struct Crossing {
+    Threshold threshold;
+    stride::Time instant;
+  };
 
   void on_power_event();
-  void settle_books();
+  void settle();
   void arrive();
-  void take_powers();
+  void take_currents();
+  void supervise();
+  void power_good();
+  void brown_out();
   void schedule();
   void publish();
 
+  Currents currents() const;
+  double terminal() const { return supply_.terminal(flow_, voltage_); }
   double seconds_since_event() const;
-  double threshold_energy(Threshold threshold) const;
+  double voltage_now() const;  ///< of the capacitance
+  std::optional<Crossing> next_crossing() const;
 
   PowerParameters parameters_;
-  Storage storage_;
-  sc_core::sc_event crossing_{"crossing"};
+  Supply supply_;
+  sc_core::sc_event crossing_event_{"crossing_event"};
+  sc_core::sc_event start_up_event_{"start_up_event"};
 
   stride::Time last_event_;
-  double energy_;
-  double intake_ = 0;
-  double load_ = 0;
-  bool on_ = false;
-  bool full_ = false;
-  Threshold next_ = Threshold::kNone;
-  stride::Time next_instant_;
+  double voltage_;  ///< of the capacitance at the last event
+  Flow flow_;       ///< since then
   EnergyBooks books_;
+  bool good_;  ///< the voltage has reached power_on_voltage, and not brown_out_voltage since
+  bool on_;
+  stride::Time start_up_;
+  std::optional<Crossing> crossing_;
+  bool at_knee_ = false;
 };
 
 }  // namespace sensor

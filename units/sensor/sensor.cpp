@@ -16,7 +16,7 @@ Sensor::Sensor(sc_core::sc_module_name name, const SensorParameters& parameters)
       transceiver("transceiver", parameters.transceiver, fifo),
       gated_clock("gated_clock", parameters.control_unit.clock_frequency,
                   parameters.control_unit.clock_gating),
-      control_unit("control_unit", parameters.control_unit, parameters.adc, fifo),
+      control_unit("control_unit", parameters, fifo),
       adc("adc", parameters.adc),
       power_unit("power_unit", parameters.power) {
   wire_transceiver();
@@ -27,6 +27,8 @@ Sensor::Sensor(sc_core::sc_module_name name, const SensorParameters& parameters)
 
 void Sensor::wire_transceiver() {
   transceiver.powered(powered);
+  transceiver.field_power(field_power);
+  transceiver.carrier(carrier);
   transceiver.received_data(received_data);
   transceiver.answer_data(answer_data);
   transceiver.current(transceiver_current_);
@@ -39,6 +41,7 @@ void Sensor::wire_control_unit() {
 
   control_unit.clock(clock);
   control_unit.powered(powered);
+  control_unit.carrier(carrier);
   control_unit.clock_enable(awake);
   control_unit.current(control_unit_current_);
   control_unit.led(led);

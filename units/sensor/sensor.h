@@ -33,8 +33,10 @@ class Sensor : public sc_core::sc_module {
   sc_core::sc_signal<double> energy_intake{"EnergyIntake"};  ///< [W]
   sc_core::sc_signal<double> energy_load{"EnergyLoad"};      ///< [W]
   sc_core::sc_signal<double> charge{"Charge"};               ///< at the last power event [C]
-  sc_core::sc_signal<double> voltage{"Voltage"};             ///< at the last power event [V]
+  sc_core::sc_signal<double> voltage{
+      "Voltage"};  ///< of the supply rail, at the last power event [V]
 
+  sc_core::sc_signal<bool> carrier{"carrier"};
   sc_core::sc_signal<bool> powered{"powered"};
   sc_core::sc_signal<bool> awake{"awake"};
   sc_core::sc_signal<bool> clock{"clock"};
@@ -76,6 +78,7 @@ void visit_signals(const Sensor& sensor, Visitor&& visit) {
   visit(sensor.voltage);
   visit(sensor.field_power);
   visit(sensor.temperature);
+  visit(sensor.carrier);
   visit(sensor.powered);
   visit(sensor.awake);
   visit(sensor.clock);

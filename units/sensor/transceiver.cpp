@@ -21,21 +21,29 @@ sc_dt::uint64 as_number(const nfc::Bytes& bytes) {
   return number;
 }
 
+stride::Time end_of(const nfc::Frame& frame) { return frame.start + nfc::air_time(frame); }
+
 }  // namespace
 
 Transceiver::Transceiver(sc_core::sc_module_name name, const TransceiverParameters& parameters,
                          CommandFifo& fifo)
     : sc_module(name), parameters_(parameters), fifo_(fifo) {
   SC_HAS_PROCESS(Transceiver);
+  SC_METHOD(detect_carrier);
+  sensitive << field_power;
   SC_METHOD(run_receiver);
   sensitive << powered << receiver_event_;
   SC_METHOD(run_transmitter);
-  sensitive << powered << transmitter_event_;
+  sensitive << powered << field_power << transmitter_event_;
 }
 
-bool Transceiver::idle() const {
-  return arriving_.empty() && !reception_ && !answer_ && !transmitting_;
+bool Transceiver::idle() const { return arriving_.empty() && !reception_ && !answer_ && !on_air_; }
+
+bool Transceiver::has_carrier() const {
+  return field_power.read() > 0 && field_power.read() >= parameters_.carrier_threshold;
 }
+
+void Transceiver::detect_carrier() { carrier.write(has_carrier()); }
 
 void Transceiver::arrive(const nfc::Frame& frame) {
   const auto later = [](const nfc::Frame& a, const nfc::Frame& b) { return a.start < b.start; };
@@ -45,8 +53,10 @@ void Transceiver::arrive(const nfc::Frame& frame) {
 }
 
 void Transceiver::run_receiver() {
-  if (!powered.read()) reception_.reset();
   const stride::Time now = current_time();
+  if (!powered.read()) reception_.reset();
+  if (powered.read() && !was_powered_) powered_since_ = now;
+  was_powered_ = powered.read();
   for (;;) {
     if (reception_ && reception_->end <= now) {
       finish_reception();
@@ -66,21 +76,28 @@ void Transceiver::run_receiver() {
 }
 
 void Transceiver::begin_reception(const nfc::Frame& frame) {
-  if (!powered.read()) return;
-  const stride::Time end = frame.start + nfc::air_time(frame);
-  if (frame.start < transmission_end_) {
+  if (!powered.read() || frame.start < powered_since_) return;
+  const stride::Time end = std::max(end_of(frame), current_time());
+  if (reception_ && reception_->frame.start == frame.start) {
+    reception_ = Reception{frame, end, reception_->garbled};
+  } else if (overlaps_transmission(frame) || frame.start < received_until_) {
     ++counters_.rejected;
   } else if (reception_) {
     ++counters_.rejected;
     reception_->garbled = true;
     reception_->end = std::max(reception_->end, end);
   } else {
-    reception_ = Reception{frame, std::max(end, current_time()), false};
+    reception_ = Reception{frame, end, false};
   }
+}
+
+bool Transceiver::overlaps_transmission(const nfc::Frame& frame) const {
+  return frame.start < transmission_end_ && end_of(frame) > transmission_start_;
 }
 
 void Transceiver::finish_reception() {
   const Reception reception = *std::exchange(reception_, std::nullopt);
+  received_until_ = end_of(reception.frame);
   const std::optional<nfc::Bytes> data = decode(reception);
   if (!data) {
     ++counters_.rejected;
@@ -88,7 +105,7 @@ void Transceiver::finish_reception() {
   }
   ++counters_.received;
   received_data.write(as_number(*data));
-  fifo_.push({reception.frame.start + nfc::air_time(reception.frame), *data});
+  fifo_.push({end_of(reception.frame), *data});
 }
 
 std::optional<nfc::Bytes> Transceiver::decode(const Reception& reception) const {
@@ -104,14 +121,11 @@ void Transceiver::send(const Answer& answer) {
 }
 
 void Transceiver::run_transmitter() {
-  if (!powered.read()) return lose_power();
+  if (!powered.read() || !has_carrier()) return stop_transmitter();
   const stride::Time now = current_time();
-  if (transmitting_ && now >= transmission_end_) {
-    transmitting_ = false;
-    current.write(0);
-  }
-  stride::Time next = transmitting_ ? transmission_end_ : stride::Time::max();
-  if (answer_ && !transmitting_) {
+  if (on_air_ && now >= transmission_end_) finish_transmission();
+  stride::Time next = on_air_ ? transmission_end_ : stride::Time::max();
+  if (answer_ && !on_air_) {
     next = answer_start(answer_->request_end, reception_ ? std::max(now, reception_->end) : now);
     if (next == now) {
       begin_transmission();
@@ -129,21 +143,30 @@ void Transceiver::begin_transmission() {
   answer_data.write(as_number(answer_->data));
   answer_.reset();
   current.write(parameters_.transmit_current);
-  transmitting_ = true;
-  transmission_end_ = frame.start + nfc::air_time(frame);
+  on_air_ = frame;
+  transmission_start_ = frame.start;
+  transmission_end_ = end_of(frame);
   ++counters_.sent;
   if (on_transmit) on_transmit(frame);
 }
 
-void Transceiver::lose_power() {
-  if (transmitting_) {
-    ++counters_.cut;
-    transmission_end_ = current_time();
-  }
-  transmitting_ = false;
-  answer_.reset();
-  transmitter_event_.cancel();
+void Transceiver::finish_transmission() {
+  on_air_.reset();
   current.write(0);
+}
+
+void Transceiver::stop_transmitter() {
+  transmitter_event_.cancel();
+  if (answer_) ++counters_.dropped;
+  answer_.reset();
+  if (!on_air_) return;
+  const nfc::Frame rest = nfc::cut_off(*on_air_, current_time());
+  const bool complete = rest.bits.size() == on_air_->bits.size();
+  transmission_end_ = current_time();
+  finish_transmission();
+  if (complete) return;
+  ++counters_.cut;
+  if (on_transmit) on_transmit(rest);
 }
 
 }  // namespace sensor

@@ -32,17 +32,23 @@ class TransmitInterface : public virtual sc_core::sc_interface {
 struct FrameCounters {
   std::int32_t received = 0;  ///< without error
   std::int32_t rejected =
-      0;                  ///< wrong parity, CRC, length or bit rate, or garbled by another frame
-  std::int32_t sent = 0;  ///< started
-  std::int32_t cut = 0;   ///< started, but power failed before their end
+      0;                     ///< wrong parity, CRC, length or bit rate, or garbled by another frame
+  std::int32_t sent = 0;     ///< started
+  std::int32_t cut = 0;      ///< of these, cut off because power or carrier failed
+  std::int32_t dropped = 0;  ///< answers not started, for want of power or carrier
 };
 
-/// Half duplex. A frame is received over its air time; one that comes while another is received
-/// garbles both, one that comes while the transceiver transmits is rejected. Without power nothing
-/// is received or sent, and a reception, an answer or a transmission that was under way is lost.
+/// Half duplex. A frame is received if there was power from its start to its end. Where two
+/// overlap, the later one is garbled, and the earlier one too if it has not been received yet; one
+/// that overlaps an own transmission is rejected.
+///
+/// An answer is made by modulating the reader's carrier. Without one it is not begun, and it ends
+/// where the carrier, or the power, ends.
 class Transceiver : public sc_core::sc_module, public TransmitInterface {
  public:
   sc_core::sc_in<bool> powered{"powered"};
+  sc_core::sc_in<double> field_power{"field_power"};  ///< at the antenna [W]
+  sc_core::sc_out<bool> carrier{"carrier"};           ///< whether there is one, powered or not
   sc_core::sc_out<sc_dt::uint64> received_data{
       "received_data"};                                       ///< its last eight bytes, or fewer
   sc_core::sc_out<sc_dt::uint64> answer_data{"answer_data"};  ///< likewise
@@ -51,11 +57,12 @@ class Transceiver : public sc_core::sc_module, public TransmitInterface {
   Transceiver(sc_core::sc_module_name name, const TransceiverParameters& parameters,
               CommandFifo& fifo);
 
-  /// A frame reaches the antenna at frame.start. One whose start is past is taken up now, and still
-  /// ends at its own end unless that is past too.
+  /// A frame from the air, at any instant from its start on: it is received at its end, or now if
+  /// that is past. A frame with the start of one that is still being received takes its place.
   void arrive(const nfc::Frame& frame);
 
-  /// Called at the instant a frame starts to be sent, which is its `start`.
+  /// Called at the instant at which a frame starts to be sent, which is its `start`; and again, if
+  /// it is cut off, with the bits that got out.
   std::function<void(const nfc::Frame&)> on_transmit;
 
   const FrameCounters& counters() const { return counters_; }
@@ -72,14 +79,19 @@ class Transceiver : public sc_core::sc_module, public TransmitInterface {
     bool garbled = false;
   };
 
+  bool has_carrier() const;
+  void detect_carrier();
+
   void run_receiver();
   void begin_reception(const nfc::Frame& frame);
   void finish_reception();
+  bool overlaps_transmission(const nfc::Frame& frame) const;
   std::optional<nfc::Bytes> decode(const Reception& reception) const;
 
   void run_transmitter();
   void begin_transmission();
-  void lose_power();
+  void finish_transmission();
+  void stop_transmitter();
 
   TransceiverParameters parameters_;
   CommandFifo& fifo_;
@@ -88,11 +100,15 @@ class Transceiver : public sc_core::sc_module, public TransmitInterface {
   sc_core::sc_event receiver_event_{"receiver_event"};
   std::deque<nfc::Frame> arriving_;  ///< by start
   std::optional<Reception> reception_;
+  stride::Time received_until_;  ///< the end of the last reception
+  bool was_powered_ = false;
+  stride::Time powered_since_;
 
   sc_core::sc_event transmitter_event_{"transmitter_event"};
   std::optional<Answer> answer_;
+  std::optional<nfc::Frame> on_air_;
+  stride::Time transmission_start_;  ///< of the last one
   stride::Time transmission_end_;
-  bool transmitting_ = false;
 };
 
 }  // namespace sensor

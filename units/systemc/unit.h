@@ -40,6 +40,7 @@ class MessageOutput {
 
   void push(Binary message) { waiting_.push_back(std::move(message)); }
   void clear() { waiting_.clear(); }
+  bool empty() const { return waiting_.empty(); }
 
   /// Puts out the next message, if there is one, and ticks.
   void publish() {
@@ -73,7 +74,10 @@ class DeviceUnit : public Unit {
 
   void step(Step& step) final {
     device_->within([this](Module& module) { write_inputs(module); });
-    const Time reached = device_->advance(to_device(step.to()), step.early_return_allowed());
+    Time reached = device_->advance(device_->now());
+    if (!step.early_return_allowed() || !has_message()) {
+      reached = device_->advance(to_device(step.to()), step.early_return_allowed());
+    }
     device_->within([this](Module& module) { read_outputs(module); });
     publish();
     if (to_master(reached) < step.to()) step.return_early(to_master(reached));
@@ -104,6 +108,9 @@ class DeviceUnit : public Unit {
   virtual void receive(Module& /*module*/) {}
   /// Ticks output clocks, a message each.
   virtual void publish() {}
+  /// Whether publish() has something to do. The inputs of a step may cause a message where the step
+  /// begins; the step then ends there, too, if it may.
+  virtual bool has_message() const { return false; }
 
   Time to_device(Time time) const { return Time(time - start_); }
   Time to_master(Time time) const { return start_ + time.time_since_epoch(); }

@@ -35,12 +35,16 @@ inline SensorParameters charged() {
   return parameters;
 }
 
+/// A field that can be answered with, and that gives 0.2 uA, less than the sensor takes.
+constexpr double kCarrier = 2e-6;
+
 class Bench {
  public:
   explicit Bench(const SensorParameters& parameters = charged())
       : device({}, "sensor", parameters) {
     device.within([this](Sensor& sensor) {
       sensor.temperature.write(20.0);
+      sensor.field_power.write(kCarrier);
       sensor.transceiver.on_transmit = [this](const nfc::Frame& f) { answers.push_back(f); };
     });
   }
@@ -51,10 +55,19 @@ class Bench {
   void temperature(double celsius) {
     device.within([=](Sensor& sensor) { sensor.temperature.write(celsius); });
   }
+  /// Now, whatever its start is.
   void arrive(const nfc::Frame& frame) {
     device.within([&](Sensor& sensor) { sensor.transceiver.arrive(frame); });
   }
   void send(const nfc::Bytes& data, stride::Time start) { arrive(request(data, start)); }
+  /// Runs to the end of a request, where the channel hands it over, and a millisecond further.
+  void ask(const nfc::Bytes& data, stride::Time start) {
+    const nfc::Frame frame = request(data, start);
+    const stride::Time end = frame.start + nfc::air_time(frame);
+    run(end);
+    arrive(frame);
+    run(end + ms(1).time_since_epoch());
+  }
   void run(stride::Time to) { device.advance(to); }
 
   template <class Function>
@@ -74,7 +87,7 @@ class Bench {
     return read([](Sensor& sensor) { return sensor.led.read(); });
   }
   double voltage() {
-    return read([](Sensor& sensor) { return sensor.power_unit.voltage_now(); });
+    return read([](Sensor& sensor) { return sensor.power_unit.terminal_voltage_now(); });
   }
 
   stride::systemc::Device<Sensor> device;

@@ -36,6 +36,9 @@ TEST_CASE("thresholds must be in order") {
   parameters.power.power_on_voltage = parameters.power.brown_out_voltage;
   CHECK_THROWS_WITH(sensor::check(parameters), Contains("must be less than"));
   parameters = SensorParameters();
+  parameters.power.supply_voltage = parameters.power.brown_out_voltage;
+  CHECK_THROWS_WITH(sensor::check(parameters), Contains("power.supply_voltage"));
+  parameters = SensorParameters();
   parameters.power.initial_voltage = 5.1;
   CHECK_THROWS_WITH(sensor::check(parameters), Contains("initial_voltage"));
   parameters = SensorParameters();

@@ -1,5 +1,6 @@
 #include "units/sensor/transceiver.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -125,6 +126,7 @@ TEST_CASE("without power nothing is received, counted or answered") {
 TEST_CASE("a frame whose start was missed is not received") {
   SensorParameters parameters;
   parameters.power.initial_voltage = 2.999;
+  parameters.power.start_up_delay = 0.1e-3;
   Bench bench(parameters);
   bench.field(5e-3);
   bench.send(kIdentify, ms(0.0));  // takes 0.27 ms
@@ -148,6 +150,80 @@ TEST_CASE("frames that overlap garble each other") {
   CHECK(bench.answers.size() == 1);
 }
 
+TEST_CASE("frames that are handed over at their ends and overlap: the later one is garbled") {
+  Bench bench;
+  const nfc::Frame first = request(kIdentify, ms(5));
+  const nfc::Frame second = request(kIdentify, ms(5.1));
+  for (const nfc::Frame& frame : {first, second}) {
+    bench.run(frame.start + nfc::air_time(frame));
+    bench.arrive(frame);
+  }
+  bench.run(ms(10));
+  CHECK(bench.frames().received == 1);
+  CHECK(bench.frames().rejected == 1);
+}
+
+TEST_CASE("a frame may be handed over at any instant of its time on the air") {
+  const nfc::Frame frame = request(kIdentify, ms(5) + Duration(4711));
+  const Duration length = nfc::air_time(frame);
+  std::vector<nfc::Frame> expected;
+  for (const Duration after : {-length, Duration(0), length / 3, length}) {
+    Bench bench;
+    bench.run(frame.start + after);
+    bench.arrive(frame);
+    bench.run(ms(10));
+    REQUIRE(bench.answers.size() == 1);
+    if (expected.empty()) expected = bench.answers;
+    CHECK(bench.answers == expected);
+  }
+}
+
+TEST_CASE("a frame that was cut off is handed over short, and found so") {
+  const nfc::Frame whole = request(kIdentify, ms(5));
+  for (std::size_t bits = 1; bits < whole.bits.size(); ++bits) {
+    Bench bench;
+    nfc::Frame heard = whole;
+    heard.bits.resize(bits);
+    bench.run(ms(5) + nfc::bit_duration(106) * static_cast<std::int64_t>(bits + 1));
+    bench.arrive(heard);
+    bench.run(ms(10));
+    CHECK(bench.frames().received == 0);
+    CHECK(bench.frames().rejected == 1);
+    CHECK(bench.answers.empty());
+  }
+}
+
+TEST_CASE("a frame that is cut off while it is received takes its own place") {
+  Bench bench;
+  nfc::Frame frame = request(kIdentify, ms(5));
+  bench.arrive(frame);
+  bench.run(ms(5.1));
+  frame.bits.resize(9);
+  bench.arrive(frame);
+  bench.run(ms(10));
+  CHECK(bench.frames().received == 0);
+  CHECK(bench.frames().rejected == 1);
+}
+
+TEST_CASE("a frame for the end of which there was no power is not received") {
+  SensorParameters parameters = sensor::charged();
+  parameters.power.initial_voltage = 3.0;
+  parameters.control_unit.led_current = 0.1;  // the capacitor is empty in 1 ms
+  Bench bench(parameters);
+  bench.send({0x03, 0x01}, ms(5));
+  bench.run(ms(7));
+  REQUIRE_FALSE(bench.powered());
+  bench.field(0.2);
+  bench.run(ms(30));
+  REQUIRE(bench.powered());
+  const int received = bench.frames().received;
+  const nfc::Frame frame = request(kIdentify, ms(6));
+  bench.arrive(frame);  // the power came back meanwhile, but that does not help
+  bench.run(ms(40));
+  CHECK(bench.frames().received == received);
+  CHECK(bench.frames().rejected == 0);
+}
+
 TEST_CASE("a frame that comes during an answer is rejected") {
   Bench bench;
   bench.send(kIdentify, ms(5));
@@ -161,14 +237,77 @@ TEST_CASE("a frame that comes during an answer is rejected") {
   CHECK(again.frames().rejected == 1);
 }
 
-TEST_CASE("power that fails during an answer cuts it off") {
+TEST_CASE("power that fails during an answer cuts it off, and the rest is handed over") {
   SensorParameters parameters = sensor::charged();
-  parameters.transceiver.transmit_current = 1.0;  // the capacitor is empty at once
+  parameters.transceiver.transmit_current = 5e-3;  // the capacitor bears it for 0.3 ms
   parameters.power.initial_voltage = 3.0;
+  parameters.power.capacitance = 3e-6;
+  parameters.power.start_up_delay = 1;
+  parameters.control_unit.boot_cycles = 100;
   Bench bench(parameters);
-  bench.send(kIdentify, ms(5));
+  bench.send(kIdentify, ms(0.1));
   bench.run(ms(20));
   CHECK(bench.frames().sent == 1);
   CHECK(bench.frames().cut == 1);
   CHECK_FALSE(bench.powered());
+  REQUIRE(bench.answers.size() == 2);
+  const nfc::Frame& whole = bench.answers[0];
+  const nfc::Frame& rest = bench.answers[1];
+  CHECK(rest.start == whole.start);
+  CHECK(rest.bits.size() > 5);
+  CHECK(rest.bits.size() < whole.bits.size());
+  CHECK(std::equal(rest.bits.begin(), rest.bits.end(), whole.bits.begin()));
+  CHECK_FALSE(data_of(rest).has_value());
+}
+
+TEST_CASE("a field that is switched off during an answer cuts it off there") {
+  Bench bench;
+  bench.send(kIdentify, ms(5));
+  bench.run(ms(5.4));
+  REQUIRE(bench.answers.size() == 1);
+  const nfc::Frame whole = bench.answers[0];
+  const Time cut = whole.start + nfc::bit_duration(106) * 21;
+  bench.run(cut);
+  bench.field(0);
+  bench.run(cut);
+  REQUIRE(bench.answers.size() == 2);
+  CHECK(bench.answers[1].start == whole.start);
+  CHECK(bench.answers[1].bits == nfc::Bits(whole.bits.begin(), whole.bits.begin() + 20));
+  CHECK(bench.frames().cut == 1);
+  CHECK(bench.powered());
+
+  bench.field(sensor::kCarrier);  // the device lives on its capacitor, and answers again
+  bench.send(kIdentify, ms(10));
+  bench.run(ms(15));
+  REQUIRE(bench.answers.size() == 3);
+  CHECK(data_of(bench.answers[2]) == kIdentity);
+}
+
+TEST_CASE("an answer whose bits are all out is not cut off any more") {
+  Bench bench;
+  bench.send(kIdentify, ms(5));
+  bench.run(ms(5.6));
+  REQUIRE(bench.answers.size() == 1);
+  const nfc::Frame& whole = bench.answers[0];
+  bench.run(whole.start + nfc::air_time(whole) - nfc::bit_duration(106));
+  bench.field(0);
+  bench.run(ms(10));
+  CHECK(bench.answers.size() == 1);
+  CHECK(bench.frames().cut == 0);
+}
+
+TEST_CASE("without a carrier an answer is not started") {
+  Bench bench;
+  bench.send(kIdentify, ms(5));
+  bench.run(ms(5.3));
+  CHECK(bench.frames().received == 1);
+  bench.field(0.99e-6);  // below the threshold
+  bench.run(ms(10));
+  CHECK(bench.answers.empty());
+  CHECK(bench.frames().sent == 0);
+  CHECK(bench.frames().dropped == 1);
+  bench.field(1e-6);
+  bench.send(kIdentify, ms(10));
+  bench.run(ms(15));
+  CHECK(bench.answers.size() == 1);
 }

@@ -1,0 +1,176 @@
+#include "units/sensor/supply.h"
+
+#include <cmath>
+#include <random>
+
+#include <catch2/catch.hpp>
+
+using sensor::Currents;
+using sensor::EnergyBooks;
+using sensor::Flow;
+using sensor::PowerParameters;
+using sensor::Relaxation;
+using sensor::Supply;
+using Mode = Flow::Mode;
+
+namespace {
+
+constexpr Currents kIdle{};
+
+/// The source gives I = 0.5 P / 5 V.
+PowerParameters parameters() {
+  PowerParameters p;
+  p.rectifier_efficiency = 0.5;
+  p.capacitance = 1e-3;
+  p.series_resistance = 200;
+  p.leakage_resistance = 50e3;
+  p.maximum_voltage = 5;
+  return p;
+}
+
+double stored(const PowerParameters& p, double from, double to) {
+  return p.capacitance / 2 * (to * to - from * from);
+}
+
+}  // namespace
+
+TEST_CASE("the capacitor feeds the rail where the field gives less than the loads take") {
+  const Supply supply(parameters());
+  const Flow flow = supply.flow(2e-3, {1e-3, 0, 0, 0.5e-3}, 3.0);  // 0.2 mA against 1.5 mA
+  CHECK(flow.mode == Mode::kFromCapacitor);
+  CHECK(supply.current(flow, 3.0) == Approx(-1.3e-3));
+  CHECK(supply.terminal(flow, 3.0) == Approx(3.0 - 1.3e-3 * 200));
+  CHECK(supply.rail(flow, 3.0) == supply.terminal(flow, 3.0));
+  CHECK(supply.load(flow, 3.0) == Approx(1.5e-3 * 2.74));
+  CHECK(supply.intake(flow, 3.0) == Approx(0.2e-3 * 2.74));
+  CHECK(supply.voltage_for_terminal(flow, 2.74) == Approx(3.0));
+}
+
+TEST_CASE(
+    "in the field the rail has the maximum voltage, and the terminal what the charger gives") {
+  const Supply supply(parameters());
+  const Flow flow = supply.flow(12e-3, {0.2e-3, 0, 0, 0}, 3.0);  // 1.2 mA against 0.2 mA
+  CHECK(flow.mode == Mode::kConstantCurrent);
+  CHECK(supply.current(flow, 3.0) == Approx(1e-3));
+  CHECK(supply.terminal(flow, 3.0) == Approx(3.2));
+  CHECK(supply.rail(flow, 3.0) == 5);
+  CHECK(supply.load(flow, 3.0) == Approx(1e-3));
+  CHECK(supply.intake(flow, 3.0) == Approx(6e-3));
+  CHECK(supply.knee(flow) == Approx(4.8));
+}
+
+TEST_CASE("from the knee on the terminal has the maximum voltage and the current falls") {
+  const Supply supply(parameters());
+  const Flow flow = supply.flow(12e-3, {0.2e-3, 0, 0, 0}, 4.9);
+  CHECK(flow.mode == Mode::kConstantVoltage);
+  CHECK(supply.current(flow, 4.9) == Approx(0.5e-3));
+  CHECK(supply.terminal(flow, 4.9) == 5);
+  CHECK(supply.intake(flow, 4.9) == Approx(0.7e-3 * 5));
+  const Relaxation law = supply.capacitor(flow);
+  CHECK(law.slope(4.9) == Approx((0.5e-3 - 4.9 / 50e3) / 1e-3));
+
+  Flow below = flow;
+  below.mode = Mode::kConstantCurrent;
+  CHECK(supply.capacitor(below).slope(4.8) == Approx(law.slope(4.8)));  // they meet there
+}
+
+TEST_CASE("the charger gives no more than its current, the limiter takes the rest") {
+  PowerParameters p = parameters();
+  p.charging_current = 0.4e-3;
+  const Supply supply(p);
+  const Flow flow = supply.flow(12e-3, kIdle, 1.0);
+  CHECK(supply.current(flow, 1.0) == Approx(0.4e-3));
+  CHECK(supply.books(flow, 1.0, 1e-3).limiter == Approx(0.8e-3 * 5 * 1e-3));
+}
+
+TEST_CASE("without field and load the capacitor only leaks") {
+  const Supply supply(parameters());
+  const Flow flow = supply.flow(0, kIdle, 4.0);
+  const double seconds = 30;
+  const double end = supply.capacitor(flow).after(4.0, seconds);
+  CHECK(end == Approx(4.0 * std::exp(-seconds / (50e3 * 1e-3))));
+  const EnergyBooks books = supply.books(flow, 4.0, seconds);
+  CHECK(books.field == 0);
+  CHECK(books.leakage == Approx(-stored(parameters(), 4.0, end)).epsilon(1e-13));
+  CHECK(books.all_but_field_and_stored() == books.leakage);
+}
+
+TEST_CASE("each part's energy is its charge at the regulated voltage") {
+  const Supply supply(parameters());
+  const Currents currents{2e-3, 1e-3, 0.2e-3, 0.8e-3};
+  const EnergyBooks books = supply.books(supply.flow(0, currents, 4.5), 4.5, 0.1);
+  for (std::size_t i = 0; i < sensor::kParts; ++i) {
+    CHECK(books.parts[i] == Approx(currents[i] * 1.8 * 0.1));
+  }
+  CHECK(books.regulator > 0);
+}
+
+TEST_CASE("each loss agrees with quadrature over the flow") {
+  const PowerParameters p = parameters();
+  const Supply supply(p);
+  struct Case {
+    double field, load, voltage;
+  };
+  for (const Case& c : {Case{3e-3, 2e-3, 4.0}, {20e-3, 0.5e-3, 1.0}, {30e-3, 0.5e-3, 4.7}}) {
+    const Flow flow = supply.flow(c.field, {c.load, 0, 0, 0}, c.voltage);
+    const Relaxation law = supply.capacitor(flow);
+    EnergyBooks expected;
+    constexpr int kIntervals = 100'000;
+    const double seconds = 0.2;
+    const double h = seconds / kIntervals;
+    for (int i = 0; i < kIntervals; ++i) {  // midpoint rule
+      const double u = law.after(c.voltage, (i + 0.5) * h);
+      const double current = supply.current(flow, u);
+      const double rail = supply.rail(flow, u);
+      const double terminal = supply.terminal(flow, u);
+      const bool charging = flow.mode != Mode::kFromCapacitor;
+      expected.field += c.field * rail / p.maximum_voltage * h;
+      expected.series_resistance += current * current * p.series_resistance * h;
+      expected.leakage += u * u / p.leakage_resistance * h;
+      expected.charger += charging ? current * (rail - terminal) * h : 0;
+      expected.limiter += charging ? rail * (flow.source - c.load - current) * h : 0;
+      expected.regulator += c.load * (rail - p.supply_voltage) * h;
+    }
+    const EnergyBooks books = supply.books(flow, c.voltage, seconds);
+    CAPTURE(c.field, c.load, c.voltage);
+    CHECK(books.field == Approx(expected.field).epsilon(1e-9));
+    CHECK(books.rectifier == Approx(expected.field / 2).epsilon(1e-9));
+    CHECK(books.series_resistance == Approx(expected.series_resistance).epsilon(1e-9));
+    CHECK(books.leakage == Approx(expected.leakage).epsilon(1e-9));
+    CHECK(books.charger == Approx(expected.charger).epsilon(1e-9).margin(1e-15));
+    CHECK(books.limiter == Approx(expected.limiter).epsilon(1e-9).margin(1e-15));
+    CHECK(books.regulator == Approx(expected.regulator).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("energy is conserved to rounding in every mode") {
+  std::mt19937 random(2);  // its sequence is part of the C++ standard
+  const auto between = [&](double least, double most) {
+    return least + (most - least) * (random() / 4294967296.0);
+  };
+  const auto magnitude = [&](double least, double most) {
+    return std::exp(between(std::log(least), std::log(most)));
+  };
+  int modes[3] = {};
+  for (int i = 0; i < 20'000; ++i) {
+    PowerParameters p;
+    p.rectifier_efficiency = between(0.1, 1);
+    p.capacitance = magnitude(1e-6, 1);
+    p.series_resistance = magnitude(0.1, 1e4);
+    p.leakage_resistance = magnitude(1e5, 1e12);
+    p.charging_current = magnitude(1e-4, 1);
+    const Supply supply(p);
+    const double start = between(2, 5);
+    const Flow flow = supply.flow(i % 3 == 0 ? 0 : magnitude(1e-6, 0.1),
+                                  {magnitude(1e-7, 1e-2), 0, between(0, 1e-4), 0}, start);
+    ++modes[static_cast<int>(flow.mode)];
+    const double seconds = magnitude(1e-9, 1e-2);
+    const double end = supply.capacitor(flow).after(start, seconds);
+    const EnergyBooks books = supply.books(flow, start, seconds);
+    const double gained = p.capacitance / 2 * (end - start) * (end + start);
+    const double balance = books.field - books.all_but_field_and_stored() - gained;
+    const double rounding = p.capacitance * 25 * 1e-15;  // of the voltage at the end
+    REQUIRE(std::abs(balance) <= 1e-13 * (std::abs(books.field) + std::abs(gained)) + rounding);
+  }
+  for (const int count : modes) CHECK(count > 500);
+}
