@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -59,8 +61,16 @@ void require_name(const tinyxml2::XMLElement& tag, const std::string& file, cons
 }  // namespace
 
 std::vector<std::string> read_tag_list(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) fail(file, 0, "cannot be opened");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return parse_tag_list(text.str(), file);
+}
+
+std::vector<std::string> parse_tag_list(const std::string& text, const std::string& file) {
   tinyxml2::XMLDocument document;
-  if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) {
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     fail(file, document.ErrorLineNum(),
          "cannot be read as XML: " + std::string(document.ErrorStr()));
   }

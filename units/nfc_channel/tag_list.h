@@ -18,6 +18,9 @@ namespace nfc_channel {
 /// the channel itself uses. Throws std::runtime_error with file, line and what was expected.
 std::vector<std::string> read_tag_list(const std::string& file);
 
+/// The same from a text, for whose errors `file` is the name.
+std::vector<std::string> parse_tag_list(const std::string& text, const std::string& file);
+
 }  // namespace nfc_channel
 
 #endif

@@ -1,9 +1,7 @@
 #include "units/nfc_channel/tag_list.h"
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -11,25 +9,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-class File {
- public:
-  explicit File(const std::string& text) {
-    std::string name = (std::filesystem::temp_directory_path() / "stride-test-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-    std::ofstream(path()) << text;
-  }
-  ~File() { std::filesystem::remove_all(folder_); }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-
-  std::string path() const { return (folder_ / "channel.xml").string(); }
-
- private:
-  std::filesystem::path folder_;
-};
-
-Names read(const std::string& text) { return nfc_channel::read_tag_list(File(text).path()); }
+Names read(const std::string& text) { return nfc_channel::parse_tag_list(text, "channel.xml"); }
 
 }  // namespace
 
