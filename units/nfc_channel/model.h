@@ -46,9 +46,9 @@ struct Link {
 /// bit is decided for the instant of its end, by the signals of that instant: between two observed
 /// instants the logarithm of a signal's power is taken as linear in time. (Power falls with some
 /// power of the distance, so its logarithm is nearly straight over a step, and a pose per bit would
-/// cost an integral per bit.) Nothing is assumed between an instant at which the carrier is changed
-/// and the last one before it but that the carrier was the old one. So where poses rest, no result
-/// depends on which instants are observed.
+/// cost an integral per bit.) A change of the carrier is exact: until the instant at which it is
+/// observed the old one holds. So where poses rest, no result depends on which instants are
+/// observed.
 ///
 /// What fails for good while a frame is on the air - a tag below its power threshold, a reader
 /// below its sensitivity - ends what is heard of it. A frame that is begun without power is not

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -138,6 +139,12 @@ class NfcChannel : public stride::Unit {
     reader.read(s.time), reader.read(s.carrier_power), reader.read(s.signals);
     reader.read(s.frames_down), reader.read(s.frames_up);
     load(reader, s.down), load(reader, s.up);
+    const auto unknown = [this](const Reception& r) { return r.tag >= tags_.size(); };
+    if (s.signals.size() != tags_.size() || s.frames_up.size() != tags_.size() ||
+        std::any_of(s.down.begin(), s.down.end(), unknown) ||
+        std::any_of(s.up.begin(), s.up.end(), unknown)) {
+      throw std::runtime_error("the saved state is that of a channel with other tags");
+    }
   }
 
  private:
