@@ -82,15 +82,19 @@ class Picture:
         self.text(LEFT - 8, top + PANEL, "0")
 
 
+def start_of(event):
+    """A frame's start on the air, the first eight bytes, which stays the same on its way."""
+    return event["payload"][:16]
+
+
 def messages(rows):
-    """(time, colour) of each frame that a reader or sensor sends; grey where it does not get through."""
+    """(time, colour) of each frame that a reader or sensor sends; grey where nothing of it is heard."""
+    heard = {start_of(event) for event in rows if event["component"] == "channel" and event["direction"] == "sent"}
     for event in rows:
         if event["direction"] != "sent" or event["component"] == "channel":
             continue
-        key = (event["time"], event["payload"])
-        heard = any(e["component"] == "channel" and e["direction"] == "sent" and e["time"] == event["time"] for e in rows)
-        colour = "#a0aec0" if not heard else "#c53030" if event["component"] == "reader" else "#2f855a"
-        yield float(key[0]), colour
+        sender = "#c53030" if event["component"] == "reader" else "#2f855a"
+        yield float(event["time"]), sender if start_of(event) in heard else "#a0aec0"
 
 
 def main(folder):

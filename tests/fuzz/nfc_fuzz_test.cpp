@@ -1,4 +1,5 @@
-// What the NFC units read: frames from whoever is wired to them, and the reader's program.
+// What the NFC units read: frames from whoever is wired to them, the reader's program, the
+// channel's tags.
 #include <stdexcept>
 #include <string>
 
@@ -7,6 +8,7 @@
 #include "tests/fuzz/mutator.h"
 #include "units/nfc/frame.h"
 #include "units/nfc/iso14443a.h"
+#include "units/nfc_channel/tag_list.h"
 #include "units/reader/program.h"
 
 using stride::tests::Mutator;
@@ -62,4 +64,28 @@ TEST_CASE("a mutated program is read or refused with its file") {
   }
   CHECK(accepted > 20);
   CHECK(refused > 1000);
+}
+
+TEST_CASE("a mutated list of tags is read or refused with its file") {
+  const std::string list = R"(<nfc-channel version="1">
+  <!-- both on one reader -->
+  <tag name="door"/>
+  <tag name="window_2"/>
+</nfc-channel>
+)";
+  REQUIRE(nfc_channel::parse_tag_list(list, "x.xml").size() == 2);
+  Mutator mutator(20240122);
+  int accepted = 0;
+  int refused = 0;
+  for (int i = 0; i < 4000; ++i) {
+    try {
+      accepted += !nfc_channel::parse_tag_list(mutator.mutate(list), "x.xml").empty();
+    } catch (const std::runtime_error& error) {
+      ++refused;
+      CHECK(std::string(error.what()).find("x.xml:") == 0);
+    }
+  }
+  CHECK(accepted > 100);
+  CHECK(refused > 100);
+  CHECK(accepted + refused == 4000);
 }

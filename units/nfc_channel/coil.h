@@ -1,4 +1,4 @@
-// The geometry of the two antennas and the magnetic coupling between them.
+// The geometry of two antennas and the magnetic coupling between them.
 #ifndef STRIDE_UNITS_NFC_CHANNEL_COIL_H
 #define STRIDE_UNITS_NFC_CHANNEL_COIL_H
 
@@ -14,10 +14,10 @@ struct Coil {
   double turns;           ///< number of turns
   double wire_radius;     ///< [m]
   double inductance;      ///< [H]; 0 takes it from the geometry
-  double quality_factor;  ///< of the resonant circuit at the carrier frequency
+  double quality_factor;  ///< omega L / R of the coil at the carrier frequency
 };
 
-/// Where a coil is, in coordinates that both coils share.
+/// Where a coil is, in coordinates that all coils share.
 struct Pose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< the coil's centre [m]
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();     ///< its normal, of any length but zero
@@ -27,17 +27,24 @@ struct Pose {
 /// thin ring whose current flows on the wire's surface (Grover, "Inductance Calculations", 1946).
 double inductance(const Coil& coil);
 
-/// The mutual inductance [H] of two coaxial coils whose planes are `distance` [m] apart, by
-/// Maxwell's closed form ("A Treatise on Electricity and Magnetism", art. 701):
-///     M = mu0 N1 N2 sqrt(ab) ((2/q - q) K(q) - (2/q) E(q)),  q^2 = 4ab / ((a+b)^2 + d^2)
-/// Two wires' centre lines come no closer than a wire's radius, which keeps the value finite.
-double coaxial_mutual_inductance(const Coil& first, const Coil& second, double distance);
+/// The mutual inductance [H] of two coils in any position and orientation; negative where the flux
+/// of the first passes the second against its normal. It is Neumann's double line integral, with
+/// the first integration done in closed form: the vector potential A of a circular current
+/// (Jackson, "Classical Electrodynamics", 3rd ed., sect. 5.5) is integrated along the second coil,
+///     M = N1 N2 (closed integral of A dl) / I,
+/// as Babic et al. do ("Mutual Inductance Calculation Between Circular Filaments Arbitrarily
+/// Positioned in Space: Alternative to Grover's Formula", IEEE Trans. Magn. 46(9), 2010). The
+/// integrand is smooth and periodic, so the trapezoidal rule converges exponentially; its points
+/// are doubled until the relative error is below 1e-9 of the integral of |A dl|, as long as the
+/// wires are not nearer to each other than 2 % of the second coil's radius.
+///
+/// Two wires' centre lines count as never closer than the thicker one's radius, which keeps the
+/// value finite. Throws std::invalid_argument for a normal of length zero.
+double mutual_inductance(const Coil& first, const Pose& first_pose, const Coil& second,
+                         const Pose& second_pose);
 
-/// The coupling factor k = M / sqrt(L1 L2), from 0 to 1. A first approximation of coils that are
-/// not coaxial: M of coaxial coils at the distance between the centres, times |cos| of the angle
-/// between the normals. Throws std::invalid_argument for a normal of length zero.
-double coupling_factor(const Coil& first, const Pose& first_pose, const Coil& second,
-                       const Pose& second_pose);
+/// The coupling factor k = |M| / sqrt(L1 L2), from 0 to 1.
+double coupling_factor(const Coil& first, const Coil& second, double mutual_inductance);
 
 }  // namespace nfc_channel
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -11,108 +10,327 @@
 namespace nfc_channel {
 namespace {
 
-enum Stream : std::uint32_t { kDown = 0, kUp = 1 };
+using stride::Time;
 
-[[noreturn]] void out_of_range(const std::string& name, double value, const std::string& range) {
-  std::ostringstream message;
-  message << name << " is " << value << ": expected " << range;
-  throw std::invalid_argument(message.str());
+constexpr double kPi = 3.14159265358979323846;
+constexpr std::array<std::uint32_t, 4> kBitRates = {106, 212, 424, 848};
+
+std::size_t index_of(std::uint32_t bit_rate) {
+  return static_cast<std::size_t>(std::find(kBitRates.begin(), kBitRates.end(), bit_rate) -
+                                  kBitRates.begin());
 }
 
-void require_positive(const std::string& name, double value) {
-  if (!(value > 0.0 && std::isfinite(value))) out_of_range(name, value, "more than 0");
+FrameNumber down_number(const Reception& reception) {
+  return {2 * reception.tag, reception.number};
 }
-
-void require_not_negative(const std::string& name, double value) {
-  if (!(value >= 0.0 && std::isfinite(value))) out_of_range(name, value, "0 or more");
-}
-
-void require_share(const std::string& name, double value) {
-  if (!(value >= 0.0 && value <= 1.0)) out_of_range(name, value, "0 to 1");
-}
-
-void check(const std::string& name, const Coil& coil) {
-  require_positive(name + ".radius", coil.radius);
-  require_positive(name + ".turns", coil.turns);
-  require_positive(name + ".wire_radius", coil.wire_radius);
-  if (coil.wire_radius > 0.5 * coil.radius) {
-    out_of_range(name + ".wire_radius", coil.wire_radius, "at most half the coil's radius");
-  }
-  require_not_negative(name + ".inductance", coil.inductance);
-  require_positive(name + ".quality_factor", coil.quality_factor);
-}
-
-void check(const std::string& name, const Noise& noise) {
-  require_not_negative(name + ".noise_temperature", noise.temperature);
-  require_not_negative(name + ".interference", noise.interference);
+FrameNumber up_number(const Reception& reception) {
+  return {2 * reception.tag + 1, reception.number};
 }
 
 const Parameters& checked(const Parameters& parameters) {
-  check("reader_coil", parameters.reader_coil);
-  check("tag_coil", parameters.tag_coil);
-  require_share("tag.load_match", parameters.load_match);
-  require_share("tag.modulation_depth", parameters.modulation_depth);
-  require_positive("tag.power_limit", parameters.tag_power_limit);
-  require_not_negative("tag.power_threshold", parameters.tag_power_threshold);
-  require_not_negative("reader.sensitivity", parameters.reader_sensitivity);
-  check("tag", parameters.tag_noise);
-  check("reader", parameters.reader_noise);
+  check(parameters);
   return parameters;
 }
 
-double bits_per_second(const nfc::Frame& frame) {
-  return 1.0 / stride::to_seconds(nfc::bit_duration(frame.bit_rate));
+void require_pose(const std::string& coil, const Pose& pose) {
+  const auto finite = [](const Eigen::Vector3d& v) { return v.array().isFinite().all(); };
+  if (!finite(pose.position)) {
+    throw std::invalid_argument("the position of " + coil + " is not finite: expected metres");
+  }
+  if (!finite(pose.axis) || !(pose.axis.norm() > 0.0)) {
+    throw std::invalid_argument("the axis of " + coil +
+                                " is no direction: expected a finite normal vector, its length "
+                                "not zero");
+  }
+}
+
+// So that no sum of times overflows; an importer may bring a frame late, but not by an hour.
+void require_near(Time start, Time now) {
+  constexpr stride::Duration kHour{3'600'000'000'000'000};
+  if (start >= now - kHour && start <= now + kHour) return;
+  throw std::invalid_argument("a frame begins at " + std::to_string(stride::to_seconds(start)) +
+                              " s, and is handed over at " +
+                              std::to_string(stride::to_seconds(now)) +
+                              " s: expected the instant at which it begins");
+}
+
+void take_bit(Reception& reception, double signal, double error_probability, std::uint64_t seed,
+              FrameNumber frame) {
+  const auto index = static_cast<std::uint32_t>(reception.heard.size());
+  const bool wrong = uniform(seed, frame, index) < error_probability;
+  reception.heard.push_back(reception.sent.bits[index] ^ (wrong ? 1 : 0));
+  reception.strongest = std::max(reception.strongest, signal);
+}
+
+// Cuts the frame with this start short, if it is on the air.
+bool cut(std::vector<Reception>& receptions, const nfc::Frame& frame, Time now,
+         std::optional<std::uint32_t> tag = std::nullopt) {
+  bool found = false;
+  for (Reception& reception : receptions) {
+    if (reception.sent.start != frame.start || (tag && reception.tag != *tag)) continue;
+    reception.cut(frame.bits, now);
+    found = true;
+  }
+  return found;
 }
 
 }  // namespace
 
-Channel::Channel(const Parameters& parameters) : parameters_(checked(parameters)) {}
-
-void Channel::move(const Pose& reader_coil, const Pose& tag_coil, double carrier_power) {
-  require_not_negative("carrier_power", carrier_power);
-  const Parameters& p = parameters_;
-  link_.distance = (tag_coil.position - reader_coil.position).norm();
-  if (!std::isfinite(link_.distance)) {
-    throw std::invalid_argument("the position of a coil is not finite");
+Channel::Channel(const Parameters& parameters)
+    : parameters_(checked(parameters)),
+      reader_noise_density_(noise_density(parameters.reader.noise)),
+      capture_ratio_(std::pow(10.0, parameters.reader.capture_ratio / 10.0)) {
+  const ReaderAntenna reader(parameters.reader.coil, parameters.reader.capacitance);
+  for (const TagParameters& tag : parameters.tags) {
+    const Circuit circuit(reader, tag.coil, tag.chip);
+    Tag added{tag, circuit, {}, {}, nfc_channel::noise_density(tag.noise)};
+    for (std::size_t i = 0; i < kBitRates.size(); ++i) {
+      added.down[i] = down_signal(kBitRates[i], reader.quality, circuit.tag_quality());
+      added.up[i] = up_signal(kBitRates[i], reader.quality, circuit.tag_quality());
+    }
+    tags_.push_back(added);
   }
-  link_.coupling = coupling_factor(p.reader_coil, reader_coil, p.tag_coil, tag_coil);
-
-  const double gain = p.load_match * link_efficiency(link_.coupling, p.reader_coil.quality_factor,
-                                                     p.tag_coil.quality_factor);
-  link_.down.signal_power = carrier_power * gain;
-  link_.tag_power = std::min(link_.down.signal_power, p.tag_power_limit);
-  link_.down.heard = link_.tag_power > 0.0 && link_.tag_power >= p.tag_power_threshold;
-
-  // the tag answers by reflecting a part of what it gets, which takes the same way back
-  const double reflected = p.modulation_depth * p.modulation_depth * link_.down.signal_power;
-  link_.up.signal_power = reflected * gain;
-  link_.up.heard = link_.up.signal_power > 0.0 && link_.up.signal_power >= p.reader_sensitivity;
+  links_.resize(tags_.size());
+  arriving_.resize(tags_.size());
+  state_.signals.resize(tags_.size());
+  state_.frames_up.resize(tags_.size());
 }
 
-double Channel::snr_down(double bit_rate) const {
-  return signal_to_noise(link_.down.signal_power, parameters_.tag_noise, bit_rate);
+void Channel::move(const Pose& reader_coil, const std::vector<Pose>& tag_coils,
+                   double carrier_power) {
+  if (!(carrier_power >= 0.0 && std::isfinite(carrier_power))) {
+    throw std::invalid_argument("carrier_power is " + std::to_string(carrier_power) +
+                                " W: expected 0 or more");
+  }
+  require_pose("reader_coil", reader_coil);
+  carrier_power_ = carrier_power;
+  for (std::size_t i = 0; i < tags_.size(); ++i) {
+    require_pose(tags_[i].parameters.coil_name(), tag_coils[i]);
+    move_tag(i, reader_coil, tag_coils[i]);
+  }
 }
 
-double Channel::snr_up(double bit_rate) const {
-  return signal_to_noise(link_.up.signal_power, parameters_.reader_noise, bit_rate);
+void Channel::move_tag(std::size_t index, const Pose& reader_coil, const Pose& tag_coil) {
+  const Tag& tag = tags_[index];
+  const Coil& coil = tag.parameters.coil;
+  Link& link = links_[index];
+  link.distance = (tag_coil.position - reader_coil.position).norm();
+  link.mutual = mutual_inductance(parameters_.reader.coil, reader_coil, coil, tag_coil);
+  link.coupling = coupling_factor(parameters_.reader.coil, coil, link.mutual);
+
+  const Operation operation = tag.circuit.operate(link.mutual, carrier_power_);
+  const double flux = std::abs(link.mutual * operation.reader_current) / coil.turns;
+  link.field_strength =
+      flux / (kVacuumPermeability * kPi * coil.radius * coil.radius) / std::sqrt(2.0);
+  link.tag_voltage = std::abs(operation.tag_voltage);
+  link.tag_power = tag.circuit.in_load(operation);
+
+  link.signals = signals(index, carrier_power_);
+  link.snr_down = signal_to_noise(link.signals.down, tag.down[0], tag.noise_density);
+  link.snr_up = signal_to_noise(link.signals.up, tag.up[0], reader_noise_density_);
+  link.bit_error_rate_down = bit_error_probability(link.snr_down, tag.down[0].coherent);
+  link.bit_error_rate_up = bit_error_probability(link.snr_up, tag.up[0].coherent);
 }
 
-std::optional<nfc::Frame> Channel::to_tag(const nfc::Frame& frame) {
-  const FrameNumber number{kDown, state_.frames_down++};
-  if (!link_.down.heard) return std::nullopt;
-  nfc::Frame heard = frame;
-  const double errors = bit_error_probability(snr_down(bits_per_second(frame)));
-  heard.bits = with_errors(frame.bits, errors, parameters_.seed, number);
+Signals Channel::signals(std::size_t index, double carrier_power) const {
+  const Circuit& circuit = tags_[index].circuit;
+  const double mutual = links_[index].mutual;
+  return {circuit.in_load(circuit.operate(mutual, carrier_power, false)),
+          sideband_power(circuit, mutual, circuit.operate(mutual, carrier_power))};
+}
+
+void Channel::observe(Time now) {
+  const bool on_the_air = !state_.down.empty() || !state_.up.empty();
+  if (on_the_air && carrier_power_ != state_.carrier_power) {
+    decide_bits(now, state_.carrier_power);
+  }
+  decide_bits(now, carrier_power_);
+  if (carrier_power_ > 0.0) return;
+  for (auto* receptions : {&state_.down, &state_.up}) {
+    for (Reception& reception : *receptions) {
+      if (reception.sent.start <= now) reception.end_with_carrier(now);
+    }
+  }
+}
+
+void Channel::decide_bits(Time now, double carrier_power) {
+  arriving_at_ = now;
+  for (std::size_t i = 0; i < tags_.size(); ++i) {
+    arriving_[i] = carrier_power == carrier_power_ ? links_[i].signals : signals(i, carrier_power);
+  }
+  for (Reception& reception : state_.down) decide_down(reception, now);
+  for (Reception& reception : state_.up) decide_up(reception, now);
+  state_.time = now;
+  state_.carrier_power = carrier_power;
+  std::copy(arriving_.begin(), arriving_.end(), state_.signals.begin());
+  lose_weak();
+}
+
+void Channel::decide_down(Reception& reception, Time now) const {
+  const Tag& tag = tags_[reception.tag];
+  const BitSignal& bit = tag.down[index_of(reception.sent.bit_rate)];
+  while (!reception.lost && !reception.complete() && reception.next_bit_end() <= now) {
+    const double signal = signal_at(reception.next_bit_end(), reception.tag, &Signals::down);
+    reception.lost = is_lost(reception, signal, tag.parameters.power_threshold);
+    if (reception.lost) return;
+    const double ratio = signal_to_noise(signal, bit, tag.noise_density);
+    take_bit(reception, signal, bit_error_probability(ratio, bit.coherent), parameters_.seed,
+             down_number(reception));
+  }
+}
+
+void Channel::decide_up(Reception& reception, Time now) const {
+  const BitSignal& bit = tags_[reception.tag].up[index_of(reception.sent.bit_rate)];
+  while (!reception.lost && !reception.complete() && reception.next_bit_end() <= now) {
+    const Time end = reception.next_bit_end();
+    const double signal = signal_at(end, reception.tag, &Signals::up);
+    reception.lost = is_lost(reception, signal, parameters_.reader.sensitivity);
+    if (reception.lost) return;
+    const double noise = reader_noise_density_ + interference(reception, end, signal);
+    const double ratio = signal_to_noise(signal, bit, noise);
+    take_bit(reception, signal, bit_error_probability(ratio, bit.coherent), parameters_.seed,
+             up_number(reception));
+  }
+}
+
+// Tags that are too weak to collide with this one are noise to it [W/Hz].
+double Channel::interference(const Reception& reception, Time time, double signal) const {
+  double power = 0.0;
+  for (const Reception& other : state_.up) {
+    if (&other == &reception || time <= other.sent.start || time > other.end) continue;
+    const double disturbance = signal_at(time, other.tag, &Signals::up);
+    if (disturbance * capture_ratio_ < signal) power += disturbance;
+  }
+  return power / kInterferenceBandwidth;
+}
+
+double Channel::signal_at(Time time, std::size_t tag, double Signals::*direction) const {
+  const double before = state_.signals[tag].*direction;
+  const double after = arriving_[tag].*direction;
+  if (time <= state_.time) return before;
+  if (time >= arriving_at_) return after;
+  if (!(before > 0.0 && after > 0.0)) return 0.0;
+  const double share =
+      stride::to_seconds(time - state_.time) / stride::to_seconds(arriving_at_ - state_.time);
+  return before * std::pow(after / before, share);
+}
+
+bool Channel::is_lost(const Reception& reception, double signal, double least) const {
+  return reception.lost || !(signal > 0.0) || signal < least;
+}
+
+// Of what is on the air at the instant just observed.
+void Channel::lose_weak() {
+  for (Reception& reception : state_.down) {
+    if (reception.sent.start > state_.time) continue;
+    const double least = tags_[reception.tag].parameters.power_threshold;
+    reception.lost = is_lost(reception, state_.signals[reception.tag].down, least);
+  }
+  for (Reception& reception : state_.up) {
+    if (reception.sent.start > state_.time) continue;
+    reception.lost =
+        is_lost(reception, state_.signals[reception.tag].up, parameters_.reader.sensitivity);
+  }
+}
+
+void Channel::from_reader(const nfc::Frame& frame) {
+  require_near(frame.start, state_.time);
+  if (cut(state_.down, frame, state_.time)) return;
+  const std::uint64_t number = state_.frames_down++;
+  for (std::uint32_t tag = 0; tag < tags_.size(); ++tag) {
+    Reception reception(frame, tag, number);
+    for (Reception& other : state_.up) {
+      if (!reception.overlaps(other)) continue;
+      other.deaf = true;
+      if (other.tag == tag) reception.deaf = true;
+    }
+    state_.down.push_back(std::move(reception));
+  }
+  lose_weak();
+}
+
+void Channel::from_tag(std::size_t tag, const nfc::Frame& frame) {
+  require_near(frame.start, state_.time);
+  const auto index = static_cast<std::uint32_t>(tag);
+  if (cut(state_.up, frame, state_.time, index)) return;
+  Reception reception(frame, index, state_.frames_up[tag]++);
+  for (Reception& other : state_.down) {
+    if (!reception.overlaps(other)) continue;
+    reception.deaf = true;
+    if (other.tag == tag) other.deaf = true;
+  }
+  state_.up.push_back(std::move(reception));
+  lose_weak();
+}
+
+std::optional<nfc::Frame> Channel::to_tag(std::size_t tag) {
+  for (std::size_t i = 0; i < state_.down.size();) {
+    Reception& candidate = state_.down[i];
+    if (candidate.tag != tag || candidate.end > state_.time) {
+      ++i;
+      continue;
+    }
+    const Reception reception = std::move(candidate);
+    state_.down.erase(state_.down.begin() + static_cast<std::ptrdiff_t>(i));
+    if (reception.is_heard()) return reception.heard_frame();
+  }
+  return std::nullopt;
+}
+
+std::optional<nfc::Frame> Channel::to_reader() {
+  for (std::size_t i = 0; i < state_.up.size();) {
+    const auto group = overlapping(i);
+    if (!group) {
+      ++i;
+      continue;
+    }
+    const auto heard = take(*group);
+    i = 0;
+    if (heard.size() == 1) return heard.front();
+    if (!heard.empty()) return superposed(heard);
+  }
+  return std::nullopt;
+}
+
+// The frames that overlap this one or one that overlaps it; nothing as long as one is on the air.
+std::optional<std::vector<std::size_t>> Channel::overlapping(std::size_t first) const {
+  std::vector<std::size_t> group = {first};
+  for (std::size_t member = 0; member < group.size(); ++member) {
+    const Reception& reception = state_.up[group[member]];
+    if (reception.end > state_.time) return std::nullopt;
+    for (std::size_t i = 0; i < state_.up.size(); ++i) {
+      const bool known = std::find(group.begin(), group.end(), i) != group.end();
+      if (!known && reception.overlaps(state_.up[i])) group.push_back(i);
+    }
+  }
+  std::sort(group.begin(), group.end());
+  return group;
+}
+
+// Takes the frames off the air, and gives those of them that the reader hears.
+std::vector<nfc::Frame> Channel::take(const std::vector<std::size_t>& group) {
+  double strongest = 0.0;
+  for (const std::size_t i : group) strongest = std::max(strongest, state_.up[i].strongest);
+  std::vector<nfc::Frame> heard;
+  for (const std::size_t i : group) {
+    const Reception& reception = state_.up[i];
+    const bool masked = reception.strongest * capture_ratio_ < strongest;
+    if (reception.is_heard() && !masked) heard.push_back(reception.heard_frame());
+  }
+  for (auto i = group.rbegin(); i != group.rend(); ++i) {
+    state_.up.erase(state_.up.begin() + static_cast<std::ptrdiff_t>(*i));
+  }
   return heard;
 }
 
-std::optional<nfc::Frame> Channel::to_reader(const nfc::Frame& frame) {
-  const FrameNumber number{kUp, state_.frames_up++};
-  if (!link_.up.heard) return std::nullopt;
-  nfc::Frame heard = frame;
-  const double errors = bit_error_probability(snr_up(bits_per_second(frame)));
-  heard.bits = with_errors(frame.bits, errors, parameters_.seed, number);
-  return heard;
+std::optional<Time> Channel::next_end() const {
+  std::optional<Time> next;
+  for (const auto* receptions : {&state_.down, &state_.up}) {
+    for (const Reception& reception : *receptions) {
+      if (reception.end > state_.time && (!next || reception.end < *next)) next = reception.end;
+    }
+  }
+  return next;
 }
 
 }  // namespace nfc_channel

@@ -30,12 +30,4 @@ double uniform(std::uint64_t seed, FrameNumber frame, std::uint32_t bit) {
   return static_cast<double>(random >> 11) * 0x1p-53;
 }
 
-nfc::Bits with_errors(nfc::Bits bits, double probability, std::uint64_t seed, FrameNumber frame) {
-  std::uint32_t index = 0;
-  for (auto& bit : bits) {
-    if (uniform(seed, frame, index++) < probability) bit ^= 1;
-  }
-  return bits;
-}
-
 }  // namespace nfc_channel

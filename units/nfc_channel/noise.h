@@ -5,8 +5,6 @@
 #include <array>
 #include <cstdint>
 
-#include "units/nfc/frame.h"
-
 namespace nfc_channel {
 
 /// Philox 4x32-10: 128 random bits for a counter and a key (Salmon et al., "Parallel Random
@@ -14,7 +12,8 @@ namespace nfc_channel {
 std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
                                     std::array<std::uint32_t, 2> key);
 
-/// Names a frame among all those of a run: the stream keeps the two directions apart.
+/// Names a frame at a receiver among all those of a run: the stream keeps directions and tags
+/// apart.
 struct FrameNumber {
   std::uint32_t stream;
   std::uint64_t number;
@@ -22,9 +21,6 @@ struct FrameNumber {
 
 /// A number from [0, 1) for one bit of one frame, uniform and independent of all others.
 double uniform(std::uint64_t seed, FrameNumber frame, std::uint32_t bit);
-
-/// Flips each bit with the given probability. The same seed and frame number flip the same bits.
-nfc::Bits with_errors(nfc::Bits bits, double probability, std::uint64_t seed, FrameNumber frame);
 
 }  // namespace nfc_channel
 

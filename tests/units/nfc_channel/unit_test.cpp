@@ -1,0 +1,252 @@
+// The channel seen by an importer: the variables of its tags, when it wants events, what it hands
+// over.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "tests/interfaces/unit/importer.h"
+#include "units/nfc/frame.h"
+#include "units/nfc/iso14443a.h"
+
+using namespace stride::tests;
+
+namespace {
+
+class Resources {
+ public:
+  explicit Resources(const std::string& channel) {
+    std::string name = (std::filesystem::temp_directory_path() / "stride-test-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = name;
+    if (!channel.empty()) std::ofstream(path_ / "channel.xml") << channel;
+  }
+  ~Resources() { std::filesystem::remove_all(path_); }
+  Resources(const Resources&) = delete;
+  Resources& operator=(const Resources&) = delete;
+
+  std::string path() const { return path_.string() + "/"; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+constexpr const char* kTwoTags =
+    R"(<nfc-channel version="1"><tag name="door"/><tag name="window"/></nfc-channel>)";
+
+InstanceChoices choices(const Resources& resources) {
+  InstanceChoices choices;
+  choices.resources = resources.path();
+  return choices;
+}
+
+nfc::Frame request(double start) {
+  return {stride::time_from_seconds(start), 106, nfc::to_bits(nfc::with_crc({0x02}))};
+}
+
+double end_of(const nfc::Frame& frame) {
+  return stride::to_seconds(frame.start + nfc::air_time(frame));
+}
+
+std::optional<nfc::Frame> frame_at(UnitInstance& unit, const std::string& port) {
+  if (!unit.clock(port + ".clock")) return std::nullopt;
+  const fmi3ValueReference r = unit.reference(port + ".frame");
+  std::size_t size = 0;
+  fmi3Binary bytes = nullptr;
+  REQUIRE(unit.fmi.GetBinary(unit.handle, &r, 1, &size, &bytes, 1) == fmi3OK);
+  return nfc::decode({bytes, bytes + size});
+}
+
+void send(UnitInstance& unit, const std::string& port, const nfc::Frame& frame) {
+  REQUIRE(unit.set_clock(port + ".clock", true) == fmi3OK);
+  REQUIRE(unit.set_binary(port + ".frame", nfc::encode(frame)) == fmi3OK);
+}
+
+/// One tag, two centimetres away, in a field.
+void start_near(UnitInstance& unit) {
+  REQUIRE(unit.set_real("tag_coil.position.z", 0.02) == fmi3OK);
+  REQUIRE(unit.set_real("carrier_power", 0.5) == fmi3OK);
+  REQUIRE(unit.start_steps() == fmi3OK);
+}
+
+/// The frame is under way, and the unit is in Step Mode at its start.
+void send_near(UnitInstance& unit, const nfc::Frame& frame) {
+  start_near(unit);
+  REQUIRE(unit.step(0, stride::to_seconds(frame.start)) == fmi3OK);
+  CHECK_FALSE(unit.last.event);
+  REQUIRE(unit.fmi.EnterEventMode(unit.handle) == fmi3OK);
+  send(unit, "from_reader", frame);
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK_FALSE(unit.clock("to_tag.clock"));
+  REQUIRE(unit.fmi.EnterStepMode(unit.handle) == fmi3OK);
+}
+
+}  // namespace
+
+TEST_CASE("A frame is handed over at the event that the channel announces for its end") {
+  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  UnitInstance unit(library);
+  const nfc::Frame frame = request(1.0);
+  send_near(unit, frame);
+  REQUIRE(unit.has_next_event);
+  CHECK(unit.next_event == end_of(frame));
+
+  REQUIRE(unit.step(1.0, 0.0001) == fmi3OK);
+  CHECK_FALSE(unit.last.event);
+  REQUIRE(unit.step(1.0001, end_of(frame) - 1.0001) == fmi3OK);
+  CHECK(unit.last.event);
+  REQUIRE(unit.fmi.EnterEventMode(unit.handle) == fmi3OK);
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK(frame_at(unit, "to_tag") == frame);
+  CHECK(unit.iterate);
+  CHECK_FALSE(unit.has_next_event);
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK_FALSE(unit.iterate);
+  CHECK_FALSE(unit.clock("to_tag.clock"));
+}
+
+TEST_CASE("An importer that steps beyond the end gets the frame at the end of its step") {
+  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  UnitInstance unit(library);
+  const nfc::Frame frame = request(1.0);
+  send_near(unit, frame);
+  REQUIRE(unit.step(1.0, 1.0) == fmi3OK);
+  CHECK(unit.last.event);
+  REQUIRE(unit.fmi.EnterEventMode(unit.handle) == fmi3OK);
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK(frame_at(unit, "to_tag") == frame);
+}
+
+TEST_CASE("A carrier that goes off while a frame is on the air is an event that cuts it short") {
+  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  UnitInstance unit(library);
+  const nfc::Frame frame = request(1.0);
+  send_near(unit, frame);
+  REQUIRE(unit.step(1.0, 0.0001) == fmi3OK);
+  REQUIRE(unit.fmi.EnterEventMode(unit.handle) == fmi3OK);
+  REQUIRE(unit.set_real("carrier_power", 0.0) == fmi3OK);
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK(unit.next_event > 1.0001);
+  CHECK(unit.next_event < end_of(frame));
+  const double end = unit.next_event;
+  REQUIRE(unit.fmi.EnterStepMode(unit.handle) == fmi3OK);
+  REQUIRE(unit.step(1.0001, end - 1.0001) == fmi3OK);
+  CHECK(unit.last.event);
+  REQUIRE(unit.fmi.EnterEventMode(unit.handle) == fmi3OK);
+  REQUIRE(unit.update() == fmi3OK);
+  const auto heard = frame_at(unit, "to_tag");
+  REQUIRE(heard.has_value());
+  CHECK(heard->bits.size() == 9);
+  CHECK(std::equal(heard->bits.begin(), heard->bits.end(), frame.bits.begin()));
+}
+
+TEST_CASE("A state with a frame on the air is serialised, and another instance hands it over") {
+  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  UnitInstance unit(library);
+  const nfc::Frame frame = request(1.0);
+  send_near(unit, frame);
+  REQUIRE(unit.step(1.0, 0.0001) == fmi3OK);
+  fmi3FMUState state = nullptr;
+  std::size_t size = 0;
+  REQUIRE(library.GetFMUState(unit.handle, &state) == fmi3OK);
+  REQUIRE(library.SerializedFMUStateSize(unit.handle, state, &size) == fmi3OK);
+  std::vector<fmi3Byte> bytes(size);
+  REQUIRE(library.SerializeFMUState(unit.handle, state, bytes.data(), size) == fmi3OK);
+  REQUIRE(library.FreeFMUState(unit.handle, &state) == fmi3OK);
+
+  UnitInstance other(library);
+  start_near(other);
+  REQUIRE(library.DeserializeFMUState(other.handle, bytes.data(), size, &state) == fmi3OK);
+  REQUIRE(library.SetFMUState(other.handle, state) == fmi3OK);
+  REQUIRE(library.FreeFMUState(other.handle, &state) == fmi3OK);
+  REQUIRE(other.step(1.0001, 0.01) == fmi3OK);
+  CHECK(other.last.event);
+  REQUIRE(library.EnterEventMode(other.handle) == fmi3OK);
+  REQUIRE(other.update() == fmi3OK);
+  CHECK(frame_at(other, "to_tag") == frame);
+}
+
+TEST_CASE("Tags that channel.xml lists have variables of their own") {
+  const Resources resources(kTwoTags);
+  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  UnitInstance unit(library, choices(resources));
+  REQUIRE(unit.set_real("door.coil.position.z", 0.02) == fmi3OK);
+  REQUIRE(unit.set_real("window.coil.position.z", 0.03) == fmi3OK);
+  REQUIRE(unit.set_real("window.load_resistance", 3000) == fmi3OK);
+  REQUIRE(unit.set_real("carrier_power", 0.5) == fmi3OK);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  CHECK(unit.real("door.distance") == Approx(0.02));
+  CHECK(unit.real("window.distance") == Approx(0.03));
+  CHECK(unit.real("door.power") > unit.real("window.power"));
+  CHECK(unit.real("door.voltage") == Approx(5.5));
+  CHECK(unit.real("window.bit_error_rate.down") < 1e-9);
+
+  REQUIRE(library.EnterEventMode(unit.handle) == fmi3OK);
+  const nfc::Frame frame = request(0.0);
+  send(unit, "from_reader", frame);
+  REQUIRE(unit.update() == fmi3OK);
+  REQUIRE(library.EnterStepMode(unit.handle) == fmi3OK);
+  REQUIRE(unit.step(0, end_of(frame)) == fmi3OK);
+  REQUIRE(library.EnterEventMode(unit.handle) == fmi3OK);
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK(frame_at(unit, "door.to") == frame);
+  CHECK(frame_at(unit, "window.to") == frame);
+
+  const nfc::Frame answer = request(end_of(frame));
+  send(unit, "window.from", answer);
+  REQUIRE(unit.update() == fmi3OK);
+  REQUIRE(library.EnterStepMode(unit.handle) == fmi3OK);
+  REQUIRE(unit.step(end_of(frame), end_of(answer) - end_of(frame)) == fmi3OK);
+  REQUIRE(library.EnterEventMode(unit.handle) == fmi3OK);
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK(frame_at(unit, "to_reader") == answer);
+}
+
+TEST_CASE("Resources without a channel.xml leave the one tag") {
+  const Resources resources("");
+  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  UnitInstance unit(library, choices(resources));
+  REQUIRE(unit.start_steps() == fmi3OK);
+  CHECK(unit.real("distance") == 0.0);
+}
+
+TEST_CASE("A bad channel.xml is an error with its line") {
+  const Resources resources("<nfc-channel version=\"1\">\n<tag/></nfc-channel>");
+  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  CHECK_THROWS_WITH(library.describe(resources.path()),
+                    Catch::Contains("channel.xml:2") && Catch::Contains("'name'"));
+}
+
+TEST_CASE("What makes no sense is an error that names it") {
+  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  InstanceChoices logging;
+  logging.logging = true;
+  const auto [name, value] = GENERATE(table<std::string, double>({
+      {"tag_coil.radius", 0.0},
+      {"tag_coil.wire_radius", 0.005},
+      {"tag.capacitance", -1e-12},
+      {"tag_coil.position.x", std::numeric_limits<double>::quiet_NaN()},
+      {"reader_coil.axis.z", 0.0},
+  }));
+  UnitInstance unit(library, logging);
+  REQUIRE(unit.set_real(name, value) == fmi3OK);
+  CHECK(unit.initialize() == fmi3Error);
+  CHECK_THAT(unit.last_message(), Catch::Contains(name.substr(0, name.find('.'))));
+}
+
+TEST_CASE("Bytes that are no frame are an error") {
+  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  InstanceChoices logging;
+  logging.logging = true;
+  UnitInstance unit(library, logging);
+  start_near(unit);
+  REQUIRE(library.EnterEventMode(unit.handle) == fmi3OK);
+  REQUIRE(unit.set_clock("from_tag.clock", true) == fmi3OK);
+  REQUIRE(unit.set_binary("from_tag.frame", {1, 2, 3}) == fmi3OK);
+  CHECK(unit.update() == fmi3Error);
+  CHECK_THAT(unit.last_message(), Catch::Contains("a frame has at least 16 bytes"));
+}

@@ -1,0 +1,69 @@
+#include "units/nfc_channel/parameters.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace nfc_channel {
+namespace {
+
+[[noreturn]] void out_of_range(const std::string& name, double value, const std::string& range) {
+  std::ostringstream message;
+  message << name << " is " << value << ": expected " << range;
+  throw std::invalid_argument(message.str());
+}
+
+void require_positive(const std::string& name, double value) {
+  if (!(value > 0.0 && std::isfinite(value))) out_of_range(name, value, "more than 0");
+}
+
+void require_not_negative(const std::string& name, double value) {
+  if (!(value >= 0.0 && std::isfinite(value))) out_of_range(name, value, "0 or more");
+}
+
+void check(const std::string& name, const Coil& coil) {
+  require_positive(name + ".radius", coil.radius);
+  require_positive(name + ".turns", coil.turns);
+  require_positive(name + ".wire_radius", coil.wire_radius);
+  if (coil.wire_radius > 0.5 * coil.radius) {
+    out_of_range(name + ".wire_radius", coil.wire_radius, "at most half the coil's radius");
+  }
+  require_not_negative(name + ".inductance", coil.inductance);
+  require_positive(name + ".quality_factor", coil.quality_factor);
+}
+
+void check(const std::string& name, const Noise& noise) {
+  require_not_negative(name + ".noise_temperature", noise.temperature);
+  require_not_negative(name + ".interference", noise.interference);
+}
+
+void check(const ReaderParameters& reader) {
+  check("reader_coil", reader.coil);
+  require_not_negative("reader.capacitance", reader.capacitance);
+  check("reader", reader.noise);
+  require_not_negative("reader.sensitivity", reader.sensitivity);
+  require_not_negative("reader.capture_ratio", reader.capture_ratio);
+}
+
+void check(const TagParameters& tag) {
+  const std::string name = tag.chip_name();
+  check(tag.coil_name(), tag.coil);
+  require_not_negative(name + ".capacitance", tag.chip.capacitance);
+  require_positive(name + ".load_resistance", tag.chip.load_resistance);
+  require_positive(name + ".voltage_limit", tag.chip.voltage_limit);
+  require_positive(name + ".modulation_resistance", tag.chip.modulation_resistance);
+  require_not_negative(name + ".power_threshold", tag.power_threshold);
+  check(name, tag.noise);
+}
+
+}  // namespace
+
+void check(const Parameters& parameters) {
+  check(parameters.reader);
+  if (parameters.tags.empty()) {
+    throw std::invalid_argument("the channel has no tag: expected one at least");
+  }
+  for (const TagParameters& tag : parameters.tags) check(tag);
+}
+
+}  // namespace nfc_channel

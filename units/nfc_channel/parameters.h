@@ -1,0 +1,46 @@
+// What can be set on a channel: one reader, and the tags that it may meet.
+#ifndef STRIDE_UNITS_NFC_CHANNEL_PARAMETERS_H
+#define STRIDE_UNITS_NFC_CHANNEL_PARAMETERS_H
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "units/nfc_channel/circuit.h"
+#include "units/nfc_channel/coil.h"
+#include "units/nfc_channel/link.h"
+
+namespace nfc_channel {
+
+struct ReaderParameters {
+  Coil coil{0.030, 4, 0.5e-3, 0.0, 15.0};
+  double capacitance = 0.0;  ///< in series with the coil [F]; 0 tunes it to the carrier
+  Noise noise{290.0, 2e-11};
+  double sensitivity = 1e-12;   ///< a reader that receives less does not demodulate [W]
+  double capture_ratio = 10.0;  ///< a tag stronger by more than this masks another [dB]
+};
+
+struct TagParameters {
+  std::string name;  ///< empty for the only tag of a channel that lists none
+  Coil coil{0.008, 12, 0.1e-3, 0.0, 35.0};
+  TagChip chip{0.0, 1500.0, 5.5, 500.0};
+  double power_threshold = 1e-6;  ///< a tag with less does not demodulate [W]
+  Noise noise{290.0, 3e-7};
+
+  std::string coil_name() const { return name.empty() ? "tag_coil" : name + ".coil"; }
+  std::string chip_name() const { return name.empty() ? "tag" : name; }
+};
+
+struct Parameters {
+  ReaderParameters reader;
+  std::vector<TagParameters> tags = std::vector<TagParameters>(1);
+  std::uint64_t seed = 1;  ///< of the bit errors
+};
+
+/// Throws std::invalid_argument, which names the parameter, its value and its range, if one is out
+/// of range or there is no tag.
+void check(const Parameters& parameters);
+
+}  // namespace nfc_channel
+
+#endif
