@@ -1,5 +1,6 @@
 #include "units/nfc/frame.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -48,6 +49,13 @@ stride::Duration bit_duration(std::uint32_t bit_rate) {
 
 stride::Duration air_time(const Frame& frame) {
   return bit_duration(frame.bit_rate) * static_cast<std::int64_t>(frame.bits.size() + 2);
+}
+
+Frame cut_off(Frame frame, stride::Time time) {
+  const std::int64_t periods = (time - frame.start) / bit_duration(frame.bit_rate);
+  const auto all = static_cast<std::int64_t>(frame.bits.size());
+  frame.bits.resize(static_cast<std::size_t>(std::clamp<std::int64_t>(periods - 1, 0, all)));
+  return frame;
 }
 
 Bytes encode(const Frame& frame) {

@@ -15,10 +15,9 @@ std::size_t data_size(nfc::Command command) {
       return 4;
     case nfc::Command::kReadTemperature:
       return 2;
-    case nfc::Command::kSetLed:
+    default:  // a program has no others with data
       return 0;
   }
-  return 0;
 }
 
 bool is_known(nfc::Status status) {

@@ -1,5 +1,6 @@
 #include "units/nfc/frame.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -67,4 +68,34 @@ TEST_CASE("Bytes that are no frame are refused with a reason") {
   Bytes huge = good;
   for (std::size_t i = 12; i < 16; ++i) huge[i] = 0xFF;
   CHECK_THROWS_AS(nfc::decode(huge), std::invalid_argument);
+}
+
+TEST_CASE("A frame that is cut off keeps the bits that are out, and its start") {
+  const Frame whole{Time(Duration(14'200'000'000'123)), 212, {1, 0, 1, 1, 0, 1, 0, 0, 1}};
+  const Duration bit = nfc::bit_duration(212);
+  const auto bits_at = [&](Duration after) {
+    const Frame cut = nfc::cut_off(whole, whole.start + after);
+    CHECK(cut.start == whole.start);
+    CHECK(cut.bit_rate == whole.bit_rate);
+    CHECK(std::equal(cut.bits.begin(), cut.bits.end(), whole.bits.begin()));
+    return cut.bits.size();
+  };
+  CHECK(bits_at(Duration(0)) == 0);
+  CHECK(bits_at(2 * bit - Duration(1)) == 0);  // not one whole bit
+  CHECK(bits_at(2 * bit) == 1);
+  CHECK(bits_at(6 * bit + bit / 2) == 5);
+  CHECK(bits_at(10 * bit - Duration(1)) == 8);
+  CHECK(bits_at(10 * bit) == 9);
+  CHECK(bits_at(nfc::air_time(whole)) == 9);
+  CHECK(bits_at(1000 * bit) == 9);
+}
+
+TEST_CASE("The air time of a frame that was cut off ends one bit after the cut") {
+  const Frame whole{Time(Duration(77)), 106, nfc::Bits(27, 1)};
+  for (std::size_t count = 1; count <= 27; ++count) {
+    const Time cut = whole.start + nfc::bit_duration(106) * static_cast<std::int64_t>(count + 1);
+    const Frame heard = nfc::cut_off(whole, cut);
+    CHECK(heard.bits.size() == count);
+    CHECK(heard.start + nfc::air_time(heard) == cut + nfc::bit_duration(106));
+  }
 }

@@ -1,9 +1,32 @@
 #include "units/nfc/iso14443a.h"
 
+#include <cstdint>
+#include <optional>
+
 #include <catch2/catch.hpp>
+
+#include "units/nfc/commands.h"
 
 using nfc::Bits;
 using nfc::Bytes;
+
+namespace {
+
+std::optional<Bytes> contents(const Bits& bits) {
+  const auto bytes = nfc::to_bytes(bits);
+  return bytes ? nfc::without_crc(*bytes) : std::nullopt;
+}
+
+/// Of each length that the application protocol has, and some more.
+Bytes data_of_length(std::size_t length) {
+  Bytes data;
+  for (std::size_t i = 0; i < length; ++i) data.push_back(static_cast<std::uint8_t>(91 * i + 5));
+  return data;
+}
+
+constexpr std::size_t kLongest = 1 + nfc::kLogSamples * nfc::kLogSampleBytes;
+
+}  // namespace
 
 TEST_CASE("CRC_A gives the check values that are published for it") {
   // ISO/IEC 14443-3, annex B
@@ -58,4 +81,48 @@ TEST_CASE("Bits with a wrong parity or of no whole number of bytes are no bytes"
   bits.pop_back();
   CHECK_FALSE(nfc::to_bytes(bits).has_value());
   CHECK_FALSE(nfc::to_bytes({}).has_value());
+}
+
+TEST_CASE("Every single wrong bit of a frame is found, whatever its length") {
+  for (std::size_t length = 0; length <= kLongest; ++length) {
+    Bits bits = nfc::to_bits(nfc::with_crc(data_of_length(length)));
+    REQUIRE(bits.size() == 9 * (length + 2));
+    REQUIRE(contents(bits) == data_of_length(length));
+    for (auto& bit : bits) {
+      bit ^= 1;
+      CHECK_FALSE(contents(bits).has_value());
+      bit ^= 1;
+    }
+  }
+}
+
+TEST_CASE("Two wrong bits of one byte, which parity does not see, are found by the CRC") {
+  Bits bits = nfc::to_bits(nfc::with_crc(data_of_length(kLongest)));
+  for (std::size_t byte = 0; byte < bits.size() / 9; ++byte) {
+    for (std::size_t first = 0; first < 8; ++first) {
+      for (std::size_t second = first + 1; second < 8; ++second) {
+        bits[9 * byte + first] ^= 1;
+        bits[9 * byte + second] ^= 1;
+        REQUIRE(nfc::to_bytes(bits).has_value());
+        CHECK_FALSE(contents(bits).has_value());
+        bits[9 * byte + first] ^= 1;
+        bits[9 * byte + second] ^= 1;
+      }
+    }
+  }
+}
+
+TEST_CASE("A frame that was cut off is found, wherever the cut is") {
+  for (std::size_t length = 0; length <= kLongest; ++length) {
+    Bits bits = nfc::to_bits(nfc::with_crc(data_of_length(length)));
+    while (!bits.empty()) {
+      bits.pop_back();
+      CHECK_FALSE(contents(bits).has_value());
+    }
+  }
+}
+
+TEST_CASE("What is no command takes no arguments") {
+  CHECK(nfc::argument_bytes(nfc::Command::kSelect) == 4);
+  CHECK(nfc::argument_bytes(static_cast<nfc::Command>(0x7F)) == -1);
 }
