@@ -75,7 +75,7 @@ Request raw_request(const Element& element) {
   bool is_well = !text.empty() && text.size() % 2 == 0 && text.size() / 2 <= kMostBytes;
   for (std::size_t i = 0; is_well && i < text.size(); i += 2) {
     is_well = digit(text[i]) >= 0 && digit(text[i + 1]) >= 0;
-    bytes.push_back(static_cast<std::uint8_t>(digit(text[i]) << 4 | (digit(text[i + 1]) & 0xF)));
+    bytes.push_back(static_cast<std::uint8_t>(16 * digit(text[i]) + digit(text[i + 1])));
   }
   if (!is_well) {
     element.fail("bytes=\"" + text + "\": expected 1 to " + std::to_string(kMostBytes) +

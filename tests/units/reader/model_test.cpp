@@ -94,7 +94,8 @@ TEST_CASE("An answer may arrive at any time between its start and its end") {
   reader.transmit(at(2));
   const auto frame = answer(at(2.001), kWarm);
   const Time end = frame.start + nfc::air_time(frame);
-  const Time arrival = GENERATE_COPY(frame.start, frame.start + (end - frame.start) / 2, end);
+  const Time arrival =
+      GENERATE_COPY(as<Time>{}, frame.start, frame.start + (end - frame.start) / 2, end);
   reader.advance(arrival);
   reader.receive(frame);
   reader.advance(arrival);
