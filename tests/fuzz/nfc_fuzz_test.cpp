@@ -37,7 +37,8 @@ TEST_CASE("mutated bytes are a frame that encodes to them, or are refused") {
 
 TEST_CASE("a mutated program is read or refused with its file") {
   const std::string program = R"(<reader-program version="1">
-  <axes><axis name="shoulder"/><axis name="elbow"/></axes>
+  <axes><axis name="shoulder" tremor="0.001"/><axis name="elbow" start_offset="0.1"/></axes>
+  <variation seed="3" lowest_frequency="6"/>
   <poses>
     <pose name="rest" shoulder="0.0" elbow="0.3"/>
     <pose name="near" shoulder="0.6" elbow="1.2"/>
@@ -46,7 +47,11 @@ TEST_CASE("a mutated program is read or refused with its file") {
   <antenna on="1.8" off="3.2" power="0.5"/>
   <command at="2.2" name="identify"/>
   <command at="2.4" name="set_led" led="on"/>
-  <command at="2.6" name="read_temperature" timeout="0.1" bit_rate="212"/>
+  <command at="2.6" name="read_temperature" timeout="0.1" bit_rate="212">
+    <expect lowest="20" highest="22"/>
+  </command>
+  <command at="2.8" name="select" identifier="0x0A2B3C4D" retries="2" pause="0.01"/>
+  <command at="3" name="raw" bytes="7F01"><expect status="unknown_command"/></command>
 </reader-program>
 )";
   REQUIRE_NOTHROW(reader::parse_program(program, "x.xml"));

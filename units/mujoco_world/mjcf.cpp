@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <mutex>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -141,6 +142,24 @@ std::vector<Sensor> list_sensors(const mjModel& model) {
   return list;
 }
 
+std::string names_of(const std::vector<Site>& sites) {
+  std::string names;
+  for (const Site& site : sites) names += (names.empty() ? "'" : ", '") + site.name + "'";
+  return names.empty() ? "none" : names;
+}
+
+void check_required_sites(const mjModel& model, const fs::path& file) {
+  const int text = mj_name2id(&model, mjOBJ_TEXT, kRequiredSites);
+  if (text < 0) return;
+  std::istringstream names(model.text_data + model.text_adr[text]);
+  for (std::string name; names >> name;) {
+    if (mj_name2id(&model, mjOBJ_SITE, name.c_str()) >= 0) continue;
+    throw std::runtime_error("'" + file.string() + "' has no site '" + name +
+                             "', which its <text name=\"" + kRequiredSites +
+                             "\"> asks for; its named sites are: " + names_of(list_sites(model)));
+  }
+}
+
 void switch_off_irreproducible(mjModel& model, const fs::path& file) {
   if (!(model.opt.enableflags & api::kIrreproducible)) return;
   model.opt.enableflags &= ~api::kIrreproducible;
@@ -193,6 +212,7 @@ ModelPointer load_model(const fs::path& file) {
   }
   if (message[0] != '\0') add_warning(file.string() + ": " + message.data());
   switch_off_irreproducible(*model, file);
+  check_required_sites(*model, file);
   return model;
 }
 

@@ -61,7 +61,12 @@ struct Catalogue {
 /// Throws std::runtime_error if the folder, or such a file in it, is missing.
 std::filesystem::path find_scene(const std::filesystem::path& folder);
 
-/// Compiles an MJCF file. Throws std::runtime_error with the file and MuJoCo's message.
+/// An MJCF may list, in a <custom><text name="required_sites" data="..."/>, the sites that it is
+/// useless without, separated by blanks.
+inline constexpr const char* kRequiredSites = "required_sites";
+
+/// Compiles an MJCF file. Throws std::runtime_error with the file and MuJoCo's message, or with the
+/// site that is required and missing, and those that there are.
 /// Features that would make the world irreproducible are switched off: noise on sensors (MuJoCo 2),
 /// sleeping bodies (MuJoCo 3). That is said in a warning (hooks.h).
 ModelPointer load_model(const std::filesystem::path& file);

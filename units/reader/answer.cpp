@@ -1,23 +1,37 @@
 #include "units/reader/answer.h"
 
-#include <cstddef>
+#include <stdexcept>
 
 #include "units/nfc/iso14443a.h"
 
 namespace reader {
 namespace {
 
-constexpr double kDegreesPerCount = 0.01;
+constexpr double kCountsPerDegree = 100.0;
+constexpr std::size_t kLongestData = nfc::kLogSamples * nfc::kLogSampleBytes;
 
-std::size_t data_size(nfc::Command command) {
+/// How many bytes of data follow kOk.
+struct DataSize {
+  std::size_t least;
+  std::size_t most;
+  std::size_t unit = 1;  // it is a multiple of this
+};
+
+DataSize data_size(nfc::Command command) {
   switch (command) {
     case nfc::Command::kIdentify:
-      return 4;
+      return {4, 4};
     case nfc::Command::kReadTemperature:
-      return 2;
-    default:  // a program has no others with data
-      return 0;
+      return {2, 2};
+    case nfc::Command::kReadLog:
+      return {0, kLongestData, nfc::kLogSampleBytes};
+    case nfc::Command::kSelect:
+    case nfc::Command::kSetSamplingPeriod:
+    case nfc::Command::kSetLed:
+    case nfc::Command::kSleep:
+      return {0, 0};
   }
+  return {0, kLongestData};
 }
 
 bool is_known(nfc::Status status) {
@@ -25,10 +39,27 @@ bool is_known(nfc::Status status) {
          status == nfc::Status::kBadArgument;
 }
 
-std::uint32_t big_endian(const nfc::Bytes& bytes, std::size_t first) {
+bool fits(nfc::Command command, nfc::Status status, std::size_t size) {
+  if (status != nfc::Status::kOk) return size == 0;
+  const DataSize expected = data_size(command);
+  return size >= expected.least && size <= expected.most && size % expected.unit == 0;
+}
+
+std::uint32_t big_endian(const nfc::Bytes& bytes, std::size_t first, std::size_t size) {
   std::uint32_t value = 0;
-  for (std::size_t i = first; i < bytes.size(); ++i) value = value << 8 | bytes[i];
+  for (std::size_t i = first; i < first + size; ++i) value = value << 8 | bytes[i];
   return value;
+}
+
+double temperature(const nfc::Bytes& bytes, std::size_t first) {
+  return static_cast<std::int16_t>(big_endian(bytes, first, 2)) / kCountsPerDegree;
+}
+
+void read_log(const nfc::Bytes& content, Answer& answer) {
+  for (std::size_t at = 1; at < content.size(); at += nfc::kLogSampleBytes) {
+    const auto age = static_cast<std::uint16_t>(big_endian(content, at, 2));
+    answer.samples[answer.sample_count++] = {age, temperature(content, at + 2)};
+  }
 }
 
 }  // namespace
@@ -46,15 +77,31 @@ std::optional<Answer> parse_answer(nfc::Command command, const nfc::Bits& bits) 
 
   Answer answer;
   answer.status = static_cast<nfc::Status>(content->front());
-  const std::size_t expected = answer.status == nfc::Status::kOk ? data_size(command) : 0;
-  if (!is_known(answer.status) || content->size() != 1 + expected) return std::nullopt;
-
-  const std::uint32_t value = big_endian(*content, 1);
-  if (command == nfc::Command::kIdentify) answer.identifier = value;
-  if (command == nfc::Command::kReadTemperature) {
-    answer.temperature = kDegreesPerCount * static_cast<std::int16_t>(value);
+  if (!is_known(answer.status) || !fits(command, answer.status, content->size() - 1)) {
+    return std::nullopt;
   }
+  if (answer.status != nfc::Status::kOk) return answer;
+  if (command == nfc::Command::kIdentify) answer.identifier = big_endian(*content, 1, 4);
+  if (command == nfc::Command::kReadTemperature) answer.temperature = temperature(*content, 1);
+  if (command == nfc::Command::kReadLog) read_log(*content, answer);
   return answer;
+}
+
+stride::Duration longest_answer(nfc::Command command) {
+  nfc::Bytes content(1 + data_size(command).most);
+  return nfc::air_time({{}, 106, nfc::to_bits(nfc::with_crc(content))});
+}
+
+std::string name_of(nfc::Status status) {
+  switch (status) {
+    case nfc::Status::kOk:
+      return "ok";
+    case nfc::Status::kUnknownCommand:
+      return "unknown_command";
+    case nfc::Status::kBadArgument:
+      return "bad_argument";
+  }
+  throw std::invalid_argument("no name for status " + std::to_string(static_cast<int>(status)));
 }
 
 }  // namespace reader

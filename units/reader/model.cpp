@@ -1,11 +1,48 @@
 #include "units/reader/model.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "units/reader/text.h"
 
 namespace reader {
+namespace {
+
+/// Added to the latest end of an answer, so that one that ends just then is heard before the reader
+/// gives up at that instant.
+stride::Duration grace() { return nfc::bit_duration(106); }
+
+std::string got_text(const Record& record, nfc::Command command) {
+  switch (record.outcome) {
+    case Outcome::kAnswered:
+    case Outcome::kRefused:
+      return text_of(command, record.answer);
+    case Outcome::kUnanswered:
+      return "no answer";
+    case Outcome::kDamaged:
+      return "a damaged answer";
+    case Outcome::kCut:
+      return "no answer because the antenna went off";
+    case Outcome::kNotSent:
+      return "no chance because the antenna was off";
+    case Outcome::kWaiting:
+      break;
+  }
+  return "nothing yet";
+}
+
+}  // namespace
+
+Reader::Reader(Program program) : program_(std::move(program)), tremor_(program_.variation) {
+  if (program_.waypoints.empty()) return;
+  const auto offsets = start_offsets(program_.variation);
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    program_.waypoints.front().positions[i] += offsets[i];
+  }
+}
 
 double Reader::axis(std::size_t index, stride::Time time) const {
-  return position(program_.waypoints, index, time);
+  return position(program_.waypoints, index, time) + tremor_.at(index, time);
 }
 
 double Reader::carrier_power(stride::Time time) const {
@@ -13,38 +50,137 @@ double Reader::carrier_power(stride::Time time) const {
 }
 
 void Reader::advance(stride::Time now) {
-  if (state_.receiving && state_.reception.end <= now) finish_reception();
-  if (waiting() && !state_.receiving && state_.deadline <= now) give_up(Outcome::kUnanswered);
+  auto& s = state_;
+  if (cut_is_due(now)) return;  // transmit() settles it
+  if (s.phase == Phase::kReceiving && s.reception.end <= now) finish_reception();
+  if (s.phase == Phase::kWaiting && s.give_up_at <= now) {
+    fail_try(s.give_up_at, Outcome::kUnanswered);
+  }
+  skip_without_antenna(now);
+}
+
+// what has to be sent now and cannot be, because the antenna is off
+void Reader::skip_without_antenna(stride::Time now) {
+  if (carrier_end(program_, now)) return;
+  if (state_.phase == Phase::kPausing && state_.retry_at <= now) settle(now, state_.last_try);
+  while (command_is_due(now)) {
+    Record record;
+    record.sent_at = now;
+    state_.records.push_back(record);
+    settle(now, Outcome::kNotSent);
+  }
+}
+
+bool Reader::command_is_due(stride::Time now) const {
+  const std::size_t next = state_.records.size();
+  return state_.phase == Phase::kIdle && next < program_.commands.size() &&
+         program_.commands[next].at <= now;
+}
+
+bool Reader::cut_is_due(stride::Time now) const {
+  if (state_.phase != Phase::kWaiting) return false;
+  const auto end = carrier_end(program_, state_.request_start);
+  return end && *end < state_.request_end && *end <= now;
+}
+
+bool Reader::is_due(stride::Time now) const {
+  if (cut_is_due(now)) return true;
+  const bool again = state_.phase == Phase::kPausing && state_.retry_at <= now;
+  return (again || command_is_due(now)) && carrier_end(program_, now).has_value();
 }
 
 std::optional<nfc::Frame> Reader::transmit(stride::Time now) {
+  if (cut_is_due(now)) return cut();
   if (!is_due(now)) return std::nullopt;
-  const ProgramCommand& command = program_.commands[state_.records.size()];
-  const nfc::Frame frame{now, command.bit_rate, request_bits(command.command, command.arguments)};
-  Record record;
-  record.sent_at = now;
-  state_.records.push_back(record);
-  state_.request_end = now + nfc::air_time(frame);
-  state_.deadline = state_.request_end + command.timeout;
-  ++state_.counts.sent;
+  if (state_.phase == Phase::kPausing) {
+    ++state_.counts.retries;
+  } else {
+    Record record;
+    record.sent_at = now;
+    state_.records.push_back(record);
+    ++state_.counts.sent;
+  }
+  begin_try(now);
+  return request(now);
+}
+
+nfc::Frame Reader::request(stride::Time start) const {
+  return {start, current().bit_rate, request_bits(current().command, current().arguments)};
+}
+
+void Reader::begin_try(stride::Time now) {
+  ++state_.records.back().tries;
+  state_.phase = Phase::kWaiting;
+  state_.request_start = now;
+  state_.request_end = now + nfc::air_time(request(now));
+  state_.deadline = state_.request_end + current().timeout;
+  state_.give_up_at = state_.deadline + longest_answer(current().command) + grace();
+}
+
+nfc::Frame Reader::cut() {
+  const stride::Time end = *carrier_end(program_, state_.request_start);
+  nfc::Frame frame = nfc::cut_off(request(state_.request_start), end);
+  settle(end, Outcome::kCut);
   return frame;
 }
 
 void Reader::receive(const nfc::Frame& frame) {
-  if (!waiting() || frame.start < state_.request_end) return;
-  if (frame.start > state_.deadline && !state_.receiving) return;
+  auto& s = state_;
+  const bool receiving = s.phase == Phase::kReceiving;
+  if (!receiving && s.phase != Phase::kWaiting) return;
+  if (frame.start < s.request_end || (frame.start > s.deadline && !receiving)) return;
   Reception reception;
   reception.end = frame.start + nfc::air_time(frame);
-  if (state_.receiving) {
-    reception.end = std::max(reception.end, state_.reception.end);
+  if (receiving) {
+    reception.end = std::max(reception.end, s.reception.end);
   } else {
-    const auto& command = program_.commands[state_.records.size() - 1];
-    const auto answer = parse_answer(command.command, frame.bits);
+    const auto answer = parse_answer(current().command, frame.bits);
     reception.intact = answer.has_value();
     reception.answer = answer.value_or(Answer{});
   }
-  state_.receiving = true;
-  state_.reception = reception;
+  s.phase = Phase::kReceiving;
+  s.reception = reception;
+}
+
+void Reader::finish_reception() {
+  const Reception reception = state_.reception;
+  if (!reception.intact) return fail_try(reception.end, Outcome::kDamaged);
+  const Answer& answer = reception.answer;
+  const bool is_ok = answer.status == nfc::Status::kOk;
+  state_.records.back().answer = answer;
+  if (is_ok) keep_measurements(answer);
+  settle(reception.end, is_ok ? Outcome::kAnswered : Outcome::kRefused);
+}
+
+void Reader::keep_measurements(const Answer& answer) {
+  if (current().command == nfc::Command::kIdentify) state_.identifier = answer.identifier;
+  if (current().command == nfc::Command::kReadTemperature) state_.temperature = answer.temperature;
+  if (current().command == nfc::Command::kReadLog) state_.logged = answer.sample_count;
+}
+
+void Reader::fail_try(stride::Time at, Outcome outcome) {
+  if (state_.records.back().tries > current().retries) return settle(at, outcome);
+  state_.phase = Phase::kPausing;
+  state_.retry_at = at + current().pause;
+  state_.last_try = outcome;
+}
+
+void Reader::settle(stride::Time at, Outcome outcome) {
+  Record& record = state_.records.back();
+  const bool answered = outcome == Outcome::kAnswered || outcome == Outcome::kRefused;
+  const auto answer = answered ? std::optional<Answer>(record.answer) : std::nullopt;
+  record.settled_at = at;
+  record.outcome = outcome;
+  record.as_expected =
+      outcome != Outcome::kNotSent && is_met(current().expectation, current().command, answer);
+  state_.phase = Phase::kIdle;
+
+  Counts& counts = state_.counts;
+  if (answered) ++counts.answered;
+  if (outcome == Outcome::kRefused) ++counts.refused;
+  if (!answered && outcome != Outcome::kNotSent) ++counts.unanswered;
+  if (outcome == Outcome::kDamaged) ++counts.damaged;
+  ++(record.as_expected ? counts.as_expected : counts.unexpected);
 }
 
 std::optional<stride::Time> Reader::next_event_time(stride::Time now) const {
@@ -56,46 +192,35 @@ std::optional<stride::Time> Reader::next_event_time(stride::Time now) const {
     consider(interval.on);
     consider(interval.off);
   }
-  if (state_.receiving) {
-    consider(state_.reception.end);
-  } else if (waiting()) {
-    consider(state_.deadline);
-  } else if (state_.records.size() < program_.commands.size()) {
-    consider(program_.commands[state_.records.size()].at);
+  switch (state_.phase) {
+    case Phase::kIdle:
+      if (state_.records.size() < program_.commands.size()) {
+        consider(program_.commands[state_.records.size()].at);
+      }
+      break;
+    case Phase::kWaiting:
+      consider(state_.give_up_at);
+      break;
+    case Phase::kReceiving:
+      consider(state_.reception.end);
+      break;
+    case Phase::kPausing:
+      consider(state_.retry_at);
+      break;
   }
   return next;
 }
 
-bool Reader::waiting() const {
-  return !state_.records.empty() && state_.records.back().outcome == Outcome::kWaiting;
-}
-
-bool Reader::is_due(stride::Time now) const {
-  const std::size_t next = state_.records.size();
-  return !waiting() && next < program_.commands.size() && program_.commands[next].at <= now;
-}
-
-void Reader::finish_reception() {
-  const Reception& reception = state_.reception;
-  state_.receiving = false;
-  if (!reception.intact) return give_up(Outcome::kDamaged);
-
-  Record& record = state_.records.back();
-  const Answer& answer = reception.answer;
-  record.answered_at = reception.end;
-  record.status = answer.status;
-  record.outcome = answer.status == nfc::Status::kOk ? Outcome::kAnswered : Outcome::kRefused;
-  ++state_.counts.answered;
-  if (record.outcome == Outcome::kRefused) ++state_.counts.refused;
-  if (record.outcome == Outcome::kRefused) return;
-  const auto command = program_.commands[state_.records.size() - 1].command;
-  if (command == nfc::Command::kIdentify) state_.identifier = answer.identifier;
-  if (command == nfc::Command::kReadTemperature) state_.temperature = answer.temperature;
-}
-
-void Reader::give_up(Outcome outcome) {
-  state_.records.back().outcome = outcome;
-  ++state_.counts.unanswered;
+std::string Reader::report(std::size_t index) const {
+  const Record& record = state_.records[index];
+  const ProgramCommand& command = program_.commands[index];
+  std::string text = "at " + shortest(stride::to_seconds(record.sent_at)) + " s " +
+                     name_of(command.command) + ": expected " + text_of(command.expectation) +
+                     "; got " + got_text(record, command.command);
+  if (record.tries > 0) {
+    text += " after " + std::to_string(record.tries) + (record.tries == 1 ? " try" : " tries");
+  }
+  return record.as_expected ? text : text + "; not as expected";
 }
 
 }  // namespace reader

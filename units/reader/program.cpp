@@ -1,37 +1,22 @@
 #include "units/reader/program.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <stdexcept>
 #include <utility>
 
 #include <tinyxml2.h>
 
+#include "units/reader/text.h"
 #include "units/reader/xml.h"
 
 namespace reader {
 namespace {
 
-constexpr double kDefaultTimeout = 0.05;  // [s]
-constexpr double kDefaultBitRate = 106;   // [kbit/s]
-
-struct CommandName {
-  const char* name;
-  nfc::Command command;
-};
-constexpr CommandName kCommandNames[] = {{"identify", nfc::Command::kIdentify},
-                                         {"read_temperature", nfc::Command::kReadTemperature},
-                                         {"set_led", nfc::Command::kSetLed}};
-
-nfc::Command to_command(const Element& element) {
-  const std::string name = element.text("name");
-  std::vector<std::string> known;
-  for (const auto& entry : kCommandNames) {
-    if (name == entry.name) return entry.command;
-    known.push_back(entry.name);
-  }
-  element.fail("unknown command '" + name + "': expected one of " + quoted_list(known));
-}
+constexpr double kLargestTremor = 0.5;       // [rad]
+constexpr double kLargestStartOffset = 1.0;  // [rad]
+constexpr double kHighestFrequency = 100.0;  // of a tremor [Hz]
 
 /// Fills a program section by section; each may refer to what stands before it.
 class Parser {
@@ -63,8 +48,12 @@ class Parser {
       antenna(element);
     } else if (name == "command") {
       commands_.push_back(element);  // looked at when all antenna intervals are known
+    } else if (name == "variation") {
+      variation(element);
     } else {
-      element.fail("unknown element: expected <axes>, <poses>, <motion>, <antenna> or <command>");
+      element.fail(
+          "unknown element: expected <axes>, <poses>, <motion>, <variation>, <antenna> or "
+          "<command>");
     }
   }
 
@@ -78,7 +67,7 @@ class Parser {
   }
 
   void axis(const Element& element) {
-    element.allow_only_leaf({"name"});
+    element.allow_only_leaf({"name", "tremor", "start_offset"});
     const std::string name = element.text("name");
     const auto& axes = program_.axes;
     if (name.empty() || name == "name") {
@@ -89,6 +78,28 @@ class Parser {
     }
     if (!poses_.empty()) element.fail("expected all axes before the poses");
     program_.axes.push_back(name);
+    const auto amplitude = [&](const char* attribute, double most) {
+      return element.has(attribute) ? element.number_within(attribute, 0, most) : 0.0;
+    };
+    program_.variation.tremor.push_back(amplitude("tremor", kLargestTremor));
+    program_.variation.start_offset.push_back(amplitude("start_offset", kLargestStartOffset));
+  }
+
+  void variation(const Element& element) {
+    element.allow_only_leaf({"seed", "lowest_frequency", "highest_frequency"});
+    if (has_variation_) element.fail("expected one <variation> at most");
+    has_variation_ = true;
+    auto& variation = program_.variation;
+    if (element.has("seed")) variation.seed = element.whole_number("seed", 1, UINT64_MAX);
+    const auto frequency = [&](const char* attribute, double& value) {
+      if (element.has(attribute)) value = element.number_within(attribute, 0, kHighestFrequency);
+    };
+    frequency("lowest_frequency", variation.lowest_frequency);
+    frequency("highest_frequency", variation.highest_frequency);
+    if (variation.lowest_frequency < variation.highest_frequency) return;
+    element.fail("expected lowest_frequency (" + shortest(variation.lowest_frequency) +
+                 " Hz) to be less than highest_frequency (" +
+                 shortest(variation.highest_frequency) + " Hz)");
   }
 
   void pose(const Element& element) {
@@ -142,54 +153,22 @@ class Parser {
   }
 
   void command(const Element& element) {
-    ProgramCommand command;
-    command.at = element.time("at");
-    command.command = to_command(element);
-    command.arguments = arguments(element, command.command);
-    command.timeout = timeout(element);
-    command.bit_rate = bit_rate(element);
+    ProgramCommand command = parse_command(element);
     const auto& commands = program_.commands;
     if (!commands.empty() && command.at < commands.back().at) {
       element.fail("at=\"" + element.text("at") + "\": expected commands in the order of time");
     }
-    if (!(carrier_power(program_, command.at) > 0.0)) {
+    if (!carrier_end(program_, command.at)) {
       element.fail("at=\"" + element.text("at") +
                    "\": the antenna is off then; expected a time within an <antenna> interval");
     }
     program_.commands.push_back(std::move(command));
   }
 
-  static nfc::Bytes arguments(const Element& element, nfc::Command command) {
-    if (command != nfc::Command::kSetLed) {
-      element.allow_only_leaf({"at", "name", "timeout", "bit_rate"});
-      return {};
-    }
-    element.allow_only_leaf({"at", "name", "led", "timeout", "bit_rate"});
-    const std::string led = element.text("led");
-    if (led != "on" && led != "off") element.fail("led=\"" + led + "\": expected 'on' or 'off'");
-    return {static_cast<std::uint8_t>(led == "on" ? 1 : 0)};
-  }
-
-  static stride::Duration timeout(const Element& element) {
-    const double timeout = element.number("timeout", kDefaultTimeout);
-    if (!(timeout > 0.0 && timeout <= stride::kMaxSeconds)) {
-      element.fail("timeout=\"" + element.text("timeout") + "\": expected more than 0 seconds");
-    }
-    return stride::duration_from_seconds(timeout);
-  }
-
-  static std::uint32_t bit_rate(const Element& element) {
-    const double rate = element.number("bit_rate", kDefaultBitRate);
-    for (const std::uint32_t known : {106, 212, 424, 848}) {
-      if (rate == known) return known;
-    }
-    element.fail("bit_rate=\"" + element.text("bit_rate") +
-                 "\": expected 106, 212, 424 or 848 kbit/s");
-  }
-
   Program program_;
   std::map<std::string, std::vector<double>> poses_;
   std::vector<Element> commands_;
+  bool has_variation_ = false;
 };
 
 Program parse_document(const tinyxml2::XMLDocument& document, const std::string& name) {
@@ -216,6 +195,15 @@ double carrier_power(const Program& program, stride::Time time) {
   return 0.0;
 }
 
+std::optional<stride::Time> carrier_end(const Program& program, stride::Time time) {
+  std::optional<stride::Time> end;
+  for (const auto& interval : program.antenna) {
+    const bool covers = interval.on <= time && time < interval.off;
+    if (covers || end == interval.on) end = interval.off;
+  }
+  return end;
+}
+
 Program load_program(const std::string& path) {
   tinyxml2::XMLDocument document;
   document.LoadFile(path.c_str());
@@ -226,13 +214,6 @@ Program parse_program(const std::string& text, const std::string& name) {
   tinyxml2::XMLDocument document;
   document.Parse(text.data(), text.size());
   return parse_document(document, name);
-}
-
-std::string name_of(nfc::Command command) {
-  for (const auto& entry : kCommandNames) {
-    if (entry.command == command) return entry.name;
-  }
-  throw std::invalid_argument("no name for command " + std::to_string(static_cast<int>(command)));
 }
 
 }  // namespace reader

@@ -1,5 +1,6 @@
 // The reader as an FMU. Its axes, and so its variable table, come from the program in its
 // resources.
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -16,21 +17,26 @@ reader::Program load(const std::filesystem::path& resources, const std::string& 
   return reader::load_program((resources / name).string());
 }
 
-std::string text_of(const reader::Record& record) {
-  const auto seconds = [](auto time) { return std::to_string(stride::to_seconds(time)) + " s"; };
-  switch (record.outcome) {
-    case reader::Outcome::kWaiting:
-      return "waiting";
-    case reader::Outcome::kAnswered:
-      return "answered after " + seconds(record.answered_at - record.sent_at);
-    case reader::Outcome::kRefused:
-      return "refused with status " + std::to_string(static_cast<int>(record.status));
-    case reader::Outcome::kUnanswered:
-      return "not answered in time";
-    case reader::Outcome::kDamaged:
-      return "answered by a damaged frame";
+/// What of a program the parameters may replace.
+struct Choice {
+  std::string program = "program.xml";
+  std::uint64_t seed = 0;    // 0: the program's
+  double tremor = -1;        // [rad], less than 0: the program's
+  double start_offset = -1;  // likewise
+
+  bool operator==(const Choice& other) const {
+    return program == other.program && seed == other.seed && tremor == other.tremor &&
+           start_offset == other.start_offset;
   }
-  return "";
+};
+
+reader::Program load(const std::filesystem::path& resources, const Choice& choice) {
+  reader::Program program = load(resources, choice.program);
+  if (choice.seed != 0) program.variation.seed = choice.seed;
+  if (choice.tremor >= 0) reader::scale_to(program.variation.tremor, choice.tremor);
+  if (choice.start_offset >= 0)
+    reader::scale_to(program.variation.start_offset, choice.start_offset);
+  return program;
 }
 
 }  // namespace
@@ -38,13 +44,13 @@ std::string text_of(const reader::Record& record) {
 class ReaderUnit : public stride::Unit {
  public:
   explicit ReaderUnit(const stride::Setup& setup)
-      : resources_(setup.resources), reader_(load(resources_, program_)), loaded_(program_) {
+      : resources_(setup.resources), reader_(load(resources_, choice_)), loaded_(choice_) {
     describe("Robot with an NFC reader: runs a program of movements and commands").early_return =
         true;
     list_variables();
     auto& s = reader_.state();
-    state(s.records, s.request_end, s.deadline, s.receiving, s.reception, s.counts, s.temperature,
-          s.identifier, reported_);
+    state(s.records, s.phase, s.request_start, s.request_end, s.deadline, s.give_up_at, s.retry_at,
+          s.last_try, s.reception, s.counts, s.temperature, s.identifier, s.logged, reported_);
   }
 
   void initialize(stride::Time start) override {
@@ -64,7 +70,7 @@ class ReaderUnit : public stride::Unit {
       step.need_event();
     }
     reader_.advance(end);
-    if (reader_.is_due(end)) step.need_event();
+    if (reader_.is_due(end) || has_report()) step.need_event();
     show(end);
   }
 
@@ -78,14 +84,14 @@ class ReaderUnit : public stride::Unit {
       transmit_clock_.tick();
     }
     show(now);
-    report_finished();
+    if (has_report()) report();
     const auto next = reader_.next_event_time(now);
     next ? event.next_event(*next) : event.no_next_event();
   }
 
-  // a state may come from an instance that runs another program
+  // a state may come from an instance that runs another program, or with another seed
   void load_state(stride::StateReader&) override {
-    if (loaded_ == program_) return;
+    if (loaded_ == choice_) return;
     const auto state = reader_.state();
     start_program();
     reader_.state() = state;
@@ -93,7 +99,7 @@ class ReaderUnit : public stride::Unit {
 
  private:
   void list_variables() {
-    parameter("program", program_).description("file with the program, in the resources folder");
+    list_parameters();
     const auto& axes = reader_.program().axes;
     axes_.resize(axes.size());
     for (std::size_t i = 0; i < axes.size(); ++i) {
@@ -111,26 +117,37 @@ class ReaderUnit : public stride::Unit {
     list_messages();
   }
 
+  void list_parameters() {
+    parameter("program", choice_.program)
+        .description("file with the program, in the resources folder");
+    parameter("seed", choice_.seed)
+        .description("seed of tremor and start position; 0 takes the program's");
+    parameter("tremor.amplitude", choice_.tremor)
+        .unit("rad")
+        .range(-1, 0.5)
+        .description("of the axis that trembles most; less than 0 takes the program's");
+    parameter("start_offset", choice_.start_offset)
+        .unit("rad")
+        .range(-1, 1)
+        .description("largest one of the axes in the first waypoint; less than 0 likewise");
+  }
+
   void list_messages() {
     output("transmit.clock", transmit_clock_).description("ticks when a command begins");
     output("transmit.frame", transmit_frame_)
         .clocked_by(transmit_clock_)
         .depends_on({})
         .description("the command's frame");
-    input("receive.clock", receive_clock_).description("ticks when a frame begins to arrive");
+    input("receive.clock", receive_clock_).description("ticks when a frame arrives");
     input("receive.frame", receive_frame_)
         .clocked_by(receive_clock_)
         .description("the frame that arrives");
-    output("messages.sent", shown_.sent).depends_on({}).description("commands sent");
-    output("messages.answered", shown_.answered)
+    output("report.clock", report_clock_).description("ticks when a command is settled");
+    output("report.text", report_text_)
+        .clocked_by(report_clock_)
         .depends_on({})
-        .description("commands with an intact answer, whatever its status");
-    output("messages.refused", shown_.refused)
-        .depends_on({})
-        .description("answered commands whose status was not OK");
-    output("messages.unanswered", shown_.unanswered)
-        .depends_on({})
-        .description("commands with no answer in time, or with a damaged one");
+        .description("what was expected of the command, and what came");
+    list_counts();
     output("measured.temperature", temperature_)
         .unit("degC")
         .discrete()
@@ -139,17 +156,34 @@ class ReaderUnit : public stride::Unit {
     output("measured.identifier", identifier_)
         .depends_on({})
         .description("identifier that the sensor reported, 0 before");
+    output("measured.log_size", logged_)
+        .depends_on({})
+        .description("samples in the log that was read last");
+  }
+
+  void list_counts() {
+    const auto count = [&](const char* name, std::uint64_t& value, const char* meaning) {
+      output(std::string("messages.") + name, value).depends_on({}).description(meaning);
+    };
+    count("sent", shown_.sent, "commands sent, each counted once");
+    count("retries", shown_.retries, "frames sent again for want of an intact answer");
+    count("answered", shown_.answered, "commands with an intact answer, whatever its status");
+    count("refused", shown_.refused, "answered commands whose status was not OK");
+    count("unanswered", shown_.unanswered, "commands without an intact answer in the end");
+    count("damaged", shown_.damaged, "unanswered commands whose last answer was damaged");
+    count("as_expected", shown_.as_expected, "commands of which came what was expected");
+    count("unexpected", shown_.unexpected, "commands of which it did not");
   }
 
   void start_program() {
-    reader::Program program = load(resources_, program_);
+    reader::Program program = load(resources_, choice_);
     if (program.axes != reader_.program().axes) {
-      throw std::runtime_error(program_ +
+      throw std::runtime_error(choice_.program +
                                ": its axes are not those of program.xml, from which the " +
                                "variables were made; pack the unit with this program instead");
     }
     reader_ = reader::Reader(std::move(program));
-    loaded_ = program_;
+    loaded_ = choice_;
   }
 
   void show(stride::Time now) {
@@ -158,37 +192,42 @@ class ReaderUnit : public stride::Unit {
     shown_ = reader_.state().counts;
     temperature_ = reader_.state().temperature;
     identifier_ = reader_.state().identifier;
+    logged_ = reader_.state().logged;
   }
 
-  // only from event(), because a step may be taken back
-  void report_finished() {
+  bool has_report() const {
     const auto& records = reader_.state().records;
-    for (; reported_ < records.size(); ++reported_) {
-      const reader::Record& record = records[reported_];
-      if (record.outcome == reader::Outcome::kWaiting) return;
-      const auto& command = reader_.program().commands[reported_];
-      log(stride::Severity::Info, reader::name_of(command.command) + " sent at " +
-                                      std::to_string(stride::to_seconds(record.sent_at)) +
-                                      " s: " + text_of(record));
-    }
+    return reported_ < records.size() && records[reported_].outcome != reader::Outcome::kWaiting;
+  }
+
+  // only from event(), because a step may be taken back; the tick brings another iteration, and
+  // with it the next report
+  void report() {
+    const bool as_expected = reader_.state().records[reported_].as_expected;
+    report_text_ = reader_.report(reported_++);
+    report_clock_.tick();
+    log(as_expected ? stride::Severity::Info : stride::Severity::Warning, report_text_);
   }
 
   std::filesystem::path resources_;
-  std::string program_ = "program.xml";
+  Choice choice_;
   reader::Reader reader_;
-  std::string loaded_;          // the program that reader_ runs
-  std::uint64_t reported_ = 0;  // how many records were logged
+  Choice loaded_;               // what reader_ runs
+  std::uint64_t reported_ = 0;  // how many records were reported
 
   stride::Clock transmit_clock_;
   stride::Binary transmit_frame_;
   stride::Clock receive_clock_;
   stride::Binary receive_frame_;
+  stride::Clock report_clock_;
+  std::string report_text_;
 
   std::vector<double> axes_;
   double carrier_power_ = 0.0;
   reader::Counts shown_;
   double temperature_ = 0.0;
   std::uint32_t identifier_ = 0;
+  std::uint32_t logged_ = 0;
 };
 
 STRIDE_UNIT(ReaderUnit)

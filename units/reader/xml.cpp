@@ -7,6 +7,8 @@
 
 #include <tinyxml2.h>
 
+#include "units/reader/text.h"
+
 namespace reader {
 
 std::string Element::name() const { return element_->Name(); }
@@ -56,6 +58,26 @@ stride::Time Element::time(const char* attribute) const {
     fail(std::string(attribute) + "=\"" + text(attribute) + "\": expected 0 to 9.2e6 seconds");
   }
   return stride::time_from_seconds(seconds);
+}
+
+double Element::number_within(const char* attribute, double least, double most) const {
+  const double value = number(attribute);
+  if (value >= least && value <= most) return value;
+  fail(std::string(attribute) + "=\"" + text(attribute) + "\": expected " + shortest(least) +
+       " to " + shortest(most));
+}
+
+std::uint64_t Element::whole_number(const char* attribute, std::uint64_t least,
+                                    std::uint64_t most) const {
+  const std::string value = text(attribute);
+  const bool hexadecimal = value.rfind("0x", 0) == 0;
+  std::uint64_t number = 0;
+  const char* end = value.data() + value.size();
+  const auto [stop, error] =
+      std::from_chars(value.data() + (hexadecimal ? 2 : 0), end, number, hexadecimal ? 16 : 10);
+  if (error == std::errc() && stop == end && number >= least && number <= most) return number;
+  fail(std::string(attribute) + "=\"" + value + "\": expected a whole number from " +
+       std::to_string(least) + " to " + std::to_string(most));
 }
 
 void Element::allow_only(const std::vector<std::string>& attributes) const {

@@ -2,6 +2,7 @@
 #ifndef STRIDE_UNITS_READER_XML_H
 #define STRIDE_UNITS_READER_XML_H
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,13 @@ class Element {
   double number(const char* attribute) const;
   double number(const char* attribute, double fallback) const;
   stride::Time time(const char* attribute) const;  ///< from seconds, 0 or later
+
+  /// The same with bounds, both included.
+  double number_within(const char* attribute, double least, double most) const;
+  /// Decimal, or hexadecimal after 0x.
+  std::uint64_t whole_number(const char* attribute, std::uint64_t least, std::uint64_t most) const;
+
+  bool has(const char* attribute) const { return find(attribute).has_value(); }
 
   /// Rejects any attribute that is not in the list, and any text between the children.
   void allow_only(const std::vector<std::string>& attributes) const;

@@ -20,6 +20,14 @@ std::size_t site(const World& world, const std::string& name) {
   throw std::runtime_error("no site " + name);
 }
 
+double reading(const World& world, const std::string& name) {
+  const auto& sensors = world.catalogue().sensors;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    if (sensors[i].name == name) return world.sensor(i);
+  }
+  throw std::runtime_error("no sensor " + name);
+}
+
 struct Coils {
   double distance;  // [m]
   double offset;    // [m], off the tag coil's axis
@@ -43,8 +51,8 @@ void command(World& world, const std::array<double, 6>& pose) {
 }
 
 constexpr const char* kArm = STRIDE_SOURCE_DIR "/scenarios/nfc_approach/world";
-constexpr std::array<double, 6> kFar{0.2915, 0.3728, 0.8504, 1.9170, 0, 0};    // 0.40 m
-constexpr std::array<double, 6> kClose{0.2915, 0.5123, 1.6949, 0.9330, 0, 0};  // 0.01 m
+constexpr std::array<double, 6> kFar{0.2915, 0.3721, 0.8501, 1.9170, 0, 0};    // 0.40 m
+constexpr std::array<double, 6> kClose{0.2915, 0.5116, 1.6946, 0.9330, 0, 0};  // 0.01 m
 
 }  // namespace
 
@@ -84,7 +92,7 @@ TEST_CASE("a pose settles within half a millimetre, without knocking on the sens
   CHECK(coils(world).distance == Approx(0.4).margin(0.1e-3));
 }
 
-TEST_CASE("the sensor and the table stop the arm", "[mujoco_world][arm]") {
+TEST_CASE("the sensor stops the arm, and the contact is felt", "[mujoco_world][arm]") {
   World world(kArm);
   auto pose = kClose;
   pose[1] += 0.1;  // the shoulder aims 5 cm below
@@ -94,4 +102,32 @@ TEST_CASE("the sensor and the table stop the arm", "[mujoco_world][arm]") {
   const double tag_height = world.site_position(site(world, "tag_coil"))[2];
   CHECK(height > tag_height - 0.01);
   CHECK(height < tag_height + 0.008);
+  CHECK(reading(world, "reader_contact") > 100);
+}
+
+TEST_CASE("the table stops the arm with the force that the shoulder's drive has left",
+          "[mujoco_world][arm]") {
+  World world(kArm);
+  auto pose = kClose;
+  pose[0] = -0.3;  // beside the sensor
+  command(world, pose);
+  world.advance(stride::time_from_seconds(3));
+  CHECK(reading(world, "reader_contact") == 0);
+  CHECK(reading(world, "table_contact") == 0);
+
+  pose[1] += 0.1;
+  command(world, pose);
+  world.advance(stride::time_from_seconds(6));
+  const Vector coil = world.site_position(site(world, "reader_coil"));
+  CHECK(coil[2] > -0.001);  // 1 mm into the housing
+  CHECK(coil[2] < 0.002);
+  const double force = reading(world, "reader_contact");
+  CHECK(reading(world, "table_contact") == Approx(force));
+  // 150 N.m of the drive and 34 N.m of the arm's weight at a lever of 0.52 m
+  CHECK(force > 250);
+  CHECK(force < 400);
+
+  command(world, kFar);
+  world.advance(stride::time_from_seconds(8));
+  CHECK(reading(world, "table_contact") == 0);
 }

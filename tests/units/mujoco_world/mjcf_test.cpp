@@ -39,6 +39,23 @@ TEST_CASE("a broken MJCF is an error with the file and MuJoCo's message", "[mujo
   CHECK_THROWS_WITH(load_model(folder.path() / "other.xml"), Catch::Contains("other.xml"));
 }
 
+TEST_CASE("a world without a site that it requires says so, and which it has", "[mujoco_world]") {
+  const auto with = [](const std::string& required) {
+    return "<mujoco><custom><text name='required_sites' data='" + required +
+           "'/></custom><worldbody><site name='tip'/><site/><site "
+           "name='base'/></worldbody></mujoco>";
+  };
+  const worlds::Folder folder(with("base tip"));
+  CHECK_NOTHROW(load_model(folder.path() / "scene.xml"));
+  folder.write("scene.xml", with("tip  reader_coil"));
+  CHECK_THROWS_WITH(load_model(folder.path() / "scene.xml"),
+                    Catch::Contains("scene.xml' has no site 'reader_coil'") &&
+                        Catch::Contains("its named sites are: 'tip', 'base'"));
+  folder.write("scene.xml",
+               "<mujoco><custom><text name='required_sites' data='tip'/></custom></mujoco>");
+  CHECK_THROWS_WITH(load_model(folder.path() / "scene.xml"), Catch::Contains("are: none"));
+}
+
 TEST_CASE("the catalogue lists what can be wired, with units", "[mujoco_world]") {
   const worlds::Folder folder(R"(
     <mujoco>

@@ -31,6 +31,41 @@ TEST_CASE("Answers carry their data, most significant byte first") {
   CHECK(parse_answer(Command::kSetLed, answer({0})).has_value());
 }
 
+TEST_CASE("A log has up to eight samples, the oldest first") {
+  const auto log =
+      parse_answer(Command::kReadLog, answer({0, 0x01, 0x02, 0x08, 0x66, 0x00, 0x05, 0xFF, 0x9C}));
+  REQUIRE(log.has_value());
+  REQUIRE(log->sample_count == 2);
+  CHECK(log->samples[0].age == 258);
+  CHECK(log->samples[0].temperature == 21.5);
+  CHECK(log->samples[1].age == 5);
+  CHECK(log->samples[1].temperature == -1.0);
+  CHECK(parse_answer(Command::kReadLog, answer({0}))->sample_count == 0);
+  nfc::Bytes full(33);
+  CHECK(parse_answer(Command::kReadLog, answer(full))->sample_count == 8);
+  full.resize(37);
+  CHECK_FALSE(parse_answer(Command::kReadLog, answer(full)).has_value());
+  CHECK_FALSE(parse_answer(Command::kReadLog, answer({0, 1, 2, 3})).has_value());
+}
+
+TEST_CASE("What an unknown command is answered is taken as it comes") {
+  const auto unknown = static_cast<Command>(0x7F);
+  CHECK(parse_answer(unknown, answer({1}))->status == Status::kUnknownCommand);
+  CHECK(parse_answer(unknown, answer({0, 1, 2, 3, 4, 5})).has_value());
+  CHECK_FALSE(parse_answer(unknown, answer({1, 2})).has_value());
+}
+
+TEST_CASE("No answer that is accepted lasts longer than the longest") {
+  for (int byte = 0; byte < 10; ++byte) {
+    const auto command = static_cast<Command>(byte);
+    const auto longest = reader::longest_answer(command);
+    for (std::size_t size = 1; size < 50; ++size) {
+      const nfc::Frame frame{{}, 106, answer(nfc::Bytes(size))};
+      if (parse_answer(command, frame.bits)) CHECK(nfc::air_time(frame) <= longest);
+    }
+  }
+}
+
 TEST_CASE("Temperatures may be negative") {
   const auto cold = parse_answer(Command::kReadTemperature, answer({0, 0xFF, 0x9C}));
   CHECK(cold->temperature == Approx(-1.0));

@@ -65,20 +65,6 @@ TEST_CASE("A program is read as it is written") {
   CHECK(program.commands[0].bit_rate == 106);
 }
 
-TEST_CASE("Commands have arguments, defaults and names") {
-  Lines lines;
-  lines.command = R"(<command at="7" name="set_led" led="on" bit_rate="424"/>
-                     <command at="7" name="set_led" led="off"/><command at="8" name="identify"/>)";
-  const auto commands = parse(lines).commands;
-  REQUIRE(commands.size() == 3);
-  CHECK(commands[0].arguments == nfc::Bytes{1});
-  CHECK(commands[0].bit_rate == 424);
-  CHECK(commands[1].arguments == nfc::Bytes{0});
-  CHECK(commands[2].command == nfc::Command::kIdentify);
-  CHECK(commands[2].timeout == stride::Duration(50'000'000'000));
-  CHECK(reader::name_of(nfc::Command::kReadTemperature) == "read_temperature");
-}
-
 TEST_CASE("A program needs no axes, and a command may stand before its antenna interval") {
   const Program program = parse_program(
       R"(<reader-program version="1"><command at="1" name="identify"/>
@@ -182,22 +168,28 @@ TEST_CASE("Every error stands with the file and the line") {
         },
         "5:", "off again");
   }
+  SECTION("what varies") {
+    check([](Lines& l) { l.axis = R"(<axes><axis name="a" tremor="-1"/></axes>)"; }, "2: <axis>",
+          "tremor=\"-1\": expected 0 to 0.5");
+    check([](Lines& l) { l.axis = R"(<axes><axis name="a" start_offset="2"/></axes>)"; },
+          "2:", "start_offset=\"2\": expected 0 to 1");
+    check([](Lines& l) { l.antenna = R"(<variation seed="0"/>)"; }, "5: <variation>",
+          "seed=\"0\": expected a whole number from 1");
+    check([](Lines& l) { l.antenna = R"(<variation seed="1.5"/>)"; }, "5:", "a whole number");
+    check([](Lines& l) { l.antenna = R"(<variation lowest_frequency="12"/>)"; },
+          "5:", "lowest_frequency (12 Hz) to be less than highest_frequency (12 Hz)");
+    check([](Lines& l) { l.antenna = R"(<variation highest_frequency="1000"/>)"; },
+          "5:", "expected 0 to 100");
+    check([](Lines& l) { l.antenna = R"(<variation sead="1"/>)"; }, "5:", "unknown attribute");
+    check([](Lines& l) { l.antenna = R"(<variation/><variation/>)"; }, "5:", "one <variation>");
+  }
   SECTION("commands") {
     check([](Lines& l) { l.command = R"(<command at="6.5" name="jump"/>)"; }, "6: <command>",
-          "expected one of 'identify', 'read_temperature', 'set_led'");
+          "unknown command 'jump'");
     check([](Lines& l) { l.command = R"(<command at="9" name="identify"/>)"; },
           "6:", "the antenna is off");
     check([](Lines& l) { l.command = R"(<command at="soon" name="identify"/>)"; },
           "6:", "at=\"soon\" is no number");
-    check([](Lines& l) { l.command = R"(<command at="7" name="identify" led="on"/>)"; },
-          "6:", "unknown attribute 'led'");
-    check([](Lines& l) { l.command = R"(<command at="7" name="set_led"/>)"; }, "6:", "'led'");
-    check([](Lines& l) { l.command = R"(<command at="7" name="set_led" led="1"/>)"; },
-          "6:", "'on' or 'off'");
-    check([](Lines& l) { l.command = R"(<command at="7" name="identify" timeout="0"/>)"; },
-          "6:", "more than 0 seconds");
-    check([](Lines& l) { l.command = R"(<command at="7" name="identify" bit_rate="107"/>)"; },
-          "6:", "106, 212, 424 or 848");
     check(
         [](Lines& l) {
           l.command =
@@ -205,4 +197,36 @@ TEST_CASE("Every error stands with the file and the line") {
         },
         "7:", "order of time");
   }
+}
+
+TEST_CASE("What varies from run to run is read, and nothing varies where nothing is said") {
+  Lines lines;
+  const Program plain = parse(lines);
+  CHECK(plain.variation.tremor == std::vector<double>{0, 0});
+  CHECK(plain.variation.start_offset == std::vector<double>{0, 0});
+  CHECK(plain.variation.seed == 1);
+  CHECK(plain.variation.lowest_frequency == 4);
+  CHECK(plain.variation.highest_frequency == 12);
+
+  lines.axis =
+      R"(<axes><axis name="a" tremor="0.002"/><axis name="b" tremor="0.001" start_offset="0.1"/></axes>)";
+  lines.antenna += R"(<variation seed="18446744073709551615" lowest_frequency="6"/>)";
+  const Program program = parse(lines);
+  CHECK(program.variation.tremor == std::vector<double>{0.002, 0.001});
+  CHECK(program.variation.start_offset == std::vector<double>{0, 0.1});
+  CHECK(program.variation.seed == 18446744073709551615u);
+  CHECK(program.variation.lowest_frequency == 6);
+}
+
+TEST_CASE("The carrier ends where no interval goes on from there") {
+  Lines lines;
+  lines.antenna = R"(<antenna on="6" off="9" power="0.5"/><antenna on="9" off="10" power="0.2"/>
+                     <antenna on="11" off="12" power="1"/>)";
+  const Program program = parse(lines);
+  CHECK_FALSE(carrier_end(program, at(5)).has_value());
+  CHECK(carrier_end(program, at(6)) == at(10));
+  CHECK(carrier_end(program, at(9.5)) == at(10));
+  CHECK_FALSE(carrier_end(program, at(10)).has_value());
+  CHECK(carrier_end(program, at(11)) == at(12));
+  CHECK_FALSE(carrier_end(program, at(12)).has_value());
 }

@@ -1,0 +1,248 @@
+#include "units/reader/command.h"
+
+#include <array>
+#include <vector>
+
+namespace reader {
+namespace {
+
+constexpr double kDefaultTimeout = 0.05;  // [s]
+constexpr double kDefaultPause = 0.01;    // [s]
+constexpr double kLongestTime = 3600;     // of a time limit and a pause [s]
+constexpr std::uint64_t kMostRetries = 1000;
+constexpr std::size_t kMostBytes = 32;         // of a raw command
+constexpr double kLeastTemperature = -327.68;  // what 16 bits of 1/100 degC hold
+constexpr double kMostTemperature = 327.67;
+constexpr const char* kRaw = "raw";
+
+struct CommandName {
+  const char* name;
+  nfc::Command command;
+};
+constexpr CommandName kCommandNames[] = {
+    {"identify", nfc::Command::kIdentify},
+    {"select", nfc::Command::kSelect},
+    {"read_temperature", nfc::Command::kReadTemperature},
+    {"read_log", nfc::Command::kReadLog},
+    {"set_sampling_period", nfc::Command::kSetSamplingPeriod},
+    {"set_led", nfc::Command::kSetLed},
+    {"sleep", nfc::Command::kSleep},
+};
+
+/// A command byte and its arguments.
+struct Request {
+  nfc::Command command;
+  nfc::Bytes arguments;
+};
+
+const std::vector<std::string> kCommonAttributes = {"at",       "name",    "timeout",
+                                                    "bit_rate", "retries", "pause"};
+
+void allow_attributes(const Element& element, std::vector<std::string> further = {}) {
+  further.insert(further.begin(), kCommonAttributes.begin(), kCommonAttributes.end());
+  element.allow_only(further);
+}
+
+template <class Unsigned>
+nfc::Bytes most_significant_first(Unsigned value) {
+  nfc::Bytes bytes(sizeof(Unsigned));
+  for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
+    bytes[i] = static_cast<std::uint8_t>(value >> (8 * (sizeof(Unsigned) - 1 - i)));
+  }
+  return bytes;
+}
+
+std::uint32_t identifier(const Element& element) {
+  return static_cast<std::uint32_t>(element.whole_number("identifier", 0, 0xFFFFFFFF));
+}
+
+nfc::Bytes led(const Element& element) {
+  const std::string led = element.text("led");
+  if (led != "on" && led != "off") element.fail("led=\"" + led + "\": expected 'on' or 'off'");
+  return {static_cast<std::uint8_t>(led == "on" ? 1 : 0)};
+}
+
+int digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+Request raw_request(const Element& element) {
+  const std::string text = element.text("bytes");
+  nfc::Bytes bytes;
+  bool is_well = !text.empty() && text.size() % 2 == 0 && text.size() / 2 <= kMostBytes;
+  for (std::size_t i = 0; is_well && i < text.size(); i += 2) {
+    is_well = digit(text[i]) >= 0 && digit(text[i + 1]) >= 0;
+    bytes.push_back(static_cast<std::uint8_t>(16 * digit(text[i]) + digit(text[i + 1])));
+  }
+  if (!is_well) {
+    element.fail("bytes=\"" + text + "\": expected 1 to " + std::to_string(kMostBytes) +
+                 " bytes of two hexadecimal digits each, such as \"7F01\"");
+  }
+  return {static_cast<nfc::Command>(bytes.front()), nfc::Bytes(bytes.begin() + 1, bytes.end())};
+}
+
+nfc::Command to_command(const Element& element) {
+  const std::string name = element.text("name");
+  std::vector<std::string> known;
+  for (const auto& entry : kCommandNames) {
+    if (name == entry.name) return entry.command;
+    known.push_back(entry.name);
+  }
+  known.push_back(kRaw);
+  element.fail("unknown command '" + name + "': expected one of " + quoted_list(known));
+}
+
+Request request(const Element& element) {
+  if (element.text("name") == kRaw) {
+    allow_attributes(element, {"bytes"});
+    return raw_request(element);
+  }
+  const nfc::Command command = to_command(element);
+  switch (command) {
+    case nfc::Command::kSetLed:
+      allow_attributes(element, {"led"});
+      return {command, led(element)};
+    case nfc::Command::kSelect:
+      allow_attributes(element, {"identifier"});
+      return {command, most_significant_first(identifier(element))};
+    case nfc::Command::kSetSamplingPeriod:
+      allow_attributes(element, {"period"});
+      return {command, most_significant_first(
+                           static_cast<std::uint16_t>(element.whole_number("period", 0, 0xFFFF)))};
+    default:
+      allow_attributes(element);
+      return {command, {}};
+  }
+}
+
+stride::Duration timeout(const Element& element) {
+  const double timeout = element.number("timeout", kDefaultTimeout);
+  if (!(timeout > 0.0 && timeout <= kLongestTime)) {
+    element.fail("timeout=\"" + element.text("timeout") +
+                 "\": expected more than 0 seconds, and 3600 at most");
+  }
+  return stride::duration_from_seconds(timeout);
+}
+
+stride::Duration pause(const Element& element) {
+  if (!element.has("pause")) return stride::duration_from_seconds(kDefaultPause);
+  return stride::duration_from_seconds(element.number_within("pause", 0, kLongestTime));
+}
+
+std::uint32_t retries(const Element& element) {
+  if (element.has("retries")) {
+    return static_cast<std::uint32_t>(element.whole_number("retries", 0, kMostRetries));
+  }
+  if (element.has("pause"))
+    element.fail("pause=\"" + element.text("pause") + "\": expected retries with it");
+  return 0;
+}
+
+std::uint32_t bit_rate(const Element& element) {
+  const double rate = element.number("bit_rate", 106);
+  for (const std::uint32_t known : {106, 212, 424, 848}) {
+    if (rate == known) return known;
+  }
+  element.fail("bit_rate=\"" + element.text("bit_rate") +
+               "\": expected 106, 212, 424 or 848 kbit/s");
+}
+
+/// The attributes of an <expect> that say something of the data.
+std::vector<std::string> data_attributes(nfc::Command command) {
+  switch (command) {
+    case nfc::Command::kIdentify:
+      return {"identifier"};
+    case nfc::Command::kReadTemperature:
+      return {"lowest", "highest"};
+    case nfc::Command::kReadLog:
+      return {"lowest", "highest", "samples"};
+    default:
+      return {};
+  }
+}
+
+void read_status(const Element& element, Expectation& expectation) {
+  const std::string name = element.has("status") ? element.text("status") : "ok";
+  std::vector<std::string> known;
+  for (const auto status :
+       {nfc::Status::kOk, nfc::Status::kUnknownCommand, nfc::Status::kBadArgument}) {
+    if (name == name_of(status)) {
+      expectation.status = status;
+      return;
+    }
+    known.push_back(name_of(status));
+  }
+  known.push_back("none");
+  if (name != "none") {
+    element.fail("unknown status '" + name + "': expected one of " + quoted_list(known));
+  }
+  expectation.answer = false;
+}
+
+void read_temperatures(const Element& element, Expectation& expectation) {
+  const auto read = [&](const char* attribute) {
+    return element.number_within(attribute, kLeastTemperature, kMostTemperature);
+  };
+  if (element.has("lowest")) expectation.lowest = read("lowest");
+  if (element.has("highest")) expectation.highest = read("highest");
+  if (expectation.lowest && expectation.highest && *expectation.lowest > *expectation.highest) {
+    element.fail("expected lowest not to be more than highest");
+  }
+}
+
+Expectation parse_expectation(const Element& element, nfc::Command command) {
+  Expectation expectation;
+  read_status(element, expectation);
+  auto attributes = data_attributes(command);
+  if (!expectation.answer || expectation.status != nfc::Status::kOk) attributes.clear();
+  attributes.insert(attributes.begin(), "status");
+  element.allow_only_leaf(attributes);
+  if (element.has("identifier")) expectation.identifier = identifier(element);
+  if (element.has("samples")) {
+    expectation.samples =
+        static_cast<std::uint32_t>(element.whole_number("samples", 0, nfc::kLogSamples));
+  }
+  read_temperatures(element, expectation);
+  return expectation;
+}
+
+Expectation expectation(const Element& element, nfc::Command command) {
+  Expectation expectation;
+  bool is_given = false;
+  for (const auto& child : element.children()) {
+    if (child.name() != "expect") child.fail("unknown element: expected <expect>");
+    if (is_given) child.fail("expected one <expect> at most");
+    expectation = parse_expectation(child, command);
+    is_given = true;
+  }
+  return expectation;
+}
+
+}  // namespace
+
+ProgramCommand parse_command(const Element& element) {
+  ProgramCommand command;
+  command.at = element.time("at");
+  Request content = request(element);
+  command.command = content.command;
+  command.arguments = std::move(content.arguments);
+  command.timeout = timeout(element);
+  command.bit_rate = bit_rate(element);
+  command.retries = retries(element);
+  command.pause = pause(element);
+  command.expectation = expectation(element, command.command);
+  return command;
+}
+
+std::string name_of(nfc::Command command) {
+  for (const auto& entry : kCommandNames) {
+    if (entry.command == command) return entry.name;
+  }
+  const auto byte = static_cast<std::uint8_t>(command);
+  return std::string("raw 0x") + "0123456789ABCDEF"[byte >> 4] + "0123456789ABCDEF"[byte & 0xF];
+}
+
+}  // namespace reader
