@@ -58,6 +58,7 @@ void advance(ScriptedUnit& unit, Duration size) {
 struct Behaviour {
   std::set<Time> stops;
   unsigned rejects = 0;  ///< the seed of the sizes; 0: it accepts each
+  std::shared_ptr<bool> has_event = std::make_shared<bool>();
 
   StepResult operator()(ScriptedUnit& unit, Time from, Time to) const {
     if (rejects != 0) {
@@ -71,9 +72,8 @@ struct Behaviour {
     const bool stops_early = stop != stops.end() && *stop < to;
     const Time reached = stops_early ? *stop : to;
     advance(unit, reached - from);
-    return {.early_return = stops_early,
-            .event_needed = stop != stops.end() && *stop <= to,
-            .reached = reached};
+    *has_event = stop != stops.end() && *stop <= to;
+    return {.early_return = stops_early, .event_needed = *has_event, .reached = reached};
   }
 };
 
@@ -102,8 +102,8 @@ void make_random_system(ScriptedSystem& system, unsigned seed) {
     auto& unit = system.add("u" + std::to_string(i), describe.done());
     unit.number(1) = static_cast<double>(random() % 1000) / 1000;
     unit.on_step = behaviour;
-    unit.on_event = [](ScriptedUnit& self) {
-      self.number(1) = -0.5 * self.number(1);
+    unit.on_event = [has_event = behaviour.has_event](ScriptedUnit& self) {
+      if (std::exchange(*has_event, false)) self.number(1) *= -0.5;
       return EventResult{};
     };
   }
