@@ -13,6 +13,7 @@ PANELS = [
     ("distance [cm]", [("channel.distance [m]", 100, "#1b6ca8")]),
     ("power at the tag [mW]", [("channel.tag_power [W]", 1000, "#c05621")]),
     ("capacitor [V]", [("sensor.capacitor.voltage [V]", 1, "#2f855a")]),
+    ("supply [V]", [("sensor.supply.voltage [V]", 1, "#b7791f")]),
     ("load [mW]", [("sensor.energy.load [W]", 1000, "#805ad5")]),
 ]
 STATES = [("antenna on", "reader.carrier_power [W]"), ("sensor powered", "sensor.mcu.powered"),
@@ -23,7 +24,7 @@ def read(folder):
     with open(folder / "signals.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     with open(folder / "events.csv", newline="") as file:
-        events = list(csv.DictReader(file))
+        events = [event for event in csv.DictReader(file) if event["variable"].endswith(".frame")]
     return rows, events
 
 

@@ -20,6 +20,9 @@ std::size_t payload_size(const core::Message& message) {
   if (message.block->type() == core::ValueType::Binary) {
     return message.block->binaries()[message.first].size();
   }
+  if (message.block->type() == core::ValueType::String) {
+    return message.block->strings()[message.first].size();
+  }
   return message.block->size() * core::element_size(message.block->type());
 }
 
