@@ -48,13 +48,14 @@ class Simulation::Run {
     const auto began = WallClock::Source::now();
     std::exception_ptr failure;
     try {
-      initialize();
+      clock_.timed(statistics_.phases.initialization, [&] { initialize(); });
       while (time_ < options_.stop && !statistics_.terminated_by_unit) communication_step();
       for (auto& unit : units_) unit->terminate();
     } catch (...) {
       failure = std::current_exception();
     }
     statistics_.wall_time = WallClock::Source::now() - began;
+    for (std::size_t i = 0; i < count(); ++i) statistics_.units[i].calls = units_[i]->calls();
     finish_observers(failure);
     if (failure) std::rethrow_exception(failure);
   }
@@ -117,7 +118,7 @@ class Simulation::Run {
   }
 
   void communication_step() {
-    const Time reached = advance();
+    const Time reached = clock_.timed(statistics_.phases.steps, [&] { return advance(); });
     note_progress(reached);
     time_ = reached;
     for (std::size_t i = 0; i < count(); ++i) {
@@ -125,11 +126,13 @@ class Simulation::Run {
       statistics_.terminated_by_unit |= result.terminate;
       if (result.event_needed) instant_.request_event(i);
     }
-    settle();
+    clock_.timed(statistics_.phases.instants, [&] { settle(); });
     ++statistics_.communication_steps;
     statistics_.parallel_steps += stepper_.was_parallel();
     statistics_.reached = time_;
-    for (Observer* observer : observers_) observer->on_communication_point(time_);
+    clock_.timed(statistics_.phases.observers, [&] {
+      for (Observer* observer : observers_) observer->on_communication_point(time_);
+    });
   }
 
   /// Takes all units to the next communication point, as far as its errors are tolerable.

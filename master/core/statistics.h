@@ -10,6 +10,7 @@
 namespace stride::core {
 
 struct UnitStatistics {
+  std::uint64_t calls = 0;          ///< of functions of its interface, where they are counted
   std::uint64_t steps = 0;          ///< that it made, redone ones included
   std::uint64_t early_returns = 0;  ///< steps that it ended before their end
   std::uint64_t rejections = 0;     ///< steps that it refused
@@ -24,6 +25,14 @@ struct UnitStatistics {
   std::chrono::nanoseconds event_time{};
 };
 
+/// Wall-clock time of a whole run.
+struct PhaseTimes {
+  std::chrono::nanoseconds initialization{};
+  std::chrono::nanoseconds steps{};     ///< of all units, with inputs within steps and redone steps
+  std::chrono::nanoseconds instants{};  ///< values exchanged and events handled between steps
+  std::chrono::nanoseconds observers{};
+};
+
 struct RunStatistics {
   Time start{};
   Time reached{};  ///< the last accepted instant
@@ -32,6 +41,7 @@ struct RunStatistics {
   std::uint64_t event_iterations = 0;
   std::uint64_t parallel_steps = 0;  ///< communication steps that were made on several threads
   std::chrono::nanoseconds wall_time{};
+  PhaseTimes phases{};
   bool terminated_by_unit = false;
   std::vector<UnitStatistics> units;  ///< in the order of System::components()
 };

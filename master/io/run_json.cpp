@@ -20,6 +20,7 @@ Json unit_entry(const core::Component& component) {
 }
 
 void add(Json& entry, const core::UnitStatistics& unit) {
+  entry["calls"] = unit.calls;
   entry["steps"] = unit.steps;
   entry["early_returns"] = unit.early_returns;
   entry["rejections"] = unit.rejections;
@@ -71,6 +72,10 @@ void write_run_json(const std::filesystem::path& file, const std::filesystem::pa
   run["parallel_steps"] = statistics.parallel_steps;
   run["recorded_signals"] = options.recorded.size();
   run["wall_time"] = seconds(statistics.wall_time);
+  run["phases"] = {{"initialization", seconds(statistics.phases.initialization)},
+                   {"steps", seconds(statistics.phases.steps)},
+                   {"instants", seconds(statistics.phases.instants)},
+                   {"observers", seconds(statistics.phases.observers)}};
   run["units"] = Json::array();
   for (std::size_t i = 0; i < system.components().size(); ++i) {
     Json entry = unit_entry(system.components()[i]);

@@ -22,9 +22,10 @@ TEST_CASE("run.json tells what was run and how far it came") {
   statistics.event_iterations = 3;
   statistics.parallel_steps = 14'000;
   statistics.wall_time = milliseconds(250);
+  statistics.phases = {milliseconds(10), milliseconds(200), milliseconds(30), milliseconds(5)};
   statistics.units = {
-      {14'200, 5, 3, 8, 14'190, 2, 1, 0, milliseconds(1), milliseconds(2), milliseconds(3)},
-      {14'201, 0, 0, 0, 0, 0, 0, 1, milliseconds(0), milliseconds(0), milliseconds(0)},
+      {71'000, 14'200, 5, 3, 8, 14'190, 2, 1, 0, milliseconds(1), milliseconds(2), milliseconds(3)},
+      {0, 14'201, 0, 0, 0, 0, 0, 0, 1, milliseconds(0), milliseconds(0), milliseconds(0)},
   };
   write_run_json(folder / "run.json", "scenarios/x.ssd", sample_system(), options, statistics);
   CHECK(content(folder / "run.json") == R"({
@@ -48,11 +49,18 @@ TEST_CASE("run.json tells what was run and how far it came") {
   "parallel_steps": 14000,
   "recorded_signals": 2,
   "wall_time": 0.25,
+  "phases": {
+    "initialization": 0.01,
+    "steps": 0.2,
+    "instants": 0.03,
+    "observers": 0.005
+  },
   "units": [
     {
       "name": "a",
       "model": "Sample",
       "fmi_version": "3.0",
+      "calls": 71000,
       "steps": 14200,
       "early_returns": 5,
       "rejections": 3,
@@ -71,6 +79,7 @@ TEST_CASE("run.json tells what was run and how far it came") {
       "name": "b, c",
       "model": "Sample",
       "fmi_version": "3.0",
+      "calls": 0,
       "steps": 14201,
       "early_returns": 0,
       "rejections": 0,
