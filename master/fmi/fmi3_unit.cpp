@@ -107,17 +107,15 @@ void Fmi3Unit::terminate() {
 
 // ---- Calls, messages and failures ----
 
-void Fmi3Unit::check_callable(const char* name) const {
+void Fmi3Unit::fail_not_callable(const char* name) const {
   if (failed_in_ != nullptr) {
     fail(fmt::format("{} cannot be called, because {} has failed before", name, failed_in_));
   }
-  if (parts_.library->is_condemned()) {
-    throw core::ConsequentError(
-        core::Error::Kind::Run, {.where = options_.where, .unit = name_, .time = time_},
-        fmt::format("{} cannot be called, because an instance of the same FMU has returned "
-                    "fmi3Fatal before",
-                    name));
-  }
+  throw core::ConsequentError(
+      core::Error::Kind::Run, {.where = options_.where, .unit = name_, .time = time_},
+      fmt::format("{} cannot be called, because an instance of the same FMU has returned "
+                  "fmi3Fatal before",
+                  name));
 }
 
 void Fmi3Unit::fail_call(const char* function, fmi3Status status) {

@@ -105,7 +105,11 @@ class Fmi3Unit : public core::Unit {
   fmi3Status call_discardable(const char* name, Function* function, Arguments... arguments);
   template <class Function, class... Arguments>
   void call(const char* name, Function* function, Arguments... arguments);
-  void check_callable(const char* name) const;
+  void check_callable(const char* name) const {
+    if (failed_in_ != nullptr || parts_.library->is_condemned()) [[unlikely]]
+      fail_not_callable(name);
+  }
+  [[noreturn]] void fail_not_callable(const char* name) const;
   [[noreturn]] void fail_call(const char* function, fmi3Status status);
   [[noreturn]] void fail(const std::string& message, const std::string& hint = "") const;
 
