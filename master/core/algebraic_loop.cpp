@@ -17,26 +17,18 @@ constexpr std::size_t kMostValues = 8;  // in a message
 
 bool is_real(ValueType type) { return type == ValueType::Float64 || type == ValueType::Float32; }
 
-double number(const ValueBlock& block, std::size_t element) {
-  return block.type() == ValueType::Float32 ? block.numbers<float>()[element]
-                                            : block.numbers<double>()[element];
-}
-
 /// Returns whether it was another one.
-bool set_number(const Exchange::Place& place, std::size_t element, double value) {
-  const std::size_t at = place.first + element;
-  if (place.block->type() == ValueType::Float32) {
-    const auto narrow = static_cast<float>(value);
-    return std::exchange(place.block->numbers<float>()[at], narrow) != narrow;
-  }
-  return std::exchange(place.block->numbers<double>()[at], value) != value;
+bool change_real(const Exchange::Place& place, std::size_t element, double value) {
+  const double before = real(*place.block, place.first + element);
+  set_real(*place.block, place.first + element, value);
+  return real(*place.block, place.first + element) != before;
 }
 
 /// A unit is better not given what is not finite.
 bool is_finite(const ValueBlock& block) {
   if (!is_real(block.type())) return true;
   for (std::size_t i = 0; i < block.size(); ++i) {
-    if (!std::isfinite(number(block, i))) return false;
+    if (!std::isfinite(real(block, i))) return false;
   }
   return true;
 }
@@ -104,7 +96,7 @@ bool AlgebraicLoop::is_settled(const Unknown& unknown) const {
   const std::size_t at = place.first + unknown.element;
   if (!cut.is_real) return is_same(*place.block, at, cut.result, unknown.element);
   const double nominal = system_.variable(cut.wires.front().target()).nominal;
-  return core::is_settled(number(*place.block, at), number(cut.result, unknown.element), nominal,
+  return core::is_settled(real(*place.block, at), real(cut.result, unknown.element), nominal,
                           scale_.epsilon);
 }
 
@@ -163,13 +155,13 @@ bool AlgebraicLoop::solve_reals() {
   std::vector<double> guess;
   for (const Unknown& unknown : reals_) {
     const Exchange::Place place = cuts_[unknown.cut].wires.front().place();
-    guess.push_back(number(*place.block, place.first + unknown.element));
+    guess.push_back(real(*place.block, place.first + unknown.element));
   }
   const auto function = [&](std::span<const double> x, std::span<double> g) {
     put(x);
     sweep();
     for (std::size_t i = 0; i < reals_.size(); ++i) {
-      g[i] = number(cuts_[reals_[i].cut].result, reals_[i].element);
+      g[i] = real(cuts_[reals_[i].cut].result, reals_[i].element);
     }
   };
   return solve_loop(function, std::move(guess), scale_).found;
@@ -205,7 +197,7 @@ void AlgebraicLoop::put(Cut& cut, const ValueBlock& value) {
 void AlgebraicLoop::put(std::span<const double> x) {
   for (std::size_t i = 0; i < reals_.size(); ++i) {
     for (StagedExchange::Wire& wire : cuts_[reals_[i].cut].wires) {
-      if (set_number(wire.place(), reals_[i].element, x[i])) staged_.touch(wire);
+      if (change_real(wire.place(), reals_[i].element, x[i])) staged_.touch(wire);
     }
   }
 }
@@ -232,8 +224,8 @@ std::string AlgebraicLoop::values_text() const {
         cut.result.size() == 1 ? "" : fmt::format("[{}]", unknown.element + 1),
         element_text(*place.block, at), element_text(cut.result, unknown.element));
     if (cut.is_real) {
-      const double x = number(*place.block, at);
-      text += fmt::format(", a residual of {:.3g}", number(cut.result, unknown.element) - x);
+      const double x = real(*place.block, at);
+      text += fmt::format(", a residual of {:.3g}", real(cut.result, unknown.element) - x);
     }
     texts.push_back(std::move(text));
   }

@@ -91,70 +91,66 @@ Exchange::Exchange(const System& system, std::span<const VariableId> recorded) :
   }
 }
 
-template <class SomeTransfers>
-auto Exchange::locate(SomeTransfers& transfers, VariableId id) {
-  struct Place {
-    decltype(&transfers[0][0].block) block = nullptr;
-    std::size_t first = 0;
-    decltype(&transfers[0][0]) transfer = nullptr;
-  };
-  for (auto& transfer : transfers[id.component]) {
+Exchange::Found Exchange::locate(Transfers& transfers, VariableId id) {
+  for (Transfer& transfer : transfers[id.component]) {
     const auto found = std::lower_bound(transfer.ids.begin(), transfer.ids.end(), id);
     if (found == transfer.ids.end() || *found != id) continue;
-    const auto place = static_cast<std::size_t>(found - transfer.ids.begin());
-    return Place{&transfer.block, transfer.firsts[place], &transfer};
+    return {&transfer, transfer.firsts[static_cast<std::size_t>(found - transfer.ids.begin())]};
   }
-  return Place{};
+  return {};
 }
 
-Signal Exchange::signal(VariableId id) const {
-  const bool sampled = system_.variable(id).is_clocked();
-  const auto input = locate(sampled ? sampled_inputs_ : inputs_, id);
-  if (input.block != nullptr) {
-    return {id, sampled ? &input.transfer->delivered : input.block, input.first};
+Exchange::Found Exchange::locate_input(VariableId id) {
+  return locate(system_.variable(id).is_clocked() ? sampled_inputs_ : inputs_, id);
+}
+
+Exchange::Found Exchange::locate_output(VariableId id) {
+  return locate(system_.variable(id).is_clocked() ? sampled_outputs_ : outputs_, id);
+}
+
+Signal Exchange::signal(VariableId id) {
+  const Found input = locate_input(id);
+  if (input.transfer != nullptr && system_.variable(id).is_clocked()) {
+    return {id, &input.transfer->delivered, input.first};
   }
-  const auto output = locate(sampled ? sampled_outputs_ : outputs_, id);
-  return {id, output.block, output.first};
+  const Place value = place(id);
+  return {id, value.block, value.first};
 }
 
 Exchange::Place Exchange::place(VariableId id) {
-  const bool sampled = system_.variable(id).is_clocked();
-  const auto input = locate(sampled ? sampled_inputs_ : inputs_, id);
-  if (input.block != nullptr) return {input.block, input.first};
-  const auto output = locate(sampled ? sampled_outputs_ : outputs_, id);
-  return {output.block, output.first};
+  const Found input = locate_input(id);
+  const Found found = input.transfer != nullptr ? input : locate_output(id);
+  return {&found.transfer->block, found.first};
 }
 
 void Exchange::add_copies(const Connection& connection) {
-  const bool from_sampled = system_.is_sampled(connection.from);
-  const bool to_sampled = system_.is_sampled(connection.to);
-  const auto from =
-      locate(std::as_const(from_sampled ? sampled_outputs_ : outputs_), connection.from);
-  const auto to = locate(to_sampled ? sampled_inputs_ : inputs_, connection.to);
-  ValueBlock& target = *to.block;
+  const Found from = locate_output(connection.from);
+  const Found to = locate_input(connection.to);
+  const ValueBlock& source = from.transfer->block;
+  ValueBlock& target = to.transfer->block;
   for (std::size_t i = 0; i < system_.variable(connection.from).size; ++i) {
     const std::size_t source_at = from.first + i;
     const std::size_t target_at = to.first + i;
     switch (target.type()) {
       case ValueType::String:
-        strings_.push_back({&target.strings()[target_at], &from.block->strings()[source_at]});
+        strings_.push_back({&target.strings()[target_at], &source.strings()[source_at]});
         break;
       case ValueType::Binary:
-        binaries_.push_back({&target.binaries()[target_at], &from.block->binaries()[source_at]});
+        binaries_.push_back({&target.binaries()[target_at], &source.binaries()[source_at]});
         break;
       case ValueType::Float64:
         add_real(doubles_, connection, &target.numbers<double>()[target_at],
-                 &from.block->numbers<double>()[source_at]);
+                 &source.numbers<double>()[source_at]);
         break;
       case ValueType::Float32:
         add_real(floats_, connection, &target.numbers<float>()[target_at],
-                 &from.block->numbers<float>()[source_at]);
+                 &source.numbers<float>()[source_at]);
         break;
       default: {
         const std::size_t size = element_size(target.type());
         const std::size_t list = size == 1 ? 0 : size == 2 ? 1 : size == 4 ? 2 : 3;
         numbers_[list].push_back(
-            {target.bytes() + target_at * size, from.block->bytes() + source_at * size});
+            {target.bytes() + target_at * size, source.bytes() + source_at * size});
       }
     }
   }
@@ -259,9 +255,6 @@ void Exchange::deliver_within_step(std::size_t component, Unit& unit) {
 }
 
 std::vector<ContinuousLink> Exchange::continuous_links() {
-  const auto element = [](ValueBlock& block, std::size_t i) {
-    return RealElement{block.type(), block.bytes() + i * element_size(block.type())};
-  };
   std::vector<ContinuousLink> links;
   for (const Connection& connection : system_.connections()) {
     const Variable& source = system_.variable(connection.from);
@@ -269,11 +262,14 @@ std::vector<ContinuousLink> Exchange::continuous_links() {
     const bool continuous = source.variability == Variability::Continuous &&
                             target.variability == Variability::Continuous;
     if (!continuous || source.is_clocked() || target.is_clocked()) continue;
-    const auto from = locate(outputs_, connection.from);
-    const auto to = locate(inputs_, connection.to);
+    const Found from = locate_output(connection.from);
+    const Found to = locate_input(connection.to);
     for (std::size_t i = 0; i < source.size; ++i) {
-      links.push_back({connection.from, connection.to, element(*from.block, from.first + i),
-                       element(*to.block, to.first + i), connection.conversion});
+      links.push_back({connection.from,
+                       connection.to,
+                       {&from.transfer->block, from.first + i},
+                       {&to.transfer->block, to.first + i},
+                       connection.conversion});
     }
   }
   return links;

@@ -17,20 +17,12 @@ namespace stride::core {
 
 /// One element of a Float64 or Float32 variable, where it stands in an exchange's blocks.
 struct RealElement {
-  ValueType type = ValueType::Float64;
-  void* place = nullptr;
+  ValueBlock* block = nullptr;
+  std::size_t at = 0;
 
-  double get() const {
-    return type == ValueType::Float64 ? *static_cast<const double*>(place)
-                                      : *static_cast<const float*>(place);
-  }
-  void set(double value) const {
-    if (type == ValueType::Float64) {
-      *static_cast<double*>(place) = value;
-    } else {
-      *static_cast<float*>(place) = static_cast<float>(value);
-    }
-  }
+  double get() const { return real(*block, at); }
+  void set(double value) const { set_real(*block, at, value); }
+  auto operator<=>(const RealElement&) const = default;
 };
 
 /// When variables are written.
@@ -92,7 +84,7 @@ class Exchange {
 
   /// Where the variable's value stands. An input that is connected is seen as its source left it,
   /// one that belongs to a time-based clock as it was at its last tick.
-  Signal signal(VariableId id) const;
+  Signal signal(VariableId id);
 
   /// Likewise, of a variable that is connected, for who evaluates single variables: an output that
   /// was read belongs there, and deliver() takes an input from there. See evaluation.h.
@@ -153,9 +145,14 @@ class Exchange {
   void add_copies(const Connection& connection);
   template <class Real>
   void add_real(RealLists<Real>& lists, const Connection& connection, Real* to, const Real* from);
-  /// The block that holds the variable and its place there; null if there is none.
-  template <class SomeTransfers>
-  static auto locate(SomeTransfers& transfers, VariableId id);
+  /// The transfer that holds the variable and its place there; null if there is none.
+  struct Found {
+    Transfer* transfer = nullptr;
+    std::size_t first = 0;
+  };
+  static Found locate(Transfers& transfers, VariableId id);
+  Found locate_input(VariableId id);
+  Found locate_output(VariableId id);
 
   const System& system_;
   Transfers outputs_;

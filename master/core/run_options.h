@@ -66,6 +66,12 @@ struct ThreadOptions {
 };
 
 struct RunOptions {
+  /// Whether inputs are set anew for each step. With Jacobi and held inputs they stay what they
+  /// were at the communication point.
+  bool sets_inputs_in_steps() const {
+    return coupling != Coupling::Jacobi || extrapolation != Extrapolation::Hold;
+  }
+
   Time start{};
   Time stop{};
   StepOptions step{};

@@ -36,9 +36,9 @@ class Simulation::Run {
         clock_(options_.measure_time),
         instant_(system, units_, exchange_, observers_, statistics_, clock_),
         stepper_(system, units_, statistics_.units, clock_, options_,
-                 inputs_ && inputs_->change_in_steps() ? &*inputs_ : nullptr) {
+                 options_.sets_inputs_in_steps() ? &*inputs_ : nullptr) {
     statistics_.start = statistics_.reached = options_.start;
-    if (inputs_ && inputs_->change_in_steps()) lead_inputs_within_steps();
+    if (options_.sets_inputs_in_steps()) lead_inputs_within_steps();
   }
 
   void add_observer(Observer& observer) { observers_.push_back(&observer); }
@@ -103,10 +103,10 @@ class Simulation::Run {
     for (Observer* observer : observers_) observer->on_start(signals);
   }
 
+  /// Nothing where nobody would use it.
   std::optional<StepInputs> make_inputs() {
-    StepInputs inputs(system_, exchange_, options_.coupling, options_.extrapolation);
-    if (!inputs.change_in_steps() && !step_size_.controls_error()) return std::nullopt;
-    return inputs;
+    if (!options_.sets_inputs_in_steps() && !step_size_.controls_error()) return std::nullopt;
+    return StepInputs(system_, exchange_, options_.coupling, options_.extrapolation);
   }
 
   void lead_inputs_within_steps() {

@@ -9,16 +9,16 @@ StepInputs::StepInputs(const System& system, Exchange& exchange, Coupling coupli
                        Extrapolation extrapolation)
     : exchange_(exchange),
       sequential_(coupling == Coupling::GaussSeidel),
-      change_in_steps_(sequential_ || extrapolation != Extrapolation::Hold),
       sources_(system.components().size()),
       step_begins_(system.components().size()),
       feeds_(system.components().size()) {
+  Places places;
   for (const ContinuousLink& link : exchange.continuous_links()) {
     std::vector<Feed>& feeds = feeds_[link.to.component];
     auto feed = std::find_if(feeds.begin(), feeds.end(),
                              [&](const Feed& f) { return f.source == link.from.component; });
     if (feed == feeds.end()) feed = feeds.insert(feed, {link.from.component, {}});
-    feed->links.push_back({signal_of(link), system.variable(link.to).intermediate_update,
+    feed->links.push_back({signal_of(link, places), system.variable(link.to).intermediate_update,
                            link.target, link.conversion});
   }
   for (Source& source : sources_) {
@@ -26,9 +26,9 @@ StepInputs::StepInputs(const System& system, Exchange& exchange, Coupling coupli
   }
 }
 
-std::size_t StepInputs::signal_of(const ContinuousLink& link) {
+std::size_t StepInputs::signal_of(const ContinuousLink& link, Places& places) {
   Source& source = sources_[link.from.component];
-  const auto [place, is_new] = source.places.emplace(link.source.place, source.signals.size());
+  const auto [place, is_new] = places.emplace(link.source, source.signals.size());
   if (is_new) {
     source.signals.push_back(link.source);
     source.ids.push_back(link.from);

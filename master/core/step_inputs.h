@@ -35,10 +35,6 @@ class StepInputs {
   StepInputs(const System& system, Exchange& exchange, Coupling coupling,
              Extrapolation extrapolation);
 
-  /// Whether there is anything to set: with Jacobi and held inputs all is done at the communication
-  /// point, and only excess() below has a use.
-  bool change_in_steps() const { return change_in_steps_; }
-
   /// Sets a unit's inputs to their values within the step for which before_step() was called last.
   void within_step(std::size_t component, Unit& unit, double seconds_into_step);
 
@@ -60,7 +56,6 @@ class StepInputs {
   struct Source {
     std::vector<RealElement> signals;
     std::vector<VariableId> ids;
-    std::map<const void*, std::size_t> places;  ///< of the signals, to find them
     SignalHistory history{0, 0};
     bool is_ahead = false;  ///< the newest sample belongs to a step that is not accepted yet
   };
@@ -76,7 +71,9 @@ class StepInputs {
     std::vector<Link> links;
   };
 
-  std::size_t signal_of(const ContinuousLink& link);
+  /// The place of each signal in its source.
+  using Places = std::map<RealElement, std::size_t>;
+  std::size_t signal_of(const ContinuousLink& link, Places& places);
   void sample(Source& source, Time time);
   /// Sets the targets that may change within a step, or the others.
   static void set_targets(const Feed& feed, const SignalHistory& history,
@@ -84,7 +81,6 @@ class StepInputs {
 
   Exchange& exchange_;
   bool sequential_;
-  bool change_in_steps_;
   std::vector<Source> sources_;           ///< by component
   std::vector<Time> step_begins_;         ///< by target component
   std::vector<std::vector<Feed>> feeds_;  ///< by target component

@@ -125,6 +125,19 @@ bool copy_elements(ValueBlock& to, std::size_t to_first, const ValueBlock& from,
   });
 }
 
+double real(const ValueBlock& block, std::size_t element) {
+  return block.type() == ValueType::Float32 ? block.numbers<float>()[element]
+                                            : block.numbers<double>()[element];
+}
+
+void set_real(ValueBlock& block, std::size_t element, double value) {
+  if (block.type() == ValueType::Float32) {
+    block.numbers<float>()[element] = static_cast<float>(value);
+  } else {
+    block.numbers<double>()[element] = value;
+  }
+}
+
 bool is_same(const ValueBlock& a, std::size_t a_element, const ValueBlock& b,
              std::size_t b_element) {
   return visit(a, [&]<class T>(std::span<const T> values) {

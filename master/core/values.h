@@ -100,6 +100,10 @@ bool copy_elements(ValueBlock& to, std::size_t to_first, const ValueBlock& from,
                    std::size_t from_first, std::size_t size,
                    const LinearConversion& conversion = {});
 
+/// An element of a Float64 or Float32 block as a double; set_real() rounds to the block's type.
+double real(const ValueBlock& block, std::size_t element);
+void set_real(ValueBlock& block, std::size_t element, double value);
+
 /// Whether two elements of blocks of the same type are equal.
 bool is_same(const ValueBlock& a, std::size_t a_element, const ValueBlock& b,
              std::size_t b_element);
