@@ -1,33 +1,11 @@
 // The whole loop takes nothing from the heap: exchange, steps, saved states, early returns, events
 // and messages.
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <string>
 
 #include <catch2/catch.hpp>
 
+#include "tests/counting_allocator.h"
 #include "tests/property/assembly.h"
-
-namespace {
-
-std::atomic<long> allocations = 0;
-
-}  // namespace
-
-// Counts what this program and the units in it take from the heap. Inlined, GCC takes new and free
-// for a mismatch.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* const memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace {
 

@@ -44,6 +44,20 @@ struct ScriptedSystem {
   }
 };
 
+/// Notes the communication points.
+struct Points : Observer {
+  std::vector<Time> times;
+  void on_communication_point(Time time) override { times.push_back(time); }
+};
+
+/// Those of a run of the system.
+inline std::vector<Time> points(ScriptedSystem& system, double stop, Duration step) {
+  Points points;
+  system.build(stop, step).add_observer(points);
+  system.simulation->run();
+  return points.times;
+}
+
 /// The step that a unit makes when all is well.
 inline StepResult reached(Time time) {
   StepResult result;

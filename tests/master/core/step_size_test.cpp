@@ -15,18 +15,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-struct Points : Observer {
-  std::vector<Time> times;
-  void on_communication_point(Time time) override { times.push_back(time); }
-};
-
-std::vector<Time> points(ScriptedSystem& system, double stop, Duration step) {
-  Points points;
-  system.build(stop, step).add_observer(points);
-  system.simulation->run();
-  return points.times;
-}
-
 std::string refusal(ScriptedSystem& system) {
   try {
     system.build(1, 10ms);

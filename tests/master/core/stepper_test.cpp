@@ -36,18 +36,6 @@ auto stopping_at(std::set<Time> instants) {
   };
 }
 
-struct Points : Observer {
-  std::vector<Time> times;
-  void on_communication_point(Time time) override { times.push_back(time); }
-};
-
-std::vector<Time> points(ScriptedSystem& system, double stop, Duration step) {
-  Points points;
-  system.build(stop, step).add_observer(points);
-  system.simulation->run();
-  return points.times;
-}
-
 std::string failure(Simulation& simulation) {
   try {
     simulation.run();

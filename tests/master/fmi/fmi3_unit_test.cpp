@@ -1,13 +1,11 @@
 #include "master/fmi/fmi3_unit.h"
 
-#include <atomic>
-#include <cstdlib>
 #include <limits>
-#include <new>
 
 #include <dlfcn.h>
 
 #include "master/fmi/fmu.h"
+#include "tests/counting_allocator.h"
 #include "tests/master/fmi/support.h"
 
 using namespace stride;
@@ -16,26 +14,6 @@ using namespace std::chrono_literals;
 using Catch::Matchers::Contains;
 using core::ValueBlock;
 using core::ValueType;
-
-namespace {
-
-std::atomic<long> allocations = 0;
-
-}  // namespace
-
-// Counts what this program and the units in it take from the heap. Inlined, GCC takes new and free
-// for a mismatch.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* const memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace {
 
