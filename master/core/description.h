@@ -115,6 +115,12 @@ struct Variable {
   /// Of a continuous input or an output: it may be accessed within a step.
   bool intermediate_update = false;
 
+  /// Of a Float64 input: how far it may go before a unit's promise to be idle ends.
+  double deadband = 0;
+  /// Of a Float64 output: how far it may be from its tangent while the unit promises to be idle;
+  /// without one it stays what it is meanwhile.
+  std::optional<double> tolerance;
+
   bool is_clocked() const { return !clocks.empty(); }
   /// Whether it is a clock that the master ticks by the time.
   bool is_time_based_clock() const {
@@ -151,6 +157,8 @@ struct UnitDescription {
   /// It can ask for its inputs within a step (fmi3IntermediateUpdateCallback).
   bool provides_intermediate_update = false;
   unsigned max_output_derivative_order = 0;
+  /// It can promise to be idle (org.stride.idle, see <stride/idle.h>).
+  bool promises_idle = false;
   /// Whether the unit may reject a step (fmi3Discard); true unless it says otherwise.
   bool may_reject = true;
   std::optional<Duration> fixed_internal_step;

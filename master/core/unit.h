@@ -87,6 +87,20 @@ class Unit {
   /// steps with the inputs that it was given before.
   virtual void set_input_update(InputUpdate /*update*/) {}
 
+  /// Before enter_initialization, with promises_idle: the unit may skip its own idle time, and will
+  /// promise to be idle, for max_skip at most.
+  virtual void enable_idle_skipping(Duration /*max_skip*/) {}
+  /// Likewise: how far Float64 outputs may be from their tangents meanwhile.
+  virtual void set_idle_tolerances(std::span<const ValueReference> /*outputs*/,
+                                   std::span<const double> /*tolerances*/) {}
+  /// Where a step or Event Mode has just ended: the instant before which the unit need not be
+  /// called, while its inputs stay within their deadbands and none of its clocks is set. Not after
+  /// the present instant if it promises nothing.
+  virtual Time idle_until() { return Time::min(); }
+  /// The first derivatives of scalar Float64 outputs, where the unit has them.
+  virtual void get_derivatives(std::span<const ValueReference> /*outputs*/,
+                               std::span<double> /*derivatives*/) {}
+
   virtual void terminate() = 0;
 
   /// How many functions of the unit's interface were called so far, where they are counted.
