@@ -90,8 +90,10 @@ Time StepSize::next(Time now) const {
 }
 
 Time StepSize::on_internal_grid(Time time, Time now) const {
-  const Time rounded = time - (time - start_) % quantum_;
-  return rounded > now ? rounded : std::min(stop_, rounded + quantum_);
+  const Time before = time - (time - start_) % quantum_;
+  if (before > now) return before;
+  const Time after = std::min(stop_, before + quantum_);
+  return maximum_ && after - now > *maximum_ ? time : after;
 }
 
 bool StepSize::accept(Time from, Time reached, const Excess& excess) {
