@@ -10,7 +10,7 @@ StepInputs::StepInputs(const System& system, Exchange& exchange, Coupling coupli
     : exchange_(exchange),
       sequential_(coupling == Coupling::GaussSeidel),
       sources_(system.components().size()),
-      step_begins_(system.components().size()),
+      steps_(system.components().size()),
       feeds_(system.components().size()) {
   Places places;
   for (const ContinuousLink& link : exchange.continuous_links()) {
@@ -65,19 +65,20 @@ void StepInputs::set_targets(const Feed& feed, const SignalHistory& history,
 
 void StepInputs::before_step(std::size_t component, Unit& unit, Time from, Time to) {
   if (feeds_[component].empty()) return;
-  step_begins_[component] = from;
+  steps_[component] = {from, to};
   for (const Feed& feed : feeds_[component]) {
     const SignalHistory& history = sources_[feed.source].history;
     set_targets(feed, history, history.mean(from, to), false);
-    set_targets(feed, history, history.at(from, 0), true);
+    set_targets(feed, history, history.at(from, 0, to - from), true);
   }
   exchange_.deliver_continuous(component, unit);
 }
 
 void StepInputs::within_step(std::size_t component, Unit& unit, double seconds_into_step) {
+  const auto [from, to] = steps_[component];
   for (const Feed& feed : feeds_[component]) {
     const SignalHistory& history = sources_[feed.source].history;
-    set_targets(feed, history, history.at(step_begins_[component], seconds_into_step), true);
+    set_targets(feed, history, history.at(from, seconds_into_step, to - from), true);
   }
   exchange_.deliver_within_step(component, unit);
 }
@@ -102,10 +103,11 @@ Excess StepInputs::excess(Time time, double absolute, double relative) {
     const Source& source = sources_[i];
     if (source.signals.empty()) continue;
     undo_step(i);
-    const SignalHistory::Weights weights = source.history.at(time, 0);
+    const SignalHistory& history = source.history;
+    const SignalHistory::Weights weights = history.at(time, 0, time - history.newest());
     for (std::size_t k = 0; k < source.signals.size(); ++k) {
       const double actual = source.signals[k].get();
-      const double error = std::abs(actual - source.history.value(k, weights));
+      const double error = std::abs(actual - history.value(k, weights));
       const double ratio = error / (absolute + relative * std::abs(actual));
       if (ratio > worst.ratio) worst = {ratio, source.ids[k]};
     }

@@ -71,6 +71,10 @@ class StepInputs {
     std::vector<Link> links;
   };
 
+  struct Step {
+    Time from, to;
+  };
+
   /// The place of each signal in its source.
   using Places = std::map<RealElement, std::size_t>;
   std::size_t signal_of(const ContinuousLink& link, Places& places);
@@ -82,7 +86,7 @@ class StepInputs {
   Exchange& exchange_;
   bool sequential_;
   std::vector<Source> sources_;           ///< by component
-  std::vector<Time> step_begins_;         ///< by target component
+  std::vector<Step> steps_;               ///< the present or last one, by target component
   std::vector<std::vector<Feed>> feeds_;  ///< by target component
 };
 
