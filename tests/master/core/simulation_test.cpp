@@ -199,6 +199,39 @@ TEST_CASE("messages are handed over at communication points until nothing ticks"
   CHECK(f.simulation->statistics().units[0].messages_received == 1);
 }
 
+TEST_CASE("a value of two clocks travels to those whose clock ticks") {
+  Fixture f;
+  auto sender =
+      std::make_shared<UnitDescription>(*Describe("sender")
+                                             .add("first", ValueType::Clock, Causality::Output)
+                                             .add("second", ValueType::Clock, Causality::Output)
+                                             .add("out", ValueType::Binary, Causality::Output)
+                                             .clocked_by(0)
+                                             .done());
+  sender->variables[2].clocks = {0, 1};
+  auto& a = f.add("a", sender);
+  const std::vector<ScriptedUnit*> receivers = {&f.add("b", messenger()), &f.add("c", messenger())};
+  f.wire("a", "first", "b", "in.clock");
+  f.wire("a", "second", "c", "in.clock");
+  f.wire("a", "out", "b", "in");
+  f.wire("a", "out", "c", "in");
+  a.on_step = [](ScriptedUnit& unit, Time, Time to) {
+    StepResult result = reached(to);
+    unit.clock(0) = to == Time(1ms);
+    unit.clock(1) = to == Time(2ms);
+    unit.binary(2) = {static_cast<std::uint8_t>(to.time_since_epoch() / 1ms)};
+    result.event_needed = true;
+    return result;
+  };
+  Seen seen;
+  f.build(0.002, 1ms).add_observer(seen);
+  f.simulation->run();
+  CHECK(seen.messages == std::vector<std::string>{"0.001/0 sent 0:01", "0.001/0 received 1:01",
+                                                  "0.002/0 sent 0:02", "0.002/0 received 2:02"});
+  CHECK(receivers[0]->binary(1) == Binary{1});
+  CHECK(receivers[1]->binary(1) == Binary{2});
+}
+
 TEST_CASE("a unit without events is never in Event Mode after the start") {
   Fixture f;
   auto& a = f.add("a", messenger());
