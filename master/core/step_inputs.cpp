@@ -108,7 +108,9 @@ Excess StepInputs::excess(Time time, double absolute, double relative) {
     for (std::size_t k = 0; k < source.signals.size(); ++k) {
       const double actual = source.signals[k].get();
       const double error = std::abs(actual - history.value(k, weights));
-      const double ratio = error / (absolute + relative * std::abs(actual));
+      const bool is_relative = std::isfinite(error);  // what becomes infinite is no larger number
+      const double tolerance = absolute + (is_relative ? relative * std::abs(actual) : 0);
+      const double ratio = error / tolerance;
       if (ratio > worst.ratio) worst = {ratio, source.ids[k]};
     }
   }

@@ -1,6 +1,7 @@
 #include "master/core/step_size.h"
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -166,10 +167,11 @@ TEST_CASE("a step that was too long is undone by all units and counted") {
 }
 
 TEST_CASE("a jump that no step is short enough for is an error that names the output") {
+  const double high = GENERATE(1.0, std::numeric_limits<double>::infinity());
   ScriptedSystem f;
   auto& jumper = f.add("jumper", Describe("jumper").output("y").can_save_state().done());
-  jumper.on_step = [](ScriptedUnit& self, Time, Time to) {
-    self.number(0) = to > Time(300ms) ? 1 : 0;
+  jumper.on_step = [high](ScriptedUnit& self, Time, Time to) {
+    self.number(0) = to > Time(300ms) ? high : 0;
     return reached(to);
   };
   f.add("reader", Describe("reader").input("u").can_save_state().done());
