@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_CORE_SIGNAL_HISTORY_H
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -44,12 +45,14 @@ class SignalHistory {
   /// The weights for the mean value over an interval; that of the beginning if it has no length.
   Weights mean(Time from, Time to) const;
 
+  /// The newest value, where the polynomial has none that is finite, as of a signal that is or was
+  /// infinite.
   double value(std::size_t signal, const Weights& weights) const {
     double sum = 0;
     for (unsigned k = 0; k < weights.count; ++k) {
       sum += weights.of[k] * samples_[index(weights.age[k])].values[signal];
     }
-    return sum;
+    return std::isfinite(sum) ? sum : samples_[newest_].values[signal];
   }
 
  private:

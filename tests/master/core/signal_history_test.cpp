@@ -1,5 +1,9 @@
 #include "master/core/signal_history.h"
 
+#include <cmath>
+#include <limits>
+#include <vector>
+
 #include <catch2/catch.hpp>
 
 using namespace stride;
@@ -91,4 +95,18 @@ TEST_CASE("where all samples are close to each other, the newest is held") {
   SignalHistory history(1, 2);
   for (int i = 0; i < 4; ++i) history.add(Time(Duration(i)))[0] = i;
   CHECK(history.value(0, history.mean(Time(Duration(4)), Time(1ms))) == 3);
+}
+
+TEST_CASE("what is not finite is held") {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const unsigned degree = GENERATE(0, 1, 2);
+  const auto after = [&](std::vector<double> values) {
+    SignalHistory history(1, degree);
+    for (std::size_t i = 0; i < values.size(); ++i) history.add(Time(i * kStep))[0] = values[i];
+    return history.value(0, history.mean(history.newest(), history.newest() + kStep));
+  };
+  CHECK(after({kInfinity, kInfinity, kInfinity}) == kInfinity);
+  CHECK(after({1, 2, -kInfinity}) == -kInfinity);
+  CHECK(after({kInfinity, kInfinity, 3}) == 3);
+  CHECK(std::isnan(after({1, 2, std::nan("")})));
 }
