@@ -67,7 +67,9 @@ void StepInputs::before_step(std::size_t component, Unit& unit, Time from, Time 
   if (feeds_[component].empty()) return;
   steps_[component] = {from, to};
   for (const Feed& feed : feeds_[component]) {
-    const SignalHistory& history = sources_[feed.source].history;
+    const Source& source = sources_[feed.source];
+    const SignalHistory& history = source.history;
+    if (source.is_ahead && source.is_nan) exchange_.check_nan(history.newest());
     set_targets(feed, history, history.mean(from, to), false);
     set_targets(feed, history, history.at(from, 0, to - from), true);
   }
@@ -89,6 +91,8 @@ void StepInputs::after_step(std::size_t component, Unit& unit, Time reached) {
   exchange_.fetch(component, unit);
   sample(source, reached);
   source.is_ahead = true;
+  source.is_nan = std::any_of(source.signals.begin(), source.signals.end(),
+                              [](const RealElement& signal) { return std::isnan(signal.get()); });
 }
 
 void StepInputs::undo_step(std::size_t component) {

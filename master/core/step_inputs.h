@@ -42,7 +42,10 @@ class StepInputs {
   /// those that had an event begins anew: nothing is extrapolated across a jump.
   void accept(Time time, std::span<const char> had_event);
 
+  /// Sets the unit's inputs for the step. Throws Error (Run) where, with Gauss-Seidel, the new
+  /// value of an output that feeds one of them is NaN.
   void before_step(std::size_t component, Unit& unit, Time from, Time to);
+  /// With Gauss-Seidel, reads what the unit has put out, for those that step after it.
   void after_step(std::size_t component, Unit& unit, Time reached);
   /// The unit's step is undone.
   void undo_step(std::size_t component);
@@ -58,6 +61,7 @@ class StepInputs {
     std::vector<VariableId> ids;
     SignalHistory history{0, 0};
     bool is_ahead = false;  ///< the newest sample belongs to a step that is not accepted yet
+    bool is_nan = false;    ///< a value of that sample is
   };
   struct Link {
     std::size_t signal;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -97,6 +98,25 @@ TEST_CASE("nothing is extrapolated across an event") {
   // the ramp jumps to 100.002 at 2 ms; what it was before says nothing of what comes
   check_near(Ramp({Time(2ms)}).run(Coupling::Jacobi, Extrapolation::Linear),
              {0, 0.0015, 100.002, 100.0035, 100.0045});
+}
+
+TEST_CASE("with Gauss-Seidel, too, NaN is the fault of who puts it out, and reaches nobody") {
+  ScriptedSystem system;
+  auto& source = system.add("source", Describe("source").output("y").done());
+  source.on_step = [](ScriptedUnit& self, Time, Time to) {
+    self.number(0) = to > Time(2ms) ? std::nan("") : 1;
+    return reached(to);
+  };
+  auto& reader = system.add("reader", Describe("reader").input("u").done());
+  reader.on_step = [](ScriptedUnit& self, Time, Time to) {
+    if (std::isnan(self.number(0))) throw std::runtime_error("it was given NaN");
+    return reached(to);
+  };
+  system.wire("source", "y", "reader", "u");
+  system.options.coupling = Coupling::GaussSeidel;
+  CHECK_THROWS_WITH(
+      system.build(0.005, 1ms).run(),
+      Catch::Contains("unit 'source', variable 'y', at 0.003 s") && Catch::Contains("NaN"));
 }
 
 TEST_CASE("the orders of convergence of the two-mass oscillator") {
