@@ -208,7 +208,6 @@ std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate() const {
     options.log = log_message;
     options.debug_logging = true;  // the log's level decides what is shown
     options.early_return_allowed = true;
-    options.may_roll_back = true;
     options.intermediate_update = options_.sets_inputs_in_steps();
     options.where = component.where;
     units.push_back(fmus_[i]->instantiate(component.name, options));

@@ -22,6 +22,10 @@ struct RealElement {
 
   double get() const { return real(*block, at); }
   void set(double value) const { set_real(*block, at, value); }
+  /// Whether it would be another after set().
+  bool differs_from(double value) const {
+    return get() != (block->type() == ValueType::Float32 ? static_cast<float>(value) : value);
+  }
   auto operator<=>(const RealElement&) const = default;
 };
 

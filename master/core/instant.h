@@ -64,17 +64,19 @@ class Instant : private Evaluation::Participants {
   bool prepare_events();
   void leave_event_mode();
   void enter_event_mode(std::size_t i);
-  void event_iteration(std::uint32_t index);
+  bool event_iteration();
   void tick_clocks();
   bool exchange_samples(std::span<const std::size_t> ticking);
   void exchange_after_events();
-  void exchange_messages(std::uint32_t index);
-  void transmit(std::size_t sender, std::uint32_t index);
+  void exchange_messages();
+  void transmit(std::size_t sender);
+  void find_jumps();
+  [[noreturn]] void fail_nan(VariableId id) const;
   [[noreturn]] void fail_ticking() const;
   [[noreturn]] void fail_sample_loop(std::span<const std::size_t> ticking) const;
 
   bool takes_part(std::size_t i) const override { return in_event_mode_[i]; }
-  void on_jump(VariableId input) override;
+  void on_jump(VariableId input, bool is_followed) override;
   bool join(std::size_t i) override;
 
   const System& system_;
@@ -88,8 +90,10 @@ class Instant : private Evaluation::Participants {
   WallClock clock_;
 
   Time time_{};
+  std::uint32_t index_ = 0;                  ///< of the super-dense instant at that time
   std::vector<std::size_t> event_units_;     ///< those with Event Mode
   std::vector<std::size_t> discrete_units_;  ///< those of them with discrete inputs
+  std::vector<ContinuousLink> links_;        ///< to them
   std::vector<char> active_;                 ///< wants the next event iteration
   bool has_active_ = false;
   bool has_event_ = false;  ///< a unit is in Event Mode
@@ -99,8 +103,7 @@ class Instant : private Evaluation::Participants {
   bool has_joined_ = false;   ///< a unit has entered Event Mode during an evaluation
   std::vector<char> polled_;  ///< its output clocks are to be read
   std::vector<std::optional<Time>> next_event_;
-  std::optional<Time> announced_;        ///< the earliest of these
-  std::optional<Time> announced_later_;  ///< the earliest that lies behind the last settle()
+  std::optional<Time> announced_;  ///< the earliest of these
 };
 
 }  // namespace stride::core

@@ -4,7 +4,9 @@
 #include <chrono>
 #include <exception>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -45,6 +47,7 @@ class Simulation::Run {
   const RunStatistics& statistics() const { return statistics_; }
 
   void run() {
+    if (std::exchange(has_run_, true)) throw std::logic_error("a simulation runs once");
     const auto began = WallClock::Source::now();
     std::exception_ptr failure;
     try {
@@ -194,6 +197,7 @@ class Simulation::Run {
   Instant instant_;
   Stepper stepper_;
 
+  bool has_run_ = false;
   Time time_{};
   std::uint32_t stalled_steps_ = 0;
 };

@@ -11,12 +11,13 @@
 namespace stride::core {
 namespace {
 
-StepRole role_of(const UnitDescription& unit) {
-  if (unit.can_save_state) return StepRole::CanRollBack;
+bool may_stop(const UnitDescription& unit) { return unit.may_return_early || unit.may_reject; }
+
+StepRole role_of(const UnitDescription& unit, StepPolicy policy) {
+  const bool may_go_back = may_stop(unit) || policy == StepPolicy::ErrorControlled;
+  if (unit.can_save_state && may_go_back) return StepRole::CanRollBack;
   return unit.may_return_early ? StepRole::MayStopEarly : StepRole::DoesAsTold;
 }
-
-bool may_stop(const UnitDescription& unit) { return unit.may_return_early || unit.may_reject; }
 
 std::string reason(const UnitDescription& unit, StepRole role, bool saves_state) {
   switch (role) {
@@ -28,6 +29,7 @@ std::string reason(const UnitDescription& unit, StepRole role, bool saves_state)
     case StepRole::DoesAsTold:
       break;
   }
+  if (unit.can_save_state) return "never stops: follows the others, so nothing is saved";
   return unit.may_reject ? "cannot be rolled back; does not return early, but might reject a step"
                          : "cannot be rolled back; does as it is told";
 }
@@ -120,7 +122,7 @@ std::vector<StepPlace> step_order(const System& system, StepPolicy policy, Coupl
   std::vector<StepPlace> order;
   for (std::size_t i = 0; i < components.size(); ++i) {
     const UnitDescription& unit = *components[i].description;
-    const StepRole role = role_of(unit);
+    const StepRole role = role_of(unit, policy);
     bool another_may_stop = policy == StepPolicy::ErrorControlled;
     for (std::size_t k = 0; k < components.size(); ++k) {
       another_may_stop |= k != i && may_stop(*components[k].description);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ StepSize::StepSize(const System& system, const RunOptions& options)
       order_(1.0 + static_cast<double>(options.extrapolation)),
       maximum_(options.step.maximum),
       size_(options.step.size) {
+  if (options.step.size <= Duration{})
+    throw std::invalid_argument("the step size must be positive");
   if (controls_error() && !maximum_) maximum_ = std::max((stop_ - start_) / 10, Duration(1));
   for (const Component& component : system.components()) {
     const UnitDescription& unit = *component.description;
@@ -92,8 +95,10 @@ Time StepSize::next(Time now) {
 }
 
 Time StepSize::on_internal_grid(Time time, Time now) const {
-  const Time rounded = time - (time - start_) % quantum_;
-  return rounded > now ? rounded : std::min(stop_, rounded + quantum_);
+  const Time before = time - (time - start_) % quantum_;
+  if (before > now) return before;
+  const Time after = std::min(stop_, before + quantum_);
+  return maximum_ && after - now > *maximum_ ? time : after;
 }
 
 bool StepSize::accept(Time from, Time reached, const Excess& excess) {

@@ -13,7 +13,7 @@
 namespace stride::core {
 
 /// The step policy of a run. No step is longer than a unit says it can be (maximum_step). Steps
-/// that are not on a grid are multiples of the units' fixed internal steps, as far as events let.
+/// that are not on a grid end on the units' fixed internal steps, as far as events and maxima let.
 class StepSize {
  public:
   /// Throws Error (Input) where a unit cannot do what the policy needs: steps of various sizes, and
@@ -34,7 +34,8 @@ class StepSize {
  private:
   void refine_quantum(Duration internal);
   void check_units(const System& system) const;
-  /// Rounded down to the units' internal steps, if it is as long as one of them.
+  /// Back to the last point of the units' internal steps. Where that is no step at all, on to the
+  /// next one, or if that is further than the maximum, the time itself.
   Time on_internal_grid(Time time, Time now) const;
   [[noreturn]] void fail_tolerance(Time from, Time reached, const Excess& excess) const;
 

@@ -76,7 +76,7 @@ ThreadPool& Stepper::pool() {
 
 Time Stepper::advance(Time from, Time target) {
   ++communication_step_;
-  rejections_ = 0;
+  cut_ = {};
   has_requests_ = false;
   if (split_.is_deciding()) return make_timed_passes(from, target);
   const Time reached = make_passes(from, target);
@@ -140,8 +140,7 @@ inline Time Stepper::step_stage(std::size_t stage, const StepInterval& interval)
     if (allowed >= reached) [[likely]]
       continue;
     reached = allowed;
-    stopped_ = &lane;
-    stopped_at_ = lane.result.reached;
+    cut_ = {&lane, lane.result.reached, lane.outcome == Outcome::Rejected};
   }
   if (reached != interval.to) check_minimum(interval, reached);
   return reached;
@@ -170,6 +169,7 @@ void Stepper::step(Lane& lane, const StepInterval& interval) noexcept {
 /// down.
 inline bool Stepper::step_plainly(Lane& lane, const StepInterval& interval) {
   lane.communication_step = communication_step_;
+  lane.rejections = 0;
   lane.result = exchange_.step(lane.component, *lane.unit, interval);
   lane.steps += !lane.result.rejected;
   if (lane.result.went_through(interval.to)) [[likely]]
@@ -188,6 +188,7 @@ inline Stepper::Outcome Stepper::go(Lane& lane, const StepInterval& interval) {
   if (lane.communication_step != communication_step_) [[likely]] {
     lane.communication_step = communication_step_;
     lane.result = {.reached = interval.from};
+    lane.rejections = 0;
     if (lane.saves_state) save(lane);
   } else if (lane.result.reached > interval.to) {
     if (!lane.saves_state) return Outcome::TooFar;
@@ -224,7 +225,7 @@ void Stepper::restore(Lane& lane, Time from) {
 }
 
 /// Counts what the unit did, and returns how far it lets the others go.
-inline Time Stepper::take_down(const Lane& lane, const StepInterval& interval) {
+inline Time Stepper::take_down(Lane& lane, const StepInterval& interval) {
   if (lane.saves_state) {
     UnitStatistics& statistics = statistics_[lane.component];
     statistics.saves += lane.saved;
@@ -240,7 +241,7 @@ inline Time Stepper::take_down(const Lane& lane, const StepInterval& interval) {
       return lane.result.reached;
     case Outcome::Rejected:
       ++statistics_[lane.component].rejections;
-      ++rejections_;
+      ++lane.rejections;
       return interval.from + (interval.to - interval.from) / 2;
     case Outcome::TooFar:
       fail_final(lane);
@@ -273,33 +274,49 @@ const std::string& Stepper::name(const Lane& lane) const {
 
 void Stepper::check_minimum(const StepInterval& interval, Time reached) const {
   const bool is_large_enough = reached - interval.from >= minimum_ && reached > interval.from;
-  if (is_large_enough || stopped_->outcome != Outcome::Rejected) return;
-  const std::string reason = stopped_->unit->rejection_reason();
-  fail_run({{}, name(*stopped_), {}, interval.from},
+  if (is_large_enough || !cut_.is_rejection) return;
+  fail_run({{}, name(*cut_.by), {}, interval.from},
            fmt::format("the unit rejected the step to {} s, {} in all, and half of it would be "
                        "shorter than the minimum of "
-                       "{} s{}{}",
-                       to_text(interval.to), times(rejections_), to_text(Time(minimum_)),
-                       reason.empty() ? "" : "; it says: ", reason),
+                       "{} s{}",
+                       to_text(interval.to), times(cut_.by->rejections), to_text(Time(minimum_)),
+                       reason(cut_)),
            "look at what the unit received before this instant");
 }
 
+/// What the unit says of a step that it rejected.
+std::string Stepper::reason(const Cut& cut) const {
+  const std::string said = cut.is_rejection ? cut.by->unit->rejection_reason() : "";
+  return said.empty() ? "" : "; it says: " + said;
+}
+
 void Stepper::fail_size(const Lane& lane, const StepInterval& interval) const {
-  fail_run(
-      {{}, name(lane), {}, interval.from},
-      fmt::format(
-          "the unit takes steps of one size only, {} s, but another unit's event or stop asks for "
-          "one of {} s",
-          to_text(Time(regular_)), to_text(Time(interval.to - interval.from))),
+  const std::string hint =
       "use a unit with canHandleVariableCommunicationStepSize, or none that has events or stops "
-      "early");
+      "early";
+  if (cut_.by == &lane) {
+    fail_run({{}, name(lane), {}, interval.from},
+             fmt::format("the unit rejected its step, and takes steps of one size only, {} s, so "
+                         "no shorter one can be tried{}",
+                         to_text(Time(regular_)), reason(cut_)),
+             "look at what the unit received before this instant");
+  }
+  const std::string who =
+      cut_.by == nullptr ? "an event, or the end of the run,"
+                         : fmt::format("'{}', which {},", name(*cut_.by),
+                                       cut_.is_rejection ? "rejected its step" : "stopped early");
+  fail_run({{}, name(lane), {}, interval.from},
+           fmt::format("the unit takes steps of one size only, {} s, but {} asks for one of {} s{}",
+                       to_text(Time(regular_)), who, to_text(Time(interval.to - interval.from)),
+                       reason(cut_)),
+           hint);
 }
 
 void Stepper::fail_final(const Lane& ahead) const {
-  fail_run({{}, name(*stopped_), {}, stopped_at_},
-           fmt::format("the unit stopped here, but '{}' is at {} s already and cannot be rolled "
-                       "back",
-                       name(ahead), to_text(ahead.result.reached)),
+  fail_run({{}, name(*cut_.by), {}, cut_.at},
+           fmt::format("the unit {}, but '{}' is at {} s already and cannot be rolled back{}",
+                       cut_.is_rejection ? "rejected a step from here" : "stopped here",
+                       name(ahead), to_text(ahead.result.reached), reason(cut_)),
            "use a unit that can save its state in place of one of the two, or a smaller step");
 }
 

@@ -85,6 +85,13 @@ class Stepper {
     Outcome outcome = Outcome::Stood;  ///< of the present pass, as the flags behind it
     bool saved = false;
     bool rolled_back = false;
+    std::uint32_t rejections = 0;  ///< in the present communication step
+  };
+  /// Who cut the present communication step short, last.
+  struct Cut {
+    const Lane* by = nullptr;
+    Time at{};
+    bool is_rejection = false;
   };
   struct Failure {
     std::exception_ptr cause;
@@ -103,7 +110,7 @@ class Stepper {
   void save(Lane& lane);
   void go_back(Lane& lane, const StepInterval& interval);
   void restore(Lane& lane, Time from);
-  Time take_down(const Lane& lane, const StepInterval& interval);
+  Time take_down(Lane& lane, const StepInterval& interval);
   void take_down_time(const Lane& lane);
   std::size_t index(const Lane& lane) const {
     return static_cast<std::size_t>(&lane - lanes_.data());
@@ -111,6 +118,7 @@ class Stepper {
   const std::string& name(const Lane& lane) const;
   [[noreturn]] void rethrow_failure(const Lane& first) const;
   void check_minimum(const StepInterval& interval, Time reached) const;
+  std::string reason(const Cut& cut) const;
   [[noreturn]] void fail_size(const Lane& lane, const StepInterval& interval) const;
   [[noreturn]] void fail_final(const Lane& ahead) const;
   WorkSplit::Plan plan(const RunOptions& options);
@@ -134,10 +142,8 @@ class Stepper {
   std::uint64_t communication_step_ = 0;
   Time last_end_{};  ///< of a pass, and the same as a double, since the next begins there
   double last_end_seconds_ = 0;
-  const Lane* stopped_ = nullptr;  ///< who stopped last
-  Time stopped_at_{};
+  Cut cut_;
   bool has_requests_ = false;
-  std::uint64_t rejections_ = 0;  ///< in the present communication step
   WorkSplit split_;
   std::optional<ThreadPool> pool_;  ///< from when it is first needed
   bool was_parallel_ = false;

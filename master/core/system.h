@@ -96,6 +96,7 @@ class System {
   void check_clocks(const ComponentDeclaration& component) const;
   void check_clocked(const ConnectionDeclaration& declaration, VariableId from,
                      VariableId to) const;
+  void check_event_mode(const ConnectionDeclaration& declaration, VariableId id) const;
   void check_message(const ConnectionDeclaration& declaration, const Connection& connection) const;
   Connection connect(const ConnectionDeclaration& declaration) const;
 

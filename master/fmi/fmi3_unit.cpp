@@ -13,6 +13,9 @@ namespace {
 
 constexpr std::size_t kMaxMessages = 8;
 
+/// noSetFMUStatePriorToCurrentPoint: a step is undone to where it began, never further.
+constexpr fmi3Boolean kNeverGoesBack = fmi3True;
+
 const char* status_name(fmi3Status status) {
   constexpr const char* kNames[] = {"fmi3OK", "fmi3Warning", "fmi3Discard", "fmi3Error",
                                     "fmi3Fatal"};
@@ -62,7 +65,6 @@ std::vector<core::ValueReference> intermediate_inputs(const core::UnitDescriptio
 Fmi3Unit::Fmi3Unit(std::string name, UnitParts parts, InstanceOptions options)
     : fmi_(parts.library->functions()),
       is_condemned_(parts.library->is_condemned()),
-      may_roll_back_(options.may_roll_back),
       name_(std::move(name)),
       parts_(std::move(parts)),
       options_(std::move(options)) {
@@ -284,10 +286,9 @@ core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
   time_ = interval.from;
   // no other double lands nearer to the end
   const double size = interval.end_seconds - interval.begin_seconds;
-  if (!(size > 0)) {
-    fail(fmt::format("the step to {} s is too small for the unit, whose time is a double",
-                     core::to_text(interval.to)),
-         "choose a larger step or an earlier start time");
+  if (!(size > 0)) {  // to the unit, whose time is a double, it is the same instant
+    time_ = interval.to;
+    return {.reached = interval.to};
   }
   bool event_needed = false;
   bool terminate = false;
@@ -295,13 +296,15 @@ core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
   double last_successful = interval.end_seconds;
   step_point_ = interval.begin_seconds;
   const fmi3Status status =
-      call_discardable("fmi3DoStep", fmi_.DoStep, interval.begin_seconds, size, !may_roll_back_,
+      call_discardable("fmi3DoStep", fmi_.DoStep, interval.begin_seconds, size, kNeverGoesBack,
                        &event_needed, &terminate, &early, &last_successful);
   rethrow_update_failure();
   if (status == fmi3Discard) {
     rejection_reason_ = has_messages_ ? take_messages("fmi3DoStep") : "";
     return {.rejected = true, .reached = interval.from};
   }
+  if (event_needed && !parts_.description->has_event_mode) [[unlikely]]
+    fail("fmi3DoStep returned eventHandlingNeeded, and the unit has no Event Mode (hasEventMode)");
   if (!early && last_successful != interval.end_seconds) compare_times(interval, last_successful);
   time_ = early ? reached_early(interval, last_successful) : interval.to;
   for (const core::BoundValues& output : values.outputs) get(output.references, *output.block);
@@ -354,6 +357,7 @@ Time Fmi3Unit::reached_early(const core::StepInterval& interval, double last_suc
   const double point = interval.begin_seconds;
   const double end = interval.end_seconds;
   const double tolerance = time_tolerance(point, end);
+  if (last_successful == end) return interval.to;  // which a double cannot always tell
   if (!options_.early_return_allowed) {
     fail("fmi3DoStep returned early, which was not allowed at its instantiation");
   }
@@ -407,7 +411,11 @@ core::EventResult Fmi3Unit::update_discrete_states() {
        &nominals_changed, &values_changed, &has_next, &next);
   core::EventResult result{.iterate = iterate, .terminate = terminate, .next_event = {}};
   // Some units say "never" by a time that no simulation reaches.
-  if (has_next && !(next > kMaxSeconds)) result.next_event = checked_time(next, "nextEventTime");
+  if (has_next && !(next > kMaxSeconds)) {
+    result.next_event = checked_time(next, "nextEventTime");
+    // a unit may compare: it is not entered a rounding error before the instant that it said
+    while (to_seconds(*result.next_event) < next) *result.next_event += Duration(1);
+  }
   return result;
 }
 

@@ -26,8 +26,6 @@ using LogSink = std::function<void(const std::string& unit, fmi3Status status,
 
 struct InstanceOptions {
   bool early_return_allowed = false;
-  /// Whether a state from before the current communication point may be restored.
-  bool may_roll_back = false;
   /// Whether the unit may ask for its inputs within a step, where it can (set_input_update()).
   bool intermediate_update = false;
   bool debug_logging = false;  ///< everything that the unit can log, not only warnings and errors
@@ -142,7 +140,6 @@ class Fmi3Unit final : public core::Unit {
   double step_point_ = 0;  ///< where the present step began, as the unit knows it
   std::exception_ptr update_failure_;
   std::atomic<bool> has_messages_ = false;
-  bool may_roll_back_;
   bool has_time_warning_ = false;
 
   std::string name_;

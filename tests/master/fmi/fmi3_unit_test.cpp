@@ -241,22 +241,10 @@ TEST_CASE("steps from exact time meet the doubles of the next communication poin
   }
 }
 
-TEST_CASE("a step below the resolution of a double is refused before the unit sees it") {
+TEST_CASE("no state from before the current communication point is restored") {
   Raw raw("unit");
-  const Time late(Duration(9'000'000'000'000'000'000));
-  CHECK_THAT(run_error([&] {
-               raw.unit->step({late, late + Duration(1)});
-             }),
-             Contains("too small for the unit"));
-}
-
-TEST_CASE("whether earlier states may be restored is passed on") {
-  Raw fixed("unit");
-  fixed.unit->step({{}, Time(1ms)});
-  CHECK(fixed.global<bool>("raw_no_restore"));
-  Raw rollback("unit", {.may_roll_back = true});
-  rollback.unit->step({{}, Time(1ms)});
-  CHECK_FALSE(rollback.global<bool>("raw_no_restore"));
+  raw.unit->step({{}, Time(1ms)});
+  CHECK(raw.global<bool>("raw_no_restore"));
 }
 
 TEST_CASE("fmi3Discard is a rejected step") {
@@ -466,7 +454,7 @@ TEST_CASE("a library whose instances do well is unloaded with the last of them")
 }
 
 TEST_CASE("a saved state comes back any number of times, and is replaced by the next one") {
-  Fixture unit("stepper", {.may_roll_back = true});
+  Fixture unit("stepper");
   unit.initialize();
   unit->step({{}, Time(10ms)});
   unit->save_state();
@@ -578,4 +566,35 @@ TEST_CASE("a unit without resources gets none") {
   const auto unit = fmi::Fmu::load(raw.scratch / "raw")->instantiate("unit");
   unit->get(std::span(&any, 1), path);
   CHECK(path.strings()[0] == (raw.scratch / "raw/resources").string() + "/");
+}
+
+TEST_CASE("the next event is not before the instant that the unit said") {
+  Raw raw("thirds");
+  raw.unit->enter_event_mode();
+  const auto next = raw.unit->update_discrete_states().next_event;
+  REQUIRE(next);
+  CHECK(to_seconds(*next) >= 1.0 / 3);
+  CHECK(to_seconds(*next - Duration(1)) < 1.0 / 3);
+}
+
+TEST_CASE("picoseconds that a double does not tell apart are one instant to the unit") {
+  const Time point = at(8192.001);
+  Raw raw("fine");
+  Time from = point;
+  while (to_seconds(from + Duration(1)) != to_seconds(from)) from += Duration(1);
+  const core::StepResult result = raw.unit->step({from, from + Duration(1)});
+  CHECK(result.reached == from + Duration(1));
+}
+
+TEST_CASE("who returns early at the end of the step has reached it") {
+  Raw raw("arrives", {.early_return_allowed = true});
+  Time end = at(8192.001);
+  while (time_from_seconds(to_seconds(end)) == end) end += Duration(1);
+  CHECK(raw.unit->step({end - 1ms, end}).reached == end);
+}
+
+TEST_CASE("Event Mode is not wanted by who has none") {
+  Raw raw("needs", {}, "raw", "");
+  CHECK_THROWS_WITH(raw.unit->step({Time(), Time(1ms)}),
+                    Contains("eventHandlingNeeded") && Contains("hasEventMode"));
 }
