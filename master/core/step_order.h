@@ -15,7 +15,7 @@ namespace stride::core {
 enum class StepRole {
   CanRollBack,   ///< its state can be saved and restored
   MayStopEarly,  ///< it may return early and cannot be rolled back
-  DoesAsTold,    ///< it cannot be rolled back, and does not stop on its own
+  DoesAsTold,    ///< it cannot be rolled back, and does not stop on its own, or is not allowed to
 };
 
 struct StepPlace {
