@@ -124,10 +124,11 @@ void Channel::move_tag(std::size_t index, const Pose& reader_coil, const Pose& t
   link.tag_power = tag.circuit.in_load(operation);
 
   link.signals = signals(index, carrier_power_);
-  link.snr_down = signal_to_noise(link.signals.down, tag.down[0], tag.noise_density);
-  link.snr_up = signal_to_noise(link.signals.up, tag.up[0], reader_noise_density_);
-  link.bit_error_rate_down = bit_error_probability(link.snr_down, tag.down[0].coherent);
-  link.bit_error_rate_up = bit_error_probability(link.snr_up, tag.up[0].coherent);
+  const std::size_t rate = index_of(parameters_.bit_rate);
+  link.snr_down = signal_to_noise(link.signals.down, tag.down[rate], tag.noise_density);
+  link.snr_up = signal_to_noise(link.signals.up, tag.up[rate], reader_noise_density_);
+  link.bit_error_rate_down = bit_error_probability(link.snr_down, tag.down[rate].coherent);
+  link.bit_error_rate_up = bit_error_probability(link.snr_up, tag.up[rate].coherent);
 }
 
 Signals Channel::signals(std::size_t index, double carrier_power) const {

@@ -25,7 +25,7 @@ struct Signals {
   bool operator==(const Signals& other) const { return down == other.down && up == other.up; }
 };
 
-/// The link to one tag at one instant. Ratios and probabilities are those of 106 kbit/s.
+/// The link to one tag at one instant. Ratios and probabilities are those of Parameters::bit_rate.
 struct Link {
   double distance = 0.0;        ///< between the coils' centres [m]
   double mutual = 0.0;          ///< mutual inductance [H]

@@ -257,17 +257,17 @@ class NfcChannel : public stride::Unit {
     list(name("power", "tag_power"), shown.link.tag_power, "power that the tag's antenna delivers")
         .unit("W")
         .min(0);
-    list(name("snr.down", "snr.down"), shown.snr_down, "Eb/N0 at the tag, 106 kbit/s")
+    list(name("snr.down", "snr.down"), shown.snr_down, "Eb/N0 at the tag, at bit_rate")
         .unit("dB")
         .range(-200, 200);
-    list(name("snr.up", "snr.up"), shown.snr_up, "Eb/N0 at the reader, 106 kbit/s")
+    list(name("snr.up", "snr.up"), shown.snr_up, "Eb/N0 at the reader, at bit_rate")
         .unit("dB")
         .range(-200, 200);
     list(name("bit_error_rate.down", "bit_error_rate.down"), shown.link.bit_error_rate_down,
-         "probability of a wrong bit at the tag, 106 kbit/s")
+         "probability of a wrong bit at the tag, at bit_rate")
         .range(0, 0.5);
     list(name("bit_error_rate.up", "bit_error_rate.up"), shown.link.bit_error_rate_up,
-         "probability of a wrong bit at the reader, 106 kbit/s")
+         "probability of a wrong bit at the reader, at bit_rate")
         .range(0, 0.5);
   }
 
@@ -332,6 +332,8 @@ class NfcChannel : public stride::Unit {
     list_positive("reader.capture_ratio", p_.reader.capture_ratio, "dB",
                   "a tag that is stronger by more masks another");
     parameter("seed", p_.seed).description("seed of the bit errors");
+    parameter("bit_rate", p_.bit_rate)
+        .description("for which signal-to-noise ratios and error rates are put out [kbit/s]");
   }
 
   static constexpr const char* kFrameType = "application/x-stride-nfc-frame";

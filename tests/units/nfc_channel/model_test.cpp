@@ -194,6 +194,23 @@ TEST_CASE("Bits go wrong as often as the signal-to-noise ratio says, in both dir
         5.0 * std::sqrt(kLength * probability));
 }
 
+TEST_CASE("At each bit rate, bits go wrong as often as the link at this rate says") {
+  Parameters p;
+  p.bit_rate = GENERATE(106, 212, 424, 848);
+  Channel channel(p);
+  double distance = 0.05;
+  do {
+    approach(channel, distance += 0.001);
+  } while (channel.link().bit_error_rate_up < 0.01);
+  constexpr std::size_t kLength = 100'000;
+  nfc::Frame frame = zeros(kLength);
+  frame.bit_rate = p.bit_rate;
+  const double expected = kLength * channel.link().bit_error_rate_up;
+  INFO(p.bit_rate << " kbit/s, " << distance << " m, " << expected << " expected");
+  CHECK(std::abs(static_cast<double>(ones(pass_up(channel, frame))) - expected) <
+        5.0 * std::sqrt(expected));
+}
+
 TEST_CASE("While nothing moves it does not matter how the time is cut") {
   const nfc::Frame frame = zeros(400);
   const Time end = kStart + nfc::air_time(frame);
@@ -615,6 +632,8 @@ TEST_CASE("A parameter out of its range is named") {
              Catch::Contains("reader.interference"));
   CHECK_THAT(with([](auto& p) { p.reader.capture_ratio = -1.0; }),
              Catch::Contains("reader.capture_ratio"));
+  CHECK_THAT(with([](auto& p) { p.bit_rate = 300; }),
+             Catch::Contains("bit_rate is 300: expected 106, 212, 424 or 848 kbit/s"));
   CHECK_THAT(with([](auto& p) { p.tags.clear(); }), Catch::Contains("expected one at least"));
   Parameters only;
   only.tags[0].coil.radius = -1.0;
