@@ -163,7 +163,7 @@ void Channel::add_observation(Time now, double carrier_power) {
   if (observed.empty() || !(observed.back() == added)) observed.push_back(std::move(added));
 }
 
-/// Whatever can be said of the bits that have ended.
+// Whatever can be said of the bits that have ended.
 void Channel::decide() {
   for (Reception& reception : state_.down) decide(reception, false);
   for (Reception& reception : state_.up) decide(reception, true);
@@ -186,9 +186,13 @@ void Channel::decide(Reception& reception, bool up) const {
   }
 }
 
-/// Those that have ended since the observation before this one, and what this one ends.
+// Those that have ended since the observation before this one, and what this one ends.
 void Channel::decide_bits(Reception& reception, bool up, std::size_t index) const {
   const Observation& observation = state_.observed[index];
+  const Time start = reception.sent.start;
+  if (index > 0 && state_.observed[index - 1].time < start) {  // it has entered late
+    reception.lost |= is_too_weak(reception, signal_at(start, index, reception.tag, up), up);
+  }
   while (!reception.lost && !reception.complete() && reception.next_bit_end() <= observation.time) {
     decide_bit(reception, up, index);
   }
@@ -229,7 +233,7 @@ double Channel::interference(const Reception& reception, std::size_t index, doub
   return power / kInterferenceBandwidth;
 }
 
-/// At an instant from the observation before this one up to this one.
+// At an instant from the observation before this one up to this one.
 double Channel::signal_at(Time time, std::size_t index, std::size_t tag, bool up) const {
   const auto signal = [&](const Observation& observation) {
     return up ? observation.signals[tag].up : observation.signals[tag].down;

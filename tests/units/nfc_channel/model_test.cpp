@@ -384,6 +384,29 @@ TEST_CASE("A frame that enters late, after its end, is heard as if it had entere
   }
 }
 
+TEST_CASE("A frame that enters late is not heard if it began without power, whatever came then") {
+  Parameters p;
+  Channel probe(p);
+  approach(probe, 0.05);
+  p.reader.sensitivity = probe.link().signals.up;
+  const nfc::Frame frame = request(kStart + 3 * kBit);
+  const auto pass = [&](Channel& channel, Time entry) {
+    approach_at(channel, kStart, 0.054);
+    if (entry == frame.start) approach_at(channel, entry, 0.0502);
+    if (entry == frame.start) channel.from_tag(0, frame);
+    approach_at(channel, frame.start + nfc::air_time(frame), 0.04);
+    if (entry != frame.start) channel.from_tag(0, frame);
+    return channel.to_reader();
+  };
+  Channel punctual(p);
+  CHECK_FALSE(pass(punctual, frame.start).has_value());
+  Channel late(p);
+  CHECK_FALSE(pass(late, frame.start + nfc::air_time(frame)).has_value());
+  p.reader.sensitivity = 1e-12;
+  Channel sensitive(p);
+  CHECK(pass(sensitive, frame.start + nfc::air_time(frame)) == frame);
+}
+
 TEST_CASE("A carrier that goes off where a frame enters late has been on until then") {
   Channel channel;
   const nfc::Frame frame = request(kStart + 3 * kBit);
