@@ -391,7 +391,7 @@ TEST_CASE("A frame that enters late is not heard if it began without power, what
   p.reader.sensitivity = probe.link().signals.up;
   const nfc::Frame frame = request(kStart + 3 * kBit);
   const auto pass = [&](Channel& channel, Time entry) {
-    approach_at(channel, kStart, 0.054);
+    approach_at(channel, kStart, 0.0519);
     if (entry == frame.start) approach_at(channel, entry, 0.0502);
     if (entry == frame.start) channel.from_tag(0, frame);
     approach_at(channel, frame.start + nfc::air_time(frame), 0.04);
