@@ -1,4 +1,6 @@
 // The flagship scenario: the same results as ever, and what it is there to show.
+#include <utility>
+
 #include <catch2/catch.hpp>
 
 #include "tests/golden/scenario_run.h"
@@ -111,6 +113,39 @@ TEST_CASE("the LED empties the capacitor, so the fourth message is not answered"
   CHECK(at("15.05", "sensor.mcu.powered") == 0);
   CHECK(at("15.05", "sensor.led") == 0);
   CHECK(between("14.5", "20.8", "sensor.mcu.powered").most == 0);
+}
+
+TEST_CASE(
+    "in the field the supply jumps to its maximum, if the field gives more than the sensor takes") {
+  const std::string supply = "sensor.supply.voltage [V]";
+  CHECK(at("13.899", supply) < 3);
+  CHECK(at("13.9", supply) == 5);
+  CHECK(at("15.499", supply) == 5);
+  CHECK(at("15.5", supply) < 2.6);
+  CHECK(at("20.9", supply) == 5);
+  CHECK(between("21.2", "27", supply).least > 4.9);
+  // a microwatt does not do
+  CHECK(between("6.1", "9", "sensor.energy.intake [W]").most <
+        between("6.1", "9", "sensor.energy.load [W]").least);
+  CHECK(between("6.1", "9", supply).most < 3.2);
+}
+
+TEST_CASE("the charge rises in such a field, and falls slowly elsewhere") {
+  const std::string charge = "sensor.capacitor.charge [C]";
+  CHECK(at("14.1", charge) > 1.02 * at("13.9", charge));
+  CHECK(at("15.4", charge) > 1.2 * at("14.4", charge));
+  CHECK(at("21.1", charge) > 1.7 * at("20.9", charge));
+  for (const auto& [from, to] : {std::pair("0.1", "6"), std::pair("9", "13.8"),
+                                 std::pair("15.6", "20.8"), std::pair("28", "30")}) {
+    INFO(from << " to " << to << " s");
+    CHECK(at(to, charge) < at(from, charge));
+    CHECK(at(to, charge) > 0.95 * at(from, charge));
+  }
+}
+
+TEST_CASE("at 21 s there is more energy than ever before") {
+  const std::string intake = "sensor.energy.intake [W]";
+  CHECK(between("20.94", "21.1", intake).least > 10 * between("0", "20.8", intake).most);
 }
 
 TEST_CASE("near the reader the capacitor charges, and two messages are answered") {
