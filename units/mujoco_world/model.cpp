@@ -74,7 +74,8 @@ World::World(const std::filesystem::path& folder)
     : model_(load_model(find_scene(folder))),
       catalogue_(list(*model_)),
       timestep_(read_timestep(*model_)),
-      only_touches_(has_only_touch_sensors(*model_)) {
+      only_touches_(has_only_touch_sensors(*model_)),
+      clearance_(*model_) {
   model_->opt.timestep = stride::to_seconds(timestep_);
   grid_data_ = make_data();
   instant_data_ = make_data();
@@ -198,6 +199,7 @@ const mjData& World::sensed() const {
 }
 
 bool World::has_contact() const {
+  if (clearance_.excludes_contact(*model_, *instant_data_)) return false;
   call_mujoco(mj_collision, *model_, *instant_data_, now_);
   return instant_data_->ncon > 0;
 }

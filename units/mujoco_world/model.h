@@ -10,6 +10,7 @@
 
 #include <stride/time.h>
 
+#include "units/mujoco_world/clearance.h"
 #include "units/mujoco_world/mjcf.h"
 
 namespace mujoco_world {
@@ -85,7 +86,8 @@ class World {
   ModelPointer model_;
   Catalogue catalogue_;
   stride::Duration timestep_{};
-  bool only_touches_;
+  bool only_touches_;  // none but touch sensors
+  Clearance clearance_;
   DataPointer grid_data_;     // the state at the grid point grid_
   DataPointer instant_data_;  // scratch: what is seen at now_
   std::vector<double> inputs_;
