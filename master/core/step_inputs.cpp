@@ -63,15 +63,15 @@ void StepInputs::set_targets(const Feed& feed, const SignalHistory& history,
   }
 }
 
-void StepInputs::before_step(std::size_t component, Unit& unit, Time from, Time to) {
+void StepInputs::before_step(std::size_t component, const StepInterval& interval) {
   if (feeds_[component].empty()) return;
-  step_begins_[component] = from;
+  step_begins_[component] = interval.from;
   for (const Feed& feed : feeds_[component]) {
     const SignalHistory& history = sources_[feed.source].history;
-    set_targets(feed, history, history.mean(from, to), false);
-    set_targets(feed, history, history.at(from, 0), true);
+    set_targets(feed, history, history.mean(interval.from, interval.to), false);
+    set_targets(feed, history, history.at(interval.from, 0), true);
   }
-  exchange_.deliver_continuous(component, unit);
+  exchange_.note_change(component);
 }
 
 void StepInputs::within_step(std::size_t component, Unit& unit, double seconds_into_step) {
@@ -82,10 +82,9 @@ void StepInputs::within_step(std::size_t component, Unit& unit, double seconds_i
   exchange_.deliver_within_step(component, unit);
 }
 
-void StepInputs::after_step(std::size_t component, Unit& unit, Time reached) {
+void StepInputs::after_step(std::size_t component, Time reached) {
   Source& source = sources_[component];
   if (!sequential_ || source.signals.empty() || source.history.newest() == reached) return;
-  exchange_.fetch(component, unit);
   sample(source, reached);
   source.is_ahead = true;
 }

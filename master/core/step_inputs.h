@@ -42,8 +42,10 @@ class StepInputs {
   /// those that had an event begins anew: nothing is extrapolated across a jump.
   void accept(Time time, std::span<const char> had_event);
 
-  void before_step(std::size_t component, Unit& unit, Time from, Time to);
-  void after_step(std::size_t component, Unit& unit, Time reached);
+  /// Leaves the inputs in the exchange, to be delivered.
+  void before_step(std::size_t component, const StepInterval& interval);
+  /// Its outputs have been fetched.
+  void after_step(std::size_t component, Time reached);
   /// The unit's step is undone.
   void undo_step(std::size_t component);
 

@@ -28,6 +28,7 @@ StepSize::StepSize(const System& system, const RunOptions& options)
       options_(options.step),
       start_(options.start),
       stop_(options.stop),
+      grid_point_(options.start),
       order_(1.0 + static_cast<double>(options.extrapolation)),
       maximum_(options.step.maximum),
       size_(options.step.size) {
@@ -75,11 +76,12 @@ void StepSize::check_units(const System& system) const {
   }
 }
 
-Time StepSize::next(Time now) const {
+Time StepSize::next(Time now) {
   Time target = stop_;
   if (options_.policy == StepPolicy::Fixed) {
-    const Duration since = (now - start_) % options_.size;
+    const Duration since = now == grid_point_ ? Duration{} : (now - start_) % options_.size;
     if (stop_ - now > options_.size - since) target = now + (options_.size - since);
+    grid_point_ = target;
     if (maximum_ && target - now > *maximum_) target = now + *maximum_;
     return target;
   }

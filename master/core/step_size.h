@@ -21,7 +21,7 @@ class StepSize {
   StepSize(const System& system, const RunOptions& options);
 
   /// The communication point to go to: later than `now`, and the stop time at most.
-  Time next(Time now) const;
+  Time next(Time now);
 
   bool controls_error() const { return options_.policy == StepPolicy::ErrorControlled; }
 
@@ -42,6 +42,7 @@ class StepSize {
   StepOptions options_;
   Time start_;
   Time stop_;
+  Time grid_point_;                  ///< the last target, where steps are on a grid
   double order_;                     ///< of the local error, in the step size
   std::optional<Duration> maximum_;  ///< the user's and the units'
   Duration quantum_{1};              ///< a multiple of all fixed internal steps
