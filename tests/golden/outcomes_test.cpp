@@ -137,17 +137,22 @@ TEST_CASE("nfc_two_tags: who may return early changes when frames are handed ove
       GENERATE("<stride:EarlyReturn components=\"*\" allowed=\"false\"/>",
                "<stride:EarlyReturn components=\"sensor_*\" allowed=\"false\"/>\n"
                "<stride:EarlyReturn components=\"sensor_right\" allowed=\"true\"/>"));
-  const ScenarioRun run(other.file(), {"--no-trace"});
+  const ScenarioRun run(other.file(), {"--no-trace", "--stop", "3.8"});
+  const auto until_then = [](std::vector<std::string> all, std::size_t count) {
+    REQUIRE(all.size() >= count);
+    all.resize(count);
+    return all;
+  };
   for (const std::string sender : {"sensor_left", "sensor_right"}) {
     CHECK(run.payloads(sender, "transmit.frame", "sent") ==
-          two_tags().payloads(sender, "transmit.frame", "sent"));
+          until_then(two_tags().payloads(sender, "transmit.frame", "sent"), 5));
     CHECK(run.instants(sender, "transmit.frame", "sent") !=
-          two_tags().instants(sender, "transmit.frame", "sent"));
+          until_then(two_tags().instants(sender, "transmit.frame", "sent"), 5));
   }
   CHECK(run.payloads("channel", "to_reader.frame", "sent") ==
-        two_tags().payloads("channel", "to_reader.frame", "sent"));
+        until_then(two_tags().payloads("channel", "to_reader.frame", "sent"), 8));
   CHECK(run.payloads("reader", "report.text", "sent") ==
-        two_tags().payloads("reader", "report.text", "sent"));
+        until_then(two_tags().payloads("reader", "report.text", "sent"), 7));
 }
 
 TEST_CASE("nfc_two_tags: two units that may both return early are refused, with what to write") {
