@@ -123,7 +123,7 @@ void System::add_components(const SystemDeclaration& declaration) {
     }
     check_connectors(component);
     check_clocks(component);
-    components_.push_back({component.name, component.description});
+    components_.push_back({component.name, component.description, component.early_return_allowed});
   }
 }
 

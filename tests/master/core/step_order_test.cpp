@@ -93,6 +93,25 @@ TEST_CASE("two units that stop early and cannot go back are refused by name") {
     FAIL("accepted");
   } catch (const Error& error) {
     CHECK(error.kind() == Error::Kind::Input);
-    CHECK_THAT(error.what(), Contains("'a' and 'c'") && Contains("canGetAndSetFMUState"));
+    CHECK_THAT(error.what(), Contains("'a' and 'c'"));
+    CHECK_THAT(error.what(), Contains("<stride:EarlyReturn components=\"c\" allowed=\"false\"/>") &&
+                                 Contains("canGetAndSetFMUState"));
   }
+}
+
+TEST_CASE("who is not allowed to return early does as it is told") {
+  SystemDeclaration declaration;
+  for (const char* name : {"a", "b", "c"}) {
+    declaration.components.push_back({name, early().done(), {}, {}});
+  }
+  declaration.components[0].early_return_allowed = false;
+  declaration.components[2].early_return_allowed = false;
+  const auto order = step_order(System(declaration), StepPolicy::Fixed, Coupling::Jacobi);
+  REQUIRE(order.size() == 3);
+  CHECK(order[0].component == 1);
+  CHECK(order[0].role == StepRole::MayStopEarly);
+  CHECK(order[1].role == StepRole::DoesAsTold);
+  CHECK(order[1].stage == 1);
+  CHECK_THAT(order[1].reason, Contains("is not allowed to return early"));
+  CHECK(order[2].component == 2);
 }
