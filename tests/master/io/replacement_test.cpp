@@ -1,0 +1,80 @@
+#include "master/io/replacement.h"
+
+#include <catch2/catch.hpp>
+
+#include "master/core/error.h"
+#include "tests/master/io/support.h"
+
+using namespace stride;
+using namespace stride::io;
+using Catch::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+void replace(const fs::path& path, const std::string& text) {
+  Replacement replacement(path);
+  replacement.file().write(text);
+  replacement.commit();
+}
+
+std::size_t files_in(const fs::path& folder) {
+  return static_cast<std::size_t>(
+      std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+}  // namespace
+
+TEST_CASE("A file is made, or replaced") {
+  const TemporaryFolder folder;
+  replace(folder / "x", "first");
+  CHECK(content(folder / "x") == "first");
+  replace(folder / "x", "2nd");
+  CHECK(content(folder / "x") == "2nd");
+  CHECK(files_in(folder / "") == 1);
+}
+
+TEST_CASE("The old file is there until commit(), and stays without it") {
+  const TemporaryFolder folder;
+  folder.write("x", "old");
+  {
+    Replacement replacement(folder / "x");
+    replacement.file().write("new");
+    replacement.file().flush();
+    CHECK(content(folder / "x") == "old");
+  }
+  CHECK(content(folder / "x") == "old");
+  CHECK(files_in(folder / "") == 1);
+  { Replacement none(folder / "y"); }
+  CHECK(files_in(folder / "") == 1);
+}
+
+TEST_CASE("A link stays, and the file that it leads to is replaced") {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "there");
+  folder.write("there/x", "old");
+  fs::create_symlink("there/x", folder / "link");
+  replace(folder / "link", "new");
+  CHECK(fs::is_symlink(folder / "link"));
+  CHECK(content(folder / "there/x") == "new");
+  CHECK(files_in(folder / "there") == 1);
+}
+
+TEST_CASE("What is no regular file is written, not replaced") {
+  replace("/dev/null", "text");
+  CHECK(fs::is_character_file("/dev/null"));
+}
+
+TEST_CASE("What cannot be written is named, and nothing is left") {
+  const TemporaryFolder folder;
+  const auto error = [](const fs::path& path) { return error_of([&] { replace(path, "text"); }); };
+  CHECK_THAT(error(folder / "none/x"), Contains("none/x: the folder of this file does not exist") &&
+                                           Contains("make the folder"));
+  CHECK_THAT(error(folder / ""), Contains("this is a folder; expected a file to write to"));
+  CHECK_THAT(error(""), Contains("no file is named to write to"));
+  CHECK_THAT(error("/proc/x"), Contains("/proc/x.new: cannot create the file") &&
+                                   Contains("a folder in which you may write"));
+  CHECK_THAT(error("/dev/full"), Contains("/dev/full: cannot write the file: No space left") &&
+                                     Contains("nothing is left of it"));
+  CHECK(files_in(folder / "") == 0);
+}
