@@ -16,9 +16,18 @@ constexpr OutputFile::Hints kHints = {
     "choose a file in a folder in which you may write",
     "check the disk that this file is on, and that there is room on it; nothing is left of it"};
 
+/// Pipes, terminals, and names of what is open already, such as /dev/stdout.
+bool is_device(const fs::path& path) {
+  const fs::path full = fs::absolute(path).lexically_normal();
+  const fs::path first = full.relative_path().empty() ? "" : *full.relative_path().begin();
+  return first == "dev" || first == "proc" || (fs::exists(path) && !fs::is_regular_file(path));
+}
+
 /// The file that is to be replaced.
 fs::path target_of(const fs::path& path) {
+  if (path.empty()) core::fail_input({}, "no file is named to write to");
   std::error_code error;
+  if (is_device(path)) return path;
   if (fs::is_symlink(path, error)) {
     const fs::path target = fs::weakly_canonical(path, error);
     if (!error) return target;
@@ -28,7 +37,6 @@ fs::path target_of(const fs::path& path) {
 
 void check(const fs::path& path) {
   const core::Context where{.where = {path.string(), 0}};
-  if (path.empty()) core::fail_input({}, "no file is named to write to");
   if (fs::is_directory(path)) {
     core::fail_input(where, "this is a folder; expected a file to write to");
   }
@@ -42,9 +50,9 @@ void check(const fs::path& path) {
 
 Replacement::Replacement(const fs::path& path) : target_(target_of(path)) {
   check(target_);
-  const bool has_own_place = fs::exists(target_) && !fs::is_regular_file(target_);
-  if (!has_own_place) fresh_ = target_.string() + ".new";
-  file_.emplace(has_own_place ? target_ : fresh_, kHints);
+  const bool at_once = is_device(target_);
+  if (!at_once) fresh_ = target_.string() + ".new";
+  file_.emplace(at_once ? target_ : fresh_, kHints);
 }
 
 Replacement::~Replacement() {

@@ -49,7 +49,7 @@ class HeaderReader {
   bool read_section() {
     const std::string_view keyword = words_.next();
     line_ = words_.line();
-    if (keyword.empty()) {
+    if (keyword.empty() || words_.is_at_end()) {
       fail("the file ends before $enddefinitions, so it was cut off or is no value change dump");
     }
     if (keyword.front() != '$' || keyword == "$end") {

@@ -1,6 +1,7 @@
 #include "master/trace/instants.h"
 
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,11 @@ namespace {
 /// The letter of its type tells that its code stands behind a blank.
 bool is_vector(std::string_view value) {
   return std::string_view("bBrRsS").find(value.front()) != std::string_view::npos;
+}
+
+void write_line(Spool& text, std::string_view line) {
+  text.write(line);
+  text.write('\n');
 }
 
 }  // namespace
@@ -29,7 +35,7 @@ bool Instants::next(Instant& instant) {
   while ((ahead_ = reader_.next()) != nullptr) {
     const bool is_stamp = ahead_->kind == Entry::Kind::Stamp;
     if (is_stamp && !(instant.has_stamp && ahead_->stamp == instant.stamp)) break;
-    if (!is_stamp) take(instant, *ahead_);
+    take(instant, *ahead_);
   }
   if (reader_.cut()) return false;
   finish(instant);
@@ -37,25 +43,43 @@ bool Instants::next(Instant& instant) {
 }
 
 void Instants::take(Instant& instant, const Entry& entry) {
-  const bool is_change = entry.kind == Entry::Kind::Change;
-  if (is_change && advance_ && advance_->is(entry)) {
+  switch (entry.kind) {
+    case Entry::Kind::Stamp:
+      return;
+    case Entry::Kind::Change:
+      return take_change(instant, entry);
+    case Entry::Kind::Dump:
+      end_dump(instant);
+      is_in_dump_ = true;
+      break;
+    case Entry::Kind::DumpEnd:
+      return end_dump(instant);
+    case Entry::Kind::Section:
+      break;
+  }
+  instant.is_empty = false;
+  if (keeps_text_) write_line(instant.text, entry.section);
+}
+
+void Instants::take_change(Instant& instant, const Entry& entry) {
+  if (advance_ && advance_->is(entry)) {
     advance_->update(reader_, entry);
     if (advance_->is_alone()) return;
   }
   instant.is_empty = false;
-  instant.changes += is_change ? 1 : 0;
+  ++instant.changes;
   if (!keeps_text_) return;
-  if (is_change) {
-    instant.text.write(entry.value);
-    if (is_vector(entry.value)) instant.text.write(' ');
-    instant.text.write(entry.code_text);
-  } else {
-    instant.text.write(entry.section);
-  }
-  instant.text.write('\n');
+  instant.text.write(entry.value);
+  if (is_vector(entry.value)) instant.text.write(' ');
+  write_line(instant.text, entry.code_text);
 }
 
-void Instants::finish(Instant& instant) const {
+void Instants::end_dump(Instant& instant) {
+  if (std::exchange(is_in_dump_, false) && keeps_text_) write_line(instant.text, "$end");
+}
+
+void Instants::finish(Instant& instant) {
+  end_dump(instant);
   instant.skipped = advance_ ? advance_->total() : 0;
   if (instant.stamp > std::numeric_limits<std::int64_t>::max() - instant.skipped) {
     reader_.fail(instant.line,

@@ -11,7 +11,8 @@
 
 namespace stride::trace {
 
-/// All entries from one stamp to the next one, equal stamps taken together.
+/// All entries from one stamp to the next one, equal stamps taken together. What
+/// $dumpvars and its kin open ends with it, if not before.
 struct Instant {
   bool has_stamp = false;  ///< false for what stands before the first one
   std::int64_t stamp = 0;  ///< kernel time [ticks]
@@ -39,13 +40,16 @@ class Instants {
 
  private:
   void take(Instant& instant, const Entry& entry);
-  void finish(Instant& instant) const;
+  void take_change(Instant& instant, const Entry& entry);
+  void end_dump(Instant& instant);
+  void finish(Instant& instant);
 
   Reader& reader_;
   bool keeps_text_;
   std::optional<AdvanceTime> advance_;
   const Entry* ahead_ = nullptr;  ///< the stamp of the next instant
   bool is_first_ = true;
+  bool is_in_dump_ = false;  ///< a $end has to come
 };
 
 }  // namespace stride::trace

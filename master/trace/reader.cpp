@@ -117,17 +117,19 @@ const Entry* Reader::read_vector(std::string_view word) {
 }
 
 const Entry* Reader::read_section(std::string_view word) {
-  entry_.kind = Entry::Kind::Section;
   section_ = word;
   entry_.section = section_;
   if (section_ == "$end") {
+    entry_.kind = Entry::Kind::DumpEnd;
     open_section_.clear();
     return &entry_;
   }
   if (opens_changes(section_)) {
+    entry_.kind = Entry::Kind::Dump;
     open_section_ = section_;
     return &entry_;
   }
+  entry_.kind = Entry::Kind::Section;
   std::string text;
   words_.record_into(&text);
   while (true) {

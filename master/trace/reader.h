@@ -18,7 +18,9 @@ struct Entry {
   enum class Kind {
     Stamp,    ///< "#1000"
     Change,   ///< "1!", "b101 !", "r0.5 !", "stext !"
-    Section,  ///< "$dumpvars", "$dumpall", "$dumpon", "$dumpoff", "$end"; "$comment … $end" whole
+    Section,  ///< "$comment … $end" whole
+    Dump,     ///< "$dumpvars", "$dumpall", "$dumpon" or "$dumpoff", whose changes follow
+    DumpEnd,  ///< "$end"
   };
 
   Kind kind = Kind::Stamp;
@@ -27,7 +29,7 @@ struct Entry {
   std::uint32_t code = 0;    ///< of a Change, its number in the header's table
   std::string_view value{};  ///< of a Change, with the letter of its type: "1", "b101"
   std::string_view code_text{};
-  std::string_view section{};
+  std::string_view section{};  ///< of the others
 };
 
 /// What to do where a file ends in the middle of something.

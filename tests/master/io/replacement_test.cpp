@@ -72,8 +72,8 @@ TEST_CASE("What cannot be written is named, and nothing is left") {
                                            Contains("make the folder"));
   CHECK_THAT(error(folder / ""), Contains("this is a folder; expected a file to write to"));
   CHECK_THAT(error(""), Contains("no file is named to write to"));
-  CHECK_THAT(error("/proc/x"), Contains("/proc/x.new: cannot create the file") &&
-                                   Contains("a folder in which you may write"));
+  CHECK_THAT(error("/sys/x"), Contains("/sys/x.new: cannot create the file") &&
+                                  Contains("a folder in which you may write"));
   CHECK_THAT(error("/dev/full"), Contains("/dev/full: cannot write the file: No space left") &&
                                      Contains("nothing is left of it"));
   CHECK(files_in(folder / "") == 0);

@@ -66,6 +66,14 @@ TEST_CASE("Equal stamps are one instant; what stands before the first stamp is o
   CHECK(read(two_variables("")) == std::vector<Seen>{{false, 0, 0, 0, true, ""}});
 }
 
+TEST_CASE("A dump ends with its instant, if not before") {
+  CHECK(read(two_variables(
+            "$dumpvars\n0!\n#1\n1!\n$end\n#2\n$dumpoff\nx!\n$dumpon\n1!\n$end\n$end\n")) ==
+        std::vector<Seen>{{false, 0, 0, 1, false, "$dumpvars\n0!\n$end\n"},
+                          {true, 1, 1, 1, false, "1!\n"},
+                          {true, 2, 2, 2, false, "$dumpoff\nx!\n$end\n$dumpon\n1!\n$end\n"}});
+}
+
 TEST_CASE("The total behind all changes of a stamp holds for all of them") {
   CHECK(read(skipping("b0 t\n0!\n#10\n1!\nb101 t\n0!\n#10\nb111 t\n#20\n1!\n#30\nb1000 t\n")) ==
         std::vector<Seen>{{false, 0, 0, 1, false, "0!\n"},

@@ -42,7 +42,7 @@ inline std::vector<std::string> entries(Reader& reader) {
       case Entry::Kind::Change:
         texts.push_back(std::string(entry->value) + "|" + std::string(entry->code_text));
         break;
-      case Entry::Kind::Section:
+      default:
         texts.emplace_back(entry->section);
         break;
     }

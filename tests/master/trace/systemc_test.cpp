@@ -12,8 +12,7 @@ using namespace stride::trace;
 
 namespace {
 
-/// All entries with their times but for comments, which tell when the file was made; codes are
-/// replaced by names.
+/// All entries with their times; codes are replaced by names.
 std::vector<std::string> changes_of(const std::filesystem::path& file) {
   Reader reader(file);
   const Header& header = reader.header();
@@ -28,7 +27,7 @@ std::vector<std::string> changes_of(const std::filesystem::path& file) {
     const std::string at = std::to_string(time) + " ";
     if (entry->kind == Entry::Kind::Change) {
       changes.push_back(at + names[entry->code] + " " + std::string(entry->value));
-    } else if (entry->kind == Entry::Kind::Section) {
+    } else if (entry->kind != Entry::Kind::Stamp) {
       changes.push_back(at + std::string(entry->section));
     }
   }
