@@ -18,9 +18,9 @@ constexpr OutputFile::Hints kHints = {
 
 /// Pipes, terminals, and names of what is open already, such as /dev/stdout.
 bool is_device(const fs::path& path) {
-  const fs::path full = fs::absolute(path).lexically_normal();
-  const fs::path first = full.relative_path().empty() ? "" : *full.relative_path().begin();
-  return first == "dev" || first == "proc" || (fs::exists(path) && !fs::is_regular_file(path));
+  const std::string folder = fs::absolute(path).lexically_normal().parent_path();
+  return folder == "/dev" || folder == "/dev/fd" || folder.starts_with("/proc/") ||
+         (fs::exists(path) && !fs::is_regular_file(path));
 }
 
 /// The file that is to be replaced.

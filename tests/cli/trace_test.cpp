@@ -136,14 +136,11 @@ TEST_CASE("trace explains what is wrong with its files") {
              Contains("none/out.vcd: the folder of this file does not exist"));
   CHECK_THAT(folder.error({"compress", "in.vcd", "."}), Contains("this is a folder"));
   CHECK(read(folder / "in.vcd") == kPlain);
-  const Outcome full = folder.trace({"compress", "in.vcd", "/dev/full"});
-  CHECK(full.exit_code == 1);
-  CHECK_THAT(full.err, Contains("/dev/full: cannot write the file: No space left on device"));
 }
 
 TEST_CASE("trace writes into a pipe, too") {
   const Folder folder(kShort);
-  const Outcome outcome = folder.trace({"expand", "in.vcd", "/dev/stdout"});
+  const Outcome outcome = folder.trace({"expand", "in.vcd", "/dev/fd/1"});
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.out == kPlain);
 }

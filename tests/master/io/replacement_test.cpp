@@ -1,8 +1,14 @@
 #include "master/io/replacement.h"
 
+#include <string>
+
 #include <catch2/catch.hpp>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "master/core/error.h"
+#include "tests/master/io/file_size_limit.h"
 #include "tests/master/io/support.h"
 
 using namespace stride;
@@ -61,8 +67,39 @@ TEST_CASE("A link stays, and the file that it leads to is replaced") {
 }
 
 TEST_CASE("What is no regular file is written, not replaced") {
-  replace("/dev/null", "text");
-  CHECK(fs::is_character_file("/dev/null"));
+  const TemporaryFolder folder;
+  const fs::path pipe = folder / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const int reader = ::open(pipe.c_str(), O_RDWR | O_NONBLOCK);
+  REQUIRE(reader >= 0);
+  replace(pipe, "text");
+  char text[8];
+  CHECK(::read(reader, text, sizeof text) == 4);
+  ::close(reader);
+  CHECK(fs::is_fifo(pipe));
+  CHECK(files_in(folder / "") == 1);
+}
+
+TEST_CASE("What stands for an open file is written, not replaced") {
+  const TemporaryFolder folder;
+  const int open = ::open((folder / "x").c_str(), O_RDWR | O_CREAT, 0600);
+  REQUIRE(open >= 0);
+  replace("/dev/fd/" + std::to_string(open), "text");
+  char text[8];
+  CHECK(::read(open, text, sizeof text) == 4);
+  ::close(open);
+  CHECK(content(folder / "x") == "text");
+}
+
+TEST_CASE("A disk that is full leaves the old file as it was") {
+  const TemporaryFolder folder;
+  folder.write("x", "old");
+  const FileSizeLimit limit(1000);
+  CHECK_THAT(error_of([&] { replace(folder / "x", std::string(2000, 'x')); }),
+             Contains("x.new: cannot write the file: File too large") &&
+                 Contains("nothing is left of it"));
+  CHECK(content(folder / "x") == "old");
+  CHECK(files_in(folder / "") == 1);
 }
 
 TEST_CASE("What cannot be written is named, and nothing is left") {
@@ -74,7 +111,5 @@ TEST_CASE("What cannot be written is named, and nothing is left") {
   CHECK_THAT(error(""), Contains("no file is named to write to"));
   CHECK_THAT(error("/sys/x"), Contains("/sys/x.new: cannot create the file") &&
                                   Contains("a folder in which you may write"));
-  CHECK_THAT(error("/dev/full"), Contains("/dev/full: cannot write the file: No space left") &&
-                                     Contains("nothing is left of it"));
   CHECK(files_in(folder / "") == 0);
 }
