@@ -24,7 +24,8 @@ const Entry* Reader::next() {
   if (word.empty()) return end_of_file();
   entry_.line = words_.line();
   if (words_.is_at_end() && word != "$end") {
-    return cut_off(fmt::format("'{}', which no line end follows", Words::shown(word)));
+    return cut_off(fmt::format("'{}' (no line end follows)", Words::shown(word)),
+                   "; a file that is whole needs a last line end");
   }
   switch (word.front()) {
     case '#':
@@ -154,12 +155,11 @@ const Entry* Reader::end_of_file() {
   return cut_off("the " + open_section_);
 }
 
-const Entry* Reader::cut_off(const std::string& within) {
+const Entry* Reader::cut_off(const std::string& within, const std::string& further_hint) {
   cut_ = words_.line();
   if (on_cut_ == CutOff::Accept) return nullptr;
-  fail(*cut_,
-       fmt::format("the file ends within {}; it was cut off, as by a run that crashed", within),
-       "with --cut-off, what is whole is taken: all instants but the last");
+  fail(*cut_, "the file is cut off: it ends within " + within,
+       "where a run crashed, --cut-off takes all instants but the last" + further_hint);
 }
 
 }  // namespace stride::trace

@@ -70,7 +70,7 @@ class Reader {
   const Entry* change(std::string_view value, std::string_view code);
   const Entry* end_of_file();
   /// Ends the entries, or throws.
-  const Entry* cut_off(const std::string& within);
+  const Entry* cut_off(const std::string& within, const std::string& further_hint = "");
 
   Words words_;
   Header header_;

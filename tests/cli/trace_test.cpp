@@ -97,8 +97,8 @@ TEST_CASE("A trace that was cut off is refused, and taken up to its last whole i
   for (const Arguments& command : {Arguments{"expand", "in.vcd", "out.vcd"}, {"info", "in.vcd"}}) {
     CHECK_THAT(
         folder.error(command),
-        StartsWith("stride: error: in.vcd:14: the file ends within '0', which no line end") &&
-            Contains("hint: with --cut-off"));
+        StartsWith("stride: error: in.vcd:14: the file is cut off: it ends within '0' (no line") &&
+            Contains("hint: where a run crashed, --cut-off takes"));
   }
   const Outcome expanded = folder.trace({"expand", "in.vcd", "out.vcd", "--cut-off"});
   CHECK(expanded.exit_code == 0);

@@ -106,7 +106,7 @@ TEST_CASE("A trace that has advanceTime is not compressed") {
 
 TEST_CASE("What is wrong leaves nothing") {
   CHECK_THAT(error(two_variables("#0\n0!\n#100\n1")),
-             Contains("in.vcd:10: the file ends within '1'"));
+             Contains("in.vcd:10: the file is cut off: it ends within '1'"));
   CHECK_THAT(error(two_variables("#0\n0!\n"), Duration(0)), Contains("a gap of 0 s is shorter"));
 }
 

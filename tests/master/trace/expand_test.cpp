@@ -84,7 +84,8 @@ TEST_CASE("A trace without advanceTime is not expanded") {
 
 TEST_CASE("What is wrong far behind in the trace leaves nothing") {
   CHECK_THAT(error(skipping("#0\n0!\n#5\n1!\n#4\n0!\n")), Contains("in.vcd:11: time goes back"));
-  CHECK_THAT(error(skipping("#0\n0!\n#5\nb1")), Contains("in.vcd:10: the file ends within 'b1'"));
+  CHECK_THAT(error(skipping("#0\n0!\n#5\nb1")),
+             Contains("in.vcd:10: the file is cut off: it ends within 'b1'"));
   CHECK_THAT(error(skipping("#0\nb11 t\n#5\nb1 t\n")), Contains("in.vcd:10: advanceTime falls"));
 }
 

@@ -93,7 +93,7 @@ TEST_CASE("Of a trace that is cut off the last instant is left out") {
   const std::string text = skipping("#10\n1!\n#20\n0!\nb101");
   CHECK(read(text, CutOff::Accept).size() == 2);
   CHECK(read(text, CutOff::Accept).back().stamp == 10);
-  CHECK_THROWS_WITH(read(text), Contains("x.vcd:11: the file ends within 'b101'"));
+  CHECK_THROWS_WITH(read(text), Contains("x.vcd:11: the file is cut off: it ends within 'b101'"));
   CHECK(read(skipping("$dumpvars\n1!\n"), CutOff::Accept).empty());
 }
 

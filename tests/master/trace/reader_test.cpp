@@ -112,17 +112,16 @@ TEST_CASE("A change is of a variable") {
 
 TEST_CASE("A file that is cut off is told with the line and what it ends in") {
   CHECK_THAT(error("#5\n1!\n#15"),
-             Contains("x.vcd:9: the file ends within '#15', which no line end "
-                      "follows") &&
+             Contains("x.vcd:9: the file is cut off: it ends within '#15' (no line end follows)") &&
                  Contains("--cut-off"));
-  CHECK_THAT(error("#5\n1"), Contains("x.vcd:8: the file ends within '1'"));
-  CHECK_THAT(error("#5\nb101"), Contains("x.vcd:8: the file ends within 'b101'"));
-  CHECK_THAT(error("#5\nb101\n"), Contains("the file ends within the change 'b101'"));
-  CHECK_THAT(error("#5\nb101 !"), Contains("the file ends within the change 'b101'"));
-  CHECK_THAT(error("#5\n1!\n$comm"), Contains("x.vcd:9: the file ends within '$comm'"));
-  CHECK_THAT(error("#5\n$comment this is\n"),
-             Contains("the file ends within the $comment of line 8"));
-  CHECK_THAT(error("#5\n$dumpvars\n1!\n"), Contains("the file ends within the $dumpvars"));
+  CHECK_THAT(error("#5\n1"), Contains("x.vcd:8: the file is cut off: it ends within '1'"));
+  CHECK_THAT(error("#5\nb101"), Contains("x.vcd:8: the file is cut off: it ends within 'b101'"));
+  CHECK_THAT(error("#5\nb101\n"), Contains("it ends within the change 'b101'"));
+  CHECK_THAT(error("#5\nb101 !"), Contains("it ends within the change 'b101'"));
+  CHECK_THAT(error("#5\n1!\n$comm"),
+             Contains("x.vcd:9: the file is cut off: it ends within '$comm'"));
+  CHECK_THAT(error("#5\n$comment this is\n"), Contains("it ends within the $comment of line 8"));
+  CHECK_THAT(error("#5\n$dumpvars\n1!\n"), Contains("it ends within the $dumpvars"));
 }
 
 TEST_CASE("A section that has ended is no sign of a cut, and neither is one before a later stamp") {
@@ -162,7 +161,7 @@ TEST_CASE("A trace that is cut within a word or a section is never taken for a w
     } else if (text[length - 1] == '\n' && length > end_of_dump) {
       CHECK(message == "(no error)");
     } else {
-      CHECK_THAT(message, Contains("x.vcd:") && Contains("the file ends within"));
+      CHECK_THAT(message, Contains("x.vcd:") && Contains("it ends within"));
     }
   }
 }

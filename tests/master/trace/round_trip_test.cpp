@@ -1,5 +1,8 @@
 // What holds for any trace.
 #include <algorithm>
+#include <cstdlib>
+#include <sstream>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -100,5 +103,37 @@ TEST_CASE("The same trace gives the same file") {
     const std::string first = content(folder / "short.vcd");
     there_and_back(folder, text, seed);
     CHECK(content(folder / "short.vcd") == first);
+  }
+}
+
+TEST_CASE("GTKWave's reader takes what is written, and finds the same instants in it") {
+  if (std::system("command -v vcd2fst fst2vcd > /dev/null") != 0) {
+    WARN("vcd2fst is not installed (Debian: gtkwave), so the traces are not checked with it");
+    REQUIRE(std::getenv("CI") == nullptr);
+    return;
+  }
+  const TemporaryFolder folder;
+  const auto stamps = [](const std::string& text) {
+    std::vector<std::string> found;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with("#")) found.push_back(line);
+    }
+    return found;
+  };
+  const std::string text =
+      "$timescale 1 ns $end\n$scope module m $end\n$var wire 1 ! a $end\n$var real 64 \" r $end\n"
+      "$var string 1 # s $end\n$upscope $end\n$enddefinitions $end\n#0\n$dumpvars\n0!\nr0 \"\ns #\n"
+      "$end\n#10\n1!\nr0.5 \"\n#20000010\n0!\nstext #\n#20000020\n1!\n#7000000000\n";
+  there_and_back(folder, text, 0);
+  for (const std::string name : {"short", "long"}) {
+    const std::string command = "cd '" + (folder / "").string() + "' && vcd2fst " + name + ".vcd " +
+                                name + ".fst > log 2>&1 && fst2vcd " + name + ".fst > " + name +
+                                ".back 2>> log";
+    REQUIRE(std::system(command.c_str()) == 0);
+    CHECK(content(folder / "log").empty());
+    const std::string back = content(folder / (name + ".back"));
+    CHECK(stamps(back) == stamps(content(folder / (name + ".vcd"))));
+    CHECK((back.find("integer 64 ! advanceTime") != std::string::npos) == (name == "short"));
   }
 }
