@@ -1,4 +1,8 @@
 // trace info, expand and compress.
+#include <fstream>
+
+#include <sys/resource.h>
+
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;
@@ -136,6 +140,35 @@ TEST_CASE("trace explains what is wrong with its files") {
              Contains("none/out.vcd: the folder of this file does not exist"));
   CHECK_THAT(folder.error({"compress", "in.vcd", "."}), Contains("this is a folder"));
   CHECK(read(folder / "in.vcd") == kPlain);
+}
+
+TEST_CASE("trace takes no more memory for a long trace, nor for an instant at which much happens") {
+  constexpr int kMany = 5'000'000;
+  // of the children so far, the largest; what this process had when it forked counts, too
+  const auto kilobytes = [] {
+    rusage usage{};
+    ::getrusage(RUSAGE_CHILDREN, &usage);
+    return usage.ru_maxrss;
+  };
+  const auto run_all = [](int instants, int changes) {
+    const Folder folder(kHeader + kBehind + "#0\n0!\n");
+    {
+      std::ofstream file(folder / "in.vcd", std::ios::app);
+      for (int i = 1; i <= instants; ++i) file << '#' << i << "\n1!\n";
+      for (int i = 0; i < changes; ++i) file << "0!\n1!\n";
+      file << "#30000000010\n0!\n";
+    }
+    check_quiet(folder.trace({"compress", "in.vcd", "short.vcd"}));
+    check_quiet(folder.trace({"expand", "short.vcd", "long.vcd"}));
+    CHECK(folder.trace({"info", "short.vcd"}).exit_code == 0);
+    CHECK(fs::file_size(folder / "long.vcd") == fs::file_size(folder / "in.vcd"));
+  };
+  run_all(100, 100);
+  const auto before = kilobytes();
+  run_all(kMany, 0);
+  run_all(1, kMany);
+  CHECK(before > 0);
+  CHECK(kilobytes() - before < 20'000);  // the traces have 60'000 and 30'000
 }
 
 TEST_CASE("trace writes into a pipe, too") {
