@@ -19,8 +19,8 @@ void check_type(const Reader& reader, const Declaration& declaration) {
   const bool is_number = std::find(kNumbers.begin(), kNumbers.end(), type) != kNumbers.end();
   if (is_number && declaration.width > 0 && declaration.width <= kMost) return;
   reader.fail(declaration.line,
-              fmt::format("{} is a {} of {} bits; expected a wire or an integer of 64 bits",
-                          kAdvanceTime, Words::shown(type), declaration.width));
+              fmt::format("{} is declared as {} {}; expected integer 64 or wire 64", kAdvanceTime,
+                          Words::shown(type), declaration.width));
 }
 
 /// The digits of a scalar or a vector, without leading zeros.

@@ -61,12 +61,17 @@ TEST_CASE("Totals grow up to 2^63 - 1") {
 }
 
 TEST_CASE("A variable of another type is told") {
-  CHECK_THAT(declaration_error("$var real 64 t advanceTime $end\n"),
-             Contains("x.vcd:3: advanceTime is a real of 64 bits; expected a wire or an integer"));
-  CHECK_THAT(declaration_error("$var string 1 t advanceTime $end\n"), Contains("is a string of 1"));
-  CHECK_THAT(declaration_error("$var event 1 t advanceTime $end\n"), Contains("is a event of 1"));
-  CHECK_THAT(declaration_error("$var wire 65 t advanceTime $end\n"), Contains("is a wire of 65"));
-  CHECK_THAT(declaration_error("$var wire 0 t advanceTime $end\n"), Contains("is a wire of 0"));
+  CHECK_THAT(
+      declaration_error("$var real 64 t advanceTime $end\n"),
+      Contains("x.vcd:3: advanceTime is declared as real 64; expected integer 64 or wire 64"));
+  CHECK_THAT(declaration_error("$var string 1 t advanceTime $end\n"),
+             Contains("is declared as string 1;"));
+  CHECK_THAT(declaration_error("$var event 1 t advanceTime $end\n"),
+             Contains("is declared as event 1;"));
+  CHECK_THAT(declaration_error("$var wire 65 t advanceTime $end\n"),
+             Contains("is declared as wire 65;"));
+  CHECK_THAT(declaration_error("$var wire 0 t advanceTime $end\n"),
+             Contains("is declared as wire 0;"));
 }
 
 TEST_CASE("Two of them are one too many, unless they are the same") {
