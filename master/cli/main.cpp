@@ -1,3 +1,4 @@
+#include <csignal>
 #include <exception>
 #include <string>
 #include <vector>
@@ -69,6 +70,7 @@ int parse(CLI::App& app, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   set_up_log();
+  std::signal(SIGXFSZ, SIG_IGN);  // writing fails then, and is told, where the signal would kill
   CLI::App app(
       "stride couples simulators: it loads FMI 3.0 units as plug-ins and runs them in steps,\n"
       "as a scenario (an SSP system file, .ssd) wires them.\n",

@@ -171,6 +171,21 @@ TEST_CASE("trace takes no more memory for a long trace, nor for an instant at wh
   CHECK(kilobytes() - before < 20'000);  // the traces have 60'000 and 30'000
 }
 
+TEST_CASE("trace leaves nothing of a file that grows too large") {
+  std::string changes;
+  for (int i = 0; i < 100'000; ++i) changes += "0!\n1!\n";
+  const Folder folder(kHeader + kBehind + "#0\n" + changes);
+  Arguments limited{"bash", "-c", "ulimit -f 100; exec \"$@\"", "bash"};
+  for (const auto& word : stride_command({"trace", "compress", "in.vcd", "out.vcd"})) {
+    limited.push_back(word);
+  }
+  const Outcome outcome = Process(limited, (folder / "").parent_path()).wait();
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("out.vcd.new: cannot write the file: File too large"));
+  CHECK_FALSE(fs::exists(folder / "out.vcd"));
+  CHECK_FALSE(fs::exists(folder / "out.vcd.new"));
+}
+
 TEST_CASE("trace writes into a pipe, too") {
   const Folder folder(kShort);
   const Outcome outcome = folder.trace({"expand", "in.vcd", "/dev/fd/1"});
