@@ -9,16 +9,19 @@
 namespace stride {
 
 /// How long a quantity whose second derivative is at most `curvature` in magnitude stays within
-/// `tolerance` of its tangent (both in the quantity's unit, the former per s²): by Taylor's theorem
-/// with Lagrange's remainder, |y(t + h) - y(t) - y'(t) h| <= curvature h²/2, so
-/// h = sqrt(2 tolerance / curvature), rounded down to a picosecond; Duration::max() where that is
+/// `tolerance` of a line that begins at its value, with a slope that is wrong by `slope_error` at
+/// most (in the quantity's unit, per s² and per s): by Taylor's theorem with Lagrange's remainder,
+/// |y(t + h) - y(t) - slope h| <= slope_error h + curvature h²/2. With a slope that is right that
+/// is sqrt(2 tolerance / curvature). Rounded down to a picosecond; Duration::max() where it is
 /// longer than times can be. Throws std::invalid_argument for a negative number or NaN.
-inline Duration tangent_holds_for(double tolerance, double curvature) {
-  if (!(tolerance >= 0) || !(curvature >= 0)) {
-    throw std::invalid_argument("a tolerance and a curvature are at least 0");
+inline Duration tangent_holds_for(double tolerance, double curvature, double slope_error = 0) {
+  if (!(tolerance >= 0) || !(curvature >= 0) || !(slope_error >= 0)) {
+    throw std::invalid_argument("tolerance, curvature and the slope's error are at least 0");
   }
-  if (curvature == 0) return Duration::max();
-  const double seconds = std::sqrt(2 * (tolerance / curvature));
+  if (curvature == 0 && slope_error == 0) return Duration::max();
+  // the positive root, in the form that does not subtract
+  const double root = std::hypot(slope_error, std::sqrt(2 * curvature) * std::sqrt(tolerance));
+  const double seconds = tolerance == 0 ? 0 : 2 * tolerance / (slope_error + root);
   if (!(seconds <= kMaxSeconds)) return Duration::max();
   return Duration(static_cast<std::int64_t>(std::floor(seconds * 1e12)));
 }
