@@ -19,9 +19,11 @@ inline Duration tangent_holds_for(double tolerance, double curvature, double slo
     throw std::invalid_argument("tolerance, curvature and the slope's error are at least 0");
   }
   if (curvature == 0 && slope_error == 0) return Duration::max();
-  // the positive root, in the form that does not subtract
-  const double root = std::hypot(slope_error, std::sqrt(2 * curvature) * std::sqrt(tolerance));
-  const double seconds = tolerance == 0 ? 0 : 2 * tolerance / (slope_error + root);
+  double seconds = std::sqrt(2 * (tolerance / curvature));
+  if (slope_error > 0) {  // the positive root, in the form that does not subtract
+    const double root = std::hypot(slope_error, std::sqrt(2 * curvature) * std::sqrt(tolerance));
+    seconds = 2 * (tolerance / (slope_error + root));
+  }
   if (!(seconds <= kMaxSeconds)) return Duration::max();
   return Duration(static_cast<std::int64_t>(std::floor(seconds * 1e12)));
 }
