@@ -27,11 +27,11 @@
 #include <type_traits>
 #include <vector>
 
+#include <stride/tangent.h>
 #include <stride/time.h>
 #include <stride/unit/clock.h>
 #include <stride/unit/state.h>
 #include <stride/unit/step.h>
-#include <stride/unit/tangent.h>
 #include <stride/unit/variable.h>
 
 namespace stride {

@@ -129,6 +129,32 @@ TEST_CASE("the reader keeps what it promises") {
   CHECK(promises > 50);
 }
 
+TEST_CASE("an arm that has settled keeps what it promises") {
+  const auto fmu = unit("nfc_approach_world");
+  int promises = 0;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    auto check = lives(fmu, {}, seed);
+    const std::string shoulder = number(between(random, 0.2, 0.45));
+    const std::string wrist = number(between(random, -1, 1));
+    const Time moved = after(between(random, 0.1, 1.5));
+    const Time asked = moved + duration_from_seconds(between(random, 0.001, 1.5));
+    each(check, [&](Life& life) {
+      life.advance(moved, 50ms);
+      life.set("actuator.shoulder", shoulder);
+      life.set("actuator.wrist_3", wrist);
+      life.advance(asked, 50ms);
+    });
+    check.until = asked + 5s;
+    Time promised{};
+    CHECK(check.run(promised) == "");
+    if (promised > asked) ++promises;
+  }
+  CHECK(promises > 5);
+  CHECK(promises < 30);
+}
+
 TEST_CASE("the channel keeps what it promises, and promises nothing with a frame on the air") {
   const auto fmu = unit("nfc_channel");
   for (std::uint64_t seed = 0; seed < 100; ++seed) {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <stride/unit/tangent.h>
+#include <stride/tangent.h>
 
 namespace environment {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <stride/tangent.h>
 #include <stride/time.h>
-#include <stride/unit/tangent.h>
 
 using namespace std::chrono_literals;
 using stride::Duration;

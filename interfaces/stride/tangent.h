@@ -1,5 +1,5 @@
-#ifndef STRIDE_UNIT_TANGENT_H
-#define STRIDE_UNIT_TANGENT_H
+#ifndef STRIDE_TANGENT_H
+#define STRIDE_TANGENT_H
 
 #include <cmath>
 #include <stdexcept>
