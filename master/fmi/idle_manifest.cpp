@@ -17,7 +17,8 @@ constexpr const char* kNamespace = "http://fmi-standard.org/fmi-ls-manifest";
 
 /// Whether elements that are not known here may be those of a later version.
 bool check_head(const Element& root) {
-  if (root.name() != "fmiLayeredStandardManifest") {
+  constexpr const char* kRoot = "fmiLayeredStandardManifest";
+  if (!root.is("", kRoot) && !root.is(kNamespace, kRoot)) {
     root.fail(
         fmt::format("the document is a <{}>; expected <fmiLayeredStandardManifest>", root.name()));
   }

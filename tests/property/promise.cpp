@@ -167,9 +167,13 @@ void Life::advance(Time to, Duration step) {
     REQUIRE_FALSE(result.rejected);
     const bool is_due = next_event_ && *next_event_ <= now_;
     if (!result.event_needed && !is_due) continue;
-    unit_->enter_event_mode();
-    handle_events();
+    handle_event();
   }
+}
+
+void Life::handle_event() {
+  unit_->enter_event_mode();
+  handle_events();
 }
 
 void Life::handle_events() {

@@ -33,6 +33,8 @@ class Life {
 
   /// One step, not more; a step that is rejected leaves the unit where it is.
   core::StepResult step(Time to);
+  /// Goes through the Event Mode that a step asked for.
+  void handle_event();
   /// To `to` by steps of at most `step`, with events.
   void advance(Time to, Duration step);
   /// Until when it promises to be idle; now() if it does not.
