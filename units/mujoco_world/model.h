@@ -58,9 +58,10 @@ class World {
   stride::Duration timestep() const { return timestep_; }
   stride::Time now() const { return now_; }
 
-  /// Lets it rest, or not any more. To be called before reset(). Throws std::invalid_argument for
-  /// a limit that is not positive.
-  void allow_rest(std::optional<RestSettings> settings);
+  /// Lets it rest, or not any more; reset() or restore() must follow. Throws std::invalid_argument
+  /// for a limit that is not positive.
+  void allow_rest(const RestSettings& settings);
+  void forbid_rest();
 
   /// Back to the initial state, with the grid's first point at `start`.
   void reset(stride::Time start);

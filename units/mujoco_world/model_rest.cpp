@@ -36,13 +36,18 @@ double fastest_activation(const mjModel& model, const mjData& data) {
 
 }  // namespace
 
-void World::allow_rest(std::optional<RestSettings> settings) {
-  rest_settings_ = std::move(settings);
+void World::allow_rest(const RestSettings& settings) {
   resting_ = false;
-  if (!rest_settings_) return;
-  rest_detector_ =
-      RestDetector(rest_settings_->limits, timestep_, static_cast<std::size_t>(model_->nv),
-                   static_cast<std::size_t>(model_->nsensordata));
+  if (!rest_settings_ || !(rest_settings_->limits == settings.limits)) {
+    rest_detector_ = RestDetector(settings.limits, timestep_, static_cast<std::size_t>(model_->nv),
+                                  static_cast<std::size_t>(model_->nsensordata));
+  }
+  rest_settings_ = settings;
+}
+
+void World::forbid_rest() {
+  resting_ = false;
+  rest_settings_.reset();
 }
 
 bool World::keeps_inputs() const {

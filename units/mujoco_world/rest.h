@@ -15,6 +15,10 @@ struct RestLimits {
   double speed = 1e-5;                      ///< [rad/s] or [m/s]
   double acceleration = 1e-3;               ///< [rad/s²] or [m/s²]
   stride::Duration window{20'000'000'000};  ///< for which they have to stay below [ps]
+
+  bool operator==(const RestLimits& other) const {
+    return speed == other.speed && acceleration == other.acceleration && window == other.window;
+  }
 };
 
 /// What is seen of a world at a grid point.

@@ -99,20 +99,26 @@ class MujocoWorld : public stride::Unit {
  private:
   /// As the importer wants it.
   void allow_rest() {
-    if (!max_skip()) return world_.allow_rest(std::nullopt);
+    if (!max_skip()) return world_.forbid_rest();
     limits_.window = stride::duration_from_seconds(rest_window_);
-    mujoco_world::RestSettings settings{limits_, {}, *max_skip()};
+    mujoco_world::RestSettings& settings = rest_settings_;
+    settings.limits = limits_;
+    settings.longest = *max_skip();
     auto& tolerances = settings.tolerances;
-    for (const Joint& joint : joints_) {
-      tolerances.joint_positions.push_back(tolerance_of(joint.position));
-      tolerances.joint_velocities.push_back(tolerance_of(joint.velocity));
+    tolerances.joint_positions.resize(joints_.size());
+    tolerances.joint_velocities.resize(joints_.size());
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      tolerances.joint_positions[i] = tolerance_of(joints_[i].position);
+      tolerances.joint_velocities[i] = tolerance_of(joints_[i].velocity);
     }
     const auto of_vector = [this](const Vector& vector) {
       return Vector{tolerance_of(vector[0]), tolerance_of(vector[1]), tolerance_of(vector[2])};
     };
-    for (const Site& site : sites_) {
-      tolerances.site_positions.push_back(of_vector(site.position));
-      tolerances.site_axes.push_back(of_vector(site.axis));
+    tolerances.site_positions.resize(sites_.size());
+    tolerances.site_axes.resize(sites_.size());
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      tolerances.site_positions[i] = of_vector(sites_[i].position);
+      tolerances.site_axes[i] = of_vector(sites_[i].axis);
     }
     tolerances.sensors.resize(world_.sensor_numbers());
     for (std::size_t i = 0; i < sensors_.size(); ++i) {
@@ -121,7 +127,7 @@ class MujocoWorld : public stride::Unit {
         tolerances.sensors[first + k] = tolerance_of(sensors_[i][k]);
       }
     }
-    world_.allow_rest(std::move(settings));
+    world_.allow_rest(settings);
   }
 
   void list_rest() {
@@ -232,6 +238,7 @@ class MujocoWorld : public stride::Unit {
   std::vector<Site> sites_;
   std::deque<std::vector<double>> sensors_;
   mujoco_world::RestLimits limits_;
+  mujoco_world::RestSettings rest_settings_;  // kept to avoid allocation
   double rest_window_ = stride::to_seconds(limits_.window);
   mutable std::vector<double> block_;  // of a state, kept to avoid allocation
 };

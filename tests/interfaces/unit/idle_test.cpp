@@ -80,6 +80,15 @@ TEST_CASE("a promise is cut off at the event that the unit has announced") {
   CHECK(idler.unit.idle_until() == 6);
 }
 
+TEST_CASE("a promise is cut off where one step cannot reach") {
+  const UnitLibrary library(STRIDE_IDLER_WITH_SHORT_STEPS_LIBRARY);
+  UnitInstance unit(library, choices());
+  REQUIRE(unit.fmi.EnableIdleSkipping(unit.handle, kEver) == fmi3OK);
+  REQUIRE(unit.set_real("rate", 0) == fmi3OK);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  CHECK(unit.idle_until() == 0.5);
+}
+
 TEST_CASE("an output's own tolerance bounds how long its tangent holds") {
   Idler idler(10, 0.01);
   const double usual = idler.unit.idle_until();

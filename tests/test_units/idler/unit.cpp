@@ -17,6 +17,9 @@ class Idler : public stride::Unit {
   Idler() {
     stride::UnitInfo& info = describe("A tank that promises to be idle");
     info.promises_idle = info.early_return = info.may_reject = true;
+#ifdef WITH_SHORT_STEPS
+    info.maximum_step = std::chrono::milliseconds(500);
+#endif
     input("inflow", inflow_).deadband(kDeadband);
     input("ask", ask_).description("a report is wanted");
     output("level", level_).derivative(slope_).tolerance(1e-3).depends_on({});

@@ -343,7 +343,7 @@ TEST_CASE("a world that may not rest is not changed by what it could", "[mujoco_
   World never(folder.path());
   World no_more(folder.path());
   no_more.allow_rest(settings(no_more));
-  no_more.allow_rest(std::nullopt);
+  no_more.forbid_rest();
   never.advance(Time(5s));
   no_more.advance(Time(5s));
   CHECK(same_bits(saved(never), saved(no_more)));
