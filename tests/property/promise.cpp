@@ -177,7 +177,7 @@ void Life::handle_event() {
 }
 
 void Life::handle_events() {
-  core::EventResult result{.iterate = true};
+  core::EventResult result{.iterate = true, .terminate = false, .next_event = {}};
   for (int i = 0; result.iterate; ++i) {
     REQUIRE(i < 100);
     result = unit_->update_discrete_states();

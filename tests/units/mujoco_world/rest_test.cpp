@@ -115,8 +115,8 @@ struct Seen {
 
 /// With a window of ten steps.
 struct Observer {
-  RestDetector detector{{1e-3, 1e-1, 10ms}, 1ms, 1, 1};
-  bool see(const Seen& seen) {
+  RestDetector detector{RestLimits{1e-3, 1e-1, 10ms}, 1ms, 1, 1};
+  bool see(Seen seen) {
     return detector.observe(
         {&seen.speed, &seen.acceleration, &seen.sensor, seen.activation, seen.contacts});
   }
