@@ -1,5 +1,5 @@
-/* How a library made with the unit kit describes itself: the one symbol that it exports beside the
- * FMI 3.0 table. */
+/* How a library made with the unit kit describes itself: what it exports beside the FMI 3.0 table
+ * and that of <stride/idle.h>. */
 #ifndef STRIDE_SELF_DESCRIPTION_H
 #define STRIDE_SELF_DESCRIPTION_H
 
@@ -11,6 +11,10 @@ extern "C" {
  * none). On failure NULL, and *error holds the reason. Both texts live in the library until the
  * next call from the same thread. */
 typedef const char* strideModelDescriptionTYPE(const char* resourcePath, const char** error);
+
+/* Likewise the text of extra/org.stride.idle/fmi-ls-manifest.xml; empty for a unit that never
+ * promises to be idle, which has no such file. */
+typedef const char* strideIdleManifestTYPE(const char* resourcePath, const char** error);
 
 #ifdef __cplusplus
 }

@@ -36,6 +36,11 @@ inline Duration duration_from_seconds(double seconds) {
 }
 inline Time time_from_seconds(double seconds) { return Time(duration_from_seconds(seconds)); }
 
+/// time + duration, which is not negative, or the last instant that there is if that is earlier.
+constexpr Time later(Time time, Duration duration) {
+  return time > Time::max() - duration ? Time::max() : time + duration;
+}
+
 }  // namespace stride
 
 #endif

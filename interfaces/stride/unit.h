@@ -22,10 +22,12 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include <stride/tangent.h>
 #include <stride/time.h>
 #include <stride/unit/clock.h>
 #include <stride/unit/state.h>
@@ -33,6 +35,10 @@
 #include <stride/unit/variable.h>
 
 namespace stride {
+
+namespace kit {
+class IdleSettings;
+}
 
 /// What a unit may ask for in its constructor, by a parameter `const stride::Setup&`.
 struct Setup {
@@ -49,6 +55,7 @@ struct UnitInfo {
   bool early_return = false;             ///< it may return early from a step
   bool may_reject = false;               ///< it may reject a step
   bool single_instance = false;          ///< no second instance in the same process
+  bool promises_idle = false;            ///< idle_until() may promise something (<stride/idle.h>)
   std::optional<Duration> fixed_step;    ///< its internal step size, where that is fixed
   std::optional<Duration> maximum_step;  ///< no communication step may be longer
 };
@@ -78,6 +85,13 @@ class Unit {
   /// read, where inputs or clocks were set, so what a tick puts out at once is computed here.
   virtual void update_outputs() {}
   virtual void terminate() {}
+
+  /// Until when the unit promises to be idle, as <stride/idle.h> has it, for the inputs that are in
+  /// its members; an instant that is not after `now` is no promise, Time::max() one without an end.
+  /// Called where a step or Event Mode has ended, and only where the importer has enabled skipping;
+  /// it changes nothing. The kit cuts the promise off at max_skip(), at the event that the unit has
+  /// announced, and at its maximum_step. Needs UnitInfo::promises_idle.
+  virtual Time idle_until(Time now) const { return now; }
 
   /// What state() cannot list; called after the listed members, in both directions.
   virtual void save_state(StateWriter& /*writer*/) const {}
@@ -126,6 +140,14 @@ class Unit {
     (state_items_.push_back(StateItem::of(members)), ...);
   }
 
+  /// How long the unit may skip its own idle time and promise to be idle, at most, as the importer
+  /// has enabled it: > 0, Duration::max() for ever. Empty where idle time is to be simulated like
+  /// any other, and in the constructor.
+  std::optional<Duration> max_skip() const { return max_skip_; }
+  /// The tolerance in force of an output that has a tolerance(), or of an element of such an array;
+  /// throws std::logic_error for any other member.
+  double tolerance_of(const double& output) const;
+
   UnitInfo& describe(std::string text) { return info_.description = std::move(text), info_; }
 
   void log(Severity severity, const std::string& message) const {
@@ -162,6 +184,16 @@ class Unit {
   bool lists_state_ = false;
   std::vector<StateItem> state_items_;
   Logger logger_;
+
+  friend class kit::IdleSettings;
+  /// The tolerance of the elements of one output.
+  struct Tolerance {
+    const double* first;
+    const double* last;
+    double value;
+  };
+  std::optional<Duration> max_skip_;
+  std::vector<Tolerance> tolerances_;  ///< in the order of the table; set by the kit
 };
 
 /// Supplied by STRIDE_UNIT in the unit's library.

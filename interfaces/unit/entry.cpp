@@ -4,7 +4,6 @@
 #include <exception>
 
 #include "interfaces/unit/entry_call.h"
-#include "interfaces/unit/model_description.h"
 
 using stride::Time;
 using stride::Type;
@@ -311,28 +310,3 @@ STRIDE_UNSUPPORTED(ExitConfigurationMode, kNoStructure)
 STRIDE_UNSUPPORTED(EvaluateDiscreteStates, kNoEvaluation)
 STRIDE_UNSUPPORTED(EnterContinuousTimeMode, kModelExchange)
 #undef STRIDE_UNSUPPORTED
-
-// ---- Self-description ----
-
-const char* strideModelDescription(const char* resources, const char** error) {
-  thread_local std::string text;
-  const auto keep = [](const char* message) noexcept {
-    try {
-      return (text = message).c_str();
-    } catch (...) {
-      return "out of memory";
-    }
-  };
-  try {
-    const stride::UnitFactory factory = stride::unit_factory();
-    double time = 0;
-    const auto unit = factory.make({resources != nullptr ? resources : "", factory.name});
-    text = stride::kit::model_description(factory.name, *unit, stride::kit::Table(*unit, time));
-    return text.c_str();
-  } catch (const std::exception& failure) {
-    *error = keep(failure.what());
-  } catch (...) {
-    *error = "the unit's constructor threw something that is no std::exception";
-  }
-  return nullptr;
-}

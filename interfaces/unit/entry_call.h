@@ -7,6 +7,7 @@
 #include <string>
 
 #include <stride/fmi3.h>
+#include <stride/idle.h>
 #include <stride/self_description.h>
 
 #include "interfaces/unit/instance.h"
@@ -15,7 +16,11 @@ extern "C" {
 #define STRIDE_EXPORT(name) __attribute__((visibility("default"))) fmi3##name##TYPE fmi3##name;
 FMI3_FUNCTIONS(STRIDE_EXPORT)
 #undef STRIDE_EXPORT
-__attribute__((visibility("default"))) strideModelDescriptionTYPE strideModelDescription;
+#define STRIDE_EXPORT(name) __attribute__((visibility("default"))) stride##name##TYPE stride##name;
+STRIDE_IDLE_FUNCTIONS(STRIDE_EXPORT)
+STRIDE_EXPORT(ModelDescription)
+STRIDE_EXPORT(IdleManifest)
+#undef STRIDE_EXPORT
 }
 
 namespace stride::kit {

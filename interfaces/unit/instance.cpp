@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include <stride/idle.h>
+
 #include "interfaces/unit/model_description.h"
 #include "interfaces/unit/xml_writer.h"
 
@@ -91,6 +93,7 @@ Instance::Instance(Importer importer, const std::string& token) : importer_(std:
 }
 
 void Instance::build() {
+  idle_.reset();
   table_.reset();
   unit_.reset();
   unit_ = unit_factory().make({importer_.resources, importer_.instance_name});
@@ -99,10 +102,12 @@ void Instance::build() {
     importer_.message(warning ? fmi3Warning : fmi3OK, warning ? LogWarnings : LogEvents, text);
   });
   table_ = std::make_unique<Table>(*unit_, time_seconds_);
+  if (unit_->info().promises_idle) idle_.emplace(*unit_, *table_);
   mode_ = Instantiated;
   time_seconds_ = 0;
   next_event_.reset();
   inputs_changed_ = true;
+  event_pending_ = false;
 }
 
 void Instance::reset() { build(); }
@@ -207,6 +212,7 @@ Instance::StepOutcome Instance::do_step(double point, double size) {
         "an event at " + text(time_) + " s is lost, because the importer does not use Event Mode");
     event = false;
   }
+  event_pending_ = event;
   return {std::nullopt, event, step.terminates(), time_ < to, time_};
 }
 
@@ -351,6 +357,50 @@ void Instance::get_output_derivatives(const fmi3ValueReference references[], std
   if (at != size) throw Misuse("nValues is too large");
 }
 
+void Instance::require_idle_promises() const {
+  require_unit();
+  if (!idle_)
+    throw Misuse("this unit never promises to be idle (it has no " STRIDE_IDLE_MANIFEST ")");
+}
+
+void Instance::enable_idle_skipping(double max_skip) {
+  require_idle_promises();
+  const bool is_endless = max_skip > kMaxSeconds;
+  const Duration longest = is_endless ? Duration::max() : duration_of_seconds(max_skip);
+  if (longest <= Duration{}) {
+    throw Misuse("maxSkip is " + to_text(max_skip) +
+                 " s, expected at least the picosecond that times are counted in");
+  }
+  idle_->enable(longest);
+}
+
+void Instance::set_idle_tolerances(const fmi3ValueReference outputs[], std::size_t count,
+                                   const double tolerances[], std::size_t size) {
+  require_idle_promises();
+  if (count != size) throw Misuse("nTolerances must be nOutputs");
+  for (std::size_t i = 0; i < count; ++i) {
+    slot(outputs[i], Type::Float64);
+    const std::string& name = table_->row(outputs[i]).name;
+    if (!idle_->has_tolerance(outputs[i])) {
+      throw Misuse("variable '" + name + "' is no output with a tolerance in the manifest");
+    }
+    if (tolerances[i] > 0 && std::isfinite(tolerances[i])) continue;
+    throw Misuse("the tolerance of '" + name + "' is " + to_text(tolerances[i]) +
+                 ", expected more than 0");
+  }
+  for (std::size_t i = 0; i < count; ++i) idle_->set_tolerance(outputs[i], tolerances[i]);
+}
+
+Time Instance::idle_until() const {
+  require_idle_promises();
+  const auto longest = idle_->max_skip();
+  if (!longest || event_pending_) return time_;
+  Time until = std::min(unit_->idle_until(time_), later(time_, *longest));
+  if (next_event_) until = std::min(until, *next_event_);
+  if (const auto& step = unit_->info().maximum_step) until = std::min(until, later(time_, *step));
+  return std::max(until, time_);
+}
+
 void Instance::require_state() const {
   require_unit();
   if (!unit_->lists_state()) {
@@ -368,6 +418,8 @@ void Instance::save(SavedState& saved) const {
   write_optional(writer, stop_);
   write_optional(writer, next_event_);
   writer.write(inputs_changed_);
+  writer.write(event_pending_);
+  if (idle_) idle_->save(writer);
   for (std::size_t i = 1; i < table_->size(); ++i) {
     const Variable& row = table_->row(i);
     visit(row.type, row.data, [&](const auto* elements) {
@@ -404,6 +456,8 @@ void Instance::restore(const SavedState& saved) {
   stop_ = read_optional(reader);
   next_event_ = read_optional(reader);
   reader.read(inputs_changed_);
+  reader.read(event_pending_);
+  if (idle_) idle_->load(reader);
   time_seconds_ = to_seconds(time_);
   for (std::size_t i = 1; i < table_->size(); ++i) {
     const Variable& row = table_->row(i);

@@ -12,6 +12,7 @@
 #include <stride/fmi3.h>
 #include <stride/unit.h>
 
+#include "interfaces/unit/idle_settings.h"
 #include "interfaces/unit/legal_calls.h"
 #include "interfaces/unit/log_categories.h"
 #include "interfaces/unit/table.h"
@@ -67,7 +68,10 @@ class Instance final : private InputUpdater {
 
   void enter_initialization_mode(Time start, std::optional<Time> stop);
   void exit_initialization_mode();
-  void enter_event_mode() { mode_ = EventMode; }
+  void enter_event_mode() {
+    mode_ = EventMode;
+    event_pending_ = false;
+  }
   void enter_step_mode() { mode_ = StepMode; }
   void terminate();
   void reset();
@@ -96,6 +100,13 @@ class Instance final : private InputUpdater {
                   const std::size_t sizes[], const fmi3Binary values[], std::size_t size);
   void get_output_derivatives(const fmi3ValueReference references[], std::size_t count,
                               const fmi3Int32 orders[], double values[], std::size_t size);
+
+  // The functions of <stride/idle.h>.
+  void enable_idle_skipping(double max_skip);
+  void set_idle_tolerances(const fmi3ValueReference outputs[], std::size_t count,
+                           const double tolerances[], std::size_t size);
+  /// An instant that is not after the present one is no promise, Time::max() one without an end.
+  Time idle_until() const;
 
   struct ClockInterval {
     Duration interval;
@@ -130,6 +141,7 @@ class Instance final : private InputUpdater {
   void forget_intervals();
   void activate(fmi3ValueReference reference);
   void require_unit() const;
+  void require_idle_promises() const;
   void require_state() const;
   bool any_clock_ticked() const;
   void check_writable(const fmi3ValueReference references[], std::size_t count, Type type,
@@ -140,6 +152,7 @@ class Instance final : private InputUpdater {
   std::string token_;
   std::unique_ptr<Unit> unit_;
   std::unique_ptr<Table> table_;
+  std::optional<IdleSettings> idle_;  ///< of a unit that promises to be idle
   double time_seconds_ = 0;
   Time time_{};
   Time start_{};
@@ -147,7 +160,8 @@ class Instance final : private InputUpdater {
   std::optional<Time> next_event_;  ///< as the unit announced it
   Mode mode_ = Instantiated;
   bool inputs_changed_ = true;
-  double step_point_ = 0;  ///< the present step as the importer gave it
+  bool event_pending_ = false;  ///< the last step asked for Event Mode, which was not entered
+  double step_point_ = 0;       ///< the present step as the importer gave it
   double step_size_ = 0;
 };
 

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kFunctionCount = 0
 #define STRIDE_ONE(name) +1
-    FMI3_FUNCTIONS(STRIDE_ONE)
+    FMI3_FUNCTIONS(STRIDE_ONE) STRIDE_IDLE_FUNCTIONS(STRIDE_ONE)
 #undef STRIDE_ONE
     ;
 
@@ -79,6 +79,10 @@ constexpr Rule kRules[] = {
     {Function::SerializedFMUStateSize, kAny},
     {Function::SerializeFMUState, kAny},
     {Function::DeserializeFMUState, kAny},
+
+    {Function::EnableIdleSkipping, Instantiated},
+    {Function::SetIdleTolerances, Instantiated},
+    {Function::GetIdlePromise, StepMode},
 };
 
 constexpr auto kLegalModes = [] {
@@ -97,6 +101,9 @@ const char* name(Function function) {
   static constexpr const char* kNames[] = {
 #define STRIDE_NAME(name) "fmi3" #name,
       FMI3_FUNCTIONS(STRIDE_NAME)
+#undef STRIDE_NAME
+#define STRIDE_NAME(name) "stride" #name,
+          STRIDE_IDLE_FUNCTIONS(STRIDE_NAME)
 #undef STRIDE_NAME
   };
   return kNames[static_cast<std::size_t>(function)];

@@ -1,4 +1,5 @@
-// Which FMI function may be called in which state of a Co-Simulation unit (FMI 3.0, 2.3 and 4.2).
+// Which FMI function may be called in which state of a Co-Simulation unit (FMI 3.0, 2.3 and 4.2),
+// and which of <stride/idle.h>.
 #ifndef STRIDE_INTERFACES_UNIT_LEGAL_CALLS_H
 #define STRIDE_INTERFACES_UNIT_LEGAL_CALLS_H
 
@@ -6,12 +7,13 @@
 #include <string>
 
 #include <stride/fmi3.h>
+#include <stride/idle.h>
 
 namespace stride::kit {
 
 enum class Function : std::uint8_t {
 #define STRIDE_NAME(name) name,
-  FMI3_FUNCTIONS(STRIDE_NAME)
+  FMI3_FUNCTIONS(STRIDE_NAME) STRIDE_IDLE_FUNCTIONS(STRIDE_NAME)
 #undef STRIDE_NAME
 };
 
@@ -29,6 +31,7 @@ enum Mode : std::uint8_t {
 /// supports it.
 std::uint8_t legal_modes(Function function);
 
+/// As it is exported: "fmi3DoStep", "strideGetIdlePromise".
 const char* name(Function function);
 
 /// The names of the states in a mask, for messages: "Instantiated or Step Mode".

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "interfaces/unit/idle_manifest.h"
 #include "interfaces/unit/log_categories.h"
 #include "interfaces/unit/si_units.h"
 #include "interfaces/unit/xml_writer.h"
@@ -295,7 +296,8 @@ std::uint64_t hash(const std::string& text) {
 }  // namespace
 
 std::string instantiation_token(const std::string& name, const Unit& unit, const Table& table) {
-  const std::uint64_t value = hash(Writer(name, unit, table).write(""));
+  const std::uint64_t value =
+      hash(Writer(name, unit, table).write("") + idle_manifest(unit, table));
   Binary bytes;
   for (int shift = 56; shift >= 0; shift -= 8) {
     bytes.push_back(static_cast<std::uint8_t>(value >> shift));

@@ -8,7 +8,7 @@
 namespace stride::kit {
 
 /// The text of modelDescription.xml (FMI 3.0, 2.4). The instantiation token is a hash of everything
-/// else in it, so it changes exactly when the description does.
+/// else in it and of the idle manifest, so it changes exactly when one of them does.
 std::string model_description(const std::string& name, const Unit& unit, const Table& table);
 
 /// The token alone.

@@ -102,6 +102,28 @@ void check_bounds(const Variable& row) {
   }
 }
 
+void check_idle(const Variable& row, bool promises_idle) {
+  if (!row.deadband && !row.tolerance) return;
+  const bool is_real = row.type == Type::Float64;
+  if (row.deadband && (!is_real || row.causality != Causality::Input)) {
+    reject(row, "only a Float64 input has a deadband");
+  }
+  if (row.tolerance && (!is_real || row.causality != Causality::Output)) {
+    reject(row, "only a Float64 output has a tolerance");
+  }
+  if (row.deadband && !(*row.deadband >= 0 && std::isfinite(*row.deadband))) {
+    reject(row, "the deadband is " + to_text(*row.deadband) + ", expected at least 0");
+  }
+  if (row.tolerance && !(*row.tolerance > 0 && std::isfinite(*row.tolerance))) {
+    reject(row, "the tolerance is " + to_text(*row.tolerance) + ", expected more than 0");
+  }
+  if (!promises_idle) {
+    reject(row,
+           "a deadband or tolerance is for a unit that promises to be idle; set "
+           "describe(...).promises_idle, or leave it out");
+  }
+}
+
 void check_timing(const Variable& row) {
   const bool is_input = row.causality == Causality::Input;
   const bool is_timed = row.interval_variability != IntervalVariability::Triggered;
@@ -150,6 +172,7 @@ Table::Table(const Unit& unit, double& time) {
   for (const Variable* row : rows_) {
     if (!names.insert(row->name).second) reject(*row, "this name is used twice");
     check(*row);
+    check_idle(*row, unit.info().promises_idle);
     slots_.push_back({row->type, settable_modes(*row), row->size, row->data});
     if (row->type == Type::Clock) {
       auto& clocks = row->causality == Causality::Input ? input_clocks_ : output_clocks_;

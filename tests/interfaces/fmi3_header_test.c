@@ -64,6 +64,20 @@ fmi3Status c_set_clock(fmi3Instance instance, const fmi3ValueReference reference
   return fmi3Warning;
 }
 
+fmi3Status c_set_idle_tolerances(fmi3Instance instance, const fmi3ValueReference outputs[],
+                                 size_t n_outputs, const fmi3Float64 tolerances[],
+                                 size_t n_tolerances) {
+  for (size_t i = 0; i < n_outputs && i < n_tolerances; ++i) {
+    *(double*)instance += outputs[i] * tolerances[i];
+  }
+  return fmi3Warning;
+}
+
+fmi3Status c_get_idle_promise(fmi3Instance instance, fmi3Float64* until) {
+  *until = *(double*)instance;
+  return fmi3OK;
+}
+
 size_t c_function_count(void) {
 #define ONE(name) +1
   return 0 FMI3_FUNCTIONS(ONE);

@@ -96,3 +96,13 @@ TEST_CASE("functions carry their arguments from C++ to C") {
   CHECK(c_set_clock(&sum, references, 2, clocks) == fmi3Warning);
   CHECK(sum == 3);
 }
+
+TEST_CASE("the functions of idle skipping carry their arguments from C++ to C") {
+  double sum = 0;
+  const fmi3ValueReference outputs[] = {3, 2};
+  const double tolerances[] = {0.5, 0.25};
+  CHECK(c_set_idle_tolerances(&sum, outputs, 2, tolerances, 2) == fmi3Warning);
+  double until = 0;
+  CHECK(c_get_idle_promise(&sum, &until) == fmi3OK);
+  CHECK(until == 2);
+}

@@ -1,8 +1,10 @@
-/* What C sees of <stride/fmi3.h>, for a C++ program to compare with what it sees itself. */
+/* What C sees of <stride/fmi3.h> and <stride/idle.h>, for a C++ program to compare with what it
+ * sees itself. */
 #ifndef STRIDE_TESTS_INTERFACES_FMI3_HEADER_TEST_H
 #define STRIDE_TESTS_INTERFACES_FMI3_HEADER_TEST_H
 
 #include <stride/fmi3.h>
+#include <stride/idle.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -52,6 +54,8 @@ void c_intermediate_update(fmi3IntermediateUpdateCallback update,
 fmi3DoStepTYPE c_do_step;
 fmi3GetBinaryTYPE c_get_binary;
 fmi3SetClockTYPE c_set_clock;
+strideSetIdleTolerancesTYPE c_set_idle_tolerances;
+strideGetIdlePromiseTYPE c_get_idle_promise;
 
 /* The number of functions in the entry table. */
 size_t c_function_count(void);

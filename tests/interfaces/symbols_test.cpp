@@ -1,5 +1,5 @@
-// What a library made with the unit kit exports: the FMI 3.0 entry table, its self-description, and
-// nothing else, so that units cannot disturb each other.
+// What a library made with the unit kit exports: the FMI 3.0 entry table, that of idle skipping,
+// its self-description, and nothing else, so that units cannot disturb each other.
 #include <array>
 #include <cstdio>
 #include <memory>
@@ -11,6 +11,7 @@
 #include <dlfcn.h>
 
 #include <stride/fmi3.h>
+#include <stride/idle.h>
 
 namespace {
 
@@ -29,16 +30,19 @@ std::set<std::string> exported_symbols(const std::string& library) {
 }
 
 std::set<std::string> expected_symbols() {
-  std::set<std::string> names = {"strideModelDescription"};
+  std::set<std::string> names = {"strideModelDescription", "strideIdleManifest"};
 #define ADD(name) names.insert("fmi3" #name);
   FMI3_FUNCTIONS(ADD)
+#undef ADD
+#define ADD(name) names.insert("stride" #name);
+  STRIDE_IDLE_FUNCTIONS(ADD)
 #undef ADD
   return names;
 }
 
 }  // namespace
 
-TEST_CASE("a unit's library exports the entry table and its self-description alone") {
+TEST_CASE("a unit's library exports the entry tables and its self-description alone") {
   std::istringstream libraries(STRIDE_UNIT_LIBRARIES);
   for (std::string library; std::getline(libraries, library, ':');) {
     CAPTURE(library);

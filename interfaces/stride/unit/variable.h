@@ -94,6 +94,8 @@ struct Variable {
   bool has_interval = false;  ///< of a periodic Clock: it is declared, not said by the unit
   const double* derivative = nullptr;  ///< of an output: its first derivative, element by element
   std::optional<std::vector<std::string>> dependencies;  ///< of an output: nothing = unknown = all
+  std::optional<double> deadband;   ///< of a Float64 input, see <stride/idle.h>
+  std::optional<double> tolerance;  ///< of a Float64 output, likewise
 };
 
 /// What input(), output(), parameter() and local() return, to say more about the row. Units are
@@ -163,6 +165,15 @@ class VariableBuilder {
   }
   /// Where the first derivative of an output stands.
   VariableBuilder& derivative(const double& member) { return row_.derivative = &member, *this; }
+
+  // For a unit that may promise to be idle (UnitInfo::promises_idle, Unit::idle_until()).
+
+  /// How far this Float64 input may go from its value at the promise before that ends, in its unit,
+  /// >= 0. Without one any change ends it.
+  VariableBuilder& deadband(double width) { return row_.deadband = width, *this; }
+  /// How far this Float64 output may be from its tangent at the promise while it holds, in its
+  /// unit, > 0, unless the importer says another. Without one it stays exactly what it is.
+  VariableBuilder& tolerance(double width) { return row_.tolerance = width, *this; }
 
  private:
   VariableBuilder& timed(IntervalVariability variability) {

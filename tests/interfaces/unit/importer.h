@@ -10,6 +10,7 @@
 #include <dlfcn.h>
 
 #include <stride/fmi3.h>
+#include <stride/idle.h>
 #include <stride/self_description.h>
 
 namespace stride::tests {
@@ -21,25 +22,37 @@ class UnitLibrary {
 #define RESOLVE(name) name = reinterpret_cast<fmi3##name##TYPE*>(symbol("fmi3" #name));
     FMI3_FUNCTIONS(RESOLVE)
 #undef RESOLVE
+#define RESOLVE(name) name = reinterpret_cast<stride##name##TYPE*>(symbol("stride" #name));
+    STRIDE_IDLE_FUNCTIONS(RESOLVE)
+#undef RESOLVE
   }
   ~UnitLibrary() { dlclose(handle_); }
   UnitLibrary(const UnitLibrary&) = delete;
   UnitLibrary& operator=(const UnitLibrary&) = delete;
 
   std::string describe(const std::string& resources = "") const {
-    auto* function =
-        reinterpret_cast<strideModelDescriptionTYPE*>(symbol("strideModelDescription"));
-    const char* error = "";
-    const char* text = function(resources.empty() ? nullptr : resources.c_str(), &error);
-    if (text == nullptr) throw std::runtime_error(error);
-    return text;
+    return self_description<strideModelDescriptionTYPE>("strideModelDescription", resources);
+  }
+  std::string idle_manifest() const {
+    return self_description<strideIdleManifestTYPE>("strideIdleManifest", "");
   }
 
 #define POINTER(name) fmi3##name##TYPE* name = nullptr;
   FMI3_FUNCTIONS(POINTER)
 #undef POINTER
+#define POINTER(name) stride##name##TYPE* name = nullptr;
+  STRIDE_IDLE_FUNCTIONS(POINTER)
+#undef POINTER
 
  private:
+  template <class Function>
+  std::string self_description(const char* name, const std::string& resources) const {
+    auto* function = reinterpret_cast<Function*>(symbol(name));
+    const char* error = "";
+    const char* text = function(resources.empty() ? nullptr : resources.c_str(), &error);
+    if (text == nullptr) throw std::runtime_error(error);
+    return text;
+  }
   void* symbol(const char* name) const {
     void* found = dlsym(handle_, name);
     if (found == nullptr) throw std::runtime_error(name);
@@ -185,6 +198,16 @@ class UnitInstance {
   fmi3Status set_shift(const std::string& clock, double seconds) {
     const fmi3ValueReference r = reference(clock);
     return fmi.SetShiftDecimal(handle, &r, 1, &seconds);
+  }
+  /// Until when the unit promises to be idle [s].
+  double idle_until() {
+    double until = -1;
+    if (fmi.GetIdlePromise(handle, &until) != fmi3OK) throw std::runtime_error(last_message());
+    return until;
+  }
+  fmi3Status set_tolerance(const std::string& output, double tolerance) {
+    const fmi3ValueReference r = reference(output);
+    return fmi.SetIdleTolerances(handle, &r, 1, &tolerance, 1);
   }
   std::string last_message() const { return messages.empty() ? "" : messages.back(); }
 

@@ -195,6 +195,19 @@ std::vector<Call> clocks() {
   };
 }
 
+std::vector<Call> idle_skipping() {
+  return {
+      {"strideEnableIdleSkipping", "I",
+       [](UnitInstance& u) { return u.fmi.EnableIdleSkipping(u.handle, 1); }},
+      {"strideSetIdleTolerances", "I", [](UnitInstance& u) { return u.set_tolerance("level", 1); }},
+      {"strideGetIdlePromise", "S",
+       [](UnitInstance& u) {
+         double until = 0;
+         return u.fmi.GetIdlePromise(u.handle, &until);
+       }},
+  };
+}
+
 /// Calls each function in each state, each time on a fresh instance.
 void check(const std::vector<Call>& calls, const char* unit_library = STRIDE_TYPES_LIBRARY) {
   const UnitLibrary library(unit_library);
@@ -221,6 +234,8 @@ TEST_CASE("the life cycle in every state") { check(life_cycle()); }
 TEST_CASE("access to values in every state") { check(values()); }
 TEST_CASE("access to the unit's state in every state") { check(states()); }
 TEST_CASE("the intervals of clocks in every state") { check(clocks(), STRIDE_CLOCKS_LIBRARY); }
+
+TEST_CASE("idle skipping in every state") { check(idle_skipping(), STRIDE_IDLER_LIBRARY); }
 
 TEST_CASE("a call out of order changes nothing") {
   const UnitLibrary library(STRIDE_STEPPER_LIBRARY);

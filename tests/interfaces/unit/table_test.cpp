@@ -1,6 +1,7 @@
 #include "interfaces/unit/table.h"
 
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -18,6 +19,7 @@ class Rows : public Unit {
   explicit Rows(const std::function<void(Rows&)>& list) { list(*this); }
   void step(Step&) override {}
 
+  using Unit::describe;
   using Unit::input;
   using Unit::output;
   using Unit::parameter;
@@ -108,4 +110,36 @@ TEST_CASE("only a continuous input changes within a step") {
                     Contains(reason));
   CHECK_THROWS_WITH(check([](Rows& unit) { unit.output("real", unit.real).intermediate(); }),
                     Contains(reason));
+}
+
+TEST_CASE("a deadband is of a Float64 input, a tolerance of a Float64 output") {
+  const auto check_idle = [](const std::function<void(Rows&)>& list) {
+    check([&](Rows& unit) {
+      unit.describe("idle now and then").promises_idle = true;
+      list(unit);
+    });
+  };
+  CHECK_NOTHROW(check_idle([](Rows& unit) { unit.input("real", unit.real).deadband(0); }));
+  CHECK_NOTHROW(check_idle([](Rows& unit) { unit.output("real", unit.real).tolerance(1e-9); }));
+  CHECK_THROWS_WITH(check_idle([](Rows& unit) { unit.output("real", unit.real).deadband(1); }),
+                    "variable 'real': only a Float64 input has a deadband");
+  CHECK_THROWS_WITH(check_idle([](Rows& unit) { unit.input("real", unit.narrow).deadband(1); }),
+                    "variable 'real': only a Float64 input has a deadband");
+  CHECK_THROWS_WITH(check_idle([](Rows& unit) { unit.input("real", unit.real).tolerance(1); }),
+                    "variable 'real': only a Float64 output has a tolerance");
+  CHECK_THROWS_WITH(check_idle([](Rows& unit) { unit.output("n", unit.natural).tolerance(1); }),
+                    "variable 'n': only a Float64 output has a tolerance");
+  CHECK_THROWS_WITH(check_idle([](Rows& unit) { unit.input("real", unit.real).deadband(-1); }),
+                    "variable 'real': the deadband is -1, expected at least 0");
+  CHECK_THROWS_WITH(check_idle([](Rows& unit) { unit.output("real", unit.real).tolerance(0); }),
+                    "variable 'real': the tolerance is 0, expected more than 0");
+  CHECK_THROWS(
+      check_idle([](Rows& unit) { unit.output("real", unit.real).tolerance(std::nan("")); }));
+}
+
+TEST_CASE("a unit that never promises to be idle has neither") {
+  CHECK_THROWS_WITH(check([](Rows& unit) { unit.input("real", unit.real).deadband(1); }),
+                    Contains("variable 'real'") && Contains("promises_idle"));
+  CHECK_THROWS_WITH(check([](Rows& unit) { unit.output("real", unit.real).tolerance(1); }),
+                    Contains("variable 'real'") && Contains("promises_idle"));
 }
