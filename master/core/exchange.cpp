@@ -302,6 +302,32 @@ std::vector<ContinuousLink> Exchange::continuous_links() {
   return links;
 }
 
+std::vector<Exchange::RealValue> Exchange::elements(
+    std::vector<Transfer>& transfers, const std::function<bool(const Transfer&)>& is_wanted) const {
+  std::vector<RealValue> elements;
+  for (Transfer& transfer : transfers) {
+    if (!is_wanted(transfer)) continue;
+    for (std::size_t i = 0; i < transfer.ids.size(); ++i) {
+      for (std::size_t k = 0; k < system_.variable(transfer.ids[i]).size; ++k) {
+        elements.push_back({transfer.ids[i], {&transfer.block, transfer.firsts[i] + k}});
+      }
+    }
+  }
+  return elements;
+}
+
+std::vector<Exchange::RealValue> Exchange::continuous_inputs(std::size_t component) {
+  return elements(inputs_[component], [](const Transfer& t) { return !t.is_discrete(); });
+}
+
+std::vector<Exchange::RealValue> Exchange::outputs_with_tolerance(std::size_t component) {
+  std::vector<RealValue> values = elements(outputs_[component], [](const Transfer& transfer) {
+    return transfer.block.type() == ValueType::Float64;
+  });
+  std::erase_if(values, [&](const RealValue& v) { return !system_.variable(v.id).tolerance; });
+  return values;
+}
+
 /// The variables of which a value is not what it was.
 void Exchange::add_changes(const Transfer& transfer, const ValueBlock& before,
                            std::vector<VariableId>& changes) const {

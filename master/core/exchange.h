@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -87,6 +88,15 @@ class Exchange {
   /// All connections between continuous variables, sorted by target.
   std::vector<ContinuousLink> continuous_links();
 
+  struct RealValue {
+    VariableId id;
+    RealElement element;
+  };
+  /// The elements of a component's connected inputs that are not discrete.
+  std::vector<RealValue> continuous_inputs(std::size_t component);
+  /// The elements of a component's Float64 outputs with a tolerance that are read at all.
+  std::vector<RealValue> outputs_with_tolerance(std::size_t component);
+
   /// In Initialization Mode, when its inputs have been set: what belongs to the unit's time-based
   /// clocks is exchanged at their ticks from now on, and holds what it is until then.
   void begin_samples(std::size_t component, Unit& unit);
@@ -153,6 +163,8 @@ class Exchange {
     bool route() const;
   };
 
+  std::vector<RealValue> elements(std::vector<Transfer>& transfers,
+                                  const std::function<bool(const Transfer&)>& is_wanted) const;
   static bool is_of(const Transfer& transfer, std::span<const ValueReference> ticking);
   static bool is_changed(const Transfer& transfer) {
     return transfer.is_new || !(transfer.block == transfer.delivered);

@@ -15,7 +15,7 @@ constexpr std::uint32_t kEventLimit = 1000;
 
 Instant::Instant(const System& system, std::span<const std::unique_ptr<Unit>> units,
                  Exchange& exchange, std::vector<Observer*>& observers, RunStatistics& statistics,
-                 WallClock clock)
+                 WallClock clock, IdleLedger* ledger)
     : system_(system),
       units_(units),
       exchange_(exchange),
@@ -24,6 +24,7 @@ Instant::Instant(const System& system, std::span<const std::unique_ptr<Unit>> un
       observers_(observers),
       statistics_(statistics),
       clock_(clock),
+      ledger_(ledger),
       active_(units.size()),
       in_event_mode_(units.size()),
       had_event_(units.size()),
@@ -61,7 +62,10 @@ void Instant::settle(Time time) {
   time_ = time;
   if (std::exchange(had_any_event_, false)) std::fill(had_event_.begin(), had_event_.end(), false);
   if (announced_ && *announced_ <= time) activate_announced();
-  exchange_.route(time);
+  if (ledger_ != nullptr) {
+    for (const std::size_t i : ledger_->come_to(time)) request_event(i);
+  }
+  route();
   for (std::uint32_t count = 0; prepare_events(); ++count) {
     if (count == kEventLimit) fail_ticking();
     const bool terminates = event_iteration();
@@ -70,6 +74,14 @@ void Instant::settle(Time time) {
     if (terminates) break;
   }
   if (has_event_) leave_event_mode();
+  if (ledger_ != nullptr) ledger_->rest(time);
+}
+
+/// Whoever is disturbed by what reaches it is exact again, which may disturb others.
+void Instant::route() {
+  exchange_.route(time_);
+  if (ledger_ == nullptr) return;
+  while (ledger_->wake_disturbed(time_)) exchange_.route(time_);
 }
 
 void Instant::activate_announced() {
@@ -115,6 +127,7 @@ bool Instant::prepare_events() {
 
 void Instant::enter_event_mode(std::size_t i) {
   if (in_event_mode_[i]) return;
+  if (ledger_ != nullptr && ledger_->rests(i)) ledger_->wake(i, time_);
   units_[i]->enter_event_mode();
   in_event_mode_[i] = has_event_ = true;
   exchange_.deliver(i, *units_[i]);
@@ -180,7 +193,7 @@ void Instant::exchange_after_events() {
   }
   if (evaluation_) return exchange_.check_nan(time_);
   find_jumps();
-  exchange_.route(time_);
+  route();
 }
 
 /// What an event changes in a continuous output is an event of those who receive it.

@@ -14,6 +14,7 @@
 #include "master/core/clocks.h"
 #include "master/core/evaluation.h"
 #include "master/core/exchange.h"
+#include "master/core/idle_ledger.h"
 #include "master/core/messages.h"
 #include "master/core/observer.h"
 #include "master/core/statistics.h"
@@ -27,9 +28,10 @@ namespace stride::core {
 class Instant : private Evaluation::Participants {
  public:
   /// `units` in the order of system.components(); `observers` hear of the messages. All of them
-  /// must outlive this object.
+  /// must outlive this object. `ledger`: who rests; null if nobody does.
   Instant(const System& system, std::span<const std::unique_ptr<Unit>> units, Exchange& exchange,
-          std::vector<Observer*>& observers, RunStatistics& statistics, WallClock clock);
+          std::vector<Observer*>& observers, RunStatistics& statistics, WallClock clock,
+          IdleLedger* ledger = nullptr);
 
   /// Before the end of Initialization Mode: asks for the first ticks of the time-based clocks.
   void begin_clocks(Time start) { clocks_.begin(start); }
@@ -71,6 +73,7 @@ class Instant : private Evaluation::Participants {
   void exchange_messages();
   void transmit(std::size_t sender);
   void find_jumps();
+  void route();
   [[noreturn]] void fail_nan(VariableId id) const;
   [[noreturn]] void fail_ticking() const;
   [[noreturn]] void fail_sample_loop(std::span<const std::size_t> ticking) const;
@@ -88,6 +91,7 @@ class Instant : private Evaluation::Participants {
   std::vector<Observer*>& observers_;
   RunStatistics& statistics_;
   WallClock clock_;
+  IdleLedger* ledger_;
 
   Time time_{};
   std::uint32_t index_ = 0;                  ///< of the super-dense instant at that time

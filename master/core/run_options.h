@@ -65,7 +65,27 @@ struct ThreadOptions {
   bool always = false;
 };
 
+/// A number for one variable.
+struct IdleSetting {
+  VariableId id;
+  double value = 0;
+};
+
+/// Who may be left alone while it promises to be idle (org.stride.idle).
+struct IdleOptions {
+  /// For how long, by component; nothing: not at all. Shorter than the components: nobody further.
+  std::vector<std::optional<Duration>> max_skip{};
+  std::vector<IdleSetting> deadbands{};   ///< of inputs, in place of those that the units name
+  std::vector<IdleSetting> tolerances{};  ///< of outputs, likewise
+  Duration least{};                       ///< a unit is not left alone for less
+};
+
 struct RunOptions {
+  /// Units may rest where nothing but events and steps needs them: inputs that are extrapolated, or
+  /// whose error is controlled, are needed between communication points.
+  bool may_skip_idle_time() const {
+    return !sets_inputs_in_steps() && step.policy != StepPolicy::ErrorControlled;
+  }
   /// Whether inputs are set anew for each step. With Jacobi and held inputs they stay what they
   /// were at the communication point.
   bool sets_inputs_in_steps() const {
@@ -78,6 +98,7 @@ struct RunOptions {
   Coupling coupling = Coupling::Jacobi;
   Extrapolation extrapolation = Extrapolation::Hold;
   ThreadOptions threads{};  ///< not with Gauss-Seidel, where units step one after another
+  IdleOptions idle{};       ///< as far as may_skip_idle_time()
   std::vector<VariableId> recorded{};  ///< what the observers see, in this order
   bool measure_time = true;  ///< wall-clock time per unit; costs two clock readings a unit step
 };

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "master/core/exchange.h"
+#include "master/core/idle_ledger.h"
 #include "master/core/initial_values.h"
 #include "master/core/instant.h"
 #include "master/core/step_inputs.h"
@@ -35,10 +36,13 @@ class Simulation::Run {
         exchange_(system, options_.recorded),
         inputs_(make_inputs()),
         statistics_{.units = std::vector<UnitStatistics>(units_.size())},
+        ledger_(make_ledger()),
         clock_(options_.measure_time),
-        instant_(system, units_, exchange_, observers_, statistics_, clock_),
+        instant_(system, units_, exchange_, observers_, statistics_, clock_,
+                 ledger_ ? &*ledger_ : nullptr),
         stepper_(system, units_, exchange_, statistics_.units, clock_, options_,
-                 options_.sets_inputs_in_steps() ? &*inputs_ : nullptr) {
+                 options_.sets_inputs_in_steps() ? &*inputs_ : nullptr,
+                 ledger_ ? &*ledger_ : nullptr) {
     statistics_.start = statistics_.reached = options_.start;
     if (options_.sets_inputs_in_steps()) lead_inputs_within_steps();
   }
@@ -53,6 +57,7 @@ class Simulation::Run {
     try {
       clock_.timed(statistics_.phases.initialization, [&] { initialize(); });
       while (time_ < options_.stop && !statistics_.terminated_by_unit) communication_step();
+      if (ledger_) ledger_->settle(time_);
       for (auto& unit : units_) unit->terminate();
     } catch (...) {
       failure = std::current_exception();
@@ -60,7 +65,7 @@ class Simulation::Run {
     statistics_.wall_time = WallClock::Source::now() - began;
     for (std::size_t i = 0; i < count(); ++i) {
       statistics_.units[i].calls = units_[i]->calls();
-      statistics_.units[i].steps = stepper_.steps(i);
+      statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].rests;
     }
     finish_observers(failure);
     if (failure) std::rethrow_exception(failure);
@@ -85,6 +90,7 @@ class Simulation::Run {
     for (const StartValue& start : system_.start_values()) {
       units_[start.id.component]->set({&system_.variable(start.id).reference, 1}, start.value);
     }
+    if (ledger_) ledger_->enable();
     for (std::size_t i = 0; i < count(); ++i) {
       clock_.timed(statistics_.units[i].initialization_time,
                    [&] { units_[i]->enter_initialization(options_.start, options_.stop); });
@@ -113,6 +119,14 @@ class Simulation::Run {
   std::optional<StepInputs> make_inputs() {
     if (!options_.sets_inputs_in_steps() && !step_size_.controls_error()) return std::nullopt;
     return StepInputs(system_, exchange_, options_.coupling, options_.extrapolation);
+  }
+
+  std::optional<IdleLedger> make_ledger() {
+    if (!options_.may_skip_idle_time()) return std::nullopt;
+    std::optional<IdleLedger> ledger(std::in_place, system_, units_, exchange_, statistics_.units,
+                                     options_.idle);
+    if (ledger->is_trivial()) ledger.reset();
+    return ledger;
   }
 
   void lead_inputs_within_steps() {
@@ -164,7 +178,8 @@ class Simulation::Run {
 
   /// Where the policy leads to, unless an event is nearer.
   Time next_target() {
-    const Time target = step_size_.next(time_);
+    const std::optional<Time> rest = ledger_ ? ledger_->all_rest_until() : std::nullopt;
+    const Time target = rest ? step_size_.stride(time_, *rest) : step_size_.next(time_);
     return std::min(target, instant_.next_event().value_or(target));
   }
 
@@ -193,6 +208,7 @@ class Simulation::Run {
   std::optional<StepInputs> inputs_;
   std::vector<Observer*> observers_;
   RunStatistics statistics_;
+  std::optional<IdleLedger> ledger_;  ///< nothing where nobody may rest
   WallClock clock_;
   Instant instant_;
   Stepper stepper_;

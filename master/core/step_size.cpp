@@ -94,6 +94,16 @@ Time StepSize::next(Time now) {
   return target;
 }
 
+Time StepSize::stride(Time now, Time quiet_until) {
+  const Time regular = next(now);
+  Time farthest = std::min(quiet_until, stop_);
+  if (maximum_ && farthest - now > *maximum_) farthest = now + *maximum_;
+  if (farthest <= regular || options_.policy != StepPolicy::Fixed) return regular;
+  if (farthest == stop_) return stop_;
+  grid_point_ = farthest - (farthest - start_) % options_.size;
+  return grid_point_;
+}
+
 Time StepSize::on_internal_grid(Time time, Time now) const {
   const Time before = time - (time - start_) % quantum_;
   if (before > now) return before;

@@ -23,6 +23,10 @@ class StepSize {
   /// The communication point to go to: later than `now`, and the stop time at most.
   Time next(Time now);
 
+  /// Likewise, where nothing happens before `quiet_until`: as far as that, or the next regular
+  /// point, which is a point of the grid where steps are on one.
+  Time stride(Time now, Time quiet_until);
+
   bool controls_error() const { return options_.policy == StepPolicy::ErrorControlled; }
 
   /// Whether the step is good enough; next() goes accordingly less or more far. With

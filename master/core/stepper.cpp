@@ -23,7 +23,7 @@ Stepper::Lane::Lane(Unit& stepped, const StepPlace& its_place)
 
 Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units,
                  Exchange& exchange, std::vector<UnitStatistics>& statistics, WallClock clock,
-                 const RunOptions& options, StepInputs* inputs)
+                 const RunOptions& options, StepInputs* inputs, IdleLedger* ledger)
     : system_(system),
       unit_count_(units.size()),
       exchange_(exchange),
@@ -31,6 +31,7 @@ Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> un
       clock_(clock),
       step_clock_(clock),
       inputs_(inputs),
+      ledger_(ledger),
       regular_(options.step.size),
       minimum_(options.step.minimum),
       order_(step_order(system, options.step.policy, options.coupling)),
@@ -41,7 +42,9 @@ Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> un
   for (const StepPlace& place : order_) {
     lane_of_[place.component] = lanes_.size();
     Lane& lane = lanes_.emplace_back(*units[place.component], place);
-    lane.is_plain = inputs == nullptr && !place.saves_state && place.can_vary_step;
+    lane.may_rest = ledger != nullptr && ledger->may_rest(place.component);
+    lane.is_plain =
+        inputs == nullptr && !place.saves_state && place.can_vary_step && !lane.may_rest;
   }
   for (std::size_t first = 0, i = 0; i < order_.size(); ++i) {
     if (i + 1 < order_.size() && order_[i + 1].stage == order_[i].stage) continue;
@@ -185,6 +188,7 @@ inline Stepper::Outcome Stepper::go_timed(Lane& lane, const StepInterval& interv
 
 inline Stepper::Outcome Stepper::go(Lane& lane, const StepInterval& interval) {
   lane.saved = lane.rolled_back = false;
+  if (lane.may_rest && rests_on(lane, interval)) return Outcome::Stood;
   if (lane.communication_step != communication_step_) [[likely]] {
     lane.communication_step = communication_step_;
     lane.result = {.reached = interval.from};
@@ -203,6 +207,19 @@ inline Stepper::Outcome Stepper::go(Lane& lane, const StepInterval& interval) {
   ++lane.steps;
   if (inputs_ != nullptr) inputs_->after_step(lane.component, result.reached);
   return Outcome::Stepped;
+}
+
+/// Whether the unit rests and can be left alone up to the end of the step. If it cannot, it is
+/// brought to where the step begins.
+bool Stepper::rests_on(Lane& lane, const StepInterval& interval) {
+  if (!ledger_->rests(lane.component)) return false;
+  if (!ledger_->covers(lane.component, interval.to)) {
+    ledger_->wake(lane.component, interval.from);
+    return false;
+  }
+  lane.communication_step = communication_step_;
+  lane.result = {.reached = interval.to};
+  return true;
 }
 
 /// The inputs are part of the state.

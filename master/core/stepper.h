@@ -13,6 +13,7 @@
 #include <stride/time.h>
 
 #include "master/core/exchange.h"
+#include "master/core/idle_ledger.h"
 #include "master/core/run_options.h"
 #include "master/core/statistics.h"
 #include "master/core/step_inputs.h"
@@ -36,10 +37,11 @@ namespace stride::core {
 class Stepper {
  public:
   /// `units` in the order of system.components(). `inputs`: who sets them before each step; null
-  /// if they stay what they are. Throws Error as step_order() does.
+  /// if they stay what they are. `ledger`: who rests; null if nobody does. Throws Error as
+  /// step_order() does.
   Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units, Exchange& exchange,
           std::vector<UnitStatistics>& statistics, WallClock clock, const RunOptions& options,
-          StepInputs* inputs = nullptr);
+          StepInputs* inputs = nullptr, IdleLedger* ledger = nullptr);
 
   const std::vector<StepPlace>& order() const { return order_; }
 
@@ -78,6 +80,7 @@ class Stepper {
     std::uint32_t component;  ///< these three are the place's
     bool saves_state;
     bool can_vary_step;
+    bool may_rest = false;
     bool is_plain = false;                 ///< there is nothing to do but the step itself
     StepResult result{};                   ///< where it stands, and how it came there
     std::uint64_t communication_step = 0;  ///< the last one of which it knows
@@ -107,6 +110,7 @@ class Stepper {
   bool step_plainly(Lane& lane, const StepInterval& interval);
   Outcome go_timed(Lane& lane, const StepInterval& interval);
   Outcome go(Lane& lane, const StepInterval& interval);
+  bool rests_on(Lane& lane, const StepInterval& interval);
   void save(Lane& lane);
   void go_back(Lane& lane, const StepInterval& interval);
   void restore(Lane& lane, Time from);
@@ -131,6 +135,7 @@ class Stepper {
   WallClock clock_;
   WallClock step_clock_;  ///< measures where the work is to be split, too
   StepInputs* inputs_;
+  IdleLedger* ledger_;
   Duration regular_;  ///< the size that units which cannot vary theirs must be given
   Duration minimum_;  ///< a shorter step than this is not asked for after a rejection
   std::vector<StepPlace> order_;

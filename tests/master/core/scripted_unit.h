@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "master/core/unit.h"
 
 namespace stride::core {
@@ -100,6 +102,17 @@ class Describe {
   Describe& fixed_internal_step(Duration step) {
     return description_->fixed_internal_step = step, *this;
   }
+  Describe& promises_idle() { return description_->promises_idle = true, *this; }
+  /// Of the input listed last.
+  Describe& deadband(double value) {
+    description_->variables.back().deadband = value;
+    return *this;
+  }
+  /// Of the output listed last.
+  Describe& tolerance(double value) {
+    description_->variables.back().tolerance = value;
+    return *this;
+  }
   Describe& never_rejects() { return description_->may_reject = false, *this; }
 
   std::shared_ptr<const UnitDescription> done() const { return description_; }
@@ -139,6 +152,11 @@ class ScriptedUnit : public Unit {
       [](ScriptedUnit&, ValueReference) { return ClockInterval{}; };
   std::function<Interval(ScriptedUnit&, ValueReference)> on_clock_shift =
       [](ScriptedUnit&, ValueReference) { return Interval{}; };
+  /// What it promises, and the slopes of its outputs with tolerances.
+  std::function<Time(ScriptedUnit&)> on_idle_until = [](ScriptedUnit&) { return Time::min(); };
+  std::function<double(ScriptedUnit&, ValueReference)> on_slope =
+      [](ScriptedUnit&, ValueReference) { return 0.0; };
+  std::optional<Duration> max_skip;  ///< as it was enabled
   /// Keeps or brings back what the script holds beside the values.
   std::function<void(bool save)> on_state = [](bool) {};
   Calls calls;
@@ -203,6 +221,19 @@ class ScriptedUnit : public Unit {
   }
   Interval clock_shift(const Variable& clock) override {
     return on_clock_shift(*this, clock.reference);
+  }
+  void enable_idle_skipping(Duration skip) override {
+    calls.push_back("enable_idle_skipping");
+    max_skip = skip;
+  }
+  void set_idle_tolerances(std::span<const ValueReference> outputs,
+                           std::span<const double> tolerances) override {
+    calls.push_back(fmt::format("tolerance {} {}", outputs[0], tolerances[0]));
+  }
+  Time idle_until() override { return on_idle_until(*this); }
+  void get_derivatives(std::span<const ValueReference> outputs,
+                       std::span<double> derivatives) override {
+    for (std::size_t i = 0; i < outputs.size(); ++i) derivatives[i] = on_slope(*this, outputs[i]);
   }
   void terminate() override { calls.push_back("terminate"); }
 

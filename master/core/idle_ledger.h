@@ -1,0 +1,105 @@
+// Idle units: who is left alone, and what that costs when somebody needs them again.
+#ifndef STRIDE_MASTER_CORE_IDLE_LEDGER_H
+#define STRIDE_MASTER_CORE_IDLE_LEDGER_H
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/core/exchange.h"
+#include "master/core/run_options.h"
+#include "master/core/statistics.h"
+#include "master/core/system.h"
+#include "master/core/unit.h"
+
+namespace stride::core {
+
+/// A unit that promises to be idle (org.stride.idle) rests: it is not called. Meanwhile its outputs
+/// go along their tangents, and its debt, the time since it was called last, grows. The debt is
+/// paid, by one step over all of it with the inputs that the unit has had, before it is given other
+/// inputs, handles an event, or goes past its promise or its max_skip.
+///
+/// Each function for one component concerns nothing of another, so different threads may call them
+/// for different components.
+class IdleLedger {
+ public:
+  /// `units` in the order of system.components(). All must outlive this object.
+  IdleLedger(const System& system, std::span<const std::unique_ptr<Unit>> units, Exchange& exchange,
+             std::vector<UnitStatistics>& statistics, const IdleOptions& options);
+
+  /// Whether no unit of the system is ever to rest.
+  bool is_trivial() const { return candidates_.empty(); }
+
+  /// Before the units enter Initialization Mode: lets them skip and promise.
+  void enable();
+
+  bool may_rest(std::size_t component) const { return accounts_[component].is_candidate; }
+  bool rests(std::size_t component) const { return accounts_[component].rests; }
+  /// Whether the unit, which rests, can do so up to this instant.
+  bool covers(std::size_t component, Time time) const { return time <= accounts_[component].end; }
+  /// How far the run may go without calling anybody; nothing where a unit does not rest.
+  std::optional<Time> all_rest_until() const;
+
+  /// The unit, which rests, is brought to `time`, and its outputs are fetched. Throws Error (Run)
+  /// that names unit, time and promise where the unit does not keep it. Returns whether it has an
+  /// event there, as it may where its promise ends.
+  bool wake(std::size_t component, Time time);
+
+  /// All units stand at or owe up to `time`: the outputs of those that rest are what their tangents
+  /// say, and those whose rests end here are woken. Returns those of them that have an event.
+  std::span<const std::size_t> come_to(Time time);
+  /// After the exchange: wakes those of which an input has left its deadband. Returns whether
+  /// outputs have changed by that.
+  bool wake_disturbed(Time time);
+  /// Between instants, where all inputs that are to be delivered have been: asks those that do not
+  /// rest for promises.
+  void rest(Time time);
+  /// The run ends: all debts are paid.
+  void settle(Time time);
+
+ private:
+  struct WatchedInput {
+    RealElement element;
+    double deadband = 0;
+    double held = 0;  ///< what the unit was given when it promised
+  };
+  struct Tangent {
+    RealElement element;
+    double value = 0;
+    double slope = 0;
+  };
+  struct Account {
+    bool is_candidate = false;
+    bool rests = false;
+    Time since{};  ///< where the unit stands
+    Time until{};  ///< its promise
+    Time end{};    ///< of the rest, at most
+    Duration max_skip{};
+    std::vector<WatchedInput> inputs;
+    std::vector<Tangent> tangents;
+    std::vector<ValueReference> references;  ///< of the outputs with tangents
+    std::vector<double> slopes;              ///< of their elements
+  };
+
+  void open(std::size_t component, Duration max_skip, const IdleOptions& options);
+  void begin_rest(std::size_t component, Time time, Time until, Time end);
+  bool is_disturbed(const Account& account) const;
+  void check_promise(std::size_t component, Time time, const StepResult& result) const;
+
+  const System& system_;
+  std::span<const std::unique_ptr<Unit>> units_;
+  Exchange& exchange_;
+  std::vector<UnitStatistics>& statistics_;
+  IdleOptions options_;
+  std::vector<Account> accounts_;  ///< by component
+  std::vector<std::size_t> candidates_;
+  std::vector<std::size_t> events_;
+};
+
+}  // namespace stride::core
+
+#endif
