@@ -19,6 +19,9 @@ Describe integrator() {
   return Describe("integrator").input("u").output("y").never_rejects().event_mode();
 }
 
+/// For all that the master knows it may reject a step.
+Describe unknown() { return Describe("unknown").input("u").output("y").can_save_state(); }
+
 /// y' = u + 1, exactly in each step, so that a step too many or too few shows.
 StepResult integrate(ScriptedUnit& unit, Time from, Time to) {
   unit.number(1) += (unit.number(0) + 1) * to_seconds(to - from);
@@ -53,7 +56,7 @@ Time at(double seconds) { return time_from_seconds(seconds); }
 TEST_CASE("a unit that stops early makes a communication point for all") {
   const bool can_go_back = GENERATE(true, false);
   ScriptedSystem f;
-  auto& a = f.add("a", integrator().can_save_state().done());
+  auto& a = f.add("a", unknown().done());
   auto stopper = integrator().may_return_early();
   auto& b = f.add("b", (can_go_back ? stopper.can_save_state() : stopper).done());
   auto& c = f.add("c", integrator().done());
@@ -67,6 +70,20 @@ TEST_CASE("a unit that stops early makes a communication point for all") {
   CHECK(statistics.units[1].early_returns == 2);
   CHECK(statistics.units[2].rollbacks == 0);
   CHECK(statistics.units[2].steps == 5);
+}
+
+TEST_CASE("a unit that never stops goes where the others have got, and is not saved") {
+  ScriptedSystem f;
+  auto& a = f.add("a", integrator().can_save_state().done());
+  auto& b = f.add("b", integrator().may_return_early().done());
+  a.on_step = integrate;
+  b.on_step = stopping_at({at(0.0013), at(0.0027)});
+  f.build(0.003, 1ms).run();
+  CHECK(a.number(1) == Approx(0.003).epsilon(1e-12));
+  const auto& statistics = f.simulation->statistics().units[0];
+  CHECK(statistics.steps == 5);
+  CHECK(statistics.saves == 0);
+  CHECK(statistics.rollbacks == 0);
 }
 
 TEST_CASE("the earliest of several stops counts, in whatever order the units stand") {
@@ -88,8 +105,8 @@ TEST_CASE("the earliest of several stops counts, in whatever order the units sta
 TEST_CASE("a unit that rejects at random changes nothing but the statistics") {
   const auto run = [](bool rejects) {
     ScriptedSystem f;
-    auto& a = f.add("a", integrator().can_save_state().done());
-    auto& b = f.add("b", Describe("b").input("u").output("y").can_save_state().done());
+    auto& a = f.add("a", unknown().done());
+    auto& b = f.add("b", unknown().done());
     f.wire("a", "y", "b", "u");
     a.on_step = integrate;
     std::mt19937 random(7);
