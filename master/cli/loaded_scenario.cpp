@@ -29,9 +29,10 @@ std::pair<std::string, std::string> split(const std::string& option, const std::
   return {text.substr(0, at), text.substr(at + 1)};
 }
 
-Duration parse_option(const std::string& option, const std::string& text) {
+Duration parse_option(const std::string& option, const std::string& text,
+                      Duration (*parse)(std::string_view) = &io::parse_seconds) {
   try {
-    return io::parse_seconds(text);
+    return parse(text);
   } catch (const std::invalid_argument& mistake) {
     core::fail_input({}, fmt::format("{} {}: {}", option, text, mistake.what()));
   }
@@ -69,6 +70,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   system_.emplace(scenario_.system);
   choose_times(request);
   choose_steps(request.step);
+  choose_idle_skips(request);
   std::vector<io::SignalPattern> patterns = scenario_.annotation.record;
   if (!request.signals.empty()) {
     patterns.clear();
@@ -181,6 +183,23 @@ void LoadedScenario::choose_steps(const io::StepChoice& request) {
   if (step.policy != core::StepPolicy::Fixed) return;
   check_fixed_steps();
   warn_of_internal_steps();
+}
+
+void LoadedScenario::choose_idle_skips(const ScenarioRequest& request) {
+  if (request.no_idle_skip) {
+    if (!request.max_skip.empty()) {
+      core::fail_input({}, "--no-idle-skip and --max-skip contradict each other",
+                       "say one of them");
+    }
+    return;
+  }
+  io::IdleChoice choice = scenario_.annotation.idle;
+  if (!request.max_skip.empty()) {
+    const Duration skip(parse_option("--max-skip", request.max_skip, &io::parse_max_skip));
+    for (io::IdleRule& rule : choice.rules) rule.max_skip = skip;
+    choice.rules.insert(choice.rules.begin(), {{"*"}, true, skip, {"--max-skip", 0}});
+  }
+  options_.idle = choice.options(*system_, options_.step);
 }
 
 void LoadedScenario::check_fixed_steps() const {

@@ -23,6 +23,8 @@ struct ScenarioRequest {
   std::vector<std::string> signals;  ///< globs that replace the scenario's
   std::string stop;                  ///< seconds; empty = the scenario's
   io::StepChoice step;               ///< replaces what the scenario says
+  bool no_idle_skip = false;
+  std::string max_skip;  ///< seconds, for all components; empty = the scenario's
 };
 
 /// The scenario with each component's FMU, and the system built from them. Throws core::Error
@@ -47,6 +49,7 @@ class LoadedScenario {
   void choose_early_returns();
   void choose_times(const ScenarioRequest& request);
   void choose_steps(const io::StepChoice& request);
+  void choose_idle_skips(const ScenarioRequest& request);
   void check_fixed_steps() const;
   void warn_of_internal_steps() const;
   std::vector<std::string> component_names() const;

@@ -61,6 +61,12 @@ void add_scenario_options(CLI::App& command, ScenarioRequest& request) {
   command.add_option("--stop", request.stop, "Simulated time at which to end")
       ->type_name("SECONDS");
   add_step_options(command, request.step);
+  command.add_flag("--no-idle-skip", request.no_idle_skip,
+                   "Call every unit in every step, also those that promise to be idle");
+  command
+      .add_option("--max-skip", request.max_skip,
+                  "For how long an idle unit is left alone at most; 1 by default")
+      ->type_name("SECONDS");
   command
       .add_option("--set", request.sets,
                   "Start value of a parameter or input; may be given several times")

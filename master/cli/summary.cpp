@@ -76,6 +76,7 @@ std::string Summary::text(const core::RunStatistics& statistics) const {
       "{}: {:.6g} s simulated in {:.3g} s ({:.3g} times real time), {} communication steps{}\n",
       system_.name(), simulated, wall, wall > 0 ? simulated / wall : 0.0,
       statistics.communication_steps, statistics.terminated_by_unit ? ", ended by a unit" : "");
+  text += idle_line(statistics);
   if (!messages_.empty()) text += "\nMessages\n" + message_table();
   if (!ranges_.empty()) text += "\nSignals\n" + signal_table();
   text += "\nUnits\n" + unit_table(statistics);
@@ -121,6 +122,24 @@ std::string Summary::signal_table() const {
   return text;
 }
 
+/// Nothing where no unit was ever left alone.
+std::string Summary::idle_line(const core::RunStatistics& statistics) const {
+  Duration skipped{};
+  const core::UnitStatistics* longest = nullptr;
+  for (const core::UnitStatistics& unit : statistics.units) {
+    skipped += unit.rested;
+    if (unit.rests > 0 && (!longest || unit.longest_rest > longest->longest_rest)) longest = &unit;
+  }
+  if (longest == nullptr) return "";
+  const double whole = to_seconds(statistics.reached - statistics.start);
+  const double all = whole * static_cast<double>(statistics.units.size());
+  const auto who = static_cast<std::size_t>(longest - statistics.units.data());
+  return fmt::format(
+      "Idle units were left alone for {:.3g} % of their time; the longest time was {:.6g} s ({})\n",
+      all > 0 ? 100 * to_seconds(skipped) / all : 0.0, to_seconds(longest->longest_rest),
+      system_.components()[who].name);
+}
+
 std::string Summary::unit_table(const core::RunStatistics& statistics) const {
   Table table({{"unit"},
                {"steps", Table::Align::Right},
@@ -128,6 +147,7 @@ std::string Summary::unit_table(const core::RunStatistics& statistics) const {
                {"rejected", Table::Align::Right},
                {"undone", Table::Align::Right},
                {"events", Table::Align::Right},
+               {"idle [s]", Table::Align::Right},
                {"sent", Table::Align::Right},
                {"received", Table::Align::Right},
                {"start [s]", Table::Align::Right},
@@ -138,9 +158,9 @@ std::string Summary::unit_table(const core::RunStatistics& statistics) const {
     table.add({system_.components()[i].name, std::to_string(unit.steps),
                std::to_string(unit.early_returns), std::to_string(unit.rejections),
                std::to_string(unit.rollbacks), std::to_string(unit.events),
-               std::to_string(unit.messages_sent), std::to_string(unit.messages_received),
-               seconds(unit.initialization_time), seconds(unit.step_time),
-               seconds(unit.event_time)});
+               fmt::format("{:.6g}", to_seconds(unit.rested)), std::to_string(unit.messages_sent),
+               std::to_string(unit.messages_received), seconds(unit.initialization_time),
+               seconds(unit.step_time), seconds(unit.event_time)});
   }
   return table.text();
 }

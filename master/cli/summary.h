@@ -38,6 +38,7 @@ class Summary : public core::Observer {
   void note_receiver(core::VariableId receiver);
   std::string message_table() const;
   std::string signal_table() const;
+  std::string idle_line(const core::RunStatistics& statistics) const;
   std::string unit_table(const core::RunStatistics& statistics) const;
 
   const core::System& system_;

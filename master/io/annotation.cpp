@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -99,6 +101,39 @@ void read_early_return(const XmlElement& element, ScenarioAnnotation& annotation
   }
 }
 
+void read_idle_skip(const XmlElement& element, IdleChoice& choice) {
+  element.allow_attributes({"components", "enabled", "maxSkip"});
+  element.allow_children({});
+  IdleRule rule{{}, element.flag("enabled", true), std::nullopt, element.where()};
+  if (element.attribute("maxSkip")) {
+    try {
+      rule.max_skip = parse_max_skip(element.required("maxSkip"));
+    } catch (const std::invalid_argument& mistake) {
+      element.fail(fmt::format("maxSkip: {}", mistake.what()));
+    }
+  }
+  std::vector<ComponentPattern> patterns{{"*", element.where()}};
+  if (element.attribute("components")) patterns = read_components(element);
+  for (ComponentPattern& pattern : patterns) {
+    rule.components = std::move(pattern);
+    choice.rules.push_back(rule);
+  }
+}
+
+/// <Deadband variable="…" value="…"/>, and the same for a tolerance, which is not 0.
+IdleNumber read_idle_number(const XmlElement& element, bool may_be_zero) {
+  element.allow_attributes({"variable", "value"});
+  element.allow_children({});
+  IdleNumber number{element.required("variable"), 0, element.where()};
+  const std::string text = element.required("value");
+  const auto [end, mistake] = std::from_chars(text.data(), text.data() + text.size(), number.value);
+  const bool is_number = mistake == std::errc() && end == text.data() + text.size();
+  const bool is_large_enough = may_be_zero ? number.value >= 0 : number.value > 0;
+  if (is_number && std::isfinite(number.value) && is_large_enough) return number;
+  element.fail(
+      fmt::format("value: '{}' is no number {} 0", text, may_be_zero ? "of at least" : "above"));
+}
+
 void check_file_name(const XmlElement& element, const char* attribute, const std::string& name) {
   if (name == "." || name == ".." || name.find('/') != std::string::npos) {
     element.fail(fmt::format("{}=\"{}\" is no plain file name", attribute, name),
@@ -133,7 +168,10 @@ ScenarioAnnotation read_scenario_element(const XmlElement& scenario) {
                            {kStrideScenario, "Record"},
                            {kStrideScenario, "Results"},
                            {kStrideScenario, "MainThread"},
-                           {kStrideScenario, "EarlyReturn"}});
+                           {kStrideScenario, "EarlyReturn"},
+                           {kStrideScenario, "IdleSkip"},
+                           {kStrideScenario, "Deadband"},
+                           {kStrideScenario, "Tolerance"}});
   ScenarioAnnotation annotation;
   if (const auto step = scenario.child({kStrideScenario, "Step"}))
     read_step(*step, annotation.step);
@@ -148,6 +186,15 @@ ScenarioAnnotation read_scenario_element(const XmlElement& scenario) {
   }
   for (const XmlElement& element : scenario.children({kStrideScenario, "EarlyReturn"})) {
     read_early_return(element, annotation);
+  }
+  for (const XmlElement& element : scenario.children({kStrideScenario, "IdleSkip"})) {
+    read_idle_skip(element, annotation.idle);
+  }
+  for (const XmlElement& element : scenario.children({kStrideScenario, "Deadband"})) {
+    annotation.idle.deadbands.push_back(read_idle_number(element, true));
+  }
+  for (const XmlElement& element : scenario.children({kStrideScenario, "Tolerance"})) {
+    annotation.idle.tolerances.push_back(read_idle_number(element, false));
   }
   if (const auto results = scenario.child({kStrideScenario, "Results"})) {
     read_results(*results, annotation);

@@ -8,6 +8,8 @@
 #include <stride/time.h>
 
 #include "master/core/error.h"
+#include "master/io/component_selection.h"
+#include "master/io/idle_choice.h"
 #include "master/io/step_choice.h"
 
 namespace stride::io {
@@ -28,12 +30,6 @@ struct ResultFiles {
   std::string statistics = "run.json";
 };
 
-/// A glob over the names of components, and where it was written.
-struct ComponentPattern {
-  std::string text;
-  core::Location where{};
-};
-
 /// Whether components may return early from their steps; a later rule goes before an earlier one.
 struct EarlyReturnRule {
   ComponentPattern components;
@@ -47,6 +43,7 @@ struct ScenarioAnnotation {
   ResultFiles results;
   std::vector<ComponentPattern> main_thread;  ///< who steps on the simulation's own thread only
   std::vector<EarlyReturnRule> early_return;  ///< without one: allowed
+  IdleChoice idle;
 };
 
 /// Reads the <stride:Scenario> of a <ssd:SystemStructureDescription>, which stands in the root's

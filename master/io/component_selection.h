@@ -6,9 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "master/io/annotation.h"
+#include "master/core/error.h"
 
 namespace stride::io {
+
+/// A glob over the names of components, and where it was written.
+struct ComponentPattern {
+  std::string text;
+  core::Location where{};
+};
 
 /// The components, by their places in `names` and in that order, whose names match a pattern.
 /// Throws core::Error (Input) for a pattern that matches none, naming what is near.

@@ -29,6 +29,11 @@ void add(Json& entry, const core::UnitStatistics& unit) {
   entry["events"] = unit.events;
   entry["messages_sent"] = unit.messages_sent;
   entry["messages_received"] = unit.messages_received;
+  if (unit.rests > 0) {
+    entry["idle"] = {{"rests", unit.rests},
+                     {"skipped", to_seconds(unit.rested)},
+                     {"longest", to_seconds(unit.longest_rest)}};
+  }
   entry["wall_time"] = {{"initialization", seconds(unit.initialization_time)},
                         {"steps", seconds(unit.step_time)},
                         {"events", seconds(unit.event_time)}};
