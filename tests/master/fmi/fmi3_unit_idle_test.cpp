@@ -105,7 +105,7 @@ TEST_CASE("a derivative is that of the output") {
   Idler idler;
   idler.start();
   CHECK(idler.slope("level") == 0.01);
-  idler.unit->step(Time(0s), Time(1s));
+  idler.unit->step({Time(0s), Time(1s)});
   CHECK(idler.slope("level") == 0.01 * (1 - idler.real("level")));
 }
 
@@ -179,7 +179,7 @@ TEST_CASE("idle units of every kind break their promises where they are stepped 
     idler.start();
     REQUIRE(idler.unit->idle_until() > Time(1s));
     const double tangent = idler.real("level") + idler.slope("level") * 1;
-    const core::StepResult result = idler.unit->step(Time(0s), Time(1s));
+    const core::StepResult result = idler.unit->step({Time(0s), Time(1s)});
     return std::pair(result, std::abs(idler.real("level") - tangent));
   };
   const auto [honest, error] = step("honest");
@@ -197,6 +197,6 @@ TEST_CASE("a unit that drifts from its tangent promises more than holds") {
   idler.start();
   const Time until = idler.unit->idle_until();
   const double slope = idler.slope("level");
-  idler.unit->step(Time(0s), until);
+  idler.unit->step({Time(0s), until});
   CHECK(std::abs(idler.real("level") - slope * to_seconds(until)) > 1e-3);
 }
