@@ -200,3 +200,35 @@ TEST_CASE("a unit that drifts from its tangent promises more than holds") {
   idler.unit->step({Time(0s), until});
   CHECK(std::abs(idler.real("level") - slope * to_seconds(until)) > 1e-3);
 }
+
+TEST_CASE("what another tool's unit promises is checked") {
+  const Scratch scratch;
+  const fs::path folder = make_raw_fmu(scratch, "raw_extended");
+  scratch.write("raw_extended/modelDescription.xml",
+                description_text("raw_extended", "maxOutputDerivativeOrder=\"1\"",
+                                 "<Float64 name=\"y\" valueReference=\"1\" "
+                                 "causality=\"output\"/>\n"));
+  scratch.write(std::string("raw_extended/") + STRIDE_IDLE_MANIFEST,
+                "<fmiLayeredStandardManifest xmlns:ls=\"http://fmi-standard.org/fmi-ls-manifest\" "
+                "ls:fmi-ls-name=\"org.stride.idle\" ls:fmi-ls-version=\"1.0.0\">"
+                "<Output name=\"y\" valueReference=\"1\" tolerance=\"1\" "
+                "hasDerivative=\"true\"/></fmiLayeredStandardManifest>");
+  const auto fmu = fmi::Fmu::load(folder);
+  const auto promise = [&](const char* behaviour) {
+    const auto unit = fmu->instantiate(behaviour);
+    unit->enable_idle_skipping(1s);
+    return unit->idle_until();
+  };
+  CHECK(promise("plain") == Time(500ms));
+  CHECK(promise("sleeps") == Time::max());
+  CHECK_THAT(run_error([&] { promise("dreams"); }),
+             Contains("'dreams'") && Contains("the promise of strideGetIdlePromise is nan"));
+  CHECK_THAT(run_error([&] { promise("shy"); }),
+             Contains("strideGetIdlePromise returned fmi3Error: I do not know"));
+
+  const auto unit = fmu->instantiate("plain");
+  const core::ValueReference y = 1;
+  double slope = 0;
+  CHECK_THAT(run_error([&] { unit->get_derivatives(std::span(&y, 1), std::span(&slope, 1)); }),
+             Contains("does not export fmi3GetOutputDerivatives"));
+}

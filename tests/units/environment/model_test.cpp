@@ -1,5 +1,6 @@
 #include "units/environment/model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -109,6 +110,50 @@ TEST_CASE("A slow case follows the drift damped and late") {
     highest = std::max(highest, temperature);
   }
   CHECK(highest - 21.5 == Approx(2.0 / std::sqrt(1.0 + lag * lag)).epsilon(1e-4));
+}
+
+TEST_CASE("The case leaves its tangent not before it is said, and not much later") {
+  const SensorCase body(drifting());
+  const double tolerance = 0.01;
+  int sharp = 0;
+  for (double t = 0; t < 70; t += 3.5) {
+    CAPTURE(t);
+    const double temperature = body.temperature_after(at(0), at(t), 30.0, 0.25);
+    const double rate = body.temperature_rate(at(t), temperature, 0.25);
+    const auto holds = body.case_tangent_holds_for(tolerance, at(t), temperature, 0.25, rate, 0);
+    const auto error_after = [&](double seconds) {
+      const double later = body.temperature_after(at(t), at(t + seconds), temperature, 0.25);
+      return std::abs(later - temperature - rate * seconds);
+    };
+    CHECK(error_after(stride::to_seconds(holds)) <= tolerance);
+    if (error_after(5 * stride::to_seconds(holds)) > tolerance) ++sharp;
+  }
+  CHECK(sharp > 10);  // of 20; near a point of inflection it runs straight for longer
+}
+
+TEST_CASE("Another power uses up its share of the tolerance") {
+  const SensorCase body;  // R = 20 K/W, C = 5 J/K
+  const double rate = body.temperature_rate(at(0), 21.5, 0.3);
+  const auto holds = [&](double power, double deadband) {
+    return body.case_tangent_holds_for(0.01, at(0), 21.5, power, rate, deadband);
+  };
+  CHECK(holds(0.3, 0) > holds(0.3, 1e-4));     // 2 mK of 10
+  CHECK(holds(0.3, 1e-4) > holds(0.3, 1e-2));  // 0.2 K in the end, at 2 mK/s at first
+  CHECK(holds(0.3, 1e-2) < Duration(5'000'000'000'000));
+  CHECK(holds(0.8, 0) < Duration(100'000'000'000));  // the slope is wrong by 0.1 K/s
+  CHECK(body.case_tangent_holds_for(0.01, at(0), 21.5, 0, 0, 0) == Duration::max());
+}
+
+TEST_CASE("The ambient temperature leaves its tangent likewise") {
+  const SensorCase body(drifting());
+  const double holds = stride::to_seconds(body.ambient_tangent_holds_for(0.01));
+  double worst = 0;
+  for (double t = 0; t < 70; t += 0.5) {
+    const double tangent = body.ambient_temperature(at(t)) + body.ambient_rate(at(t)) * holds;
+    worst = std::max(worst, std::abs(body.ambient_temperature(at(t + holds)) - tangent));
+  }
+  CHECK(worst <= 0.01);
+  CHECK(worst > 0.0099);
 }
 
 TEST_CASE("A parameter out of its range is named") {

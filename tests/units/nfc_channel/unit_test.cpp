@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -202,6 +203,31 @@ TEST_CASE("A state with a frame on the air is serialised, and another instance h
   REQUIRE(library.EnterEventMode(other.handle) == fmi3OK);
   REQUIRE(other.update() == fmi3OK);
   CHECK(frame_at(other, "to_tag") == frame);
+}
+
+TEST_CASE("With a frame on the air nothing is promised, without one everything stays") {
+  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  UnitInstance unit(library);
+  constexpr double kEver = std::numeric_limits<double>::infinity();
+  REQUIRE(unit.fmi.EnableIdleSkipping(unit.handle, kEver) == fmi3OK);
+  const nfc::Frame frame = request(1.0);
+  send_near(unit, frame);
+  CHECK(unit.idle_until() == 1.0);
+
+  REQUIRE(unit.step(1.0, end_of(frame) - 1.0) == fmi3OK);
+  CHECK(unit.idle_until() == end_of(frame));
+  REQUIRE(unit.fmi.EnterEventMode(unit.handle) == fmi3OK);
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK(frame_at(unit, "to_tag"));
+  REQUIRE(unit.update() == fmi3OK);
+  REQUIRE(unit.fmi.EnterStepMode(unit.handle) == fmi3OK);
+  CHECK(unit.idle_until() == kEver);
+
+  // an input that was set shows after the step
+  REQUIRE(unit.set_real("tag_coil.position.z", 0.03) == fmi3OK);
+  CHECK(unit.idle_until() == end_of(frame));
+  REQUIRE(unit.step(end_of(frame), 0.001) == fmi3OK);
+  CHECK(unit.idle_until() == kEver);
 }
 
 TEST_CASE("Tags that channel.xml lists have variables of their own") {
