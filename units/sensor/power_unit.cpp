@@ -8,7 +8,6 @@
 namespace sensor {
 
 using stride::systemc::current_time;
-using stride::systemc::to_sc_time;
 using Mode = Flow::Mode;
 
 PowerUnit::PowerUnit(sc_core::sc_module_name name, const PowerParameters& parameters)
@@ -21,7 +20,7 @@ PowerUnit::PowerUnit(sc_core::sc_module_name name, const PowerParameters& parame
   SC_HAS_PROCESS(PowerUnit);
   SC_METHOD(on_power_event);
   sensitive << field_power << control_unit_current << transceiver_current << adc_current
-            << led_current << crossing_event_ << start_up_event_;
+            << led_current << crossing_timer_.event() << start_up_timer_.event();
 }
 
 double PowerUnit::seconds_since_event() const {
@@ -124,22 +123,21 @@ void PowerUnit::supervise() {
 }
 
 void PowerUnit::power_good() {
-  const stride::Duration delay = stride::duration_from_seconds(parameters_.start_up_delay);
   good_ = true;
-  start_up_ = current_time() + delay;
-  start_up_event_.notify(to_sc_time(delay));
+  start_up_ = current_time() + stride::duration_from_seconds(parameters_.start_up_delay);
+  start_up_timer_.set(start_up_);
 }
 
 void PowerUnit::brown_out() {
   good_ = false;
   on_ = false;
-  start_up_event_.cancel();
+  start_up_timer_.cancel();
 }
 
 void PowerUnit::schedule() {
-  crossing_event_.cancel();
+  crossing_timer_.cancel();
   crossing_ = next_crossing();
-  if (crossing_) crossing_event_.notify(to_sc_time(crossing_->instant - current_time()));
+  if (crossing_) crossing_timer_.set(crossing_->instant);
 }
 
 std::optional<PowerUnit::Crossing> PowerUnit::next_crossing() const {

@@ -9,6 +9,7 @@
 
 #include "units/sensor/parameters.h"
 #include "units/sensor/supply.h"
+#include "units/systemc/timer.h"
 
 namespace sensor {
 
@@ -74,8 +75,8 @@ class PowerUnit : public sc_core::sc_module {
 
   PowerParameters parameters_;
   Supply supply_;
-  sc_core::sc_event crossing_event_{"crossing_event"};
-  sc_core::sc_event start_up_event_{"start_up_event"};
+  stride::systemc::Timer crossing_timer_{"crossing_timer"};
+  stride::systemc::Timer start_up_timer_{"start_up_timer"};
 
   stride::Time last_event_;
   double voltage_;  ///< of the capacitance at the last event
