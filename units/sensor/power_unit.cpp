@@ -33,22 +33,9 @@ double PowerUnit::voltage_now() const {
 
 double PowerUnit::charge_now() const { return parameters_.capacitance * voltage_now(); }
 
-double PowerUnit::charge_rate_now() const {
-  return parameters_.capacitance * supply_.capacitor(flow_).slope(voltage_now());
-}
-
 double PowerUnit::terminal_voltage_now() const { return supply_.terminal(flow_, voltage_now()); }
 
-double PowerUnit::terminal_rate_now() const {
-  if (flow_.mode == Mode::kConstantVoltage) return 0;
-  return supply_.capacitor(flow_).slope(voltage_now());
-}
-
 double PowerUnit::rail_voltage_now() const { return supply_.rail(flow_, voltage_now()); }
-
-double PowerUnit::rail_rate_now() const {
-  return flow_.mode == Mode::kFromCapacitor ? terminal_rate_now() : 0;
-}
 
 double PowerUnit::intake_now() const { return supply_.intake(flow_, voltage_now()); }
 double PowerUnit::load_now() const { return supply_.load(flow_, voltage_now()); }
@@ -64,6 +51,14 @@ EnergyBooks PowerUnit::books_now() const {
   books += supply_.books(flow_, voltage_, seconds_since_event());
   return books;
 }
+
+PowerReadings PowerUnit::readings_now() const {
+  return {charge_now(), terminal_voltage_now(), rail_voltage_now(), intake_now(),
+          load_now(),   stored_now(),           books_now()};
+}
+
+PowerReadings PowerUnit::rates_now() const { return supply_.rates(flow_, voltage_now()); }
+PowerReadings PowerUnit::curvatures_now() const { return supply_.curvatures(flow_, voltage_now()); }
 
 void PowerUnit::on_power_event() {
   settle();

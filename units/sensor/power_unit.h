@@ -40,15 +40,15 @@ class PowerUnit : public sc_core::sc_module {
 
   // At the current instant, between events too.
   double charge_now() const;            ///< [C]
-  double charge_rate_now() const;       ///< [C/s]
   double terminal_voltage_now() const;  ///< of the capacitor [V]
-  double terminal_rate_now() const;     ///< [V/s]
   double rail_voltage_now() const;      ///< [V]
-  double rail_rate_now() const;         ///< [V/s]
   double intake_now() const;            ///< [W]
   double load_now() const;              ///< [W]
-  double stored_now() const;      ///< energy that the capacitor has gained since the start [J]
-  EnergyBooks books_now() const;  ///< since the start
+  double stored_now() const;           ///< energy that the capacitor has gained since the start [J]
+  EnergyBooks books_now() const;       ///< since the start
+  PowerReadings readings_now() const;  ///< all of these
+  PowerReadings rates_now() const;     ///< their first derivatives
+  PowerReadings curvatures_now() const;  ///< see Supply::curvatures()
 
  private:
   enum class Threshold { kPowerGood, kBrownOut, kKnee };
