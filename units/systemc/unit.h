@@ -111,7 +111,7 @@ class DeviceUnit : public Unit {
   Time idle_until(Time now) const final {
     if (has_message()) return now;
     return device_->within([&](const Module& module) {
-      if (!device_->kernel().at_rest() || !idle(module)) return now;
+      if (!rules_.inputs_are_taken_up() || !idle(module)) return now;
       return std::min(later(now, tangents_hold_for(module)), next_happening(module));
     });
   }
@@ -176,6 +176,11 @@ class DeviceUnit : public Unit {
     Duration clock_period() const override { return unit_.clock_period(module()); }
     Duration longest_skip() const override { return unit_.longest_skip(module()); }
     void on_skip(Duration skipped) override { unit_.on_skip(module(), skipped); }
+    /// A signal that is written with what it holds asks for no update.
+    bool inputs_are_taken_up() const {
+      unit_.write_inputs(module());
+      return unit_.device_->kernel().at_rest();
+    }
 
    private:
     Module& module() const { return unit_.device_->module(); }
