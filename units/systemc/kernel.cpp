@@ -231,6 +231,14 @@ void Kernel::withdraw_alarm() {
   horizon_ = now();
 }
 
+void Kernel::write_traces() noexcept {
+  if (!initialized_ || !failure_.empty() || !at_rest()) return;
+  try {
+    within([] { sc_core::sc_start(sc_core::sc_time::from_value(1)); });
+  } catch (const DeviceError&) {  // a warning about the file that has been made an error
+  }
+}
+
 void Kernel::end_threads() noexcept {
   if (!initialized_ || !failure_.empty()) return;
   failure_ = "its threads have been ended";

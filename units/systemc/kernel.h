@@ -97,6 +97,11 @@ class Kernel {
   /// The kernel in whose context the caller is; none outside of within().
   static Kernel* current() { return active_; }
 
+  /// Writes what has changed at the present instant to SystemC's trace files, which it does by
+  /// itself where time goes on from there. No process runs. SystemC's time is one unit of its
+  /// resolution further then.
+  void write_traces() noexcept;
+
   /// Ends all threads of the device, so that what lives on their stacks is destroyed. To be called
   /// before the modules are destroyed. The kernel cannot be advanced afterwards.
   void end_threads() noexcept;

@@ -115,21 +115,13 @@ void Trace::open(const std::vector<const SignalList::Signal*>& chosen) {
 }
 
 Trace::~Trace() {
-  write_last_changes();
+  kernel_.write_traces();
   try {
     kernel_.within([this] { sc_core::sc_close_vcd_trace_file(file_); });
   } catch (const DeviceError&) {  // a report about a file that is closed by now
   }
   const auto lock = lock_kernel();
   files_in_use().erase(path_);
-}
-
-// SystemC writes what changed at an instant when time goes on from there.
-void Trace::write_last_changes() {
-  try {
-    kernel_.approach(kernel_.now() + Duration(1));
-  } catch (const std::exception&) {  // the device has failed; its last instant is lost
-  }
 }
 
 }  // namespace stride::systemc

@@ -71,7 +71,6 @@ class Trace {
 
  private:
   void open(const std::vector<const SignalList::Signal*>& chosen);
-  void write_last_changes();
 
   Kernel& kernel_;
   std::string path_;  ///< without `.vcd`
