@@ -23,12 +23,11 @@ std::set<std::string>& files_in_use() {
   return paths;
 }
 
+/// Absolute, and the same however a file is named.
 std::string without_extension(const std::string& path) {
-  const std::filesystem::path file(path);
-  const bool has_it = file.extension() == kExtension;
-  return std::filesystem::weakly_canonical(has_it ? std::filesystem::path(file).replace_extension()
-                                                  : file)
-      .string();
+  std::filesystem::path file = std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  if (file.extension() == kExtension) file.replace_extension();
+  return file.string();
 }
 
 void require_writable(const std::string& path) {
