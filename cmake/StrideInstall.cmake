@@ -6,6 +6,7 @@ set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/stride")
 install(TARGETS stride_cli EXPORT stride RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS stride_interfaces stride_unit EXPORT stride ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY interfaces/stride DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(FILES interfaces/schemas/org.stride.idle.xsd DESTINATION ${CMAKE_INSTALL_DATADIR}/stride/schemas)
 install(EXPORT stride NAMESPACE stride:: FILE strideTargets.cmake DESTINATION ${package_dir})
 
 configure_package_config_file(cmake/strideConfig.cmake.in "${PROJECT_BINARY_DIR}/strideConfig.cmake"

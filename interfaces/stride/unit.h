@@ -27,11 +27,11 @@
 #include <type_traits>
 #include <vector>
 
+#include <stride/tangent.h>
 #include <stride/time.h>
 #include <stride/unit/clock.h>
 #include <stride/unit/state.h>
 #include <stride/unit/step.h>
-#include <stride/unit/tangent.h>
 #include <stride/unit/variable.h>
 
 namespace stride {
@@ -89,8 +89,8 @@ class Unit {
   /// Until when the unit promises to be idle, as <stride/idle.h> has it, for the inputs that are in
   /// its members; an instant that is not after `now` is no promise, Time::max() one without an end.
   /// Called where a step or Event Mode has ended, and only where the importer has enabled skipping;
-  /// it changes nothing. The kit cuts the promise off at max_skip() and at the event that the unit
-  /// has announced. Needs UnitInfo::promises_idle.
+  /// it changes nothing. The kit cuts the promise off at max_skip(), at the event that the unit has
+  /// announced, and at its maximum_step. Needs UnitInfo::promises_idle.
   virtual Time idle_until(Time now) const { return now; }
 
   /// What state() cannot list; called after the listed members, in both directions.

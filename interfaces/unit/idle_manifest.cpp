@@ -28,7 +28,11 @@ std::string idle_manifest(const Unit& unit, const Table& table) {
     if (row.deadband.value_or(0) > 0) {
       open(xml, "Input", row, i).attribute("deadband", *row.deadband).close();
     }
-    if (row.tolerance) open(xml, "Output", row, i).attribute("tolerance", *row.tolerance).close();
+    if (row.tolerance) {
+      open(xml, "Output", row, i).attribute("tolerance", *row.tolerance);
+      if (row.derivative != nullptr) xml.attribute("hasDerivative", true);
+      xml.close();
+    }
   }
   return xml.close().text();
 }

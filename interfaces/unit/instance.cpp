@@ -397,6 +397,7 @@ Time Instance::idle_until() const {
   if (!longest || event_pending_) return time_;
   Time until = std::min(unit_->idle_until(time_), later(time_, *longest));
   if (next_event_) until = std::min(until, *next_event_);
+  if (const auto& step = unit_->info().maximum_step) until = std::min(until, later(time_, *step));
   return std::max(until, time_);
 }
 

@@ -51,6 +51,7 @@ std::string capabilities(const core::UnitDescription& unit) {
   add(unit.fixed_internal_step.has_value(),
       fmt::format("internal step {} s",
                   core::to_text(Time(unit.fixed_internal_step.value_or(Duration{})))));
+  add(unit.promises_idle, "promises to be idle");
   add(unit.single_instance, "one instance per process");
   add(unit.needs_execution_tool, "needs its own tool");
   return text;

@@ -120,6 +120,7 @@ struct Variable {
   /// Of a Float64 output: how far it may be from its tangent while the unit promises to be idle;
   /// without one it stays what it is meanwhile.
   std::optional<double> tolerance;
+  bool has_derivative = false;  ///< of an output with a tolerance: get_derivatives() knows it
 
   bool is_clocked() const { return !clocks.empty(); }
   /// Whether it is a clock that the master ticks by the time.

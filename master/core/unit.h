@@ -97,7 +97,8 @@ class Unit {
   /// called, while its inputs stay within their deadbands and none of its clocks is set. Not after
   /// the present instant if it promises nothing.
   virtual Time idle_until() { return Time::min(); }
-  /// The first derivatives of scalar Float64 outputs, where the unit has them.
+  /// The first derivatives of Float64 outputs that have a tolerance, arrays element by element; 0
+  /// where there is none (has_derivative).
   virtual void get_derivatives(std::span<const ValueReference> /*outputs*/,
                                std::span<double> /*derivatives*/) {}
 

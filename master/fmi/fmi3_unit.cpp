@@ -63,7 +63,8 @@ Fmi3Unit::Fmi3Unit(std::string name, UnitParts parts, InstanceOptions options)
     : name_(std::move(name)),
       parts_(std::move(parts)),
       options_(std::move(options)),
-      fmi_(parts_.library->functions()) {
+      fmi_(parts_.library->functions()),
+      tangent_outputs_(tangent_outputs(*parts_.description)) {
   check_callable("fmi3InstantiateCoSimulation");
   const core::UnitDescription& description = *parts_.description;
   const bool has_resources = !parts_.resource_path.empty();

@@ -54,8 +54,8 @@ struct UnitParts {
 ///
 /// What an input update throws within a step is thrown by step(), which has ended then.
 ///
-/// After the first exchange, get(), set() and step() do not allocate, except where a string or
-/// binary value outgrows the longest before it.
+/// After the first exchange, get(), set(), step() and get_derivatives() do not allocate, except
+/// where a string or binary value outgrows the longest before it; idle_until() never does.
 class Fmi3Unit : public core::Unit {
  public:
   /// Throws core::Error of the kind Run, with the unit's messages, if it cannot be instantiated.
@@ -79,6 +79,13 @@ class Fmi3Unit : public core::Unit {
   core::ClockInterval clock_interval(const core::Variable& clock) override;
   core::Interval clock_shift(const core::Variable& clock) override;
   void set_input_update(core::InputUpdate update) override { input_update_ = std::move(update); }
+  void enable_idle_skipping(Duration max_skip) override;
+  void set_idle_tolerances(std::span<const core::ValueReference> outputs,
+                           std::span<const double> tolerances) override;
+  /// What was not enabled is not promised: Time::min().
+  Time idle_until() override;
+  void get_derivatives(std::span<const core::ValueReference> outputs,
+                       std::span<double> derivatives) override;
   void terminate() override;
   std::uint64_t calls() const override { return calls_; }
 
@@ -125,6 +132,16 @@ class Fmi3Unit : public core::Unit {
   core::Interval checked_interval(const char* function, const core::Variable& clock,
                                   Make&& make) const;
 
+  /// An output with a tolerance.
+  struct TangentOutput {
+    core::ValueReference reference;
+    std::size_t size;
+    bool has_derivative;
+  };
+  static std::vector<TangentOutput> tangent_outputs(const core::UnitDescription& description);
+  void require_idle_functions() const;
+  const TangentOutput& tangent_output(core::ValueReference reference) const;
+
   Time checked_time(double seconds, const char* what) const;
   Time reached_early(Time from, Time to, double last_successful) const;
   void compare_times(Time from, Time to, double last_successful);
@@ -148,6 +165,12 @@ class Fmi3Unit : public core::Unit {
 
   fmi3FMUState state_ = nullptr;
   std::optional<Time> state_time_;  ///< time_ when the state was saved
+
+  bool may_skip_ = false;
+  std::vector<TangentOutput> tangent_outputs_;  ///< in the order of their references
+  std::vector<core::ValueReference> derived_;   ///< of one call of get_derivatives()
+  std::vector<fmi3Int32> orders_;
+  std::vector<double> slopes_;
 
   std::vector<fmi3String> texts_;
   std::vector<fmi3Binary> bytes_;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "master/fmi/idle_manifest.h"
 #include "master/fmi/model_description.h"
 
 namespace stride::fmi {
@@ -80,16 +81,26 @@ void Fmu::read_folder() {
   unpacked_.emplace(path_, where_);
   resources_ = unpacked_->folder() / "resources";
   const std::string shown_as = (path_ / "modelDescription.xml").string();
-  description_ = std::make_shared<core::UnitDescription>(
+  auto description = std::make_shared<core::UnitDescription>(
       read_model_description(unpacked_->folder() / "modelDescription.xml", shown_as));
+  const fs::path manifest = unpacked_->folder() / STRIDE_IDLE_MANIFEST;
+  if (fs::exists(manifest)) {
+    read_idle_manifest(manifest, (path_ / STRIDE_IDLE_MANIFEST).string(), *description);
+  }
+  description_ = std::move(description);
 }
 
 void Fmu::read_bare_library() {
   library_ = std::make_shared<Library>(path_, where_);
   resources_ = fs::absolute(path_).parent_path() / "resources";
   const std::string text = library_->describe(resources_, where_);
-  description_ = std::make_shared<core::UnitDescription>(
+  auto description = std::make_shared<core::UnitDescription>(
       parse_model_description(text, path_.string() + ": its own description"));
+  const std::string manifest = library_->idle_manifest(resources_, where_);
+  if (!manifest.empty()) {
+    parse_idle_manifest(manifest, path_.string() + ": its own idle manifest", *description);
+  }
+  description_ = std::move(description);
 }
 
 std::shared_ptr<const Library> Fmu::load_library() {
@@ -97,6 +108,7 @@ std::shared_ptr<const Library> Fmu::load_library() {
   if (!library_) {
     library_ = std::make_shared<Library>(
         find_library(unpacked_->folder(), description_->model_identifier, where_), where_);
+    if (description_->promises_idle) library_->require_idle_functions(where_);
   }
   return library_;
 }

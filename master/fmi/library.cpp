@@ -159,7 +159,11 @@ Library::Library(const fs::path& path, const core::Location& where) : path_(fs::
   }
   FMI3_FUNCTIONS(STRIDE_RESOLVE)
 #undef STRIDE_RESOLVE
+#define STRIDE_RESOLVE(name) resolve(idle_functions_.name, "stride" #name);
+  STRIDE_IDLE_FUNCTIONS(STRIDE_RESOLVE)
+#undef STRIDE_RESOLVE
   resolve(self_description_, "strideModelDescription");
+  resolve(idle_manifest_, "strideIdleManifest");
   if (missing.empty()) return;
   core::fail_input({.where = where},
                    fmt::format("the library '{}' does not export {}, which an FMI 3.0 "
@@ -180,13 +184,37 @@ std::string Library::describe(const fs::path& resources, const core::Location& w
         "only libraries made with stride's unit kit do; give an FMU that has a "
         "modelDescription.xml instead");
   }
+  return ask(self_description_, resources, where);
+}
+
+std::string Library::idle_manifest(const fs::path& resources, const core::Location& where) const {
+  return idle_manifest_ != nullptr ? ask(idle_manifest_, resources, where) : std::string();
+}
+
+std::string Library::ask(strideModelDescriptionTYPE* function, const fs::path& resources,
+                         const core::Location& where) const {
   const std::string folder = resource_path(resources);
   const char* error = nullptr;
-  const char* text = self_description_(folder.empty() ? nullptr : folder.c_str(), &error);
+  const char* text = function(folder.empty() ? nullptr : folder.c_str(), &error);
   if (text != nullptr) return text;
   core::fail_input({.where = where},
                    fmt::format("the unit in '{}' cannot describe itself: {}", path_.string(),
                                error != nullptr ? error : "it gives no reason"));
+}
+
+void Library::require_idle_functions(const core::Location& where) const {
+  std::vector<std::string> missing;
+#define STRIDE_CHECK(name) \
+  if (idle_functions_.name == nullptr) missing.emplace_back("stride" #name);
+  STRIDE_IDLE_FUNCTIONS(STRIDE_CHECK)
+#undef STRIDE_CHECK
+  if (missing.empty()) return;
+  core::fail_input(
+      {.where = where},
+      fmt::format("the library '{}' does not export {}, which a unit with a manifest of {} must",
+                  path_.string(), fmt::join(missing, ", "), STRIDE_IDLE_NAME),
+      "export it with C linkage and default visibility (<stride/idle.h>), or leave the manifest "
+      "'" STRIDE_IDLE_MANIFEST "' out of the FMU");
 }
 
 std::string resource_path(const fs::path& resources) {

@@ -1,8 +1,5 @@
 #include "master/fmi/model_description.h"
 
-#include <cctype>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -179,41 +176,17 @@ core::UnitDescription read(const Element& root) {
   return unit;
 }
 
-/// tinyxml2's name of the error in plain words: XML_ERROR_MISMATCHED_ELEMENT, "mismatched element".
-std::string reason(const tinyxml2::XMLDocument& document) {
-  std::string words = document.ErrorName();
-  for (const std::string_view prefix : {"XML_ERROR_", "XML_"}) {
-    if (words.starts_with(prefix)) words.erase(0, prefix.size());
-  }
-  for (char& c : words) c = c == '_' ? ' ' : static_cast<char>(std::tolower(c));
-  return words;
-}
-
 }  // namespace
 
 core::UnitDescription parse_model_description(const std::string& text,
                                               const std::string& shown_as) {
-  tinyxml2::XMLDocument document;
-  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    core::fail_input({.where = {shown_as, document.ErrorLineNum()}},
-                     fmt::format("the XML is not well-formed: {}", reason(document)));
-  }
-  if (document.RootElement() == nullptr) {
-    core::fail_input({.where = {shown_as}}, "the document is empty");
-  }
-  return read(Element(*document.RootElement(), shown_as));
+  return read(Document(text, shown_as).root());
 }
 
 core::UnitDescription read_model_description(const std::filesystem::path& xml,
                                              const std::string& shown_as) {
   const std::string name = shown_as.empty() ? xml.string() : shown_as;
-  std::ifstream file(xml, std::ios::binary);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) {
-    core::fail_input({.where = {name}}, "the model description cannot be read",
-                     "check that the file exists, is not empty and may be read");
-  }
-  return parse_model_description(text.str(), name);
+  return parse_model_description(read_text(xml, "model description", name), name);
 }
 
 }  // namespace stride::fmi

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "master/core/error.h"
+#include "master/fmi/idle_manifest.h"
 #include "master/fmi/library.h"
 #include "master/fmi/model_description.h"
 
@@ -23,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Content {
-  std::string text;  ///< of modelDescription.xml
+  std::string text;  ///< of an XML file
   fs::path file;     ///< or the file to copy
   bool executable = false;
 };
@@ -76,11 +77,17 @@ class Preloaded {
 
 Contents collect(const PackRequest& request) {
   const Preloaded bundled(request.bundled);
-  const std::string xml = Library(request.library).describe(request.resources);
-  const auto description = parse_model_description(xml, request.library.string());
+  const Library library(request.library);
+  const std::string xml = library.describe(request.resources);
+  auto description = parse_model_description(xml, request.library.string());
   const std::string binaries = fmt::format("binaries/{}/", platform());
   Contents contents;
   contents["modelDescription.xml"].text = xml;
+  const std::string manifest = library.idle_manifest(request.resources);
+  if (!manifest.empty()) {
+    parse_idle_manifest(manifest, request.library.string(), description);
+    contents[STRIDE_IDLE_MANIFEST].text = manifest;
+  }
   add_file(contents, binaries + description.model_identifier + ".so", request.library, true);
   for (const fs::path& library : request.bundled) {
     add_file(contents, binaries + library.filename().string(), library, true);

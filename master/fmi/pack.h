@@ -16,8 +16,9 @@ struct PackRequest {
 
 /// Asks the library for its model description with these resources and writes the archive:
 /// modelDescription.xml, binaries/<platform>/<modelIdentifier>.so and the bundled libraries,
-/// resources/. The same input gives the same bytes, and the output is replaced only when it is
-/// complete. Throws core::Error: Input for what is given wrongly, Run if it cannot be written.
+/// resources/, and extra/org.stride.idle/ if the unit can promise to be idle. The same input gives
+/// the same bytes, and the output is replaced only when it is complete. Throws core::Error: Input
+/// for what is given wrongly, Run if it cannot be written.
 void pack(const PackRequest& request);
 
 }  // namespace stride::fmi

@@ -1,8 +1,36 @@
 #include "master/fmi/xml.h"
 
+#include <cctype>
+#include <fstream>
+#include <sstream>
+
 #include <fmt/format.h>
 
 namespace stride::fmi {
+namespace {
+
+/// tinyxml2's name of the error in plain words: XML_ERROR_MISMATCHED_ELEMENT, "mismatched element".
+std::string reason(const tinyxml2::XMLDocument& document) {
+  std::string words = document.ErrorName();
+  for (const std::string_view prefix : {"XML_ERROR_", "XML_"}) {
+    if (words.starts_with(prefix)) words.erase(0, prefix.size());
+  }
+  for (char& c : words) c = c == '_' ? ' ' : static_cast<char>(std::tolower(c));
+  return words;
+}
+
+struct QualifiedName {
+  std::string_view prefix;  ///< empty if there is none
+  std::string_view local;
+};
+
+QualifiedName split_name(std::string_view name) {
+  const std::size_t colon = name.find(':');
+  if (colon == std::string_view::npos) return {{}, name};
+  return {name.substr(0, colon), name.substr(colon + 1)};
+}
+
+}  // namespace
 
 std::vector<std::string_view> split(std::string_view list) {
   constexpr std::string_view kBlanks = " \t\r\n";
@@ -18,18 +46,18 @@ std::vector<std::string_view> split(std::string_view list) {
 }
 
 bool Element::is(std::string_view name_space, std::string_view local_name) const {
-  const std::string_view qualified = element_->Name();
-  const std::size_t colon = qualified.find(':');
-  const bool has_prefix = colon != std::string_view::npos;
-  if (qualified.substr(has_prefix ? colon + 1 : 0) != local_name) return false;
-  const std::string declaration =
-      has_prefix ? fmt::format("xmlns:{}", qualified.substr(0, colon)) : "xmlns";
+  const auto [prefix, local] = split_name(element_->Name());
+  return local == local_name && name_space_of(prefix) == name_space;
+}
+
+std::string_view Element::name_space_of(std::string_view prefix) const {
+  const std::string declaration = prefix.empty() ? "xmlns" : fmt::format("xmlns:{}", prefix);
   for (const tinyxml2::XMLNode* node = element_; node != nullptr; node = node->Parent()) {
     const tinyxml2::XMLElement* element = node->ToElement();
     const char* uri = element != nullptr ? element->Attribute(declaration.c_str()) : nullptr;
-    if (uri != nullptr) return uri == name_space;
+    if (uri != nullptr) return uri;
   }
-  return name_space.empty();
+  return {};
 }
 
 void Element::fail(const std::string& message, const std::string& hint) const {
@@ -55,6 +83,16 @@ std::optional<std::string> Element::text(const char* attribute) const {
   return value != nullptr ? std::optional<std::string>(value) : std::nullopt;
 }
 
+std::optional<std::string> Element::text(std::string_view name_space,
+                                         std::string_view local_name) const {
+  for (const auto* a = element_->FirstAttribute(); a != nullptr; a = a->Next()) {
+    const auto [prefix, local] = split_name(a->Name());
+    const bool is_found = local == local_name && !prefix.empty();  // the default is for elements
+    if (is_found && name_space_of(prefix) == name_space) return a->Value();
+  }
+  return std::nullopt;
+}
+
 std::string Element::text_or(const char* attribute, const std::string& otherwise) const {
   return text(attribute).value_or(otherwise);
 }
@@ -75,6 +113,27 @@ bool Element::flag(const char* attribute, bool otherwise) const {
 void Element::fail_number(const char* attribute, std::string_view value, bool is_integer) const {
   fail(fmt::format("{}=\"{}\" of <{}>: expected {} within the range of its type", attribute, value,
                    name(), is_integer ? "an integer" : "a number"));
+}
+
+Document::Document(const std::string& text, std::string shown_as) : shown_as_(std::move(shown_as)) {
+  if (document_.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    core::fail_input({.where = {shown_as_, document_.ErrorLineNum()}},
+                     fmt::format("the XML is not well-formed: {}", reason(document_)));
+  }
+  if (document_.RootElement() == nullptr) {
+    core::fail_input({.where = {shown_as_}}, "the document is empty");
+  }
+}
+
+std::string read_text(const std::filesystem::path& file, const std::string& what,
+                      const std::string& shown_as) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (!stream || !(text << stream.rdbuf())) {
+    core::fail_input({.where = {shown_as}}, fmt::format("the {} cannot be read", what),
+                     "check that the file exists, is not empty and may be read");
+  }
+  return text.str();
 }
 
 }  // namespace stride::fmi

@@ -1,9 +1,10 @@
-// A read-only view of an XML element, whose complaints name file and line.
+// A read-only view of an XML document, whose complaints name file and line.
 #ifndef STRIDE_MASTER_FMI_XML_H
 #define STRIDE_MASTER_FMI_XML_H
 
 #include <charconv>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,7 +29,7 @@ std::optional<T> to_number(std::string_view word) {
   return value;
 }
 
-/// Valid as long as its document and the file's name.
+/// Valid as long as its document.
 class Element {
  public:
   Element(const tinyxml2::XMLElement& element, const std::string& file)
@@ -46,6 +47,8 @@ class Element {
   std::vector<Element> children(const char* name = nullptr) const;
 
   std::optional<std::string> text(const char* attribute) const;
+  /// An attribute of a namespace, whatever the prefix by which it is known.
+  std::optional<std::string> text(std::string_view name_space, std::string_view local_name) const;
   std::string text_or(const char* attribute, const std::string& otherwise = "") const;
   std::string required_text(const char* attribute) const;
   bool flag(const char* attribute, bool otherwise = false) const;
@@ -68,6 +71,8 @@ class Element {
   }
 
  private:
+  /// The namespace that a prefix means here, or the default one for an empty prefix.
+  std::string_view name_space_of(std::string_view prefix) const;
   template <class T>
   T checked(const char* attribute, std::string_view word) const {
     const auto words = split(word);
@@ -81,6 +86,27 @@ class Element {
   const tinyxml2::XMLElement* element_;
   const std::string* file_;
 };
+
+/// A document in memory.
+class Document {
+ public:
+  /// Throws core::Error of the kind Input, at the file's name and the line, for what is not
+  /// well-formed or has no element.
+  Document(const std::string& text, std::string shown_as);
+  Document(const Document&) = delete;
+  Document& operator=(const Document&) = delete;
+
+  Element root() const { return {*document_.RootElement(), shown_as_}; }
+
+ private:
+  tinyxml2::XMLDocument document_;
+  std::string shown_as_;
+};
+
+/// The text of a file; throws core::Error of the kind Input if it cannot be read. `what` it is and
+/// what it is `shown_as` are for the message.
+std::string read_text(const std::filesystem::path& file, const std::string& what,
+                      const std::string& shown_as);
 
 }  // namespace stride::fmi
 

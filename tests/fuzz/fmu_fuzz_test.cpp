@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "master/fmi/fmu.h"
+#include "master/fmi/idle_manifest.h"
 #include "master/fmi/model_description.h"
 #include "tests/fuzz/mutator.h"
 #include "tests/master/fmi/support.h"
@@ -29,6 +30,33 @@ TEST_CASE("a mutated model description is read or refused, and never anything el
     try {
       fmi::parse_model_description(mutator.mutate(xml), "x.xml");
       ++accepted;
+    } catch (const core::Error& error) {
+      ++refused;
+      CHECK(error.kind() == core::Error::Kind::Input);
+      CHECK(error.context().where.file == "x.xml");
+    }
+  }
+  CHECK(accepted > 50);
+  CHECK(refused > 1000);
+}
+
+TEST_CASE("a mutated idle manifest is read or refused, and never anything else") {
+  const fmi::UnpackedFmu unpacked(fs::path(STRIDE_TEST_FMU_DIR) / "idler.fmu");
+  const std::string xml = read(unpacked.folder() / STRIDE_IDLE_MANIFEST);
+  const auto described = fmi::read_model_description(unpacked.folder() / "modelDescription.xml");
+  Mutator mutator(20240120);
+  int accepted = 0;
+  int refused = 0;
+  for (int i = 0; i < 4000; ++i) {
+    core::UnitDescription unit = described;
+    try {
+      fmi::parse_idle_manifest(mutator.mutate(xml), "x.xml", unit);
+      ++accepted;
+      CHECK(unit.promises_idle);
+      for (const core::Variable& variable : unit.variables) {
+        CHECK(variable.deadband >= 0);
+        CHECK(variable.tolerance.value_or(1) > 0);
+      }
     } catch (const core::Error& error) {
       ++refused;
       CHECK(error.kind() == core::Error::Kind::Input);

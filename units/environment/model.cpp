@@ -1,9 +1,12 @@
 #include "units/environment/model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+
+#include <stride/tangent.h>
 
 namespace environment {
 namespace {
@@ -59,11 +62,37 @@ double SensorCase::ambient_temperature(stride::Time time) const {
   return parameters_.ambient_mean + parameters_.drift_amplitude * std::sin(drift_phase(time));
 }
 
+double SensorCase::ambient_rate(stride::Time time) const {
+  return parameters_.drift_amplitude * drift_frequency() * std::cos(drift_phase(time));
+}
+
+stride::Duration SensorCase::case_tangent_holds_for(double tolerance, stride::Time time,
+                                                    double temperature, double absorbed_power,
+                                                    double rate, double deadband) const {
+  const double now = temperature_rate(time, temperature, absorbed_power);
+  const double ambient = parameters_.drift_amplitude * drift_frequency();
+  const double curvature = (ambient + std::max(std::abs(now), ambient)) / time_constant_;
+  const double other_slope = std::abs(now - rate);
+  const double other_power = deadband * parameters_.thermal_resistance;
+  if (other_power < tolerance / 2) {
+    return stride::tangent_holds_for(tolerance - other_power, curvature, other_slope);
+  }
+  return stride::tangent_holds_for(tolerance, curvature,
+                                   other_slope + deadband / parameters_.heat_capacity);
+}
+
+stride::Duration SensorCase::ambient_tangent_holds_for(double tolerance) const {
+  const double frequency = drift_frequency();
+  return stride::tangent_holds_for(tolerance, parameters_.drift_amplitude * frequency * frequency);
+}
+
+double SensorCase::drift_frequency() const { return kTwoPi / stride::to_seconds(drift_period_); }
+
 // The particular solution, in which the case has long followed its surroundings: the heating's
 // steady rise, and the drift damped and delayed by the first-order lag.
 double SensorCase::driven_temperature(stride::Time time, double absorbed_power) const {
   const double rise = absorbed_power * parameters_.thermal_resistance;
-  const double lag = kTwoPi / stride::to_seconds(drift_period_) * time_constant_;
+  const double lag = drift_frequency() * time_constant_;
   const double phase = drift_phase(time);
   const double drift =
       parameters_.drift_amplitude * (std::sin(phase) - lag * std::cos(phase)) / (1.0 + lag * lag);

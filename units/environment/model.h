@@ -36,9 +36,25 @@ class SensorCase {
   double temperature_rate(stride::Time time, double temperature, double absorbed_power) const;
 
   double ambient_temperature(stride::Time time) const;  ///< [degC]
+  double ambient_rate(stride::Time time) const;         ///< its derivative [K/s]
+
+  /// How long, from `time` on, the case's temperature stays within `tolerance` [K] of a line that
+  /// begins at it with the slope `rate` [K/s], while the absorbed power stays within `deadband` [W]
+  /// of this one.
+  ///
+  /// The rate obeys RC dT'/dt + T' = dT_ambient/dt, of which the right side is never more than
+  /// a = 2 pi amplitude / period; so |T'| <= max(|T'(time)|, a) from `time` on, and
+  /// |T''| <= (a + max(|T'(time)|, a)) / RC. Another power moves the case by deadband R at most, at
+  /// the rate deadband / C at most.
+  stride::Duration case_tangent_holds_for(double tolerance, stride::Time time, double temperature,
+                                          double absorbed_power, double rate,
+                                          double deadband) const;
+  /// Likewise of the ambient temperature, with its own slope: |T''| <= (2 pi / period)^2 amplitude.
+  stride::Duration ambient_tangent_holds_for(double tolerance) const;
 
  private:
   double drift_phase(stride::Time time) const;
+  double drift_frequency() const;  // angular [rad/s]
   double driven_temperature(stride::Time time, double absorbed_power) const;
 
   Parameters parameters_;

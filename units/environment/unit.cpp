@@ -1,21 +1,37 @@
 // The sensor's thermal environment as an FMU.
+#include <algorithm>
+
 #include <stride/unit.h>
 
 #include "units/environment/model.h"
 
+namespace {
+
+// far below what a sensor resolves; the power's share of the former is deadband R
+constexpr double kTemperatureTolerance = 1e-3;  // [K]
+constexpr double kPowerDeadband = 1e-5;         // [W]
+
+}  // namespace
+
 class Environment : public stride::Unit {
  public:
   Environment() {
-    describe("Thermal environment: the sensor's case in ambient air");
-    input("absorbed_power", absorbed_power_).unit("W").description("heat that the case absorbs");
+    describe("Thermal environment: the sensor's case in ambient air").promises_idle = true;
+    input("absorbed_power", absorbed_power_)
+        .unit("W")
+        .deadband(kPowerDeadband)
+        .description("heat that the case absorbs");
     output("temperature", temperature_)
         .unit("degC")
         .depends_on({})
         .derivative(rate_)
+        .tolerance(kTemperatureTolerance)
         .description("temperature of the case");
     output("ambient_temperature", ambient_temperature_)
         .unit("degC")
         .depends_on({})
+        .derivative(ambient_rate_)
+        .tolerance(kTemperatureTolerance)
         .description("temperature of the air around it");
     parameter("ambient.mean", p_.ambient_mean)
         .unit("degC")
@@ -41,7 +57,7 @@ class Environment : public stride::Unit {
         .unit("degC")
         .min(-273.15)
         .description("temperature of the case at the start");
-    state(rate_);
+    state(rate_, ambient_rate_);
   }
 
   void initialize(stride::Time start) override {
@@ -55,6 +71,14 @@ class Environment : public stride::Unit {
     show(step.to());
   }
 
+  // always: how long depends on how straight the temperatures run
+  stride::Time idle_until(stride::Time now) const override {
+    const auto of_case = case_.case_tangent_holds_for(tolerance_of(temperature_), now, temperature_,
+                                                      absorbed_power_, rate_, kPowerDeadband);
+    const auto of_air = case_.ambient_tangent_holds_for(tolerance_of(ambient_temperature_));
+    return stride::later(now, std::min(of_case, of_air));
+  }
+
   // a state may come from an instance with other parameters
   void load_state(stride::StateReader&) override { case_ = environment::SensorCase(p_); }
 
@@ -62,6 +86,7 @@ class Environment : public stride::Unit {
   void show(stride::Time now) {
     rate_ = case_.temperature_rate(now, temperature_, absorbed_power_);
     ambient_temperature_ = case_.ambient_temperature(now);
+    ambient_rate_ = case_.ambient_rate(now);
   }
 
   environment::Parameters p_;
@@ -69,7 +94,8 @@ class Environment : public stride::Unit {
   double absorbed_power_ = 0.0;
   double temperature_ = 0.0;
   double ambient_temperature_ = 0.0;
-  double rate_ = 0.0;  // of the temperature [K/s]
+  double rate_ = 0.0;          // of the temperature [K/s]
+  double ambient_rate_ = 0.0;  // of the air's
 };
 
 STRIDE_UNIT(Environment)

@@ -38,6 +38,7 @@ int joint_of_position(const mjModel& model, int index) {
 
 // A time goes bit by bit into a double of the state block: as a value, it would not be exact.
 constexpr std::size_t kTimes = 2;
+constexpr std::size_t kRest = 2;  // whether it rests, and until when
 static_assert(sizeof(Time::rep) == sizeof(double));
 
 void put_time(double* place, Time time) {
@@ -94,6 +95,8 @@ void World::reset(Time start) {
     inputs_[i] = data->ctrl[catalogue_.actuators[i].control];
   }
   failed_ = false;
+  resting_ = false;
+  rest_detector_.restart();
   move(start, start);
 }
 
@@ -110,11 +113,14 @@ void World::advance(Time to) {
   if (failed_) throw std::logic_error("the world has failed: restore a state or reset it first");
   if (to < now_) throw std::invalid_argument("a world cannot be advanced into its past");
   while (now_ < to) {
+    if (resting_) rest(to);
+    if (now_ == to) return;
     if (now_ == grid_) take_inputs();
     const Time next = grid_ + timestep_;
     if (next <= to) {
       integrate();
       move(next, next);
+      if (rest_settings_) look_for_rest();
     } else {
       move(grid_, to);
     }
@@ -167,7 +173,7 @@ const mjData& World::posed() const {
   api::get_state(model_.get(), grid_data_.get(), scratch_.data());
   api::set_state(model_.get(), &data, scratch_.data());
   data.time = stride::to_seconds(now_);
-  if (now_ != grid_) {
+  if (now_ != grid_ && !resting_) {
     mj_integratePos(model_.get(), data.qpos, data.qvel, stride::to_seconds(now_ - grid_));
   }
   mj_kinematics(model_.get(), &data);
@@ -232,13 +238,20 @@ double World::sensor(std::size_t sensor, int element) const {
   return sensed().sensordata[entry.address + element];
 }
 
-std::size_t World::state_size() const { return scratch_.size() + inputs_.size() + kTimes; }
+std::size_t World::state_size() const {
+  const std::size_t rest = rest_settings_ ? kRest + rest_detector_.state_size() : 0;
+  return scratch_.size() + inputs_.size() + kTimes + rest;
+}
 
 void World::save(double* block) const {
   api::get_state(model_.get(), grid_data_.get(), block);
   block = std::copy(inputs_.begin(), inputs_.end(), block + scratch_.size());
-  put_time(block, grid_);
-  put_time(block + 1, now_);
+  put_time(block++, grid_);
+  put_time(block++, now_);
+  if (!rest_settings_) return;
+  *block++ = resting_ ? 1 : 0;
+  put_time(block++, rest_end_);
+  rest_detector_.save(block);
 }
 
 void World::restore(const double* block) {
@@ -248,7 +261,14 @@ void World::restore(const double* block) {
   block += scratch_.size();
   std::copy_n(block, inputs_.size(), inputs_.begin());
   block += inputs_.size();
-  move(get_time(block), get_time(block + 1));
+  const double* times = block;
+  block += kTimes;
+  if (rest_settings_) {
+    resting_ = *block++ != 0;
+    rest_end_ = get_time(block++);
+    rest_detector_.restore(block);
+  }
+  move(get_time(times), get_time(times + 1));
 }
 
 }  // namespace mujoco_world

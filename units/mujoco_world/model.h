@@ -6,15 +6,30 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <stride/time.h>
 
 #include "units/mujoco_world/mjcf.h"
+#include "units/mujoco_world/rest.h"
 
 namespace mujoco_world {
 
 using Vector = std::array<double, 3>;
+
+/// How far what is seen of a world may be from where the resting one shows it, in the unit of each.
+struct RestTolerances {
+  std::vector<double> joint_positions, joint_velocities;  ///< of the joints in the catalogue
+  std::vector<Vector> site_positions, site_axes;          ///< of its sites
+  std::vector<double> sensors;                            ///< of all numbers of its sensors
+};
+
+struct RestSettings {
+  RestLimits limits;
+  RestTolerances tolerances;
+  stride::Duration longest = stride::Duration::max();  ///< no rest is longer
+};
 
 /// Integrates the model on its own grid: instants start + k * timestep, whatever the communication
 /// points are. An actuator's input is taken at a grid point and holds for the grid step that begins
@@ -25,6 +40,12 @@ using Vector = std::array<double, 3>;
 /// The model's timestep is rounded to whole picoseconds. If the MJCF has a keyframe called `start`,
 /// the world begins there (its ctrl are the inputs' start values), else in the model's reference
 /// pose.
+///
+/// With allow_rest(), a world that has come to rest (RestDetector) is not integrated any more: at a
+/// grid point it is stopped, its velocities set to zero, and stands still until an input changes,
+/// but at most for as long as what is seen of the moving one could not leave the tolerances, by the
+/// bounds of its speeds and accelerations. Then it is let go for another half of a window at least.
+/// When that happens is a matter of the grid and the inputs alone, too.
 ///
 /// Not thread-safe, const functions included: they evaluate outputs on demand.
 class World {
@@ -37,6 +58,11 @@ class World {
   stride::Duration timestep() const { return timestep_; }
   stride::Time now() const { return now_; }
 
+  /// Lets it rest, or not any more; reset() or restore() must follow. Throws std::invalid_argument
+  /// for a limit that is not positive.
+  void allow_rest(const RestSettings& settings);
+  void forbid_rest();
+
   /// Back to the initial state, with the grid's first point at `start`.
   void reset(stride::Time start);
 
@@ -44,6 +70,10 @@ class World {
   /// inside MuJoCo. Throws std::invalid_argument if the value is not finite.
   void set_input(std::size_t actuator, double value);
   double input(std::size_t actuator) const { return inputs_.at(actuator); }
+
+  /// Until when nothing that is seen changes, unless an input is set to another value; now() if the
+  /// world is not at rest.
+  stride::Time rests_until() const { return resting_ && keeps_inputs() ? rest_end_ : now_; }
 
   /// Moves to `to`, not before now(). Throws std::runtime_error with the joint and the time if the
   /// motion diverges, or with MuJoCo's message on an internal error; after that only reset() and
@@ -57,6 +87,7 @@ class World {
   Vector site_axis(std::size_t site) const;        ///< the site's z as a unit vector, likewise
   Vector site_velocity(std::size_t site) const;    ///< [m/s], the rate of site_position()
   Vector site_axis_rate(std::size_t site) const;   ///< [1/s], the rate of site_axis()
+  std::size_t sensor_numbers() const { return static_cast<std::size_t>(model_->nsensordata); }
   double sensor(std::size_t sensor, int element = 0) const;  ///< in the sensor's unit
 
   /// All that the future depends on, as one block of state_size() doubles. After restore() the same
@@ -76,6 +107,13 @@ class World {
   void check_motion() const;
   [[noreturn]] void report_divergence(const char* quantity, int joint) const;
   void take_inputs();
+  bool keeps_inputs() const;  // those that were taken last
+  void look_for_rest();
+  void rest(stride::Time to);
+  stride::Duration rest_holds_for() const;
+  stride::Duration joints_hold_for() const;
+  stride::Duration site_holds_for(std::size_t site) const;
+  stride::Duration sensors_hold_for() const;
   void move(stride::Time grid, stride::Time now);
   const mjData& posed() const;                                     // with poses and velocities
   const mjData& sensed() const;                                    // with the sensors, too
@@ -90,6 +128,10 @@ class World {
   stride::Time grid_{};
   stride::Time now_{};
   bool failed_ = false;
+  std::optional<RestSettings> rest_settings_;
+  RestDetector rest_detector_;
+  bool resting_ = false;
+  stride::Time rest_end_{};
   mutable std::vector<double> scratch_;
   mutable bool pose_known_ = false;
   mutable bool sensors_known_ = false;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 
 #include <mujoco/mujoco.h>
 
@@ -62,6 +63,10 @@ inline void set_state(const mjModel* model, mjData* data, const double* state) {
 
 inline void clear_stack(mjData* data) { data->pstack = 0; }
 
+inline std::pair<int, int> touching_geoms(const mjContact& contact) {
+  return {contact.geom1, contact.geom2};
+}
+
 #else
 
 /// Enabled features that would make a world irreproducible: here sleeping, which hides state.
@@ -88,6 +93,10 @@ inline void set_state(const mjModel* model, mjData* data, const double* state) {
 }
 
 inline void clear_stack(mjData* data) { data->pstack = data->pbase = 0; }
+
+inline std::pair<int, int> touching_geoms(const mjContact& contact) {
+  return {contact.geom[0], contact.geom[1]};
+}
 
 #endif
 

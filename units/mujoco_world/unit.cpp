@@ -37,13 +37,19 @@ std::string indexed(const std::string& name, int index) {
   return name + "[" + std::to_string(index) + "]";
 }
 
+// what a use case does not tell apart: 0.1 mm at the end of a metre
+constexpr double kPositionTolerance = 1e-4;  // [rad], [m], or of a unit vector's element
+constexpr double kVelocityTolerance = 1e-3;  // [rad/s], [m/s]
+constexpr double kSensorTolerance = 1e-3;    // in the sensor's unit
+
 std::string per_second(const std::string& unit) { return unit.empty() ? unit : unit + "/s"; }
 
 class MujocoWorld : public stride::Unit {
  public:
   explicit MujocoWorld(const stride::Setup& setup) : world_(setup.resources) {
-    describe("A MuJoCo world: its actuators in, its joints, sites and sensors out").fixed_step =
-        world_.timestep();
+    auto& info = describe("A MuJoCo world: its actuators in, its joints, sites and sensors out");
+    info.fixed_step = world_.timestep();
+    info.promises_idle = true;
     const auto& catalogue = world_.catalogue();
     inputs_.resize(catalogue.actuators.size());
     joints_.resize(catalogue.joints.size());
@@ -52,33 +58,91 @@ class MujocoWorld : public stride::Unit {
     for (std::size_t i = 0; i < joints_.size(); ++i) list_joint(i);
     for (std::size_t i = 0; i < sites_.size(); ++i) list_site(i);
     for (const auto& sensor : catalogue.sensors) list_sensor(sensor);
-    block_.resize(world_.state_size());
+    list_rest();
     state();
   }
 
   void initialize(stride::Time start) override {
+    allow_rest();
     world_.reset(start);
     show();
   }
 
   void step(stride::Step& step) override {
     for (std::size_t i = 0; i < inputs_.size(); ++i) world_.set_input(i, inputs_[i]);
+    const bool rests = world_.rests_until() >= step.to();
     world_.advance(step.to());
-    show();
+    if (!rests) show();
+  }
+
+  stride::Time idle_until(stride::Time now) const override {
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+      if (inputs_[i] != world_.input(i)) return now;
+    }
+    return world_.rests_until();
   }
 
   void save_state(stride::StateWriter& writer) const override {
+    block_.resize(world_.state_size());
     world_.save(block_.data());
     writer.write_bytes(block_.data(), block_.size() * sizeof(double));
   }
 
   void load_state(stride::StateReader& reader) override {
+    allow_rest();  // the state may be that of an instance with other settings
+    block_.resize(world_.state_size());
     reader.read_bytes(block_.data(), block_.size() * sizeof(double));
     world_.restore(block_.data());
     show();
   }
 
  private:
+  /// As the importer wants it.
+  void allow_rest() {
+    if (!max_skip()) return world_.forbid_rest();
+    limits_.window = stride::duration_from_seconds(rest_window_);
+    mujoco_world::RestSettings& settings = rest_settings_;
+    settings.limits = limits_;
+    settings.longest = *max_skip();
+    auto& tolerances = settings.tolerances;
+    tolerances.joint_positions.resize(joints_.size());
+    tolerances.joint_velocities.resize(joints_.size());
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      tolerances.joint_positions[i] = tolerance_of(joints_[i].position);
+      tolerances.joint_velocities[i] = tolerance_of(joints_[i].velocity);
+    }
+    const auto of_vector = [this](const Vector& vector) {
+      return Vector{tolerance_of(vector[0]), tolerance_of(vector[1]), tolerance_of(vector[2])};
+    };
+    tolerances.site_positions.resize(sites_.size());
+    tolerances.site_axes.resize(sites_.size());
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      tolerances.site_positions[i] = of_vector(sites_[i].position);
+      tolerances.site_axes[i] = of_vector(sites_[i].axis);
+    }
+    tolerances.sensors.resize(world_.sensor_numbers());
+    for (std::size_t i = 0; i < sensors_.size(); ++i) {
+      const auto first = static_cast<std::size_t>(world_.catalogue().sensors[i].address);
+      for (std::size_t k = 0; k < sensors_[i].size(); ++k) {
+        tolerances.sensors[first + k] = tolerance_of(sensors_[i][k]);
+      }
+    }
+    world_.allow_rest(settings);
+  }
+
+  void list_rest() {
+    parameter("rest.speed", limits_.speed)
+        .min(0)
+        .description("a world at rest has no joint that moves faster, rad/s or m/s");
+    parameter("rest.acceleration", limits_.acceleration)
+        .min(0)
+        .description("nor one that accelerates more, rad/s2 or m/s2");
+    parameter("rest.window", rest_window_)
+        .unit("s")
+        .range(0, 1e6)
+        .description("for how long that has to be so");
+  }
+
   struct Joint {
     double position = 0;
     double velocity = 0;
@@ -106,10 +170,12 @@ class MujocoWorld : public stride::Unit {
         .unit(joint.unit)
         .depends_on({})
         .derivative(joints_[i].velocity)
+        .tolerance(kPositionTolerance)
         .description("position of the joint " + joint.name);
     output(name + ".velocity", joints_[i].velocity)
         .unit(per_second(joint.unit))
         .depends_on({})
+        .tolerance(kVelocityTolerance)
         .description("velocity of the joint " + joint.name);
   }
 
@@ -122,12 +188,14 @@ class MujocoWorld : public stride::Unit {
           .unit("m")
           .depends_on({})
           .derivative(sites_[i].velocity[k])
+          .tolerance(kPositionTolerance)
           .description("position of the site " + site + " in the world");
     }
     for (std::size_t k = 0; k < 3; ++k) {
       output(name + ".axis." + kAxes[k], sites_[i].axis[k])
           .depends_on({})
           .derivative(sites_[i].axis_rate[k])
+          .tolerance(kPositionTolerance)
           .description("z axis of the site " + site + " in the world, a unit vector");
     }
   }
@@ -140,6 +208,7 @@ class MujocoWorld : public stride::Unit {
              values[static_cast<std::size_t>(k)])
           .unit(sensor.unit)
           .depends_on({})
+          .tolerance(kSensorTolerance)
           .description("reading of the sensor " + sensor.name);
     }
   }
@@ -168,6 +237,9 @@ class MujocoWorld : public stride::Unit {
   std::vector<Joint> joints_;
   std::vector<Site> sites_;
   std::deque<std::vector<double>> sensors_;
+  mujoco_world::RestLimits limits_;
+  mujoco_world::RestSettings rest_settings_;  // kept to avoid allocation
+  double rest_window_ = stride::to_seconds(limits_.window);
   mutable std::vector<double> block_;  // of a state, kept to avoid allocation
 };
 

@@ -74,7 +74,8 @@ class NfcChannel : public stride::Unit {
  public:
   explicit NfcChannel(const stride::Setup& setup)
       : p_(parameters_for(setup.resources)), channel_(p_) {
-    describe("Near-field channel between a reader's antenna and tags: power and frames");
+    describe("Near-field channel between a reader's antenna and tags: power and frames")
+        .promises_idle = true;
     tags_.resize(p_.tags.size());
     tag_coils_.resize(p_.tags.size());
     list_coil("reader_coil", "reader", p_.reader.coil, reader_coil_);
@@ -97,7 +98,10 @@ class NfcChannel : public stride::Unit {
     state();
   }
 
-  void initialize(stride::Time) override { channel_ = Channel(p_); }
+  void initialize(stride::Time) override {
+    channel_ = Channel(p_);
+    shown_.reset();
+  }
 
   void step(stride::Step& step) override {
     update_outputs();
@@ -116,8 +120,17 @@ class NfcChannel : public stride::Unit {
     end ? event.next_event(*end) : event.no_next_event();
   }
 
+  // While no frame is on the air the outputs are a function of the inputs, so they stay what they
+  // are, field or none.
+  stride::Time idle_until(stride::Time now) const override {
+    const Channel::State& s = channel_.state();
+    const bool is_quiet = s.down.empty() && s.up.empty();
+    return is_quiet && shows_inputs() ? stride::Time::max() : now;
+  }
+
   void update_outputs() override {
     channel_.move(reader_coil_, tag_coils_, carrier_power_);
+    keep_shown();
     for (std::size_t i = 0; i < tags_.size(); ++i) {
       tags_[i].link = channel_.link(i);
       tags_[i].snr_down = nfc_channel::decibels(tags_[i].link.snr_down);
@@ -130,6 +143,7 @@ class NfcChannel : public stride::Unit {
     writer.write(s.time), writer.write(s.carrier_power), writer.write(s.signals);
     writer.write(s.frames_down), writer.write(s.frames_up);
     save(writer, s.down), save(writer, s.up);
+    writer.write(shows_inputs());
   }
 
   // the state may come from an instance with other parameters
@@ -145,9 +159,36 @@ class NfcChannel : public stride::Unit {
         std::any_of(s.up.begin(), s.up.end(), unknown)) {
       throw std::runtime_error("the saved state is that of a channel with other tags");
     }
+    bool shows_inputs = false;
+    reader.read(shows_inputs);
+    shown_.reset();
+    if (shows_inputs) keep_shown();
   }
 
  private:
+  /// The inputs that the outputs are of.
+  struct Shown {
+    Pose reader_coil;
+    std::vector<Pose> tag_coils;
+    double carrier_power;
+  };
+
+  void keep_shown() {
+    if (!shown_) shown_.emplace();
+    shown_->reader_coil = reader_coil_;
+    shown_->tag_coils = tag_coils_;
+    shown_->carrier_power = carrier_power_;
+  }
+
+  bool shows_inputs() const {
+    const auto is_same = [](const Pose& a, const Pose& b) {
+      return a.position == b.position && a.axis == b.axis;
+    };
+    return shown_ && shown_->carrier_power == carrier_power_ &&
+           is_same(shown_->reader_coil, reader_coil_) &&
+           std::equal(tag_coils_.begin(), tag_coils_.end(), shown_->tag_coils.begin(), is_same);
+  }
+
   void take_frames() {
     if (from_reader_.clock.ticked()) channel_.from_reader(nfc::decode(from_reader_.frame));
     for (std::size_t i = 0; i < tags_.size(); ++i) {
@@ -319,6 +360,7 @@ class NfcChannel : public stride::Unit {
   std::vector<Tag> tags_;
 
   Channel channel_;
+  std::optional<Shown> shown_;
 };
 
 STRIDE_UNIT(NfcChannel)

@@ -6,6 +6,7 @@
 
 #include <stride/unit.h>
 
+#include "units/reader/idle.h"
 #include "units/reader/model.h"
 
 namespace {
@@ -45,8 +46,9 @@ class ReaderUnit : public stride::Unit {
  public:
   explicit ReaderUnit(const stride::Setup& setup)
       : resources_(setup.resources), reader_(load(resources_, choice_)), loaded_(choice_) {
-    describe("Robot with an NFC reader: runs a program of movements and commands").early_return =
-        true;
+    auto& info = describe("Robot with an NFC reader: runs a program of movements and commands");
+    info.early_return = true;
+    info.promises_idle = true;
     list_variables();
     auto& s = reader_.state();
     state(s.records, s.phase, s.request_start, s.request_end, s.deadline, s.give_up_at, s.retry_at,
@@ -87,6 +89,10 @@ class ReaderUnit : public stride::Unit {
     if (has_report()) report();
     const auto next = reader_.next_event_time(now);
     next ? event.next_event(*next) : event.no_next_event();
+  }
+
+  stride::Time idle_until(stride::Time now) const override {
+    return has_report() ? now : reader::idle_until(reader_, now);
   }
 
   // a state may come from an instance that runs another program, or with another seed

@@ -14,15 +14,19 @@ struct Heater : stride::Unit {
     input("power", power);
     auto ambient = input("'ambient <temperature>'", temperature);
     auto outputs = output("surface", surface);
+    auto core = output("core", core_temperature);
     if (!promises) return;
     ambient.deadband(0.5);
     outputs.tolerance(tolerance);
+    core.tolerance(2).derivative(heating);
   }
   void step(stride::Step&) override {}
 
   double power = 0;
   double temperature = 0;
   std::array<double, 2> surface{};
+  double core_temperature = 0;
+  double heating = 0;
 };
 
 std::string manifest(const stride::Unit& unit) {
@@ -45,6 +49,7 @@ TEST_CASE("a manifest has the inputs with a deadband and the outputs with a tole
                                   R"(fmi-ls:fmi-ls-description="The unit can promise to be idle.">
   <Input name="'ambient &lt;temperature&gt;'" valueReference="2" deadband="0.5"/>
   <Output name="surface" valueReference="3" tolerance="0.25"/>
+  <Output name="core" valueReference="4" tolerance="2" hasDerivative="true"/>
 </fmiLayeredStandardManifest>
 )");
 }

@@ -48,6 +48,15 @@ TEST_CASE("a packed unit has the layout of FMI 3.0, in the order of the names") 
   CHECK(read(unpacked.folder() / "resources/note.txt") == "a note");
 }
 
+TEST_CASE("a unit that can promise to be idle is packed with its manifest") {
+  const Scratch scratch;
+  fmi::pack({STRIDE_IDLER_LIBRARY, {}, {}, scratch / "idler.fmu"});
+  const std::string binaries = std::string("binaries/") + fmi::platform() + "/";
+  CHECK(names_in(scratch / "idler.fmu") == std::vector<std::string>{binaries + "idler.so",
+                                                                    STRIDE_IDLE_MANIFEST,
+                                                                    "modelDescription.xml"});
+}
+
 TEST_CASE("a packed unit runs with the resources that it was packed with") {
   const Scratch scratch;
   const auto request = stateless(scratch);

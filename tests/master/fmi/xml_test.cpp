@@ -77,3 +77,23 @@ TEST_CASE("complaints name file and line") {
   CHECK_THAT(input_error([&] { b.flag("flag"); }), Contains("expected true or false"));
   CHECK_THAT(input_error([&] { b.number_list<int>("list"); }), Contains("list=\"two\""));
 }
+
+TEST_CASE("an attribute is known by its namespace, not by its prefix") {
+  const Parsed xml(
+      "<a xmlns:p='urn:x' xmlns='urn:x' q='0' p:q='1'><b xmlns:r='urn:x' r:q='2'/></a>");
+  CHECK(xml.root().text("urn:x", "q") == "1");
+  CHECK(xml.root().child("b")->text("urn:x", "q") == "2");
+  CHECK_FALSE(xml.root().text("urn:y", "q"));
+  CHECK_FALSE(xml.root().text("urn:x", "absent"));
+}
+
+TEST_CASE("a document is parsed, or the error has its place") {
+  const fmi::Document document("<a>\n<b/>\n</a>", "unit.xml");
+  CHECK(document.root().child("b")->where().line == 2);
+  CHECK_THAT(input_error([] { fmi::Document("<a>\n<b></a>", "unit.xml"); }),
+             Contains("unit.xml:2") && Contains("not well-formed: mismatched element"));
+  CHECK_THAT(input_error([] { fmi::Document("<!-- nothing -->", "unit.xml"); }),
+             Contains("unit.xml") && Contains("the document is empty"));
+  CHECK_THAT(input_error([] { fmi::read_text("/absent.xml", "map", "absent.xml"); }),
+             Contains("absent.xml") && Contains("the map cannot be read"));
+}

@@ -8,7 +8,7 @@
 
 namespace {
 
-constexpr double kDeadband = 1e-3;
+constexpr double kDeadband = 1e-5;
 
 enum class Promise : std::int64_t { Honest, Ticks, ReturnsEarly, Rejects, LeavesItsTangent };
 
@@ -17,6 +17,9 @@ class Idler : public stride::Unit {
   Idler() {
     stride::UnitInfo& info = describe("A tank that promises to be idle");
     info.promises_idle = info.early_return = info.may_reject = true;
+#ifdef WITH_SHORT_STEPS
+    info.maximum_step = std::chrono::milliseconds(500);
+#endif
     input("inflow", inflow_).deadband(kDeadband);
     input("ask", ask_).description("a report is wanted");
     output("level", level_).derivative(slope_).tolerance(1e-3).depends_on({});
@@ -27,7 +30,7 @@ class Idler : public stride::Unit {
     parameter("period", period_).unit("s").description("0: reports only when it is asked").min(0);
     parameter("announces", announces_).description("its reports, so that no step passes them");
     parameter("promise", promise_)
-        .items({{"honest", 0}, {"ticks", 1}, {"returns early", 2}, {"rejects", 3}, {"drifts", 4}});
+        .items({{"honest", 0}, {"ticks", 1}, {"returns_early", 2}, {"rejects", 3}, {"drifts", 4}});
     state(start_, slope_, time_);
   }
 
@@ -74,10 +77,8 @@ class Idler : public stride::Unit {
     if (promise_ == Promise::LeavesItsTangent) {
       return now + 10 * stride::tangent_holds_for(tolerance, curvature);
     }
-    // half of the tolerance for the curve, half for the inflow's way within its deadband
-    const double drift = tolerance / 2 / (rate_ * kDeadband);
-    stride::Duration holds = stride::tangent_holds_for(tolerance / 2, curvature);
-    if (drift < stride::kMaxSeconds) holds = std::min(holds, seconds(drift));
+    // the inflow may go anywhere within its deadband
+    const auto holds = stride::tangent_holds_for(tolerance, curvature, rate_ * kDeadband);
     return std::min(stride::later(now, holds), next_report());
   }
 

@@ -4,8 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <stride/tangent.h>
 #include <stride/time.h>
-#include <stride/unit/tangent.h>
 
 using namespace std::chrono_literals;
 using stride::Duration;
@@ -36,6 +36,13 @@ TEST_CASE("what has no curvature keeps to its tangent for ever") {
   CHECK(tangent_holds_for(1e-9, 0) == Duration::max());
   CHECK(tangent_holds_for(1e9, 1e-9) == Duration::max());
   CHECK(tangent_holds_for(1e300, 1e-300) == Duration::max());
+  CHECK(tangent_holds_for(1e9, 0, 1e-9) == Duration::max());
+}
+
+TEST_CASE("a slope that is wrong uses up the tolerance, too") {
+  CHECK(tangent_holds_for(1, 0, 0.5) == Duration(2s));
+  CHECK(tangent_holds_for(1.5, 1, 1) == Duration(1s));
+  CHECK(tangent_holds_for(0, 0, 1) == Duration(0));
 }
 
 TEST_CASE("a length of time is rounded down to a picosecond") {
@@ -48,6 +55,8 @@ TEST_CASE("a tolerance or curvature that cannot be is refused") {
   CHECK_THROWS_AS(tangent_holds_for(-1, 1), std::invalid_argument);
   CHECK_THROWS_AS(tangent_holds_for(1, -1), std::invalid_argument);
   CHECK_THROWS_AS(tangent_holds_for(nan, 1), std::invalid_argument);
+  CHECK_THROWS_AS(tangent_holds_for(1, 1, -1), std::invalid_argument);
+  CHECK_THROWS_AS(tangent_holds_for(1, 1, nan), std::invalid_argument);
   CHECK_THROWS_AS(tangent_holds_for(1, nan), std::invalid_argument);
 }
 

@@ -1,0 +1,120 @@
+#include "master/fmi/idle_manifest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include <stride/idle.h>
+
+#include "master/fmi/xml.h"
+
+namespace stride::fmi {
+namespace {
+
+constexpr const char* kNamespace = "http://fmi-standard.org/fmi-ls-manifest";
+
+/// Whether elements that are not known here may be those of a later version.
+bool check_head(const Element& root) {
+  constexpr const char* kRoot = "fmiLayeredStandardManifest";
+  if (!root.is("", kRoot) && !root.is(kNamespace, kRoot)) {
+    root.fail(
+        fmt::format("the document is a <{}>; expected <fmiLayeredStandardManifest>", root.name()));
+  }
+  const auto name = root.text(kNamespace, "fmi-ls-name");
+  if (name != STRIDE_IDLE_NAME) {
+    root.fail(fmt::format("fmi-ls-name is \"{}\"; expected \"{}\", in the namespace {}",
+                          name.value_or(""), STRIDE_IDLE_NAME, kNamespace));
+  }
+  const std::string version = root.text(kNamespace, "fmi-ls-version").value_or("");
+  if (!version.starts_with("1.")) {
+    root.fail(fmt::format("fmi-ls-version=\"{}\" is not supported; expected 1.0.0", version),
+              "take the manifest (" STRIDE_IDLE_MANIFEST
+              ") out of the FMU to use it without idle "
+              "skipping");
+  }
+  return !version.starts_with("1.0");
+}
+
+class Reader {
+ public:
+  explicit Reader(core::UnitDescription& unit) : unit_(unit) {}
+
+  void read(const Element& root) {
+    const bool is_later = check_head(root);
+    for (const Element& element : root.children()) {
+      if (element.name() == "Input") {
+        read_input(element);
+      } else if (element.name() == "Output") {
+        read_output(element);
+      } else if (!is_later) {
+        element.fail(
+            fmt::format("<{}> has no meaning here; expected <Input> or <Output>", element.name()));
+      }
+    }
+    unit_.promises_idle = true;
+  }
+
+ private:
+  void read_input(const Element& element) {
+    core::Variable& input = find(element, core::Causality::Input, "deadband");
+    input.deadband = element.required_number<double>("deadband");
+    if (input.deadband >= 0 && std::isfinite(input.deadband)) return;
+    element.fail(fmt::format("deadband=\"{}\" of '{}': expected a finite number, at least 0",
+                             *element.text("deadband"), input.name));
+  }
+
+  void read_output(const Element& element) {
+    core::Variable& output = find(element, core::Causality::Output, "tolerance");
+    const double tolerance = element.required_number<double>("tolerance");
+    if (!(tolerance > 0 && std::isfinite(tolerance))) {
+      element.fail(fmt::format("tolerance=\"{}\" of '{}': expected a finite number above 0",
+                               *element.text("tolerance"), output.name));
+    }
+    output.tolerance = tolerance;
+    output.has_derivative = element.flag("hasDerivative");
+    if (output.has_derivative && unit_.max_output_derivative_order == 0) {
+      element.fail(
+          fmt::format("hasDerivative=\"true\" of '{}': the unit's "
+                      "maxOutputDerivativeOrder is 0, so no output has one",
+                      output.name));
+    }
+  }
+
+  core::Variable& find(const Element& element, core::Causality causality, const char* attribute) {
+    const std::string name = element.required_text("name");
+    const auto reference = element.required_number<core::ValueReference>("valueReference");
+    const auto place = unit_.find(name);
+    if (!place) element.fail(fmt::format("the unit has no variable '{}'", name));
+    core::Variable& variable = unit_.variables[*place];
+    if (variable.reference != reference) {
+      element.fail(fmt::format("the variable '{}' has the value reference {}, not {}", name,
+                               variable.reference, reference));
+    }
+    if (variable.causality != causality || variable.type != core::ValueType::Float64) {
+      element.fail(fmt::format("'{}' is a {} {}; only a Float64 {} has a {}", name,
+                               core::name(variable.type), core::name(variable.causality),
+                               core::name(causality), attribute));
+    }
+    if (!listed_.insert(reference).second) element.fail(fmt::format("'{}' is listed twice", name));
+    return variable;
+  }
+
+  core::UnitDescription& unit_;
+  std::set<core::ValueReference> listed_;
+};
+
+}  // namespace
+
+void parse_idle_manifest(const std::string& text, const std::string& shown_as,
+                         core::UnitDescription& unit) {
+  Reader(unit).read(Document(text, shown_as).root());
+}
+
+void read_idle_manifest(const std::filesystem::path& xml, const std::string& shown_as,
+                        core::UnitDescription& unit) {
+  parse_idle_manifest(read_text(xml, "idle manifest", shown_as), shown_as, unit);
+}
+
+}  // namespace stride::fmi

@@ -1,0 +1,121 @@
+// What <stride/idle.h> promises an importer. A unit without its manifest has nothing to keep, but
+// must not be asked in vain.
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+
+#include <catch2/catch.hpp>
+
+#include "master/core/error.h"
+#include "tests/property/promise.h"
+
+namespace {
+
+using namespace stride;
+using namespace stride::tests;
+using namespace std::chrono_literals;
+
+const std::shared_ptr<fmi::Fmu>& fmu() {
+  static const std::shared_ptr<fmi::Fmu> fmu = [] {
+    const char* const path = std::getenv("STRIDE_FMU");
+    if (path == nullptr) throw std::runtime_error("name the unit in STRIDE_FMU");
+    return fmi::Fmu::load(path);
+  }();
+  return fmu;
+}
+
+bool promises() { return fmu()->description()->promises_idle; }
+
+/// Instants at which a unit is asked: at once, soon, and later.
+constexpr Duration kInstants[] = {0ms, 1ms, 7ms, 30ms, 200ms};
+
+Life life_at(Duration instant, std::optional<Duration> max_skip) {
+  Life life(fmu(), {}, max_skip);
+  life.advance(Time(instant), 1ms);
+  return life;
+}
+
+}  // namespace
+
+TEST_CASE("a unit that never promises refuses to skip") {
+  if (promises()) return;
+  CHECK_THROWS_AS(Life(fmu(), {}, 1s), core::Error);
+  const auto& enable = fmu()->load_library()->idle_functions().EnableIdleSkipping;
+  CHECK((enable == nullptr || enable(nullptr, 1.0) == fmi3Error));
+}
+
+TEST_CASE("nothing is promised unless skipping is enabled") {
+  if (!promises()) return;
+  const auto library = fmu()->load_library();
+  const auto& fmi = library->functions();
+  const auto& description = *fmu()->description();
+  const auto root = library->path().parent_path().parent_path().parent_path();
+  const std::string resources = fmi::resource_path(root / "resources");
+  fmi3Instance const unit = fmi.InstantiateCoSimulation(
+      "unit", description.instantiation_token.c_str(),
+      resources.empty() ? nullptr : resources.c_str(), false, false, description.has_event_mode,
+      false, nullptr, 0, nullptr, nullptr, nullptr);
+  REQUIRE(unit != nullptr);
+  CHECK(fmi.EnterInitializationMode(unit, false, 0, 2.5, false, 0) == fmi3OK);
+  CHECK(fmi.ExitInitializationMode(unit) == fmi3OK);
+  if (description.has_event_mode) CHECK(fmi.EnterStepMode(unit) == fmi3OK);
+  double until = std::numeric_limits<double>::infinity();
+  CHECK(library->idle_functions().GetIdlePromise(unit, &until) == fmi3OK);
+  CHECK(until <= 2.5);
+  fmi.FreeInstance(unit);
+}
+
+TEST_CASE("what is promised is kept, in one step or in many") {
+  if (!promises() || fmu()->description()->single_instance) return;
+  std::uint64_t seed = 0;
+  for (const Duration instant : kInstants) {
+    CAPTURE(instant.count());
+    PromiseCheck check{life_at(instant, Duration::max()), life_at(instant, Duration::max()),
+                       life_at(instant, std::nullopt), ++seed};
+    check.until = Time(instant + 1s);
+    Time promised{};
+    CHECK(check.run(promised) == "");
+  }
+}
+
+TEST_CASE("no promise is longer than maxSkip") {
+  if (!promises()) return;
+  for (const Duration max_skip : {Duration(1), Duration(3us), Duration(20ms)}) {
+    for (const Duration instant : kInstants) {
+      CAPTURE(max_skip.count(), instant.count());
+      Life life = life_at(instant, max_skip);
+      CHECK(life.promise() <= Time(instant + max_skip));
+    }
+  }
+}
+
+TEST_CASE("a step over the whole promise goes through, again and again") {
+  if (!promises()) return;
+  Life life(fmu(), {}, 50ms);
+  for (int i = 0; i < 20; ++i) {
+    const Time begin = life.now();
+    const Time until = life.promise();
+    if (until > begin) {
+      const core::StepResult result = life.step(until);
+      CHECK_FALSE(result.rejected);
+      CHECK_FALSE(result.early_return);
+      CHECK(life.now() == until);
+      if (result.event_needed) life.handle_event();
+    } else {
+      life.advance(begin + 1ms, 1ms);
+    }
+  }
+}
+
+TEST_CASE("a restored state promises what the saved one did") {
+  if (!promises() || !fmu()->description()->can_save_state) return;
+  for (const Duration instant : kInstants) {
+    CAPTURE(instant.count());
+    Life life = life_at(instant, 10s);
+    const Time promised = life.promise();
+    life.unit().save_state();
+    life.advance(life.now() + 20ms, 3ms);
+    life.unit().restore_state();
+    CHECK(std::max(Time(instant), life.unit().idle_until()) == promised);
+  }
+}
