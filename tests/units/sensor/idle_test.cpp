@@ -30,7 +30,7 @@ struct Way {
   bool gating = true;
   std::optional<Duration> max_skip;
   std::string trace_file;
-  double frequency = 5e5;  ///< [Hz]
+  double frequency = 2e6;  ///< [Hz]
 };
 
 /// With a slow clock, so that one without a gate can be simulated, and energy for minutes.
@@ -111,17 +111,19 @@ void check_same(const Record& record, const Record& expected) {
 }  // namespace
 
 TEST_CASE("skipping changes no frame, no instant and no bit of an output") {
+  const double frequency = 1e6;
   std::size_t answers = 0;
   for (unsigned seed = 1; seed <= 100; ++seed) {
-    const Record plain = live(Way{}, seed);
+    const Record plain = live(Way{true, {}, "", frequency}, seed);
     answers += plain.answers.size();
     CAPTURE(seed);
     for (const bool gating : {true, false}) {
       CAPTURE(gating);
-      check_same(live(Way{gating, Duration::max(), ""}, seed), plain);
-      check_same(live(Way{gating, 3 * kMillisecond, ""}, seed), plain);
+      check_same(live(Way{gating, Duration::max(), "", frequency}, seed), plain);
+      if (seed > 10) continue;
+      check_same(live(Way{gating, 3 * kMillisecond, "", frequency}, seed), plain);
     }
-    if (seed <= 3) check_same(live(Way{false, {}, ""}, seed), plain);
+    if (seed <= 3) check_same(live(Way{false, {}, "", frequency}, seed), plain);
   }
   CHECK(answers > 1000);
 }
