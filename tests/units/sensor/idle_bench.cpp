@@ -84,7 +84,9 @@ void sleep(benchmark::State& state) {
 /// The same in one step, with a trace.
 void sleep_traced(benchmark::State& state) {
   const Duration idle = sensor::ms(static_cast<double>(state.range(0))).time_since_epoch();
-  const std::string file = "/tmp/stride_idle_bench_" + std::to_string(getpid()) + ".vcd";
+  const std::string file = (std::filesystem::temp_directory_path() /
+                            ("stride_idle_bench_" + std::to_string(getpid()) + ".vcd"))
+                               .string();
   std::uintmax_t before = 0;
   std::uintmax_t bytes = 0;
   for (auto _ : state) {
