@@ -8,6 +8,7 @@ namespace {
 
 constexpr Duration kTick{1};
 constexpr Duration kPatience{10'000'000};
+constexpr Duration kWorthwhile{1'000'000};
 
 }  // namespace
 
@@ -37,7 +38,7 @@ Duration IdleSkipper::patience() {
 bool IdleSkipper::skip(Time to, Duration max_skip) {
   if (!rules_.idle()) return false;
   const Duration skipped = room(to, max_skip);
-  if (skipped <= Duration{}) return false;
+  if (skipped < kWorthwhile) return false;
   if (rules_.clock_period() == Duration{} && kernel_.next_notification()) {
     obstacle_ = kernel_.next_notification();
     return false;

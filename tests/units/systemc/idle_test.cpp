@@ -10,7 +10,7 @@
 
 #include <catch2/catch.hpp>
 
-#include <stride/unit/tangent.h>
+#include <stride/tangent.h>
 
 #include "tests/units/systemc/meter.h"
 #include "units/systemc/device.h"
@@ -271,6 +271,20 @@ TEST_CASE("no pause is overlooked, wherever the device is looked at") {
     }
     CHECK(pauses == when);
   }
+}
+
+TEST_CASE("what is too short to be worth a skip is simulated") {
+  Device<Sleeper> device({}, "sleeper", true);
+  Unclocked rules;
+  IdleSkipper skipper(device.kernel(), rules);
+  const auto skips_until = [&](Duration end, Duration max_skip) {
+    const std::int64_t before = skipper.statistics().skips;
+    skipper.advance(at(end), false, max_skip);
+    return skipper.statistics().skips - before;
+  };
+  CHECK(skips_until(500 * kMicrosecond, Duration(1)) == 0);
+  CHECK(skips_until(500 * kMicrosecond + Duration(500'000), kEver) == 0);
+  CHECK(skips_until(600 * kMicrosecond, 20 * kMicrosecond) == 5);
 }
 
 TEST_CASE("a skip leaves something to be simulated on both sides") {
