@@ -65,6 +65,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   for (const std::string& text : request.swaps) swap(text);
   for (const std::string& text : request.sets) set(text);
   load_units();
+  choose_early_returns();
   system_.emplace(scenario_.system);
   choose_times(request);
   choose_steps(request.step);
@@ -74,7 +75,8 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
     for (const std::string& text : request.signals) patterns.push_back({text, {"--signals", 0}});
   }
   options_.recorded = io::select_signals(*system_, patterns);
-  options_.threads.main_only = io::select_components(*system_, scenario_.annotation.main_thread);
+  options_.threads.main_only =
+      io::select_components(component_names(), scenario_.annotation.main_thread);
 }
 
 std::vector<std::string> LoadedScenario::component_names() const {
@@ -118,6 +120,15 @@ void LoadedScenario::load_units() {
   fmus_ = load_fmus(scenario_);
   for (std::size_t i = 0; i < fmus_.size(); ++i) {
     scenario_.system.components[i].description = fmus_[i]->description();
+  }
+}
+
+void LoadedScenario::choose_early_returns() {
+  const std::vector<std::string> names = component_names();
+  for (const io::EarlyReturnRule& rule : scenario_.annotation.early_return) {
+    for (const std::size_t i : io::select_components(names, {&rule.components, 1})) {
+      scenario_.system.components[i].early_return_allowed = rule.allowed;
+    }
   }
 }
 
@@ -207,8 +218,7 @@ std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate() const {
     fmi::InstanceOptions options;
     options.log = log_message;
     options.debug_logging = true;  // the log's level decides what is shown
-    options.early_return_allowed = true;
-    options.may_roll_back = true;
+    options.early_return_allowed = component.early_return_allowed;
     options.intermediate_update = options_.sets_inputs_in_steps();
     options.where = component.where;
     units.push_back(fmus_[i]->instantiate(component.name, options));

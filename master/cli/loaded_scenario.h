@@ -44,6 +44,7 @@ class LoadedScenario {
   void swap(const std::string& text);
   void set(const std::string& text);
   void load_units();
+  void choose_early_returns();
   void choose_times(const ScenarioRequest& request);
   void choose_steps(const io::StepChoice& request);
   void check_fixed_steps() const;

@@ -85,7 +85,7 @@ void Clocks::fail(const Schedule& clock, Time time, const std::string& message) 
                   name(clock.attributes->variability)));
 }
 
-std::span<const std::size_t> Clocks::due(Time time) {
+std::span<const std::size_t> Clocks::find_due(Time time) {
   if (is_stale_) {
     next_.reset();
     for (const Line& line : lines_) {

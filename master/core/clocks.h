@@ -38,7 +38,11 @@ class Clocks {
   /// The next tick, after the last due().
   std::optional<Time> next() const { return next_; }
   /// The components of which a clock ticks at `time`, in order.
-  std::span<const std::size_t> due(Time time);
+  std::span<const std::size_t> due(Time time) {
+    const bool is_sure = !is_stale_ && due_.empty();
+    if (is_sure && (!next_ || *next_ > time)) return {};
+    return find_due(time);
+  }
   /// Sets the clocks that are due, in the order of their descriptions; their units are in Event
   /// Mode. Returns the components, those of the last due().
   std::span<const std::size_t> tick(Time time);
@@ -65,6 +69,7 @@ class Clocks {
     std::vector<ValueReference> ticking;
   };
 
+  std::span<const std::size_t> find_due(Time time);
   Line* line(std::size_t component);
   void start(Schedule& clock, Time start);
   void update(Schedule& clock, Time time, bool ticked);

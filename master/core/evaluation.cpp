@@ -61,7 +61,7 @@ void Evaluation::find_direct_inputs() {
     }
     has_direct_inputs_ |= !direct.empty();
     for (const std::size_t k : direct) {
-      if (variables[k].variability == Variability::Continuous) direct_inputs_.insert({i, k});
+      if (variables[k].variability == Variability::Continuous) followed_.insert({i, k});
     }
   }
 }
@@ -94,7 +94,10 @@ void Evaluation::route(StagedExchange::Wire& wire) {
 }
 
 void Evaluation::report(VariableId input) {
-  if (!is_trying_ && direct_inputs_.count(input) != 0) participants_->on_jump(input);
+  const bool may_jump = phase_ == Phase::Events &&
+                        system_.variable(input).variability == Variability::Continuous &&
+                        system_.components()[input.component].description->has_event_mode;
+  if (!is_trying_ && may_jump) participants_->on_jump(input, followed_.count(input) != 0);
 }
 
 void Evaluation::sweep(Block& block) {

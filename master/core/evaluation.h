@@ -33,9 +33,9 @@ class Evaluation {
    public:
     virtual ~Participants() = default;
     virtual bool takes_part(std::size_t component) const = 0;
-    /// In the phase Events: another value reaches the continuous input, on which an output of the
-    /// component depends directly.
-    virtual void on_jump(VariableId input) = 0;
+    /// In the phase Events: another value reaches the continuous input of a component with Event
+    /// Mode. `is_followed`: one of its outputs depends on it directly.
+    virtual void on_jump(VariableId input, bool is_followed) = 0;
     /// Makes the component take part, because a loop that it belongs to has to be solved; returns
     /// whether it did not before.
     virtual bool join(std::size_t component) = 0;
@@ -87,8 +87,8 @@ class Evaluation {
   std::vector<EvaluationBlock> order_;
   StagedExchange staged_;
   std::vector<Block> blocks_;
-  std::set<VariableId> direct_inputs_;  ///< continuous ones on which an output depends
-  bool has_direct_inputs_ = false;      ///< of any kind
+  std::set<VariableId> followed_;   ///< continuous inputs on which an output depends
+  bool has_direct_inputs_ = false;  ///< of any kind
 
   Participants* participants_ = nullptr;
   Time time_{};

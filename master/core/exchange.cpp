@@ -67,7 +67,8 @@ void copy_numbers(const Copies& copies) {
 
 }  // namespace
 
-Exchange::Exchange(const System& system, std::span<const VariableId> recorded) : system_(system) {
+Exchange::Exchange(const System& system, std::span<const VariableId> recorded)
+    : system_(system), is_delivered_(system.components().size()) {
   std::set<VariableId> outputs;
   std::set<VariableId> inputs;
   std::set<VariableId> jumps;  // a value that is held between ticks changes by an event
@@ -87,7 +88,34 @@ Exchange::Exchange(const System& system, std::span<const VariableId> recorded) :
                                                [](const Transfer& t) { return t.is_discrete(); }));
   }
   for (const Connection& connection : system.connections()) {
-    if (exchanged(system, connection.from)) add_copies(connection);
+    if (!exchanged(system, connection.from)) continue;
+    add_copies(connection);
+    has_other_types_ |= system.variable(connection.from).type != ValueType::Float64;
+  }
+  bind_step_values();
+}
+
+/// All of them stand in one row, so that a communication step goes through memory once.
+void Exchange::bind_step_values() {
+  struct Lengths {
+    std::size_t inputs, outputs;
+  };
+  std::vector<Lengths> lengths;
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    const std::size_t first = bound_values_.size();
+    for (Transfer& input : inputs_[i]) {
+      if (!input.is_discrete()) bound_values_.push_back({input.references, &input.block});
+    }
+    const std::size_t inputs = bound_values_.size() - first;
+    for (Transfer& output : outputs_[i]) {
+      bound_values_.push_back({output.references, &output.block});
+    }
+    lengths.push_back({inputs, outputs_[i].size()});
+  }
+  const BoundValues* next = bound_values_.data();
+  for (const auto& [inputs, outputs] : lengths) {
+    step_values_.push_back({{next, inputs}, {next + inputs, outputs}});
+    next += inputs + outputs;
   }
 }
 
@@ -161,8 +189,7 @@ void Exchange::add_real(RealLists<Real>& lists, const Connection& connection, Re
                         const Real* from) {
   lists.checked.push_back({from, connection.from});
   if (connection.conversion.is_identity()) {
-    numbers_[sizeof(Real) == 4 ? 2 : 3].push_back(
-        {reinterpret_cast<std::byte*>(to), reinterpret_cast<const std::byte*>(from)});
+    lists.plain.push_back({to, from});
   } else {
     lists.converted.push_back(
         {to, from, connection.conversion.factor, connection.conversion.offset});
@@ -170,7 +197,9 @@ void Exchange::add_real(RealLists<Real>& lists, const Connection& connection, Re
 }
 
 void Exchange::fetch(std::size_t component, Unit& unit) {
-  for (Transfer& transfer : outputs_[component]) unit.get(transfer.references, transfer.block);
+  for (const BoundValues& output : step_values_[component].outputs) {
+    unit.get(output.references, *output.block);
+  }
 }
 
 void Exchange::begin_samples(std::size_t component, Unit& unit) {
@@ -191,12 +220,16 @@ bool Exchange::any_discrete_change(std::size_t component) const {
 }
 
 void Exchange::deliver(std::size_t component, Unit& unit) {
+  is_delivered_[component] = true;
+  for (const BoundValues& input : step_values_[component].inputs) {
+    unit.set(input.references, *input.block);
+  }
+  if (has_discrete_inputs_[component]) deliver_discrete(component, unit);
+}
+
+void Exchange::deliver_discrete(std::size_t component, Unit& unit) {
   for (Transfer& transfer : inputs_[component]) {
-    if (!transfer.is_discrete()) {
-      unit.set(transfer.references, transfer.block);
-    } else if (is_changed(transfer)) {
-      write(transfer, unit);
-    }
+    if (transfer.is_discrete() && is_changed(transfer)) write(transfer, unit);
   }
 }
 
@@ -241,12 +274,6 @@ std::vector<VariableId> Exchange::sampled_changes(std::size_t component,
   return changes;
 }
 
-void Exchange::deliver_continuous(std::size_t component, Unit& unit) {
-  for (const Transfer& transfer : inputs_[component]) {
-    if (!transfer.is_discrete()) unit.set(transfer.references, transfer.block);
-  }
-}
-
 void Exchange::deliver_within_step(std::size_t component, Unit& unit) {
   for (const Transfer& transfer : inputs_[component]) {
     if (transfer.occasion != Occasion::PointAndWithin) continue;
@@ -287,15 +314,38 @@ void Exchange::add_changes(const Transfer& transfer, const ValueBlock& before,
   }
 }
 
-void Exchange::route() {
+template <class Real>
+bool Exchange::RealLists<Real>::route() const {
+  bool has_nan = false;
+  for (const auto& [to, from] : plain) {
+    const Real value = *from;
+    *to = value;
+    has_nan |= std::isnan(value);
+  }
+  for (const auto& copy : converted) {
+    const Real value = *copy.from;
+    *copy.to = static_cast<Real>(copy.factor * value + copy.offset);
+    has_nan |= std::isnan(value);
+  }
+  return has_nan;
+}
+
+void Exchange::route(Time time) {
+  std::fill(is_delivered_.begin(), is_delivered_.end(), false);
+  bool has_nan = doubles_.route();
+  if (has_other_types_) {
+    route_other_types();
+    has_nan |= floats_.route();
+  }
+  if (has_nan) [[unlikely]]
+    check_nan(time);
+}
+
+void Exchange::route_other_types() {
   copy_numbers<1>(numbers_[0]);
   copy_numbers<2>(numbers_[1]);
   copy_numbers<4>(numbers_[2]);
   copy_numbers<8>(numbers_[3]);
-  for (const auto& copy : doubles_.converted) *copy.to = copy.factor * *copy.from + copy.offset;
-  for (const auto& copy : floats_.converted) {
-    *copy.to = static_cast<float>(copy.factor * *copy.from + copy.offset);
-  }
   for (const auto& copy : strings_) *copy.to = *copy.from;
   for (const auto& copy : binaries_) *copy.to = *copy.from;
 }

@@ -22,6 +22,10 @@ struct RealElement {
 
   double get() const { return real(*block, at); }
   void set(double value) const { set_real(*block, at, value); }
+  /// Whether it would be another after set().
+  bool differs_from(double value) const {
+    return get() != (block->type() == ValueType::Float32 ? static_cast<float>(value) : value);
+  }
   auto operator<=>(const RealElement&) const = default;
 };
 
@@ -50,21 +54,34 @@ class Exchange {
 
   /// Reads a unit's outputs and recorded variables.
   void fetch(std::size_t component, Unit& unit);
-  /// Copies the outputs of all units to the inputs of all units.
-  void route();
-  /// Throws Error (Run) where a connected output is NaN.
+  /// Copies the outputs of all units to the inputs of all units. Throws Error (Run) where a
+  /// connected output is NaN.
+  void route(Time time);
+  /// Throws as route() does.
   void check_nan(Time time) const;
   /// Whether a discrete input of the unit is not what was delivered last; FMI wants Event Mode
   /// then.
   bool has_discrete_change(std::size_t component) const {
     return has_discrete_inputs_[component] && any_discrete_change(component);
   }
+  bool has_discrete_inputs(std::size_t component) const { return has_discrete_inputs_[component]; }
   /// Writes a unit's continuous inputs, and the discrete ones if they changed.
   void deliver(std::size_t component, Unit& unit);
+  /// A step of the unit with its inputs, if they were not delivered since they were routed, and
+  /// with its outputs.
+  StepResult step(std::size_t component, Unit& unit, const StepInterval& interval) {
+    const StepValues& values = step_values_[component];
+    if (is_delivered_[component]) return unit.step(interval, {{}, values.outputs});
+    if (has_discrete_inputs_[component]) deliver_discrete(component, unit);
+    is_delivered_[component] = true;
+    return unit.step(interval, values);
+  }
+  /// An input was changed where it stands, by another than route().
+  void note_change(std::size_t component) { is_delivered_[component] = false; }
+  /// Nothing was routed since deliver().
+  bool is_delivered(std::size_t component) const { return is_delivered_[component]; }
 
-  /// Writes a unit's continuous inputs.
-  void deliver_continuous(std::size_t component, Unit& unit);
-  /// Writes those of them that may change within a step.
+  /// Writes those of a unit's continuous inputs that may change within a step.
   void deliver_within_step(std::size_t component, Unit& unit);
 
   /// All connections between continuous variables, sorted by target.
@@ -128,8 +145,12 @@ class Exchange {
   };
   template <class Real>
   struct RealLists {
+    std::vector<Copy<Real>> plain;
     std::vector<ConvertedCopy<Real>> converted;
-    std::vector<Checked<Real>> checked;
+    std::vector<Checked<Real>> checked;  ///< the sources of all of them
+
+    /// Tells whether one of the sources is NaN.
+    bool route() const;
   };
 
   static bool is_of(const Transfer& transfer, std::span<const ValueReference> ticking);
@@ -138,6 +159,9 @@ class Exchange {
   }
   static void write(Transfer& transfer, Unit& unit);
   bool any_discrete_change(std::size_t component) const;
+  void deliver_discrete(std::size_t component, Unit& unit);
+  void bind_step_values();
+  void route_other_types();
   void add_changes(const Transfer& transfer, const ValueBlock& before,
                    std::vector<VariableId>& changes) const;
   template <class Real>
@@ -159,12 +183,16 @@ class Exchange {
   Transfers inputs_;
   Transfers sampled_outputs_;  ///< what belongs to time-based clocks
   Transfers sampled_inputs_;
-  std::vector<char> has_discrete_inputs_;                ///< by component
+  std::vector<StepValues> step_values_;    ///< by component; the inputs are continuous ones
+  std::vector<BoundValues> bound_values_;  ///< of them
+  std::vector<char> has_discrete_inputs_;  ///< by component
+  std::vector<char> is_delivered_;         ///< likewise
   std::array<std::vector<Copy<std::byte>>, 4> numbers_;  // of 1, 2, 4 and 8 bytes
   std::vector<Copy<std::string>> strings_;
   std::vector<Copy<Binary>> binaries_;
   RealLists<double> doubles_;
   RealLists<float> floats_;
+  bool has_other_types_ = false;  ///< than Float64, in connections
 };
 
 }  // namespace stride::core

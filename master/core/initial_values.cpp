@@ -8,7 +8,7 @@ namespace {
 class AllUnits : public Evaluation::Participants {
  public:
   bool takes_part(std::size_t) const override { return true; }
-  void on_jump(VariableId) override {}
+  void on_jump(VariableId, bool) override {}
   bool join(std::size_t) override { return false; }
 };
 

@@ -1,6 +1,7 @@
 #include "master/core/instant.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -28,86 +29,119 @@ Instant::Instant(const System& system, std::span<const std::unique_ptr<Unit>> un
       had_event_(units.size()),
       polled_(units.size()),
       next_event_(units.size()) {
+  for (std::size_t i = 0; i < count(); ++i) {
+    if (!description(i).has_event_mode) continue;
+    event_units_.push_back(i);
+    if (exchange.has_discrete_inputs(i)) discrete_units_.push_back(i);
+  }
   evaluation_.emplace(system, units, exchange, Phase::Events,
                       UnitTimer(clock, statistics.units, &UnitStatistics::event_time));
   if (evaluation_->is_trivial()) evaluation_.reset();
+  for (const ContinuousLink& link : exchange.continuous_links()) {
+    if (description(link.to.component).has_event_mode) links_.push_back(link);
+  }
 }
 
 void Instant::begin() {
-  for (std::size_t i = 0; i < count(); ++i) {
-    active_[i] = in_event_mode_[i] = description(i).has_event_mode;
+  for (const std::size_t i : event_units_) {
+    activate(i);
+    in_event_mode_[i] = has_event_ = true;
   }
+  for (std::size_t i = 0; i < count(); ++i) exchange_.fetch(i, *units_[i]);
 }
 
-std::optional<Time> Instant::next_event(Time time) const {
-  std::optional<Time> next = clocks_.next();
-  for (const std::optional<Time>& event : next_event_) {
-    if (event && *event > time && (!next || *event < *next)) next = event;
-  }
-  return next;
+std::optional<Time> Instant::next_event() const {
+  const std::optional<Time> tick = clocks_.next();
+  if (!tick || !announced_) return tick ? tick : announced_;
+  return std::min(*tick, *announced_);
 }
 
 void Instant::settle(Time time) {
+  if (time != time_) index_ = 0;
   time_ = time;
-  for (std::size_t i = 0; i < count(); ++i) {
-    if (next_event_[i] && *next_event_[i] <= time) active_[i] = true;
-  }
-  for (std::size_t i = 0; i < count(); ++i) exchange_.fetch(i, *units_[i]);
-  route();
-  for (std::uint32_t index = 0; prepare_events(); ++index) {
-    if (index == kEventLimit) fail_ticking();
-    event_iteration(index);
+  if (std::exchange(had_any_event_, false)) std::fill(had_event_.begin(), had_event_.end(), false);
+  if (announced_ && *announced_ <= time) activate_announced();
+  exchange_.route(time);
+  for (std::uint32_t count = 0; prepare_events(); ++count) {
+    if (count == kEventLimit) fail_ticking();
+    const bool terminates = event_iteration();
     exchange_after_events();
+    ++index_;
+    if (terminates) break;
   }
-  had_event_ = in_event_mode_;
-  for (std::size_t i = 0; i < count(); ++i) {
+  if (has_event_) leave_event_mode();
+}
+
+void Instant::activate_announced() {
+  for (const std::size_t i : event_units_) {
+    if (next_event_[i] && *next_event_[i] <= time_) activate(i);
+  }
+}
+
+void Instant::leave_event_mode() {
+  for (const std::size_t i : event_units_) {
+    had_event_[i] = in_event_mode_[i];
     if (!in_event_mode_[i]) continue;
     units_[i]->enter_step_mode();
     in_event_mode_[i] = false;
   }
+  has_event_ = false;
+  had_any_event_ = true;
+  look_for_announced();
 }
 
-void Instant::route() {
-  exchange_.check_nan(time_);
-  exchange_.route();
-}
-
-/// Delivers all inputs; units that have an event, or an input that changes discretely, are in
-/// Event Mode then. Tells whether there are any.
-bool Instant::prepare_events() {
-  bool any = false;
-  for (const std::size_t i : clocks_.due(time_)) active_[i] = true;
-  for (std::size_t i = 0; i < count(); ++i) {
-    if (exchange_.has_discrete_change(i) && description(i).has_event_mode) active_[i] = true;
-    if (active_[i]) enter_event_mode(i);
-    any |= static_cast<bool>(active_[i]);
-    exchange_.deliver(i, *units_[i]);
+void Instant::look_for_announced() {
+  announced_.reset();
+  for (const std::size_t i : event_units_) {
+    if (!next_event_[i]) continue;
+    announced_ = std::min(*next_event_[i], announced_.value_or(*next_event_[i]));
   }
-  return any;
+}
+
+/// Units that have an event, or an input that changes discretely, are in Event Mode then and have
+/// their inputs. Tells whether one of them wants another event iteration.
+bool Instant::prepare_events() {
+  for (const std::size_t i : clocks_.due(time_)) activate(i);
+  for (const std::size_t i : discrete_units_) {
+    if (exchange_.has_discrete_change(i)) activate(i);
+  }
+  if (!has_active_ && !has_event_) return false;
+  for (const std::size_t i : event_units_) {
+    if (in_event_mode_[i]) exchange_.deliver(i, *units_[i]);
+    if (active_[i]) enter_event_mode(i);
+  }
+  return has_active_;
 }
 
 void Instant::enter_event_mode(std::size_t i) {
   if (in_event_mode_[i]) return;
   units_[i]->enter_event_mode();
-  in_event_mode_[i] = true;
+  in_event_mode_[i] = has_event_ = true;
+  exchange_.deliver(i, *units_[i]);
 }
 
 /// One super-dense instant: ticks and what is sampled at them, messages, then the units' discrete
-/// states. Leaves in `active_` who wants another.
-void Instant::event_iteration(std::uint32_t index) {
+/// states. Leaves in `active_` who wants another. Tells whether a unit wants the end.
+bool Instant::event_iteration() {
+  bool terminates = false;
   ++statistics_.event_iterations;
+  has_active_ = false;
   tick_clocks();
-  exchange_messages(index);
-  for (std::size_t i = 0; i < count(); ++i) {
+  exchange_messages();
+  for (const std::size_t i : event_units_) {
     if (!in_event_mode_[i]) continue;
     const EventResult result = clock_.timed(statistics_.units[i].event_time,
                                             [&] { return units_[i]->update_discrete_states(); });
     ++statistics_.units[i].events;
-    statistics_.terminated_by_unit |= result.terminate;
+    terminates |= result.terminate;
     next_event_[i] = result.next_event;
-    active_[i] = result.iterate;
+    const bool is_due = result.next_event && *result.next_event <= time_;
+    active_[i] = result.iterate || is_due;
+    has_active_ |= static_cast<bool>(active_[i]);
     clocks_.update(i, time_);
   }
+  statistics_.terminated_by_unit |= terminates;
+  return terminates;
 }
 
 /// A value that goes from one ticking clock to another is that of this instant. Without a loop it
@@ -129,7 +163,7 @@ bool Instant::exchange_samples(std::span<const std::size_t> ticking) {
   for (const std::size_t i : ticking) {
     exchange_.fetch_sampled(i, *units_[i], clocks_.ticking(i));
   }
-  route();
+  exchange_.route(time_);
   return std::any_of(ticking.begin(), ticking.end(), [&](std::size_t i) {
     return exchange_.has_sampled_change(i, clocks_.ticking(i));
   });
@@ -141,43 +175,55 @@ void Instant::exchange_after_events() {
     has_joined_ = false;
     evaluation_->run(time_, *this);
   }
-  for (std::size_t i = 0; i < count(); ++i) {
+  for (const std::size_t i : event_units_) {
     if (in_event_mode_[i]) exchange_.fetch(i, *units_[i]);
   }
-  evaluation_ ? exchange_.check_nan(time_) : route();
+  if (evaluation_) return exchange_.check_nan(time_);
+  find_jumps();
+  exchange_.route(time_);
 }
 
-/// FMI wants Event Mode where a continuous input is discontinuous.
-void Instant::on_jump(VariableId input) {
-  join(input.component);
-  active_[input.component] = true;
+/// What an event changes in a continuous output is an event of those who receive it.
+void Instant::find_jumps() {
+  for (const auto& [from, to, source, target, conversion] : links_) {
+    if (!in_event_mode_[from.component]) continue;
+    const double value = conversion.factor * source.get() + conversion.offset;
+    if (target.differs_from(value)) on_jump(to, false);
+  }
+}
+
+/// FMI wants Event Mode where a continuous input is discontinuous; and at once, if an output
+/// follows it.
+void Instant::on_jump(VariableId input, bool is_followed) {
+  if (is_followed) join(input.component);
+  activate(input.component);
 }
 
 bool Instant::join(std::size_t i) {
   if (in_event_mode_[i]) return false;
   enter_event_mode(i);
-  active_[i] = true;
+  activate(i);
   has_joined_ = true;
   return true;
 }
 
 /// A clock that is set may make the receiver's own clocks tick at once, so receivers are asked
 /// again.
-void Instant::exchange_messages(std::uint32_t index) {
+void Instant::exchange_messages() {
   messages_.begin_instant();
   polled_ = in_event_mode_;
   for (bool again = true; again;) {
     again = false;
-    for (std::size_t i = 0; i < count(); ++i) {
+    for (const std::size_t i : event_units_) {
       if (!polled_[i]) continue;
       polled_[i] = false;
       again = true;
-      transmit(i, index);
+      transmit(i);
     }
   }
 }
 
-void Instant::transmit(std::size_t sender, std::uint32_t index) {
+void Instant::transmit(std::size_t sender) {
   messages_.transmit(
       sender,
       [&](std::size_t receiver) {
@@ -185,11 +231,18 @@ void Instant::transmit(std::size_t sender, std::uint32_t index) {
         polled_[receiver] = true;
       },
       [&](VariableId id, bool received, const ValueBlock* block) {
+        if (!received && block != nullptr && has_nan(*block)) fail_nan(id);
         UnitStatistics& statistics = statistics_.units[id.component];
         ++(received ? statistics.messages_received : statistics.messages_sent);
-        const Message message{time_, index, id, received, block, 0};
+        const Message message{time_, index_, id, received, block, 0};
         for (Observer* observer : observers_) observer->on_message(message);
       });
+}
+
+void Instant::fail_nan(VariableId id) const {
+  fail_run({{}, system_.components()[id.component].name, system_.variable(id).name, time_},
+           "the unit sends NaN (not a number) to another unit",
+           "look at what this unit received before this instant");
 }
 
 void Instant::fail_ticking() const {
@@ -197,11 +250,13 @@ void Instant::fail_ticking() const {
   for (std::size_t i = 0; i < count(); ++i) {
     if (active_[i]) names.push_back(system_.components()[i].name);
   }
-  fail_run({{}, {}, {}, time_},
-           fmt::format("after {} event iterations at one instant these units still want another: "
-                       "{}",
-                       kEventLimit, quoted(names)),
-           "look for messages or values that answer each other without any delay");
+  fail_run(
+      {{}, {}, {}, time_},
+      fmt::format("after {} event iterations at one instant these units still want another: "
+                  "{}",
+                  kEventLimit, quoted(names)),
+      "look for messages or values that answer each other without any delay, and for units that "
+      "announce an event for an instant that is not later than now");
 }
 
 void Instant::fail_sample_loop(std::span<const std::size_t> ticking) const {

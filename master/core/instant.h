@@ -34,41 +34,49 @@ class Instant : private Evaluation::Participants {
   /// Before the end of Initialization Mode: asks for the first ticks of the time-based clocks.
   void begin_clocks(Time start) { clocks_.begin(start); }
   /// Initialization Mode is over: the units with Event Mode stand in it, and each handles one event
-  /// at least.
+  /// at least. Fetches the outputs of all.
   void begin();
   /// The unit has an event at the next settle(), beside those whose announced time has come.
-  void request_event(std::size_t component) { active_[component] = true; }
-  /// Exchanges values and handles events until nothing wants another round. Outputs of units in
-  /// Event Mode that depend directly on inputs follow them at once, and algebraic loops between
-  /// such units are solved. Leaves the units in Step Mode. Throws Error (Run) where a connected
-  /// output is NaN, a loop has no solution that could be found, or units tick for ever.
+  void request_event(std::size_t component) {
+    if (description(component).has_event_mode) activate(component);
+  }
+  /// Exchanges the outputs that have been fetched and handles events until nothing wants another
+  /// round. Outputs of units in Event Mode that depend directly on inputs follow them at once, and
+  /// algebraic loops between such units are solved. Leaves the units in Step Mode; those that had
+  /// no event have yet to be given their inputs (Exchange::is_delivered). Throws Error (Run) where
+  /// a connected output is NaN, a loop has no solution that could be found, or units tick for ever.
   void settle(Time time);
 
   /// Who handled an event in the last settle(), by component.
   std::span<const char> had_event() const { return had_event_; }
 
-  /// The earliest event announced, or tick of a time-based clock, for later than `time`.
-  std::optional<Time> next_event(Time time) const;
+  /// The earliest event announced, or tick of a time-based clock, for later than the last settle().
+  std::optional<Time> next_event() const;
 
  private:
   std::size_t count() const { return units_.size(); }
   const UnitDescription& description(std::size_t i) const {
     return *system_.components()[i].description;
   }
-  void route();
+  void activate(std::size_t i) { active_[i] = has_active_ = true; }
+  void activate_announced();
+  void look_for_announced();
   bool prepare_events();
+  void leave_event_mode();
   void enter_event_mode(std::size_t i);
-  void event_iteration(std::uint32_t index);
+  bool event_iteration();
   void tick_clocks();
   bool exchange_samples(std::span<const std::size_t> ticking);
   void exchange_after_events();
-  void exchange_messages(std::uint32_t index);
-  void transmit(std::size_t sender, std::uint32_t index);
+  void exchange_messages();
+  void transmit(std::size_t sender);
+  void find_jumps();
+  [[noreturn]] void fail_nan(VariableId id) const;
   [[noreturn]] void fail_ticking() const;
   [[noreturn]] void fail_sample_loop(std::span<const std::size_t> ticking) const;
 
   bool takes_part(std::size_t i) const override { return in_event_mode_[i]; }
-  void on_jump(VariableId input) override;
+  void on_jump(VariableId input, bool is_followed) override;
   bool join(std::size_t i) override;
 
   const System& system_;
@@ -82,12 +90,20 @@ class Instant : private Evaluation::Participants {
   WallClock clock_;
 
   Time time_{};
-  std::vector<char> active_;  ///< wants the next event iteration
+  std::uint32_t index_ = 0;                  ///< of the super-dense instant at that time
+  std::vector<std::size_t> event_units_;     ///< those with Event Mode
+  std::vector<std::size_t> discrete_units_;  ///< those of them with discrete inputs
+  std::vector<ContinuousLink> links_;        ///< to them
+  std::vector<char> active_;                 ///< wants the next event iteration
+  bool has_active_ = false;
+  bool has_event_ = false;  ///< a unit is in Event Mode
   std::vector<char> in_event_mode_;
   std::vector<char> had_event_;
+  bool had_any_event_ = false;
   bool has_joined_ = false;   ///< a unit has entered Event Mode during an evaluation
   std::vector<char> polled_;  ///< its output clocks are to be read
   std::vector<std::optional<Time>> next_event_;
+  std::optional<Time> announced_;  ///< the earliest of these
 };
 
 }  // namespace stride::core

@@ -13,6 +13,21 @@ std::vector<VariableId> targets_of(const System& system, VariableId source) {
   return targets;
 }
 
+/// The inputs that the value travels to when the clock ticks: those that belong to a clock wired to
+/// it.
+std::vector<VariableId> targets_of(const System& system, VariableId value,
+                                   std::span<const VariableId> clock_targets) {
+  std::vector<VariableId> targets = targets_of(system, value);
+  std::erase_if(targets, [&](VariableId input) {
+    return std::ranges::none_of(clock_targets, [&](VariableId clock) {
+      const auto& clocks = system.variable(input).clocks;
+      return clock.component == input.component &&
+             std::ranges::find(clocks, system.variable(clock).reference) != clocks.end();
+    });
+  });
+  return targets;
+}
+
 }  // namespace
 
 MessageExchange::MessageExchange(const System& system, std::span<const std::unique_ptr<Unit>> units)
@@ -34,7 +49,7 @@ MessageExchange::MessageExchange(const System& system, std::span<const std::uniq
         output.payloads.push_back({{component, k},
                                    variable.reference,
                                    ValueBlock(variable.type, variable.size),
-                                   targets_of(system, {component, k})});
+                                   targets_of(system, {component, k}, output.targets)});
       }
       line.references.push_back(clock.reference);
       line.clocks.push_back(std::move(output));

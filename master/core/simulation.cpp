@@ -4,7 +4,9 @@
 #include <chrono>
 #include <exception>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -35,7 +37,7 @@ class Simulation::Run {
         statistics_{.units = std::vector<UnitStatistics>(units_.size())},
         clock_(options_.measure_time),
         instant_(system, units_, exchange_, observers_, statistics_, clock_),
-        stepper_(system, units_, statistics_.units, clock_, options_,
+        stepper_(system, units_, exchange_, statistics_.units, clock_, options_,
                  options_.sets_inputs_in_steps() ? &*inputs_ : nullptr) {
     statistics_.start = statistics_.reached = options_.start;
     if (options_.sets_inputs_in_steps()) lead_inputs_within_steps();
@@ -45,6 +47,7 @@ class Simulation::Run {
   const RunStatistics& statistics() const { return statistics_; }
 
   void run() {
+    if (std::exchange(has_run_, true)) throw std::logic_error("a simulation runs once");
     const auto began = WallClock::Source::now();
     std::exception_ptr failure;
     try {
@@ -55,7 +58,10 @@ class Simulation::Run {
       failure = std::current_exception();
     }
     statistics_.wall_time = WallClock::Source::now() - began;
-    for (std::size_t i = 0; i < count(); ++i) statistics_.units[i].calls = units_[i]->calls();
+    for (std::size_t i = 0; i < count(); ++i) {
+      statistics_.units[i].calls = units_[i]->calls();
+      statistics_.units[i].steps = stepper_.steps(i);
+    }
     finish_observers(failure);
     if (failure) std::rethrow_exception(failure);
   }
@@ -119,13 +125,13 @@ class Simulation::Run {
 
   void communication_step() {
     const Time reached = clock_.timed(statistics_.phases.steps, [&] { return advance(); });
-    note_progress(reached);
-    time_ = reached;
-    for (std::size_t i = 0; i < count(); ++i) {
-      const StepResult& result = stepper_.result(i);
-      statistics_.terminated_by_unit |= result.terminate;
-      if (result.event_needed) instant_.request_event(i);
+    if (reached == time_) {
+      note_stall();
+    } else {
+      stalled_steps_ = 0;
     }
+    time_ = reached;
+    if (stepper_.has_requests()) take_requests();
     clock_.timed(statistics_.phases.instants, [&] { settle(); });
     ++statistics_.communication_steps;
     statistics_.parallel_steps += stepper_.was_parallel();
@@ -135,12 +141,19 @@ class Simulation::Run {
     });
   }
 
+  void take_requests() {
+    for (std::size_t i = 0; i < count(); ++i) {
+      const StepResult& result = stepper_.result(i);
+      statistics_.terminated_by_unit |= result.terminate;
+      if (result.event_needed) instant_.request_event(i);
+    }
+  }
+
   /// Takes all units to the next communication point, as far as its errors are tolerable.
   Time advance() {
     while (true) {
       const Time reached = stepper_.advance(time_, next_target());
       if (!step_size_.controls_error()) return reached;
-      for (std::size_t i = 0; i < count(); ++i) exchange_.fetch(i, *units_[i]);
       const Excess excess = inputs_->excess(reached, options_.step.absolute_tolerance,
                                             options_.step.relative_tolerance);
       if (step_size_.accept(time_, reached, excess)) return reached;
@@ -150,9 +163,9 @@ class Simulation::Run {
   }
 
   /// Where the policy leads to, unless an event is nearer.
-  Time next_target() const {
+  Time next_target() {
     const Time target = step_size_.next(time_);
-    return std::min(target, instant_.next_event(time_).value_or(target));
+    return std::min(target, instant_.next_event().value_or(target));
   }
 
   void settle() {
@@ -160,9 +173,8 @@ class Simulation::Run {
     if (inputs_) inputs_->accept(time_, instant_.had_event());
   }
 
-  void note_progress(Time reached) {
-    stalled_steps_ = reached > time_ ? 0 : stalled_steps_ + 1;
-    if (stalled_steps_ < kStallLimit) return;
+  void note_stall() {
+    if (++stalled_steps_ < kStallLimit) return;
     std::vector<std::string> names;
     for (std::size_t i = 0; i < count(); ++i) {
       if (stepper_.result(i).early_return) names.push_back(system_.components()[i].name);
@@ -185,6 +197,7 @@ class Simulation::Run {
   Instant instant_;
   Stepper stepper_;
 
+  bool has_run_ = false;
   Time time_{};
   std::uint32_t stalled_steps_ = 0;
 };

@@ -116,14 +116,8 @@ void StagedExchange::read_input(Wire& wire) {
 }
 
 bool StagedExchange::has_nan(const Stage& stage) const {
-  return std::any_of(stage.reads_.begin(), stage.reads_.end(), [](const Batch& batch) {
-    return visit(batch.values, []<class T>(std::span<T> values) {
-      if constexpr (std::is_floating_point_v<T>) {
-        return std::any_of(values.begin(), values.end(), [](T value) { return std::isnan(value); });
-      }
-      return false;
-    });
-  });
+  return std::any_of(stage.reads_.begin(), stage.reads_.end(),
+                     [](const Batch& batch) { return core::has_nan(batch.values); });
 }
 
 }  // namespace stride::core

@@ -10,7 +10,7 @@ StepInputs::StepInputs(const System& system, Exchange& exchange, Coupling coupli
     : exchange_(exchange),
       sequential_(coupling == Coupling::GaussSeidel),
       sources_(system.components().size()),
-      step_begins_(system.components().size()),
+      steps_(system.components().size()),
       feeds_(system.components().size()) {
   Places places;
   for (const ContinuousLink& link : exchange.continuous_links()) {
@@ -63,31 +63,35 @@ void StepInputs::set_targets(const Feed& feed, const SignalHistory& history,
   }
 }
 
-void StepInputs::before_step(std::size_t component, Unit& unit, Time from, Time to) {
+void StepInputs::before_step(std::size_t component, const StepInterval& interval) {
   if (feeds_[component].empty()) return;
-  step_begins_[component] = from;
+  steps_[component] = {interval.from, interval.to};
   for (const Feed& feed : feeds_[component]) {
-    const SignalHistory& history = sources_[feed.source].history;
-    set_targets(feed, history, history.mean(from, to), false);
-    set_targets(feed, history, history.at(from, 0), true);
+    const Source& source = sources_[feed.source];
+    const SignalHistory& history = source.history;
+    if (source.is_ahead && source.is_nan) exchange_.check_nan(history.newest());
+    set_targets(feed, history, history.mean(interval.from, interval.to), false);
+    set_targets(feed, history, history.at(interval.from, 0, interval.to - interval.from), true);
   }
-  exchange_.deliver_continuous(component, unit);
+  exchange_.note_change(component);
 }
 
 void StepInputs::within_step(std::size_t component, Unit& unit, double seconds_into_step) {
+  const auto [from, to] = steps_[component];
   for (const Feed& feed : feeds_[component]) {
     const SignalHistory& history = sources_[feed.source].history;
-    set_targets(feed, history, history.at(step_begins_[component], seconds_into_step), true);
+    set_targets(feed, history, history.at(from, seconds_into_step, to - from), true);
   }
   exchange_.deliver_within_step(component, unit);
 }
 
-void StepInputs::after_step(std::size_t component, Unit& unit, Time reached) {
+void StepInputs::after_step(std::size_t component, Time reached) {
   Source& source = sources_[component];
   if (!sequential_ || source.signals.empty() || source.history.newest() == reached) return;
-  exchange_.fetch(component, unit);
   sample(source, reached);
   source.is_ahead = true;
+  source.is_nan = std::any_of(source.signals.begin(), source.signals.end(),
+                              [](const RealElement& signal) { return std::isnan(signal.get()); });
 }
 
 void StepInputs::undo_step(std::size_t component) {
@@ -102,11 +106,14 @@ Excess StepInputs::excess(Time time, double absolute, double relative) {
     const Source& source = sources_[i];
     if (source.signals.empty()) continue;
     undo_step(i);
-    const SignalHistory::Weights weights = source.history.at(time, 0);
+    const SignalHistory& history = source.history;
+    const SignalHistory::Weights weights = history.at(time, 0, time - history.newest());
     for (std::size_t k = 0; k < source.signals.size(); ++k) {
       const double actual = source.signals[k].get();
-      const double error = std::abs(actual - source.history.value(k, weights));
-      const double ratio = error / (absolute + relative * std::abs(actual));
+      const double error = std::abs(actual - history.value(k, weights));
+      const bool is_relative = std::isfinite(error);  // what becomes infinite is no larger number
+      const double tolerance = absolute + (is_relative ? relative * std::abs(actual) : 0);
+      const double ratio = error / tolerance;
       if (ratio > worst.ratio) worst = {ratio, source.ids[k]};
     }
   }

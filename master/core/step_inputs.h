@@ -42,8 +42,11 @@ class StepInputs {
   /// those that had an event begins anew: nothing is extrapolated across a jump.
   void accept(Time time, std::span<const char> had_event);
 
-  void before_step(std::size_t component, Unit& unit, Time from, Time to);
-  void after_step(std::size_t component, Unit& unit, Time reached);
+  /// Leaves the inputs in the exchange, to be delivered. Throws Error (Run) where, with
+  /// Gauss-Seidel, the new value of an output that feeds one of them is NaN.
+  void before_step(std::size_t component, const StepInterval& interval);
+  /// Its outputs have been fetched.
+  void after_step(std::size_t component, Time reached);
   /// The unit's step is undone.
   void undo_step(std::size_t component);
 
@@ -58,6 +61,7 @@ class StepInputs {
     std::vector<VariableId> ids;
     SignalHistory history{0, 0};
     bool is_ahead = false;  ///< the newest sample belongs to a step that is not accepted yet
+    bool is_nan = false;    ///< a value of that sample is
   };
   struct Link {
     std::size_t signal;
@@ -71,6 +75,10 @@ class StepInputs {
     std::vector<Link> links;
   };
 
+  struct Step {
+    Time from, to;
+  };
+
   /// The place of each signal in its source.
   using Places = std::map<RealElement, std::size_t>;
   std::size_t signal_of(const ContinuousLink& link, Places& places);
@@ -82,7 +90,7 @@ class StepInputs {
   Exchange& exchange_;
   bool sequential_;
   std::vector<Source> sources_;           ///< by component
-  std::vector<Time> step_begins_;         ///< by target component
+  std::vector<Step> steps_;               ///< the present or last one, by target component
   std::vector<std::vector<Feed>> feeds_;  ///< by target component
 };
 

@@ -11,14 +11,17 @@
 namespace stride::core {
 namespace {
 
-StepRole role_of(const UnitDescription& unit) {
-  if (unit.can_save_state) return StepRole::CanRollBack;
-  return unit.may_return_early ? StepRole::MayStopEarly : StepRole::DoesAsTold;
+bool may_stop(const Component& component) {
+  return component.may_return_early() || component.description->may_reject;
 }
 
-bool may_stop(const UnitDescription& unit) { return unit.may_return_early || unit.may_reject; }
+StepRole role_of(const Component& component, StepPolicy policy) {
+  const bool may_go_back = may_stop(component) || policy == StepPolicy::ErrorControlled;
+  if (component.description->can_save_state && may_go_back) return StepRole::CanRollBack;
+  return component.may_return_early() ? StepRole::MayStopEarly : StepRole::DoesAsTold;
+}
 
-std::string reason(const UnitDescription& unit, StepRole role, bool saves_state) {
+std::string reason(const Component& component, StepRole role, bool saves_state) {
   switch (role) {
     case StepRole::CanRollBack:
       return saves_state ? "can be rolled back; its state is saved before each step"
@@ -28,8 +31,12 @@ std::string reason(const UnitDescription& unit, StepRole role, bool saves_state)
     case StepRole::DoesAsTold:
       break;
   }
-  return unit.may_reject ? "cannot be rolled back; does not return early, but might reject a step"
-                         : "cannot be rolled back; does as it is told";
+  const UnitDescription& unit = *component.description;
+  if (unit.can_save_state) return "never stops: follows the others, so nothing is saved";
+  std::string text = "cannot be rolled back; ";
+  if (unit.may_return_early) text += "is not allowed to return early; ";
+  return text + (unit.may_reject ? "does not return early, but might reject a step"
+                                 : "does as it is told");
 }
 
 void check_single(const System& system, const std::vector<StepPlace>& order) {
@@ -44,7 +51,10 @@ void check_single(const System& system, const std::vector<StepPlace>& order) {
              fmt::format("'{}' and '{}' may both return early from a step, and neither can be "
                          "rolled back: when one stops, the other may already be too far",
                          names[0], names[1]),
-             "use a unit that can save its state (canGetAndSetFMUState) in place of one of them");
+             fmt::format("let one of them make its steps to the end, <stride:EarlyReturn "
+                         "components=\"{}\" allowed=\"false\"/>, or replace it by a unit that can "
+                         "save its state (canGetAndSetFMUState)",
+                         names[1]));
 }
 
 /// Whom each component feeds with values that exist between events too.
@@ -109,7 +119,7 @@ void form_stages(const System& system, std::vector<StepPlace>& order) {
       stage_may_stop = false;
     }
     place.stage = stage;
-    stage_may_stop |= may_stop(*system.components()[place.component].description);
+    stage_may_stop |= may_stop(system.components()[place.component]);
   }
 }
 
@@ -120,13 +130,14 @@ std::vector<StepPlace> step_order(const System& system, StepPolicy policy, Coupl
   std::vector<StepPlace> order;
   for (std::size_t i = 0; i < components.size(); ++i) {
     const UnitDescription& unit = *components[i].description;
-    const StepRole role = role_of(unit);
+    const StepRole role = role_of(components[i], policy);
     bool another_may_stop = policy == StepPolicy::ErrorControlled;
     for (std::size_t k = 0; k < components.size(); ++k) {
-      another_may_stop |= k != i && may_stop(*components[k].description);
+      another_may_stop |= k != i && may_stop(components[k]);
     }
     const bool saves_state = role == StepRole::CanRollBack && another_may_stop;
-    order.push_back({i, role, unit.can_vary_step, saves_state, reason(unit, role, saves_state), 0});
+    order.push_back(
+        {i, role, unit.can_vary_step, saves_state, reason(components[i], role, saves_state), 0});
   }
   std::stable_sort(order.begin(), order.end(), [&](const StepPlace& a, const StepPlace& b) {
     if (a.role != b.role) return a.role < b.role;

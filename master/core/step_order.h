@@ -13,9 +13,9 @@ namespace stride::core {
 
 /// What a unit can do when a step turns out to be too long.
 enum class StepRole {
-  CanRollBack,   ///< its state can be saved and restored
+  CanRollBack,   ///< it may stop, or have to go back, and its state can be saved and restored
   MayStopEarly,  ///< it may return early and cannot be rolled back
-  DoesAsTold,    ///< it cannot be rolled back, and does not stop on its own
+  DoesAsTold,    ///< it does not stop on its own, or, without rollback, only by rejecting a step
 };
 
 struct StepPlace {
@@ -33,7 +33,8 @@ struct StepPlace {
 /// Then the one unit, at most, that may stop early and cannot be rolled back: what it reaches is
 /// final, and the units before it, which go back once more, accept a shorter step where they
 /// accepted a longer one (Broman et al., "Determinate Composition of FMUs for Co-Simulation",
-/// 2013). Last those that do as they are told. Within a role the order is that of the file, which
+/// 2013). Last those that do as they are told; what never stops goes where the others have
+/// got, and is not saved. Within a role the order is that of the file, which
 /// changes no result; with Gauss-Seidel a unit stands behind those that feed it, as far as they do
 /// not feed each other in a ring, which is cut at the unit that comes first in the file.
 ///

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -28,9 +29,12 @@ StepSize::StepSize(const System& system, const RunOptions& options)
       options_(options.step),
       start_(options.start),
       stop_(options.stop),
+      grid_point_(options.start),
       order_(1.0 + static_cast<double>(options.extrapolation)),
       maximum_(options.step.maximum),
       size_(options.step.size) {
+  if (options.step.size <= Duration{})
+    throw std::invalid_argument("the step size must be positive");
   if (controls_error() && !maximum_) maximum_ = std::max((stop_ - start_) / 10, Duration(1));
   for (const Component& component : system.components()) {
     const UnitDescription& unit = *component.description;
@@ -75,11 +79,12 @@ void StepSize::check_units(const System& system) const {
   }
 }
 
-Time StepSize::next(Time now) const {
+Time StepSize::next(Time now) {
   Time target = stop_;
   if (options_.policy == StepPolicy::Fixed) {
-    const Duration since = (now - start_) % options_.size;
+    const Duration since = now == grid_point_ ? Duration{} : (now - start_) % options_.size;
     if (stop_ - now > options_.size - since) target = now + (options_.size - since);
+    grid_point_ = target;
     if (maximum_ && target - now > *maximum_) target = now + *maximum_;
     return target;
   }
@@ -90,8 +95,10 @@ Time StepSize::next(Time now) const {
 }
 
 Time StepSize::on_internal_grid(Time time, Time now) const {
-  const Time rounded = time - (time - start_) % quantum_;
-  return rounded > now ? rounded : std::min(stop_, rounded + quantum_);
+  const Time before = time - (time - start_) % quantum_;
+  if (before > now) return before;
+  const Time after = std::min(stop_, before + quantum_);
+  return maximum_ && after - now > *maximum_ ? time : after;
 }
 
 bool StepSize::accept(Time from, Time reached, const Excess& excess) {

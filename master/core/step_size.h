@@ -13,7 +13,7 @@
 namespace stride::core {
 
 /// The step policy of a run. No step is longer than a unit says it can be (maximum_step). Steps
-/// that are not on a grid are multiples of the units' fixed internal steps, as far as events let.
+/// that are not on a grid end on the units' fixed internal steps, as far as events and maxima let.
 class StepSize {
  public:
   /// Throws Error (Input) where a unit cannot do what the policy needs: steps of various sizes, and
@@ -21,7 +21,7 @@ class StepSize {
   StepSize(const System& system, const RunOptions& options);
 
   /// The communication point to go to: later than `now`, and the stop time at most.
-  Time next(Time now) const;
+  Time next(Time now);
 
   bool controls_error() const { return options_.policy == StepPolicy::ErrorControlled; }
 
@@ -34,7 +34,8 @@ class StepSize {
  private:
   void refine_quantum(Duration internal);
   void check_units(const System& system) const;
-  /// Rounded down to the units' internal steps, if it is as long as one of them.
+  /// Back to the last point of the units' internal steps. Where that is no step at all, on to the
+  /// next one, or if that is further than the maximum, the time itself.
   Time on_internal_grid(Time time, Time now) const;
   [[noreturn]] void fail_tolerance(Time from, Time reached, const Excess& excess) const;
 
@@ -42,6 +43,7 @@ class StepSize {
   StepOptions options_;
   Time start_;
   Time stop_;
+  Time grid_point_;                  ///< the last target, where steps are on a grid
   double order_;                     ///< of the local error, in the step size
   std::optional<Duration> maximum_;  ///< the user's and the units'
   Duration quantum_{1};              ///< a multiple of all fixed internal steps

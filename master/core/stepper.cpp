@@ -1,6 +1,7 @@
 #include "master/core/stepper.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,23 +12,21 @@ std::string times(std::uint64_t count) {
   return count == 1 ? "once" : fmt::format("{} times", count);
 }
 
-std::vector<std::span<const StepPlace>> stages_of(std::span<const StepPlace> order) {
-  std::vector<std::span<const StepPlace>> stages;
-  for (std::size_t first = 0, i = 0; i < order.size(); ++i) {
-    if (i + 1 < order.size() && order[i + 1].stage == order[i].stage) continue;
-    stages.push_back(order.subspan(first, i + 1 - first));
-    first = i + 1;
-  }
-  return stages;
-}
-
 }  // namespace
 
+Stepper::Lane::Lane(Unit& stepped, const StepPlace& its_place)
+    : unit(&stepped),
+      place(&its_place),
+      component(static_cast<std::uint32_t>(its_place.component)),
+      saves_state(its_place.saves_state),
+      can_vary_step(its_place.can_vary_step) {}
+
 Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                 std::vector<UnitStatistics>& statistics, WallClock clock,
+                 Exchange& exchange, std::vector<UnitStatistics>& statistics, WallClock clock,
                  const RunOptions& options, StepInputs* inputs)
     : system_(system),
-      units_(units),
+      unit_count_(units.size()),
+      exchange_(exchange),
       statistics_(statistics),
       clock_(clock),
       step_clock_(clock),
@@ -35,9 +34,21 @@ Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> un
       regular_(options.step.size),
       minimum_(options.step.minimum),
       order_(step_order(system, options.step.policy, options.coupling)),
-      stages_(stages_of(order_)),
-      progress_(units.size()),
-      split_(plan(options)) {}
+      lane_of_(units.size()),
+      times_(units.size()),
+      failures_(units.size()),
+      split_(plan(options)) {
+  for (const StepPlace& place : order_) {
+    lane_of_[place.component] = lanes_.size();
+    Lane& lane = lanes_.emplace_back(*units[place.component], place);
+    lane.is_plain = inputs == nullptr && !place.saves_state && place.can_vary_step;
+  }
+  for (std::size_t first = 0, i = 0; i < order_.size(); ++i) {
+    if (i + 1 < order_.size() && order_[i + 1].stage == order_[i].stage) continue;
+    stages_.push_back(std::span(lanes_).subspan(first, i + 1 - first));
+    first = i + 1;
+  }
+}
 
 WorkSplit::Plan Stepper::plan(const RunOptions& options) {
   WorkSplit::Plan plan;
@@ -46,7 +57,7 @@ WorkSplit::Plan Stepper::plan(const RunOptions& options) {
   if (!plan.always) {
     plan.threads = std::min<std::size_t>(plan.threads, std::thread::hardware_concurrency());
   }
-  plan.threads = std::clamp<std::size_t>(plan.threads, 1, std::max<std::size_t>(1, units_.size()));
+  plan.threads = std::clamp<std::size_t>(plan.threads, 1, std::max<std::size_t>(1, unit_count_));
   const auto& main_only = options.threads.main_only;
   for (std::size_t i = 0; i < order_.size(); ++i) {
     plan.stages.resize(order_[i].stage + 1);
@@ -64,11 +75,9 @@ ThreadPool& Stepper::pool() {
 }
 
 Time Stepper::advance(Time from, Time target) {
-  rejections_ = 0;
-  for (Progress& unit : progress_) {
-    unit.result = {.reached = from};
-    unit.is_saved = false;
-  }
+  ++communication_step_;
+  cut_ = {};
+  has_requests_ = false;
   if (split_.is_deciding()) return make_timed_passes(from, target);
   const Time reached = make_passes(from, target);
   split_.end_step();
@@ -85,174 +94,230 @@ Time Stepper::make_timed_passes(Time from, Time target) {
 }
 
 void Stepper::undo(Time from) {
-  for (const StepPlace& place : order_) {
-    roll_back(place.component, from);
-    ++statistics_[place.component].rollbacks;
+  for (Lane& lane : lanes_) {
+    restore(lane, from);
+    ++statistics_[lane.component].rollbacks;
   }
 }
 
 Time Stepper::make_passes(Time from, Time target) {
   was_parallel_ = split_.is_parallel();
+  if (from != last_end_) last_end_seconds_ = to_seconds(from);
+  const double from_seconds = last_end_seconds_;
   while (true) {
-    const Time reached = step_all(from, target);
+    const StepInterval interval(from, from_seconds, target);
+    last_end_ = target;
+    last_end_seconds_ = interval.end_seconds;
+    const Time reached = step_all(interval);
     if (reached == target) return target;
     target = reached;
   }
 }
 
 /// One pass. Returns the target if all units stand there, else the nearer one for the next pass.
-inline Time Stepper::step_all(Time from, Time target) {
+inline Time Stepper::step_all(const StepInterval& interval) {
   for (std::size_t stage = 0; stage < stages_.size(); ++stage) {
-    const Time reached = step_stage(stage, from, target);
-    if (reached != target) return reached;
+    const Time reached = step_stage(stage, interval);
+    if (reached != interval.to) return reached;
   }
-  return target;
+  return interval.to;
 }
 
-inline Time Stepper::step_stage(std::size_t stage, Time from, Time target) {
+inline Time Stepper::step_stage(std::size_t stage, const StepInterval& interval) {
   const std::span<const WorkShare> shares = split_.shares(stage);
-  if (!shares.empty()) step_on_threads(shares, from, target);
-  Time reached = target;
-  for (const StepPlace& place : stages_[stage]) {
-    if (shares.empty()) step(place, from, target);
-    const Time allowed = take_down(place, from, target);
-    if (allowed >= reached) continue;
+  if (!shares.empty()) step_on_threads(shares, interval);
+  const bool may_be_plain =
+      shares.empty() && !step_clock_.measures() && interval.from != interval.to;
+  Time reached = interval.to;
+  for (Lane& lane : stages_[stage]) {
+    const bool is_first = lane.communication_step != communication_step_;
+    if (may_be_plain && lane.is_plain && is_first) [[likely]] {
+      if (step_plainly(lane, interval)) continue;
+    } else if (shares.empty()) {
+      lane.outcome = go_timed(lane, interval);
+    }
+    const Time allowed = take_down(lane, interval);
+    if (allowed >= reached) [[likely]]
+      continue;
     reached = allowed;
-    stopped_ = &place;
-    stopped_at_ = progress_[place.component].result.reached;
+    cut_ = {&lane, lane.result.reached, lane.outcome == Outcome::Rejected};
   }
-  if (reached != target) check_minimum(from, reached, target);
+  if (reached != interval.to) check_minimum(interval, reached);
   return reached;
 }
 
-void Stepper::step_on_threads(std::span<const WorkShare> shares, Time from, Time target) {
+void Stepper::step_on_threads(std::span<const WorkShare> shares, const StepInterval& interval) {
   pool().run(shares.size(), [&](std::size_t k) noexcept {
-    for (const std::size_t i : shares[k]) step(order_[i], from, target);
+    for (const std::size_t i : shares[k]) step(lanes_[i], interval);
   });
 }
 
 /// May be called for different units at the same time.
-void Stepper::step(const StepPlace& place, Time from, Time target) noexcept {
-  Progress& unit = progress_[place.component];
-  unit.saved = unit.rolled_back = false;
-  unit.time = {};
+void Stepper::step(Lane& lane, const StepInterval& interval) noexcept {
   try {
-    unit.outcome = step_clock_.timed(unit.time, [&] { return go(place, unit, from, target); });
+    lane.outcome = go_timed(lane, interval);
     return;
   } catch (const ConsequentError&) {
-    unit.failure = std::current_exception();
-    unit.is_consequence = true;
+    failures_[index(lane)] = {std::current_exception(), true};
   } catch (...) {
-    unit.failure = std::current_exception();
+    failures_[index(lane)] = {std::current_exception(), false};
   }
-  unit.outcome = Outcome::Failed;
+  lane.outcome = Outcome::Failed;
 }
 
-inline Stepper::Outcome Stepper::go(const StepPlace& place, Progress& unit, Time from,
-                                    Time target) {
-  Unit& instance = *units_[place.component];
-  if (place.saves_state && !unit.is_saved) {
-    instance.save_state();
-    unit.is_saved = unit.saved = true;
+/// What go() comes down to for most units in most steps. Tells whether there is nothing to take
+/// down.
+inline bool Stepper::step_plainly(Lane& lane, const StepInterval& interval) {
+  lane.communication_step = communication_step_;
+  lane.rejections = 0;
+  lane.result = exchange_.step(lane.component, *lane.unit, interval);
+  lane.steps += !lane.result.rejected;
+  if (lane.result.went_through(interval.to)) [[likely]]
+    return true;
+  lane.outcome = lane.result.rejected ? Outcome::Rejected : Outcome::Stepped;
+  if (lane.result.rejected) lane.result = {.reached = interval.from};
+  return false;
+}
+
+inline Stepper::Outcome Stepper::go_timed(Lane& lane, const StepInterval& interval) {
+  return step_clock_.timed(times_[index(lane)], [&] { return go(lane, interval); });
+}
+
+inline Stepper::Outcome Stepper::go(Lane& lane, const StepInterval& interval) {
+  lane.saved = lane.rolled_back = false;
+  if (lane.communication_step != communication_step_) [[likely]] {
+    lane.communication_step = communication_step_;
+    lane.result = {.reached = interval.from};
+    lane.rejections = 0;
+    if (lane.saves_state) save(lane);
+  } else if (lane.result.reached > interval.to) {
+    if (!lane.saves_state) return Outcome::TooFar;
+    go_back(lane, interval);
   }
-  if (unit.result.reached > target) {
-    if (!place.saves_state) return Outcome::TooFar;
-    roll_back(place.component, from);
-    unit.rolled_back = true;
-  }
-  if (unit.result.reached == target) return Outcome::Stood;
-  if (!place.can_vary_step && target - from != regular_) fail_size(place, from, target);
-  if (inputs_ != nullptr) inputs_->before_step(place.component, instance, from, target);
-  const StepResult result = instance.step(from, target);
+  if (lane.result.reached == interval.to) return Outcome::Stood;
+  if (!lane.can_vary_step && interval.to - interval.from != regular_) fail_size(lane, interval);
+  if (inputs_ != nullptr) inputs_->before_step(lane.component, interval);
+  const StepResult result = exchange_.step(lane.component, *lane.unit, interval);
   if (result.rejected) return Outcome::Rejected;
-  unit.result = result;
-  if (inputs_ != nullptr) inputs_->after_step(place.component, instance, result.reached);
+  lane.result = result;
+  ++lane.steps;
+  if (inputs_ != nullptr) inputs_->after_step(lane.component, result.reached);
   return Outcome::Stepped;
 }
 
-void Stepper::roll_back(std::size_t component, Time from) {
-  units_[component]->restore_state();
-  progress_[component].result = {.reached = from};
-  if (inputs_ != nullptr) inputs_->undo_step(component);
+/// The inputs are part of the state.
+void Stepper::save(Lane& lane) {
+  if (!exchange_.is_delivered(lane.component)) exchange_.deliver(lane.component, *lane.unit);
+  lane.unit->save_state();
+  lane.saved = true;
+}
+
+void Stepper::go_back(Lane& lane, const StepInterval& interval) {
+  restore(lane, interval.from);
+  lane.rolled_back = true;
+  if (interval.from == interval.to) exchange_.fetch(lane.component, *lane.unit);
+}
+
+void Stepper::restore(Lane& lane, Time from) {
+  lane.unit->restore_state();
+  lane.result = {.reached = from};
+  if (inputs_ != nullptr) inputs_->undo_step(lane.component);
 }
 
 /// Counts what the unit did, and returns how far it lets the others go.
-inline Time Stepper::take_down(const StepPlace& place, Time from, Time target) {
-  const Progress& unit = progress_[place.component];
-  UnitStatistics& statistics = statistics_[place.component];
-  if (place.saves_state) {
-    statistics.saves += unit.saved;
-    statistics.rollbacks += unit.rolled_back;
+inline Time Stepper::take_down(Lane& lane, const StepInterval& interval) {
+  if (lane.saves_state) {
+    UnitStatistics& statistics = statistics_[lane.component];
+    statistics.saves += lane.saved;
+    statistics.rollbacks += lane.rolled_back;
   }
-  if (step_clock_.measures()) take_down_time(place, unit.time);
-  switch (unit.outcome) {
+  if (step_clock_.measures()) take_down_time(lane);
+  switch (lane.outcome) {
     case Outcome::Stood:
-      return target;
+      return interval.to;
     case Outcome::Stepped:
-      ++statistics.steps;
-      if (unit.result.reached != target) ++statistics.early_returns;
-      return unit.result.reached;
+      has_requests_ |= lane.result.event_needed || lane.result.terminate;
+      if (lane.result.reached != interval.to) ++statistics_[lane.component].early_returns;
+      return lane.result.reached;
     case Outcome::Rejected:
-      ++statistics.rejections;
-      ++rejections_;
-      return from + (target - from) / 2;
+      ++statistics_[lane.component].rejections;
+      ++lane.rejections;
+      return interval.from + (interval.to - interval.from) / 2;
     case Outcome::TooFar:
-      fail_final(place);
+      fail_final(lane);
     case Outcome::Failed:
       break;
   }
-  rethrow_failure(place);
+  rethrow_failure(lane);
 }
 
-void Stepper::take_down_time(const StepPlace& place, std::chrono::nanoseconds time) {
-  if (clock_.measures()) statistics_[place.component].step_time += time;
-  if (split_.is_measuring()) {
-    split_.note_cost(static_cast<std::size_t>(&place - order_.data()), time);
-  }
+void Stepper::take_down_time(const Lane& lane) {
+  const std::chrono::nanoseconds time = std::exchange(times_[index(lane)], {});
+  if (clock_.measures()) statistics_[lane.component].step_time += time;
+  if (split_.is_measuring()) split_.note_cost(index(lane), time);
 }
 
 /// The first failure in the step order that is no mere consequence of another one.
-void Stepper::rethrow_failure(const StepPlace& first) const {
-  for (const StepPlace& place : stages_[first.stage]) {
-    const Progress& unit = progress_[place.component];
-    if (unit.outcome == Outcome::Failed && !unit.is_consequence) {
-      std::rethrow_exception(unit.failure);
+void Stepper::rethrow_failure(const Lane& first) const {
+  for (const Lane& lane : stages_[first.place->stage]) {
+    const Failure& failure = failures_[index(lane)];
+    if (lane.outcome == Outcome::Failed && !failure.is_consequence) {
+      std::rethrow_exception(failure.cause);
     }
   }
-  std::rethrow_exception(progress_[first.component].failure);
+  std::rethrow_exception(failures_[index(first)].cause);
 }
 
-void Stepper::check_minimum(Time from, Time reached, Time target) const {
-  const bool is_large_enough = reached - from >= minimum_ && reached > from;
-  if (is_large_enough || progress_[stopped_->component].outcome != Outcome::Rejected) return;
-  const std::string reason = units_[stopped_->component]->rejection_reason();
-  fail_run({{}, system_.components()[stopped_->component].name, {}, from},
+const std::string& Stepper::name(const Lane& lane) const {
+  return system_.components()[lane.component].name;
+}
+
+void Stepper::check_minimum(const StepInterval& interval, Time reached) const {
+  const bool is_large_enough = reached - interval.from >= minimum_ && reached > interval.from;
+  if (is_large_enough || !cut_.is_rejection) return;
+  fail_run({{}, name(*cut_.by), {}, interval.from},
            fmt::format("the unit rejected the step to {} s, {} in all, and half of it would be "
                        "shorter than the minimum of "
-                       "{} s{}{}",
-                       to_text(target), times(rejections_), to_text(Time(minimum_)),
-                       reason.empty() ? "" : "; it says: ", reason),
+                       "{} s{}",
+                       to_text(interval.to), times(cut_.by->rejections), to_text(Time(minimum_)),
+                       reason(cut_)),
            "look at what the unit received before this instant");
 }
 
-void Stepper::fail_size(const StepPlace& place, Time from, Time target) const {
-  fail_run(
-      {{}, system_.components()[place.component].name, {}, from},
-      fmt::format(
-          "the unit takes steps of one size only, {} s, but another unit's event or stop asks for "
-          "one of {} s",
-          to_text(Time(regular_)), to_text(Time(target - from))),
-      "use a unit with canHandleVariableCommunicationStepSize, or none that has events or stops "
-      "early");
+/// What the unit says of a step that it rejected.
+std::string Stepper::reason(const Cut& cut) const {
+  const std::string said = cut.is_rejection ? cut.by->unit->rejection_reason() : "";
+  return said.empty() ? "" : "; it says: " + said;
 }
 
-void Stepper::fail_final(const StepPlace& ahead) const {
-  fail_run(
-      {{}, system_.components()[stopped_->component].name, {}, stopped_at_},
-      fmt::format("the unit stopped here, but '{}' is at {} s already and cannot be rolled back",
-                  system_.components()[ahead.component].name,
-                  to_text(progress_[ahead.component].result.reached)),
-      "use a unit that can save its state in place of one of the two, or a smaller step");
+void Stepper::fail_size(const Lane& lane, const StepInterval& interval) const {
+  const std::string hint =
+      "use a unit with canHandleVariableCommunicationStepSize, or none that has events or stops "
+      "early";
+  if (cut_.by == &lane) {
+    fail_run({{}, name(lane), {}, interval.from},
+             fmt::format("the unit rejected its step, and takes steps of one size only, {} s, so "
+                         "no shorter one can be tried{}",
+                         to_text(Time(regular_)), reason(cut_)),
+             "look at what the unit received before this instant");
+  }
+  const std::string who =
+      cut_.by == nullptr ? "an event, or the end of the run,"
+                         : fmt::format("'{}', which {},", name(*cut_.by),
+                                       cut_.is_rejection ? "rejected its step" : "stopped early");
+  fail_run({{}, name(lane), {}, interval.from},
+           fmt::format("the unit takes steps of one size only, {} s, but {} asks for one of {} s{}",
+                       to_text(Time(regular_)), who, to_text(Time(interval.to - interval.from)),
+                       reason(cut_)),
+           hint);
+}
+
+void Stepper::fail_final(const Lane& ahead) const {
+  fail_run({{}, name(*cut_.by), {}, cut_.at},
+           fmt::format("the unit {}, but '{}' is at {} s already and cannot be rolled back{}",
+                       cut_.is_rejection ? "rejected a step from here" : "stopped here",
+                       name(ahead), to_text(ahead.result.reached), reason(cut_)),
+           "use a unit that can save its state in place of one of the two, or a smaller step");
 }
 
 }  // namespace stride::core

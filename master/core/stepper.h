@@ -12,6 +12,7 @@
 
 #include <stride/time.h>
 
+#include "master/core/exchange.h"
 #include "master/core/run_options.h"
 #include "master/core/statistics.h"
 #include "master/core/step_inputs.h"
@@ -24,9 +25,10 @@
 
 namespace stride::core {
 
-/// Steps the units, stage by stage as step_order() has them. All units of a stage are asked for the
-/// same target. If one stops early or rejects the step, the target becomes where the first of them
-/// stopped, or half the way; those that have gone further are rolled back and follow.
+/// Steps the units, stage by stage as step_order() has them: inputs, step, outputs, a unit at a
+/// time. All units of a stage are asked for the same target. If one stops early or rejects the
+/// step, the target becomes where the first of them stopped, or half the way; those that have gone
+/// further are rolled back and follow.
 ///
 /// What a unit did is taken down in the step order, whichever thread did it and in whatever order,
 /// so results, statistics and errors do not depend on the threads. Where several units of a stage
@@ -35,15 +37,15 @@ class Stepper {
  public:
   /// `units` in the order of system.components(). `inputs`: who sets them before each step; null
   /// if they stay what they are. Throws Error as step_order() does.
-  Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units,
+  Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units, Exchange& exchange,
           std::vector<UnitStatistics>& statistics, WallClock clock, const RunOptions& options,
           StepInputs* inputs = nullptr);
 
   const std::vector<StepPlace>& order() const { return order_; }
 
   /// Takes all units from `from` to `target`, or to the earlier instant, returned, at which one of
-  /// them stopped. Throws Error (Run) naming the unit: a step shorter than the minimum was
-  /// rejected, or a unit stopped when another could not go back.
+  /// them stopped, and fetches their outputs. Throws Error (Run) naming the unit: a step shorter
+  /// than the minimum was rejected, or a unit stopped when another could not go back.
   Time advance(Time from, Time target);
 
   /// Takes all units back to `from`, where the last advance() began. Their states must have been
@@ -51,7 +53,14 @@ class Stepper {
   void undo(Time from);
 
   /// How the unit's last accepted step ended.
-  const StepResult& result(std::size_t component) const { return progress_[component].result; }
+  const StepResult& result(std::size_t component) const {
+    return lanes_[lane_of_[component]].result;
+  }
+  /// Whether a unit may have asked for something in the last communication step: for an event, or
+  /// for the end.
+  bool has_requests() const { return has_requests_; }
+  /// How many steps the unit has made, redone ones included.
+  std::uint64_t steps(std::size_t component) const { return lanes_[lane_of_[component]].steps; }
 
   /// Whether the last communication step was made on several threads.
   bool was_parallel() const { return was_parallel_; }
@@ -61,38 +70,63 @@ class Stepper {
 
   /// One unit in the present communication step. Written by the thread that steps it, and read when
   /// that has come to rest; a cache line of its own keeps the threads out of each other's way.
-  struct alignas(64) Progress {
-    StepResult result;      ///< where it stands, and how it came there
-    bool is_saved = false;  ///< its state, at the instant where the communication step begins
-    // in the present pass:
-    Outcome outcome = Outcome::Stood;
+  struct alignas(64) Lane {
+    Lane(Unit& stepped, const StepPlace& its_place);
+
+    Unit* unit;
+    const StepPlace* place;
+    std::uint32_t component;  ///< these three are the place's
+    bool saves_state;
+    bool can_vary_step;
+    bool is_plain = false;                 ///< there is nothing to do but the step itself
+    StepResult result{};                   ///< where it stands, and how it came there
+    std::uint64_t communication_step = 0;  ///< the last one of which it knows
+    std::uint64_t steps = 0;
+    Outcome outcome = Outcome::Stood;  ///< of the present pass, as the flags behind it
     bool saved = false;
     bool rolled_back = false;
-    std::chrono::nanoseconds time{};
-    std::exception_ptr failure;
+    std::uint32_t rejections = 0;  ///< in the present communication step
+  };
+  /// Who cut the present communication step short, last.
+  struct Cut {
+    const Lane* by = nullptr;
+    Time at{};
+    bool is_rejection = false;
+  };
+  struct Failure {
+    std::exception_ptr cause;
     bool is_consequence = false;  ///< of another unit's failure
   };
-  using Stage = std::span<const StepPlace>;
 
   Time make_timed_passes(Time from, Time target);
   Time make_passes(Time from, Time target);
-  Time step_all(Time from, Time target);
-  Time step_stage(std::size_t stage, Time from, Time target);
-  void step_on_threads(std::span<const WorkShare> shares, Time from, Time target);
-  void step(const StepPlace& place, Time from, Time target) noexcept;
-  Outcome go(const StepPlace& place, Progress& unit, Time from, Time target);
-  void roll_back(std::size_t component, Time from);
-  Time take_down(const StepPlace& place, Time from, Time target);
-  void take_down_time(const StepPlace& place, std::chrono::nanoseconds time);
-  [[noreturn]] void rethrow_failure(const StepPlace& first) const;
-  void check_minimum(Time from, Time reached, Time target) const;
-  [[noreturn]] void fail_size(const StepPlace& place, Time from, Time target) const;
-  [[noreturn]] void fail_final(const StepPlace& ahead) const;
+  Time step_all(const StepInterval& interval);
+  Time step_stage(std::size_t stage, const StepInterval& interval);
+  void step_on_threads(std::span<const WorkShare> shares, const StepInterval& interval);
+  void step(Lane& lane, const StepInterval& interval) noexcept;
+  bool step_plainly(Lane& lane, const StepInterval& interval);
+  Outcome go_timed(Lane& lane, const StepInterval& interval);
+  Outcome go(Lane& lane, const StepInterval& interval);
+  void save(Lane& lane);
+  void go_back(Lane& lane, const StepInterval& interval);
+  void restore(Lane& lane, Time from);
+  Time take_down(Lane& lane, const StepInterval& interval);
+  void take_down_time(const Lane& lane);
+  std::size_t index(const Lane& lane) const {
+    return static_cast<std::size_t>(&lane - lanes_.data());
+  }
+  const std::string& name(const Lane& lane) const;
+  [[noreturn]] void rethrow_failure(const Lane& first) const;
+  void check_minimum(const StepInterval& interval, Time reached) const;
+  std::string reason(const Cut& cut) const;
+  [[noreturn]] void fail_size(const Lane& lane, const StepInterval& interval) const;
+  [[noreturn]] void fail_final(const Lane& ahead) const;
   WorkSplit::Plan plan(const RunOptions& options);
   ThreadPool& pool();
 
   const System& system_;
-  std::span<const std::unique_ptr<Unit>> units_;
+  std::size_t unit_count_;
+  Exchange& exchange_;
   std::vector<UnitStatistics>& statistics_;
   WallClock clock_;
   WallClock step_clock_;  ///< measures where the work is to be split, too
@@ -100,11 +134,16 @@ class Stepper {
   Duration regular_;  ///< the size that units which cannot vary theirs must be given
   Duration minimum_;  ///< a shorter step than this is not asked for after a rejection
   std::vector<StepPlace> order_;
-  std::vector<Stage> stages_;  ///< of order_
-  std::vector<Progress> progress_;
-  const StepPlace* stopped_ = nullptr;  ///< who stopped last
-  Time stopped_at_{};
-  std::uint64_t rejections_ = 0;  ///< in the present communication step
+  std::vector<Lane> lanes_;                      ///< in that order
+  std::vector<std::span<Lane>> stages_;          ///< of them
+  std::vector<std::size_t> lane_of_;             ///< by component
+  std::vector<std::chrono::nanoseconds> times_;  ///< by lane, of the present pass
+  std::vector<Failure> failures_;                ///< likewise
+  std::uint64_t communication_step_ = 0;
+  Time last_end_{};  ///< of a pass, and the same as a double, since the next begins there
+  double last_end_seconds_ = 0;
+  Cut cut_;
+  bool has_requests_ = false;
   WorkSplit split_;
   std::optional<ThreadPool> pool_;  ///< from when it is first needed
   bool was_parallel_ = false;

@@ -123,7 +123,7 @@ void System::add_components(const SystemDeclaration& declaration) {
     }
     check_connectors(component);
     check_clocks(component);
-    components_.push_back({component.name, component.description});
+    components_.push_back({component.name, component.description, component.early_return_allowed});
   }
 }
 
@@ -243,6 +243,17 @@ void System::check_clocked(const ConnectionDeclaration& wanted, VariableId from,
              "connect a message, and its clock, to another message");
 }
 
+/// Clocks tick in Event Mode only, so without it a message would be lost without a word.
+void System::check_event_mode(const ConnectionDeclaration& wanted, VariableId id) const {
+  const Variable& connected = variable(id);
+  const bool ticks = connected.type == ValueType::Clock || connected.is_clocked();
+  if (!ticks || components_[id.component].description->has_event_mode) return;
+  fail_input({wanted.where, components_[id.component].name, connected.name, {}},
+             "this is a clock, or belongs to one, which ticks in Event Mode, and the unit has none "
+             "(hasEventMode)",
+             "use a unit that has Event Mode");
+}
+
 Connection System::connect(const ConnectionDeclaration& wanted) const {
   const VariableId from = find_variable(wanted.from_component, wanted.from_connector, wanted.where);
   const VariableId to = find_variable(wanted.to_component, wanted.to_connector, wanted.where);
@@ -263,6 +274,7 @@ Connection System::connect(const ConnectionDeclaration& wanted) const {
                "a connection starts at an output and ends at an input");
   }
   check_clocked(wanted, from, to);
+  for (const VariableId end : {from, to}) check_event_mode(wanted, end);
   if (source.type != target.type) {
     fail_input(context, fmt::format("cannot connect {}: {} and {} are different types", wire,
                                     core::name(source.type), core::name(target.type)));

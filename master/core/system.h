@@ -27,6 +27,7 @@ struct ComponentDeclaration {
   std::shared_ptr<const UnitDescription> description;
   std::vector<ConnectorDeclaration> connectors;  ///< may be empty: resolved against the description
   Location where;
+  bool early_return_allowed = true;
 };
 struct ConnectionDeclaration {
   std::string from_component, from_connector;
@@ -50,6 +51,10 @@ struct SystemDeclaration {
 struct Component {
   std::string name;
   std::shared_ptr<const UnitDescription> description;
+  /// Whether its unit is instantiated with earlyReturnAllowed.
+  bool early_return_allowed = true;
+
+  bool may_return_early() const { return early_return_allowed && description->may_return_early; }
 };
 struct Connection {
   VariableId from;
@@ -96,6 +101,7 @@ class System {
   void check_clocks(const ComponentDeclaration& component) const;
   void check_clocked(const ConnectionDeclaration& declaration, VariableId from,
                      VariableId to) const;
+  void check_event_mode(const ConnectionDeclaration& declaration, VariableId id) const;
   void check_message(const ConnectionDeclaration& declaration, const Connection& connection) const;
   Connection connect(const ConnectionDeclaration& declaration) const;
 

@@ -15,6 +15,32 @@
 
 namespace stride::core {
 
+/// A communication step, with its ends as units take them, too.
+struct StepInterval {
+  StepInterval(Time step_from, Time step_to)
+      : StepInterval(step_from, to_seconds(step_from), step_to) {}
+  /// Where the beginning is known as both.
+  StepInterval(Time step_from, double from_seconds, Time step_to)
+      : from(step_from),
+        to(step_to),
+        begin_seconds(from_seconds),
+        end_seconds(to_seconds(step_to)) {}
+
+  Time from, to;
+  double begin_seconds, end_seconds;
+};
+
+/// Variables of one type that are read or written by one call, and where their values stand.
+struct BoundValues {
+  std::span<const ValueReference> references;
+  ValueBlock* block;
+};
+
+/// What goes into a unit before a step, and comes out of it behind.
+struct StepValues {
+  std::span<const BoundValues> inputs, outputs;
+};
+
 /// How a communication step ended.
 struct StepResult {
   bool rejected = false;      ///< the unit is as it was before the step
@@ -22,6 +48,11 @@ struct StepResult {
   bool event_needed = false;  ///< it wants Event Mode where it stands now
   bool terminate = false;     ///< it wants the simulation to end
   Time reached{};             ///< where it stands now
+
+  /// It stands where it was sent, and wants nothing.
+  bool went_through(Time to) const {
+    return reached == to && !(rejected | early_return | event_needed | terminate);
+  }
 };
 
 /// How a super-dense instant of Event Mode ended.
@@ -63,7 +94,15 @@ class Unit {
   virtual void get(std::span<const ValueReference> references, ValueBlock& values) = 0;
   virtual void set(std::span<const ValueReference> references, const ValueBlock& values) = 0;
 
-  virtual StepResult step(Time from, Time to) = 0;
+  virtual StepResult step(const StepInterval& interval) = 0;
+  /// Sets the inputs, steps and, unless the step was rejected, gets the outputs.
+  virtual StepResult step(const StepInterval& interval, const StepValues& values) {
+    for (const BoundValues& input : values.inputs) set(input.references, *input.block);
+    const StepResult result = step(interval);
+    if (result.rejected) return result;
+    for (const BoundValues& output : values.outputs) get(output.references, *output.block);
+    return result;
+  }
   /// What the unit said when it last rejected a step; empty if it said nothing.
   virtual std::string rejection_reason() const { return {}; }
 

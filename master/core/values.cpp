@@ -1,6 +1,8 @@
 #include "master/core/values.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -136,6 +138,15 @@ void set_real(ValueBlock& block, std::size_t element, double value) {
   } else {
     block.numbers<double>()[element] = value;
   }
+}
+
+bool has_nan(const ValueBlock& block) {
+  return visit(block, []<class T>(std::span<const T> values) {
+    if constexpr (std::is_floating_point_v<T>) {
+      return std::any_of(values.begin(), values.end(), [](T value) { return std::isnan(value); });
+    }
+    return false;
+  });
 }
 
 bool is_same(const ValueBlock& a, std::size_t a_element, const ValueBlock& b,

@@ -104,6 +104,9 @@ bool copy_elements(ValueBlock& to, std::size_t to_first, const ValueBlock& from,
 double real(const ValueBlock& block, std::size_t element);
 void set_real(ValueBlock& block, std::size_t element, double value);
 
+/// Whether a floating-point number of the block is NaN.
+bool has_nan(const ValueBlock& block);
+
 /// Whether two elements of blocks of the same type are equal.
 bool is_same(const ValueBlock& a, std::size_t a_element, const ValueBlock& b,
              std::size_t b_element);

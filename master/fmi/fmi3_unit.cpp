@@ -13,6 +13,9 @@ namespace {
 
 constexpr std::size_t kMaxMessages = 8;
 
+/// noSetFMUStatePriorToCurrentPoint: a step is undone to where it began, never further.
+constexpr fmi3Boolean kNeverGoesBack = fmi3True;
+
 const char* status_name(fmi3Status status) {
   constexpr const char* kNames[] = {"fmi3OK", "fmi3Warning", "fmi3Discard", "fmi3Error",
                                     "fmi3Fatal"};
@@ -60,10 +63,11 @@ std::vector<core::ValueReference> intermediate_inputs(const core::UnitDescriptio
 // ---- Life and death ----
 
 Fmi3Unit::Fmi3Unit(std::string name, UnitParts parts, InstanceOptions options)
-    : name_(std::move(name)),
+    : fmi_(parts.library->functions()),
+      is_condemned_(parts.library->is_condemned()),
+      name_(std::move(name)),
       parts_(std::move(parts)),
       options_(std::move(options)),
-      fmi_(parts_.library->functions()),
       tangent_outputs_(tangent_outputs(*parts_.description)) {
   check_callable("fmi3InstantiateCoSimulation");
   const core::UnitDescription& description = *parts_.description;
@@ -83,12 +87,12 @@ Fmi3Unit::Fmi3Unit(std::string name, UnitParts parts, InstanceOptions options)
 }
 
 Fmi3Unit::~Fmi3Unit() {
-  if (instance_ == nullptr || parts_.library->is_condemned()) return;
+  if (instance_ == nullptr || is_condemned_) return;
   if (state_ != nullptr && fmi_.FreeFMUState != nullptr) {
     const fmi3Status status = fmi_.FreeFMUState(instance_, &state_);
     if (status == fmi3Fatal) parts_.library->condemn();
   }
-  if (!parts_.library->is_condemned()) fmi_.FreeInstance(instance_);
+  if (!is_condemned_) fmi_.FreeInstance(instance_);
 }
 
 void Fmi3Unit::enter_initialization(Time start, std::optional<Time> stop) {
@@ -102,7 +106,7 @@ void Fmi3Unit::exit_initialization() {
 }
 
 void Fmi3Unit::terminate() {
-  if (failed_in_ != nullptr || parts_.library->is_condemned()) return;
+  if (failed_in_ != nullptr || is_condemned_) return;
   call("fmi3Terminate", fmi_.Terminate);
 }
 
@@ -119,10 +123,25 @@ void Fmi3Unit::fail_not_callable(const char* name) const {
                   name));
 }
 
+inline void Fmi3Unit::rethrow_update_failure() {
+  if (update_failure_) [[unlikely]]
+    std::rethrow_exception(std::exchange(update_failure_, nullptr));
+}
+
+/// What a status other than fmi3OK, or a message of a failure, means for the call that has just
+/// ended.
+fmi3Status Fmi3Unit::look_into(const char* name, fmi3Status status) {
+  if (status == fmi3Discard) return status;
+  if (status != fmi3OK && status != fmi3Warning) fail_call(name, status);
+  if (has_messages_.load(std::memory_order_relaxed)) take_messages(name);
+  return status;
+}
+
 void Fmi3Unit::fail_call(const char* function, fmi3Status status) {
   failed_in_ = function;
   const bool is_fatal = status != fmi3Error && status != fmi3Discard;
   if (is_fatal) parts_.library->condemn();
+  rethrow_update_failure();  // it is the cause of what the unit answered
   fail(fmt::format("{} returned {}: {}", function, status_name(status), take_messages(function)),
        is_fatal ? "the unit may have damaged this process; save what you need and end it" : "");
 }
@@ -164,7 +183,20 @@ std::string Fmi3Unit::take_messages(const std::string& function) {
 
 // ---- Values ----
 
-void Fmi3Unit::get(References references, core::ValueBlock& values) {
+// Most values are of this type.
+inline void Fmi3Unit::get(References references, core::ValueBlock& values) {
+  if (values.type() != core::ValueType::Float64) return get_any(references, values);
+  call("fmi3GetFloat64", fmi_.GetFloat64, references.data(), references.size(),
+       values.numbers<double>().data(), values.size());
+}
+
+inline void Fmi3Unit::set(References references, const core::ValueBlock& values) {
+  if (values.type() != core::ValueType::Float64) return set_any(references, values);
+  call("fmi3SetFloat64", fmi_.SetFloat64, references.data(), references.size(),
+       values.numbers<double>().data(), values.size());
+}
+
+void Fmi3Unit::get_any(References references, core::ValueBlock& values) {
   if (values.type() == core::ValueType::Clock) {
     call("fmi3GetClock", fmi_.GetClock, references.data(), references.size(),
          values.numbers<bool>().data());
@@ -182,7 +214,7 @@ void Fmi3Unit::get(References references, core::ValueBlock& values) {
   });
 }
 
-void Fmi3Unit::set(References references, const core::ValueBlock& values) {
+void Fmi3Unit::set_any(References references, const core::ValueBlock& values) {
   if (values.type() == core::ValueType::Clock) {
     call("fmi3SetClock", fmi_.SetClock, references.data(), references.size(),
          values.numbers<bool>().data());
@@ -245,49 +277,42 @@ void Fmi3Unit::set_binaries(References references, std::span<const core::Binary>
 
 // ---- Steps and events ----
 
-core::StepResult Fmi3Unit::step(Time from, Time to) {
-  time_ = from;
-  const double point = from == last_end_ ? last_end_seconds_ : to_seconds(from);
-  const double end = to_seconds(to);
-  const double size = end - point;  // no other double lands nearer to the end
-  last_end_ = to;
-  last_end_seconds_ = end;
-  if (!(size > 0)) {
-    fail(fmt::format("the step to {} s is too small for the unit, whose time is a double",
-                     core::to_text(to)),
-         "choose a larger step or an earlier start time");
+core::StepResult Fmi3Unit::step(const core::StepInterval& interval) {
+  return step(interval, core::StepValues{});
+}
+
+core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
+                                const core::StepValues& values) {
+  for (const core::BoundValues& input : values.inputs) set(input.references, *input.block);
+  time_ = interval.from;
+  // no other double lands nearer to the end
+  const double size = interval.end_seconds - interval.begin_seconds;
+  if (!(size > 0)) {  // to the unit, whose time is a double, it is the same instant
+    time_ = interval.to;
+    return {.reached = interval.to};
   }
   bool event_needed = false;
   bool terminate = false;
   bool early = false;
-  double last_successful = end;
-  const fmi3Status status = do_step(point, size, event_needed, terminate, early, last_successful);
+  double last_successful = interval.end_seconds;
+  step_point_ = interval.begin_seconds;
+  const fmi3Status status =
+      call_discardable("fmi3DoStep", fmi_.DoStep, interval.begin_seconds, size, kNeverGoesBack,
+                       &event_needed, &terminate, &early, &last_successful);
+  rethrow_update_failure();
   if (status == fmi3Discard) {
     rejection_reason_ = has_messages_ ? take_messages("fmi3DoStep") : "";
-    return {.rejected = true, .reached = from};
+    return {.rejected = true, .reached = interval.from};
   }
-  if (!early && last_successful != end) compare_times(from, to, last_successful);
-  time_ = early ? reached_early(from, to, last_successful) : to;
+  if (event_needed && !parts_.description->has_event_mode) [[unlikely]]
+    fail("fmi3DoStep returned eventHandlingNeeded, and the unit has no Event Mode (hasEventMode)");
+  if (!early && last_successful != interval.end_seconds) compare_times(interval, last_successful);
+  time_ = early ? reached_early(interval, last_successful) : interval.to;
+  for (const core::BoundValues& output : values.outputs) get(output.references, *output.block);
   return {.early_return = early,
           .event_needed = event_needed,
           .terminate = terminate,
           .reached = *time_};
-}
-
-fmi3Status Fmi3Unit::do_step(double point, double size, fmi3Boolean& event_needed,
-                             fmi3Boolean& terminate, fmi3Boolean& early, double& last_successful) {
-  step_point_ = point;
-  try {
-    const fmi3Status status =
-        call_discardable("fmi3DoStep", fmi_.DoStep, point, size, !options_.may_roll_back,
-                         &event_needed, &terminate, &early, &last_successful);
-    if (update_failure_) [[unlikely]]
-      rethrow_update_failure();
-    return status;
-  } catch (...) {
-    rethrow_update_failure();  // it is the cause of what the unit answered
-    throw;
-  }
 }
 
 // ---- Inputs within a step ----
@@ -310,14 +335,10 @@ void Fmi3Unit::update_inputs(double time) noexcept {
   }
 }
 
-void Fmi3Unit::rethrow_update_failure() {
-  if (update_failure_) std::rethrow_exception(std::exchange(update_failure_, nullptr));
-}
-
 /// FMI 3.0, 4.2: a unit with a fixed internal step may stand elsewhere than where it was sent.
-void Fmi3Unit::compare_times(Time from, Time to, double last_successful) {
-  const double end = to_seconds(to);
-  if (std::abs(last_successful - end) <= time_tolerance(to_seconds(from), end)) return;
+void Fmi3Unit::compare_times(const core::StepInterval& interval, double last_successful) {
+  const double tolerance = time_tolerance(interval.begin_seconds, interval.end_seconds);
+  if (std::abs(last_successful - interval.end_seconds) <= tolerance) return;
   checked_time(last_successful, "lastSuccessfulTime");
   if (std::exchange(has_time_warning_, true) || !options_.log) return;
   const auto& internal_step = parts_.description->fixed_internal_step;
@@ -326,25 +347,27 @@ void Fmi3Unit::compare_times(Time from, Time to, double last_successful) {
       fmt::format("the step to {} s ended at the unit's own time {} s (lastSuccessfulTime) without "
                   "an early return{}; its outputs are taken as those at {} s, here and in later "
                   "steps",
-                  core::to_text(to), last_successful,
+                  core::to_text(interval.to), last_successful,
                   internal_step ? fmt::format(", since its fixedInternalStepSize is {} s",
                                               core::to_text(Time(*internal_step)))
                                 : "",
-                  core::to_text(to)));
+                  core::to_text(interval.to)));
 }
 
-Time Fmi3Unit::reached_early(Time from, Time to, double last_successful) const {
-  const double point = to_seconds(from);
-  const double end = to_seconds(to);
+Time Fmi3Unit::reached_early(const core::StepInterval& interval, double last_successful) const {
+  const double point = interval.begin_seconds;
+  const double end = interval.end_seconds;
   const double tolerance = time_tolerance(point, end);
+  if (last_successful == end) return interval.to;  // which a double cannot always tell
   if (!options_.early_return_allowed) {
     fail("fmi3DoStep returned early, which was not allowed at its instantiation");
   }
   if (!(last_successful >= point - tolerance && last_successful <= end + tolerance)) {
     fail(fmt::format("fmi3DoStep returned early at {} s, which is outside of the step to {} s",
-                     last_successful, core::to_text(to)));
+                     last_successful, core::to_text(interval.to)));
   }
-  return std::clamp(checked_time(last_successful, "lastSuccessfulTime"), from, to);
+  return std::clamp(checked_time(last_successful, "lastSuccessfulTime"), interval.from,
+                    interval.to);
 }
 
 Time Fmi3Unit::checked_time(double seconds, const char* what) const {
@@ -389,7 +412,11 @@ core::EventResult Fmi3Unit::update_discrete_states() {
        &nominals_changed, &values_changed, &has_next, &next);
   core::EventResult result{.iterate = iterate, .terminate = terminate, .next_event = {}};
   // Some units say "never" by a time that no simulation reaches.
-  if (has_next && !(next > kMaxSeconds)) result.next_event = checked_time(next, "nextEventTime");
+  if (has_next && !(next > kMaxSeconds)) {
+    result.next_event = checked_time(next, "nextEventTime");
+    // a unit may compare: it is not entered a rounding error before the instant that it said
+    while (to_seconds(*result.next_event) < next) *result.next_event += Duration(1);
+  }
   return result;
 }
 

@@ -26,8 +26,6 @@ using LogSink = std::function<void(const std::string& unit, fmi3Status status,
 
 struct InstanceOptions {
   bool early_return_allowed = false;
-  /// Whether a state from before the current communication point may be restored.
-  bool may_roll_back = false;
   /// Whether the unit may ask for its inputs within a step, where it can (set_input_update()).
   bool intermediate_update = false;
   bool debug_logging = false;  ///< everything that the unit can log, not only warnings and errors
@@ -56,7 +54,7 @@ struct UnitParts {
 ///
 /// After the first exchange, get(), set(), step() and get_derivatives() do not allocate, except
 /// where a string or binary value outgrows the longest before it; idle_until() never does.
-class Fmi3Unit : public core::Unit {
+class Fmi3Unit final : public core::Unit {
  public:
   /// Throws core::Error of the kind Run, with the unit's messages, if it cannot be instantiated.
   Fmi3Unit(std::string name, UnitParts parts, InstanceOptions options = {});
@@ -69,7 +67,9 @@ class Fmi3Unit : public core::Unit {
   void get(std::span<const core::ValueReference> references, core::ValueBlock& values) override;
   void set(std::span<const core::ValueReference> references,
            const core::ValueBlock& values) override;
-  core::StepResult step(Time from, Time to) override;
+  core::StepResult step(const core::StepInterval& interval) override;
+  core::StepResult step(const core::StepInterval& interval,
+                        const core::StepValues& values) override;
   std::string rejection_reason() const override { return rejection_reason_; }
   void save_state() override;
   void restore_state() override;
@@ -99,8 +99,6 @@ class Fmi3Unit : public core::Unit {
                                      fmi3Float64* early_return_time);
   void update_inputs(double time) noexcept;
   void rethrow_update_failure();
-  fmi3Status do_step(double point, double size, fmi3Boolean& event_needed, fmi3Boolean& terminate,
-                     fmi3Boolean& early, double& last_successful);
 
   static void on_log(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category,
                      fmi3String message);
@@ -113,13 +111,16 @@ class Fmi3Unit : public core::Unit {
   template <class Function, class... Arguments>
   void call(const char* name, Function* function, Arguments... arguments);
   void check_callable(const char* name) const {
-    if (failed_in_ != nullptr || parts_.library->is_condemned()) [[unlikely]]
+    if (failed_in_ != nullptr || is_condemned_.load(std::memory_order_relaxed)) [[unlikely]]
       fail_not_callable(name);
   }
+  fmi3Status look_into(const char* name, fmi3Status status);
   [[noreturn]] void fail_not_callable(const char* name) const;
   [[noreturn]] void fail_call(const char* function, fmi3Status status);
   [[noreturn]] void fail(const std::string& message, const std::string& hint = "") const;
 
+  void get_any(References references, core::ValueBlock& values);
+  void set_any(References references, const core::ValueBlock& values);
   void get_strings(References references, std::span<std::string> values);
   void set_strings(References references, std::span<const std::string> values);
   void get_binaries(References references, std::span<core::Binary> values);
@@ -143,25 +144,27 @@ class Fmi3Unit : public core::Unit {
   const TangentOutput& tangent_output(core::ValueReference reference) const;
 
   Time checked_time(double seconds, const char* what) const;
-  Time reached_early(Time from, Time to, double last_successful) const;
-  void compare_times(Time from, Time to, double last_successful);
+  Time reached_early(const core::StepInterval& interval, double last_successful) const;
+  void compare_times(const core::StepInterval& interval, double last_successful);
+
+  // What each call and each step need comes first, and close together.
+  const Functions& fmi_;
+  const std::atomic<bool>& is_condemned_;  ///< the library
+  fmi3Instance instance_ = nullptr;
+  const char* failed_in_ = nullptr;  ///< the FMI function after whose status nothing goes on
+  std::uint64_t calls_ = 0;
+  std::optional<Time> time_;
+  double step_point_ = 0;  ///< where the present step began, as the unit knows it
+  std::exception_ptr update_failure_;
+  std::atomic<bool> has_messages_ = false;
+  bool has_time_warning_ = false;
 
   std::string name_;
   UnitParts parts_;
   InstanceOptions options_;
-  const Functions& fmi_;
-  fmi3Instance instance_ = nullptr;
-  std::optional<Time> time_;
-  Time last_end_{};  ///< of a step, and the same as a double, since the next step begins there
-  double last_end_seconds_ = 0;
-  const char* failed_in_ = nullptr;  ///< the FMI function after whose status nothing goes on
-  bool has_time_warning_ = false;
   std::string rejection_reason_;
 
   core::InputUpdate input_update_;
-  double step_point_ = 0;  ///< where the present step began, as the unit knows it
-  std::exception_ptr update_failure_;
-  std::uint64_t calls_ = 0;
 
   fmi3FMUState state_ = nullptr;
   std::optional<Time> state_time_;  ///< time_ when the state was saved
@@ -178,25 +181,27 @@ class Fmi3Unit : public core::Unit {
 
   std::mutex messages_mutex_;
   std::vector<std::string> messages_;  ///< those of the present call that report a failure
-  std::atomic<bool> has_messages_ = false;
 };
 
 template <class Function, class... Arguments>
-fmi3Status Fmi3Unit::call_discardable(const char* name, Function* function,
-                                      Arguments... arguments) {
+[[gnu::always_inline]] inline fmi3Status Fmi3Unit::call_discardable(const char* name,
+                                                                    Function* function,
+                                                                    Arguments... arguments) {
   check_callable(name);
   ++calls_;
   const fmi3Status status = function(instance_, arguments...);
-  if (status == fmi3Discard) return status;
-  if (status != fmi3OK && status != fmi3Warning) fail_call(name, status);
-  if (has_messages_.load(std::memory_order_relaxed)) take_messages(name);
-  return status;
+  const bool is_quiet = !has_messages_.load(std::memory_order_relaxed);
+  if (status == fmi3OK && is_quiet) [[likely]]
+    return status;
+  return look_into(name, status);
 }
 
 template <class Function, class... Arguments>
-void Fmi3Unit::call(const char* name, Function* function, Arguments... arguments) {
+[[gnu::always_inline]] inline void Fmi3Unit::call(const char* name, Function* function,
+                                                  Arguments... arguments) {
   const fmi3Status status = call_discardable(name, function, arguments...);
-  if (status == fmi3Discard) fail_call(name, status);
+  if (status == fmi3Discard) [[unlikely]]
+    fail_call(name, status);
 }
 
 }  // namespace stride::fmi

@@ -67,7 +67,7 @@ class Library {
   /// To be said when an instance has returned fmi3Fatal: after it no function of any instance may
   /// be called (FMI 3.0, 2.2.3). Holds for all objects of the same library, until the process ends.
   void condemn() const { *is_condemned_ = true; }
-  bool is_condemned() const { return *is_condemned_; }
+  const std::atomic<bool>& is_condemned() const { return *is_condemned_; }
 
  private:
   struct Closer {

@@ -76,11 +76,27 @@ void read_record(const XmlElement& element, ScenarioAnnotation& annotation) {
   for (std::string word; words >> word;) annotation.record.push_back({word, element.where()});
 }
 
+std::vector<ComponentPattern> read_components(const XmlElement& element) {
+  std::vector<ComponentPattern> patterns;
+  std::istringstream words(element.required("components"));
+  for (std::string word; words >> word;) patterns.push_back({word, element.where()});
+  return patterns;
+}
+
 void read_main_thread(const XmlElement& element, ScenarioAnnotation& annotation) {
   element.allow_attributes({"components"});
   element.allow_children({});
-  std::istringstream words(element.required("components"));
-  for (std::string word; words >> word;) annotation.main_thread.push_back({word, element.where()});
+  for (auto& pattern : read_components(element)) annotation.main_thread.push_back(pattern);
+}
+
+void read_early_return(const XmlElement& element, ScenarioAnnotation& annotation) {
+  element.allow_attributes({"components", "allowed"});
+  element.allow_children({});
+  element.required("allowed");
+  const bool allowed = element.flag("allowed", true);
+  for (auto& pattern : read_components(element)) {
+    annotation.early_return.push_back({pattern, allowed});
+  }
 }
 
 void check_file_name(const XmlElement& element, const char* attribute, const std::string& name) {
@@ -116,7 +132,8 @@ ScenarioAnnotation read_scenario_element(const XmlElement& scenario) {
                            {kStrideScenario, "Exchange"},
                            {kStrideScenario, "Record"},
                            {kStrideScenario, "Results"},
-                           {kStrideScenario, "MainThread"}});
+                           {kStrideScenario, "MainThread"},
+                           {kStrideScenario, "EarlyReturn"}});
   ScenarioAnnotation annotation;
   if (const auto step = scenario.child({kStrideScenario, "Step"}))
     read_step(*step, annotation.step);
@@ -128,6 +145,9 @@ ScenarioAnnotation read_scenario_element(const XmlElement& scenario) {
   }
   for (const XmlElement& element : scenario.children({kStrideScenario, "MainThread"})) {
     read_main_thread(element, annotation);
+  }
+  for (const XmlElement& element : scenario.children({kStrideScenario, "EarlyReturn"})) {
+    read_early_return(element, annotation);
   }
   if (const auto results = scenario.child({kStrideScenario, "Results"})) {
     read_results(*results, annotation);

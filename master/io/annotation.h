@@ -34,12 +34,19 @@ struct ComponentPattern {
   core::Location where{};
 };
 
+/// Whether components may return early from their steps; a later rule goes before an earlier one.
+struct EarlyReturnRule {
+  ComponentPattern components;
+  bool allowed = true;
+};
+
 /// All of it is optional.
 struct ScenarioAnnotation {
   StepChoice step;
   std::vector<SignalPattern> record;  ///< none: every output
   ResultFiles results;
   std::vector<ComponentPattern> main_thread;  ///< who steps on the simulation's own thread only
+  std::vector<EarlyReturnRule> early_return;  ///< without one: allowed
 };
 
 /// Reads the <stride:Scenario> of a <ssd:SystemStructureDescription>, which stands in the root's

@@ -1,7 +1,6 @@
 #include "master/io/component_selection.h"
 
 #include <set>
-#include <string>
 
 #include <fmt/format.h>
 
@@ -10,15 +9,13 @@
 
 namespace stride::io {
 
-std::vector<std::size_t> select_components(const core::System& system,
+std::vector<std::size_t> select_components(std::span<const std::string> names,
                                            std::span<const ComponentPattern> patterns) {
   std::set<std::size_t> selected;
   for (const ComponentPattern& pattern : patterns) {
     bool has_match = false;
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < system.components().size(); ++i) {
-      const std::string& name = names.emplace_back(system.components()[i].name);
-      if (name != pattern.text && !matches_glob(pattern.text, name)) continue;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (names[i] != pattern.text && !matches_glob(pattern.text, names[i])) continue;
       has_match = true;
       selected.insert(i);
     }

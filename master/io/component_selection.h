@@ -3,16 +3,16 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "master/core/system.h"
 #include "master/io/annotation.h"
 
 namespace stride::io {
 
-/// The components, by their places in System::components() and in that order, whose names match a
-/// pattern. Throws core::Error (Input) for a pattern that matches none, naming what is near.
-std::vector<std::size_t> select_components(const core::System& system,
+/// The components, by their places in `names` and in that order, whose names match a pattern.
+/// Throws core::Error (Input) for a pattern that matches none, naming what is near.
+std::vector<std::size_t> select_components(std::span<const std::string> names,
                                            std::span<const ComponentPattern> patterns);
 
 }  // namespace stride::io

@@ -45,10 +45,10 @@ class BusyUnit : public core::Unit {
   void exit_initialization() override {}
   void get(std::span<const core::ValueReference>, core::ValueBlock&) override {}
   void set(std::span<const core::ValueReference>, const core::ValueBlock&) override {}
-  core::StepResult step(Time, Time to) override {
+  core::StepResult step(const core::StepInterval& interval) override {
     value_ = burn(value_, rounds_);
     benchmark::DoNotOptimize(value_);
-    return {.reached = to};
+    return {.reached = interval.to};
   }
   void save_state() override {}
   void restore_state() override {}

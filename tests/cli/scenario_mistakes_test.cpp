@@ -160,6 +160,15 @@ TEST_CASE("a unit bound to the main thread that is not there") {
                                         Contains("did you mean 'first'?"));
 }
 
+TEST_CASE("a unit that must not return early and is not there") {
+  Parts parts = two_filters();
+  parts.annotation = "<stride:EarlyReturn components=\"frist\" allowed=\"false\"/>\n";
+  const Workspace workspace(parts);
+  CHECK_THAT(mistake_in(workspace), Contains(workspace.at("<stride:EarlyReturn ")) &&
+                                        Contains("'frist' matches no component") &&
+                                        Contains("did you mean 'first'?"));
+}
+
 TEST_CASE("two components of one name") {
   Parts parts = two_filters();
   parts.components += component("first", "types.fmu");

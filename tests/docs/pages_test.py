@@ -43,7 +43,8 @@ def wrong_options(program, page):
 def main(program, root):
     root = pathlib.Path(root)
     docs = sorted((root / "docs").rglob("*.md"))
-    pages = sorted(root.glob("*.md")) + docs + sorted((root / "units").rglob("*.md"))
+    pages = sorted(root.glob("*.md")) + docs
+    pages += sorted((root / "units").rglob("*.md")) + sorted((root / "scenarios").rglob("*.md"))
     mistakes = list(wrong_options(program, root / "docs" / "scenario.md"))
     for page in pages:
         mistakes += broken_links(page)

@@ -1,147 +1,45 @@
 // The flagship scenario: the same results as ever, and what it is there to show.
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <map>
-#include <sstream>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
-#include "tests/cli/program.h"
-#include "tests/cli/results.h"
+#include "tests/golden/scenario_run.h"
 
 using namespace stride::tests;
 
 namespace {
 
-namespace fs = std::filesystem;
-
-fs::path golden(const std::string& file) {
-  return fs::path(STRIDE_SOURCE_DIR) / "scenarios/nfc_approach/golden" / file;
+ScenarioRun run_with(const std::string& step, const std::string& threads = "1") {
+  return ScenarioRun("nfc_approach", {"--step", step, "--threads", threads});
 }
-
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-/// One run of the scenario, in a folder that goes with the object.
-class Run {
- public:
-  explicit Run(const std::string& step = "0.001", const std::string& threads = "1") {
-    std::string name = (fs::temp_directory_path() / "stride-golden-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-    const std::string scenario = STRIDE_SOURCE_DIR "/scenarios/nfc_approach/nfc_approach.ssd";
-    const Outcome outcome = run_program({"run", scenario, "--step", step, "--threads", threads,
-                                         "--out", folder_.string(), "--quiet"});
-    if (outcome.exit_code != 0) throw std::runtime_error("the run failed: " + outcome.err);
-  }
-  ~Run() { fs::remove_all(folder_); }
-  Run(const Run&) = delete;
-  Run& operator=(const Run&) = delete;
-
-  fs::path file(const std::string& name) const { return folder_ / name; }
-
- private:
-  fs::path folder_;
-};
 
 /// The tests below look at the same run.
-const Run& run() {
-  static const Run only;
-  return only;
-}
-const Csv& signals() {
-  static const Csv only(run().file("signals.csv"));
-  return only;
-}
-const Csv& events() {
-  static const Csv only(run().file("events.csv"));
+const ScenarioRun& run() {
+  static const ScenarioRun only = run_with("0.001");
   return only;
 }
 
-double at(const std::string& time, const std::string& signal) {
-  return signals().number(signals().row_at(time), signals().column(signal));
-}
+double at(const std::string& time, const std::string& signal) { return run().at(time, signal); }
 
-struct Extremes {
-  double least, most;
-};
-
-/// Over the communication points of an interval, its ends included.
 Extremes between(const std::string& from, const std::string& to, const std::string& signal) {
-  const std::size_t column = signals().column(signal);
-  Extremes extremes{HUGE_VAL, -HUGE_VAL};
-  for (std::size_t row = signals().row_at(from); row <= signals().row_at(to); ++row) {
-    const double value = signals().number(row, column);
-    extremes = {std::min(extremes.least, value), std::max(extremes.most, value)};
-  }
-  return extremes;
-}
-
-/// When a component sent or received on a variable, as the file writes the instants.
-std::vector<std::string> instants(const std::string& component, const std::string& variable,
-                                  const std::string& direction) {
-  std::vector<std::string> times;
-  for (std::size_t i = 0; i < events().size(); ++i) {
-    const auto& row = events().row(i);
-    if (row[2] == component && row[3] == variable && row[4] == direction) times.push_back(row[0]);
-  }
-  return times;
+  return run().between(from, to, signal);
 }
 
 using Instants = std::vector<std::string>;
 
-struct Tolerance {
-  double absolute, relative;
-  bool allows(double value, double expected) const {
-    return std::abs(value - expected) <= absolute + relative * std::abs(expected);
-  }
-};
-
-std::map<std::string, Tolerance> read_tolerances() {
-  const Csv file(golden("tolerances.csv"));
-  std::map<std::string, Tolerance> tolerances;
-  for (std::size_t i = 0; i < file.size(); ++i) {
-    tolerances[file.row(i)[0]] = {file.number(i, 1), file.number(i, 2)};
-  }
-  return tolerances;
+Instants instants(const std::string& component, const std::string& variable,
+                  const std::string& direction) {
+  return run().instants(component, variable, direction);
 }
 
 }  // namespace
 
-TEST_CASE("the messages are the golden ones") {
-  CHECK(text_of(run().file("events.csv")) == text_of(golden("events.csv")));
-}
-
-TEST_CASE("the signals are the golden ones, within the tolerances beside them") {
-  const Csv expected(golden("signals.csv"));
-  REQUIRE(signals().titles() == expected.titles());
-  REQUIRE(expected.size() == 301);
-  auto tolerances = read_tolerances();
-  for (const auto& [signal, tolerance] : tolerances) {
-    INFO("tolerances.csv: " << signal);
-    CHECK(expected.has(signal));
-  }
-  std::size_t row = 0;
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    const std::string& time = expected.row(i).front();
-    while (row < signals().size() && signals().row(row).front() != time) ++row;
-    INFO(time << " s");
-    REQUIRE(row < signals().size());
-    for (std::size_t k = 1; k < expected.titles().size(); ++k) {
-      const Tolerance tolerance = tolerances[expected.titles()[k]];  // zeros where there is none
-      if (tolerance.allows(signals().number(row, k), expected.number(i, k))) continue;
-      FAIL_CHECK(expected.titles()[k] << " is " << signals().row(row)[k] << ", expected "
-                                      << expected.row(i)[k]);
-    }
-  }
+TEST_CASE("the results are the golden ones") {
+  CHECK(golden_differences("nfc_approach", run()) == "");
 }
 
 TEST_CASE("a second run writes the same bytes, on two threads too") {
-  const Run second("0.001", GENERATE("1", "2"));
+  const ScenarioRun second = run_with("0.001", GENERATE("1", "2"));
   for (const char* file : {"signals.csv", "events.csv", "signals.vcd"}) {
     INFO(file);
     const std::string first = text_of(run().file(file));
@@ -152,7 +50,7 @@ TEST_CASE("a second run writes the same bytes, on two threads too") {
 
 TEST_CASE("the messages do not depend on the communication step size") {
   const std::string step = GENERATE("0.005", "0.0007");
-  CHECK(text_of(Run(step).file("events.csv")) == text_of(run().file("events.csv")));
+  CHECK(text_of(run_with(step).file("events.csv")) == text_of(run().file("events.csv")));
 }
 
 TEST_CASE("six messages are sent, five are heard, one of them wrongly, three are answered") {
@@ -215,6 +113,39 @@ TEST_CASE("the LED empties the capacitor, so the fourth message is not answered"
   CHECK(at("15.05", "sensor.mcu.powered") == 0);
   CHECK(at("15.05", "sensor.led") == 0);
   CHECK(between("14.5", "20.8", "sensor.mcu.powered").most == 0);
+}
+
+TEST_CASE(
+    "in the field the supply jumps to its maximum, if the field gives more than the sensor takes") {
+  const std::string supply = "sensor.supply.voltage [V]";
+  CHECK(at("13.899", supply) < 3);
+  CHECK(at("13.9", supply) == 5);
+  CHECK(at("15.499", supply) == 5);
+  CHECK(at("15.5", supply) < 2.6);
+  CHECK(at("20.9", supply) == 5);
+  CHECK(between("21.2", "27", supply).least > 4.9);
+  // a microwatt does not do
+  CHECK(between("6.1", "9", "sensor.energy.intake [W]").most <
+        between("6.1", "9", "sensor.energy.load [W]").least);
+  CHECK(between("6.1", "9", supply).most < 3.2);
+}
+
+TEST_CASE("the charge rises in such a field, and falls slowly elsewhere") {
+  const std::string charge = "sensor.capacitor.charge [C]";
+  CHECK(at("14.1", charge) > 1.02 * at("13.9", charge));
+  CHECK(at("15.4", charge) > 1.2 * at("14.4", charge));
+  CHECK(at("21.1", charge) > 1.7 * at("20.9", charge));
+  for (const auto& [from, to] : {std::pair("0.1", "6"), std::pair("9", "13.8"),
+                                 std::pair("15.6", "20.8"), std::pair("28", "30")}) {
+    INFO(from << " to " << to << " s");
+    CHECK(at(to, charge) < at(from, charge));
+    CHECK(at(to, charge) > 0.95 * at(from, charge));
+  }
+}
+
+TEST_CASE("at 21 s there is more energy than ever before") {
+  const std::string intake = "sensor.energy.intake [W]";
+  CHECK(between("20.94", "21.1", intake).least > 10 * between("0", "20.8", intake).most);
 }
 
 TEST_CASE("near the reader the capacitor charges, and two messages are answered") {

@@ -1,11 +1,10 @@
-// What the smaller scenarios are there to show, whatever the exact numbers are.
+// What the smaller scenarios are there to show, and their golden results.
 #include <cmath>
-#include <optional>
+#include <fstream>
 
 #include <catch2/catch.hpp>
 
-#include "tests/cli/program.h"
-#include "tests/cli/results.h"
+#include "tests/golden/scenario_run.h"
 
 using namespace stride::tests;
 
@@ -13,38 +12,40 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One run of a scenario, in a folder that goes with the object.
-class Run {
+/// nfc_two_tags with another text in the place of its EarlyReturn.
+class OtherEarlyReturn {
  public:
-  explicit Run(const std::string& scenario, const Arguments& further = {}) {
-    std::string name = (fs::temp_directory_path() / "stride-outcomes-XXXXXX").string();
+  explicit OtherEarlyReturn(const std::string& text) {
+    std::string name = (fs::temp_directory_path() / "stride-two-tags-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
     folder_ = name;
-    const std::string file = STRIDE_SOURCE_DIR "/scenarios/" + scenario + "/" + scenario + ".ssd";
-    Arguments arguments{"run", file, "--out", name, "--quiet", "--no-trace"};
-    arguments.insert(arguments.end(), further.begin(), further.end());
-    const Outcome outcome = run_program(arguments);
-    if (outcome.exit_code != 0) throw std::runtime_error("the run failed: " + outcome.err);
-    signals_ = Csv(folder_ / "signals.csv");
+    const std::string before =
+        "<stride:EarlyReturn components=\"sensor_right\" allowed=\"false\"/>";
+    std::string scenario = text_of(scenario_folder("nfc_two_tags") / "nfc_two_tags.ssd");
+    scenario.replace(scenario.find(before), before.size(), text);
+    std::ofstream(folder_ / "other.ssd") << scenario;
+    fs::copy_file(scenario_folder("nfc_two_tags") / "sensors.ssv", folder_ / "sensors.ssv");
   }
-  ~Run() { fs::remove_all(folder_); }
-  Run(const Run&) = delete;
-  Run& operator=(const Run&) = delete;
+  ~OtherEarlyReturn() { fs::remove_all(folder_); }
+  OtherEarlyReturn(const OtherEarlyReturn&) = delete;
+  OtherEarlyReturn& operator=(const OtherEarlyReturn&) = delete;
 
-  double at(const std::string& time, const std::string& signal) const {
-    return signals_->number(signals_->row_at(time), signals_->column(signal));
-  }
-  fs::path file(const std::string& name) const { return folder_ / name; }
+  std::string file() const { return (folder_ / "other.ssd").string(); }
 
  private:
   fs::path folder_;
-  std::optional<Csv> signals_;
 };
+
+const ScenarioRun& two_tags() {
+  static const ScenarioRun only("nfc_two_tags", {"--no-trace"});
+  return only;
+}
 
 }  // namespace
 
 TEST_CASE("nfc_far: nobody is heard, as the program expects") {
-  const Run run("nfc_far");
+  const ScenarioRun run("nfc_far", {"--no-trace"});
+  CHECK(golden_differences("nfc_far", run) == "");
   CHECK(run.at("10", "reader.messages.sent") == 3);
   CHECK(run.at("10", "reader.messages.retries") == 8);
   CHECK(run.at("10", "reader.messages.answered") == 0);
@@ -52,7 +53,8 @@ TEST_CASE("nfc_far: nobody is heard, as the program expects") {
 }
 
 TEST_CASE("nfc_brownout: the sensor goes off with its LED on, and comes back") {
-  const Run run("nfc_brownout");
+  const ScenarioRun run("nfc_brownout", {"--no-trace"});
+  CHECK(golden_differences("nfc_brownout", run) == "");
   CHECK(run.at("2.9", "sensor.led") == 1);
   CHECK(run.at("2.9", "sensor.mcu.powered") == 1);
   CHECK(run.at("4.9", "sensor.led") == 0);
@@ -64,9 +66,19 @@ TEST_CASE("nfc_brownout: the sensor goes off with its LED on, and comes back") {
   CHECK(run.at("8", "reader.messages.unexpected") == 0);
 }
 
+TEST_CASE("nfc_jitter: somewhere on its way the reader begins to hear the sensor") {
+  const ScenarioRun run("nfc_jitter", {"--no-trace"});
+  CHECK(golden_differences("nfc_jitter", run) == "");
+  CHECK(run.at("2.5", "reader.messages.sent") == 20);
+  CHECK(run.at("2.5", "reader.messages.damaged") > 0);
+  CHECK(run.at("1.6", "reader.messages.answered") == 0);
+  CHECK(run.at("2.5", "reader.messages.answered") > run.at("2.1", "reader.messages.answered"));
+}
+
 TEST_CASE("nfc_jitter: the seed decides, and nothing else does") {
   const auto way = [](const std::string& seed, const std::string& step) {
-    const Run run("nfc_jitter", {"--set", "reader.seed=" + seed, "--step", step, "--stop", "1.5"});
+    const ScenarioRun run("nfc_jitter", {"--set", "reader.seed=" + seed, "--step", step, "--stop",
+                                         "1.5", "--no-trace"});
     return std::pair(run.at("0.5", "channel.distance [m]"), run.at("1.5", "channel.distance [m]"));
   };
   const auto first = way("5", "0.001");
@@ -78,6 +90,79 @@ TEST_CASE("nfc_jitter: the seed decides, and nothing else does") {
   const auto finer = way("5", "0.0005");
   CHECK(finer.first == Approx(first.first).margin(1e-3));
   CHECK(finer.second == Approx(first.second).margin(1e-3));
+}
+
+TEST_CASE("nfc_two_tags: the reader finds out who is there, and talks to whom it has selected") {
+  const ScenarioRun& run = two_tags();
+  CHECK(golden_differences("nfc_two_tags", run) == "");
+  CHECK(run.at("6", "reader.messages.sent") == 11);
+  CHECK(run.at("6", "reader.messages.as_expected") == 11);
+
+  // above the left sensor the right one receives, but does not understand
+  CHECK(run.at("3", "reader.measured.identifier") == 0x4C454654);
+  CHECK(run.at("3", "reader.measured.temperature [degC]") == Approx(21.5).margin(0.1));
+  CHECK(run.at("3", "sensor_left.mcu.selected") == 1);
+  CHECK(run.at("3", "sensor_right.frames.rejected") == 3);
+  CHECK(run.at("3", "sensor_right.frames.sent") == 0);
+
+  // between the two both answer
+  CHECK(run.at("3.45", "sensor_left.frames.sent") == run.at("3", "sensor_left.frames.sent") + 2);
+  CHECK(run.at("3.45", "sensor_right.frames.sent") == 2);
+  CHECK(run.at("3.45", "reader.messages.damaged") == 1);
+  CHECK(run.at("3.45", "reader.messages.unanswered") == 1);
+
+  // until one is selected
+  CHECK(run.at("3.6", "sensor_left.mcu.selected") == 0);
+  CHECK(run.at("3.6", "sensor_right.mcu.selected") == 1);
+  CHECK(run.at("6", "sensor_left.frames.sent") == run.at("3.45", "sensor_left.frames.sent"));
+  CHECK(run.at("3.8", "reader.measured.temperature [degC]") == Approx(35.5).margin(0.1));
+  CHECK(run.at("6", "reader.measured.identifier") == 0x52474854);
+  CHECK(run.at("6", "reader.measured.log_size") == 1);
+  CHECK(run.at("6", "sensor_right.mcu.selected") == 0);
+}
+
+TEST_CASE("nfc_two_tags: the answers that collide begin at one instant") {
+  const auto left = two_tags().payloads("sensor_left", "transmit.frame", "sent");
+  const auto right = two_tags().payloads("sensor_right", "transmit.frame", "sent");
+  REQUIRE(left.size() == 5);
+  REQUIRE(right.size() == 8);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(left[3 + i].substr(0, 16) == right[i].substr(0, 16));  // the start
+    CHECK(left[3 + i] != right[i]);
+  }
+}
+
+TEST_CASE("nfc_two_tags: who may return early changes when frames are handed over, not which") {
+  const OtherEarlyReturn other(
+      GENERATE("<stride:EarlyReturn components=\"*\" allowed=\"false\"/>",
+               "<stride:EarlyReturn components=\"sensor_*\" allowed=\"false\"/>\n"
+               "<stride:EarlyReturn components=\"sensor_right\" allowed=\"true\"/>"));
+  const ScenarioRun run(other.file(), {"--no-trace", "--stop", "3.8"});
+  const auto until_then = [](std::vector<std::string> all, std::size_t count) {
+    REQUIRE(all.size() >= count);
+    all.resize(count);
+    return all;
+  };
+  for (const std::string sender : {"sensor_left", "sensor_right"}) {
+    CHECK(run.payloads(sender, "transmit.frame", "sent") ==
+          until_then(two_tags().payloads(sender, "transmit.frame", "sent"), 5));
+    CHECK(run.instants(sender, "transmit.frame", "sent") !=
+          until_then(two_tags().instants(sender, "transmit.frame", "sent"), 5));
+  }
+  CHECK(run.payloads("channel", "to_reader.frame", "sent") ==
+        until_then(two_tags().payloads("channel", "to_reader.frame", "sent"), 8));
+  CHECK(run.payloads("reader", "report.text", "sent") ==
+        until_then(two_tags().payloads("reader", "report.text", "sent"), 7));
+}
+
+TEST_CASE("nfc_two_tags: two units that may both return early are refused, with what to write") {
+  const OtherEarlyReturn other("");
+  const Outcome outcome = run_program({"check", other.file()});
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(
+      outcome.err,
+      Catch::Contains("'sensor_left' and 'sensor_right' may both return early") &&
+          Catch::Contains("<stride:EarlyReturn components=\"sensor_right\" allowed=\"false\"/>"));
 }
 
 TEST_CASE("a mistake in a program ends with its file and line") {

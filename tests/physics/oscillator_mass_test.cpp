@@ -51,7 +51,7 @@ double error(Duration step, const std::string& largest_step, bool follows) {
   unit->set_input_update([&](double seconds) { set_inputs(to_seconds(now) + seconds); });
   for (; now < Time(kEnd); now += step) {
     set_inputs(to_seconds(now));
-    unit->step(now, now + step);
+    unit->step({now, now + step});
   }
   unit->get(std::span(&variable("x").reference, 1), number);
   return std::abs(value - std::cos(kFrequency * to_seconds(kEnd)));

@@ -122,9 +122,8 @@ std::vector<std::unique_ptr<core::Unit>> Assembly::instantiate() const {
   std::vector<std::unique_ptr<core::Unit>> units;
   for (const core::ComponentDeclaration& component : declaration_.components) {
     units.push_back(units_.at(component.name)
-                        ->instantiate(component.name, {.early_return_allowed = true,
-                                                       .may_roll_back = true,
-                                                       .intermediate_update = true}));
+                        ->instantiate(component.name,
+                                      {.early_return_allowed = true, .intermediate_update = true}));
   }
   return units;
 }

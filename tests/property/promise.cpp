@@ -154,7 +154,7 @@ std::vector<double> Life::slopes(const Variable& variable) {
 }
 
 core::StepResult Life::step(Time to) {
-  const core::StepResult result = unit_->step(now_, to);
+  const core::StepResult result = unit_->step({now_, to});
   if (!result.rejected) now_ = result.reached;
   return result;
 }

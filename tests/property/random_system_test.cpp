@@ -1,6 +1,7 @@
 // What holds for every system, tried on many that are drawn at random.
 #include "tests/property/random_system.h"
 
+#include <algorithm>
 #include <string_view>
 
 #include <catch2/catch.hpp>
@@ -21,6 +22,12 @@ void check_begins_with(const std::string& text, const std::string& head) {
   INFO("they differ behind: " << std::string_view(head).substr(
            0, static_cast<std::size_t>(in_head - head.begin())));
   CHECK(in_head == head.end());
+}
+
+bool can_be_rolled_back(const Assembly& system) {
+  const auto& components = system.declaration().components;
+  return std::all_of(components.begin(), components.end(),
+                     [](const auto& c) { return c.description->can_save_state; });
 }
 
 }  // namespace
@@ -69,6 +76,31 @@ TEST_CASE("the order of the components and connections changes no result") {
       CHECK(same_signals);
       CHECK(results.event_rows() == expected.event_rows());
     }
+  }
+}
+
+TEST_CASE("neither their order nor threads change what is extrapolated or error-controlled") {
+  const auto extrapolation = GENERATE(core::Extrapolation::Linear, core::Extrapolation::Quadratic);
+  const auto policy = GENERATE(core::StepPolicy::Fixed, core::StepPolicy::ErrorControlled);
+  core::RunOptions options = fixed_steps(kStep, kStop);
+  options.extrapolation = extrapolation;
+  options.step.policy = policy;
+  options.step.relative_tolerance = options.step.absolute_tolerance = 1e-2;
+  core::RunOptions parallel = options;
+  parallel.threads = {3, {}, true};
+  unsigned compared = 0;
+  for (unsigned seed = 0; compared < kSystems / 10; ++seed) {
+    const Assembly system = random_system(seed, Wiring::Continuous);
+    if (policy == core::StepPolicy::ErrorControlled && !can_be_rolled_back(system)) continue;
+    ++compared;
+    INFO("seed " << seed << "\n" << system.text());
+    const Results expected = run(system, options);
+    const Results shuffled = run(system.shuffled(1), options);
+    const bool same_signals = shuffled.signals == expected.signals;
+    CHECK(same_signals);
+    CHECK(shuffled.event_rows() == expected.event_rows());
+    const bool same_bytes = run(system, parallel).signals == expected.signals;
+    CHECK(same_bytes);
   }
 }
 

@@ -24,7 +24,7 @@ class LinearUnit {
     set("u", 3);
   }
   void step_to(Time to) {
-    REQUIRE(unit_->step(now_, to).reached == to);
+    REQUIRE(unit_->step({now_, to}).reached == to);
     now_ = to;
   }
   double get(const std::string& name) {

@@ -11,6 +11,7 @@
 
 #include <stride/time.h>
 
+#include "units/mujoco_world/clearance.h"
 #include "units/mujoco_world/mjcf.h"
 #include "units/mujoco_world/rest.h"
 
@@ -117,11 +118,14 @@ class World {
   void move(stride::Time grid, stride::Time now);
   const mjData& posed() const;                                     // with poses and velocities
   const mjData& sensed() const;                                    // with the sensors, too
+  bool has_contact() const;                                        // at the pose of posed()
   std::array<double, 6> spatial_velocity(std::size_t site) const;  // angular, linear
 
   ModelPointer model_;
   Catalogue catalogue_;
   stride::Duration timestep_{};
+  bool only_touches_;  // none but touch sensors
+  Clearance clearance_;
   DataPointer grid_data_;     // the state at the grid point grid_
   DataPointer instant_data_;  // scratch: what is seen at now_
   std::vector<double> inputs_;

@@ -25,6 +25,8 @@ static_assert(std::is_same_v<mjtNum, double>, "MuJoCo must be built in double pr
 /// Enabled features that would make a world irreproducible: here the sensors' noise, from rand().
 inline constexpr int kIrreproducible = mjENBL_SENSORNOISE;
 
+/// Whether bodies that are no geoms can touch, too.
+inline bool has_deformables(const mjModel*) { return false; }
 inline int actuator_count(const mjModel* model) { return model->nu; }
 inline int first_control(const mjModel*, int actuator) { return actuator; }
 inline int control_count(const mjModel*, int) { return 1; }
@@ -72,6 +74,7 @@ inline std::pair<int, int> touching_geoms(const mjContact& contact) {
 /// Enabled features that would make a world irreproducible: here sleeping, which hides state.
 inline constexpr int kIrreproducible = mjENBL_SLEEP;
 
+inline bool has_deformables(const mjModel* model) { return model->nflex > 0; }
 inline int actuator_count(const mjModel* model) { return static_cast<int>(model->nactuator); }
 inline int first_control(const mjModel* model, int actuator) {
   return model->actuator_ctrladr[actuator];

@@ -63,12 +63,12 @@ void take_bit(Reception& reception, double signal, double error_probability, std
 }
 
 // Cuts the frame with this start short, if it is on the air.
-bool cut(std::vector<Reception>& receptions, const nfc::Frame& frame, Time now,
+bool cut(std::vector<Reception>& receptions, const nfc::Frame& frame,
          std::optional<std::uint32_t> tag = std::nullopt) {
   bool found = false;
   for (Reception& reception : receptions) {
     if (reception.sent.start != frame.start || (tag && reception.tag != *tag)) continue;
-    reception.cut(frame.bits, now);
+    reception.cut(frame.bits);
     found = true;
   }
   return found;
@@ -91,8 +91,6 @@ Channel::Channel(const Parameters& parameters)
     tags_.push_back(added);
   }
   links_.resize(tags_.size());
-  arriving_.resize(tags_.size());
-  state_.signals.resize(tags_.size());
   state_.frames_up.resize(tags_.size());
 }
 
@@ -126,10 +124,11 @@ void Channel::move_tag(std::size_t index, const Pose& reader_coil, const Pose& t
   link.tag_power = tag.circuit.in_load(operation);
 
   link.signals = signals(index, carrier_power_);
-  link.snr_down = signal_to_noise(link.signals.down, tag.down[0], tag.noise_density);
-  link.snr_up = signal_to_noise(link.signals.up, tag.up[0], reader_noise_density_);
-  link.bit_error_rate_down = bit_error_probability(link.snr_down, tag.down[0].coherent);
-  link.bit_error_rate_up = bit_error_probability(link.snr_up, tag.up[0].coherent);
+  const std::size_t rate = index_of(parameters_.bit_rate);
+  link.snr_down = signal_to_noise(link.signals.down, tag.down[rate], tag.noise_density);
+  link.snr_up = signal_to_noise(link.signals.up, tag.up[rate], reader_noise_density_);
+  link.bit_error_rate_down = bit_error_probability(link.snr_down, tag.down[rate].coherent);
+  link.bit_error_rate_up = bit_error_probability(link.snr_up, tag.up[rate].coherent);
 }
 
 Signals Channel::signals(std::size_t index, double carrier_power) const {
@@ -139,103 +138,121 @@ Signals Channel::signals(std::size_t index, double carrier_power) const {
           sideband_power(circuit, mutual, circuit.operate(mutual, carrier_power))};
 }
 
+Time Channel::now() const { return state_.observed.empty() ? Time{} : state_.observed.back().time; }
+
 void Channel::observe(Time now) {
-  const bool on_the_air = !state_.down.empty() || !state_.up.empty();
-  if (on_the_air && carrier_power_ != state_.carrier_power) {
-    decide_bits(now, state_.carrier_power);
+  auto& observed = state_.observed;
+  if (observed.empty()) return add_observation(now, carrier_power_);
+  if (now > observed.back().time) {
+    decide();
+    state_.forgotten += observed.size() - 1;
+    observed.erase(observed.begin(), observed.end() - 1);
   }
-  decide_bits(now, carrier_power_);
-  if (carrier_power_ > 0.0) return;
-  for (auto* receptions : {&state_.down, &state_.up}) {
-    for (Reception& reception : *receptions) {
-      if (reception.sent.start <= now) reception.end_with_carrier(now);
-    }
-  }
+  const double carrier_before = observed.back().carrier_power;
+  if (carrier_before != carrier_power_) add_observation(now, carrier_before);
+  add_observation(now, carrier_power_);
 }
 
-void Channel::decide_bits(Time now, double carrier_power) {
-  arriving_at_ = now;
+void Channel::add_observation(Time now, double carrier_power) {
+  Observation added{now, carrier_power, std::vector<Signals>(tags_.size())};
   for (std::size_t i = 0; i < tags_.size(); ++i) {
-    arriving_[i] = carrier_power == carrier_power_ ? links_[i].signals : signals(i, carrier_power);
+    added.signals[i] =
+        carrier_power == carrier_power_ ? links_[i].signals : signals(i, carrier_power);
   }
-  for (Reception& reception : state_.down) decide_down(reception, now);
-  for (Reception& reception : state_.up) decide_up(reception, now);
-  state_.time = now;
-  state_.carrier_power = carrier_power;
-  std::copy(arriving_.begin(), arriving_.end(), state_.signals.begin());
-  lose_weak();
+  auto& observed = state_.observed;
+  if (observed.empty() || !(observed.back() == added)) observed.push_back(std::move(added));
 }
 
-void Channel::decide_down(Reception& reception, Time now) const {
+// Whatever can be said of the bits that have ended.
+void Channel::decide() {
+  for (Reception& reception : state_.down) decide(reception, false);
+  for (Reception& reception : state_.up) decide(reception, true);
+}
+
+void Channel::decide(Reception& reception, bool up) const {
+  const auto& observed = state_.observed;
+  std::uint64_t& next = reception.next_observation;
+  next = std::max(next, state_.forgotten);
+  for (; next < state_.forgotten + observed.size(); ++next) {
+    const auto index = static_cast<std::size_t>(next - state_.forgotten);
+    const Observation& observation = observed[index];
+    if (observation.time < reception.sent.start) continue;
+    if (observation.time == reception.sent.start) {
+      // what a frame begins with is the last word on that instant
+      if (index + 1 == observed.size()) return;
+      if (observed[index + 1].time == observation.time) continue;
+    }
+    decide_bits(reception, up, index);
+  }
+}
+
+// Those that have ended since the observation before this one, and what this one ends.
+void Channel::decide_bits(Reception& reception, bool up, std::size_t index) const {
+  const Observation& observation = state_.observed[index];
+  const Time start = reception.sent.start;
+  if (index > 0 && state_.observed[index - 1].time < start) {  // it has entered late
+    reception.lost |= is_too_weak(reception, signal_at(start, index, reception.tag, up), up);
+  }
+  while (!reception.lost && !reception.complete() && reception.next_bit_end() <= observation.time) {
+    decide_bit(reception, up, index);
+  }
+  const double signal = signal_at(observation.time, index, reception.tag, up);
+  reception.lost |= is_too_weak(reception, signal, up);
+  if (observation.carrier_power == 0.0) reception.end_with_carrier(observation.time);
+}
+
+void Channel::decide_bit(Reception& reception, bool up, std::size_t index) const {
   const Tag& tag = tags_[reception.tag];
-  const BitSignal& bit = tag.down[index_of(reception.sent.bit_rate)];
-  while (!reception.lost && !reception.complete() && reception.next_bit_end() <= now) {
-    const double signal = signal_at(reception.next_bit_end(), reception.tag, &Signals::down);
-    reception.lost = is_lost(reception, signal, tag.parameters.power_threshold);
-    if (reception.lost) return;
-    const double ratio = signal_to_noise(signal, bit, tag.noise_density);
-    take_bit(reception, signal, bit_error_probability(ratio, bit.coherent), parameters_.seed,
-             down_number(reception));
-  }
+  const std::size_t rate = index_of(reception.sent.bit_rate);
+  const BitSignal& bit = up ? tag.up[rate] : tag.down[rate];
+  const double signal = signal_at(reception.next_bit_end(), index, reception.tag, up);
+  reception.lost = is_too_weak(reception, signal, up);
+  if (reception.lost) return;
+  const double noise =
+      up ? reader_noise_density_ + interference(reception, index, signal) : tag.noise_density;
+  take_bit(reception, signal,
+           bit_error_probability(signal_to_noise(signal, bit, noise), bit.coherent),
+           parameters_.seed, up ? up_number(reception) : down_number(reception));
 }
 
-void Channel::decide_up(Reception& reception, Time now) const {
-  const BitSignal& bit = tags_[reception.tag].up[index_of(reception.sent.bit_rate)];
-  while (!reception.lost && !reception.complete() && reception.next_bit_end() <= now) {
-    const Time end = reception.next_bit_end();
-    const double signal = signal_at(end, reception.tag, &Signals::up);
-    reception.lost = is_lost(reception, signal, parameters_.reader.sensitivity);
-    if (reception.lost) return;
-    const double noise = reader_noise_density_ + interference(reception, end, signal);
-    const double ratio = signal_to_noise(signal, bit, noise);
-    take_bit(reception, signal, bit_error_probability(ratio, bit.coherent), parameters_.seed,
-             up_number(reception));
-  }
+bool Channel::is_too_weak(const Reception& reception, double signal, bool up) const {
+  const double least =
+      up ? parameters_.reader.sensitivity : tags_[reception.tag].parameters.power_threshold;
+  return !(signal > 0.0) || signal < least;
 }
 
 // Tags that are too weak to collide with this one are noise to it [W/Hz].
-double Channel::interference(const Reception& reception, Time time, double signal) const {
+double Channel::interference(const Reception& reception, std::size_t index, double signal) const {
+  const Time time = reception.next_bit_end();
   double power = 0.0;
   for (const Reception& other : state_.up) {
     if (&other == &reception || time <= other.sent.start || time > other.end) continue;
-    const double disturbance = signal_at(time, other.tag, &Signals::up);
+    const double disturbance = signal_at(time, index, other.tag, true);
     if (disturbance * capture_ratio_ < signal) power += disturbance;
   }
   return power / kInterferenceBandwidth;
 }
 
-double Channel::signal_at(Time time, std::size_t tag, double Signals::*direction) const {
-  const double before = state_.signals[tag].*direction;
-  const double after = arriving_[tag].*direction;
-  if (time <= state_.time) return before;
-  if (time >= arriving_at_) return after;
+// At an instant from the observation before this one up to this one.
+double Channel::signal_at(Time time, std::size_t index, std::size_t tag, bool up) const {
+  const auto signal = [&](const Observation& observation) {
+    return up ? observation.signals[tag].up : observation.signals[tag].down;
+  };
+  const Observation& last = state_.observed[index];
+  if (index == 0 || time >= last.time) return signal(last);
+  const Observation& first = state_.observed[index - 1];
+  if (time <= first.time) return signal(first);
+  const double before = signal(first);
+  const double after = signal(last);
   if (!(before > 0.0 && after > 0.0)) return 0.0;
   const double share =
-      stride::to_seconds(time - state_.time) / stride::to_seconds(arriving_at_ - state_.time);
+      stride::to_seconds(time - first.time) / stride::to_seconds(last.time - first.time);
   return before * std::pow(after / before, share);
 }
 
-bool Channel::is_lost(const Reception& reception, double signal, double least) const {
-  return reception.lost || !(signal > 0.0) || signal < least;
-}
-
-// Of what is on the air at the instant just observed.
-void Channel::lose_weak() {
-  for (Reception& reception : state_.down) {
-    if (reception.sent.start > state_.time) continue;
-    const double least = tags_[reception.tag].parameters.power_threshold;
-    reception.lost = is_lost(reception, state_.signals[reception.tag].down, least);
-  }
-  for (Reception& reception : state_.up) {
-    if (reception.sent.start > state_.time) continue;
-    reception.lost =
-        is_lost(reception, state_.signals[reception.tag].up, parameters_.reader.sensitivity);
-  }
-}
-
 void Channel::from_reader(const nfc::Frame& frame) {
-  require_near(frame.start, state_.time);
-  if (cut(state_.down, frame, state_.time)) return;
+  require_near(frame.start, now());
+  if (cut(state_.down, frame)) return;
   const std::uint64_t number = state_.frames_down++;
   for (std::uint32_t tag = 0; tag < tags_.size(); ++tag) {
     Reception reception(frame, tag, number);
@@ -246,13 +263,12 @@ void Channel::from_reader(const nfc::Frame& frame) {
     }
     state_.down.push_back(std::move(reception));
   }
-  lose_weak();
 }
 
 void Channel::from_tag(std::size_t tag, const nfc::Frame& frame) {
-  require_near(frame.start, state_.time);
+  require_near(frame.start, now());
   const auto index = static_cast<std::uint32_t>(tag);
-  if (cut(state_.up, frame, state_.time, index)) return;
+  if (cut(state_.up, frame, index)) return;
   Reception reception(frame, index, state_.frames_up[tag]++);
   for (Reception& other : state_.down) {
     if (!reception.overlaps(other)) continue;
@@ -260,13 +276,13 @@ void Channel::from_tag(std::size_t tag, const nfc::Frame& frame) {
     if (other.tag == tag) other.deaf = true;
   }
   state_.up.push_back(std::move(reception));
-  lose_weak();
 }
 
 std::optional<nfc::Frame> Channel::to_tag(std::size_t tag) {
+  decide();
   for (std::size_t i = 0; i < state_.down.size();) {
     Reception& candidate = state_.down[i];
-    if (candidate.tag != tag || candidate.end > state_.time) {
+    if (candidate.tag != tag || candidate.end > now()) {
       ++i;
       continue;
     }
@@ -278,6 +294,7 @@ std::optional<nfc::Frame> Channel::to_tag(std::size_t tag) {
 }
 
 std::optional<nfc::Frame> Channel::to_reader() {
+  decide();
   for (std::size_t i = 0; i < state_.up.size();) {
     const auto group = overlapping(i);
     if (!group) {
@@ -297,7 +314,7 @@ std::optional<std::vector<std::size_t>> Channel::overlapping(std::size_t first) 
   std::vector<std::size_t> group = {first};
   for (std::size_t member = 0; member < group.size(); ++member) {
     const Reception& reception = state_.up[group[member]];
-    if (reception.end > state_.time) return std::nullopt;
+    if (reception.end > now()) return std::nullopt;
     for (std::size_t i = 0; i < state_.up.size(); ++i) {
       const bool known = std::find(group.begin(), group.end(), i) != group.end();
       if (!known && reception.overlaps(state_.up[i])) group.push_back(i);
@@ -323,11 +340,12 @@ std::vector<nfc::Frame> Channel::take(const std::vector<std::size_t>& group) {
   return heard;
 }
 
-std::optional<Time> Channel::next_end() const {
+std::optional<Time> Channel::next_end() {
+  decide();
   std::optional<Time> next;
   for (const auto* receptions : {&state_.down, &state_.up}) {
     for (const Reception& reception : *receptions) {
-      if (reception.end > state_.time && (!next || reception.end < *next)) next = reception.end;
+      if (reception.end > now() && (!next || reception.end < *next)) next = reception.end;
     }
   }
   return next;

@@ -21,9 +21,11 @@ namespace nfc_channel {
 struct Signals {
   double down = 0.0;  ///< at the tag: what its load would get without the limiter
   double up = 0.0;    ///< at the reader: both sidebands of the load modulation
+
+  bool operator==(const Signals& other) const { return down == other.down && up == other.up; }
 };
 
-/// The link to one tag at one instant. Ratios and probabilities are those of 106 kbit/s.
+/// The link to one tag at one instant. Ratios and probabilities are those of Parameters::bit_rate.
 struct Link {
   double distance = 0.0;        ///< between the coils' centres [m]
   double mutual = 0.0;          ///< mutual inductance [H]
@@ -38,9 +40,20 @@ struct Link {
   double bit_error_rate_up = 0.0;
 };
 
-/// At each instant call move() and then observe(); at an event also the frames that begin,
-/// from_reader() and from_tag(), and then fetch those that have ended with to_tag() and
-/// to_reader() until they give nothing.
+/// What all tags get at one instant, and give back.
+struct Observation {
+  stride::Time time;
+  double carrier_power = 0.0;    ///< [W]
+  std::vector<Signals> signals;  ///< of each tag
+
+  bool operator==(const Observation& other) const {
+    return time == other.time && carrier_power == other.carrier_power && signals == other.signals;
+  }
+};
+
+/// At each instant call move() and then observe(); at an event also the frames that have begun,
+/// from_reader() and from_tag(), and when all of them are in, fetch those that have ended with
+/// to_tag() and to_reader() until they give nothing.
 ///
 /// A frame enters when it begins, is held while it is on the air, and leaves when it has ended. A
 /// bit is decided for the instant of its end, by the signals of that instant: between two observed
@@ -50,6 +63,10 @@ struct Link {
 /// observed the old one holds. So where poses rest, no result depends on which instants are
 /// observed.
 ///
+/// A frame may enter late, because its sender could not end its step where it began: it is heard as
+/// if it had entered in time, if it began at the last instant observed before this one or later.
+/// What it began before that is decided by the signals of that instant.
+///
 /// What fails for good while a frame is on the air - a tag below its power threshold, a reader
 /// below its sensitivity - ends what is heard of it. A frame that is begun without power is not
 /// heard, nor one of which no bit is left, nor one that overlaps a transmission of its receiver.
@@ -57,10 +74,11 @@ class Channel {
  public:
   /// All that a rollback has to bring back.
   struct State {
-    stride::Time time;                     ///< last instant observed
-    double carrier_power = 0.0;            ///< at that instant [W]
-    std::vector<Signals> signals;          ///< for each tag, likewise
-    std::vector<Reception> down, up;       ///< on the air, in the order in which they began
+    /// In the order of time: the last one of the instant before the present one, then those of the
+    /// present one. Where the carrier is switched there is one with each carrier power.
+    std::vector<Observation> observed;
+    std::uint64_t forgotten = 0;           ///< observations that were made before these
+    std::vector<Reception> down, up;       ///< on the air, in the order in which they entered
     std::uint64_t frames_down = 0;         ///< that have entered so far
     std::vector<std::uint64_t> frames_up;  ///< of each tag, likewise
   };
@@ -80,7 +98,7 @@ class Channel {
   /// What move() has set holds from `now` on, which is not before the last instant observed.
   void observe(stride::Time now);
 
-  /// A frame begins now. The frame of the same start as one on the air replaces it: its sender has
+  /// A frame has begun. The frame of the same start as one on the air replaces it: its sender has
   /// stopped after these bits.
   void from_reader(const nfc::Frame& frame);
   void from_tag(std::size_t tag, const nfc::Frame& frame);
@@ -92,7 +110,7 @@ class Channel {
   std::optional<nfc::Frame> to_reader();
 
   /// When the next frame ends, after the last instant observed.
-  std::optional<stride::Time> next_end() const;
+  std::optional<stride::Time> next_end();
 
   State& state() { return state_; }
   const State& state() const { return state_; }
@@ -107,15 +125,17 @@ class Channel {
 
   void move_tag(std::size_t index, const Pose& reader_coil, const Pose& tag_coil);
   Signals signals(std::size_t index, double carrier_power) const;
-  void decide_bits(stride::Time now, double carrier_power);
-  void decide_down(Reception& reception, stride::Time now) const;
-  void decide_up(Reception& reception, stride::Time now) const;
-  double interference(const Reception& reception, stride::Time time, double signal) const;
-  void lose_weak();
+  stride::Time now() const;
+  void add_observation(stride::Time now, double carrier_power);
+  void decide();
+  void decide(Reception& reception, bool up) const;
+  void decide_bits(Reception& reception, bool up, std::size_t observation) const;
+  void decide_bit(Reception& reception, bool up, std::size_t observation) const;
+  double interference(const Reception& reception, std::size_t observation, double signal) const;
+  bool is_too_weak(const Reception& reception, double signal, bool up) const;
+  double signal_at(stride::Time time, std::size_t observation, std::size_t tag, bool up) const;
   std::optional<std::vector<std::size_t>> overlapping(std::size_t first) const;
   std::vector<nfc::Frame> take(const std::vector<std::size_t>& group);
-  bool is_lost(const Reception& reception, double signal, double least) const;
-  double signal_at(stride::Time time, std::size_t tag, double Signals::*direction) const;
 
   Parameters parameters_;
   std::vector<Tag> tags_;
@@ -124,8 +144,6 @@ class Channel {
 
   double carrier_power_ = 0.0;
   std::vector<Link> links_;
-  std::vector<Signals> arriving_;  // of the instant that is being observed
-  stride::Time arriving_at_;
   State state_;
 };
 

@@ -64,6 +64,10 @@ void check(const Parameters& parameters) {
     throw std::invalid_argument("the channel has no tag: expected one at least");
   }
   for (const TagParameters& tag : parameters.tags) check(tag);
+  const std::uint32_t rate = parameters.bit_rate;
+  if (rate != 106 && rate != 212 && rate != 424 && rate != 848) {
+    out_of_range("bit_rate", rate, "106, 212, 424 or 848 kbit/s");
+  }
 }
 
 }  // namespace nfc_channel

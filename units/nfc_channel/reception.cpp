@@ -102,10 +102,10 @@ bool Reception::overlaps(const Reception& other) const {
   return sent.start < other.end && other.sent.start < end;
 }
 
-void Reception::cut(const nfc::Bits& bits, Time now) {
+void Reception::cut(const nfc::Bits& bits) {
   sent.bits = bits;
   if (heard.size() > bits.size()) heard.resize(bits.size());
-  end = std::min(end, std::max(now, sent.start + nfc::air_time(sent)));
+  end = std::min(end, sent.start + nfc::air_time(sent));
 }
 
 void Reception::end_with_carrier(Time now) {

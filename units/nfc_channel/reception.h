@@ -22,6 +22,7 @@ struct Reception {
   bool lost = false;         ///< the signal has failed; no bit comes any more
   bool deaf = false;         ///< the receiver transmits itself meanwhile, and hears nothing of it
   double strongest = 0.0;    ///< greatest signal power of a bit that was heard [W]
+  std::uint64_t next_observation = 0;  ///< the first that has not been looked at
 
   Reception() = default;
   Reception(const nfc::Frame& frame, std::uint32_t tag, std::uint64_t number);
@@ -33,8 +34,8 @@ struct Reception {
   bool is_heard() const { return !deaf && !heard.empty(); }
   nfc::Frame heard_frame() const { return {sent.start, sent.bit_rate, heard}; }
 
-  /// Its sender has stopped at `now`, after these bits.
-  void cut(const nfc::Bits& bits, stride::Time now);
+  /// Its sender has stopped after these bits.
+  void cut(const nfc::Bits& bits);
   /// The carrier has failed at `now`: no receiver waits for more.
   void end_with_carrier(stride::Time now);
 };

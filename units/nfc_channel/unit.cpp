@@ -14,6 +14,7 @@
 namespace {
 
 using nfc_channel::Channel;
+using nfc_channel::Observation;
 using nfc_channel::Pose;
 using nfc_channel::Reception;
 using nfc_channel::TagParameters;
@@ -53,6 +54,24 @@ void save(stride::StateWriter& writer, const std::vector<Reception>& receptions)
     writer.write(r.sent.start), writer.write(r.sent.bit_rate), writer.write(r.sent.bits);
     writer.write(r.tag), writer.write(r.number), writer.write(r.end), writer.write(r.heard);
     writer.write(r.lost), writer.write(r.deaf), writer.write(r.strongest);
+    writer.write(r.next_observation);
+  }
+}
+
+void save(stride::StateWriter& writer, const std::vector<Observation>& observed) {
+  writer.write(observed.size());
+  for (const Observation& o : observed) {
+    writer.write(o.time), writer.write(o.carrier_power), writer.write(o.signals);
+  }
+}
+
+void load(stride::StateReader& reader, std::vector<Observation>& observed) {
+  std::size_t count = 0;
+  reader.read(count);
+  observed.clear();
+  for (; count > 0; --count) {
+    Observation& o = observed.emplace_back();
+    reader.read(o.time), reader.read(o.carrier_power), reader.read(o.signals);
   }
 }
 
@@ -65,6 +84,7 @@ void load(stride::StateReader& reader, std::vector<Reception>& receptions) {
     reader.read(r.sent.start), reader.read(r.sent.bit_rate), reader.read(r.sent.bits);
     reader.read(r.tag), reader.read(r.number), reader.read(r.end), reader.read(r.heard);
     reader.read(r.lost), reader.read(r.deaf), reader.read(r.strongest);
+    reader.read(r.next_observation);
   }
 }
 
@@ -105,7 +125,6 @@ class NfcChannel : public stride::Unit {
 
   void step(stride::Step& step) override {
     update_outputs();
-    if (!channel_.next_end()) return;
     channel_.observe(step.from());
     const auto end = channel_.next_end();
     if (end && *end <= step.to()) step.need_event();
@@ -114,7 +133,8 @@ class NfcChannel : public stride::Unit {
   void event(stride::Event& event) override {
     update_outputs();
     channel_.observe(event.time());
-    take_frames();
+    // whoever could not end its step where its frame began may have more of this step
+    if (take_frames()) return event.iterate();
     hand_over(event);
     const auto end = channel_.next_end();
     end ? event.next_event(*end) : event.no_next_event();
@@ -140,8 +160,8 @@ class NfcChannel : public stride::Unit {
 
   void save_state(stride::StateWriter& writer) const override {
     const Channel::State& s = channel_.state();
-    writer.write(s.time), writer.write(s.carrier_power), writer.write(s.signals);
-    writer.write(s.frames_down), writer.write(s.frames_up);
+    save(writer, s.observed);
+    writer.write(s.forgotten), writer.write(s.frames_down), writer.write(s.frames_up);
     save(writer, s.down), save(writer, s.up);
     writer.write(shows_inputs());
   }
@@ -150,11 +170,13 @@ class NfcChannel : public stride::Unit {
   void load_state(stride::StateReader& reader) override {
     channel_ = Channel(p_);
     Channel::State& s = channel_.state();
-    reader.read(s.time), reader.read(s.carrier_power), reader.read(s.signals);
-    reader.read(s.frames_down), reader.read(s.frames_up);
+    load(reader, s.observed);
+    reader.read(s.forgotten), reader.read(s.frames_down), reader.read(s.frames_up);
     load(reader, s.down), load(reader, s.up);
     const auto unknown = [this](const Reception& r) { return r.tag >= tags_.size(); };
-    if (s.signals.size() != tags_.size() || s.frames_up.size() != tags_.size() ||
+    const auto other = [this](const Observation& o) { return o.signals.size() != tags_.size(); };
+    if (s.frames_up.size() != tags_.size() ||
+        std::any_of(s.observed.begin(), s.observed.end(), other) ||
         std::any_of(s.down.begin(), s.down.end(), unknown) ||
         std::any_of(s.up.begin(), s.up.end(), unknown)) {
       throw std::runtime_error("the saved state is that of a channel with other tags");
@@ -189,12 +211,16 @@ class NfcChannel : public stride::Unit {
            std::equal(tag_coils_.begin(), tag_coils_.end(), shown_->tag_coils.begin(), is_same);
   }
 
-  void take_frames() {
-    if (from_reader_.clock.ticked()) channel_.from_reader(nfc::decode(from_reader_.frame));
+  bool take_frames() {
+    bool any = from_reader_.clock.ticked();
+    if (any) channel_.from_reader(nfc::decode(from_reader_.frame));
     for (std::size_t i = 0; i < tags_.size(); ++i) {
       const Port& from = tags_[i].from;
-      if (from.clock.ticked()) channel_.from_tag(i, nfc::decode(from.frame));
+      if (!from.clock.ticked()) continue;
+      channel_.from_tag(i, nfc::decode(from.frame));
+      any = true;
     }
+    return any;
   }
 
   // One frame to each receiver; where there might be another, in the next iteration.
@@ -272,17 +298,17 @@ class NfcChannel : public stride::Unit {
     list(name("power", "tag_power"), shown.link.tag_power, "power that the tag's antenna delivers")
         .unit("W")
         .min(0);
-    list(name("snr.down", "snr.down"), shown.snr_down, "Eb/N0 at the tag, 106 kbit/s")
+    list(name("snr.down", "snr.down"), shown.snr_down, "Eb/N0 at the tag, at bit_rate")
         .unit("dB")
         .range(-200, 200);
-    list(name("snr.up", "snr.up"), shown.snr_up, "Eb/N0 at the reader, 106 kbit/s")
+    list(name("snr.up", "snr.up"), shown.snr_up, "Eb/N0 at the reader, at bit_rate")
         .unit("dB")
         .range(-200, 200);
     list(name("bit_error_rate.down", "bit_error_rate.down"), shown.link.bit_error_rate_down,
-         "probability of a wrong bit at the tag, 106 kbit/s")
+         "probability of a wrong bit at the tag, at bit_rate")
         .range(0, 0.5);
     list(name("bit_error_rate.up", "bit_error_rate.up"), shown.link.bit_error_rate_up,
-         "probability of a wrong bit at the reader, 106 kbit/s")
+         "probability of a wrong bit at the reader, at bit_rate")
         .range(0, 0.5);
   }
 
@@ -347,6 +373,8 @@ class NfcChannel : public stride::Unit {
     list_positive("reader.capture_ratio", p_.reader.capture_ratio, "dB",
                   "a tag that is stronger by more masks another");
     parameter("seed", p_.seed).description("seed of the bit errors");
+    parameter("bit_rate", p_.bit_rate)
+        .description("for which signal-to-noise ratios and error rates are put out [kbit/s]");
   }
 
   static constexpr const char* kFrameType = "application/x-stride-nfc-frame";

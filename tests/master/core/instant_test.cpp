@@ -129,7 +129,7 @@ TEST_CASE("a unit without Event Mode keeps its outputs until the next step") {
   CHECK(f.events == std::map<std::string, int>{{"source", 1}});
 }
 
-TEST_CASE("without an output that follows it, a jump is no event of the receiver") {
+TEST_CASE("a jump is an event of the receiver, too, where no output follows it") {
   Fixture f;
   auto& b = f.add("b", Describe("b").input("u").output("y").depends_on({}).event_mode().done());
   int events = 0;
@@ -140,7 +140,7 @@ TEST_CASE("without an output that follows it, a jump is no event of the receiver
   f.source();
   f.wire("source", "y", "b", "u");
   f.run();
-  CHECK(events == 1);
+  CHECK(events == 2);
   CHECK(b.number(0) == 2);
 }
 

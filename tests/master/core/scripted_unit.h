@@ -169,7 +169,9 @@ class ScriptedUnit : public Unit {
     move_values(references, values, [](auto& inside, auto& outside) { inside = outside; });
     if (values.type() == ValueType::Clock) on_set_clock(*this);
   }
-  StepResult step(Time from, Time to) override { return on_step(*this, from, to); }
+  StepResult step(const StepInterval& interval) override {
+    return on_step(*this, interval.from, interval.to);
+  }
   void save_state() override {
     saved_values_ = values_;
     on_state(true);

@@ -199,6 +199,39 @@ TEST_CASE("messages are handed over at communication points until nothing ticks"
   CHECK(f.simulation->statistics().units[0].messages_received == 1);
 }
 
+TEST_CASE("a value of two clocks travels to those whose clock ticks") {
+  Fixture f;
+  auto sender =
+      std::make_shared<UnitDescription>(*Describe("sender")
+                                             .add("first", ValueType::Clock, Causality::Output)
+                                             .add("second", ValueType::Clock, Causality::Output)
+                                             .add("out", ValueType::Binary, Causality::Output)
+                                             .clocked_by(0)
+                                             .done());
+  sender->variables[2].clocks = {0, 1};
+  auto& a = f.add("a", sender);
+  const std::vector<ScriptedUnit*> receivers = {&f.add("b", messenger()), &f.add("c", messenger())};
+  f.wire("a", "first", "b", "in.clock");
+  f.wire("a", "second", "c", "in.clock");
+  f.wire("a", "out", "b", "in");
+  f.wire("a", "out", "c", "in");
+  a.on_step = [](ScriptedUnit& unit, Time, Time to) {
+    StepResult result = reached(to);
+    unit.clock(0) = to == Time(1ms);
+    unit.clock(1) = to == Time(2ms);
+    unit.binary(2) = {static_cast<std::uint8_t>(to.time_since_epoch() / 1ms)};
+    result.event_needed = true;
+    return result;
+  };
+  Seen seen;
+  f.build(0.002, 1ms).add_observer(seen);
+  f.simulation->run();
+  CHECK(seen.messages == std::vector<std::string>{"0.001/0 sent 0:01", "0.001/0 received 1:01",
+                                                  "0.002/0 sent 0:02", "0.002/0 received 2:02"});
+  CHECK(receivers[0]->binary(1) == Binary{1});
+  CHECK(receivers[1]->binary(1) == Binary{2});
+}
+
 TEST_CASE("a unit without events is never in Event Mode after the start") {
   Fixture f;
   auto& a = f.add("a", messenger());
@@ -436,4 +469,83 @@ TEST_CASE("every observer is finished although one of them fails") {
   f.simulation->add_observer(seen);
   CHECK_THAT(failure(*f.simulation), Contains("disk full"));
   CHECK(seen.finished == 1);
+}
+
+namespace {
+
+/// Notes when the unit has its events; each announces the next one.
+struct Announcer : ScriptedSystem {
+  ScriptedUnit& unit = add("a", Describe("a").event_mode().done());
+  Time now{};
+  std::vector<Time> events;
+
+  void announce(std::function<std::optional<Time>(std::size_t event)> next) {
+    unit.on_step = [this](ScriptedUnit&, Time, Time to) { return reached(now = to); };
+    unit.on_event = [this, next](ScriptedUnit&) {
+      events.push_back(now);
+      EventResult result;
+      result.next_event = next(events.size());
+      return result;
+    };
+  }
+};
+
+Time at(double seconds) { return time_from_seconds(seconds); }
+
+}  // namespace
+
+TEST_CASE("an event that is announced for now is another event iteration") {
+  Announcer f;
+  f.announce([](std::size_t event) -> std::optional<Time> {
+    if (event == 1) return Time{};
+    if (event <= 3) return at(0.0025);
+    return std::nullopt;
+  });
+  f.build(0.004, 1ms).run();
+  CHECK(f.events == std::vector<Time>{at(0), at(0), at(0.0025), at(0.0025)});
+}
+
+TEST_CASE("a unit whose next event is always past is named") {
+  Announcer f;
+  f.announce([](std::size_t) { return at(0.0005); });
+  CHECK_THROWS_WITH(f.build(0.004, 1ms).run(),
+                    Contains("0.0005 s") && Contains("'a'") && Contains("not later than now"));
+}
+
+TEST_CASE("who ends the simulation in an event has no further event iteration") {
+  Announcer f;
+  f.announce([](std::size_t) { return std::nullopt; });
+  f.unit.on_event = [&](ScriptedUnit&) {
+    f.events.push_back(f.now);
+    return EventResult{.iterate = true, .terminate = f.events.size() == 3, .next_event = {}};
+  };
+  f.build(1, 1ms).run();
+  CHECK(f.events.size() == 3);
+  CHECK(f.simulation->statistics().terminated_by_unit);
+}
+
+TEST_CASE("NaN in a message is an error") {
+  ScriptedSystem f;
+  const auto message = [](Causality causality) {
+    Describe description("m");
+    description.add("c", ValueType::Clock, causality);
+    causality == Causality::Output ? description.output("p") : description.input("p");
+    return description.clocked_by(0).event_mode().done();
+  };
+  auto& a = f.add("a", message(Causality::Output));
+  f.add("b", message(Causality::Input));
+  f.wire("a", "c", "b", "c");
+  f.wire("a", "p", "b", "p");
+  a.on_initialize = [](ScriptedUnit& unit) {
+    unit.clock(0) = true;
+    unit.number(1) = std::nan("");
+  };
+  CHECK_THROWS_WITH(f.build(1, 1ms).run(), Contains("unit 'a', variable 'p'") && Contains("NaN"));
+}
+
+TEST_CASE("a simulation runs once") {
+  ScriptedSystem f;
+  f.add("a", Describe("a").done());
+  f.build(0.004, 1ms).run();
+  CHECK_THROWS_AS(f.simulation->run(), std::logic_error);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -99,6 +100,25 @@ TEST_CASE("nothing is extrapolated across an event") {
              {0, 0.0015, 100.002, 100.0035, 100.0045});
 }
 
+TEST_CASE("with Gauss-Seidel, too, NaN is the fault of who puts it out, and reaches nobody") {
+  ScriptedSystem system;
+  auto& source = system.add("source", Describe("source").output("y").done());
+  source.on_step = [](ScriptedUnit& self, Time, Time to) {
+    self.number(0) = to > Time(2ms) ? std::nan("") : 1;
+    return reached(to);
+  };
+  auto& reader = system.add("reader", Describe("reader").input("u").done());
+  reader.on_step = [](ScriptedUnit& self, Time, Time to) {
+    if (std::isnan(self.number(0))) throw std::runtime_error("it was given NaN");
+    return reached(to);
+  };
+  system.wire("source", "y", "reader", "u");
+  system.options.coupling = Coupling::GaussSeidel;
+  CHECK_THROWS_WITH(
+      system.build(0.005, 1ms).run(),
+      Catch::Contains("unit 'source', variable 'y', at 0.003 s") && Catch::Contains("NaN"));
+}
+
 TEST_CASE("the orders of convergence of the two-mass oscillator") {
   struct Case {
     Coupling coupling;
@@ -147,4 +167,34 @@ TEST_CASE("a step that is cut short is redone with the inputs of the shorter ste
   check_near(inputs[0], {coupling == Coupling::Jacobi ? 0 : 0.0005, 0.0015, 0.0025, 0.0035});
   check_near(inputs[1],
              {coupling == Coupling::Jacobi ? 0 : 0.0005, 0.0015, 0.0025, 0.00225, 0.00275, 0.0035});
+}
+
+TEST_CASE("two communication points close to each other do not make a slope of a rounding error") {
+  const auto extrapolation = GENERATE(Extrapolation::Linear, Extrapolation::Quadratic);
+  const auto coupling = GENERATE(Coupling::Jacobi, Coupling::GaussSeidel);
+  ScriptedSystem system;
+  auto& sine = system.add("sine", Describe("sine").output("y").can_save_state().done());
+  sine.on_step = [](ScriptedUnit& self, Time, Time to) {
+    self.number(0) = static_cast<float>(std::sin(to_seconds(to)));  // six digits are right
+    return reached(to);
+  };
+  auto& reader = system.add("reader", Describe("reader").input("u").can_save_state().done());
+  double largest = 0;
+  reader.on_step = [&](ScriptedUnit& self, Time from, Time to) {
+    const double middle = std::sin((to_seconds(from) + to_seconds(to)) / 2);
+    largest = std::max(largest, std::abs(self.number(0) - middle));
+    return reached(to);
+  };
+  auto& stopper = system.add("stopper", Describe("stopper").may_return_early().done());
+  stopper.on_step = [](ScriptedUnit&, Time from, Time to) {  // just before each point of the grid
+    const bool stops = to - from > Duration(1);
+    StepResult result = reached(stops ? to - Duration(1) : to);
+    result.early_return = stops;
+    return result;
+  };
+  system.wire("sine", "y", "reader", "u");
+  system.options.coupling = coupling;
+  system.options.extrapolation = extrapolation;
+  system.build(1, 1ms).run();
+  CHECK(largest < 1e-3);  // held inputs would be off by half a step
 }

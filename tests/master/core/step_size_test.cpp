@@ -1,6 +1,7 @@
 #include "master/core/step_size.h"
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -96,6 +97,31 @@ TEST_CASE("steps that are not on a grid end on the units' internal steps") {
                                                   Time(36ms), Time(48ms), Time(60ms)});
 }
 
+TEST_CASE("where no end of an internal step is near enough, the maximum step counts") {
+  ScriptedSystem f;
+  f.add("a", Describe("a").fixed_internal_step(4ms).can_save_state().done());
+  f.add("b", Describe("b").fixed_internal_step(6ms).can_save_state().done());
+  f.options.step.policy = GENERATE(StepPolicy::EventDriven, StepPolicy::ErrorControlled);
+  SECTION("that of a unit") {
+    f.add("c", Describe("c").maximum_step(10ms).can_save_state().done());
+    f.options.step.maximum = 1s;
+    CHECK(points(f, 0.03, 10ms) ==
+          std::vector<Time>{Time(), Time(10ms), Time(12ms), Time(22ms), Time(30ms)});
+  }
+  SECTION("that of the user") {
+    f.options.step.maximum = 5ms;
+    CHECK(points(f, 0.012, 5ms) == std::vector<Time>{Time(), Time(5ms), Time(10ms), Time(12ms)});
+  }
+}
+
+TEST_CASE("the error-controlled step is not shorter than an internal step") {
+  ScriptedSystem f;
+  f.add("a", Describe("a").fixed_internal_step(4ms).can_save_state().done());
+  f.options.step.policy = StepPolicy::ErrorControlled;
+  f.options.step.maximum = 4ms;
+  CHECK(points(f, 0.012, 1ms) == std::vector<Time>{Time(), Time(4ms), Time(8ms), Time(12ms)});
+}
+
 TEST_CASE("policies that vary the step refuse a unit that cannot") {
   ScriptedSystem f;
   f.add("rigid", Describe("a").fixed_step().can_save_state().done());
@@ -141,10 +167,11 @@ TEST_CASE("a step that was too long is undone by all units and counted") {
 }
 
 TEST_CASE("a jump that no step is short enough for is an error that names the output") {
+  const double high = GENERATE(1.0, std::numeric_limits<double>::infinity());
   ScriptedSystem f;
   auto& jumper = f.add("jumper", Describe("jumper").output("y").can_save_state().done());
-  jumper.on_step = [](ScriptedUnit& self, Time, Time to) {
-    self.number(0) = to > Time(300ms) ? 1 : 0;
+  jumper.on_step = [high](ScriptedUnit& self, Time, Time to) {
+    self.number(0) = to > Time(300ms) ? high : 0;
     return reached(to);
   };
   f.add("reader", Describe("reader").input("u").can_save_state().done());

@@ -4,6 +4,7 @@
 #include <set>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "scripted_system.h"
 
@@ -198,4 +199,71 @@ TEST_CASE("run to T is run to T/2, then on: any grid gives the same stops") {
   };
   CHECK(stops(1ms) == stops(5ms));
   CHECK(stops(1ms) == stops(333us));
+}
+
+TEST_CASE("a unit of one step size that rejects is blamed itself") {
+  ScriptedSystem f;
+  auto& rigid = f.add("rigid", Describe("rigid").fixed_step().done());
+  rigid.on_step = [](ScriptedUnit&, Time from, Time to) {
+    return to > Time(3ms) ? StepResult{.rejected = true, .reached = from} : reached(to);
+  };
+  CHECK_THAT(failure(f.build(1, 1ms)), Contains("unit 'rigid', at 0.003 s") &&
+                                           Contains("rejected its step") &&
+                                           Contains("one size only"));
+}
+
+TEST_CASE("who asks a unit of one step size for another is told") {
+  ScriptedSystem f;
+  f.add("rigid", Describe("rigid").fixed_step().can_save_state().done());
+  auto& picky = f.add("picky", Describe("picky").done());
+  picky.on_step = [](ScriptedUnit&, Time from, Time to) {
+    return to > Time(3ms) ? StepResult{.rejected = true, .reached = from} : reached(to);
+  };
+  CHECK_THAT(failure(f.build(1, 1ms)),
+             Contains("unit 'rigid', at 0.003 s") && Contains("'picky', which rejected its step"));
+}
+
+TEST_CASE("how often a unit rejected is counted for each") {
+  ScriptedSystem f;
+  for (const char* name : {"a", "b"}) {
+    f.add(name, Describe(name).can_save_state().done()).on_step = [](ScriptedUnit&, Time from,
+                                                                     Time) {
+      return StepResult{.rejected = true, .reached = from};
+    };
+  }
+  f.options.step.minimum = 1us;
+  const std::string error = failure(f.build(1, 1ms));
+  const auto count = f.simulation->statistics().units[0].rejections;
+  CHECK(count > 1);
+  CHECK_THAT(error, Contains("unit 'a'") && Contains(fmt::format(" {} times ", count)));
+}
+
+TEST_CASE("super-dense instants are counted on while time stands") {
+  ScriptedSystem f;
+  auto& a = f.add("a", Describe("a")
+                           .add("c", ValueType::Clock, Causality::Output)
+                           .event_mode()
+                           .may_return_early()
+                           .done());
+  int zero_steps = 3;
+  a.on_step = [&](ScriptedUnit& unit, Time from, Time to) {
+    if (from != Time(2ms) || zero_steps-- == 0) return reached(to);
+    unit.clock(0) = true;
+    StepResult result = reached(from);
+    result.early_return = result.event_needed = true;
+    return result;
+  };
+  a.on_event = [](ScriptedUnit& unit) {
+    unit.clock(0) = false;
+    return EventResult{};
+  };
+  struct Indices : Observer {
+    std::vector<std::uint32_t> at_stop;
+    void on_message(const Message& message) override {
+      if (message.time == Time(2ms)) at_stop.push_back(message.index);
+    }
+  } indices;
+  f.build(0.004, 1ms).add_observer(indices);
+  f.simulation->run();
+  CHECK(indices.at_stop == std::vector<std::uint32_t>{0, 1, 2});
 }

@@ -169,6 +169,26 @@ TEST_CASE("a time-based clock needs Event Mode") {
                                  Contains("countdown clock") && Contains("hasEventMode"));
 }
 
+TEST_CASE("a message needs units with Event Mode, at both ends") {
+  const bool at_source = GENERATE(true, false);
+  const auto unit = [](bool has_event_mode) {
+    auto description =
+        std::make_shared<UnitDescription>(*Describe("model")
+                                               .add("out", ValueType::Clock, Causality::Output)
+                                               .add("in", ValueType::Clock, Causality::Input)
+                                               .done());
+    description->has_event_mode = has_event_mode;
+    return description;
+  };
+  SystemDeclaration declaration;
+  declaration.components = {{"a", unit(!at_source), {}, {}}, {"b", unit(at_source), {}, {}}};
+  CHECK_NOTHROW(System(declaration));
+  declaration.connections = {{"a", "out", "b", "in", false, {"s.ssd", 9}}};
+  CHECK_THROWS_WITH(System(declaration), Contains("s.ssd:9") && Contains("hasEventMode") &&
+                                             Contains(at_source ? "unit 'a', variable 'out'"
+                                                                : "unit 'b', variable 'in'"));
+}
+
 TEST_CASE("two components of one name, and a system without any, are refused") {
   SystemDeclaration twice = declaration();
   twice.components[1].name = "alpha";

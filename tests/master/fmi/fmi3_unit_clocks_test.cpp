@@ -128,14 +128,14 @@ TEST_CASE("a unit that can be asked for its inputs within a step sets them throu
   for (Fixture* f : {&held, &following}) {
     f->set("largest_step", "0.05");
     f->start();
-    CHECK(f->unit->step({}, Time(100ms)).reached == Time(100ms));
+    CHECK(f->unit->step({{}, Time(100ms)}).reached == Time(100ms));
   }
   CHECK(*follower.calls == 7);
   CHECK(following.real("x_other") == Approx(10));
   CHECK(held.real("x_other") == 0);
   CHECK(following.real("x") > held.real("x") + 0.05);
   following.unit->set_input_update({});
-  CHECK(following.unit->step(Time(100ms), Time(200ms)).reached == Time(200ms));
+  CHECK(following.unit->step({Time(100ms), Time(200ms)}).reached == Time(200ms));
   CHECK(*follower.calls == 7);
 }
 
@@ -145,7 +145,7 @@ TEST_CASE("without the option, and of a unit without such inputs, nothing is ask
     Fixture f(name, is_offered ? intermediate() : fmi::InstanceOptions{});
     f.unit->set_input_update([](double) { FAIL("it asked"); });
     f.start();
-    CHECK(f.unit->step({}, Time(10ms)).reached == Time(10ms));
+    CHECK(f.unit->step({{}, Time(10ms)}).reached == Time(10ms));
   }
 }
 
@@ -157,7 +157,7 @@ TEST_CASE("what is thrown within a step is thrown after it, and the unit lives o
     throw std::out_of_range("no such instant");
   });
   f.start();
-  CHECK_THROWS_AS(f.unit->step({}, Time(10ms)), std::out_of_range);
+  CHECK_THROWS_AS(f.unit->step({{}, Time(10ms)}), std::out_of_range);
   CHECK(asked == 1);
   CHECK(f.real("x") != 0);
 }
@@ -166,7 +166,9 @@ TEST_CASE("an input that the unit refuses within a step is the step's error") {
   Fixture f("oscillator_mass", intermediate());
   f.unit->set_input_update([&](double) { f.set("mass", "2"); });
   f.start();
-  CHECK_THAT(run_error([&] { f.unit->step({}, Time(10ms)); }),
+  CHECK_THAT(run_error([&] {
+               f.unit->step({{}, Time(10ms)});
+             }),
              Contains("fmi3SetFloat64") && Contains("variable 'mass'"));
 }
 
@@ -175,7 +177,7 @@ TEST_CASE("the calls of a unit's functions are counted") {
   CHECK(f.unit->calls() == 1);  // the instantiation
   f.start();                    // four more
   CHECK(f.unit->calls() == 5);
-  f.unit->step({}, Time(1ms));
+  f.unit->step({{}, Time(1ms)});
   f.unit->enter_event_mode();
   f.set_clock("constant");
   f.unit->update_discrete_states();

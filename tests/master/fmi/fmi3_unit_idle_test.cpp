@@ -105,7 +105,7 @@ TEST_CASE("a derivative is that of the output") {
   Idler idler;
   idler.start();
   CHECK(idler.slope("level") == 0.01);
-  idler.unit->step(Time(0s), Time(1s));
+  idler.unit->step({Time(0s), Time(1s)});
   CHECK(idler.slope("level") == 0.01 * (1 - idler.real("level")));
 }
 
@@ -179,7 +179,7 @@ TEST_CASE("idle units of every kind break their promises where they are stepped 
     idler.start();
     REQUIRE(idler.unit->idle_until() > Time(1s));
     const double tangent = idler.real("level") + idler.slope("level") * 1;
-    const core::StepResult result = idler.unit->step(Time(0s), Time(1s));
+    const core::StepResult result = idler.unit->step({Time(0s), Time(1s)});
     return std::pair(result, std::abs(idler.real("level") - tangent));
   };
   const auto [honest, error] = step("honest");
@@ -197,6 +197,38 @@ TEST_CASE("a unit that drifts from its tangent promises more than holds") {
   idler.start();
   const Time until = idler.unit->idle_until();
   const double slope = idler.slope("level");
-  idler.unit->step(Time(0s), until);
+  idler.unit->step({Time(0s), until});
   CHECK(std::abs(idler.real("level") - slope * to_seconds(until)) > 1e-3);
+}
+
+TEST_CASE("what another tool's unit promises is checked") {
+  const Scratch scratch;
+  const fs::path folder = make_raw_fmu(scratch, "raw_extended");
+  scratch.write("raw_extended/modelDescription.xml",
+                description_text("raw_extended", "maxOutputDerivativeOrder=\"1\"",
+                                 "<Float64 name=\"y\" valueReference=\"1\" "
+                                 "causality=\"output\"/>\n"));
+  scratch.write(std::string("raw_extended/") + STRIDE_IDLE_MANIFEST,
+                "<fmiLayeredStandardManifest xmlns:ls=\"http://fmi-standard.org/fmi-ls-manifest\" "
+                "ls:fmi-ls-name=\"org.stride.idle\" ls:fmi-ls-version=\"1.0.0\">"
+                "<Output name=\"y\" valueReference=\"1\" tolerance=\"1\" "
+                "hasDerivative=\"true\"/></fmiLayeredStandardManifest>");
+  const auto fmu = fmi::Fmu::load(folder);
+  const auto promise = [&](const char* behaviour) {
+    const auto unit = fmu->instantiate(behaviour);
+    unit->enable_idle_skipping(1s);
+    return unit->idle_until();
+  };
+  CHECK(promise("plain") == Time(500ms));
+  CHECK(promise("sleeps") == Time::max());
+  CHECK_THAT(run_error([&] { promise("dreams"); }),
+             Contains("'dreams'") && Contains("the promise of strideGetIdlePromise is nan"));
+  CHECK_THAT(run_error([&] { promise("shy"); }),
+             Contains("strideGetIdlePromise returned fmi3Error: I do not know"));
+
+  const auto unit = fmu->instantiate("plain");
+  const core::ValueReference y = 1;
+  double slope = 0;
+  CHECK_THAT(run_error([&] { unit->get_derivatives(std::span(&y, 1), std::span(&slope, 1)); }),
+             Contains("does not export fmi3GetOutputDerivatives"));
 }

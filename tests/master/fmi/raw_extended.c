@@ -8,6 +8,9 @@
  *   backwards  fmi3GetIntervalDecimal gives a negative interval
  *   vague      it gives NaN
  *   wise       it does not know the interval yet
+ *   dreams     strideGetIdlePromise gives NaN
+ *   sleeps     it promises beyond all times
+ *   shy        it returns fmi3Error with a reason
  *
  * Otherwise its clocks have the interval 0.25 s and the shift 0.125 s. It has no functions for
  * fractions.
@@ -15,6 +18,7 @@
 #include <math.h>
 
 #include <stride/fmi3.h>
+#include <stride/idle.h>
 
 #define fmi3DoStep raw_do_step
 #define fmi3SetFloat64 raw_set_float64
@@ -88,4 +92,24 @@ fmi3Status fmi3GetShiftDecimal(fmi3Instance handle, const fmi3ValueReference ref
   (void)handle, (void)references;
   for (size_t i = 0; i < n; ++i) shifts[i] = 0.125;
   return fmi3OK;
+}
+
+fmi3Status strideEnableIdleSkipping(fmi3Instance instance, fmi3Float64 max_skip) {
+  (void)instance;
+  return max_skip > 0 ? fmi3OK : fmi3Error;
+}
+
+fmi3Status strideSetIdleTolerances(fmi3Instance instance, const fmi3ValueReference outputs[],
+                                   size_t n_outputs, const fmi3Float64 tolerances[],
+                                   size_t n_tolerances) {
+  (void)instance, (void)outputs, (void)n_outputs, (void)tolerances, (void)n_tolerances;
+  return fmi3OK;
+}
+
+fmi3Status strideGetIdlePromise(fmi3Instance handle, fmi3Float64* until) {
+  Instance* const instance = handle;
+  *until = is(handle, "dreams") ? NAN : is(handle, "sleeps") ? 1e9 : 0.5;
+  if (!is(handle, "shy")) return fmi3OK;
+  instance->log(instance->environment, fmi3Error, "logStatusError", "I do not know");
+  return fmi3Error;
 }

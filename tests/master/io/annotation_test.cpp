@@ -45,7 +45,9 @@ TEST_CASE("Everything that the annotation can say") {
                                         "<stride:Record signals=' sensor.*  channel.distance'/>\n"
                                         "<stride:Record signals='reader.*'/>"
                                         "<stride:Results signals='s.csv' events='none'/>"
-                                        "<stride:MainThread components='plant legacy.*'/>"))));
+                                        "<stride:MainThread components='plant legacy.*'/>"
+                                        "<stride:EarlyReturn components='* x' allowed='false'/>"
+                                        "<stride:EarlyReturn components='a' allowed='true'/>"))));
   CHECK(annotation.step.size == Duration(1'000'000'000));
   REQUIRE(annotation.record.size() == 3);
   CHECK(annotation.record[0].text == "sensor.*");
@@ -57,6 +59,12 @@ TEST_CASE("Everything that the annotation can say") {
   CHECK(annotation.main_thread[0].text == "plant");
   CHECK(annotation.main_thread[1].text == "legacy.*");
   CHECK(annotation.main_thread[1].where.line == 5);
+  REQUIRE(annotation.early_return.size() == 3);
+  CHECK(annotation.early_return[0].components.text == "*");
+  CHECK_FALSE(annotation.early_return[1].allowed);
+  CHECK(annotation.early_return[2].components.text == "a");
+  CHECK(annotation.early_return[2].components.where.line == 5);
+  CHECK(annotation.early_return[2].allowed);
   CHECK(annotation.results.signals == "s.csv");
   CHECK(annotation.results.events.empty());
   CHECK(annotation.results.trace == "signals.vcd");
@@ -96,7 +104,7 @@ TEST_CASE("A mistake in the annotation is named with its line") {
              Contains("x.ssd:4: <stride:Stpe> is not known in <stride:Scenario>") &&
                  Contains("did you mean 'Step'?"));
   CHECK_THAT(error("<stride:Policy/>"),
-             Contains("known are: Step, Exchange, Record, Results, MainThread"));
+             Contains("known are: Step, Exchange, Record, Results, MainThread, EarlyReturn"));
   CHECK_THAT(error("<stride:Step siez='1'/>"), Contains("did you mean 'size'?"));
   CHECK_THAT(error("<stride:Step size=''/>"),
              Contains("the attribute 'size' of <stride:Step> is empty"));
@@ -110,6 +118,10 @@ TEST_CASE("A mistake in the annotation is named with its line") {
   CHECK_THAT(error("<stride:Step size='1'/><stride:Step size='1'/>"),
              Contains("a second <stride:Step>"));
   CHECK_THAT(error("<stride:Record signal='a'/>"), Contains("did you mean 'signals'?"));
+  CHECK_THAT(error("<stride:EarlyReturn components='a'/>"), Contains("'allowed'"));
+  CHECK_THAT(error("<stride:EarlyReturn allowed='false'/>"), Contains("'components'"));
+  CHECK_THAT(error("<stride:EarlyReturn components='a' allowed='no'/>"),
+             Contains("x.ssd:4: ") && Contains("allowed=\"no\" is neither true nor false"));
   CHECK_THAT(error("<stride:Results csv='a'/>"),
              Contains("known are: signals, events, trace, statistics"));
   CHECK_THAT(error("<stride:Results trace='../a.vcd'/>"), Contains("is no plain file name"));

@@ -5,6 +5,8 @@
  *   error    it returns fmi3Error, silently    warning  it returns fmi3Warning with a message
  *   lies     it stops halfway without saying so early   it returns early halfway
  *   drifts   its time is a little off          refuses  it cannot be instantiated
+ *   arrives  it says early of a step that it made to its end
+ *   thirds   its next event is at 1/3 s     needs    it wants Event Mode after each step
  *   insists  it rejects what is not the next step of raw_step picoseconds by its own count
  */
 #include <math.h>
@@ -119,9 +121,9 @@ fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 point, fmi3Float64 size,
   raw_no_restore = no_restore;
   if (is(instance, "insists") && !is_next_step(instance, point, size)) return fmi3Discard;
   ++instance->steps;
-  *event = false;
   *terminate = false;
-  *early = is(instance, "early");
+  *event = is(instance, "needs");
+  *early = is(instance, "early") || is(instance, "arrives");
   *reached = point + size;
   if (is(instance, "lies") || is(instance, "early")) *reached = point + size / 2;
   if (is(instance, "drifts")) *reached = point + size * (1 + 1e-9);
@@ -141,10 +143,9 @@ fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 point, fmi3Float64 size,
 fmi3Status fmi3UpdateDiscreteStates(fmi3Instance i, fmi3Boolean* update, fmi3Boolean* terminate,
                                     fmi3Boolean* nominals, fmi3Boolean* values,
                                     fmi3Boolean* defined, fmi3Float64* next) {
-  (void)i;
   *update = *terminate = *nominals = *values = false;
   *defined = true;
-  *next = 1e300;
+  *next = is(i, "thirds") ? 1.0 / 3 : 1e300;
   return fmi3OK;
 }
 

@@ -1,10 +1,12 @@
 #include "units/nfc_channel/model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -192,6 +194,23 @@ TEST_CASE("Bits go wrong as often as the signal-to-noise ratio says, in both dir
         5.0 * std::sqrt(kLength * probability));
 }
 
+TEST_CASE("At each bit rate, bits go wrong as often as the link at this rate says") {
+  Parameters p;
+  p.bit_rate = GENERATE(106, 212, 424, 848);
+  Channel channel(p);
+  double distance = 0.05;
+  do {
+    approach(channel, distance += 0.001);
+  } while (channel.link().bit_error_rate_up < 0.01);
+  constexpr std::size_t kLength = 100'000;
+  nfc::Frame frame = zeros(kLength);
+  frame.bit_rate = p.bit_rate;
+  const double expected = kLength * channel.link().bit_error_rate_up;
+  INFO(p.bit_rate << " kbit/s, " << distance << " m, " << expected << " expected");
+  CHECK(std::abs(static_cast<double>(ones(pass_up(channel, frame))) - expected) <
+        5.0 * std::sqrt(expected));
+}
+
 TEST_CASE("While nothing moves it does not matter how the time is cut") {
   const nfc::Frame frame = zeros(400);
   const Time end = kStart + nfc::air_time(frame);
@@ -349,6 +368,166 @@ TEST_CASE("Two tags that answer one after the other are both heard") {
   CHECK(channel.to_reader() == second);
 }
 
+TEST_CASE("A frame that enters late, after its end, is heard as if it had entered in time") {
+  const nfc::Frame frame = request(kStart + 3 * kBit);
+  for (const double distance : {0.02, 0.085}) {
+    Channel punctual;
+    approach(punctual, distance);
+    const Heard expected = pass_up(punctual, frame);
+    REQUIRE(expected.has_value());
+    Channel late;
+    approach_at(late, kStart, distance);
+    approach_at(late, kStart + nfc::air_time(frame) + 10 * kBit, distance);
+    late.from_tag(0, frame);
+    CHECK_FALSE(late.next_end().has_value());
+    CHECK(late.to_reader() == expected);
+  }
+}
+
+TEST_CASE("A frame that enters late is not heard if it began without power, whatever came then") {
+  Parameters p;
+  Channel probe(p);
+  approach(probe, 0.05);
+  p.reader.sensitivity = probe.link().signals.up;
+  const nfc::Frame frame = request(kStart + 3 * kBit);
+  const auto pass = [&](Channel& channel, Time entry) {
+    approach_at(channel, kStart, 0.0519);
+    if (entry == frame.start) approach_at(channel, entry, 0.0502);
+    if (entry == frame.start) channel.from_tag(0, frame);
+    approach_at(channel, frame.start + nfc::air_time(frame), 0.04);
+    if (entry != frame.start) channel.from_tag(0, frame);
+    return channel.to_reader();
+  };
+  Channel punctual(p);
+  CHECK_FALSE(pass(punctual, frame.start).has_value());
+  Channel late(p);
+  CHECK_FALSE(pass(late, frame.start + nfc::air_time(frame)).has_value());
+  p.reader.sensitivity = 1e-12;
+  Channel sensitive(p);
+  CHECK(pass(sensitive, frame.start + nfc::air_time(frame)) == frame);
+}
+
+TEST_CASE("A carrier that goes off where a frame enters late has been on until then") {
+  Channel channel;
+  const nfc::Frame frame = request(kStart + 3 * kBit);
+  approach_at(channel, kStart, 0.02);
+  approach_at(channel, kStart + 13 * kBit + kBit / 2, 0.02, 0.0);
+  channel.from_tag(0, frame);
+  CHECK(channel.next_end() == kStart + 14 * kBit);
+  channel.observe(kStart + 14 * kBit);
+  CHECK(channel.to_reader()->bits == nfc::Bits(frame.bits.begin(), frame.bits.begin() + 9));
+}
+
+TEST_CASE("What began before the last two instants is decided by the earlier of them") {
+  Channel channel;
+  const nfc::Frame frame = request();
+  approach_at(channel, kStart, 0.40);
+  approach_at(channel, kStart + kBit, 0.02);
+  approach_at(channel, kStart + nfc::air_time(frame), 0.02);
+  channel.from_tag(0, frame);
+  CHECK(channel.to_reader() == frame);
+}
+
+namespace {
+
+/// What two tags and a reader do, by chance.
+struct Traffic {
+  struct Sent {
+    nfc::Frame frame;
+    std::size_t sender;  ///< 0 and 1 the tags, 2 the reader
+  };
+  struct Switch {
+    Time time;
+    double carrier_power;
+  };
+  std::vector<Sent> frames;
+  std::vector<Switch> switches;
+  std::vector<Pose> tags;
+  Time end;
+};
+
+Traffic random_traffic(std::uint32_t seed) {
+  std::mt19937_64 generator(seed);
+  const auto pick = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(generator);
+  };
+  Traffic traffic;
+  traffic.end = kStart + 4000 * kBit;
+  traffic.tags = {facing(pick(0.02, 0.08)), facing(pick(0.02, 0.08))};
+  for (std::size_t sender = 0; sender < 3; ++sender) {
+    Time time = kStart + Duration(static_cast<std::int64_t>(pick(0, 100e6)));
+    while (time < traffic.end) {
+      nfc::Frame frame{time, 106, nfc::Bits(static_cast<std::size_t>(pick(1, 80)))};
+      for (auto& bit : frame.bits) bit = pick(0, 1) < 0.5 ? 0 : 1;
+      time += nfc::air_time(frame);
+      time += Duration(static_cast<std::int64_t>(sender == 2 ? pick(0, 4e9) : pick(0, 1e9)));
+      traffic.frames.push_back({frame, sender});
+    }
+  }
+  for (Time time = kStart; time < traffic.end;) {
+    traffic.switches.push_back({time, traffic.switches.size() % 4 == 3 ? 0.0 : 0.5});
+    time += Duration(static_cast<std::int64_t>(pick(1e8, 5e9)));
+  }
+  return traffic;
+}
+
+/// All that is heard, in the order of its receivers, in steps of 1 ms; a tag that is not punctual
+/// hands its frames over where a step ends.
+std::vector<std::vector<nfc::Frame>> heard(const Traffic& traffic, bool punctual) {
+  Channel channel(two_tags());
+  std::vector<std::vector<nfc::Frame>> heard(3);
+  double carrier_power = 0.5;
+  Time last = kStart - Duration(1);
+  for (Time now = kStart; now < traffic.end + 200 * kBit;) {
+    for (const auto& change : traffic.switches) {
+      if (change.time == now) carrier_power = change.carrier_power;
+    }
+    channel.move(Pose{}, traffic.tags, carrier_power);
+    channel.observe(now);
+    for (const auto& [frame, sender] : traffic.frames) {
+      if (frame.start <= last || frame.start > now) continue;
+      sender == 2 ? channel.from_reader(frame) : channel.from_tag(sender, frame);
+    }
+    for (std::size_t tag = 0; tag < 2; ++tag) {
+      while (const Heard frame = channel.to_tag(tag)) heard[tag].push_back(*frame);
+    }
+    while (const Heard frame = channel.to_reader()) heard[2].push_back(*frame);
+    last = now;
+
+    constexpr Duration kStep{1'000'000'000};
+    Time next = kStart + kStep * ((now - kStart) / kStep + 1);
+    if (const auto end = channel.next_end()) next = std::min(next, *end);
+    for (const auto& change : traffic.switches) {
+      if (change.time > now) next = std::min(next, change.time);
+    }
+    for (const auto& [frame, sender] : traffic.frames) {
+      if (frame.start > now && (punctual || sender == 2)) next = std::min(next, frame.start);
+    }
+    now = next;
+  }
+  for (auto& frames : heard) {
+    std::sort(frames.begin(), frames.end(),
+              [](const auto& a, const auto& b) { return a.start < b.start; });
+  }
+  return heard;
+}
+
+}  // namespace
+
+TEST_CASE("While nothing moves it does not matter whether tags hand their frames over in time") {
+  const std::uint32_t seed = GENERATE(range(1, 9));
+  const Traffic traffic = random_traffic(seed);
+  const auto punctual = heard(traffic, true);
+  INFO("seed " << seed);
+  REQUIRE(punctual[0].size() + punctual[1].size() > 0);
+  REQUIRE(punctual[2].size() > 5);
+  const auto late = heard(traffic, false);
+  for (std::size_t i = 0; i < 3; ++i) {
+    INFO("receiver " << i);
+    CHECK(late[i] == punctual[i]);
+  }
+}
+
 TEST_CASE("A much stronger tag masks a weaker one, which is noise to it") {
   Channel channel(two_tags());
   const nfc::Frame strong = request();
@@ -401,7 +580,7 @@ TEST_CASE("Each frame has errors of its own, and a restored state repeats them")
   channel.observe(kStart);
   const Channel::State at_start = channel.state();
   const Heard first = send();
-  channel.state().time = kStart;
+  channel.state().observed.clear();
   const Channel::State saved = channel.state();
   const Heard second = send();
   CHECK_FALSE(first == second);
@@ -476,6 +655,8 @@ TEST_CASE("A parameter out of its range is named") {
              Catch::Contains("reader.interference"));
   CHECK_THAT(with([](auto& p) { p.reader.capture_ratio = -1.0; }),
              Catch::Contains("reader.capture_ratio"));
+  CHECK_THAT(with([](auto& p) { p.bit_rate = 300; }),
+             Catch::Contains("bit_rate is 300: expected 106, 212, 424 or 848 kbit/s"));
   CHECK_THAT(with([](auto& p) { p.tags.clear(); }), Catch::Contains("expected one at least"));
   Parameters only;
   only.tags[0].coil.radius = -1.0;

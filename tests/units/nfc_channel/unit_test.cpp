@@ -66,6 +66,13 @@ void send(UnitInstance& unit, const std::string& port, const nfc::Frame& frame) 
   REQUIRE(unit.set_binary(port + ".frame", nfc::encode(frame)) == fmi3OK);
 }
 
+/// Takes the frames in that were sent, and sees that there are no more.
+void take_in(UnitInstance& unit) {
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK(unit.iterate);
+  REQUIRE(unit.update() == fmi3OK);
+}
+
 /// One tag, two centimetres away, in a field.
 void start_near(UnitInstance& unit) {
   REQUIRE(unit.set_real("tag_coil.position.z", 0.02) == fmi3OK);
@@ -80,7 +87,7 @@ void send_near(UnitInstance& unit, const nfc::Frame& frame) {
   CHECK_FALSE(unit.last.event);
   REQUIRE(unit.fmi.EnterEventMode(unit.handle) == fmi3OK);
   send(unit, "from_reader", frame);
-  REQUIRE(unit.update() == fmi3OK);
+  take_in(unit);
   CHECK_FALSE(unit.clock("to_tag.clock"));
   REQUIRE(unit.fmi.EnterStepMode(unit.handle) == fmi3OK);
 }
@@ -144,6 +151,33 @@ TEST_CASE("A carrier that goes off while a frame is on the air is an event that 
   CHECK(std::equal(heard->bits.begin(), heard->bits.end(), frame.bits.begin()));
 }
 
+TEST_CASE("A tag that may not end its step early hands over what it has sent meanwhile") {
+  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  UnitInstance unit(library);
+  start_near(unit);
+  REQUIRE(unit.step(0, 1) == fmi3OK);
+  REQUIRE(unit.step(1, 0.001) == fmi3OK);
+  REQUIRE(unit.fmi.EnterEventMode(unit.handle) == fmi3OK);
+  const nfc::Frame first{stride::time_from_seconds(1.0001), 106, nfc::to_bits({0x02})};
+  send(unit, "from_tag", first);
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK_FALSE(unit.clock("to_reader.clock"));
+
+  nfc::Frame second = request(1.0004);
+  send(unit, "from_tag", second);  // and was cut off after a few bits
+  REQUIRE(unit.update() == fmi3OK);
+  second.bits.resize(5);
+  send(unit, "from_tag", second);
+  take_in(unit);
+  CHECK(frame_at(unit, "to_reader") == first);
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK(frame_at(unit, "to_reader") == second);
+  REQUIRE(unit.update() == fmi3OK);
+  CHECK_FALSE(unit.clock("to_reader.clock"));
+  CHECK_FALSE(unit.iterate);
+  CHECK_FALSE(unit.has_next_event);
+}
+
 TEST_CASE("A state with a frame on the air is serialised, and another instance hands it over") {
   const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
   UnitInstance unit(library);
@@ -188,7 +222,7 @@ TEST_CASE("Tags that channel.xml lists have variables of their own") {
   REQUIRE(library.EnterEventMode(unit.handle) == fmi3OK);
   const nfc::Frame frame = request(0.0);
   send(unit, "from_reader", frame);
-  REQUIRE(unit.update() == fmi3OK);
+  take_in(unit);
   REQUIRE(library.EnterStepMode(unit.handle) == fmi3OK);
   REQUIRE(unit.step(0, end_of(frame)) == fmi3OK);
   REQUIRE(library.EnterEventMode(unit.handle) == fmi3OK);
@@ -198,7 +232,7 @@ TEST_CASE("Tags that channel.xml lists have variables of their own") {
 
   const nfc::Frame answer = request(end_of(frame));
   send(unit, "window.from", answer);
-  REQUIRE(unit.update() == fmi3OK);
+  take_in(unit);
   REQUIRE(library.EnterStepMode(unit.handle) == fmi3OK);
   REQUIRE(unit.step(end_of(frame), end_of(answer) - end_of(frame)) == fmi3OK);
   REQUIRE(library.EnterEventMode(unit.handle) == fmi3OK);

@@ -76,7 +76,6 @@ void add_sensor(ScriptedSystem& system, fmi::Fmu& fmu, const std::string& name, 
   description->may_return_early = may_stop;
   fmi::InstanceOptions options;
   options.early_return_allowed = may_stop;
-  options.may_roll_back = true;
   system.declaration.components.push_back({name, description, {}, {}});
   system.declaration.start_values.push_back({name, "power.initial_voltage", "4", "", {}});
   system.units.push_back(fmu.instantiate(name, options));

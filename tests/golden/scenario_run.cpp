@@ -1,0 +1,133 @@
+#include "tests/golden/scenario_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+namespace stride::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Tolerance {
+  double absolute, relative;
+  bool allows(double value, double expected) const {
+    return std::abs(value - expected) <= absolute + relative * std::abs(expected);
+  }
+};
+
+std::map<std::string, Tolerance> read_tolerances(const fs::path& path, const Csv& expected) {
+  const Csv file(path);
+  std::map<std::string, Tolerance> tolerances;
+  for (std::size_t i = 0; i < file.size(); ++i) {
+    const std::string& signal = file.row(i)[0];
+    if (!expected.has(signal)) throw std::runtime_error(path.string() + ": no signal " + signal);
+    tolerances[signal] = {file.number(i, 1), file.number(i, 2)};
+  }
+  return tolerances;
+}
+
+std::string signal_differences(const fs::path& golden, const Csv& signals) {
+  const Csv expected(golden / "signals.csv");
+  if (signals.titles() != expected.titles()) return "other signals are recorded\n";
+  auto tolerances = read_tolerances(golden / "tolerances.csv", expected);
+  std::ostringstream differences;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const std::string& time = expected.row(i).front();
+    const std::size_t row = signals.row_at(time);
+    for (std::size_t k = 1; k < expected.titles().size(); ++k) {
+      const std::string& title = expected.titles()[k];
+      const Tolerance tolerance = tolerances[title];  // zeros where there is none
+      if (tolerance.allows(signals.number(row, k), expected.number(i, k))) continue;
+      differences << "at " << time << " s " << title << " is " << signals.row(row)[k]
+                  << ", expected " << expected.row(i)[k] << "\n";
+    }
+  }
+  return differences.str();
+}
+
+}  // namespace
+
+fs::path scenario_folder(const std::string& scenario) {
+  return fs::path(STRIDE_SOURCE_DIR) / "scenarios" / scenario;
+}
+
+std::string text_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+ScenarioRun::ScenarioRun(const std::string& scenario, const Arguments& further) {
+  std::string name = (fs::temp_directory_path() / "stride-scenario-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  folder_ = name;
+  fs::path file = scenario;
+  if (file.extension() != ".ssd") file = scenario_folder(scenario) / (scenario + ".ssd");
+  Arguments arguments{"run", file.string(), "--out", name, "--quiet"};
+  arguments.insert(arguments.end(), further.begin(), further.end());
+  const Outcome outcome = run_program(arguments);
+  if (outcome.exit_code != 0) {
+    fs::remove_all(folder_);
+    throw std::runtime_error("the run failed: " + outcome.err);
+  }
+  signals_ = std::make_unique<Csv>(folder_ / "signals.csv");
+  events_ = std::make_unique<Csv>(folder_ / "events.csv");
+}
+
+ScenarioRun::~ScenarioRun() { fs::remove_all(folder_); }
+
+double ScenarioRun::at(const std::string& time, const std::string& signal) const {
+  return signals().number(signals().row_at(time), signals().column(signal));
+}
+
+Extremes ScenarioRun::between(const std::string& from, const std::string& to,
+                              const std::string& signal) const {
+  const std::size_t column = signals().column(signal);
+  Extremes extremes{HUGE_VAL, -HUGE_VAL};
+  for (std::size_t row = signals().row_at(from); row <= signals().row_at(to); ++row) {
+    const double value = signals().number(row, column);
+    extremes = {std::min(extremes.least, value), std::max(extremes.most, value)};
+  }
+  return extremes;
+}
+
+std::vector<std::string> ScenarioRun::fields(std::size_t field, const std::string& component,
+                                             const std::string& variable,
+                                             const std::string& direction) const {
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < events().size(); ++i) {
+    const auto& row = events().row(i);
+    if (row[2] == component && row[3] == variable && row[4] == direction) {
+      found.push_back(row[field]);
+    }
+  }
+  return found;
+}
+
+std::vector<std::string> ScenarioRun::instants(const std::string& component,
+                                               const std::string& variable,
+                                               const std::string& direction) const {
+  return fields(0, component, variable, direction);
+}
+
+std::vector<std::string> ScenarioRun::payloads(const std::string& component,
+                                               const std::string& variable,
+                                               const std::string& direction) const {
+  return fields(5, component, variable, direction);
+}
+
+std::string golden_differences(const std::string& scenario, const ScenarioRun& run) {
+  const fs::path golden = scenario_folder(scenario) / "golden";
+  std::string differences = signal_differences(golden, run.signals());
+  if (text_of(run.file("events.csv")) != text_of(golden / "events.csv")) {
+    differences += "the messages are others than those in " + (golden / "events.csv").string();
+  }
+  return differences;
+}
+
+}  // namespace stride::tests
