@@ -8,7 +8,7 @@
 
 #include "master/cli/commands.h"
 #include "master/cli/loaded_scenario.h"
-#include "master/io/output_file.h"
+#include "master/io/replacement.h"
 
 namespace stride::cli {
 namespace {
@@ -18,26 +18,6 @@ struct Request {
   std::filesystem::path output;
 };
 
-/// All or nothing: a file that cannot be written whole leaves the old one as it is.
-void replace_file(const std::filesystem::path& path, const std::string& text) {
-  const std::filesystem::path folder = path.parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-    core::fail_input({.where = {path.string(), 0}}, "the folder of this file does not exist",
-                     "make the folder, or choose another output file");
-  }
-  const std::filesystem::path fresh = path.string() + ".new";
-  try {
-    io::OutputFile file(fresh);
-    file.write(text);
-    file.close();
-    std::filesystem::rename(fresh, path);
-  } catch (...) {
-    std::error_code ignored;
-    std::filesystem::remove(fresh, ignored);
-    throw;
-  }
-}
-
 void complete(const Request& request) {
   const io::Scenario scenario = io::read_scenario(request.scenario);
   io::Descriptions descriptions;
@@ -46,7 +26,9 @@ void complete(const Request& request) {
     descriptions[scenario.system.components[i].name] = fmus[i]->description();
   }
   const std::string text = io::complete(request.scenario, descriptions);
-  replace_file(request.output.empty() ? request.scenario : request.output, text);
+  io::Replacement output(request.output.empty() ? request.scenario : request.output);
+  output.file().write(text);
+  output.commit();
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <csignal>
 #include <exception>
 #include <string>
 #include <vector>
@@ -29,17 +30,31 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
+/// The last command of the line: of 'stride trace info', info.
+const CLI::App* innermost(const CLI::App* app) {
+  while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
+  return app;
+}
+
+/// "stride trace info"
+std::string full_name(const CLI::App* app) {
+  const CLI::App* parent = app->get_parent();
+  return parent == nullptr ? app->get_name() : full_name(parent) + " " + app->get_name();
+}
+
 /// What is wrong with the command line, with the whole help only where there is no command at all.
 std::string explain(const CLI::App* app, const CLI::Error& mistake) {
-  if (const std::vector<std::string> rest = app->remaining(); !rest.empty()) {
+  const CLI::App* command = innermost(app);
+  const std::vector<std::string> names = command_names(*command);
+  const std::vector<std::string> rest = command->remaining();
+  if (!names.empty() && !rest.empty()) {
     return fmt::format("stride: error: there is no {} '{}'\n  hint: {}\n",
                        rest.front().starts_with("-") ? "option" : "command", rest.front(),
-                       stride::core::suggestion(rest.front(), command_names(*app)));
+                       stride::core::suggestion(rest.front(), names));
   }
-  const std::vector<CLI::App*> commands = app->get_subcommands();
-  if (commands.empty()) return fmt::format("stride: error: {}\n\n{}", mistake.what(), app->help());
-  return fmt::format("stride: error: {}\n  hint: 'stride {} --help' tells what it takes\n",
-                     mistake.what(), commands.front()->get_name());
+  if (command == app) return fmt::format("stride: error: {}\n\n{}", mistake.what(), app->help());
+  return fmt::format("stride: error: {}\n  hint: '{} --help' tells what it takes\n", mistake.what(),
+                     full_name(command));
 }
 
 int parse(CLI::App& app, int argc, char** argv) {
@@ -55,6 +70,7 @@ int parse(CLI::App& app, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   set_up_log();
+  std::signal(SIGXFSZ, SIG_IGN);  // writing fails then, and is told, where the signal would kill
   CLI::App app(
       "stride couples simulators: it loads FMI 3.0 units as plug-ins and runs them in steps,\n"
       "as a scenario (an SSP system file, .ssd) wires them.\n",
@@ -73,6 +89,7 @@ int main(int argc, char** argv) {
   stride::cli::add_inspect(app);
   stride::cli::add_complete(app);
   stride::cli::add_pack(app);
+  stride::cli::add_trace(app);
   try {
     return parse(app, argc, argv);
   } catch (const stride::core::Error& error) {

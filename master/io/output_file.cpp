@@ -28,15 +28,15 @@ const char* hint_for(int error) {
 
 }  // namespace
 
-OutputFile::OutputFile(std::filesystem::path path)
-    : path_(std::move(path)), buffer_(std::make_unique<char[]>(kCapacity)) {
+OutputFile::OutputFile(std::filesystem::path path, Hints hints)
+    : path_(std::move(path)), hints_(hints), buffer_(std::make_unique<char[]>(kCapacity)) {
   constexpr mode_t kEverybodyMayRead = 0666;  // less the umask
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kEverybodyMayRead);
   if (descriptor_ >= 0) return;
   core::fail_input(
       {.where = {path_.string(), 0}},
       fmt::format("cannot create the file: {}", std::generic_category().message(errno)),
-      "choose a results folder in which you may write");
+      hints_.create);
 }
 
 OutputFile::~OutputFile() {
@@ -108,7 +108,7 @@ void OutputFile::fail(int error) {
   if (descriptor_ >= 0 && taken_ > line_end_) (void)!::ftruncate(descriptor_, line_end_);
   core::fail_run({.where = {path_.string(), 0}, .time = time_},
                  fmt::format("cannot write the file: {}", std::generic_category().message(error)),
-                 hint_for(error));
+                 hints_.write != nullptr ? hints_.write : hint_for(error));
 }
 
 }  // namespace stride::io

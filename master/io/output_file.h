@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include <stride/time.h>
 
@@ -20,8 +21,15 @@ namespace stride::io {
 /// which names the file and the simulated time; nothing is written from then on.
 class OutputFile {
  public:
+  /// What to do about failures.
+  struct Hints {
+    const char* create = "choose a results folder in which you may write";
+    const char* write = nullptr;  ///< what suits the error, for results, where there is none
+  };
+
   /// Creates the file or empties it. Throws core::Error (Input) if that is not possible.
-  explicit OutputFile(std::filesystem::path path);
+  explicit OutputFile(std::filesystem::path path) : OutputFile(std::move(path), Hints{}) {}
+  OutputFile(std::filesystem::path path, Hints hints);
   /// Closes the file; a failure is lost then, so call close() where it matters.
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -65,6 +73,7 @@ class OutputFile {
   [[noreturn]] void fail(int error);
 
   std::filesystem::path path_;
+  Hints hints_;
   std::optional<Time> time_;
   std::unique_ptr<char[]> buffer_;
   std::size_t used_ = 0;

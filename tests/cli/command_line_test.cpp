@@ -8,7 +8,7 @@ using Catch::Matchers::StartsWith;
 TEST_CASE("without a command, the help is shown as an error") {
   const Outcome outcome = run_program({});
   CHECK(outcome.exit_code == 2);
-  for (const char* command : {"run", "check", "inspect", "complete", "pack"}) {
+  for (const char* command : {"run", "check", "inspect", "complete", "pack", "trace"}) {
     CHECK_THAT(outcome.err, Contains(std::string("\n  ") + command + " "));
   }
 }

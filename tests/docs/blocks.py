@@ -5,8 +5,10 @@
     <!-- test: scenario NAME -->          XML, a scenario NAME.ssd to be run
     <!-- test: file FILE -->              a file beside the scenarios, such as a parameter set
     <!-- test: result SCENARIO FILE -->   how that file in the results folder of the scenario begins
+    <!-- test: session NAME -->           console, commands behind "$ " and what they print, beside the files
 
-blocks.py extract FOLDER PAGE...   writes them into the folder and prints "unit NAME" and "scenario NAME", one a line
+blocks.py extract FOLDER PAGE...   writes them into the folder and prints "unit NAME", "scenario NAME" and
+                                   "session NAME", one a line
 blocks.py check PAGE...            fails for a page without a marked block, and for a result without its scenario
 """
 
@@ -17,8 +19,9 @@ import sys
 MARKER = re.compile(r"<!--\s*test:\s*(.*?)\s*-->")
 FENCE = re.compile(r"```(\w*)")
 NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]*")
-WORDS = {"unit": 1, "resource": 2, "scenario": 1, "file": 1, "result": 2}
-LANGUAGES = {"unit": "cpp", "scenario": "xml"}
+WORDS = {"unit": 1, "resource": 2, "scenario": 1, "file": 1, "result": 2, "session": 1}
+TESTS = ("unit", "scenario", "session")
+LANGUAGES = {"unit": "cpp", "scenario": "xml", "session": "console"}
 
 
 class Mistake(Exception):
@@ -33,6 +36,7 @@ def target(kind, words):
         "scenario": "{0}.ssd",
         "file": "{0}",
         "result": "{0}.expected/{1}",
+        "session": "{0}.session",
     }[kind].format(*words)
 
 
@@ -85,7 +89,7 @@ def extract(folder, pages):
                 raise Mistake(f"{page}: '{kind} {' '.join(words)}' differs from the block of that name before it")
             write(folder / path, text)
             entry = f"{kind} {words[0]}"
-            if kind in ("unit", "scenario") and entry not in found:
+            if kind in TESTS and entry not in found:
                 found.append(entry)
     for old in sorted(folder.rglob("*")):
         if old.is_file() and str(old.relative_to(folder)) not in written:
@@ -97,7 +101,7 @@ def check(pages):
     scenarios, results = set(), []
     for page in pages:
         blocks = list(blocks_of(page)) if page.exists() else []
-        if not any(kind in ("unit", "scenario") for kind, _, _ in blocks):
+        if not any(kind in TESTS for kind, _, _ in blocks):
             raise Mistake(f"{page}: no block in it is marked as a test")
         print(f"{page}: {len(blocks)} blocks")
         scenarios |= {words[0] for kind, words, _ in blocks if kind == "scenario"}

@@ -29,10 +29,12 @@ class BlocksTest(unittest.TestCase):
     def test_writes_what_is_marked_and_nothing_else(self):
         status, found = self.extract(
             "```cpp\nint unmarked;\n```\n\n<!-- test: unit tank -->\n```cpp\nint a;\n\nint b;\n```\n"
-            "<!-- test: scenario fill -->\n```xml\n<a/>\n```\n")
-        self.assertEqual((status, found), (0, "unit tank\nscenario fill\n"))
+            "<!-- test: scenario fill -->\n```xml\n<a/>\n```\n"
+            "<!-- test: session look -->\n```console\n$ ls\na\n```\n")
+        self.assertEqual((status, found), (0, "unit tank\nscenario fill\nsession look\n"))
         self.assertEqual((self.folder / "out/tank/unit.cpp").read_text(), "int a;\n\nint b;\n")
         self.assertEqual((self.folder / "out/fill.ssd").read_text(), "<a/>\n")
+        self.assertEqual((self.folder / "out/look.session").read_text(), "$ ls\na\n")
 
     def test_a_block_that_is_gone_goes_from_the_folder(self):
         self.extract("<!-- test: file a.ssv -->\n```xml\n<a/>\n```\n")

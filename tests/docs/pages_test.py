@@ -1,5 +1,6 @@
 """pages_test.py STRIDE ROOT: links between the pages lead somewhere, lines in docs/ other than a table's are no longer
-than 120 characters, and the command line reference in docs/scenario.md has exactly the options of the program."""
+than 120 characters, and the command line references in docs/scenario.md and docs/traces.md have exactly the options of
+the program."""
 
 import pathlib
 import re
@@ -22,22 +23,25 @@ def long_lines(page):
             yield f"{page}:{number}: {len(line)} characters, expected 120 at most"
 
 
-def wrong_options(program, page):
-    """The section "### stride COMMAND" names each option of that command, and no other."""
+def wrong_options(program, page, *group):
+    """The section "### stride [GROUP] COMMAND" names each option of that command, and no other."""
     def help_of(*command):
-        return subprocess.run([program, *command, "--help"], check=True, capture_output=True, text=True).stdout
+        return subprocess.run([program, *group, *command, "--help"], check=True, capture_output=True,
+                              text=True).stdout
 
-    sections = dict(re.findall(r"^### `stride (\w+)[^\n]*\n(.*?)(?=^##|\Z)", page.read_text(encoding="utf-8"),
+    prefix = " ".join(["stride", *group])
+    sections = dict(re.findall(rf"^### `{prefix} (\w+)[^\n]*\n(.*?)(?=^##|\Z)", page.read_text(encoding="utf-8"),
                                flags=re.MULTILINE | re.DOTALL))
     commands = re.findall(r"^  (\w+)\s", help_of().split("Subcommands:")[1], flags=re.MULTILINE)
     if not commands or set(commands) != set(sections):
-        yield f"{page}: the commands are {sorted(commands)}, the page has {sorted(sections)}"
+        yield f"{page}: the commands of {prefix} are {sorted(commands)}, the page has {sorted(sections)}"
         return
     for command in commands:
-        options = set(OPTION.findall(help_of(command).split("Options:")[1].split("Exit codes")[0])) - {"--help"}
+        text = help_of(command).split("Options:")[1].split("Subcommands:")[0].split("Exit codes")[0]
+        options = set(OPTION.findall(text)) - {"--help"}
         named = set(re.findall(r"^\| `(?:-\w, )?(--[a-z-]+)", sections[command], flags=re.MULTILINE))
         for option in sorted(options ^ named):
-            yield f"{page}: stride {command} {option} is {'not described' if option in options else 'no option'}"
+            yield f"{page}: {prefix} {command} {option} is {'not described' if option in options else 'no option'}"
 
 
 def main(program, root):
@@ -46,6 +50,7 @@ def main(program, root):
     pages = sorted(root.glob("*.md")) + docs
     pages += sorted((root / "units").rglob("*.md")) + sorted((root / "scenarios").rglob("*.md"))
     mistakes = list(wrong_options(program, root / "docs" / "scenario.md"))
+    mistakes += wrong_options(program, root / "docs" / "traces.md", "trace")
     for page in pages:
         mistakes += broken_links(page)
     for page in docs:

@@ -11,10 +11,12 @@ namespace stride::tests {
 
 class Mutator {
  public:
-  explicit Mutator(unsigned seed) : random_(seed) {}
+  /// `alphabet` holds the characters that mean something to the parser.
+  explicit Mutator(unsigned seed, std::string alphabet = "<>&\"'/=:.%-0 \n")
+      : random_(seed), alphabet_(std::move(alphabet)) {}
 
   /// The text with one to four changes: cut off, a byte replaced, a part removed, doubled or
-  /// swapped, a character of XML put in.
+  /// swapped, a character of the alphabet put in.
   std::string mutate(std::string text) {
     for (std::size_t left = 1 + below(4); left > 0 && !text.empty(); --left) mutate_once(text);
     return text;
@@ -40,7 +42,7 @@ class Mutator {
         text.insert(below(text.size()), text.substr(at, length));
         return;
       case 4:
-        text.insert(at, std::string(1, "<>&\"'/=:.%-0 \n"[below(14)]));
+        text.insert(at, 1, alphabet_[below(alphabet_.size())]);
         return;
       default:
         std::swap(text[at], text[below(text.size())]);
@@ -48,6 +50,7 @@ class Mutator {
   }
 
   std::mt19937 random_;
+  std::string alphabet_;
 };
 
 }  // namespace stride::tests

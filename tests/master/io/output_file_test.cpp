@@ -1,12 +1,11 @@
 #include "master/io/output_file.h"
 
-#include <csignal>
 #include <limits>
 
 #include <catch2/catch.hpp>
-#include <sys/resource.h>
 
 #include "master/core/error.h"
+#include "tests/master/io/file_size_limit.h"
 #include "tests/master/io/support.h"
 
 using namespace stride;
@@ -14,26 +13,6 @@ using namespace stride::io;
 using Catch::Contains;
 
 namespace {
-
-/// Files of this process may not grow beyond a size while an object of this class lives.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    rlimit limit = before_;
-    limit.rlim_cur = bytes;
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  rlimit before_{};
-  void (*handler_)(int) = nullptr;
-};
 
 std::string text_of(Time time) {
   const TemporaryFolder folder;

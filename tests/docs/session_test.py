@@ -1,0 +1,38 @@
+"""session_test.py STRIDE SESSION FOLDER: each command of the session, behind "$ ", prints what the session shows below
+it. They run one after another in the folder, in which are the files that lie beside the session."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+
+def commands_of(session):
+    """Yields each command with what it should print."""
+    for piece in ("\n" + session).split("\n$ ")[1:]:
+        command, _, output = piece.partition("\n")
+        yield command, output if output.endswith("\n") or not output else output + "\n"
+
+
+def main(program, session, folder):
+    session, folder = pathlib.Path(session), pathlib.Path(folder)
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    for file in session.parent.iterdir():
+        if file.is_file() and file.suffix != ".session":
+            shutil.copy(file, folder)
+    path = f"{pathlib.Path(program).parent}{os.pathsep}{os.environ['PATH']}"
+    commands = list(commands_of(session.read_text(encoding="utf-8")))
+    mistakes = 0 if commands else 1
+    for command, expected in commands:
+        printed = subprocess.run(["bash", "-c", command], cwd=folder, env={**os.environ, "PATH": path}, text=True,
+                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False).stdout
+        if printed != expected:
+            print(f"$ {command}\n{printed}--- the page says\n{expected}")
+            mistakes += 1
+    return 1 if mistakes else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

@@ -1,0 +1,110 @@
+#include "master/trace/header.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/master/trace/support.h"
+
+using namespace stride::trace;
+using Catch::Contains;
+
+namespace {
+
+struct Read {
+  Header header;
+  std::string rest;  ///< the first word behind the header
+};
+
+Read read(const std::string& text) {
+  const TemporaryFolder folder;
+  Words words(folder.write("x.vcd", text));
+  Header header = read_header(words);
+  std::string rest(words.next());
+  return {std::move(header), std::move(rest)};
+}
+
+std::string error(const std::string& text) {
+  return error_of([&] { read(text); });
+}
+
+/// An error in the declarations, which begin in line 2.
+std::string declaration_error(const std::string& declarations) {
+  return error("$timescale 1 ps $end\n" + declarations + "$enddefinitions $end\n");
+}
+
+}  // namespace
+
+TEST_CASE("A header is kept as it is, and its declarations are found in it") {
+  const std::string text =
+      "$date\n   today\n$end\n$version none $end $timescale\n\t10ns\n$end\n"
+      "$comment $var is explained $scope $end\n"
+      "$scope module top $end\n$var wire 1 ! a $end\n$scope task $unit $end\n"
+      "$var\n  wire 8\n  aaaab level [7:0]\n$end $var real 64 $x temperature[3] $end\n"
+      "$upscope $end\n$upscope $end\n$attrbegin misc 02 $end\n$var event 1 ! again $end\n"
+      "$enddefinitions\n  $end";
+  const auto [header, rest] = read(text + "\n#0\n");
+  CHECK(header.text == text);
+  CHECK(rest == "#0");
+  CHECK(header.timescale.text() == "10 ns");
+  REQUIRE(header.declarations.size() == 4);
+  const auto check = [&](std::size_t i, const char* type, std::uint32_t width, std::uint32_t code,
+                         const char* name, int line) {
+    const Declaration& declaration = header.declarations[i];
+    CHECK(header.at(declaration.type) == type);
+    CHECK(declaration.width == width);
+    CHECK(declaration.code == code);
+    CHECK(header.at(declaration.name) == name);
+    CHECK(declaration.line == line);
+  };
+  check(0, "wire", 1, 0, "a", 9);
+  check(1, "wire", 8, 1, "level", 11);
+  check(2, "real", 64, 2, "temperature", 14);
+  check(3, "event", 1, 0, "again", 18);
+  CHECK(header.at(header.declarations[0].section) == "$var wire 1 ! a $end");
+  CHECK(header.at({0, header.first_scope_end}).substr(header.first_scope_end - 23) ==
+        "\n$scope module top $end");
+  CHECK(text.substr(header.end_definitions) == "$enddefinitions\n  $end");
+}
+
+TEST_CASE("What is no header is told with its line") {
+  CHECK_THAT(error(""), Contains("x.vcd:1: the file ends before $enddefinitions"));
+  CHECK_THAT(error("$timescale 1 ps $end\n"), Contains("x.vcd:2: the file ends before"));
+  CHECK_THAT(error("\x1f\x8b\x08 gzip"), Contains("x.vcd:1: '\\x1f\\x8b\\x08' stands where") &&
+                                             Contains("gunzip") && Contains("fst2vcd"));
+  CHECK_THAT(error("$version 1 $end\n#0\n"),
+             Contains("x.vcd:2: '#0' stands where") && !Contains("hint"));
+  CHECK_THAT(error("$version 1 $end $end\n"), Contains("x.vcd:1: '$end' stands where"));
+  CHECK_THAT(error("$enddefinitions $end\n"),
+             Contains("x.vcd:1: there is no $timescale") && Contains("$timescale 1 ns $end"));
+  CHECK_THAT(error("$timescale 2 ps $end\n$enddefinitions $end\n"),
+             Contains("x.vcd:1: '2ps' is no time scale; expected 1, 10 or 100 of"));
+  CHECK_THAT(error("$timescale $end\n$enddefinitions $end\n"), Contains("'' is no time scale"));
+  CHECK_THAT(declaration_error("$timescale 1 ps $end\n"),
+             Contains("x.vcd:2: there is a second $timescale"));
+  CHECK_THAT(declaration_error("$upscope $end\n"), Contains("x.vcd:2: $upscope closes no scope"));
+}
+
+TEST_CASE("A section that does not end is told with the line where it begins") {
+  const std::string begin = "$timescale 1 ps $end\n";
+  CHECK_THAT(error(begin + "$var wire 1"),
+             Contains("x.vcd:2: the file ends within the $var of line 2; it was cut off"));
+  CHECK_THAT(error(begin + "$comment\n no end\n\n"),
+             Contains("the file ends within the $comment of line 2"));
+  CHECK_THAT(error(begin + "$var wire 1 ! a\n$var wire 1 \" b $end\n"),
+             Contains("x.vcd:3: the $var of line 2 has no $end before '$var'"));
+  CHECK_THAT(error(begin + "$scope module a\n$enddefinitions $end\n"),
+             Contains("x.vcd:3: the $scope of line 2 has no $end before '$enddefinitions'"));
+  CHECK_THAT(error(begin + "$comment " + std::string(Words::kLongest / 2, ' ') + "a " +
+                   std::string(Words::kLongest / 2, ' ') + "b\n"),
+             Contains("the $comment of line 2 has no $end"));
+}
+
+TEST_CASE("A variable has a type, a width, a code and a name") {
+  CHECK_THAT(declaration_error("$var wire 1 ! $end\n"),
+             Contains("x.vcd:2: a $var has a type, a width, a code and a name, this one has only "
+                      "3 of them"));
+  CHECK_THAT(declaration_error("$var wire many ! a $end\n"),
+             Contains("x.vcd:2: 'many' is no width in bits"));
+  CHECK_THAT(declaration_error("$var wire -1 ! a $end\n"), Contains("'-1' is no width in bits"));
+  CHECK_THAT(declaration_error("$var wire 1 \xc3\xa4 a $end\n"),
+             Contains("x.vcd:2: '\\xc3\\xa4' is no identifier code"));
+}
