@@ -1,106 +1,27 @@
-// The sensor with and without idle skipping, its promises, and its traces.
+// The sensor with and without idle skipping, and its promises.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <functional>
 #include <random>
-#include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
-#include <unistd.h>
 
-#include "tests/units/sensor/unit_bench.h"
-#include "tests/units/systemc/vcd.h"
+#include "tests/units/sensor/life.h"
 
-using nfc::Bytes;
+using sensor::kCommands;
+using sensor::kFields;
 using sensor::kMillisecond;
+using sensor::kSecond;
+using sensor::live;
+using sensor::outputs;
+using sensor::prepare;
+using sensor::Record;
 using sensor::UnitBench;
+using sensor::Way;
 using stride::Duration;
 using stride::Time;
-using stride::tests::Vcd;
 
 namespace {
-
-constexpr Duration kSecond = 1000 * kMillisecond;
-
-/// How a sensor is simulated. None of it may change a result.
-struct Way {
-  bool gating = true;
-  std::optional<Duration> max_skip;
-  std::string trace_file;
-  double frequency = 2e6;  ///< [Hz]
-};
-
-/// With a slow clock, so that one without a gate can be simulated, and energy for minutes.
-void prepare(UnitBench& bench, const Way& way) {
-  bench.value<double>("power.initial_voltage") = 4.0;
-  bench.value<double>("power.capacitance") = 2e-3;
-  bench.value<double>("control_unit.clock_frequency") = way.frequency;
-  bench.value<bool>("control_unit.clock_gating") = way.gating;
-  bench.value<std::string>("trace.file") = way.trace_file;
-  if (way.max_skip) bench.enable_skipping(*way.max_skip);
-  bench.initialize(Time(7 * kMillisecond));
-}
-
-/// The bits of all numbers that are outputs.
-std::vector<std::uint64_t> outputs(UnitBench& bench) {
-  std::vector<std::uint64_t> words;
-  for (const stride::Variable& row : bench.unit().variables()) {
-    if (row.causality != stride::Causality::Output) continue;
-    const std::size_t size = row.type == stride::Type::Float64   ? 8
-                             : row.type == stride::Type::Int32   ? 4
-                             : row.type == stride::Type::Boolean ? 1
-                                                                 : 0;
-    std::uint64_t word = 0;
-    std::memcpy(&word, row.data, size);
-    words.push_back(word);
-  }
-  return words;
-}
-
-const Bytes kCommands[] = {
-    {0x01}, {0x02}, {0x03, 0x01}, {0x03, 0x00}, {0x05}, {0x06, 0x00, 0x01}, {0x06, 0x00, 0x02},
-    {0x07}, {0x7F}};
-const double kFields[] = {0.0, sensor::kCarrier, 3e-3, 20e-3};
-
-struct Record {
-  std::vector<nfc::Frame> answers;
-  std::vector<Time> received_at;
-  std::vector<std::vector<std::uint64_t>> outputs;  ///< at the communication points
-};
-
-/// Commands, fields and temperatures at seeded instants, for two and a half seconds or more.
-Record live(UnitBench& bench, unsigned seed) {
-  std::mt19937 random(seed);  // its sequence is part of the C++ standard
-  Record record;
-  const Time end = bench.now() + 5 * kSecond / 2;
-  while (bench.now() < end) {
-    const Duration pause(1 + static_cast<std::int64_t>(random()) * (random() % 4 == 0 ? 80 : 3));
-    bench.run(bench.now() + pause, true,
-              static_cast<std::int64_t>(1 + random() % 40) * kMillisecond);
-    record.outputs.push_back(outputs(bench));
-    if (random() % 3 == 0) bench.value<double>("field_power") = kFields[random() % 4];
-    bench.value<double>("adc.temperature") = static_cast<double>(random() % 60);
-    if (random() % 4 != 0) {
-      const nfc::Frame frame = sensor::request(kCommands[random() % 9], bench.now());
-      bench.run(frame.start + nfc::air_time(frame), true);
-      bench.send(frame);
-    }
-  }
-  record.answers = bench.answers;
-  record.received_at = bench.received_at;
-  return record;
-}
-
-Record live(const Way& way, unsigned seed) {
-  UnitBench bench;
-  prepare(bench, way);
-  Record record = live(bench, seed);
-  bench.unit().terminate();
-  return record;
-}
 
 void check_same(const Record& record, const Record& expected) {
   CHECK(record.answers == expected.answers);
@@ -251,35 +172,4 @@ TEST_CASE("a promise ends where the timer goes off, and there is none while some
   CHECK(bench.value<std::int32_t>("log.samples") == 1);
   bench.value<double>("field_power") = 5e-3;
   CHECK(bench.idle_until() == bench.now());  // an input that has not been taken up
-}
-
-TEST_CASE("an expanded trace is the one without skipping, but for the edges of a free clock") {
-  namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / ("stride_sensor_" + std::to_string(getpid()));
-  fs::create_directory(folder);
-  const auto trace = [&](bool gating, bool skips) {
-    const std::string file = (folder / "sensor.vcd").string();
-    live(Way{gating, skips ? std::optional(Duration::max()) : std::nullopt, file, 2e5}, 3);
-    return stride::tests::read_vcd(file);
-  };
-  for (const bool gating : {true, false}) {
-    const Vcd full = trace(gating, false);
-    const Vcd skipping = trace(gating, true);
-    CHECK(full.signals.size() == 17);
-    for (const auto& [name, changes] : full.signals) {
-      CAPTURE(gating, name);
-      const Vcd::Changes& found = skipping.of(name);
-      if (name == "advanceTime") {
-        CHECK(found.size() > 10);
-      } else if (name == "sensor.clock" && !gating) {
-        CHECK(std::includes(changes.begin(), changes.end(), found.begin(), found.end()));
-        CHECK(found.size() < changes.size() / 5);
-      } else {
-        CHECK(found == changes);
-      }
-    }
-    CHECK(full.of("sensor.DataUCToTrm").size() > 3);
-    CHECK(skipping.last_stamp < full.last_stamp / 5);
-  }
-  fs::remove_all(folder);
 }
