@@ -85,7 +85,7 @@ class DeviceUnit : public Unit {
   }
 
   void step(Step& step) final {
-    device_->within([this](Module& module) { write_inputs(module); });
+    hand_over_inputs();
     Time reached = device_->advance(device_->now());
     if (!step.early_return_allowed() || !has_message()) {
       reached = advance(to_device(step.to()), step.early_return_allowed());
@@ -111,7 +111,7 @@ class DeviceUnit : public Unit {
   Time idle_until(Time now) const final {
     if (has_message()) return now;
     return device_->within([&](const Module& module) {
-      if (!rules_.inputs_are_taken_up() || !idle(module)) return now;
+      if (!inputs_are_taken_up() || !idle(module)) return now;
       return std::min(later(now, tangents_hold_for(module)), next_happening(module));
     });
   }
@@ -176,11 +176,7 @@ class DeviceUnit : public Unit {
     Duration clock_period() const override { return unit_.clock_period(module()); }
     Duration longest_skip() const override { return unit_.longest_skip(module()); }
     void on_skip(Duration skipped) override { unit_.on_skip(module(), skipped); }
-    /// A signal that is written with what it holds asks for no update.
-    bool inputs_are_taken_up() const {
-      unit_.write_inputs(module());
-      return unit_.device_->kernel().at_rest();
-    }
+    void write_inputs() const { unit_.write_inputs(module()); }
 
    private:
     Module& module() const { return unit_.device_->module(); }
@@ -192,11 +188,29 @@ class DeviceUnit : public Unit {
     return skipper_->advance(to, may_stop_early, *max_skip());
   }
 
+  void hand_over_inputs() {
+    device_->within([this](Module& module) { write_inputs(module); });
+    inputs_since_ = simulated();
+  }
+
   /// Lets the device take up its inputs at the instant where it is.
   void settle() {
-    device_->within([this](Module& module) { write_inputs(module); });
+    hand_over_inputs();
     device_->advance(device_->now());
     device_->within([this](Module& module) { read_outputs(module); });
+  }
+
+  /// The device has them (a signal that is written with what it holds asks for no update), and a
+  /// clock that goes on has had an edge at which to sample them.
+  bool inputs_are_taken_up() const {
+    rules_.write_inputs();
+    return device_->kernel().at_rest() &&
+           simulated() - inputs_since_ >= clock_period(device_->module());
+  }
+
+  /// What SystemC has simulated, from the start on.
+  Duration simulated() const {
+    return device_->now().time_since_epoch() - device_->kernel().skipped();
   }
 
   /// A clock that goes on does not count.
@@ -222,6 +236,7 @@ class DeviceUnit : public Unit {
   }
 
   Time start_;
+  Duration inputs_since_{};  ///< what was simulated when they were handed over
   Rules rules_{*this};
   TraceOptions trace_options_;
   std::unique_ptr<Device> device_;

@@ -56,7 +56,10 @@ class MeterUnit : public stride::systemc::DeviceUnit<Meter> {
     rate_ = -meter.current();
   }
 
+ protected:
   bool idle(const Meter& meter) const override { return meter.sleeps(); }
+
+ private:
   Duration clock_period(const Meter&) const override { return meter::kPeriod; }
   void on_skip(Meter& meter, Duration skipped) override {
     meter.charge -= meter.current() * stride::to_seconds(skipped);
@@ -140,6 +143,27 @@ TEST_CASE("nothing is promised while the device works, or has an input to take u
   unit.step(at(110 * kMicrosecond));
   CHECK(unit.measurements() == 1);
   CHECK(unit.idle_until() > unit.now());
+}
+
+TEST_CASE("what a clock's edge has to sample is neither skipped nor promised away") {
+  /// Does not look at its input.
+  struct Careless : MeterUnit {
+    bool idle(const Meter& meter) const override { return !meter.busy.read(); }
+  };
+  UnitDriver unit(std::make_unique<Careless>());
+  unit.enable_skipping();
+  unit.initialize();
+  CHECK(unit.idle_until() == unit.now());
+  unit.step(at(kMillisecond + Duration(15'000)));
+  CHECK(unit.idle_until() > unit.now());
+
+  unit.value<bool>("request") = true;
+  unit.step(unit.now() + Duration(2'000));  // the edge is 3 ns later
+  CHECK(unit.idle_until() == unit.now());
+  unit.step(unit.now() + kMillisecond);
+  CHECK(unit.value<std::int32_t>("measurements") == 1);
+  unit.event();
+  CHECK(unit.idle_until() == unit.now());
 }
 
 TEST_CASE("the log says at the end how much was skipped") {
