@@ -13,7 +13,6 @@ namespace {
 using nfc::Command;
 using nfc::Status;
 using stride::systemc::current_time;
-using stride::systemc::to_sc_time;
 
 constexpr stride::Duration kSecond = std::chrono::seconds(1);
 
@@ -61,7 +60,7 @@ ControlUnit::ControlUnit(sc_core::sc_module_name name, const SensorParameters& p
   SC_METHOD(run);
   sensitive << clock.pos() << powered << carrier << fifo_.written() << sample_event_;
   SC_METHOD(on_timer);
-  sensitive << timer_;
+  sensitive << timer_.event();
   dont_initialize();
 }
 
@@ -77,7 +76,7 @@ void ControlUnit::run() {
 }
 
 void ControlUnit::on_timer() {
-  timer_.notify(to_sc_time(sampling_period_));
+  timer_.set_after(sampling_period_);
   sample_due_ = true;
   sample_event_.notify(sc_core::SC_ZERO_TIME);
 }
@@ -203,7 +202,7 @@ void ControlUnit::set_sampling_period() {
   timer_.cancel();
   sample_due_ = false;
   sampling_period_ = argument(command_.data) * kSecond;
-  if (sampling_period_ > stride::Duration{}) timer_.notify(to_sc_time(sampling_period_));
+  if (sampling_period_ > stride::Duration{}) timer_.set_after(sampling_period_);
 }
 
 nfc::Bytes ControlUnit::log_data() const {

@@ -12,6 +12,7 @@
 #include "units/sensor/parameters.h"
 #include "units/sensor/sample_log.h"
 #include "units/sensor/transceiver.h"
+#include "units/systemc/timer.h"
 
 namespace sensor {
 
@@ -40,6 +41,8 @@ class ControlUnit : public sc_core::sc_module {
   /// The fifo has to outlive it.
   ControlUnit(sc_core::sc_module_name name, const SensorParameters& parameters, CommandFifo& fifo);
 
+  /// In stop mode or without power, with nothing to do until the timer goes off.
+  bool asleep() const { return (state_ == State::kStop || state_ == State::kOff) && !sample_due_; }
   bool selected() const { return selected_ || always_selected_; }
   const SampleLog& log() const { return log_; }
 
@@ -83,7 +86,7 @@ class ControlUnit : public sc_core::sc_module {
   nfc::Bytes answer_;
   bool selected_ = false;
 
-  sc_core::sc_event timer_{"timer"};
+  stride::systemc::Timer timer_{"timer"};
   sc_core::sc_event sample_event_{"sample_event"};
   stride::Duration sampling_period_{};  ///< zero: no samples
   bool sample_due_ = false;

@@ -25,19 +25,21 @@ void GatedClock::run() {
     return;
   }
   if (!open_) open();
-  if (current_time() < next_edge_) return;
+  if (sc_core::sc_time_stamp() < next_edge_) return;
   level_ = !level_;
   clock.write(level_);
-  next_edge_ += half_period_;
-  tick_.notify(to_sc_time(half_period_));
+  tick_after(half_period_);
 }
 
 void GatedClock::open() {
-  const stride::Duration period = 2 * half_period_;
   const stride::Duration since = current_time() - power_on_;
-  next_edge_ = power_on_ + (since / period + 1) * period;
-  tick_.notify(to_sc_time(next_edge_ - current_time()));
+  tick_after(period() - since % period());
   open_ = true;
+}
+
+void GatedClock::tick_after(stride::Duration delay) {
+  next_edge_ = sc_core::sc_time_stamp() + to_sc_time(delay);
+  tick_.notify(to_sc_time(delay));
 }
 
 void GatedClock::close() {

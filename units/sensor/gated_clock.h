@@ -10,7 +10,8 @@ namespace sensor {
 
 /// The oscillator runs from power-on; the gate passes its edges while `enable` is set. Rising edges
 /// come at whole periods after power-on, so gating changes no edge that is passed. While the gate
-/// is closed there are no kernel events.
+/// is closed there are no kernel events. A clock without a gate goes on while the device sleeps;
+/// its edges keep their phase over skips of whole periods.
 class GatedClock : public sc_core::sc_module {
  public:
   sc_core::sc_in<bool> powered{"powered"};
@@ -20,16 +21,20 @@ class GatedClock : public sc_core::sc_module {
   /// The half period is rounded to a picosecond.
   GatedClock(sc_core::sc_module_name name, double frequency, bool gating);
 
+  bool gating() const { return gating_; }
+  stride::Duration period() const { return 2 * half_period_; }
+
  private:
   void run();
   void open();
+  void tick_after(stride::Duration delay);
   void close();
 
   stride::Duration half_period_;
   bool gating_;
   sc_core::sc_event tick_{"tick"};
   stride::Time power_on_;
-  stride::Time next_edge_;
+  sc_core::sc_time next_edge_;  ///< in SystemC's time: skips are whole periods
   bool was_powered_ = false;
   bool open_ = false;
   bool level_ = false;

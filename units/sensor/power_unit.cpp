@@ -8,7 +8,6 @@
 namespace sensor {
 
 using stride::systemc::current_time;
-using stride::systemc::to_sc_time;
 using Mode = Flow::Mode;
 
 PowerUnit::PowerUnit(sc_core::sc_module_name name, const PowerParameters& parameters)
@@ -21,7 +20,7 @@ PowerUnit::PowerUnit(sc_core::sc_module_name name, const PowerParameters& parame
   SC_HAS_PROCESS(PowerUnit);
   SC_METHOD(on_power_event);
   sensitive << field_power << control_unit_current << transceiver_current << adc_current
-            << led_current << crossing_event_ << start_up_event_;
+            << led_current << crossing_timer_.event() << start_up_timer_.event();
 }
 
 double PowerUnit::seconds_since_event() const {
@@ -34,22 +33,9 @@ double PowerUnit::voltage_now() const {
 
 double PowerUnit::charge_now() const { return parameters_.capacitance * voltage_now(); }
 
-double PowerUnit::charge_rate_now() const {
-  return parameters_.capacitance * supply_.capacitor(flow_).slope(voltage_now());
-}
-
 double PowerUnit::terminal_voltage_now() const { return supply_.terminal(flow_, voltage_now()); }
 
-double PowerUnit::terminal_rate_now() const {
-  if (flow_.mode == Mode::kConstantVoltage) return 0;
-  return supply_.capacitor(flow_).slope(voltage_now());
-}
-
 double PowerUnit::rail_voltage_now() const { return supply_.rail(flow_, voltage_now()); }
-
-double PowerUnit::rail_rate_now() const {
-  return flow_.mode == Mode::kFromCapacitor ? terminal_rate_now() : 0;
-}
 
 double PowerUnit::intake_now() const { return supply_.intake(flow_, voltage_now()); }
 double PowerUnit::load_now() const { return supply_.load(flow_, voltage_now()); }
@@ -65,6 +51,14 @@ EnergyBooks PowerUnit::books_now() const {
   books += supply_.books(flow_, voltage_, seconds_since_event());
   return books;
 }
+
+PowerReadings PowerUnit::readings_now() const {
+  return {charge_now(), terminal_voltage_now(), rail_voltage_now(), intake_now(),
+          load_now(),   stored_now(),           books_now()};
+}
+
+PowerReadings PowerUnit::rates_now() const { return supply_.rates(flow_, voltage_now()); }
+PowerReadings PowerUnit::curvatures_now() const { return supply_.curvatures(flow_, voltage_now()); }
 
 void PowerUnit::on_power_event() {
   settle();
@@ -124,22 +118,21 @@ void PowerUnit::supervise() {
 }
 
 void PowerUnit::power_good() {
-  const stride::Duration delay = stride::duration_from_seconds(parameters_.start_up_delay);
   good_ = true;
-  start_up_ = current_time() + delay;
-  start_up_event_.notify(to_sc_time(delay));
+  start_up_ = current_time() + stride::duration_from_seconds(parameters_.start_up_delay);
+  start_up_timer_.set(start_up_);
 }
 
 void PowerUnit::brown_out() {
   good_ = false;
   on_ = false;
-  start_up_event_.cancel();
+  start_up_timer_.cancel();
 }
 
 void PowerUnit::schedule() {
-  crossing_event_.cancel();
+  crossing_timer_.cancel();
   crossing_ = next_crossing();
-  if (crossing_) crossing_event_.notify(to_sc_time(crossing_->instant - current_time()));
+  if (crossing_) crossing_timer_.set(crossing_->instant);
 }
 
 std::optional<PowerUnit::Crossing> PowerUnit::next_crossing() const {

@@ -9,6 +9,7 @@
 
 #include "units/sensor/parameters.h"
 #include "units/sensor/supply.h"
+#include "units/systemc/timer.h"
 
 namespace sensor {
 
@@ -39,15 +40,15 @@ class PowerUnit : public sc_core::sc_module {
 
   // At the current instant, between events too.
   double charge_now() const;            ///< [C]
-  double charge_rate_now() const;       ///< [C/s]
   double terminal_voltage_now() const;  ///< of the capacitor [V]
-  double terminal_rate_now() const;     ///< [V/s]
   double rail_voltage_now() const;      ///< [V]
-  double rail_rate_now() const;         ///< [V/s]
   double intake_now() const;            ///< [W]
   double load_now() const;              ///< [W]
-  double stored_now() const;      ///< energy that the capacitor has gained since the start [J]
-  EnergyBooks books_now() const;  ///< since the start
+  double stored_now() const;           ///< energy that the capacitor has gained since the start [J]
+  EnergyBooks books_now() const;       ///< since the start
+  PowerReadings readings_now() const;  ///< all of these
+  PowerReadings rates_now() const;     ///< their first derivatives
+  PowerReadings curvatures_now() const;  ///< see Supply::curvatures()
 
  private:
   enum class Threshold { kPowerGood, kBrownOut, kKnee };
@@ -74,8 +75,8 @@ class PowerUnit : public sc_core::sc_module {
 
   PowerParameters parameters_;
   Supply supply_;
-  sc_core::sc_event crossing_event_{"crossing_event"};
-  sc_core::sc_event start_up_event_{"start_up_event"};
+  stride::systemc::Timer crossing_timer_{"crossing_timer"};
+  stride::systemc::Timer start_up_timer_{"start_up_timer"};
 
   stride::Time last_event_;
   double voltage_;  ///< of the capacitance at the last event

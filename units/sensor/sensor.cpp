@@ -25,6 +25,10 @@ Sensor::Sensor(sc_core::sc_module_name name, const SensorParameters& parameters)
   wire_power_unit();
 }
 
+bool Sensor::idle() const {
+  return transceiver.idle() && fifo.empty() && control_unit.asleep() && !awake.read();
+}
+
 void Sensor::wire_transceiver() {
   transceiver.powered(powered);
   transceiver.field_power(field_power);

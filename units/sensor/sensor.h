@@ -23,6 +23,10 @@ class Sensor : public sc_core::sc_module {
   /// Throws std::invalid_argument if the parameters are not valid.
   Sensor(sc_core::sc_module_name name, const SensorParameters& parameters);
 
+  /// No command is queued, no frame on the air or about to be, and the control unit sleeps or has
+  /// no power: until a timer goes off nothing happens, but that a clock without a gate goes on.
+  bool idle() const;
+
   // Inputs.
   sc_core::sc_signal<double> field_power{"field_power"};  ///< at the antenna [W]
   sc_core::sc_signal<double> temperature{"temperature"};  ///< at the ADC [degC]

@@ -1,6 +1,7 @@
 #include "units/sensor/supply.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace sensor {
@@ -114,6 +115,77 @@ void Supply::add_charging(EnergyBooks& books, const Flow& flow, double voltage,
   const double charge = gap.integral(start, seconds) / p_.series_resistance;
   books.series_resistance = gap.integral_of_square(start, seconds) / p_.series_resistance;
   books.limiter = p_.maximum_voltage * (left * seconds - charge);
+}
+
+PowerReadings Supply::rates(const Flow& flow, double voltage) const {
+  const double slope = capacitor(flow).slope(voltage);
+  PowerReadings rates;
+  rates.charge = p_.capacitance * slope;
+  rates.stored = rates.charge * voltage;
+  rates.books = powers(flow, voltage);
+  switch (flow.mode) {
+    case Mode::kFromCapacitor:
+      rates.terminal = rates.rail = slope;
+      rates.intake = slope * (flow.load + flow.current);
+      rates.load = slope * flow.load;
+      break;
+    case Mode::kConstantCurrent:
+      rates.terminal = slope;
+      break;
+    case Mode::kConstantVoltage:
+      rates.intake = -p_.maximum_voltage * slope / p_.series_resistance;
+      break;
+  }
+  return rates;
+}
+
+EnergyBooks Supply::powers(const Flow& flow, double voltage) const {
+  const double into = current(flow, voltage);
+  const double left = flow.source - flow.load;
+  const double on_rail = rail(flow, voltage);
+  EnergyBooks powers;
+  powers.field = flow.field_power / p_.maximum_voltage * on_rail;
+  powers.rectifier = (1 - p_.rectifier_efficiency) * powers.field;
+  powers.series_resistance = into * into * p_.series_resistance;
+  powers.leakage = voltage * voltage / p_.leakage_resistance;
+  powers.regulator = flow.load * (on_rail - p_.supply_voltage);
+  for (std::size_t i = 0; i < kParts; ++i) powers.parts[i] = flow.parts[i] * p_.supply_voltage;
+  if (flow.mode != Mode::kFromCapacitor) {
+    powers.charger = into * (p_.maximum_voltage - terminal(flow, voltage));
+    powers.limiter = p_.maximum_voltage * (left - into);
+  }
+  return powers;
+}
+
+PowerReadings Supply::curvatures(const Flow& flow, double voltage) const {
+  const Relaxation law = capacitor(flow);
+  const double slope = std::abs(law.slope(voltage));
+  const double bend = law.rate * slope;
+  const double highest = std::max(voltage, p_.maximum_voltage);
+  PowerReadings bounds;
+  bounds.charge = p_.capacitance * bend;
+  bounds.stored = p_.capacitance * (slope * slope + highest * bend);
+  bounds.books.leakage = 2 * highest * slope / p_.leakage_resistance;
+  switch (flow.mode) {
+    case Mode::kFromCapacitor:
+      bounds.terminal = bounds.rail = bend;
+      bounds.intake = bend * std::abs(flow.load + flow.current);
+      bounds.load = bend * flow.load;
+      bounds.books.field = flow.field_power / p_.maximum_voltage * slope;
+      bounds.books.rectifier = (1 - p_.rectifier_efficiency) * bounds.books.field;
+      bounds.books.regulator = flow.load * slope;
+      break;
+    case Mode::kConstantCurrent:
+      bounds.terminal = bend;
+      bounds.books.charger = flow.current * slope;
+      break;
+    case Mode::kConstantVoltage:
+      bounds.intake = p_.maximum_voltage * bend / p_.series_resistance;
+      bounds.books.series_resistance = 2 * flow.current * slope;
+      bounds.books.limiter = p_.maximum_voltage * slope / p_.series_resistance;
+      break;
+  }
+  return bounds;
 }
 
 }  // namespace sensor

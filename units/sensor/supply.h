@@ -30,6 +30,36 @@ struct EnergyBooks {
   double all_but_field_and_stored() const;
 };
 
+/// What can be read off the power unit: values, or what these do in a second.
+struct PowerReadings {
+  double charge = 0;    ///< of the capacitor [C]
+  double terminal = 0;  ///< voltage of the capacitor [V]
+  double rail = 0;      ///< voltage of the supply rail [V]
+  double intake = 0;    ///< rectified and not shunted [W]
+  double load = 0;      ///< of regulator and parts [W]
+  double stored = 0;    ///< energy that the capacitor has gained since the start [J]
+  EnergyBooks books;    ///< since the start
+};
+
+/// Calls visit(a's, b's) for each reading.
+template <class A, class B, class Visitor>
+void visit_pairs(A& a, B& b, Visitor&& visit) {
+  visit(a.charge, b.charge);
+  visit(a.terminal, b.terminal);
+  visit(a.rail, b.rail);
+  visit(a.intake, b.intake);
+  visit(a.load, b.load);
+  visit(a.stored, b.stored);
+  visit(a.books.field, b.books.field);
+  visit(a.books.rectifier, b.books.rectifier);
+  visit(a.books.limiter, b.books.limiter);
+  visit(a.books.charger, b.books.charger);
+  visit(a.books.series_resistance, b.books.series_resistance);
+  visit(a.books.leakage, b.books.leakage);
+  visit(a.books.regulator, b.books.regulator);
+  for (std::size_t i = 0; i < kParts; ++i) visit(a.books.parts[i], b.books.parts[i]);
+}
+
 /// How the currents flow.
 ///
 /// The rectifier at the parallel resonant antenna is a current source up to the voltage of its
@@ -89,7 +119,14 @@ class Supply {
   /// Where the energy goes in a time in which the flow stays as it is.
   EnergyBooks books(const Flow& flow, double voltage, double seconds) const;
 
+  /// The first derivative of each reading.
+  PowerReadings rates(const Flow& flow, double voltage) const;
+  /// A bound of the second derivative of each reading, absolute, from now on as long as the flow
+  /// stays as it is: the voltage's slope falls, and so does what is a multiple of it.
+  PowerReadings curvatures(const Flow& flow, double voltage) const;
+
  private:
+  EnergyBooks powers(const Flow& flow, double voltage) const;
   void add_charging(EnergyBooks& books, const Flow& flow, double voltage, double seconds) const;
 
   PowerParameters p_;

@@ -11,7 +11,6 @@ namespace sensor {
 namespace {
 
 using stride::systemc::current_time;
-using stride::systemc::to_sc_time;
 
 constexpr std::uint32_t kBitRate = 106;  // the only one before others have been agreed on
 
@@ -32,9 +31,9 @@ Transceiver::Transceiver(sc_core::sc_module_name name, const TransceiverParamete
   SC_METHOD(detect_carrier);
   sensitive << field_power;
   SC_METHOD(run_receiver);
-  sensitive << powered << receiver_event_;
+  sensitive << powered << receiver_timer_.event();
   SC_METHOD(run_transmitter);
-  sensitive << powered << field_power << transmitter_event_;
+  sensitive << powered << field_power << transmitter_timer_.event();
 }
 
 bool Transceiver::idle() const { return arriving_.empty() && !reception_ && !answer_ && !on_air_; }
@@ -48,8 +47,7 @@ void Transceiver::detect_carrier() { carrier.write(has_carrier()); }
 void Transceiver::arrive(const nfc::Frame& frame) {
   const auto later = [](const nfc::Frame& a, const nfc::Frame& b) { return a.start < b.start; };
   arriving_.insert(std::upper_bound(arriving_.begin(), arriving_.end(), frame, later), frame);
-  receiver_event_.cancel();
-  receiver_event_.notify(sc_core::SC_ZERO_TIME);
+  receiver_timer_.set(current_time());
 }
 
 void Transceiver::run_receiver() {
@@ -71,8 +69,8 @@ void Transceiver::run_receiver() {
   stride::Time next = stride::Time::max();
   if (reception_) next = reception_->end;
   if (!arriving_.empty()) next = std::min(next, arriving_.front().start);
-  receiver_event_.cancel();
-  if (next != stride::Time::max()) receiver_event_.notify(to_sc_time(next - now));
+  receiver_timer_.cancel();
+  if (next != stride::Time::max()) receiver_timer_.set(next);
 }
 
 void Transceiver::begin_reception(const nfc::Frame& frame) {
@@ -116,8 +114,7 @@ std::optional<nfc::Bytes> Transceiver::decode(const Reception& reception) const 
 
 void Transceiver::send(const Answer& answer) {
   answer_ = answer;
-  transmitter_event_.cancel();
-  transmitter_event_.notify(sc_core::SC_ZERO_TIME);
+  transmitter_timer_.set(current_time());
 }
 
 void Transceiver::run_transmitter() {
@@ -132,8 +129,8 @@ void Transceiver::run_transmitter() {
       next = transmission_end_;
     }
   }
-  transmitter_event_.cancel();
-  if (next != stride::Time::max()) transmitter_event_.notify(to_sc_time(next - now));
+  transmitter_timer_.cancel();
+  if (next != stride::Time::max()) transmitter_timer_.set(next);
 }
 
 void Transceiver::begin_transmission() {
@@ -156,7 +153,7 @@ void Transceiver::finish_transmission() {
 }
 
 void Transceiver::stop_transmitter() {
-  transmitter_event_.cancel();
+  transmitter_timer_.cancel();
   if (answer_) ++counters_.dropped;
   answer_.reset();
   if (!on_air_) return;

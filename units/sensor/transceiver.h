@@ -13,6 +13,7 @@
 #include "units/nfc/frame.h"
 #include "units/sensor/command_fifo.h"
 #include "units/sensor/parameters.h"
+#include "units/systemc/timer.h"
 
 namespace sensor {
 
@@ -97,14 +98,14 @@ class Transceiver : public sc_core::sc_module, public TransmitInterface {
   CommandFifo& fifo_;
   FrameCounters counters_;
 
-  sc_core::sc_event receiver_event_{"receiver_event"};
+  stride::systemc::Timer receiver_timer_{"receiver_timer"};
   std::deque<nfc::Frame> arriving_;  ///< by start
   std::optional<Reception> reception_;
   stride::Time received_until_;  ///< the end of the last reception
   bool was_powered_ = false;
   stride::Time powered_since_;
 
-  sc_core::sc_event transmitter_event_{"transmitter_event"};
+  stride::systemc::Timer transmitter_timer_{"transmitter_timer"};
   std::optional<Answer> answer_;
   std::optional<nfc::Frame> on_air_;
   stride::Time transmission_start_;  ///< of the last one

@@ -1,6 +1,7 @@
 // The NFC smart sensor as a unit.
 #include "units/systemc/unit.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -16,6 +17,7 @@ namespace {
 class SensorUnit : public stride::systemc::DeviceUnit<Sensor> {
  public:
   SensorUnit() : DeviceUnit("NFC smart sensor, a SystemC model") {
+    may_idle();
     list_inputs();
     list_outputs();
     visit_parameters(parameters_, [this](const ParameterInfo& info, auto& member) {
@@ -29,7 +31,10 @@ class SensorUnit : public stride::systemc::DeviceUnit<Sensor> {
  private:
   void list_inputs() {
     input("field_power", field_power_).unit("W").min(0).description("at the tag's antenna");
-    input("adc.temperature", temperature_).unit("degC").description("at the ADC's sensor");
+    input("adc.temperature", temperature_)
+        .unit("degC")
+        .deadband(kAnyTemperature)
+        .description("at the ADC's sensor");
     input("receive.clock", receive_clock_).description("ticks when a frame has come");
     input("receive.frame", received_).clocked_by(receive_clock_).mime_type(kFrameType);
   }
@@ -38,17 +43,20 @@ class SensorUnit : public stride::systemc::DeviceUnit<Sensor> {
     output("transmit.clock", transmit_clock_)
         .description("ticks when an answer starts, or is cut off");
     output("transmit.frame", transmitted_).clocked_by(transmit_clock_).mime_type(kFrameType);
-    quantity("capacitor.voltage", voltage_, "V", "at the supercapacitor's terminal")
-        .derivative(voltage_rate_);
-    output("capacitor.charge", charge_)
+    quantity("capacitor.voltage", now_.terminal, rates_.terminal, "V", 1e-3,
+             "at the supercapacitor's terminal");
+    output("capacitor.charge", now_.charge)
         .unit("C")
         .depends_on({})
-        .derivative(charge_rate_)
+        .derivative(rates_.charge)
+        .tolerance(1e-7)
         .description("in the supercapacitor");
-    quantity("supply.voltage", rail_, "V", "of the rail that feeds the regulator")
-        .derivative(rail_rate_);
-    quantity("energy.intake", intake_, "W", "rectified, and not shunted by the limiter");
-    quantity("energy.load", load_, "W", "drawn from the supply rail by regulator and loads");
+    quantity("supply.voltage", now_.rail, rates_.rail, "V", 1e-3,
+             "of the rail that feeds the regulator");
+    quantity("energy.intake", now_.intake, rates_.intake, "W", 1e-7,
+             "rectified, and not shunted by the limiter");
+    quantity("energy.load", now_.load, rates_.load, "W", 1e-7,
+             "drawn from the supply rail by regulator and loads");
     indicator("led", led_, "whether it is lit");
     indicator("mcu.powered", powered_, "not in brown-out");
     indicator("mcu.awake", awake_, "its clock runs");
@@ -60,22 +68,34 @@ class SensorUnit : public stride::systemc::DeviceUnit<Sensor> {
   }
 
   void list_balance() {
-    const auto entry = [this](const char* name, double& member, const char* description) {
-      output(name, member).unit("J").depends_on({}).description(description);
+    const auto entry = [this](const char* name, double& member, double& rate,
+                              const char* description) {
+      output(name, member)
+          .unit("J")
+          .depends_on({})
+          .derivative(rate)
+          .tolerance(1e-6)
+          .description(description);
     };
-    entry("balance.field", books_.field, "taken from the antenna since the start: all below");
-    entry("balance.stored", stored_, "gained by the supercapacitor");
-    entry("balance.rectifier", books_.rectifier, "lost in the rectifier");
-    entry("balance.limiter", books_.limiter, "shunted by the limiter");
-    entry("balance.charger", books_.charger, "lost in the charger");
-    entry("balance.series_resistance", books_.series_resistance,
+    EnergyBooks& books = now_.books;
+    EnergyBooks& powers = rates_.books;
+    entry("balance.field", books.field, powers.field,
+          "taken from the antenna since the start: all below");
+    entry("balance.stored", now_.stored, rates_.stored, "gained by the supercapacitor");
+    entry("balance.rectifier", books.rectifier, powers.rectifier, "lost in the rectifier");
+    entry("balance.limiter", books.limiter, powers.limiter, "shunted by the limiter");
+    entry("balance.charger", books.charger, powers.charger, "lost in the charger");
+    entry("balance.series_resistance", books.series_resistance, powers.series_resistance,
           "lost in the supercapacitor's series resistance");
-    entry("balance.leakage", books_.leakage, "leaked from the supercapacitor");
-    entry("balance.regulator", books_.regulator, "lost in the regulator");
-    entry("balance.control_unit", books_.parts[kControlUnit], "used by the control unit");
-    entry("balance.transceiver", books_.parts[kTransceiver], "used by the transceiver");
-    entry("balance.adc", books_.parts[kAdc], "used by the ADC");
-    entry("balance.led", books_.parts[kLed], "used by the LED");
+    entry("balance.leakage", books.leakage, powers.leakage, "leaked from the supercapacitor");
+    entry("balance.regulator", books.regulator, powers.regulator, "lost in the regulator");
+    const auto part = [&](const char* name, Part index, const char* description) {
+      entry(name, books.parts[index], powers.parts[index], description);
+    };
+    part("balance.control_unit", kControlUnit, "used by the control unit");
+    part("balance.transceiver", kTransceiver, "used by the transceiver");
+    part("balance.adc", kAdc, "used by the ADC");
+    part("balance.led", kLed, "used by the LED");
   }
 
   void list_counters() {
@@ -90,9 +110,14 @@ class SensorUnit : public stride::systemc::DeviceUnit<Sensor> {
   }
 
   // A step of the field's power is a step of the supply, and may be a brown-out at that instant.
-  stride::VariableBuilder quantity(const char* name, double& member, const char* unit,
-                                   const char* description) {
-    return output(name, member).unit(unit).depends_on({"field_power"}).description(description);
+  void quantity(const char* name, double& member, const double& rate, const char* unit,
+                double tolerance, const char* description) {
+    output(name, member)
+        .unit(unit)
+        .depends_on({"field_power"})
+        .derivative(rate)
+        .tolerance(tolerance)
+        .description(description);
   }
   template <class T>
   void indicator(const char* name, T& member, const char* description) {
@@ -125,17 +150,8 @@ class SensorUnit : public stride::systemc::DeviceUnit<Sensor> {
   }
 
   void read_outputs(Sensor& sensor) override {
-    const PowerUnit& power = sensor.power_unit;
-    voltage_ = power.terminal_voltage_now();
-    voltage_rate_ = power.terminal_rate_now();
-    charge_ = power.charge_now();
-    charge_rate_ = power.charge_rate_now();
-    rail_ = power.rail_voltage_now();
-    rail_rate_ = power.rail_rate_now();
-    intake_ = power.intake_now();
-    load_ = power.load_now();
-    books_ = power.books_now();
-    stored_ = power.stored_now();
+    now_ = sensor.power_unit.readings_now();
+    rates_ = sensor.power_unit.rates_now();
     led_ = sensor.led.read();
     powered_ = sensor.powered.read();
     awake_ = sensor.awake.read();
@@ -149,7 +165,28 @@ class SensorUnit : public stride::systemc::DeviceUnit<Sensor> {
   void publish() override { messages_.publish(); }
   bool has_message() const override { return !messages_.empty(); }
 
+  void list_signals(const Sensor& sensor, stride::systemc::SignalList& signals) const override {
+    visit_signals(sensor, [&](const auto& signal) { signals.add(signal); });
+  }
+
+  bool idle(const Sensor& sensor) const override { return sensor.idle(); }
+  stride::Duration clock_period(const Sensor& sensor) const override {
+    const GatedClock& clock = sensor.gated_clock;
+    return clock.gating() ? stride::Duration{} : clock.period();
+  }
+  stride::Duration tangents_hold_for(const Sensor& sensor) const override {
+    stride::Duration shortest = stride::Duration::max();
+    const PowerReadings curvatures = sensor.power_unit.curvatures_now();
+    visit_pairs(now_, curvatures, [&](const double& reading, double curvature) {
+      const double tolerance = tolerance_of(reading);
+      shortest = std::min(shortest, stride::tangent_holds_for(tolerance, curvature));
+    });
+    return shortest;
+  }
+
   static constexpr const char* kFrameType = "application/x-stride-nfc-frame";
+  /// It is looked at where a conversion begins only, which is never while the sensor is idle.
+  static constexpr double kAnyTemperature = 1e6;
 
   SensorParameters parameters_;
 
@@ -161,16 +198,8 @@ class SensorUnit : public stride::systemc::DeviceUnit<Sensor> {
   stride::Binary transmitted_;
   stride::Clock transmit_clock_;
   stride::systemc::MessageOutput messages_{transmitted_, transmit_clock_};
-  double voltage_ = 0;
-  double voltage_rate_ = 0;
-  double charge_ = 0;
-  double charge_rate_ = 0;
-  double rail_ = 0;
-  double rail_rate_ = 0;
-  double intake_ = 0;
-  double load_ = 0;
-  EnergyBooks books_;
-  double stored_ = 0;
+  PowerReadings now_;
+  PowerReadings rates_;
   bool led_ = false;
   bool powered_ = false;
   bool awake_ = false;

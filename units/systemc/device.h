@@ -44,6 +44,9 @@ class Device {
   Time now() const { return kernel_.now(); }
   std::optional<Time> next_event() { return kernel_.next_event(); }
 
+  Kernel& kernel() { return kernel_; }
+  Module& module() { return *module_; }
+
  private:
   Kernel kernel_;
   std::unique_ptr<Module> module_;

@@ -1,10 +1,12 @@
 #define SC_INCLUDE_DYNAMIC_PROCESSES
 #include "units/systemc/kernel.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "units/systemc/sanitizer.h"
 #include "units/systemc/time.h"
+#include "units/systemc/timer.h"
 
 namespace stride::systemc {
 namespace {
@@ -39,10 +41,12 @@ Kernel::Entry::~Entry() {
 Kernel::Kernel(Log log) : log_(std::move(log)) {
   const auto lock = lock_kernel();
   context_ = std::make_unique<sc_core::sc_simcontext>();
+  within([this] { make_alarm(); });
 }
 
 Kernel::~Kernel() {
   const Entry entry(*this);
+  alarm_.reset();
   // the modules have cancelled their events; this gives them back to the kernel's pool
   sc_core::sc_time ignored;
   context_->next_time(ignored);
@@ -53,7 +57,7 @@ void Kernel::handle(const sc_core::sc_report& report, const sc_core::sc_actions&
   const bool error = report.get_severity() >= sc_core::SC_ERROR;
   if (!error && active_ != nullptr && active_->log_ &&
       (actions & (sc_core::SC_DISPLAY | sc_core::SC_LOG)) != 0) {
-    active_->log_(report.get_severity(), describe(report));
+    active_->log_(report.get_severity(), active_->describe(report));
   }
   if ((actions & sc_core::SC_STOP) != 0) sc_core::sc_stop();
   if ((actions & (sc_core::SC_THROW | sc_core::SC_ABORT)) != 0) {
@@ -61,13 +65,17 @@ void Kernel::handle(const sc_core::sc_report& report, const sc_core::sc_actions&
   }
 }
 
-std::string Kernel::describe(const sc_core::sc_report& report) {
+std::string Kernel::true_time(const sc_core::sc_time& kernel_time) const {
+  return sc_core::sc_time::from_value(kernel_time.value() + advance_time_).to_string();
+}
+
+std::string Kernel::describe(const sc_core::sc_report& report) const {
   std::string text = report.get_msg_type();
   if (*report.get_msg() != '\0') text += std::string(": ") + report.get_msg();
   if (report.get_process_name() != nullptr) {
     text += std::string(" (in ") + report.get_process_name() + ")";
   }
-  return text + " at " + report.get_time().to_string();
+  return text + " at " + true_time(report.get_time());
 }
 
 void Kernel::fail(const std::string& message) {
@@ -85,7 +93,7 @@ void Kernel::require_usable() const {
 void Kernel::initialize() {
   require_usable();
   within([this] {
-    ticks_ = ticks_per_picosecond();
+    ticks_ = systemc::ticks_per_picosecond();
     if (ticks_ == 0) {
       fail("its time resolution is coarser than 1 ps; let it use the default");
     }
@@ -106,12 +114,12 @@ void Kernel::settle() {
 
 void Kernel::require_not_stopped() {
   if (context_->sim_status() == sc_core::SC_SIM_USER_STOP) {
-    fail("it called sc_stop at " + sc_core::sc_time_stamp().to_string() +
+    fail("it called sc_stop at " + true_time(sc_core::sc_time_stamp()) +
          "; a unit runs until its master ends the simulation");
   }
 }
 
-Time Kernel::advance(Time to, bool may_stop_early) {
+void Kernel::require_not_before_now(Time to) const {
   require_usable();
   if (!initialized_) throw std::logic_error("initialize() comes before advance()");
   if (to < now()) {
@@ -119,27 +127,116 @@ Time Kernel::advance(Time to, bool may_stop_early) {
                                 std::to_string(now().time_since_epoch().count()) + " ps to " +
                                 std::to_string(to.time_since_epoch().count()) + " ps");
   }
+}
+
+Time Kernel::advance(Time to, bool may_stop_early) {
+  require_not_before_now(to);
   within([&] {
     settle();
-    const sc_core::sc_time end = to_sc_time(to.time_since_epoch(), ticks_);
+    if (approach(to, may_stop_early) == to) settle();
+  });
+  return now();
+}
+
+Time Kernel::approach(Time to, bool may_stop_early) {
+  require_not_before_now(to);
+  within([&] {
+    horizon_ = to;
+    set_alarm();
+    const sc_core::sc_time end = to_kernel_time(to);
     while (context_->time_stamp() < end) {
       sc_core::sc_start(end - context_->time_stamp());
       require_not_stopped();
-      settle();
-      if (may_stop_early) break;  // either it paused or the end is reached
+      if (may_stop_early && context_->time_stamp() < end) {
+        settle();
+        withdraw_alarm();
+        break;
+      }
     }
   });
   return now();
 }
 
-Time Kernel::now() const { return Time(to_duration(context_->time_stamp(), ticks_)); }
+sc_core::sc_time Kernel::to_kernel_time(Time time) const {
+  return to_sc_time(time.time_since_epoch() - skipped(), ticks_);
+}
+
+Time Kernel::now() const { return Time(to_duration(context_->time_stamp(), ticks_) + skipped()); }
+
+bool Kernel::at_rest() const {
+  return !sc_core::sc_pending_activity_at_current_time(context_.get());
+}
 
 std::optional<Time> Kernel::next_event() {
+  if (!at_rest()) return now();
+  const std::optional<Time> timer = next_timer();
+  const std::optional<Time> other = next_notification();
+  return timer && other ? std::min(timer, other) : timer ? timer : other;
+}
+
+std::optional<Time> Kernel::next_timer() const {
+  std::optional<Time> next;
+  for (const Timer* timer : timers_) {
+    const std::optional<Time> due = timer->due();
+    if (due && *due > now() && (!next || *due < *next)) next = due;
+  }
+  return next;
+}
+
+std::optional<Time> Kernel::next_notification() {
   const Entry entry(*this);
-  if (sc_core::sc_pending_activity_at_current_time(context_.get())) return now();
   sc_core::sc_time next;
   if (!context_->next_time(next)) return std::nullopt;
-  return Time(to_duration(next, ticks_));
+  return Time(to_duration(next, ticks_) + skipped());
+}
+
+void Kernel::skip(Duration duration) {
+  require_usable();
+  if (!initialized_ || !at_rest()) throw std::logic_error("only a device at rest can be skipped");
+  if (duration < Duration{}) throw std::logic_error("a skip must not be negative");
+  const std::optional<Time> timer = next_timer();
+  if (timer && *timer <= now() + duration) {
+    throw std::logic_error("a timer is due within the time that is to be skipped");
+  }
+  advance_time_ += static_cast<sc_dt::uint64>(duration.count()) * ticks_;
+}
+
+// One process for all timers: they go off in the order of their construction, wherever the
+// simulation was cut into steps; and what SystemC still has to notify, it notifies by itself.
+void Kernel::make_alarm() {
+  alarm_ = std::make_unique<sc_core::sc_event>("stride_alarm");
+  sc_core::sc_spawn_options options;
+  options.spawn_method();
+  options.dont_initialize();
+  options.set_sensitivity(alarm_.get());
+  sc_core::sc_spawn([this] { ring(); }, "stride_timers", &options);
+}
+
+void Kernel::ring() {
+  for (Timer* timer : timers_) {
+    const std::optional<Time> due = timer->due();
+    if (due && *due <= now()) timer->go_off();
+  }
+  set_alarm();
+}
+
+void Kernel::set_alarm() {
+  const std::optional<Time> next = next_timer();
+  if (next && *next <= horizon_) alarm_->notify(to_kernel_time(*next) - context_->time_stamp());
+}
+
+// so that it does not ring for a step that will not be made
+void Kernel::withdraw_alarm() {
+  alarm_->cancel();
+  horizon_ = now();
+}
+
+void Kernel::write_traces() noexcept {
+  if (!initialized_ || !failure_.empty() || !at_rest()) return;
+  try {
+    within([] { sc_core::sc_start(sc_core::sc_time::from_value(1)); });
+  } catch (const DeviceError&) {  // a warning about the file that has been made an error
+  }
 }
 
 void Kernel::end_threads() noexcept {

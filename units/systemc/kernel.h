@@ -10,12 +10,15 @@
 #include <string>
 #include <systemc>
 #include <utility>
+#include <vector>
 
 #include <stride/time.h>
 
 #include "units/systemc/scope.h"
 
 namespace stride::systemc {
+
+class Timer;
 
 /// A device reported an error, threw, or called sc_stop. The message names the process and the
 /// simulated time. The simulation cannot go on.
@@ -26,6 +29,8 @@ class DeviceError : public std::runtime_error {
 
 /// A simulation context of its own, with its own time, objects and processes. Any number may live
 /// side by side and be advanced in any order and from any thread; the kernel is locked meanwhile.
+///
+/// All instants here are true time, which is SystemC's time and what has been skipped; see skip().
 ///
 /// Call order: construct; make the modules inside within(); initialize(); advance() as often as
 /// wanted; destroy the modules inside within(). Device does the first two and the last of these.
@@ -60,11 +65,42 @@ class Kernel {
   /// that happens at it has happened.
   Time advance(Time to, bool may_stop_early = false);
 
+  /// The same, but leaves what is due at `to` itself for the next call, so that a pause there is
+  /// not overlooked: an instant before `to` is returned for a pause only.
+  Time approach(Time to, bool may_stop_early = false);
+
   /// The time reached, rounded down to a picosecond.
   Time now() const;
 
+  /// Nothing is left to be done at the time reached.
+  bool at_rest() const;
+
   /// When the device does something by itself next, if nothing comes from outside.
   std::optional<Time> next_event();
+  /// When a Timer is due next, after now().
+  std::optional<Time> next_timer() const;
+  /// The true time at which SystemC notifies something next, timers not counted: the edge of a
+  /// clock, a wait(time), an event notified with a delay.
+  std::optional<Time> next_notification();
+
+  /// Lets time pass in which nothing is simulated: now() moves, SystemC's time stands still. Timers
+  /// keep their true instants, all other notifications come later by `duration`. To be called at
+  /// rest; throws std::logic_error otherwise, or if a timer is due up to the instant reached.
+  void skip(Duration duration);
+  /// All that has been skipped.
+  Duration skipped() const { return to_picoseconds(advance_time_); }
+  /// The same in units of the device's time resolution, to be traced.
+  const sc_dt::uint64& advance_time() const { return advance_time_; }
+  /// How many units of the device's time resolution make one picosecond.
+  std::uint64_t ticks_per_picosecond() const { return ticks_; }
+
+  /// The kernel in whose context the caller is; none outside of within().
+  static Kernel* current() { return active_; }
+
+  /// Writes what has changed at the present instant to SystemC's trace files, which it does by
+  /// itself where time goes on from there. No process runs. SystemC's time is one unit of its
+  /// resolution further then.
+  void write_traces() noexcept;
 
   /// Ends all threads of the device, so that what lives on their stacks is destroyed. To be called
   /// before the modules are destroyed. The kernel cannot be advanced afterwards.
@@ -82,12 +118,26 @@ class Kernel {
     Kernel* previous_;
   };
 
+  friend class Timer;
+
   static void handle(const sc_core::sc_report& report, const sc_core::sc_actions& actions);
-  static std::string describe(const sc_core::sc_report& report);
+  std::string describe(const sc_core::sc_report& report) const;
+  std::string true_time(const sc_core::sc_time& kernel_time) const;
   [[noreturn]] void fail(const std::string& message);
   void require_usable() const;
+  void require_not_before_now(Time to) const;
   void settle();
   void require_not_stopped();
+
+  void make_alarm();
+  void ring();
+  void set_alarm();
+  void withdraw_alarm();
+
+  Duration to_picoseconds(sc_dt::uint64 ticks) const {
+    return Duration(static_cast<std::int64_t>(ticks / ticks_));
+  }
+  sc_core::sc_time to_kernel_time(Time time) const;
 
   static Kernel* active_;  ///< the one in whose Entry the kernel is; guarded by the kernel's lock
 
@@ -96,6 +146,10 @@ class Kernel {
   std::uint64_t ticks_ = 1;
   bool initialized_ = false;
   std::string failure_;
+  sc_dt::uint64 advance_time_ = 0;
+  std::vector<Timer*> timers_;                ///< in the order of their construction
+  std::unique_ptr<sc_core::sc_event> alarm_;  ///< wakes the timers that are due
+  Time horizon_{};                            ///< the alarm is set for timers up to here
 };
 
 }  // namespace stride::systemc

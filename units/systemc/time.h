@@ -27,8 +27,9 @@ inline Duration to_duration(const sc_core::sc_time& time, std::uint64_t ticks = 
   return Duration(static_cast<std::int64_t>(time.value() / ticks));
 }
 
-/// The current context's time, for a device that keeps the default resolution of 1 ps.
-inline Time current_time() { return Time(to_duration(sc_core::sc_time_stamp())); }
+/// The true time of the device that is running, rounded down to a whole picosecond. It is ahead of
+/// sc_time_stamp() by all that has been skipped, so a device stamps and measures with it only.
+Time current_time();
 
 }  // namespace stride::systemc
 

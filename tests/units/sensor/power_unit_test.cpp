@@ -1,6 +1,5 @@
 #include "units/sensor/power_unit.h"
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -157,7 +156,7 @@ TEST_CASE("a full capacitor takes only what is used") {
   const double leaked = 5.0 * 5.0 / parameters.power.leakage_resistance;
   CHECK(used == Approx(parameters.control_unit.sleep_current * 5.0));
   CHECK(bench.read([](Sensor& s) { return s.power_unit.intake_now(); }) == Approx(used + leaked));
-  CHECK(std::abs(bench.read([](Sensor& s) { return s.power_unit.charge_rate_now(); })) < 1e-12);
+  CHECK(std::abs(bench.read([](Sensor& s) { return s.power_unit.rates_now().charge; })) < 1e-12);
 
   bench.field(0);
   bench.run(ms(3000));
@@ -190,22 +189,18 @@ TEST_CASE("the rates are the slopes") {
     Bench bench(parameters);
     bench.field(field);
     bench.run(ms(20));
-    const auto rates = bench.read([](Sensor& s) {
-      return std::array<double, 3>{s.power_unit.charge_rate_now(), s.power_unit.terminal_rate_now(),
-                                   s.power_unit.rail_rate_now()};
-    });
     const auto values = [&] {
-      return bench.read([](Sensor& s) {
-        return std::array<double, 3>{s.power_unit.charge_now(), s.power_unit.terminal_voltage_now(),
-                                     s.power_unit.rail_voltage_now()};
-      });
+      return bench.read([](Sensor& s) { return s.power_unit.readings_now(); });
     };
+    const auto rates = bench.read([](Sensor& s) { return s.power_unit.rates_now(); });
     const auto before = values();
     bench.run(ms(20) + Duration(10'000'000));
-    const auto after = values();
+    auto slopes = values();
+    sensor::visit_pairs(slopes, before,
+                        [](double& after, double start) { after = (after - start) / 1e-5; });
     CAPTURE(field);
-    for (std::size_t i = 0; i < 3; ++i) {
-      CHECK((after[i] - before[i]) / 1e-5 == Approx(rates[i]).epsilon(2e-3).margin(1e-9));
-    }
+    sensor::visit_pairs(slopes, rates, [](double slope, double rate) {
+      CHECK(slope == Approx(rate).epsilon(2e-3).margin(1e-9));
+    });
   }
 }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -9,6 +11,7 @@ using sensor::Currents;
 using sensor::EnergyBooks;
 using sensor::Flow;
 using sensor::PowerParameters;
+using sensor::PowerReadings;
 using sensor::Relaxation;
 using sensor::Supply;
 using Mode = Flow::Mode;
@@ -173,4 +176,70 @@ TEST_CASE("energy is conserved to rounding in every mode") {
     REQUIRE(std::abs(balance) <= 1e-13 * (std::abs(books.field) + std::abs(gained)) + rounding);
   }
   for (const int count : modes) CHECK(count > 500);
+}
+
+namespace {
+
+/// A flow in each mode, with everything in it.
+std::vector<std::pair<Flow, double>> flows(const Supply& supply) {
+  const Currents loads{0.2e-3, 0.1e-3, 0.05e-3, 0.3e-3};
+  return {{supply.flow(0, loads, 4.0), 4.0},         // no field
+          {supply.flow(3e-3, loads, 4.0), 4.0},      // too weak a field
+          {supply.flow(20e-3, loads, 1.0), 1.0},     // charging
+          {supply.flow(20e-3, loads, 4.95), 4.95}};  // full
+}
+
+/// The readings after `seconds`, from the closed forms.
+PowerReadings readings(const Supply& supply, const Flow& flow, double start, double seconds) {
+  const PowerParameters p = parameters();
+  const double u = supply.capacitor(flow).after(start, seconds);
+  return {p.capacitance * u,
+          supply.terminal(flow, u),
+          supply.rail(flow, u),
+          supply.intake(flow, u),
+          supply.load(flow, u),
+          stored(p, start, u),
+          supply.books(flow, start, seconds)};
+}
+
+}  // namespace
+
+TEST_CASE("the rates are the slopes of the readings") {
+  const Supply supply(parameters());
+  for (const auto& [flow, start] : flows(supply)) {
+    const double seconds = 0.01;
+    const double h = 1e-5;
+    const PowerReadings before = readings(supply, flow, start, seconds - h);
+    PowerReadings slopes = readings(supply, flow, start, seconds + h);
+    sensor::visit_pairs(slopes, before, [=](double& x, double past) { x = (x - past) / (2 * h); });
+    const PowerReadings rates = supply.rates(flow, supply.capacitor(flow).after(start, seconds));
+    CAPTURE(start, flow.mode);
+    int moving = 0;
+    sensor::visit_pairs(rates, slopes, [&](double rate, double slope) {
+      CHECK(rate == Approx(slope).epsilon(1e-6).margin(1e-10));
+      moving += static_cast<int>(rate != 0);
+    });
+    CHECK(moving >= 8);
+  }
+}
+
+TEST_CASE("no rate changes faster than its bound, from now on, and the bounds are not idle") {
+  const Supply supply(parameters());
+  for (const auto& [flow, start] : flows(supply)) {
+    const PowerReadings bounds = supply.curvatures(flow, start);
+    const Relaxation law = supply.capacitor(flow);
+    CAPTURE(start, flow.mode);
+    for (double seconds = 0; seconds < 1; seconds += 0.01) {
+      const double h = 1e-4;
+      PowerReadings change = supply.rates(flow, law.after(start, seconds + h));
+      const PowerReadings before = supply.rates(flow, law.after(start, seconds));
+      sensor::visit_pairs(change, before,
+                          [=](double& x, double past) { x = std::abs(x - past) / h; });
+      sensor::visit_pairs(change, bounds, [&](double curvature, double bound) {
+        CHECK(curvature <= bound * (1 + 1e-9) + 1e-10);
+        // a bound that is much too high would make promises short
+        if (seconds == 0 && bound > 1e-9) CHECK(curvature > bound / 6);
+      });
+    }
+  }
 }

@@ -1,96 +1,16 @@
 // The sensor as a unit: driven through the kit's interface, as the FMI layer does it.
-#include <algorithm>
-#include <memory>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
-#include <stride/unit.h>
+#include "tests/units/sensor/unit_bench.h"
 
-#include "tests/units/sensor/bench.h"
-
-using stride::Binary;
-using stride::Clock;
+using sensor::kMillisecond;
+using sensor::UnitBench;
 using stride::Duration;
-using stride::Event;
-using stride::Step;
 using stride::Time;
 
 namespace {
-
-constexpr Duration kMillisecond{1'000'000'000};
-
-class UnitBench {
- public:
-  UnitBench() : unit_(stride::unit_factory().make({{}, "sensor"})) {
-    value<double>("field_power") = sensor::kCarrier;
-  }
-
-  template <class T>
-  T& value(const std::string& name) {
-    for (const stride::Variable& row : unit_->variables()) {
-      if (row.name == name) return *static_cast<T*>(row.data);
-    }
-    throw std::out_of_range("no variable " + name);
-  }
-
-  void initialize(Time start) {
-    now_ = start;
-    unit_->initialize(start);
-  }
-
-  /// One step, and the events at its end, each message of which is kept.
-  void step(Time to, bool may_return_early) {
-    Step step(now_, to, may_return_early);
-    unit_->step(step);
-    now_ = step.reached().value_or(to);
-    take_message();
-    while (clock().ticked()) handle_event();
-  }
-
-  void run(Time to, bool may_return_early, Duration size = kMillisecond) {
-    while (now_ < to) step(std::min(to, now_ + size), may_return_early);
-  }
-
-  void send(const nfc::Frame& frame) {
-    value<Binary>("receive.frame") = nfc::encode(frame);
-    value<Clock>("receive.clock").tick();
-    handle_event();
-  }
-
-  Time now() const { return now_; }
-
-  double sum_of(const std::vector<std::string>& names) {
-    double sum = 0;
-    for (const std::string& name : names) sum += value<double>(name);
-    return sum;
-  }
-
-  std::vector<nfc::Frame> answers;
-  std::vector<Time> received_at;
-
- private:
-  Clock& clock() { return value<Clock>("transmit.clock"); }
-
-  void handle_event() {
-    clock().clear();
-    Event event(now_);
-    unit_->event(event);
-    value<Clock>("receive.clock").clear();
-    take_message();
-  }
-
-  void take_message() {
-    if (!clock().ticked()) return;
-    answers.push_back(nfc::decode(value<Binary>("transmit.frame")));
-    received_at.push_back(now_);
-  }
-
-  std::unique_ptr<stride::Unit> unit_;
-  Time now_;
-};
 
 void charge_and_ask(UnitBench& bench, Time start, bool may_return_early) {
   bench.value<double>("power.initial_voltage") = 4.0;

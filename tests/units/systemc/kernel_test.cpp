@@ -186,3 +186,63 @@ TEST_CASE("sc_pause stops early only where that is allowed") {
   Device<Actor> not_allowed({}, "actor", pause, true);
   CHECK(not_allowed.advance(at(5 * kMicrosecond)) == at(5 * kMicrosecond));
 }
+
+TEST_CASE("a skip moves true time and leaves SystemC's where it is") {
+  Device<Blinker> device({}, "blinker", 20.0);
+  Kernel& kernel = device.kernel();
+  const auto edges = [&] { return device.within([](Blinker& b) { return b.edges.read(); }); };
+  device.advance(at(kMicrosecond + kNanosecond));
+  const int before = edges();
+  kernel.skip(400 * 20 * kNanosecond);
+  CHECK(device.now() == at(9 * kMicrosecond + kNanosecond));
+  CHECK(kernel.skipped() == 8 * kMicrosecond);
+  CHECK(kernel.advance_time() == 8'000'000);
+  CHECK(edges() == before);
+  CHECK(device.next_event() == at(9 * kMicrosecond + 10 * kNanosecond));
+  device.advance(at(9 * kMicrosecond + 20 * kNanosecond - Duration(1)));
+  CHECK(edges() == before);
+  device.advance(at(9 * kMicrosecond + 20 * kNanosecond));
+  CHECK(edges() == before + 1);
+}
+
+TEST_CASE("only a device at rest is skipped, and forwards") {
+  Device<Blinker> device({}, "blinker", 20.0);
+  Kernel& kernel = device.kernel();
+  CHECK_THROWS_WITH(kernel.skip(Duration(-1)), Contains("negative"));
+  device.within([](Blinker& b) { b.enable.write(true); });
+  CHECK_FALSE(kernel.at_rest());
+  CHECK_THROWS_WITH(kernel.skip(kMicrosecond), Contains("at rest"));
+  CHECK(kernel.skipped() == Duration{});
+}
+
+TEST_CASE("a device of a finer time resolution is skipped by picoseconds") {
+  Kernel fine;
+  fine.within([] { sc_core::sc_set_time_resolution(1, sc_core::SC_FS); });
+  fine.initialize();
+  fine.advance(at(kNanosecond));
+  fine.skip(kMicrosecond);
+  CHECK(fine.now() == at(kMicrosecond + kNanosecond));
+  CHECK(fine.skipped() == kMicrosecond);
+  CHECK(fine.advance_time() == 1'000'000'000);
+  CHECK(fine.advance(at(2 * kMicrosecond)) == at(2 * kMicrosecond));
+}
+
+TEST_CASE("what is due at the end of an approach happens in the next call") {
+  const auto pause = static_cast<void (*)()>([] { sc_core::sc_pause(); });
+  Device<Actor> device({}, "actor", pause, false);
+  Kernel& kernel = device.kernel();
+  CHECK(kernel.approach(at(kMicrosecond), true) == at(kMicrosecond));
+  CHECK_FALSE(kernel.at_rest());
+  CHECK(kernel.approach(at(5 * kMicrosecond), true) == at(kMicrosecond));  // the pause
+  CHECK(kernel.at_rest());
+  CHECK(kernel.approach(at(5 * kMicrosecond), true) == at(5 * kMicrosecond));
+}
+
+TEST_CASE("errors are told in true time") {
+  const auto overheat = static_cast<void (*)()>([] { SC_REPORT_ERROR("motor", "overheated"); });
+  Device<Actor> device({}, "actor", overheat, false);
+  device.advance(at(kNanosecond));
+  device.kernel().skip(2 * kMicrosecond);
+  CHECK_THROWS_WITH(device.advance(at(5 * kMicrosecond)),
+                    Contains("overheated") && Contains("at 3 us"));
+}

@@ -1,0 +1,77 @@
+#include "units/systemc/idle.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace stride::systemc {
+namespace {
+
+constexpr Duration kTick{1};
+constexpr Duration kPatience{10'000'000};
+constexpr Duration kWorthwhile{1'000'000};
+
+}  // namespace
+
+Time IdleSkipper::advance(Time to, bool may_stop_early, Duration max_skip) {
+  return kernel_.within([&] {
+    Duration ahead = lead();
+    while (kernel_.now() < to) {
+      const Time next = kernel_.now() + std::min(ahead, to - kernel_.now());
+      if (kernel_.approach(next, may_stop_early) < next) return kernel_.now();
+      if (!kernel_.at_rest()) {
+        ahead = kTick;  // what is due here has not happened yet
+      } else {
+        ahead = skip(to, max_skip) ? lead() : patience();
+      }
+    }
+    return kernel_.advance(to);
+  });
+}
+
+Duration IdleSkipper::lead() const { return std::max(rules_.clock_period(), kTick); }
+
+Duration IdleSkipper::patience() {
+  const std::optional<Time> next = kernel_.next_event();
+  return next ? std::max(kPatience, *next - kernel_.now()) : Duration::max();
+}
+
+bool IdleSkipper::skip(Time to, Duration max_skip) {
+  if (!rules_.idle()) return false;
+  const Duration skipped = room(to, max_skip);
+  if (skipped < kWorthwhile) return false;
+  if (rules_.clock_period() == Duration{} && kernel_.next_notification()) {
+    obstacle_ = kernel_.next_notification();
+    return false;
+  }
+  kernel_.skip(skipped);
+  rules_.on_skip(skipped);
+  ++statistics_.skips;
+  statistics_.skipped += skipped;
+  statistics_.longest = std::max(statistics_.longest, skipped);
+  return true;
+}
+
+Duration IdleSkipper::room(Time to, Duration max_skip) const {
+  const Time end = std::min(to, kernel_.next_timer().value_or(to));
+  const Duration room = std::min({end - kernel_.now() - kTick, max_skip, rules_.longest_skip()});
+  const Duration period = lead();
+  return room / period * period;
+}
+
+std::string to_text(const IdleSkipper::Statistics& statistics) {
+  std::ostringstream text;
+  text << "skipped " << to_seconds(statistics.skipped) << " s of its idle time, in "
+       << statistics.skips << " skips, the longest of " << to_seconds(statistics.longest) << " s";
+  return text.str();
+}
+
+std::string obstacle_text(Time obstacle) {
+  std::ostringstream text;
+  text << "the device said that it was idle, but SystemC had something to notify at "
+       << to_seconds(obstacle)
+       << " s: such time is not skipped; use a Timer in the place of wait(time) or notify(delay), "
+          "or say the period of the clock that goes on";
+  return text.str();
+}
+
+}  // namespace stride::systemc

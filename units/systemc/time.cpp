@@ -1,0 +1,12 @@
+#include "units/systemc/time.h"
+
+#include "units/systemc/kernel.h"
+
+namespace stride::systemc {
+
+Time current_time() {
+  const Kernel* const kernel = Kernel::current();
+  return kernel != nullptr ? kernel->now() : Time(to_duration(sc_core::sc_time_stamp()));
+}
+
+}  // namespace stride::systemc

@@ -1,0 +1,126 @@
+#include "units/systemc/trace.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include <fnmatch.h>
+
+namespace stride::systemc {
+namespace {
+
+constexpr const char* kExtension = ".vcd";
+constexpr const char* kAdvanceTime = "advanceTime";
+
+/// Of all devices of this process; guarded by the kernel's lock.
+std::set<std::string>& files_in_use() {
+  static std::set<std::string> paths;
+  return paths;
+}
+
+/// Absolute, and the same however a file is named.
+std::string without_extension(const std::string& path) {
+  std::filesystem::path file = std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  if (file.extension() == kExtension) file.replace_extension();
+  return file.string();
+}
+
+void require_writable(const std::string& path) {
+  std::FILE* const file = std::fopen(path.c_str(), "w");
+  if (file == nullptr) {
+    throw std::invalid_argument("trace.file: cannot write " + path + ": " + std::strerror(errno));
+  }
+  std::fclose(file);
+}
+
+std::string names_of(const SignalList& list) {
+  std::string names;
+  for (const SignalList::Signal& signal : list.signals()) {
+    names += (names.empty() ? "" : ", ") + signal.name;
+  }
+  return names.empty() ? "none" : names;
+}
+
+std::vector<const SignalList::Signal*> choose(const SignalList& list, const std::string& patterns) {
+  std::set<std::size_t> chosen;
+  std::istringstream words(patterns);
+  for (std::string pattern; words >> pattern;) {
+    bool matches = false;
+    for (std::size_t i = 0; i < list.signals().size(); ++i) {
+      if (::fnmatch(pattern.c_str(), list.signals()[i].name.c_str(), 0) != 0) continue;
+      chosen.insert(i);
+      matches = true;
+    }
+    if (!matches) {
+      throw std::invalid_argument("trace.signals: no signal matches \"" + pattern +
+                                  "\"; the device has " + names_of(list));
+    }
+  }
+  if (chosen.empty()) throw std::invalid_argument("trace.signals: it names no signal, try \"*\"");
+  std::vector<const SignalList::Signal*> signals;
+  for (const std::size_t i : chosen) signals.push_back(&list.signals()[i]);
+  return signals;
+}
+
+}  // namespace
+
+void SignalList::add_named(const sc_core::sc_object& object,
+                           std::function<void(sc_core::sc_trace_file*, const std::string&)> trace) {
+  const std::string full_name = object.name();
+  signals_.push_back({full_name.substr(full_name.find('.') + 1), full_name, std::move(trace)});
+}
+
+template <class... T>
+void SignalList::add_if_any_of(const sc_core::sc_object& object) {
+  const auto add_if = [&](auto* signal) {
+    if (signal != nullptr) add_interface(object, *signal);
+  };
+  (add_if(dynamic_cast<const sc_core::sc_signal_in_if<T>*>(&object)), ...);
+}
+
+void SignalList::add_all_within(const sc_core::sc_object& module) {
+  for (const sc_core::sc_object* object : module.get_child_objects()) {
+    add_if_any_of<bool, sc_dt::sc_logic, float, double, char, unsigned char, short, unsigned short,
+                  int, unsigned int, long, unsigned long, sc_dt::int64, sc_dt::uint64>(*object);
+    add_all_within(*object);
+  }
+}
+
+Trace::Trace(Kernel& kernel, const TraceOptions& options, const SignalList& signals)
+    : kernel_(kernel) {
+  const std::vector<const SignalList::Signal*> chosen = choose(signals, options.signals);
+  const auto lock = lock_kernel();
+  path_ = without_extension(options.file);
+  if (files_in_use().count(path_) != 0) {
+    throw std::invalid_argument("trace.file: another device writes " + path_ + kExtension +
+                                "; each needs a file of its own");
+  }
+  require_writable(path_ + kExtension);
+  kernel_.within([&] { open(chosen); });
+  files_in_use().insert(path_);
+}
+
+void Trace::open(const std::vector<const SignalList::Signal*>& chosen) {
+  file_ = sc_core::sc_create_vcd_trace_file(path_.c_str());
+  file_->set_time_unit(1000.0 / static_cast<double>(kernel_.ticks_per_picosecond()),
+                       sc_core::SC_FS);
+  sc_core::sc_trace(file_, kernel_.advance_time(), kAdvanceTime);
+  for (const SignalList::Signal* signal : chosen) signal->trace(file_, signal->full_name);
+}
+
+Trace::~Trace() {
+  kernel_.write_traces();
+  try {
+    kernel_.within([this] { sc_core::sc_close_vcd_trace_file(file_); });
+  } catch (const DeviceError&) {  // a report about a file that is closed by now
+  }
+  const auto lock = lock_kernel();
+  files_in_use().erase(path_);
+}
+
+}  // namespace stride::systemc

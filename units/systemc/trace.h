@@ -1,0 +1,82 @@
+// A device's signals in a VCD file.
+#ifndef STRIDE_UNITS_SYSTEMC_TRACE_H
+#define STRIDE_UNITS_SYSTEMC_TRACE_H
+
+#include <functional>
+#include <string>
+#include <systemc>
+#include <utility>
+#include <vector>
+
+#include "units/systemc/kernel.h"
+
+namespace stride::systemc {
+
+/// What can be traced: names, as patterns choose them, and how.
+class SignalList {
+ public:
+  struct Signal {
+    std::string name;       ///< below the device's module
+    std::string full_name;  ///< in the file, where the module is a scope
+    std::function<void(sc_core::sc_trace_file*, const std::string&)> trace;
+  };
+
+  /// Of any type T for which there is an sc_trace(). It must be below a module.
+  template <class T, sc_core::sc_writer_policy Policy>
+  void add(const sc_core::sc_signal<T, Policy>& signal) {
+    add_interface<T>(signal, signal);
+  }
+
+  /// Each sc_signal and sc_clock below the module, of type bool, sc_logic, float, double or one of
+  /// the integers of C++.
+  void add_all_within(const sc_core::sc_object& module);
+
+  const std::vector<Signal>& signals() const { return signals_; }
+
+ private:
+  template <class T>
+  void add_interface(const sc_core::sc_object& object, const sc_core::sc_signal_in_if<T>& signal) {
+    add_named(object, [&signal](sc_core::sc_trace_file* file, const std::string& name) {
+      sc_core::sc_trace(file, signal, name);
+    });
+  }
+  template <class... T>
+  void add_if_any_of(const sc_core::sc_object& object);
+  void add_named(const sc_core::sc_object& object,
+                 std::function<void(sc_core::sc_trace_file*, const std::string&)> trace);
+
+  std::vector<Signal> signals_;
+};
+
+struct TraceOptions {
+  std::string file;           ///< its path; `.vcd` is added where it is missing
+  std::string signals = "*";  ///< patterns of fnmatch(3), separated by spaces
+};
+
+/// A trace file, from the present instant on, which has to be the device's first, until it is
+/// destroyed, which comes before the device. Written by SystemC, in units of the device's time
+/// resolution (1 ps by default).
+///
+/// The file's time is SystemC's. Its variable `advanceTime` is the total that has been skipped:
+/// what stands at the stamp #t happened at t + advanceTime, with the value that this has after t.
+class Trace {
+ public:
+  /// Throws std::invalid_argument for a file that cannot be written or is being written by another
+  /// device of this process, and for a pattern that matches no signal.
+  Trace(Kernel& kernel, const TraceOptions& options, const SignalList& signals);
+  ~Trace();
+
+  Trace(const Trace&) = delete;
+  Trace& operator=(const Trace&) = delete;
+
+ private:
+  void open(const std::vector<const SignalList::Signal*>& chosen);
+
+  Kernel& kernel_;
+  std::string path_;  ///< without `.vcd`
+  sc_core::sc_trace_file* file_ = nullptr;
+};
+
+}  // namespace stride::systemc
+
+#endif
