@@ -47,7 +47,11 @@ TEST_CASE("Everything that the annotation can say") {
                                         "<stride:Results signals='s.csv' events='none'/>"
                                         "<stride:MainThread components='plant legacy.*'/>"
                                         "<stride:EarlyReturn components='* x' allowed='false'/>"
-                                        "<stride:EarlyReturn components='a' allowed='true'/>"))));
+                                        "<stride:EarlyReturn components='a' allowed='true'/>"
+                                        "<stride:IdleSkip maxSkip='2'/>"
+                                        "<stride:IdleSkip components='a b' enabled='false'/>"
+                                        "<stride:Deadband variable='a.u' value='0'/>"
+                                        "<stride:Tolerance variable='a.y' value='1e-3'/>"))));
   CHECK(annotation.step.size == Duration(1'000'000'000));
   REQUIRE(annotation.record.size() == 3);
   CHECK(annotation.record[0].text == "sensor.*");
@@ -63,6 +67,14 @@ TEST_CASE("Everything that the annotation can say") {
   CHECK(annotation.early_return[0].components.text == "*");
   CHECK_FALSE(annotation.early_return[1].allowed);
   CHECK(annotation.early_return[2].components.text == "a");
+  REQUIRE(annotation.idle.rules.size() == 3);
+  CHECK(annotation.idle.rules[0].components.text == "*");
+  CHECK(annotation.idle.rules[0].max_skip == Duration(2'000'000'000'000));
+  CHECK(annotation.idle.rules[0].enabled);
+  CHECK(annotation.idle.rules[2].components.text == "b");
+  CHECK_FALSE(annotation.idle.rules[2].enabled);
+  CHECK(annotation.idle.deadbands.at(0).variable == "a.u");
+  CHECK(annotation.idle.tolerances.at(0).value == 1e-3);
   CHECK(annotation.early_return[2].components.where.line == 5);
   CHECK(annotation.early_return[2].allowed);
   CHECK(annotation.results.signals == "s.csv");
@@ -103,8 +115,9 @@ TEST_CASE("A mistake in the annotation is named with its line") {
   CHECK_THAT(error("<stride:Stpe size='1'/>"),
              Contains("x.ssd:4: <stride:Stpe> is not known in <stride:Scenario>") &&
                  Contains("did you mean 'Step'?"));
-  CHECK_THAT(error("<stride:Policy/>"),
-             Contains("known are: Step, Exchange, Record, Results, MainThread, EarlyReturn"));
+  CHECK_THAT(error("<stride:Policy/>"), Contains("known are: Step, Exchange, Record, Results, "
+                                                 "MainThread, EarlyReturn, IdleSkip, Deadband, "
+                                                 "Tolerance"));
   CHECK_THAT(error("<stride:Step siez='1'/>"), Contains("did you mean 'size'?"));
   CHECK_THAT(error("<stride:Step size=''/>"),
              Contains("the attribute 'size' of <stride:Step> is empty"));
@@ -122,6 +135,11 @@ TEST_CASE("A mistake in the annotation is named with its line") {
   CHECK_THAT(error("<stride:EarlyReturn allowed='false'/>"), Contains("'components'"));
   CHECK_THAT(error("<stride:EarlyReturn components='a' allowed='no'/>"),
              Contains("x.ssd:4: ") && Contains("allowed=\"no\" is neither true nor false"));
+  CHECK_THAT(error("<stride:IdleSkip maxSkip='0'/>"),
+             Contains("x.ssd:4: ") && Contains("maxSkip: a skip must be above 0 s"));
+  CHECK_THAT(error("<stride:Deadband variable='a.u' value='-1'/>"), Contains("of at least 0"));
+  CHECK_THAT(error("<stride:Tolerance variable='a.y' value='0'/>"), Contains("above 0"));
+  CHECK_THAT(error("<stride:Tolerance value='1'/>"), Contains("'variable'"));
   CHECK_THAT(error("<stride:Results csv='a'/>"),
              Contains("known are: signals, events, trace, statistics"));
   CHECK_THAT(error("<stride:Results trace='../a.vcd'/>"), Contains("is no plain file name"));

@@ -24,8 +24,23 @@ TEST_CASE("run.json tells what was run and how far it came") {
   statistics.wall_time = milliseconds(250);
   statistics.phases = {milliseconds(10), milliseconds(200), milliseconds(30), milliseconds(5)};
   statistics.units = {
-      {71'000, 14'200, 5, 3, 8, 14'190, 2, 1, 0, milliseconds(1), milliseconds(2), milliseconds(3)},
-      {0, 14'201, 0, 0, 0, 0, 0, 0, 1, milliseconds(0), milliseconds(0), milliseconds(0)},
+      {71'000, 14'200, 5, 3, 8, 14'190, 2, 4, milliseconds(2500), milliseconds(1000), 1, 0,
+       milliseconds(1), milliseconds(2), milliseconds(3)},
+      {0,
+       14'201,
+       0,
+       0,
+       0,
+       0,
+       0,
+       0,
+       {},
+       {},
+       0,
+       1,
+       milliseconds(0),
+       milliseconds(0),
+       milliseconds(0)},
   };
   write_run_json(folder / "run.json", "scenarios/x.ssd", sample_system(), options, statistics);
   CHECK(content(folder / "run.json") == R"({
@@ -69,6 +84,11 @@ TEST_CASE("run.json tells what was run and how far it came") {
       "events": 2,
       "messages_sent": 1,
       "messages_received": 0,
+      "idle": {
+        "rests": 4,
+        "skipped": 2.5,
+        "longest": 1.0
+      },
       "wall_time": {
         "initialization": 0.001,
         "steps": 0.002,
