@@ -15,7 +15,8 @@ trap 'rm -rf "$results"' EXIT
 
 for golden in scenarios/*/golden; do
   scenario=$(dirname "$golden")
-  env -u STRIDE_UNITS "$program" run "$scenario/$(basename "$scenario").ssd" --out "$results" --no-trace --quiet
+  env -u STRIDE_UNITS "$program" run "$scenario/$(basename "$scenario").ssd" --no-idle-skip \
+    --out "$results" --no-trace --quiet
   cp "$results/events.csv" "$golden/events.csv"
   # every 100 ms is enough to see each curve
   awk -F, 'NR == 1 || $1 ~ /^[0-9]+([.][0-9])?$/' "$results/signals.csv" > "$golden/signals.csv"

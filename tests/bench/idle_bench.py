@@ -92,7 +92,7 @@ def ratio(a, b):
 
 
 def charge_error(skipped, full):
-    column = next(name for name in full if name.startswith("sensor.supply.charge"))
+    column = next(name for name in full if name.startswith("sensor.capacitor.charge"))
     reference = float(full[column])
     return abs(float(skipped[column]) - reference) / abs(reference)
 

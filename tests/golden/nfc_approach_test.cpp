@@ -10,7 +10,7 @@ using namespace stride::tests;
 namespace {
 
 ScenarioRun run_with(const std::string& step, const std::string& threads = "1") {
-  return ScenarioRun("nfc_approach", {"--step", step, "--threads", threads});
+  return ScenarioRun("nfc_approach", {"--no-idle-skip", "--step", step, "--threads", threads});
 }
 
 /// The tests below look at the same run.

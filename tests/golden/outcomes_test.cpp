@@ -37,14 +37,14 @@ class OtherEarlyReturn {
 };
 
 const ScenarioRun& two_tags() {
-  static const ScenarioRun only("nfc_two_tags", {"--no-trace"});
+  static const ScenarioRun only("nfc_two_tags", {"--no-trace", "--no-idle-skip"});
   return only;
 }
 
 }  // namespace
 
 TEST_CASE("nfc_far: nobody is heard, as the program expects") {
-  const ScenarioRun run("nfc_far", {"--no-trace"});
+  const ScenarioRun run("nfc_far", {"--no-trace", "--no-idle-skip"});
   CHECK(golden_differences("nfc_far", run) == "");
   CHECK(run.at("10", "reader.messages.sent") == 3);
   CHECK(run.at("10", "reader.messages.retries") == 8);
@@ -53,7 +53,7 @@ TEST_CASE("nfc_far: nobody is heard, as the program expects") {
 }
 
 TEST_CASE("nfc_brownout: the sensor goes off with its LED on, and comes back") {
-  const ScenarioRun run("nfc_brownout", {"--no-trace"});
+  const ScenarioRun run("nfc_brownout", {"--no-trace", "--no-idle-skip"});
   CHECK(golden_differences("nfc_brownout", run) == "");
   CHECK(run.at("2.9", "sensor.led") == 1);
   CHECK(run.at("2.9", "sensor.mcu.powered") == 1);
@@ -67,7 +67,7 @@ TEST_CASE("nfc_brownout: the sensor goes off with its LED on, and comes back") {
 }
 
 TEST_CASE("nfc_jitter: somewhere on its way the reader begins to hear the sensor") {
-  const ScenarioRun run("nfc_jitter", {"--no-trace"});
+  const ScenarioRun run("nfc_jitter", {"--no-trace", "--no-idle-skip"});
   CHECK(golden_differences("nfc_jitter", run) == "");
   CHECK(run.at("2.5", "reader.messages.sent") == 20);
   CHECK(run.at("2.5", "reader.messages.damaged") > 0);
