@@ -104,11 +104,11 @@ void Exchange::bind_step_values() {
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
     const std::size_t first = bound_values_.size();
     for (Transfer& input : inputs_[i]) {
-      if (!input.is_discrete()) bound_values_.push_back({input.references, &input.block});
+      if (!input.is_discrete()) bound_values_.emplace_back(input.references, input.block);
     }
     const std::size_t inputs = bound_values_.size() - first;
     for (Transfer& output : outputs_[i]) {
-      bound_values_.push_back({output.references, &output.block});
+      bound_values_.emplace_back(output.references, output.block);
     }
     lengths.push_back({inputs, outputs_[i].size()});
   }

@@ -32,7 +32,13 @@ struct StepInterval {
 
 /// Variables of one type that are read or written by one call, and where their values stand.
 struct BoundValues {
+  BoundValues(std::span<const ValueReference> variables, ValueBlock& values)
+      : references(variables), block(&values) {
+    if (values.type() == ValueType::Float64) float64s = values.numbers<double>();
+  }
+
   std::span<const ValueReference> references;
+  std::span<double> float64s;  ///< the block's elements, if they are of this type
   ValueBlock* block;
 };
 

@@ -184,19 +184,19 @@ std::string Fmi3Unit::take_messages(const std::string& function) {
 // ---- Values ----
 
 // Most values are of this type.
-inline void Fmi3Unit::get(References references, core::ValueBlock& values) {
-  if (values.type() != core::ValueType::Float64) return get_any(references, values);
-  call("fmi3GetFloat64", fmi_.GetFloat64, references.data(), references.size(),
-       values.numbers<double>().data(), values.size());
+inline void Fmi3Unit::get(const core::BoundValues& values) {
+  if (values.float64s.empty()) return get(values.references, *values.block);
+  call("fmi3GetFloat64", fmi_.GetFloat64, values.references.data(), values.references.size(),
+       values.float64s.data(), values.float64s.size());
 }
 
-inline void Fmi3Unit::set(References references, const core::ValueBlock& values) {
-  if (values.type() != core::ValueType::Float64) return set_any(references, values);
-  call("fmi3SetFloat64", fmi_.SetFloat64, references.data(), references.size(),
-       values.numbers<double>().data(), values.size());
+inline void Fmi3Unit::set(const core::BoundValues& values) {
+  if (values.float64s.empty()) return set(values.references, *values.block);
+  call("fmi3SetFloat64", fmi_.SetFloat64, values.references.data(), values.references.size(),
+       values.float64s.data(), values.float64s.size());
 }
 
-void Fmi3Unit::get_any(References references, core::ValueBlock& values) {
+void Fmi3Unit::get(References references, core::ValueBlock& values) {
   if (values.type() == core::ValueType::Clock) {
     call("fmi3GetClock", fmi_.GetClock, references.data(), references.size(),
          values.numbers<bool>().data());
@@ -214,7 +214,7 @@ void Fmi3Unit::get_any(References references, core::ValueBlock& values) {
   });
 }
 
-void Fmi3Unit::set_any(References references, const core::ValueBlock& values) {
+void Fmi3Unit::set(References references, const core::ValueBlock& values) {
   if (values.type() == core::ValueType::Clock) {
     call("fmi3SetClock", fmi_.SetClock, references.data(), references.size(),
          values.numbers<bool>().data());
@@ -283,7 +283,7 @@ core::StepResult Fmi3Unit::step(const core::StepInterval& interval) {
 
 core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
                                 const core::StepValues& values) {
-  for (const core::BoundValues& input : values.inputs) set(input.references, *input.block);
+  for (const core::BoundValues& input : values.inputs) set(input);
   time_ = interval.from;
   // no other double lands nearer to the end
   const double size = interval.end_seconds - interval.begin_seconds;
@@ -308,7 +308,7 @@ core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
     fail("fmi3DoStep returned eventHandlingNeeded, and the unit has no Event Mode (hasEventMode)");
   if (!early && last_successful != interval.end_seconds) compare_times(interval, last_successful);
   time_ = early ? reached_early(interval, last_successful) : interval.to;
-  for (const core::BoundValues& output : values.outputs) get(output.references, *output.block);
+  for (const core::BoundValues& output : values.outputs) get(output);
   return {.early_return = early,
           .event_needed = event_needed,
           .terminate = terminate,

@@ -119,8 +119,8 @@ class Fmi3Unit final : public core::Unit {
   [[noreturn]] void fail_call(const char* function, fmi3Status status);
   [[noreturn]] void fail(const std::string& message, const std::string& hint = "") const;
 
-  void get_any(References references, core::ValueBlock& values);
-  void set_any(References references, const core::ValueBlock& values);
+  void get(const core::BoundValues& values);
+  void set(const core::BoundValues& values);
   void get_strings(References references, std::span<std::string> values);
   void set_strings(References references, std::span<const std::string> values);
   void get_binaries(References references, std::span<core::Binary> values);
