@@ -111,13 +111,27 @@ class Picture:
             return
         least, most = min(known + [0.0]), max(known + [0.0])
         scale = (ROW - 8) / (most - least or 1.0)
-        path, last = [], None
+        path, last, drawn = [], None, None
         for (time, value), (until, _) in zip(changes, [*changes[1:], (end, None)]):
             if value is not None:
-                y = top + ROW - 4 - (value - least) * scale
-                path.append(f'{"M" if last is None else "L"}{x(time):.1f},{y:.1f}H{x(until):.1f}')
+                y = f"{top + ROW - 4 - (value - least) * scale:.1f}"
+                place = (f"{x(time):.1f}", y, f"{x(until):.1f}")
+                if last is None or place != drawn:  # what looks the same is drawn once
+                    path.append(f'{"M" if last is None else "L"}{place[0]},{y}H{place[2]}')
+                drawn = place
             last = value
         self.parts.append(f'<path d="{"".join(path)}" fill="none" stroke="{colour}" stroke-width="1.3"/>')
+
+
+def merged(intervals):
+    """The intervals in order, those joined that no eye can tell apart."""
+    joined = []
+    for begin, end in intervals:
+        if joined and begin - joined[-1][1] < 0.3:
+            joined[-1] = (joined[-1][0], max(end, joined[-1][1]))
+        else:
+            joined.append((begin, end))
+    return joined
 
 
 def draw_panel(picture, top, title, trace, rows, skips):
@@ -127,8 +141,8 @@ def draw_panel(picture, top, title, trace, rows, skips):
 
     bottom = top + TOP + len(rows) * (ROW + GAP)
     picture.text(LEFT, top + 18, title, "start", "#000")
-    for begin, end in skips:
-        picture.box(x(begin), top + TOP - 6, x(end), bottom, SKIPPED)
+    for begin, end in merged([(x(begin), x(end)) for begin, end in skips]):
+        picture.box(begin, top + TOP - 6, end, bottom, SKIPPED)
     for index, (label, changes, colour) in enumerate(rows):
         y = top + TOP + index * (ROW + GAP)
         picture.text(LEFT - 10, y + ROW - 8, label)

@@ -40,6 +40,7 @@ DEVICE = """<?xml version="1.0" encoding="UTF-8"?>
   </ssd:System>
 </ssd:SystemStructureDescription>
 """
+BOOT = 0.0012  # [s]
 FREE_RUNNING = ["--set", "sensor.control_unit.clock_gating=false"]
 
 
@@ -104,19 +105,28 @@ def compare(name, program, scenario, stop, work, further=()):
     return skipped.messages() == full.messages()
 
 
-def compare_traces(program, scenario, stop, sample, work):
-    full = Run(program, scenario, work / "full", sample, False, trace=work / "full.vcd")
-    skipped = Run(program, scenario, work / "skipped", stop, True, trace=work / "skipped.vcd")
-    assert full.wall > 0 and skipped.wall > 0
-    bytes_full = (work / "full.vcd").stat().st_size * stop / sample
-    bytes_skipped = (work / "skipped.vcd").stat().st_size
-    print(f"trace of {stop} s of idle time")
-    print(f"  bytes                       {bytes_full:.4g} (scaled from {sample} s) : {bytes_skipped}"
-          f" = {ratio(bytes_full, bytes_skipped)}")
-    info = subprocess.run([program, "trace", "info", str(work / "skipped.vcd")], check=True, capture_output=True, text=True)
-    for line in info.stdout.splitlines():
-        if line.strip().startswith(("kernel time", "true time", "ratio")):
-            print(line)
+def traced(program, scenario, stop, skips, work):
+    """A run with all the device's signals traced: its wall-clock time, the trace's size, its kernel and true time."""
+    trace = work / "device.vcd"
+    run = Run(program, scenario, work / "traced", stop, skips, trace=trace)
+    info = subprocess.run([program, "trace", "info", str(trace)], check=True, capture_output=True, text=True).stdout
+    times = dict(line.split("  ", 2)[1:] for line in info.splitlines() if line.endswith(" s"))
+    kernel, true = (float(times[name].split()[0]) for name in ("kernel time", "true time"))
+    return run.wall, trace.stat().st_size, kernel, true
+
+
+def compare_traces(program, scenario, idle, sample, work):
+    """The device boots when the run begins; what that costs is taken off."""
+    boot = traced(program, scenario, BOOT, True, work)
+    whole = traced(program, scenario, BOOT + idle, True, work)
+    full_boot = traced(program, scenario, BOOT, False, work)
+    full = traced(program, scenario, BOOT + sample, False, work)
+    scale = idle / sample
+    print(f"trace of {idle} s of idle time, without that of the boot; without skipping scaled from {sample} s")
+    size = (full[1] - full_boot[1]) * scale
+    print(f"  bytes                       {size:.4g} : {whole[1] - boot[1]} = {ratio(size, whole[1] - boot[1])}")
+    kernel = whole[2] - boot[2]
+    print(f"  trace time                  {idle} s : {kernel:.3g} s = {ratio(idle, max(kernel, 1e-12))}")
 
 
 def main():
