@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -11,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "master/io/number_text.h"
 #include "master/io/xml.h"
 
 namespace stride::io {
@@ -35,6 +34,16 @@ bool is_of_root_or_system(const XmlElement& annotation, const XmlElement& root) 
   return owner->is(kSsd, "System") && above && above->index() == root.index();
 }
 
+/// What `parse` makes of the attribute, which is there; a std::invalid_argument is its mistake.
+template <class Parse>
+auto parse_attribute(const XmlElement& element, const char* name, Parse&& parse) {
+  try {
+    return parse(element.required(name));
+  } catch (const std::invalid_argument& mistake) {
+    element.fail(fmt::format("{}: {}", name, mistake.what()));
+  }
+}
+
 using SetChoice = void (StepChoice::*)(std::string_view);
 
 /// Attributes that each set a part of the choice.
@@ -42,11 +51,8 @@ void read_choices(const XmlElement& element, StepChoice& choice,
                   std::initializer_list<std::pair<const char*, SetChoice>> attributes) {
   for (const auto& [name, set] : attributes) {
     if (!element.attribute(name)) continue;
-    try {
-      (choice.*set)(element.required(name));
-    } catch (const std::invalid_argument& mistake) {
-      element.fail(fmt::format("{}: {}", name, mistake.what()));
-    }
+    parse_attribute(element, name,
+                    [&, set = set](const std::string& text) { (choice.*set)(text); });
   }
 }
 
@@ -106,11 +112,7 @@ void read_idle_skip(const XmlElement& element, IdleChoice& choice) {
   element.allow_children({});
   IdleRule rule{{}, element.flag("enabled", true), std::nullopt, element.where()};
   if (element.attribute("maxSkip")) {
-    try {
-      rule.max_skip = parse_max_skip(element.required("maxSkip"));
-    } catch (const std::invalid_argument& mistake) {
-      element.fail(fmt::format("maxSkip: {}", mistake.what()));
-    }
+    rule.max_skip = parse_attribute(element, "maxSkip", parse_max_skip);
   }
   std::vector<ComponentPattern> patterns{{"*", element.where()}};
   if (element.attribute("components")) patterns = read_components(element);
@@ -120,18 +122,11 @@ void read_idle_skip(const XmlElement& element, IdleChoice& choice) {
   }
 }
 
-/// <Deadband variable="…" value="…"/>, and the same for a tolerance, which is not 0.
-IdleNumber read_idle_number(const XmlElement& element, bool may_be_zero) {
+/// <Deadband variable="…" value="…"/>, and the same for a tolerance.
+IdleNumber read_idle_number(const XmlElement& element, double (*parse)(std::string_view)) {
   element.allow_attributes({"variable", "value"});
   element.allow_children({});
-  IdleNumber number{element.required("variable"), 0, element.where()};
-  const std::string text = element.required("value");
-  const auto [end, mistake] = std::from_chars(text.data(), text.data() + text.size(), number.value);
-  const bool is_number = mistake == std::errc() && end == text.data() + text.size();
-  const bool is_large_enough = may_be_zero ? number.value >= 0 : number.value > 0;
-  if (is_number && std::isfinite(number.value) && is_large_enough) return number;
-  element.fail(
-      fmt::format("value: '{}' is no number {} 0", text, may_be_zero ? "of at least" : "above"));
+  return {element.required("variable"), parse_attribute(element, "value", parse), element.where()};
 }
 
 void check_file_name(const XmlElement& element, const char* attribute, const std::string& name) {
@@ -191,10 +186,10 @@ ScenarioAnnotation read_scenario_element(const XmlElement& scenario) {
     read_idle_skip(element, annotation.idle);
   }
   for (const XmlElement& element : scenario.children({kStrideScenario, "Deadband"})) {
-    annotation.idle.deadbands.push_back(read_idle_number(element, true));
+    annotation.idle.deadbands.push_back(read_idle_number(element, parse_at_least_zero));
   }
   for (const XmlElement& element : scenario.children({kStrideScenario, "Tolerance"})) {
-    annotation.idle.tolerances.push_back(read_idle_number(element, false));
+    annotation.idle.tolerances.push_back(read_idle_number(element, parse_above_zero));
   }
   if (const auto results = scenario.child({kStrideScenario, "Results"})) {
     read_results(*results, annotation);

@@ -1,7 +1,5 @@
 #include "master/io/step_choice.h"
 
-#include <charconv>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -9,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "master/core/suggest.h"
+#include "master/io/number_text.h"
 #include "master/io/time_text.h"
 
 namespace stride::io {
@@ -31,16 +30,6 @@ Duration parse_step(std::string_view text) {
   return step;
 }
 
-double parse_tolerance(std::string_view text) {
-  double value = 0;
-  const auto [end, mistake] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_number = mistake == std::errc() && end == text.data() + text.size();
-  if (!is_number || !std::isfinite(value) || value < 0) {
-    throw std::invalid_argument(fmt::format("'{}' is no number of at least 0", text));
-  }
-  return value;
-}
-
 template <class T>
 void take(T& option, const std::optional<T>& choice) {
   if (choice) option = *choice;
@@ -55,10 +44,10 @@ void StepChoice::set_size(std::string_view text) { size = parse_step(text); }
 void StepChoice::set_maximum(std::string_view text) { maximum = parse_step(text); }
 void StepChoice::set_minimum(std::string_view text) { minimum = parse_step(text); }
 void StepChoice::set_relative_tolerance(std::string_view text) {
-  relative_tolerance = parse_tolerance(text);
+  relative_tolerance = parse_at_least_zero(text);
 }
 void StepChoice::set_absolute_tolerance(std::string_view text) {
-  absolute_tolerance = parse_tolerance(text);
+  absolute_tolerance = parse_at_least_zero(text);
 }
 void StepChoice::set_coupling(std::string_view text) {
   coupling = parse_word(text, core::kCouplings);
