@@ -68,8 +68,11 @@ class Exchange {
   bool has_discrete_inputs(std::size_t component) const { return has_discrete_inputs_[component]; }
   /// Writes a unit's continuous inputs, and the discrete ones if they changed.
   void deliver(std::size_t component, Unit& unit);
-  /// A step of the unit with its inputs, if they were not delivered since they were routed, and
-  /// with its outputs.
+  /// Likewise, if something was routed since the unit's inputs were written.
+  void deliver_routed(std::size_t component, Unit& unit) {
+    if (!is_delivered_[component]) deliver(component, unit);
+  }
+  /// A step of the unit with its inputs, as deliver_routed() writes them, and with its outputs.
   StepResult step(std::size_t component, Unit& unit, const StepInterval& interval) {
     const StepValues& values = step_values_[component];
     if (is_delivered_[component]) return unit.step(interval, {{}, values.outputs});
@@ -79,8 +82,6 @@ class Exchange {
   }
   /// An input was changed where it stands, by another than route().
   void note_change(std::size_t component) { is_delivered_[component] = false; }
-  /// Nothing was routed since deliver().
-  bool is_delivered(std::size_t component) const { return is_delivered_[component]; }
 
   /// Writes those of a unit's continuous inputs that may change within a step.
   void deliver_within_step(std::size_t component, Unit& unit);

@@ -20,18 +20,18 @@ IdleLedger::IdleLedger(const System& system, std::span<const std::unique_ptr<Uni
       accounts_(units.size()) {
   for (std::size_t i = 0; i < std::min(units.size(), options.max_skip.size()); ++i) {
     const std::optional<Duration>& max_skip = options.max_skip[i];
-    if (max_skip && system.components()[i].description->promises_idle) open(i, *max_skip, options);
+    if (max_skip && system.components()[i].description->promises_idle) open(i, *max_skip);
   }
 }
 
-void IdleLedger::open(std::size_t component, Duration max_skip, const IdleOptions& options) {
+void IdleLedger::open(std::size_t component, Duration max_skip) {
   candidates_.push_back(component);
   Account& account = accounts_[component];
   account.is_candidate = true;
   account.max_skip = max_skip;
   for (const auto& [id, element] : exchange_.continuous_inputs(component)) {
     double deadband = system_.variable(id).deadband;
-    for (const IdleSetting& setting : options.deadbands) {
+    for (const IdleSetting& setting : options_.deadbands) {
       if (setting.id == id) deadband = setting.value;
     }
     account.inputs.push_back({element, deadband});
@@ -136,7 +136,7 @@ bool IdleLedger::wake_disturbed(Time time) {
 void IdleLedger::rest(Time time) {
   for (const std::size_t i : candidates_) {
     if (accounts_[i].rests) continue;
-    if (!exchange_.is_delivered(i)) exchange_.deliver(i, *units_[i]);
+    exchange_.deliver_routed(i, *units_[i]);
     const Time until = units_[i]->idle_until();
     if (until <= time) continue;
     const Duration max_skip = accounts_[i].max_skip;

@@ -85,7 +85,7 @@ class IdleLedger {
     std::vector<double> slopes;              ///< of their elements
   };
 
-  void open(std::size_t component, Duration max_skip, const IdleOptions& options);
+  void open(std::size_t component, Duration max_skip);
   void begin_rest(std::size_t component, Time time, Time until, Time end);
   bool is_disturbed(const Account& account) const;
   void check_promise(std::size_t component, Time time, const StepResult& result) const;

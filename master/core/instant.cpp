@@ -37,7 +37,8 @@ Instant::Instant(const System& system, std::span<const std::unique_ptr<Unit>> un
   }
   evaluation_.emplace(system, units, exchange, Phase::Events,
                       UnitTimer(clock, statistics.units, &UnitStatistics::event_time));
-  if (evaluation_->is_trivial()) evaluation_.reset();
+  if (!evaluation_->is_trivial()) return;
+  evaluation_.reset();
   for (const ContinuousLink& link : exchange.continuous_links()) {
     if (description(link.to.component).has_event_mode) links_.push_back(link);
   }

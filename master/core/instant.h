@@ -45,8 +45,9 @@ class Instant : private Evaluation::Participants {
   /// Exchanges the outputs that have been fetched and handles events until nothing wants another
   /// round. Outputs of units in Event Mode that depend directly on inputs follow them at once, and
   /// algebraic loops between such units are solved. Leaves the units in Step Mode; those that had
-  /// no event have yet to be given their inputs (Exchange::is_delivered). Throws Error (Run) where
-  /// a connected output is NaN, a loop has no solution that could be found, or units tick for ever.
+  /// no event have yet to be given their inputs (Exchange::deliver_routed). Throws Error (Run)
+  /// where a connected output is NaN, a loop has no solution that could be found, or units tick for
+  /// ever.
   void settle(Time time);
 
   /// Who handled an event in the last settle(), by component.
@@ -97,7 +98,7 @@ class Instant : private Evaluation::Participants {
   std::uint32_t index_ = 0;                  ///< of the super-dense instant at that time
   std::vector<std::size_t> event_units_;     ///< those with Event Mode
   std::vector<std::size_t> discrete_units_;  ///< those of them with discrete inputs
-  std::vector<ContinuousLink> links_;        ///< to them
+  std::vector<ContinuousLink> links_;        ///< to event_units_, where `evaluation_` is not needed
   std::vector<char> active_;                 ///< wants the next event iteration
   bool has_active_ = false;
   bool has_event_ = false;  ///< a unit is in Event Mode

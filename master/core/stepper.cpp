@@ -224,7 +224,7 @@ bool Stepper::rests_on(Lane& lane, const StepInterval& interval) {
 
 /// The inputs are part of the state.
 void Stepper::save(Lane& lane) {
-  if (!exchange_.is_delivered(lane.component)) exchange_.deliver(lane.component, *lane.unit);
+  exchange_.deliver_routed(lane.component, *lane.unit);
   lane.unit->save_state();
   lane.saved = true;
 }
