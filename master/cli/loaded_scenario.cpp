@@ -240,6 +240,7 @@ std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate() const {
     options.early_return_allowed = component.early_return_allowed;
     options.intermediate_update = options_.sets_inputs_in_steps();
     options.where = component.where;
+    options.description = system_->components()[i].description;
     units.push_back(fmus_[i]->instantiate(component.name, options));
   }
   return units;

@@ -16,9 +16,6 @@ using core::Initial;
 using core::ValueType;
 using core::Variability;
 
-/// Large enough for any model, small enough that a wrong number cannot take the memory.
-constexpr std::size_t kMaxElements = std::size_t{1} << 28;
-
 using TypeDefinitions = std::map<std::string, xml::Element>;
 
 /// The enumerator of this name, of the first `count`.
@@ -238,17 +235,17 @@ class Linker {
   void read_dimensions(std::size_t i) {
     core::Variable& variable = variables_[i];
     for (const xml::Element& dimension : elements_[i].children("Dimension")) {
-      const std::size_t size = read_size(dimension);
-      if (size > kMaxElements || (size != 0 && variable.size > kMaxElements / size)) {
-        dimension.fail(
-            fmt::format("variable '{}' has more than {} elements", variable.name, kMaxElements));
-      }
-      variable.dimensions.push_back(size);
-      variable.size *= size;
+      variable.dimensions.push_back(read_dimension(dimension));
     }
+    const auto size = core::element_count(variable.dimensions);
+    if (!size) {
+      elements_[i].fail(fmt::format("variable '{}' has more than {} elements", variable.name,
+                                    core::kMaxElements));
+    }
+    variable.size = *size;
   }
 
-  std::size_t read_size(const xml::Element& dimension) const {
+  core::Dimension read_dimension(const xml::Element& dimension) const {
     if (const auto fixed = dimension.number<std::uint64_t>("start")) return *fixed;
     const auto reference = dimension.number<core::ValueReference>("valueReference");
     if (!reference) dimension.fail("<Dimension> needs 'start' or 'valueReference'");
@@ -270,7 +267,8 @@ class Linker {
                       "expected a number of elements",
                       source->name, source->start));
     }
-    return *size;
+    const bool is_parameter = source->causality == Causality::StructuralParameter;
+    return {*size, is_parameter ? reference : std::nullopt};
   }
 
   const core::Variable* find(core::ValueReference reference) const {

@@ -176,7 +176,8 @@ TEST_CASE("variables keep their order, and their defaults are those of the stand
 
 TEST_CASE("dimensions are fixed numbers or the start of a structural parameter") {
   const auto unit = fmi::parse_model_description(kComplete, "unit.xml");
-  CHECK(variable(unit, "field").dimensions == std::vector<std::size_t>{2, 3});
+  CHECK(variable(unit, "field").dimensions ==
+        std::vector<core::Dimension>{{2, core::ValueReference{1}}, 3});
   CHECK(variable(unit, "field").size == 6);
   CHECK(variable(unit, "rows").size == 1);
 }
