@@ -161,9 +161,9 @@ void LoadedScenario::choose_times(const ScenarioRequest& request) {
 void LoadedScenario::choose_steps(const io::StepChoice& request) {
   std::optional<Duration> unit_step;
   for (const auto& fmu : fmus_) {
-    if (const auto& step = fmu->description()->default_step) {
-      unit_step = std::min(unit_step.value_or(*step), *step);
-    }
+    const core::UnitDescription& unit = *fmu->description();
+    const auto& step = unit.default_step ? unit.default_step : unit.fixed_internal_step;
+    if (step) unit_step = std::min(unit_step.value_or(*step), *step);
   }
   options_.step.size = unit_step.value_or(kDefaultStep);
   scenario_.annotation.step.apply(options_);
