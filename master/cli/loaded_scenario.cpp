@@ -110,7 +110,7 @@ void LoadedScenario::set(const std::string& text) {
   if (!owner.empty()) {
     const core::Location where{fmt::format("--set {}", text), 0};
     scenario_.system.start_values.push_back(
-        {owner, name.substr(owner.size() + 1), value, "", where});
+        {owner, name.substr(owner.size() + 1), value, {}, where});
     return;
   }
   const std::string component = name.substr(0, name.find('.'));

@@ -35,9 +35,13 @@ bool is_finite(const ValueBlock& block) {
 
 /// The precision of the numbers that run through the loop.
 double epsilon(const System& system, const EvaluationBlock& plan) {
-  const bool coarse = std::any_of(plan.inputs.begin(), plan.inputs.end(), [&](VariableId id) {
+  const auto is_coarse = [&](VariableId id) {
     return system.variable(id).type == ValueType::Float32;
-  });
+  };
+  bool coarse = std::ranges::any_of(plan.inputs, is_coarse);
+  for (const EvaluationStep& step : plan.steps) {
+    coarse |= std::ranges::any_of(step.outputs, is_coarse);
+  }
   return coarse ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
 }
 

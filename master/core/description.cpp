@@ -83,20 +83,4 @@ bool UnitDescription::is_sampled(const Variable& variable) const {
          });
 }
 
-std::optional<LinearConversion> convert(const UnitDescription& from_description,
-                                        const std::string& from,
-                                        const UnitDescription& to_description,
-                                        const std::string& to) {
-  if (from.empty() || to.empty()) return LinearConversion{};
-  const auto source = from_description.units.find(from);
-  const auto target = to_description.units.find(to);
-  const bool both_known =
-      source != from_description.units.end() && target != to_description.units.end();
-  if (!both_known) return from == to ? std::optional(LinearConversion{}) : std::nullopt;
-  const BaseUnit& a = source->second;
-  const BaseUnit& b = target->second;
-  if (a.exponents != b.exponents) return std::nullopt;
-  return LinearConversion{a.factor / b.factor, (a.offset - b.offset) / b.factor};
-}
-
 }  // namespace stride::core

@@ -204,14 +204,6 @@ struct LinearConversion {
   bool is_identity() const { return factor == 1 && offset == 0; }
 };
 
-/// How values in unit `from` of one description become values in unit `to` of another. Units of the
-/// same name, or where one side has none, are taken as they are; nothing if they cannot be
-/// converted into each other.
-std::optional<LinearConversion> convert(const UnitDescription& from_description,
-                                        const std::string& from,
-                                        const UnitDescription& to_description,
-                                        const std::string& to);
-
 }  // namespace stride::core
 
 #endif

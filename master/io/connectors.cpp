@@ -62,7 +62,7 @@ void read_child(const xml::Element& child, const std::string& ssp_version,
   if (has_type) child.fail(fmt::format("{} is a second type of this connector", child.tag()));
   has_type = true;
   connector.type = read_type(child, ssp_version);
-  connector.unit = child.attribute("unit").value_or("");
+  connector.unit.name = child.attribute("unit").value_or("");
 }
 
 core::ConnectorDeclaration read_connector(const xml::Element& element,

@@ -63,8 +63,10 @@ void add_component(const xml::Element& element, const std::string& version,
                  "name its FMU: source=\"unit.fmu\"");
   }
   for (ParameterValue& value : read_parameters(element, folder)) {
-    content.declaration.start_values.push_back({component.name, std::move(value.name),
-                                                std::move(value.value), std::move(value.unit),
+    content.declaration.start_values.push_back({component.name,
+                                                std::move(value.name),
+                                                std::move(value.value),
+                                                {value.unit, {}},
                                                 value.where});
   }
   content.sources.push_back(source_path(element, folder));
@@ -177,8 +179,11 @@ core::StartDeclaration split_name(ParameterValue value, const core::SystemDeclar
                                  value.name),
                      core::suggestion(head, names));
   }
-  return {*found, value.name.substr(found->size() + 1), std::move(value.value),
-          std::move(value.unit), value.where};
+  return {*found,
+          value.name.substr(found->size() + 1),
+          std::move(value.value),
+          {value.unit, {}},
+          value.where};
 }
 
 }  // namespace

@@ -64,10 +64,10 @@ TEST_CASE("Inline values of a component are read as text, with their unit and li
   CHECK(values[0].component == "a");
   CHECK(values[0].variable == "r");
   CHECK(values[0].value == "1.5");
-  CHECK(values[0].unit == "mm");
+  CHECK(values[0].unit.name == "mm");
   CHECK(values[0].where.line == 5);
   CHECK(values[1].value == "1 2 3");
-  CHECK(values[1].unit.empty());
+  CHECK(values[1].unit.name.empty());
   CHECK(values[1].where.line == 6);
   CHECK(values[2].value == "7");
   CHECK(values[3].value == "true");

@@ -72,7 +72,7 @@ TEST_CASE("A scenario is read as it is written") {
   CHECK(a.connectors[0].name == "x");
   CHECK(a.connectors[0].type == ValueType::Float64);
   CHECK(a.connectors[0].causality == Causality::Output);
-  CHECK(a.connectors[0].unit == "m");
+  CHECK(a.connectors[0].unit.name == "m");
   CHECK(a.connectors[0].where.line == 9);
   CHECK(a.connectors[1].type == ValueType::UInt16);
   CHECK(a.connectors[1].causality == Causality::Input);
@@ -104,7 +104,7 @@ TEST_CASE("In SSP 1.0, Real and Integer say nothing of the width") {
                     "", "1.0"));
   const auto& connectors = scenario.system.components[0].connectors;
   CHECK(connectors[0].type == std::nullopt);
-  CHECK(connectors[0].unit == "m");
+  CHECK(connectors[0].unit.name == "m");
   CHECK(connectors[1].type == std::nullopt);
   CHECK(connectors[2].type == ValueType::Boolean);
 }
