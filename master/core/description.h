@@ -173,6 +173,7 @@ struct UnitDescription {
   bool needs_execution_tool = false;
   /// It can ask for its inputs within a step (fmi3IntermediateUpdateCallback).
   bool provides_intermediate_update = false;
+  bool provides_directional_derivatives = false;
   unsigned max_output_derivative_order = 0;
   /// It can promise to be idle (org.stride.idle, see <stride/idle.h>).
   bool promises_idle = false;

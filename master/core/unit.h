@@ -133,6 +133,14 @@ class Unit {
   /// From the start to the first tick of a periodic clock; in Initialization Mode only.
   virtual Interval clock_shift(const Variable& /*clock*/) { return {}; }
 
+  /// How Float64 and Float32 unknowns change with known inputs: the sum over the knowns of
+  /// (∂ unknown / ∂ known) seed, arrays element by element. In Initialization Mode, Event Mode and
+  /// Step Mode; only with provides_directional_derivatives.
+  virtual void get_directional_derivative(std::span<const ValueReference> /*unknowns*/,
+                                          std::span<const ValueReference> /*knowns*/,
+                                          std::span<const double> /*seed*/,
+                                          std::span<double> /*sensitivity*/) {}
+
   /// Whom to ask for inputs within a step; an empty function ends it. A unit that has no use for it
   /// steps with the inputs that it was given before.
   virtual void set_input_update(InputUpdate /*update*/) {}
