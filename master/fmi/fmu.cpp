@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "master/fmi/binaries.h"
+#include "master/fmi/fmi3_unit.h"
 #include "master/fmi/idle_manifest.h"
 #include "master/fmi/model_description.h"
 
@@ -91,7 +93,7 @@ void Fmu::read_folder() {
 }
 
 void Fmu::read_bare_library() {
-  library_ = std::make_shared<Library>(path_, where_);
+  library_ = std::make_shared<Fmi3Library>(path_, where_);
   resources_ = fs::absolute(path_).parent_path() / "resources";
   const std::string text = library_->describe(resources_, where_);
   auto description = std::make_shared<core::UnitDescription>(
@@ -103,11 +105,13 @@ void Fmu::read_bare_library() {
   description_ = std::move(description);
 }
 
-std::shared_ptr<const Library> Fmu::load_library() {
+std::shared_ptr<const Fmi3Library> Fmu::load_library() {
   const std::lock_guard lock(library_mutex_);
   if (!library_) {
-    library_ = std::make_shared<Library>(
-        find_library(unpacked_->folder(), description_->model_identifier, where_), where_);
+    library_ =
+        std::make_shared<Fmi3Library>(find_library(unpacked_->folder(), description_->fmi_version,
+                                                   description_->model_identifier, where_),
+                                      where_);
     if (description_->promises_idle) library_->require_idle_functions(where_);
   }
   return library_;
@@ -115,7 +119,7 @@ std::shared_ptr<const Library> Fmu::load_library() {
 
 std::unique_ptr<core::Unit> Fmu::instantiate(const std::string& name, InstanceOptions options) {
   if (description_->needs_execution_tool && options.log) {
-    options.log(name, fmi3OK, "stride",
+    options.log(name, Status::Ok, "stride",
                 fmt::format("'{}' needs the tool that made it ({}) on this machine", path_.string(),
                             description_->generation_tool.empty() ? "which it does not name"
                                                                   : description_->generation_tool));
@@ -123,10 +127,8 @@ std::unique_ptr<core::Unit> Fmu::instantiate(const std::string& name, InstanceOp
   auto library = load_library();
   const auto tenancy = std::make_shared<Tenancy>(shared_from_this(), name, options.where);
   auto description = options.description ? options.description : description_;
-  return std::make_unique<Fmi3Unit>(
-      name,
-      UnitParts{std::move(library), std::move(description), resource_path(resources_), tenancy},
-      std::move(options));
+  UnitParts parts{std::move(description), resource_path(resources_), tenancy};
+  return std::make_unique<Fmi3Unit>(name, std::move(library), std::move(parts), std::move(options));
 }
 
 }  // namespace stride::fmi

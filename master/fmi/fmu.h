@@ -8,8 +8,8 @@
 #include <string>
 
 #include "master/core/unit.h"
-#include "master/fmi/fmi3_unit.h"
-#include "master/fmi/library.h"
+#include "master/fmi/fmi3_library.h"
+#include "master/fmi/fmu_instance.h"
 #include "master/fmi/unpacked_fmu.h"
 
 namespace stride::fmi {
@@ -32,7 +32,7 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   std::shared_ptr<const core::UnitDescription> description() const { return description_; }
 
   /// Loads the library, if that has not happened yet. Throws core::Error of the kind Input.
-  std::shared_ptr<const Library> load_library();
+  std::shared_ptr<const Fmi3Library> load_library();
 
   /// Makes an instance, which keeps this object alive. Throws core::Error: Input if the library
   /// does not load, or if a second instance of a unit is asked for that allows one per process
@@ -50,7 +50,7 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   std::filesystem::path resources_;
   std::shared_ptr<const core::UnitDescription> description_;
   std::mutex library_mutex_;
-  std::shared_ptr<const Library> library_;
+  std::shared_ptr<const Fmi3Library> library_;
 };
 
 }  // namespace stride::fmi

@@ -118,7 +118,7 @@ TEST_CASE("that a unit needs its tool is logged") {
   const auto fmu = Fmu::load(make_raw_fmu(scratch, "raw", "needsExecutionTool=\"true\""));
   std::string logged;
   fmu->instantiate("unit",
-                   {.log = [&](const std::string& unit, fmi3Status, const std::string&,
+                   {.log = [&](const std::string& unit, fmi::Status, const std::string&,
                                const std::string& message) { logged += unit + ": " + message; }});
   CHECK_THAT(logged, Contains("unit: ") && Contains("needs the tool that made it"));
 }
