@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_FMI_FMU_INSTANCE_H
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <exception>
 #include <memory>
@@ -25,6 +26,8 @@ struct InstanceOptions {
   /// Whether the unit may ask for its inputs within a step, where it can (set_input_update()).
   bool intermediate_update = false;
   bool debug_logging = false;  ///< everything that the unit can log, not only warnings and errors
+  /// The log says it when an asynchronous step takes longer (FMI 2.0, fmi2Pending).
+  std::chrono::milliseconds patience = std::chrono::seconds(10);
   LogSink log{};
   core::Location where{};  ///< the component's place in the scenario, for errors
   /// With the array sizes that its structural parameters give; nothing = as the FMU says.

@@ -30,7 +30,7 @@ struct Subject {
     const char* const path = std::getenv("STRIDE_FMU");
     if (path == nullptr) throw std::runtime_error("name the unit in STRIDE_FMU");
     fmu = fmi::Fmu::load(path);
-    library = fmu->load_library();
+    library = fmu->load_fmi3_library();
     const auto root = library->path().parent_path().parent_path().parent_path();
     resources = fmi::resource_path(root / "resources");
   }
