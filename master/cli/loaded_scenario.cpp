@@ -38,11 +38,11 @@ Duration parse_option(const std::string& option, const std::string& text,
   }
 }
 
-void log_message(const std::string& unit, fmi3Status status, const std::string&,
+void log_message(const std::string& unit, fmi::Status status, const std::string&,
                  const std::string& message) {
-  const auto level = status == fmi3OK        ? spdlog::level::info
-                     : status == fmi3Warning ? spdlog::level::warn
-                                             : spdlog::level::err;
+  const auto level = status == fmi::Status::Ok        ? spdlog::level::info
+                     : status == fmi::Status::Warning ? spdlog::level::warn
+                                                      : spdlog::level::err;
   spdlog::log(level, "unit '{}': {}", unit, message);
 }
 

@@ -49,11 +49,13 @@ struct StepValues {
 
 /// How a communication step ended.
 struct StepResult {
-  bool rejected = false;      ///< the unit is as it was before the step
+  bool rejected = false;      ///< the unit is as it was before the step, and stands at its begin
   bool early_return = false;  ///< it stopped before the end
   bool event_needed = false;  ///< it wants Event Mode where it stands now
   bool terminate = false;     ///< it wants the simulation to end
-  Time reached{};             ///< where it stands now
+  /// Where it stands now. Of a rejected step: how far the unit would have come; what is not within
+  /// the step means that it does not say.
+  Time reached{};
 
   /// It stands where it was sent, and wants nothing.
   bool went_through(Time to) const {
