@@ -161,9 +161,9 @@ void LoadedScenario::choose_times(const ScenarioRequest& request) {
 void LoadedScenario::choose_steps(const io::StepChoice& request) {
   std::optional<Duration> unit_step;
   for (const auto& fmu : fmus_) {
-    if (const auto& step = fmu->description()->default_step) {
-      unit_step = std::min(unit_step.value_or(*step), *step);
-    }
+    const core::UnitDescription& unit = *fmu->description();
+    const auto& step = unit.default_step ? unit.default_step : unit.fixed_internal_step;
+    if (step) unit_step = std::min(unit_step.value_or(*step), *step);
   }
   options_.step.size = unit_step.value_or(kDefaultStep);
   scenario_.annotation.step.apply(options_);
@@ -240,6 +240,7 @@ std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate() const {
     options.early_return_allowed = component.early_return_allowed;
     options.intermediate_update = options_.sets_inputs_in_steps();
     options.where = component.where;
+    options.description = system_->components()[i].description;
     units.push_back(fmus_[i]->instantiate(component.name, options));
   }
   return units;

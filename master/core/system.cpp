@@ -42,9 +42,6 @@ std::string shape(const Variable& variable) {
 
 /// Only what FMI calls initial = exact or approx can be set before the start.
 void check_settable(const Variable& variable, const Context& context) {
-  if (variable.causality == Causality::StructuralParameter) {
-    fail_input(context, "structural parameters cannot be set yet");
-  }
   const bool exact = variable.initial == Initial::Exact || variable.initial == Initial::Approx;
   if (exact && variable.variability != Variability::Constant && variable.type != ValueType::Clock) {
     return;
@@ -103,6 +100,7 @@ std::vector<VariableId> clocks_of(const System& system, VariableId id) {
 
 System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
   add_components(declaration);
+  add_structural_values(declaration);
   add_connections(declaration);
   add_start_values(declaration);
 }
@@ -296,29 +294,59 @@ Connection System::connect(const ConnectionDeclaration& wanted) const {
   return {from, to, wanted_as_is ? LinearConversion{} : *conversion};
 }
 
+ValueBlock System::read_value(const StartDeclaration& declaration, VariableId id) const {
+  const Variable& target = variable(id);
+  const Context context{declaration.where, declaration.component, declaration.variable, {}};
+  check_settable(target, context);
+  const UnitDescription& description = *components_[id.component].description;
+  const auto conversion = convert(description, declaration.unit, description, target.unit);
+  if (!conversion) {
+    fail_input(
+        context,
+        fmt::format("the value is in '{}', the variable in '{}'", declaration.unit, target.unit),
+        "give the value in the variable's unit");
+  }
+  try {
+    ValueBlock value = parse(target, declaration.value);
+    convert_start(value, *conversion);
+    check_range(target, value, context);
+    return value;
+  } catch (const std::invalid_argument& mistake) {
+    fail_input(context, mistake.what());
+  }
+}
+
+void System::resize(const StartDeclaration& declaration, VariableId structural_parameter,
+                    std::size_t size) {
+  auto& shared = components_[structural_parameter.component].description;
+  UnitDescription description = *shared;
+  if (const Variable* large = description.resize(variable(structural_parameter).reference, size)) {
+    fail_input({declaration.where, declaration.component, declaration.variable, {}},
+               fmt::format("with the value {}, '{}' would have more than {} elements", size,
+                           large->name, kMaxElements),
+               "give a smaller value");
+  }
+  shared = std::make_shared<const UnitDescription>(std::move(description));
+}
+
+void System::add_structural_values(const SystemDeclaration& declaration) {
+  std::map<VariableId, ValueBlock> values;
+  for (const StartDeclaration& wanted : declaration.start_values) {
+    const VariableId id = find_variable(wanted.component, wanted.variable, wanted.where);
+    if (variable(id).causality != Causality::StructuralParameter) continue;
+    ValueBlock value = read_value(wanted, id);
+    if (value.type() == ValueType::UInt64) resize(wanted, id, value.numbers<std::uint64_t>()[0]);
+    values.insert_or_assign(id, std::move(value));
+  }
+  for (auto& [id, value] : values) structural_values_.push_back({id, std::move(value)});
+}
+
 void System::add_start_values(const SystemDeclaration& declaration) {
   std::map<VariableId, ValueBlock> values;
   for (const StartDeclaration& wanted : declaration.start_values) {
     const VariableId id = find_variable(wanted.component, wanted.variable, wanted.where);
-    const Variable& target = variable(id);
-    const Context context{wanted.where, wanted.component, wanted.variable, {}};
-    check_settable(target, context);
-    const UnitDescription& description = *components_[id.component].description;
-    const auto conversion = convert(description, wanted.unit, description, target.unit);
-    if (!conversion) {
-      fail_input(
-          context,
-          fmt::format("the value is in '{}', the variable in '{}'", wanted.unit, target.unit),
-          "give the value in the variable's unit");
-    }
-    try {
-      ValueBlock value = parse(target, wanted.value);
-      convert_start(value, *conversion);
-      check_range(target, value, context);
-      values.insert_or_assign(id, std::move(value));
-    } catch (const std::invalid_argument& mistake) {
-      fail_input(context, mistake.what());
-    }
+    if (variable(id).causality == Causality::StructuralParameter) continue;
+    values.insert_or_assign(id, read_value(wanted, id));
   }
   for (auto& [id, value] : values) start_values_.push_back({id, std::move(value)});
 }

@@ -79,6 +79,9 @@ class System {
   const std::vector<Component>& components() const { return components_; }
   const std::vector<Connection>& connections() const { return connections_; }
   const std::vector<StartValue>& start_values() const { return start_values_; }
+  /// Those of structural parameters, sorted by component; the sizes of the components' arrays, in
+  /// their descriptions, follow from them.
+  const std::vector<StartValue>& structural_values() const { return structural_values_; }
 
   const Variable& variable(VariableId id) const {
     return components_[id.component].description->variables[id.variable];
@@ -93,7 +96,11 @@ class System {
  private:
   void add_components(const SystemDeclaration& declaration);
   void add_connections(const SystemDeclaration& declaration);
+  void add_structural_values(const SystemDeclaration& declaration);
   void add_start_values(const SystemDeclaration& declaration);
+  void resize(const StartDeclaration& declaration, VariableId structural_parameter,
+              std::size_t size);
+  ValueBlock read_value(const StartDeclaration& declaration, VariableId id) const;
   std::size_t find_component(const std::string& name, const Location& where) const;
   VariableId find_variable(const std::string& component, const std::string& variable,
                            const Location& where) const;
@@ -109,6 +116,7 @@ class System {
   std::vector<Component> components_;
   std::vector<Connection> connections_;
   std::vector<StartValue> start_values_;
+  std::vector<StartValue> structural_values_;
 };
 
 }  // namespace stride::core

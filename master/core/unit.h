@@ -81,6 +81,7 @@ using InputUpdate = std::function<void(double seconds_into_step)>;
 
 /// One instance of a unit. Call order, as in FMI 3.0 Co-Simulation:
 ///
+///   {enter_configuration_mode, set (structural parameters), exit_configuration_mode},
 ///   set (start values), enter_initialization, {get, set}, exit_initialization, then
 ///   {events: {get, set, update_discrete_states}, enter_step_mode, {get, set, step},
 ///   enter_event_mode}, terminate.
@@ -91,6 +92,10 @@ using InputUpdate = std::function<void(double seconds_into_step)>;
 class Unit {
  public:
   virtual ~Unit() = default;
+
+  /// Only for a unit that has structural parameters.
+  virtual void enter_configuration_mode() {}
+  virtual void exit_configuration_mode() {}
 
   virtual void enter_initialization(Time start, std::optional<Time> stop) = 0;
   virtual void exit_initialization() = 0;

@@ -95,6 +95,18 @@ Fmi3Unit::~Fmi3Unit() {
   if (!is_condemned_) fmi_.FreeInstance(instance_);
 }
 
+void Fmi3Unit::enter_configuration_mode() {
+  if (fmi_.EnterConfigurationMode == nullptr || fmi_.ExitConfigurationMode == nullptr) {
+    fail("its library does not export fmi3EnterConfigurationMode and fmi3ExitConfigurationMode",
+         "a unit with structural parameters must have them; leave these parameters as they are");
+  }
+  call("fmi3EnterConfigurationMode", fmi_.EnterConfigurationMode);
+}
+
+void Fmi3Unit::exit_configuration_mode() {
+  call("fmi3ExitConfigurationMode", fmi_.ExitConfigurationMode);
+}
+
 void Fmi3Unit::enter_initialization(Time start, std::optional<Time> stop) {
   time_ = start;
   call("fmi3EnterInitializationMode", fmi_.EnterInitializationMode, fmi3False, 0.0,

@@ -31,6 +31,8 @@ struct InstanceOptions {
   bool debug_logging = false;  ///< everything that the unit can log, not only warnings and errors
   LogSink log{};
   core::Location where{};  ///< the component's place in the scenario, for errors
+  /// With the array sizes that its structural parameters give; nothing = as the FMU says.
+  std::shared_ptr<const core::UnitDescription> description{};
 };
 
 /// What an instance is made of.
@@ -62,6 +64,8 @@ class Fmi3Unit final : public core::Unit {
   Fmi3Unit(const Fmi3Unit&) = delete;
   Fmi3Unit& operator=(const Fmi3Unit&) = delete;
 
+  void enter_configuration_mode() override;
+  void exit_configuration_mode() override;
   void enter_initialization(Time start, std::optional<Time> stop) override;
   void exit_initialization() override;
   void get(std::span<const core::ValueReference> references, core::ValueBlock& values) override;

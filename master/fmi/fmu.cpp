@@ -122,8 +122,10 @@ std::unique_ptr<core::Unit> Fmu::instantiate(const std::string& name, InstanceOp
   }
   auto library = load_library();
   const auto tenancy = std::make_shared<Tenancy>(shared_from_this(), name, options.where);
+  auto description = options.description ? options.description : description_;
   return std::make_unique<Fmi3Unit>(
-      name, UnitParts{std::move(library), description_, resource_path(resources_), tenancy},
+      name,
+      UnitParts{std::move(library), std::move(description), resource_path(resources_), tenancy},
       std::move(options));
 }
 

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "master/core/unit.h"
-#include "master/fmi/archive.h"
 #include "master/fmi/fmi3_unit.h"
 #include "master/fmi/library.h"
+#include "master/fmi/unpacked_fmu.h"
 
 namespace stride::fmi {
 

@@ -6,16 +6,16 @@
 #include <fmt/ranges.h>
 
 #include "master/fmi/model_variables.h"
-#include "master/fmi/xml.h"
+#include "master/xml/document.h"
 
 namespace stride::fmi {
 namespace {
 
-void check_version(const Element& root) {
-  if (root.name() != "fmiModelDescription") {
-    root.fail(fmt::format("the document is a <{}>; expected <fmiModelDescription>", root.name()));
+void check_version(const xml::Element& root) {
+  if (root.name().local != "fmiModelDescription") {
+    root.fail(fmt::format("the document is a {}; expected <fmiModelDescription>", root.tag()));
   }
-  const std::string version = root.required_text("fmiVersion");
+  const std::string version = root.required("fmiVersion");
   if (version.starts_with("3.")) return;
   if (version.starts_with("2.")) {
     root.fail("FMI 2.0 units are not supported yet", "export the unit as FMI 3.0 Co-Simulation");
@@ -24,7 +24,7 @@ void check_version(const Element& root) {
             "export the unit as FMI 3.0 Co-Simulation");
 }
 
-Element find_co_simulation(const Element& root) {
+xml::Element find_co_simulation(const xml::Element& root) {
   if (const auto found = root.child("CoSimulation")) return *found;
   std::vector<std::string> others;
   for (const char* other : {"ModelExchange", "ScheduledExecution"}) {
@@ -37,8 +37,8 @@ Element find_co_simulation(const Element& root) {
 }
 
 /// It becomes a file's name, so it must not be able to name another folder.
-std::string read_model_identifier(const Element& co_simulation) {
-  const std::string identifier = co_simulation.required_text("modelIdentifier");
+std::string read_model_identifier(const xml::Element& co_simulation) {
+  const std::string identifier = co_simulation.required("modelIdentifier");
   const bool is_plain =
       !identifier.empty() && identifier.front() != '.' && identifier.find('/') == std::string::npos;
   if (!is_plain) {
@@ -49,27 +49,27 @@ std::string read_model_identifier(const Element& co_simulation) {
 }
 
 /// Nothing if there is no such attribute.
-std::optional<Duration> read_seconds(const Element& element, const char* attribute) {
+std::optional<Duration> read_seconds(const xml::Element& element, const char* attribute) {
   const auto seconds = element.number<double>(attribute);
   if (!seconds) return std::nullopt;
   try {
     return duration_from_seconds(*seconds);
   } catch (const std::out_of_range& error) {
-    element.fail(fmt::format("{}=\"{}\" of <{}>: {}", attribute, *element.text(attribute),
-                             element.name(), error.what()));
+    element.fail(fmt::format("{}=\"{}\" of {}: {}", attribute, *element.attribute(attribute),
+                             element.tag(), error.what()));
   }
 }
 
-std::optional<Duration> read_step_size(const Element& element, const char* attribute) {
+std::optional<Duration> read_step_size(const xml::Element& element, const char* attribute) {
   const auto size = read_seconds(element, attribute);
   if (!size || *size > Duration{}) return size;
   element.fail(
-      fmt::format("{}=\"{}\" of <{}>: expected a positive number of seconds, at least the "
+      fmt::format("{}=\"{}\" of {}: expected a positive number of seconds, at least the "
                   "picosecond that times are counted in",
-                  attribute, *element.text(attribute), element.name()));
+                  attribute, *element.attribute(attribute), element.tag()));
 }
 
-void read_co_simulation(const Element& element, core::UnitDescription& unit) {
+void read_co_simulation(const xml::Element& element, core::UnitDescription& unit) {
   unit.model_identifier = read_model_identifier(element);
   unit.has_event_mode = element.flag("hasEventMode");
   unit.can_save_state = element.flag("canGetAndSetFMUState");
@@ -84,7 +84,7 @@ void read_co_simulation(const Element& element, core::UnitDescription& unit) {
   unit.fixed_internal_step = read_step_size(element, "fixedInternalStepSize");
 }
 
-core::BaseUnit read_base_unit(const Element& element) {
+core::BaseUnit read_base_unit(const xml::Element& element) {
   constexpr const char* kQuantities[] = {"kg", "m", "s", "A", "K", "mol", "cd", "rad"};
   core::BaseUnit base;
   for (std::size_t i = 0; i < base.exponents.size(); ++i) {
@@ -96,37 +96,37 @@ core::BaseUnit read_base_unit(const Element& element) {
   return base;
 }
 
-void read_units(const Element& root, core::UnitDescription& unit) {
+void read_units(const xml::Element& root, core::UnitDescription& unit) {
   const auto definitions = root.child("UnitDefinitions");
   if (!definitions) return;
-  for (const Element& definition : definitions->children("Unit")) {
-    const std::string name = definition.required_text("name");
+  for (const xml::Element& definition : definitions->children("Unit")) {
+    const std::string name = definition.given("name");
     if (const auto base = definition.child("BaseUnit")) unit.units[name] = read_base_unit(*base);
   }
 }
 
-core::ValueReference checked_reference(const Element& element, core::ValueReference reference,
+core::ValueReference checked_reference(const xml::Element& element, core::ValueReference reference,
                                        const VariableIndex& index) {
   if (index.contains(reference)) return reference;
-  element.fail(fmt::format("<{}> refers to the value reference {}, which no variable has",
-                           element.name(), reference));
+  element.fail(fmt::format("{} refers to the value reference {}, which no variable has",
+                           element.tag(), reference));
 }
 
-std::vector<core::Unknown> read_unknowns(const Element& structure, const char* name,
+std::vector<core::Unknown> read_unknowns(const xml::Element& structure, const char* name,
                                          const VariableIndex& index) {
   std::vector<core::Unknown> unknowns;
-  for (const Element& element : structure.children(name)) {
+  for (const xml::Element& element : structure.children(name)) {
     core::Unknown& unknown = unknowns.emplace_back();
     unknown.reference = checked_reference(
         element, element.required_number<core::ValueReference>("valueReference"), index);
-    if (!element.text("dependencies")) continue;
+    if (!element.attribute("dependencies")) continue;
     unknown.dependencies = element.number_list<core::ValueReference>("dependencies");
     for (const auto known : *unknown.dependencies) checked_reference(element, known, index);
   }
   return unknowns;
 }
 
-void read_default_experiment(const Element& root, core::UnitDescription& unit) {
+void read_default_experiment(const xml::Element& root, core::UnitDescription& unit) {
   const auto experiment = root.child("DefaultExperiment");
   if (!experiment) return;
   unit.default_step = read_step_size(*experiment, "stepSize");
@@ -137,18 +137,18 @@ void read_default_experiment(const Element& root, core::UnitDescription& unit) {
     experiment->fail(
         fmt::format("stopTime=\"{}\" of <DefaultExperiment>: expected a time at least a "
                     "picosecond after the start, {} s",
-                    *experiment->text("stopTime"), core::to_text(Time(start))));
+                    *experiment->attribute("stopTime"), core::to_text(Time(start))));
   }
   unit.default_stop = Time(*stop);
 }
 
 /// What FMI has no word for, in the annotation that the unit kit writes.
-void read_annotation(const Element& root, core::UnitDescription& unit) {
+void read_annotation(const xml::Element& root, core::UnitDescription& unit) {
   const auto annotations = root.child("Annotations");
   if (!annotations) return;
-  for (const Element& annotation : annotations->children("Annotation")) {
-    if (annotation.text_or("type") != "org.stride.unit") continue;
-    for (const Element& element : annotation.children()) {
+  for (const xml::Element& annotation : annotations->children("Annotation")) {
+    if (annotation.attribute_or("type") != "org.stride.unit") continue;
+    for (const xml::Element& element : annotation.children()) {
       if (!element.is("urn:org.stride:unit:1", "Unit")) continue;
       unit.may_reject = element.flag("mayReject", unit.may_reject);
       unit.maximum_step = read_step_size(element, "maximumStep");
@@ -156,14 +156,14 @@ void read_annotation(const Element& root, core::UnitDescription& unit) {
   }
 }
 
-core::UnitDescription read(const Element& root) {
+core::UnitDescription read(const xml::Element& root) {
   check_version(root);
   core::UnitDescription unit;
-  unit.fmi_version = root.required_text("fmiVersion");
-  unit.model_name = root.required_text("modelName");
-  unit.instantiation_token = root.required_text("instantiationToken");
-  unit.description = root.text_or("description");
-  unit.generation_tool = root.text_or("generationTool");
+  unit.fmi_version = root.required("fmiVersion");
+  unit.model_name = root.given("modelName");
+  unit.instantiation_token = root.given("instantiationToken");
+  unit.description = root.attribute_or("description");
+  unit.generation_tool = root.attribute_or("generationTool");
   read_co_simulation(find_co_simulation(root), unit);
   read_units(root, unit);
   const VariableIndex index = read_variables(root, unit.variables);
@@ -180,13 +180,12 @@ core::UnitDescription read(const Element& root) {
 
 core::UnitDescription parse_model_description(const std::string& text,
                                               const std::string& shown_as) {
-  return read(Document(text, shown_as).root());
+  return read(xml::Document::parse(text, shown_as).root());
 }
 
-core::UnitDescription read_model_description(const std::filesystem::path& xml,
+core::UnitDescription read_model_description(const std::filesystem::path& file,
                                              const std::string& shown_as) {
-  const std::string name = shown_as.empty() ? xml.string() : shown_as;
-  return parse_model_description(read_text(xml, "model description", name), name);
+  return read(xml::Document(file, shown_as).root());
 }
 
 }  // namespace stride::fmi

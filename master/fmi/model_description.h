@@ -15,7 +15,7 @@ namespace stride::fmi {
 /// Throws core::Error of the kind Input, with file and line, for what is no well-formed FMI 3
 /// description, for other versions of FMI, for a unit without Co-Simulation, and for references
 /// that lead nowhere. `shown_as` is the file's name in such messages.
-core::UnitDescription read_model_description(const std::filesystem::path& xml,
+core::UnitDescription read_model_description(const std::filesystem::path& file,
                                              const std::string& shown_as = "");
 
 /// The same from the document's text.

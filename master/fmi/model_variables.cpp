@@ -16,14 +16,11 @@ using core::Initial;
 using core::ValueType;
 using core::Variability;
 
-/// Large enough for any model, small enough that a wrong number cannot take the memory.
-constexpr std::size_t kMaxElements = std::size_t{1} << 28;
-
-using TypeDefinitions = std::map<std::string, Element>;
+using TypeDefinitions = std::map<std::string, xml::Element>;
 
 /// The enumerator of this name, of the first `count`.
 template <class Enum>
-std::optional<Enum> find_named(const std::string& word, std::size_t count) {
+std::optional<Enum> find_named(std::string_view word, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     if (word == core::name(static_cast<Enum>(i))) return static_cast<Enum>(i);
   }
@@ -31,14 +28,15 @@ std::optional<Enum> find_named(const std::string& word, std::size_t count) {
 }
 
 template <class Enum>
-Enum read_word(const Element& element, const char* attribute, Enum otherwise, std::size_t count) {
-  const auto word = element.text(attribute);
+Enum read_word(const xml::Element& element, const char* attribute, Enum otherwise,
+               std::size_t count) {
+  const auto word = element.attribute(attribute);
   if (!word) return otherwise;
   if (const auto found = find_named<Enum>(*word, count)) return *found;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < count; ++i) names.emplace_back(core::name(static_cast<Enum>(i)));
-  element.fail(fmt::format("{}=\"{}\" of <{}>: expected one of {}", attribute, *word,
-                           element.name(), fmt::join(names, ", ")));
+  element.fail(fmt::format("{}=\"{}\" of {}: expected one of {}", attribute, *word, element.tag(),
+                           fmt::join(names, ", ")));
 }
 
 /// FMI 3.0, 2.4.7.4: the default of the attribute `variability`.
@@ -80,9 +78,9 @@ std::vector<Initial> possible_initials(const core::Variable& variable) {
   }
 }
 
-Initial read_initial(const Element& element, const core::Variable& variable) {
+Initial read_initial(const xml::Element& element, const core::Variable& variable) {
   const std::vector<Initial> possible = possible_initials(variable);
-  const auto word = element.text("initial");
+  const auto word = element.attribute("initial");
   if (!word) return possible.empty() ? Initial::None : possible.front();
   for (const Initial initial : possible) {
     if (*word == core::name(initial)) return initial;
@@ -95,13 +93,13 @@ Initial read_initial(const Element& element, const core::Variable& variable) {
                            names.empty() ? "none" : fmt::format("{}", fmt::join(names, " or "))));
 }
 
-TypeDefinitions read_type_definitions(const Element& root) {
+TypeDefinitions read_type_definitions(const xml::Element& root) {
   TypeDefinitions types;
   const auto definitions = root.child("TypeDefinitions");
   if (!definitions) return types;
-  for (const Element& definition : definitions->children()) {
-    if (definition.name() == "Annotations") continue;
-    const std::string name = definition.required_text("name");
+  for (const xml::Element& definition : definitions->children()) {
+    if (definition.is("", "Annotations")) continue;
+    const std::string name = definition.required("name");
     if (!types.emplace(name, definition).second) {
       definition.fail(fmt::format("the type '{}' is defined twice", name));
     }
@@ -109,55 +107,58 @@ TypeDefinitions read_type_definitions(const Element& root) {
   return types;
 }
 
-std::optional<Element> declared_type(const Element& element, const TypeDefinitions& types) {
-  const auto name = element.text("declaredType");
+std::optional<xml::Element> declared_type(const xml::Element& element,
+                                          const TypeDefinitions& types) {
+  const auto name = element.attribute("declaredType");
   if (!name) return std::nullopt;
   const auto found = types.find(*name);
   if (found == types.end()) {
     element.fail(
         fmt::format("declaredType=\"{}\": there is no such type in <TypeDefinitions>", *name));
   }
-  if (found->second.name() != element.name() + "Type") {
-    element.fail(fmt::format("declaredType=\"{}\" is a <{}>; expected a <{}Type>", *name,
-                             found->second.name(), element.name()));
+  if (found->second.name().local != fmt::format("{}Type", element.name().local)) {
+    element.fail(fmt::format("declaredType=\"{}\" is a {}; expected a <{}Type>", *name,
+                             found->second.tag(), element.name().local));
   }
   return found->second;
 }
 
 /// A String or Binary variable has an element per start value, the other types an attribute.
-std::string read_start(const Element& element, ValueType type) {
-  if (type != ValueType::String && type != ValueType::Binary) return element.text_or("start");
+std::string read_start(const xml::Element& element, ValueType type) {
+  if (type != ValueType::String && type != ValueType::Binary) return element.attribute_or("start");
   std::vector<std::string> values;
-  for (const Element& start : element.children("Start")) values.push_back(start.text_or("value"));
+  for (const xml::Element& start : element.children("Start"))
+    values.push_back(start.attribute_or("value"));
   return fmt::format("{}", fmt::join(values, " "));
 }
 
 /// An attribute of the variable, or else of its declared type.
-std::string inherited(const Element& element, const std::optional<Element>& type,
+std::string inherited(const xml::Element& element, const std::optional<xml::Element>& type,
                       const char* attribute) {
-  return element.text_or(attribute, type ? type->text_or(attribute) : "");
+  return element.attribute_or(attribute, type ? type->attribute_or(attribute) : "");
 }
 
-double read_nominal(const Element& element, ValueType type,
-                    const std::optional<Element>& declared) {
+double read_nominal(const xml::Element& element, ValueType type,
+                    const std::optional<xml::Element>& declared) {
   if (type != ValueType::Float32 && type != ValueType::Float64) return 0;
   const auto own = element.number<double>("nominal");
   const auto nominal = own || !declared ? own : declared->number<double>("nominal");
   return std::isfinite(nominal.value_or(0)) ? std::abs(nominal.value_or(0)) : 0;
 }
 
-core::Variable read_variable(const Element& element, ValueType type, const TypeDefinitions& types) {
+core::Variable read_variable(const xml::Element& element, ValueType type,
+                             const TypeDefinitions& types) {
   core::Variable variable;
-  variable.name = element.required_text("name");
+  variable.name = element.required("name");
   variable.reference = element.required_number<core::ValueReference>("valueReference");
   variable.type = type;
   variable.causality = read_word(element, "causality", Causality::Local, 7);
   variable.variability =
       read_word(element, "variability", default_variability(type, variable.causality), 5);
   variable.initial = read_initial(element, variable);
-  variable.description = element.text_or("description");
-  for (const Element& alias : element.children("Alias")) {
-    variable.aliases.push_back(alias.required_text("name"));
+  variable.description = element.attribute_or("description");
+  for (const xml::Element& alias : element.children("Alias")) {
+    variable.aliases.push_back(alias.required("name"));
   }
   variable.start = read_start(element, type);
   variable.clocks = element.number_list<core::ValueReference>("clocks");
@@ -174,10 +175,9 @@ core::Variable read_variable(const Element& element, ValueType type, const TypeD
   }
   variable.intermediate_update = element.flag("intermediateUpdate");
   if (type != ValueType::Enumeration) return variable;
-  if (!declared) element.required_text("declaredType");
-  for (const Element& item : declared->children("Item")) {
-    variable.items.emplace_back(item.required_text("name"),
-                                item.required_number<std::int64_t>("value"));
+  if (!declared) element.required("declaredType");
+  for (const xml::Element& item : declared->children("Item")) {
+    variable.items.emplace_back(item.given("name"), item.required_number<std::int64_t>("value"));
   }
   return variable;
 }
@@ -185,7 +185,7 @@ core::Variable read_variable(const Element& element, ValueType type, const TypeD
 /// Finds what stands between single variables: names, references, clocks, dimensions.
 class Linker {
  public:
-  Linker(std::vector<core::Variable>& variables, const std::vector<Element>& elements)
+  Linker(std::vector<core::Variable>& variables, const std::vector<xml::Element>& elements)
       : variables_(variables), elements_(elements) {}
 
   VariableIndex run() {
@@ -201,8 +201,8 @@ class Linker {
   void add(std::size_t i) {
     const core::Variable& variable = variables_[i];
     add_name(variable.name, elements_[i]);
-    for (const Element& alias : elements_[i].children("Alias")) {
-      add_name(alias.required_text("name"), alias);
+    for (const xml::Element& alias : elements_[i].children("Alias")) {
+      add_name(alias.required("name"), alias);
     }
     const auto [same_reference, is_new] = index_.emplace(variable.reference, i);
     if (is_new) return;
@@ -211,7 +211,7 @@ class Linker {
         variable.reference, variables_[same_reference->second].name, line(same_reference->second)));
   }
 
-  void add_name(const std::string& name, const Element& place) {
+  void add_name(const std::string& name, const xml::Element& place) {
     const auto [same, is_new] = names_.emplace(name, place.where().line);
     if (is_new) return;
     place.fail(
@@ -234,18 +234,18 @@ class Linker {
 
   void read_dimensions(std::size_t i) {
     core::Variable& variable = variables_[i];
-    for (const Element& dimension : elements_[i].children("Dimension")) {
-      const std::size_t size = read_size(dimension);
-      if (size > kMaxElements || (size != 0 && variable.size > kMaxElements / size)) {
-        dimension.fail(
-            fmt::format("variable '{}' has more than {} elements", variable.name, kMaxElements));
-      }
-      variable.dimensions.push_back(size);
-      variable.size *= size;
+    for (const xml::Element& dimension : elements_[i].children("Dimension")) {
+      variable.dimensions.push_back(read_dimension(dimension));
     }
+    const auto size = core::element_count(variable.dimensions);
+    if (!size) {
+      elements_[i].fail(fmt::format("variable '{}' has more than {} elements", variable.name,
+                                    core::kMaxElements));
+    }
+    variable.size = *size;
   }
 
-  std::size_t read_size(const Element& dimension) const {
+  core::Dimension read_dimension(const xml::Element& dimension) const {
     if (const auto fixed = dimension.number<std::uint64_t>("start")) return *fixed;
     const auto reference = dimension.number<core::ValueReference>("valueReference");
     if (!reference) dimension.fail("<Dimension> needs 'start' or 'valueReference'");
@@ -259,15 +259,16 @@ class Linker {
                       "structural parameter",
                       *reference));
     }
-    const auto words = split(source->start);
-    const auto size = words.size() == 1 ? to_number<std::uint64_t>(words[0]) : std::nullopt;
+    const auto words = xml::split(source->start);
+    const auto size = words.size() == 1 ? xml::to_number<std::uint64_t>(words[0]) : std::nullopt;
     if (!size) {
       dimension.fail(
           fmt::format("the structural parameter '{}' has the start value '{}'; "
                       "expected a number of elements",
                       source->name, source->start));
     }
-    return *size;
+    const bool is_parameter = source->causality == Causality::StructuralParameter;
+    return {*size, is_parameter ? reference : std::nullopt};
   }
 
   const core::Variable* find(core::ValueReference reference) const {
@@ -277,22 +278,22 @@ class Linker {
   int line(std::size_t i) const { return elements_[i].where().line; }
 
   std::vector<core::Variable>& variables_;
-  const std::vector<Element>& elements_;
+  const std::vector<xml::Element>& elements_;
   std::map<std::string, int> names_;  ///< and aliases, with their lines
   VariableIndex index_;
 };
 
 }  // namespace
 
-VariableIndex read_variables(const Element& root, std::vector<core::Variable>& variables) {
+VariableIndex read_variables(const xml::Element& root, std::vector<core::Variable>& variables) {
   const auto list = root.child("ModelVariables");
   if (!list) root.fail("<ModelVariables> is missing");
   const TypeDefinitions types = read_type_definitions(root);
-  std::vector<Element> elements;
-  for (const Element& element : list->children()) {
-    if (element.name() == "Annotations") continue;
-    const auto type = find_named<ValueType>(element.name(), core::kValueTypeCount);
-    if (!type) element.fail(fmt::format("<{}> is no type of FMI 3.0", element.name()));
+  std::vector<xml::Element> elements;
+  for (const xml::Element& element : list->children()) {
+    if (element.is("", "Annotations")) continue;
+    const auto type = find_named<ValueType>(element.name().local, core::kValueTypeCount);
+    if (!type) element.fail(fmt::format("{} is no type of FMI 3.0", element.tag()));
     variables.push_back(read_variable(element, *type, types));
     elements.push_back(element);
   }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "master/core/description.h"
-#include "master/fmi/xml.h"
+#include "master/xml/element.h"
 
 namespace stride::fmi {
 
@@ -15,7 +15,7 @@ using VariableIndex = std::map<core::ValueReference, std::size_t>;
 
 /// Appends the variables of <ModelVariables> in order. Throws core::Error as
 /// read_model_description() says.
-VariableIndex read_variables(const Element& root, std::vector<core::Variable>& variables);
+VariableIndex read_variables(const xml::Element& root, std::vector<core::Variable>& variables);
 
 }  // namespace stride::fmi
 

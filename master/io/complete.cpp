@@ -10,8 +10,9 @@
 #include <fmt/format.h>
 
 #include "master/io/scenario.h"
-#include "master/io/xml.h"
-#include "master/io/xml_edit.h"
+#include "master/io/ssp.h"
+#include "master/xml/document.h"
+#include "master/xml/editor.h"
 
 namespace stride::io {
 namespace {
@@ -21,7 +22,7 @@ using core::ValueType;
 constexpr std::array<const char*, 8> kBaseUnits{"kg", "m", "s", "A", "K", "mol", "cd", "rad"};
 
 /// "1" as 1; what is no number counts as not written.
-double number_of(const XmlElement& element, const char* attribute, double otherwise) {
+double number_of(const xml::Element& element, const char* attribute, double otherwise) {
   try {
     return std::stod(element.attribute(attribute).value_or(""));
   } catch (const std::logic_error&) {
@@ -29,7 +30,7 @@ double number_of(const XmlElement& element, const char* attribute, double otherw
   }
 }
 
-core::BaseUnit read_base_unit(const XmlElement& element) {
+core::BaseUnit read_base_unit(const xml::Element& element) {
   core::BaseUnit unit;
   for (std::size_t i = 0; i < kBaseUnits.size(); ++i) {
     unit.exponents[i] = static_cast<int>(number_of(element, kBaseUnits[i], 0));
@@ -48,7 +49,7 @@ std::string head(const std::string& prefix) { return prefix.empty() ? "" : prefi
 
 class Completion {
  public:
-  Completion(const XmlDocument& document, const Descriptions& descriptions)
+  Completion(const xml::Document& document, const Descriptions& descriptions)
       : root_(document.root()),
         descriptions_(descriptions),
         is_first_version_(root_.required("version") == "1.0"),
@@ -60,9 +61,9 @@ class Completion {
   }
 
   std::string result() {
-    const XmlElement system = *root_.child({kSsd, "System"});
-    const XmlElement elements = *system.child({kSsd, "Elements"});
-    for (const XmlElement& component : elements.children()) complete_component(component);
+    const xml::Element system = *root_.child({kSsd, "System"});
+    const xml::Element elements = *system.child({kSsd, "Elements"});
+    for (const xml::Element& component : elements.children()) complete_component(component);
     add_list("Enumerations", new_enumerations_);
     add_list("Units", new_units_);
     return editor_.result();
@@ -90,7 +91,7 @@ class Completion {
   void read_units() {
     const auto units = root_.child({kSsd, "Units"});
     if (!units) return;
-    for (const XmlElement& unit : units->children({kSsc, "Unit"})) {
+    for (const xml::Element& unit : units->children({kSsc, "Unit"})) {
       const auto base = unit.child({kSsc, "BaseUnit"});
       if (base) units_.emplace(unit.required("name"), read_base_unit(*base));
     }
@@ -99,18 +100,18 @@ class Completion {
   void read_enumerations() {
     const auto enumerations = root_.child({kSsd, "Enumerations"});
     if (!enumerations) return;
-    for (const XmlElement& enumeration : enumerations->children({kSsc, "Enumeration"})) {
+    for (const xml::Element& enumeration : enumerations->children({kSsc, "Enumeration"})) {
       enumerations_.insert(enumeration.required("name"));
     }
   }
 
-  void complete_component(const XmlElement& component) {
+  void complete_component(const xml::Element& component) {
     const std::string name = component.required("name");
     const core::UnitDescription& description = *descriptions_.at(name);
     const auto connectors = component.child({kSsd, "Connectors"});
     std::set<std::string> declared;
     if (connectors) {
-      for (const XmlElement& child : connectors->children())
+      for (const xml::Element& child : connectors->children())
         declared.insert(child.required("name"));
     }
     std::vector<std::string> added;
@@ -127,17 +128,17 @@ class Completion {
     editor_.prepend_children(component.index(), {list + fmt::format("\n</{}Connectors>", ssd_)});
   }
 
-  std::string connector(const XmlElement& component, const core::UnitDescription& description,
+  std::string connector(const xml::Element& component, const core::UnitDescription& description,
                         const core::Variable& variable) {
     std::string content = type(component, description, variable);
     if (!is_first_version_) content += dimensions(variable) + clocks(description, variable);
     const std::string start = fmt::format("<{}Connector name=\"{}\" kind=\"{}\"", ssd_,
-                                          xml_escaped(variable.name), name(variable.causality));
+                                          xml::escaped(variable.name), name(variable.causality));
     if (content.empty()) return start + "/>";
     return fmt::format("{}>{}</{}Connector>", start, content, ssd_);
   }
 
-  std::string type(const XmlElement& component, const core::UnitDescription& description,
+  std::string type(const xml::Element& component, const core::UnitDescription& description,
                    const core::Variable& variable) {
     switch (variable.type) {
       case ValueType::Float32:
@@ -145,7 +146,7 @@ class Completion {
         const std::string unit = declared_unit(description, variable.unit);
         const char* word = is_first_version_ ? "Real" : name(variable.type);
         return unit.empty() ? fmt::format("<{}{}/>", ssc(), word)
-                            : fmt::format("<{}{} unit=\"{}\"/>", ssc(), word, xml_escaped(unit));
+                            : fmt::format("<{}{} unit=\"{}\"/>", ssc(), word, xml::escaped(unit));
       }
       case ValueType::Enumeration:
         return enumeration(component.required("name") + "." + variable.name, variable);
@@ -160,7 +161,7 @@ class Completion {
     }
   }
 
-  std::string clock(const XmlElement& component, const core::Variable& variable) {
+  std::string clock(const xml::Element& component, const core::Variable& variable) {
     if (is_first_version_) {
       component.fail(fmt::format("SSP 1.0 has no clocks, so '{}.{}' cannot be declared",
                                  component.required("name"), variable.name),
@@ -175,14 +176,14 @@ class Completion {
     if (variable.items.empty()) return "";
     if (enumerations_.insert(enumeration_name).second) {
       std::string text =
-          fmt::format("<{}Enumeration name=\"{}\">", ssc(), xml_escaped(enumeration_name));
+          fmt::format("<{}Enumeration name=\"{}\">", ssc(), xml::escaped(enumeration_name));
       for (const auto& [item, value] : variable.items) {
         text +=
-            fmt::format("\n\t<{}Item name=\"{}\" value=\"{}\"/>", ssc(), xml_escaped(item), value);
+            fmt::format("\n\t<{}Item name=\"{}\" value=\"{}\"/>", ssc(), xml::escaped(item), value);
       }
       new_enumerations_.push_back(text + fmt::format("\n</{}Enumeration>", ssc()));
     }
-    return fmt::format("<{}Enumeration name=\"{}\"/>", ssc(), xml_escaped(enumeration_name));
+    return fmt::format("<{}Enumeration name=\"{}\"/>", ssc(), xml::escaped(enumeration_name));
   }
 
   /// The unit's name if the file can define it; otherwise nothing, and the FMU's own unit holds.
@@ -203,13 +204,13 @@ class Completion {
     if (base.factor != 1) attributes += fmt::format(" factor=\"{}\"", base.factor);
     if (base.offset != 0) attributes += fmt::format(" offset=\"{}\"", base.offset);
     return fmt::format("<{0}Unit name=\"{1}\"><{0}BaseUnit{2}/></{0}Unit>", ssc(),
-                       xml_escaped(unit), attributes);
+                       xml::escaped(unit), attributes);
   }
 
   std::string dimensions(const core::Variable& variable) {
     std::string text;
-    for (const std::size_t size : variable.dimensions) {
-      text += fmt::format("<{}Dimension size=\"{}\"/>", ssc(), size);
+    for (const core::Dimension& dimension : variable.dimensions) {
+      text += fmt::format("<{}Dimension size=\"{}\"/>", ssc(), dimension.size);
     }
     return text;
   }
@@ -218,7 +219,7 @@ class Completion {
     std::string text;
     for (const core::ValueReference reference : variable.clocks) {
       const core::Variable& clock = description.variables[*description.find(reference)];
-      text += fmt::format("<{}Clock name=\"{}\"/>", ssd_, xml_escaped(clock.name));
+      text += fmt::format("<{}Clock name=\"{}\"/>", ssd_, xml::escaped(clock.name));
     }
     return text;
   }
@@ -236,17 +237,17 @@ class Completion {
       for (const char c : piece) text += c == '\n' ? "\n\t" : std::string(1, c);
     }
     const auto enumerations = root_.child({kSsd, "Enumerations"});
-    const XmlElement before = enumerations ? *enumerations : *root_.child({kSsd, "System"});
+    const xml::Element before = enumerations ? *enumerations : *root_.child({kSsd, "System"});
     editor_.insert_behind(before.index(), text + fmt::format("\n</{}{}>", ssd_, list));
   }
 
-  XmlElement root_;
+  xml::Element root_;
   const Descriptions& descriptions_;
   bool is_first_version_;
   std::string ssd_;
   std::string ssc_;
   bool needs_common_prefix_ = false;
-  XmlEditor editor_;
+  xml::Editor editor_;
   std::map<std::string, core::BaseUnit> units_;
   std::set<std::string> enumerations_;
   std::vector<std::string> new_units_;
@@ -257,7 +258,7 @@ class Completion {
 
 std::string complete(const std::filesystem::path& path, const Descriptions& descriptions) {
   read_scenario(path);  // says what is wrong with the file
-  const XmlDocument document(path);
+  const xml::Document document(path);
   return Completion(document, descriptions).result();
 }
 

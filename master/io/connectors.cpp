@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "master/core/suggest.h"
+#include "master/io/ssp.h"
 
 namespace stride::io {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 using core::Causality;
 using core::ValueType;
 
-std::optional<Causality> read_kind(const XmlElement& connector) {
+std::optional<Causality> read_kind(const xml::Element& connector) {
   const std::string kind = connector.required("kind");
   for (const Causality causality :
        {Causality::Input, Causality::Output, Causality::Parameter, Causality::CalculatedParameter,
@@ -31,7 +32,7 @@ std::optional<Causality> read_kind(const XmlElement& connector) {
   connector.fail(fmt::format("the kind '{}' is not known", kind), core::suggestion(kind, known));
 }
 
-std::optional<ValueType> read_type(const XmlElement& type, const std::string& ssp_version) {
+std::optional<ValueType> read_type(const xml::Element& type, const std::string& ssp_version) {
   const std::string_view name = type.name().local;
   const bool has_width = ssp_version != "1.0";
   if (name == "Real") return has_width ? std::optional(ValueType::Float64) : std::nullopt;
@@ -46,12 +47,12 @@ std::optional<ValueType> read_type(const XmlElement& type, const std::string& ss
             core::suggestion(std::string(name), known));
 }
 
-void read_child(const XmlElement& child, const std::string& ssp_version,
+void read_child(const xml::Element& child, const std::string& ssp_version,
                 core::ConnectorDeclaration& connector, bool& has_type) {
-  const XmlName name = child.name();
+  const xml::Name name = child.name();
   // a unit's own dimensions and clocks hold; geometry and annotations change nothing
-  if (name == XmlName{kSsc, "Dimension"} || name == XmlName{kSsd, "Clock"} ||
-      name == XmlName{kSsd, "ConnectorGeometry"} || name == XmlName{kSsd, "Annotations"}) {
+  if (name == xml::Name{kSsc, "Dimension"} || name == xml::Name{kSsd, "Clock"} ||
+      name == xml::Name{kSsd, "ConnectorGeometry"} || name == xml::Name{kSsd, "Annotations"}) {
     return;
   }
   if (name.name_space != kSsc) {
@@ -64,7 +65,7 @@ void read_child(const XmlElement& child, const std::string& ssp_version,
   connector.unit = child.attribute("unit").value_or("");
 }
 
-core::ConnectorDeclaration read_connector(const XmlElement& element,
+core::ConnectorDeclaration read_connector(const xml::Element& element,
                                           const std::string& ssp_version) {
   element.allow_attributes({"name", "kind"});
   core::ConnectorDeclaration connector;
@@ -72,7 +73,7 @@ core::ConnectorDeclaration read_connector(const XmlElement& element,
   connector.causality = read_kind(element);
   connector.where = element.where();
   bool has_type = false;
-  for (const XmlElement& child : element.children()) {
+  for (const xml::Element& child : element.children()) {
     read_child(child, ssp_version, connector, has_type);
   }
   return connector;
@@ -80,14 +81,14 @@ core::ConnectorDeclaration read_connector(const XmlElement& element,
 
 }  // namespace
 
-std::vector<core::ConnectorDeclaration> read_connectors(const XmlElement& component,
+std::vector<core::ConnectorDeclaration> read_connectors(const xml::Element& component,
                                                         const std::string& ssp_version) {
   std::vector<core::ConnectorDeclaration> declared;
   const auto connectors = component.child({kSsd, "Connectors"});
   if (!connectors) return declared;
   connectors->allow_children({{kSsd, "Connector"}});
   std::map<std::string, int> lines;
-  for (const XmlElement& element : connectors->children()) {
+  for (const xml::Element& element : connectors->children()) {
     core::ConnectorDeclaration connector = read_connector(element, ssp_version);
     const auto [first, is_new] = lines.emplace(connector.name, connector.where.line);
     if (!is_new) {

@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "master/io/ssp.h"
 #include "master/io/uri.h"
+#include "master/xml/document.h"
 
 namespace stride::io {
 namespace {
@@ -16,9 +18,9 @@ namespace {
 constexpr const char* kParameterSetType = "application/x-ssp-parameter-set";
 
 /// Several elements, each in a <Value> of its own, as the text form of an array.
-std::string listed_value(const XmlElement& type, const std::vector<XmlElement>& values) {
+std::string listed_value(const xml::Element& type, const std::vector<xml::Element>& values) {
   std::string joined;
-  for (const XmlElement& value : values) {
+  for (const xml::Element& value : values) {
     value.allow_attributes({"value"});
     const auto text = value.attribute("value");
     if (!text) value.fail(fmt::format("{} needs the attribute 'value'", value.tag()));
@@ -31,7 +33,7 @@ std::string listed_value(const XmlElement& type, const std::vector<XmlElement>& 
   return joined;
 }
 
-ParameterValue read_value(const XmlElement& type) {
+ParameterValue read_value(const xml::Element& type) {
   constexpr std::array<std::string_view, 16> kTypes{
       "Real",  "Float64", "Float32", "Integer", "Int8",    "UInt8",  "Int16",       "UInt16",
       "Int32", "UInt32",  "Int64",   "UInt64",  "Boolean", "String", "Enumeration", "Binary"};
@@ -46,7 +48,7 @@ ParameterValue read_value(const XmlElement& type) {
   ParameterValue parameter;
   parameter.where = type.where();
   parameter.unit = type.attribute("unit").value_or("");
-  const std::vector<XmlElement> values = type.children({kSsv, "Value"});
+  const std::vector<xml::Element> values = type.children({kSsv, "Value"});
   const auto value = type.attribute("value");
   if (value && !values.empty()) {
     type.fail(fmt::format("{} has both an attribute 'value' and elements <Value>", type.tag()),
@@ -58,10 +60,10 @@ ParameterValue read_value(const XmlElement& type) {
   return parameter;
 }
 
-ParameterValue read_parameter(const XmlElement& parameter, const std::string& prefix) {
+ParameterValue read_parameter(const xml::Element& parameter, const std::string& prefix) {
   parameter.allow_attributes({"name"});
   std::optional<ParameterValue> result;
-  for (const XmlElement& child : parameter.children()) {
+  for (const xml::Element& child : parameter.children()) {
     if (child.is(kSsc, "Annotations") || child.is(kSsv, "Annotations")) continue;
     if (child.is(kSsc, "Dimension")) continue;  // the unit's own dimensions hold
     if (result) child.fail(fmt::format("{} has two values", parameter.tag()));
@@ -75,7 +77,7 @@ ParameterValue read_parameter(const XmlElement& parameter, const std::string& pr
   return *result;
 }
 
-std::vector<ParameterValue> read_set(const XmlElement& set, const std::string& prefix) {
+std::vector<ParameterValue> read_set(const xml::Element& set, const std::string& prefix) {
   if (!set.is(kSsv, "ParameterSet")) {
     set.fail(fmt::format("{} is no parameter set", set.tag()),
              fmt::format("expected <ParameterSet> of the namespace '{}'", kSsv));
@@ -97,13 +99,13 @@ std::vector<ParameterValue> read_set(const XmlElement& set, const std::string& p
   if (!parameters) set.fail(fmt::format("{} holds no <Parameters>", set.tag()));
   parameters->allow_children({{kSsv, "Parameter"}});
   std::vector<ParameterValue> values;
-  for (const XmlElement& parameter : parameters->children()) {
+  for (const xml::Element& parameter : parameters->children()) {
     values.push_back(read_parameter(parameter, prefix));
   }
   return values;
 }
 
-std::vector<ParameterValue> read_file(const XmlElement& binding, const std::string& prefix,
+std::vector<ParameterValue> read_file(const xml::Element& binding, const std::string& prefix,
                                       const std::filesystem::path& folder) {
   if (binding.attribute("sourceBase").value_or("SSD") != "SSD") {
     binding.fail_unsupported("parameter sets inside a component (sourceBase=\"component\")",
@@ -114,11 +116,11 @@ std::vector<ParameterValue> read_file(const XmlElement& binding, const std::stri
     binding.fail(fmt::format("the parameter set '{}' does not exist", path.string()),
                  "its path is relative to this file");
   }
-  const XmlDocument document(path);
+  const xml::Document document(path);
   return read_set(document.root(), prefix);
 }
 
-std::vector<ParameterValue> read_binding(const XmlElement& binding,
+std::vector<ParameterValue> read_binding(const xml::Element& binding,
                                          const std::filesystem::path& folder) {
   binding.allow_attributes({"type", "source", "sourceBase", "prefix"});
   binding.allow_children({{kSsd, "ParameterValues"},
@@ -155,13 +157,13 @@ std::vector<ParameterValue> read_binding(const XmlElement& binding,
 
 }  // namespace
 
-std::vector<ParameterValue> read_parameters(const XmlElement& owner,
+std::vector<ParameterValue> read_parameters(const xml::Element& owner,
                                             const std::filesystem::path& folder) {
   std::vector<ParameterValue> values;
   const auto bindings = owner.child({kSsd, "ParameterBindings"});
   if (!bindings) return values;
   bindings->allow_children({{kSsd, "ParameterBinding"}});
-  for (const XmlElement& binding : bindings->children()) {
+  for (const xml::Element& binding : bindings->children()) {
     std::vector<ParameterValue> read = read_binding(binding, folder);
     values.insert(values.end(), std::make_move_iterator(read.begin()),
                   std::make_move_iterator(read.end()));

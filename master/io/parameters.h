@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "master/core/error.h"
-#include "master/io/xml.h"
+#include "master/xml/element.h"
 
 namespace stride::io {
 
@@ -21,7 +21,7 @@ struct ParameterValue {
 /// The values of all bindings of a component or system, in the order of the file: a later one
 /// replaces an earlier one. External sets are read relative to `folder`. Throws core::Error
 /// (Input).
-std::vector<ParameterValue> read_parameters(const XmlElement& owner,
+std::vector<ParameterValue> read_parameters(const xml::Element& owner,
                                             const std::filesystem::path& folder);
 
 }  // namespace stride::io

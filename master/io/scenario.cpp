@@ -6,16 +6,17 @@
 
 #include <fmt/format.h>
 
+#include "master/io/ssp.h"
 #include "master/io/system_reader.h"
 #include "master/io/time_text.h"
-#include "master/io/xml.h"
+#include "master/xml/document.h"
 
 namespace stride::io {
 namespace {
 
 /// What a file of another kind is, so that the error can say so.
-std::string kind_of(const XmlName& root) {
-  constexpr std::array<std::pair<XmlName, const char*>, 4> kKinds{
+std::string kind_of(const xml::Name& root) {
+  constexpr std::array<std::pair<xml::Name, const char*>, 4> kKinds{
       {{{kSsv, "ParameterSet"}, "a parameter set (.ssv)"},
        {{kSsm, "ParameterMapping"}, "a parameter mapping (.ssm)"},
        {{kSsb, "SignalDictionary"}, "a signal dictionary (.ssb)"},
@@ -29,7 +30,7 @@ std::string kind_of(const XmlName& root) {
   return fmt::format("an XML file with the root element <{}>", root.local);
 }
 
-void check_root(const XmlElement& root) {
+void check_root(const xml::Element& root) {
   if (!root.is(kSsd, "SystemStructureDescription")) {
     root.fail(fmt::format("this is {}, expected a system structure description (.ssd)",
                           kind_of(root.name())),
@@ -52,7 +53,7 @@ void check_root(const XmlElement& root) {
                        {kSsd, "Annotations"}});
 }
 
-std::optional<Time> read_time(const XmlElement& element, const char* attribute) {
+std::optional<Time> read_time(const xml::Element& element, const char* attribute) {
   const auto text = element.attribute(attribute);
   if (!text) return std::nullopt;
   try {
@@ -62,7 +63,7 @@ std::optional<Time> read_time(const XmlElement& element, const char* attribute) 
   }
 }
 
-void read_default_experiment(const XmlElement& root, Scenario& scenario) {
+void read_default_experiment(const xml::Element& root, Scenario& scenario) {
   const auto experiment = root.child({kSsd, "DefaultExperiment"});
   if (!experiment) return;
   experiment->allow_attributes({"startTime", "stopTime"});
@@ -80,8 +81,8 @@ void read_default_experiment(const XmlElement& root, Scenario& scenario) {
 }  // namespace
 
 Scenario read_scenario(const std::filesystem::path& path) {
-  const XmlDocument document(path);
-  const XmlElement root = document.root();
+  const xml::Document document(path);
+  const xml::Element root = document.root();
   check_root(root);
   Scenario scenario;
   scenario.path = path;

@@ -8,6 +8,7 @@
 #include "master/core/suggest.h"
 #include "master/io/connectors.h"
 #include "master/io/parameters.h"
+#include "master/io/ssp.h"
 #include "master/io/uri.h"
 
 namespace stride::io {
@@ -15,7 +16,7 @@ namespace {
 
 constexpr const char* kFmuType = "application/x-fmu-sharedlibrary";
 
-void check_implementation(const XmlElement& component) {
+void check_implementation(const xml::Element& component) {
   const std::string type = component.attribute("type").value_or(kFmuType);
   if (type == "application/x-ssp-definition" || type == "application/x-ssp-package") {
     component.fail_unsupported("a system (.ssd, .ssp) as a component of another",
@@ -32,7 +33,8 @@ void check_implementation(const XmlElement& component) {
   }
 }
 
-core::ComponentDeclaration read_component(const XmlElement& component, const std::string& version) {
+core::ComponentDeclaration read_component(const xml::Element& component,
+                                          const std::string& version) {
   component.allow_attributes({"name", "type", "source", "implementation"});
   component.allow_children({{kSsd, "Connectors"},
                             {kSsd, "ElementGeometry"},
@@ -45,7 +47,7 @@ core::ComponentDeclaration read_component(const XmlElement& component, const std
           component.where()};
 }
 
-void add_component(const XmlElement& element, const std::string& version,
+void add_component(const xml::Element& element, const std::string& version,
                    const std::filesystem::path& folder, SystemContent& content) {
   core::ComponentDeclaration component = read_component(element, version);
   const auto& others = content.declaration.components;
@@ -69,7 +71,7 @@ void add_component(const XmlElement& element, const std::string& version,
   content.declaration.components.push_back(std::move(component));
 }
 
-void read_elements(const XmlElement& system, const std::string& version,
+void read_elements(const xml::Element& system, const std::string& version,
                    const std::filesystem::path& folder, SystemContent& content) {
   const auto elements = system.child({kSsd, "Elements"});
   if (!elements) {
@@ -77,7 +79,7 @@ void read_elements(const XmlElement& system, const std::string& version,
   }
   elements->allow_children(
       {{kSsd, "Component"}, {kSsd, "SignalDictionaryReference"}, {kSsd, "System"}});
-  for (const XmlElement& element : elements->children()) {
+  for (const xml::Element& element : elements->children()) {
     if (element.is(kSsd, "System")) {
       element.fail_unsupported("systems inside a system",
                                "put its components and connections into the outer system");
@@ -115,7 +117,7 @@ void orient(core::ConnectionDeclaration& connection, const core::SystemDeclarati
   std::swap(connection.from_connector, connection.to_connector);
 }
 
-core::ConnectionDeclaration read_connection(const XmlElement& element) {
+core::ConnectionDeclaration read_connection(const xml::Element& element) {
   element.allow_attributes({"startElement", "startConnector", "startIndices", "endElement",
                             "endConnector", "endIndices", "suppressUnitConversion"});
   element.allow_children({{kSsc, "LinearTransformation"},
@@ -124,7 +126,7 @@ core::ConnectionDeclaration read_connection(const XmlElement& element) {
                           {kSsc, "EnumerationMappingTransformation"},
                           {kSsd, "ConnectionGeometry"},
                           {kSsd, "Annotations"}});
-  for (const XmlElement& child : element.children()) {
+  for (const xml::Element& child : element.children()) {
     if (child.name().name_space == kSsc) {
       child.fail_unsupported("transformations at a connection",
                              "let one of the two units transform the value");
@@ -146,11 +148,11 @@ core::ConnectionDeclaration read_connection(const XmlElement& element) {
           element.where()};
 }
 
-void read_connections(const XmlElement& system, core::SystemDeclaration& declaration) {
+void read_connections(const xml::Element& system, core::SystemDeclaration& declaration) {
   const auto connections = system.child({kSsd, "Connections"});
   if (!connections) return;
   connections->allow_children({{kSsd, "Connection"}});
-  for (const XmlElement& element : connections->children()) {
+  for (const xml::Element& element : connections->children()) {
     declaration.connections.push_back(read_connection(element));
     orient(declaration.connections.back(), declaration);
   }
@@ -181,7 +183,7 @@ core::StartDeclaration split_name(ParameterValue value, const core::SystemDeclar
 
 }  // namespace
 
-SystemContent read_system(const XmlElement& system, const std::string& ssp_version,
+SystemContent read_system(const xml::Element& system, const std::string& ssp_version,
                           const std::filesystem::path& folder) {
   system.allow_attributes({"name"});
   system.allow_children({{kSsd, "Connectors"},

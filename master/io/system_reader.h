@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "master/core/system.h"
-#include "master/io/xml.h"
+#include "master/xml/element.h"
 
 namespace stride::io {
 
@@ -18,7 +18,7 @@ struct SystemContent {
 
 /// Components, connections and parameters. `folder` is where the .ssd stands. Throws core::Error
 /// (Input).
-SystemContent read_system(const XmlElement& system, const std::string& ssp_version,
+SystemContent read_system(const xml::Element& system, const std::string& ssp_version,
                           const std::filesystem::path& folder);
 
 }  // namespace stride::io

@@ -20,7 +20,7 @@ std::string take_scheme(std::string_view& uri) {
   return scheme;
 }
 
-std::string percent_decoded(std::string_view text, const XmlElement& element) {
+std::string percent_decoded(std::string_view text, const xml::Element& element) {
   std::string decoded;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '%') {
@@ -44,7 +44,8 @@ std::string percent_decoded(std::string_view text, const XmlElement& element) {
 
 }  // namespace
 
-std::filesystem::path source_path(const XmlElement& element, const std::filesystem::path& folder) {
+std::filesystem::path source_path(const xml::Element& element,
+                                  const std::filesystem::path& folder) {
   const std::string source = element.required("source");
   std::string_view rest = source;
   const std::string scheme = take_scheme(rest);

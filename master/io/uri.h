@@ -5,14 +5,14 @@
 #include <filesystem>
 #include <string>
 
-#include "master/io/xml.h"
+#include "master/xml/element.h"
 
 namespace stride::io {
 
 /// The path that the attribute `source` of an element names: a URI (RFC 3986) relative to `folder`,
 /// or with the scheme file. Throws core::Error (Input) for any other scheme, a fragment, a query or
 /// a malformed escape.
-std::filesystem::path source_path(const XmlElement& element, const std::filesystem::path& folder);
+std::filesystem::path source_path(const xml::Element& element, const std::filesystem::path& folder);
 
 }  // namespace stride::io
 

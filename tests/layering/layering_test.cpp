@@ -18,8 +18,10 @@ namespace {
 const std::map<std::string, std::set<std::string>> kAllowed = {
     {"interfaces", {"stride"}},
     {"master/core", {"stride/time.h", "fmt", "Eigen"}},
-    {"master/fmi", {"stride", "master/core", "fmt", "tinyxml2.h", "archive.h", "archive_entry.h"}},
-    {"master/io", {"stride/time.h", "master/core", "fmt", "tinyxml2.h", "nlohmann"}},
+    {"master/xml", {"master/core", "fmt", "tinyxml2.h"}},
+    {"master/archive", {"master/core", "fmt", "archive.h", "archive_entry.h"}},
+    {"master/fmi", {"stride", "master/core", "master/xml", "master/archive", "fmt"}},
+    {"master/io", {"stride/time.h", "master/core", "master/xml", "fmt", "nlohmann"}},
     {"master/trace", {"stride/time.h", "master/core", "master/io", "fmt"}},
     {"master/cli",
      {"stride", "master/core", "master/fmi", "master/io", "master/trace", "fmt", "spdlog", "CLI"}},

@@ -50,7 +50,7 @@ TEST_CASE("an instance keeps the FMU and its unpacked files alive") {
   CHECK(text.strings()[0] == "text from the resources");
   const auto folders = [] {
     std::size_t count = 0;
-    for (const auto& entry : fs::directory_iterator(fmi::TemporaryFolder::parent())) {
+    for (const auto& entry : fs::directory_iterator(archive::TemporaryFolder::parent())) {
       count += entry.is_directory() ? 1 : 0;
     }
     return count;

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "master/xml/document.h"
 #include "tests/master/io/support.h"
 
 using namespace stride::io;
@@ -11,7 +12,7 @@ namespace {
 
 std::filesystem::path resolve(const std::string& source, const std::string& base = "runs") {
   const TemporaryFolder folder;
-  const XmlDocument document(folder.write("x.ssd", "<a source='" + source + "'/>"));
+  const stride::xml::Document document(folder.write("x.ssd", "<a source='" + source + "'/>"));
   return source_path(document.root(), base);
 }
 

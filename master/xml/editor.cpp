@@ -1,9 +1,9 @@
-#include "master/io/xml_edit.h"
+#include "master/xml/editor.h"
 
 #include <algorithm>
 #include <string_view>
 
-namespace stride::io {
+namespace stride::xml {
 namespace {
 
 constexpr const char* kBlanks = " \t\r\n";
@@ -64,7 +64,7 @@ std::vector<ElementPlace> element_places(const std::string& text) {
   return places;
 }
 
-XmlEditor::XmlEditor(const std::string& text)
+Editor::Editor(const std::string& text)
     : text_(text),
       places_(element_places(text)),
       line_end_(text.find("\r\n") == std::string::npos ? "\n" : "\r\n"),
@@ -75,7 +75,7 @@ XmlEditor::XmlEditor(const std::string& text)
   if (inner.size() > outer.size()) step_ = inner.substr(outer.size());
 }
 
-std::string XmlEditor::indentation(std::size_t element) const {
+std::string Editor::indentation(std::size_t element) const {
   const std::size_t begin = places_[element].begin;
   const std::size_t line = text_.find_last_of('\n', begin);
   const std::size_t first = line == std::string::npos ? 0 : line + 1;
@@ -83,8 +83,8 @@ std::string XmlEditor::indentation(std::size_t element) const {
   return before.find_first_not_of(" \t") == std::string::npos ? before : "";
 }
 
-std::string XmlEditor::lines(const std::vector<std::string>& pieces,
-                             const std::string& indentation) const {
+std::string Editor::lines(const std::vector<std::string>& pieces,
+                          const std::string& indentation) const {
   std::string joined;
   for (const std::string& piece : pieces) {
     joined += line_end_ + indentation;
@@ -101,7 +101,7 @@ std::string XmlEditor::lines(const std::vector<std::string>& pieces,
   return joined;
 }
 
-void XmlEditor::open_empty_tag(std::size_t element, const std::vector<std::string>& pieces) {
+void Editor::open_empty_tag(std::size_t element, const std::vector<std::string>& pieces) {
   const ElementPlace& place = places_[element];
   const std::size_t last = text_.find_last_not_of(kBlanks, place.end - 3);
   const std::size_t name_end = text_.find_first_of(" \t\r\n/>", place.begin);
@@ -111,7 +111,7 @@ void XmlEditor::open_empty_tag(std::size_t element, const std::vector<std::strin
                     ">" + lines(pieces, outer + step_) + line_end_ + outer + "</" + name + ">"});
 }
 
-void XmlEditor::prepend_children(std::size_t element, const std::vector<std::string>& pieces) {
+void Editor::prepend_children(std::size_t element, const std::vector<std::string>& pieces) {
   if (pieces.empty()) return;
   const ElementPlace& place = places_[element];
   if (place.is_empty_tag) return open_empty_tag(element, pieces);
@@ -124,7 +124,7 @@ void XmlEditor::prepend_children(std::size_t element, const std::vector<std::str
   edits_.push_back({place.start_tag_end, 0, inserted});
 }
 
-void XmlEditor::append_children(std::size_t element, const std::vector<std::string>& pieces) {
+void Editor::append_children(std::size_t element, const std::vector<std::string>& pieces) {
   if (pieces.empty()) return;
   const ElementPlace& place = places_[element];
   if (place.is_empty_tag) return open_empty_tag(element, pieces);
@@ -135,19 +135,18 @@ void XmlEditor::append_children(std::size_t element, const std::vector<std::stri
   edits_.push_back({at, 0, inserted});
 }
 
-void XmlEditor::insert_behind(std::size_t element, const std::string& piece) {
+void Editor::insert_behind(std::size_t element, const std::string& piece) {
   edits_.push_back({places_[element].end, 0, lines({piece}, indentation(element))});
 }
 
-void XmlEditor::add_attribute(std::size_t element, const std::string& name,
-                              const std::string& value) {
+void Editor::add_attribute(std::size_t element, const std::string& name, const std::string& value) {
   const ElementPlace& place = places_[element];
   const std::size_t close = place.start_tag_end - (place.is_empty_tag ? 2 : 1);
   const std::size_t at = text_.find_last_not_of(kBlanks, close - 1) + 1;
-  edits_.push_back({at, 0, " " + name + "=\"" + xml_escaped(value) + "\""});
+  edits_.push_back({at, 0, " " + name + "=\"" + escaped(value) + "\""});
 }
 
-std::string XmlEditor::result() const {
+std::string Editor::result() const {
   std::vector<Edit> edits = edits_;
   std::stable_sort(edits.begin(), edits.end(),
                    [](const Edit& a, const Edit& b) { return a.at < b.at; });
@@ -160,7 +159,7 @@ std::string XmlEditor::result() const {
   return result + text_.substr(at);
 }
 
-std::string xml_escaped(const std::string& text) {
+std::string escaped(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
     switch (c) {
@@ -189,4 +188,4 @@ std::string xml_escaped(const std::string& text) {
   return escaped;
 }
 
-}  // namespace stride::io
+}  // namespace stride::xml

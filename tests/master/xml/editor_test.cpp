@@ -1,10 +1,10 @@
-#include "master/io/xml_edit.h"
+#include "master/xml/editor.h"
 
 #include <catch2/catch.hpp>
 
 #include "tests/master/io/support.h"
 
-using namespace stride::io;
+using namespace stride::xml;
 
 TEST_CASE("Elements are found in document order, whatever stands between them") {
   const std::string text =
@@ -23,7 +23,7 @@ TEST_CASE("Elements are found in document order, whatever stands between them") 
 TEST_CASE("Children are added with the file's own indentation and line ends") {
   const std::string text =
       "<a>\r\n   <b x='1' />\r\n   <c>\r\n      <d/> <!-- last -->\r\n   </c>\r\n</a>\r\n";
-  XmlEditor editor(text);
+  Editor editor(text);
   editor.prepend_children(1, {"<new>\n\t<x/>\n</new>"});
   editor.append_children(2, {"<e/>", "<f/>"});
   editor.insert_behind(2, "<g/>");
@@ -36,16 +36,16 @@ TEST_CASE("Children are added with the file's own indentation and line ends") {
 
 TEST_CASE("Elements on one line stay well-formed") {
   const std::string text = "<a><b></b><c><d/></c></a>";
-  XmlEditor first(text);
+  Editor first(text);
   first.prepend_children(1, {"<x/>"});
   CHECK(first.result() == "<a><b>\n  <x/>\n</b><c><d/></c></a>");
-  XmlEditor second(text);
+  Editor second(text);
   second.prepend_children(2, {"<x/>"});
   CHECK(second.result() == "<a><b></b><c>\n  <x/>\n  <d/></c></a>");
-  XmlEditor third(text);
+  Editor third(text);
   third.append_children(2, {"<x/>"});
   CHECK(third.result() == "<a><b></b><c><d/>\n  <x/>\n</c></a>");
-  XmlEditor none(text);
+  Editor none(text);
   none.prepend_children(1, {});
   none.append_children(2, {});
   CHECK(none.result() == text);

@@ -1,12 +1,12 @@
 // Changes to an XML text that leave every other byte of it as it is.
-#ifndef STRIDE_MASTER_IO_XML_EDIT_H
-#define STRIDE_MASTER_IO_XML_EDIT_H
+#ifndef STRIDE_MASTER_XML_EDITOR_H
+#define STRIDE_MASTER_XML_EDITOR_H
 
 #include <cstddef>
 #include <string>
 #include <vector>
 
-namespace stride::io {
+namespace stride::xml {
 
 /// Where an element stands in the text, as offsets.
 struct ElementPlace {
@@ -21,16 +21,16 @@ struct ElementPlace {
 std::vector<ElementPlace> element_places(const std::string& text);
 
 /// Collects insertions, then makes them all at once.
-class XmlEditor {
+class Editor {
  public:
   /// The text must be well-formed and outlive the editor.
-  explicit XmlEditor(const std::string& text);
+  explicit Editor(const std::string& text);
 
   /// The blanks before an element that begins its line, else nothing.
   std::string indentation(std::size_t element) const;
   /// Each piece is an element, which may span lines; a tab in it is one step of indentation. It
   /// gets a line of its own, indented by one step below its new parent; `element` is a place in
-  /// document order (XmlElement::index).
+  /// document order (Element::index).
   void prepend_children(std::size_t element, const std::vector<std::string>& pieces);
   void append_children(std::size_t element, const std::vector<std::string>& pieces);
   void insert_behind(std::size_t element, const std::string& piece);
@@ -55,8 +55,8 @@ class XmlEditor {
 };
 
 /// As the value of an attribute: & < > " and control characters as entities.
-std::string xml_escaped(const std::string& text);
+std::string escaped(const std::string& text);
 
-}  // namespace stride::io
+}  // namespace stride::xml
 
 #endif

@@ -1,14 +1,14 @@
-#include "master/fmi/temporary_folder.h"
+#include "master/archive/temporary_folder.h"
 
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "tests/master/fmi/support.h"
+#include "tests/master/archive/support.h"
 
 using namespace stride;
 using namespace stride::tests;
+using archive::TemporaryFolder;
 using Catch::Matchers::Contains;
-using fmi::TemporaryFolder;
 
 TEST_CASE("it is empty, private, below TMPDIR, and goes with the object") {
   const Scratch scratch;

@@ -1,4 +1,4 @@
-#include "master/fmi/temporary_folder.h"
+#include "master/archive/temporary_folder.h"
 
 #include <cerrno>
 #include <cstdlib>
@@ -14,7 +14,7 @@
 
 #include "master/core/error.h"
 
-namespace stride::fmi {
+namespace stride::archive {
 namespace {
 
 namespace fs = std::filesystem;
@@ -91,7 +91,7 @@ TemporaryFolder::TemporaryFolder() : owner_(::getpid()) {
   make_private(parent_folder);
   const ParentLock parent_lock(parent_folder);
   sweep(parent_folder);
-  std::string name = (parent_folder / "unit-XXXXXX").string();
+  std::string name = (parent_folder / "unpacked-XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr) fail(parent_folder, "make a folder in");
   path_ = name;
   lock_ = lock_file(name + kLockSuffix, 0);
@@ -106,4 +106,4 @@ TemporaryFolder::~TemporaryFolder() {
   ::close(lock_);
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::archive

@@ -1,8 +1,10 @@
-#include "master/fmi/archive.h"
+#include "master/archive/unpacked_archive.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <string>
 
@@ -12,7 +14,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-namespace stride::fmi {
+namespace stride::archive {
 namespace {
 
 namespace fs = std::filesystem;
@@ -64,9 +66,11 @@ class UnpackedFile {
 /// path of checked names cannot leave the folder.
 class Extraction {
  public:
-  Extraction(fs::path archive, fs::path folder, core::Location where, UnpackLimits limits)
+  Extraction(fs::path archive, fs::path folder, std::string expected, core::Location where,
+             UnpackLimits limits)
       : archive_(std::move(archive)),
         folder_(std::move(folder)),
+        expected_("expected " + std::move(expected)),
         where_(std::move(where)),
         limits_(limits),
         reader_(archive_read_new(), &archive_read_free) {}
@@ -81,19 +85,18 @@ class Extraction {
       }
       unpack_entry();
     }
-    if (entries == 0) fail("is an empty archive", kExpected);
+    if (entries == 0) fail("is an empty archive", expected_);
   }
 
  private:
-  static constexpr const char* kExpected =
-      "expected an FMU: a .fmu archive (zip), or the folder that such an archive unpacks to";
+  static constexpr std::size_t kPiece = 1 << 16;
 
   [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const {
     core::fail_input({.where = where_}, fmt::format("'{}' {}", archive_.string(), what), hint);
   }
   [[noreturn]] void fail_entry(const std::string& what) const {
     fail(fmt::format("holds the entry '{}', {}", name_, what),
-         "an FMU holds plain files and folders with relative names only; pack it again");
+         "an archive holds plain files and folders with relative names only; pack it again");
   }
   [[noreturn]] void fail_writing(const fs::path& path) const {
     core::fail_run({.where = where_},
@@ -107,9 +110,8 @@ class Extraction {
       fail(fmt::format("cannot be read: {}", std::strerror(errno)));
     }
     archive_read_support_format_zip(reader_.get());
-    constexpr std::size_t kBlock = 1 << 16;
-    if (archive_read_open_filename(reader_.get(), archive_.c_str(), kBlock) != ARCHIVE_OK) {
-      fail("is no zip archive", kExpected);
+    if (archive_read_open_filename(reader_.get(), archive_.c_str(), kPiece) != ARCHIVE_OK) {
+      fail("is no zip archive", expected_);
     }
   }
 
@@ -162,52 +164,57 @@ class Extraction {
     const bool executable = (archive_entry_perm(entry_) & 0100) != 0;
     UnpackedFile file(path, executable ? 0700 : 0600);
     if (!file.is_open()) {
-      if (errno == EEXIST) fail_entry("which it holds twice");
+      if (errno == EEXIST) return compare(path);
       fail_writing(path);
     }
-    while (true) {
-      const la_ssize_t size = archive_read_data(reader_.get(), buffer_.data(), buffer_.size());
-      if (size == 0) return;
-      if (size < 0) {
-        fail_entry(fmt::format("which is damaged: {}", archive_error_string(reader_.get())));
-      }
-      bytes_ += static_cast<std::uint64_t>(size);
-      if (bytes_ > limits_.bytes) {
-        fail(fmt::format("unpacks to more than {} bytes", limits_.bytes),
-             "unpack it yourself and name the folder instead, if you trust it");
-      }
-      if (!file.write(buffer_.data(), static_cast<std::size_t>(size))) fail_writing(path);
+    while (const std::size_t size = read_piece()) {
+      if (!file.write(buffer_.data(), size)) fail_writing(path);
     }
+  }
+
+  /// Some tools pack a folder twice, which does no harm.
+  void compare(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, kPiece> first;
+    bool is_same = fs::is_regular_file(path);
+    while (const std::size_t size = read_piece()) {
+      is_same = is_same && file.read(first.data(), static_cast<std::streamsize>(size)) &&
+                std::equal(first.data(), first.data() + size, buffer_.data());
+    }
+    is_same = is_same && file.peek() == std::ifstream::traits_type::eof();
+    if (!is_same) fail_entry("which it holds twice, with different contents");
+  }
+
+  /// The next bytes of the entry are in the buffer; returns how many.
+  std::size_t read_piece() {
+    const la_ssize_t size = archive_read_data(reader_.get(), buffer_.data(), buffer_.size());
+    if (size < 0) {
+      fail_entry(fmt::format("which is damaged: {}", archive_error_string(reader_.get())));
+    }
+    bytes_ += static_cast<std::uint64_t>(size);
+    if (bytes_ > limits_.bytes) {
+      fail(fmt::format("unpacks to more than {} bytes", limits_.bytes),
+           "unpack it yourself and name the folder instead, if you trust it");
+    }
+    return static_cast<std::size_t>(size);
   }
 
   fs::path archive_;
   fs::path folder_;
+  std::string expected_;
   core::Location where_;
   UnpackLimits limits_;
-  std::unique_ptr<archive, decltype(&archive_read_free)> reader_;
+  std::unique_ptr<::archive, decltype(&archive_read_free)> reader_;
   archive_entry* entry_ = nullptr;
   std::string name_;
   std::uint64_t bytes_ = 0;
-  std::array<char, 1 << 16> buffer_;
+  std::array<char, kPiece> buffer_;
 };
-
-/// A frequent mistake: the folder was packed, not what is in it.
-std::string missing_description_hint(const fs::path& folder) {
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    if (!fs::exists(entry.path() / "modelDescription.xml")) continue;
-    return fmt::format(
-        "it stands in the folder '{0}' there; the contents of '{0}' belong at the "
-        "top",
-        entry.path().filename().string());
-  }
-  return "expected an FMU; an SSP package or another kind of archive cannot be used as a unit";
-}
 
 }  // namespace
 
-UnpackedFmu::UnpackedFmu(const fs::path& path, const core::Location& where,
-                         const UnpackLimits& limits) {
+UnpackedArchive::UnpackedArchive(const fs::path& path, const std::string& expected,
+                                 const core::Location& where, const UnpackLimits& limits) {
   if (!fs::exists(path)) {
     core::fail_input({.where = where}, fmt::format("there is no file '{}'", path.string()),
                      "relative names are taken from the folder of the file that names them");
@@ -217,12 +224,8 @@ UnpackedFmu::UnpackedFmu(const fs::path& path, const core::Location& where,
   } else {
     temporary_.emplace();
     folder_ = temporary_->path();
-    Extraction(path, folder_, where, limits).run();
+    Extraction(path, folder_, expected, where, limits).run();
   }
-  if (fs::is_regular_file(folder_ / "modelDescription.xml")) return;
-  core::fail_input({.where = where},
-                   fmt::format("'{}' has no modelDescription.xml at its top", path.string()),
-                   missing_description_hint(folder_));
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::archive

@@ -1,11 +1,11 @@
-#ifndef STRIDE_MASTER_FMI_TEMPORARY_FOLDER_H
-#define STRIDE_MASTER_FMI_TEMPORARY_FOLDER_H
+#ifndef STRIDE_MASTER_ARCHIVE_TEMPORARY_FOLDER_H
+#define STRIDE_MASTER_ARCHIVE_TEMPORARY_FOLDER_H
 
 #include <filesystem>
 
 #include <sys/types.h>
 
-namespace stride::fmi {
+namespace stride::archive {
 
 /// A fresh, empty folder that goes when the object goes.
 ///
@@ -31,6 +31,6 @@ class TemporaryFolder {
   pid_t owner_;  ///< a forked child must not remove what its parent uses
 };
 
-}  // namespace stride::fmi
+}  // namespace stride::archive
 
 #endif
