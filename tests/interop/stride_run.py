@@ -26,6 +26,7 @@ class System:
     start_values: dict = dataclasses.field(default_factory=dict)
     step: str = "0.1"
     stop: str = "1"
+    types: dict = dataclasses.field(default_factory=dict)  # "Real" for "a.y": its connector is declared
 
     def points(self):
         """The communication points, exact."""
@@ -40,6 +41,7 @@ class System:
             source = str(path) if portable else pathlib.Path(path).resolve().as_uri()
             lines += [f"      <ssd:Component name={quoteattr(name)} source={quoteattr(source)}",
                       '          type="application/x-fmu-sharedlibrary" implementation="CoSimulation">']
+            lines += self._connectors(name)
             lines += self._values(name) if portable else []
             lines.append("      </ssd:Component>")
         lines.append("    </ssd:Elements>")
@@ -51,6 +53,13 @@ class System:
                              f" endElement={quoteattr(end[0])} endConnector={quoteattr(end[1])}/>")
             lines.append("    </ssd:Connections>")
         return HEAD + "\n".join(lines) + "\n  </ssd:System>\n</ssd:SystemStructureDescription>\n"
+
+    def _connectors(self, component):
+        inputs = {target for _, target in self.wires}
+        lines = [f'          <ssd:Connector name={quoteattr(name.split(".", 1)[1])} '
+                 f'kind="{"input" if name in inputs else "output"}"><ssc:{kind}/></ssd:Connector>'
+                 for name, kind in self.types.items() if name.split(".", 1)[0] == component]
+        return ["        <ssd:Connectors>", *lines, "        </ssd:Connectors>"] if lines else []
 
     def _values(self, component):
         """The start values of a component, as a set in the file."""
