@@ -26,18 +26,24 @@ class System:
     start_values: dict = dataclasses.field(default_factory=dict)
     step: str = "0.1"
     stop: str = "1"
+    types: dict = dataclasses.field(default_factory=dict)  # "Real" for "a.y": its connector is declared
 
     def points(self):
         """The communication points, exact."""
         step, stop = Fraction(self.step), Fraction(self.stop)
         return [min(k * step, stop) for k in range(math.ceil(stop / step) + 1)]
 
-    def ssd(self):
-        """The system as an SSP 1.0 file without any annotation."""
+    def ssd(self, portable=False):
+        """The system as an SSP 1.0 file without any annotation. A portable one has the sources as they are, and the start
+        values in it."""
         lines = ["    <ssd:Elements>"]
         for name, path in self.units.items():
-            source = pathlib.Path(path).resolve().as_uri()
-            lines.append(f"      <ssd:Component name={quoteattr(name)} source={quoteattr(source)}/>")
+            source = str(path) if portable else pathlib.Path(path).resolve().as_uri()
+            lines += [f"      <ssd:Component name={quoteattr(name)} source={quoteattr(source)}",
+                      '          type="application/x-fmu-sharedlibrary" implementation="CoSimulation">']
+            lines += self._connectors(name)
+            lines += self._values(name) if portable else []
+            lines.append("      </ssd:Component>")
         lines.append("    </ssd:Elements>")
         if self.wires:
             lines.append("    <ssd:Connections>")
@@ -47,6 +53,28 @@ class System:
                              f" endElement={quoteattr(end[0])} endConnector={quoteattr(end[1])}/>")
             lines.append("    </ssd:Connections>")
         return HEAD + "\n".join(lines) + "\n  </ssd:System>\n</ssd:SystemStructureDescription>\n"
+
+    def _connectors(self, component):
+        inputs = {target for _, target in self.wires}
+        lines = [f'          <ssd:Connector name={quoteattr(name.split(".", 1)[1])} '
+                 f'kind="{"input" if name in inputs else "output"}"><ssc:{kind}/></ssd:Connector>'
+                 for name, kind in self.types.items() if name.split(".", 1)[0] == component]
+        return ["        <ssd:Connectors>", *lines, "        </ssd:Connectors>"] if lines else []
+
+    def _values(self, component):
+        """The start values of a component, as a set in the file."""
+        kinds = {bool: "Boolean", int: "Integer", float: "Real", str: "String"}
+        parameters = [f"<ssv:Parameter name={quoteattr(name.split('.', 1)[1])}>"
+                      f"<ssv:{kinds[type(value)]} value={quoteattr(text_of(value))}/></ssv:Parameter>"
+                      for name, value in self.start_values.items() if name.split(".", 1)[0] == component]
+        if not parameters:
+            return []
+        return ["        <ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues>",
+                '          <ssv:ParameterSet version="1.0" name="values"',
+                '              xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues"><ssv:Parameters>',
+                *(f"            {parameter}" for parameter in parameters),
+                "          </ssv:Parameters></ssv:ParameterSet>",
+                "        </ssd:ParameterValues></ssd:ParameterBinding></ssd:ParameterBindings>"]
 
 
 class RunFailed(Exception):

@@ -1,5 +1,5 @@
-"""A variable of each type that PythonFMU has, inputs and outputs, with limits to misbehave at: it rejects steps longer
-than longest_step, and raises an error at failure, both in seconds."""
+"""A variable of each type that PythonFMU has, inputs and outputs, with limits to misbehave at: it ends the simulation
+behind end, and raises an error at failure, both in seconds."""
 
 from pythonfmu import (Boolean, DefaultExperiment, Fmi2Causality, Fmi2Initial, Fmi2Slave, Fmi2Variability, Integer, Real,
                        String)
@@ -17,7 +17,7 @@ class CounterFmi2(Fmi2Slave):
         self.running = True
         self.text = ""
         self.simulated = 0.0
-        self.longest_step = 10.0
+        self.end = 10.0
         self.failure = 10.0
         for kind, name in ((Boolean, "up"), (Integer, "stride"), (String, "label")):
             self.register_variable(kind(name, causality=Fmi2Causality.input, variability=Fmi2Variability.discrete))
@@ -26,13 +26,13 @@ class CounterFmi2(Fmi2Slave):
                                         initial=Fmi2Initial.exact))
         self.register_variable(Real("simulated", causality=Fmi2Causality.output,
                                     variability=Fmi2Variability.continuous, initial=Fmi2Initial.exact))
-        for name in ("longest_step", "failure"):
+        for name in ("end", "failure"):
             self.register_variable(
                 Real(name, causality=Fmi2Causality.parameter, variability=Fmi2Variability.fixed))
 
     def do_step(self, current_time, step_size):
-        if step_size > self.longest_step:
-            return False
+        if current_time + step_size > self.end + 1e-9:
+            return False  # fmi2Discard, and fmi2Terminated
         if current_time + step_size > self.failure - 1e-9:
             raise RuntimeError(f"made to fail at {self.failure} s")
         self.steps += self.stride if self.up else -self.stride
