@@ -326,15 +326,31 @@ Connection System::connect(const ConnectionDeclaration& wanted) const {
 }
 
 /// Nothing, and a warning, where a parameter set holds a value for nobody, as SSP allows it to.
-std::optional<VariableId> System::find_target(const StartDeclaration& wanted) {
+void System::note_missing(const StartDeclaration& wanted) {
   try {
-    return find_variable(wanted.component, wanted.variable, wanted.where);
+    find_variable(wanted.component, wanted.variable, wanted.where);
   } catch (const Error& mistake) {
     if (!wanted.is_optional) throw;
     warnings_.push_back(
         fmt::format("{}\n  the value is passed over, as SSP wants it", mistake.what()));
-    return std::nullopt;
   }
+}
+
+std::vector<std::optional<VariableId>> System::find_targets(const SystemDeclaration& declaration) {
+  std::vector<std::optional<VariableId>> targets;
+  std::set<std::size_t> found_groups;
+  for (const StartDeclaration& wanted : declaration.start_values) {
+    const std::size_t index = find_component(wanted.component, wanted.where);
+    const auto variable = components_[index].description->find(wanted.variable);
+    targets.push_back(variable ? std::optional(VariableId{index, *variable}) : std::nullopt);
+    if (variable) found_groups.insert(wanted.group);
+  }
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const StartDeclaration& wanted = declaration.start_values[i];
+    if (targets[i] || (wanted.group != 0 && found_groups.contains(wanted.group))) continue;
+    note_missing(wanted);
+  }
+  return targets;
 }
 
 ValueBlock System::start_value(const StartDeclaration& wanted, VariableId id) const {
@@ -363,8 +379,10 @@ ValueBlock System::start_value(const StartDeclaration& wanted, VariableId id) co
 
 void System::add_start_values(const SystemDeclaration& declaration) {
   std::map<VariableId, ValueBlock> values;
-  for (const StartDeclaration& wanted : declaration.start_values) {
-    const auto id = find_target(wanted);
+  const std::vector<std::optional<VariableId>> targets = find_targets(declaration);
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const StartDeclaration& wanted = declaration.start_values[i];
+    const std::optional<VariableId>& id = targets[i];
     if (!id) continue;
     check_settable(variable(*id), {wanted.where, wanted.component, wanted.variable, {}});
     values.insert_or_assign(*id, start_value(wanted, *id));
