@@ -52,7 +52,9 @@ void add_complete(CLI::App& app) {
       "complete",
       "Write the connectors that a scenario leaves out into it, as other SSP tools want them");
   const auto request = std::make_shared<Request>();
-  command->add_option("FILE", request->scenario, "The scenario, an SSP system file (.ssd)")
+  command
+      ->add_option("FILE", request->scenario,
+                   "The scenario: an SSP system file (.ssd) or package (.ssp)")
       ->required()
       ->type_name("");
   command->add_option("--output,-o", request->output, "Write there instead of into FILE itself")

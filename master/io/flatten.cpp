@@ -433,15 +433,32 @@ class Flattener {
                             value.name, ports_[port].path));
   }
 
+  /// Where a name leads as long as it names systems, and what is left of it then.
+  static std::pair<const SystemNode*, std::string> descend(const SystemNode& from,
+                                                           std::string name) {
+    const SystemNode* node = &from;
+    const auto leads_on = [&](const ElementNode& element) {
+      return element.system && name.starts_with(element.name + ".");
+    };
+    while (true) {
+      const auto next = std::find_if(node->elements.begin(), node->elements.end(), leads_on);
+      if (next == node->elements.end()) return {node, name};
+      name.erase(0, next->name.size() + 1);
+      node = next->system.get();
+    }
+  }
+
   void tell_of_nobody(const ParameterValue& value, const SystemNode& node) {
+    const auto [at, rest] = descend(node, value.name);
     std::vector<std::string> names;
-    for (const auto& [name, port] : systems_.at(&node).ports) names.push_back(name);
-    for (const ElementNode& element : node.elements) names.push_back(element.name);
-    const std::string head = value.name.substr(0, value.name.find('.'));
+    for (const auto& [name, port] : systems_.at(at).ports) names.push_back(name);
+    for (const ElementNode& element : at->elements) names.push_back(element.name);
+    const std::string head = rest.substr(0, rest.find('.'));
     const std::string hint = core::suggestion(head, names);
     if (value.is_required) {
-      core::fail_input({value.where, {}, {}, {}}, fmt::format("there is no component '{}'", head),
-                       hint);
+      const std::string before = value.name.substr(0, value.name.size() - rest.size());
+      core::fail_input({value.where, {}, {}, {}},
+                       fmt::format("there is no component '{}{}'", before, head), hint);
     }
     warn(value, fmt::format("the parameter '{}' belongs to no component and is passed over, as SSP "
                             "wants it; names read component.variable{}",

@@ -181,7 +181,7 @@ std::vector<ParameterValue> map_values(const xml::Element& mapping,
                           {kSsc, "IntegerMappingTransformation"},
                           {kSsc, "EnumerationMappingTransformation"},
                           {kSsm, "Annotations"}});
-    const std::string source = entry.required("source");
+    const std::string source = entry.given("source");
     const std::string target = entry.required("target");
     if (!targets.insert(target).second) {
       entry.fail(fmt::format("two parameters are mapped to '{}'", target),
