@@ -1,5 +1,6 @@
 #include "master/io/signal_selection.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -49,6 +50,18 @@ std::vector<Candidate> candidates(const core::System& system) {
                    core::suggestion(pattern.text, names));
 }
 
+/// A variable is asked for by its name or by an alias of it.
+bool matches(const core::System& system, const Candidate& candidate, const std::string& pattern) {
+  const auto is_matched = [&](const std::string& name) {
+    return name == pattern || matches_glob(pattern, name);
+  };
+  if (is_matched(candidate.name)) return true;
+  const std::string& component = system.components()[candidate.id.component].name;
+  const std::vector<std::string>& aliases = system.variable(candidate.id).aliases;
+  return std::any_of(aliases.begin(), aliases.end(),
+                     [&](const std::string& alias) { return is_matched(component + "." + alias); });
+}
+
 std::vector<core::VariableId> all_outputs(const core::System& system) {
   std::vector<core::VariableId> outputs;
   for (const Candidate& candidate : candidates(system)) {
@@ -70,7 +83,7 @@ std::vector<core::VariableId> select_signals(const core::System& system,
     const Candidate* message = nullptr;
     bool has_match = false;
     for (const Candidate& candidate : all) {
-      if (candidate.name != pattern.text && !matches_glob(pattern.text, candidate.name)) continue;
+      if (!matches(system, candidate, pattern.text)) continue;
       if (candidate.is_message) {
         message = &candidate;
         continue;
