@@ -1,8 +1,10 @@
 #include "master/archive/unpacked_archive.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <string>
 
@@ -87,6 +89,8 @@ class Extraction {
   }
 
  private:
+  static constexpr std::size_t kPiece = 1 << 16;
+
   [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const {
     core::fail_input({.where = where_}, fmt::format("'{}' {}", archive_.string(), what), hint);
   }
@@ -106,8 +110,7 @@ class Extraction {
       fail(fmt::format("cannot be read: {}", std::strerror(errno)));
     }
     archive_read_support_format_zip(reader_.get());
-    constexpr std::size_t kBlock = 1 << 16;
-    if (archive_read_open_filename(reader_.get(), archive_.c_str(), kBlock) != ARCHIVE_OK) {
+    if (archive_read_open_filename(reader_.get(), archive_.c_str(), kPiece) != ARCHIVE_OK) {
       fail("is no zip archive", expected_);
     }
   }
@@ -161,22 +164,39 @@ class Extraction {
     const bool executable = (archive_entry_perm(entry_) & 0100) != 0;
     UnpackedFile file(path, executable ? 0700 : 0600);
     if (!file.is_open()) {
-      if (errno == EEXIST) fail_entry("which it holds twice");
+      if (errno == EEXIST) return compare(path);
       fail_writing(path);
     }
-    while (true) {
-      const la_ssize_t size = archive_read_data(reader_.get(), buffer_.data(), buffer_.size());
-      if (size == 0) return;
-      if (size < 0) {
-        fail_entry(fmt::format("which is damaged: {}", archive_error_string(reader_.get())));
-      }
-      bytes_ += static_cast<std::uint64_t>(size);
-      if (bytes_ > limits_.bytes) {
-        fail(fmt::format("unpacks to more than {} bytes", limits_.bytes),
-             "unpack it yourself and name the folder instead, if you trust it");
-      }
-      if (!file.write(buffer_.data(), static_cast<std::size_t>(size))) fail_writing(path);
+    while (const std::size_t size = read_piece()) {
+      if (!file.write(buffer_.data(), size)) fail_writing(path);
     }
+  }
+
+  /// Some tools pack a folder twice, which does no harm.
+  void compare(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, kPiece> first;
+    bool is_same = fs::is_regular_file(path);
+    while (const std::size_t size = read_piece()) {
+      is_same = is_same && file.read(first.data(), static_cast<std::streamsize>(size)) &&
+                std::equal(first.data(), first.data() + size, buffer_.data());
+    }
+    is_same = is_same && file.peek() == std::ifstream::traits_type::eof();
+    if (!is_same) fail_entry("which it holds twice, with different contents");
+  }
+
+  /// The next bytes of the entry are in the buffer; returns how many.
+  std::size_t read_piece() {
+    const la_ssize_t size = archive_read_data(reader_.get(), buffer_.data(), buffer_.size());
+    if (size < 0) {
+      fail_entry(fmt::format("which is damaged: {}", archive_error_string(reader_.get())));
+    }
+    bytes_ += static_cast<std::uint64_t>(size);
+    if (bytes_ > limits_.bytes) {
+      fail(fmt::format("unpacks to more than {} bytes", limits_.bytes),
+           "unpack it yourself and name the folder instead, if you trust it");
+    }
+    return static_cast<std::size_t>(size);
   }
 
   fs::path archive_;
@@ -188,7 +208,7 @@ class Extraction {
   archive_entry* entry_ = nullptr;
   std::string name_;
   std::uint64_t bytes_ = 0;
-  std::array<char, 1 << 16> buffer_;
+  std::array<char, kPiece> buffer_;
 };
 
 }  // namespace

@@ -52,11 +52,11 @@ std::vector<io::ParameterValue> set_values(const std::vector<std::string>& sets)
   return values;
 }
 
-void log_message(const std::string& unit, fmi3Status status, const std::string&,
+void log_message(const std::string& unit, fmi::Status status, const std::string&,
                  const std::string& message) {
-  const auto level = status == fmi3OK        ? spdlog::level::info
-                     : status == fmi3Warning ? spdlog::level::warn
-                                             : spdlog::level::err;
+  const auto level = status == fmi::Status::Ok        ? spdlog::level::info
+                     : status == fmi::Status::Warning ? spdlog::level::warn
+                                                      : spdlog::level::err;
   spdlog::log(level, "unit '{}': {}", unit, message);
 }
 
@@ -160,9 +160,9 @@ void LoadedScenario::choose_times(const ScenarioRequest& request) {
 void LoadedScenario::choose_steps(const io::StepChoice& request) {
   std::optional<Duration> unit_step;
   for (const auto& fmu : fmus_) {
-    if (const auto& step = fmu->description()->default_step) {
-      unit_step = std::min(unit_step.value_or(*step), *step);
-    }
+    const core::UnitDescription& unit = *fmu->description();
+    const auto& step = unit.default_step ? unit.default_step : unit.fixed_internal_step;
+    if (step) unit_step = std::min(unit_step.value_or(*step), *step);
   }
   options_.step.size = unit_step.value_or(kDefaultStep);
   scenario_.annotation.step.apply(options_);
@@ -239,6 +239,7 @@ std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate() const {
     options.early_return_allowed = component.early_return_allowed;
     options.intermediate_update = options_.sets_inputs_in_steps();
     options.where = component.where;
+    options.description = system_->components()[i].description;
     units.push_back(fmus_[i]->instantiate(component.name, options));
   }
   return units;

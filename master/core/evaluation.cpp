@@ -18,16 +18,17 @@ Evaluation::Evaluation(const System& system, std::span<const std::unique_ptr<Uni
     }
   }
   blocks_.reserve(order_.size());
-  for (const EvaluationBlock& planned : order_) plan(planned, targets);
+  for (const EvaluationBlock& planned : order_) plan(planned, targets, units);
   if (phase == Phase::Events) find_direct_inputs();
 }
 
-void Evaluation::plan(const EvaluationBlock& planned, const Targets& targets) {
+void Evaluation::plan(const EvaluationBlock& planned, const Targets& targets,
+                      std::span<const std::unique_ptr<Unit>> units) {
   Block& block = blocks_.emplace_back();
   block.plan = &planned;
   std::set<VariableId> inner(planned.inputs.begin(), planned.inputs.end());
   std::set<VariableId> cut;
-  if (planned.is_loop()) block.loop.emplace(system_, planned, exchange_, staged_);
+  if (planned.is_loop()) block.loop.emplace(system_, units, planned, exchange_, staged_);
   for (const Tear& tear : planned.tears) cut.insert(tear.inputs.begin(), tear.inputs.end());
   std::vector<VariableId> onward;
   for (const EvaluationStep& step : planned.steps) {

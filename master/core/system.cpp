@@ -43,9 +43,6 @@ std::string shape(const Variable& variable) {
 
 /// Only what FMI calls initial = exact or approx can be set before the start.
 void check_settable(const Variable& variable, const Context& context) {
-  if (variable.causality == Causality::StructuralParameter) {
-    fail_input(context, "structural parameters cannot be set yet");
-  }
   const bool exact = variable.initial == Initial::Exact || variable.initial == Initial::Approx;
   if (exact && variable.variability != Variability::Constant && variable.type != ValueType::Clock) {
     return;
@@ -122,8 +119,10 @@ std::vector<VariableId> clocks_of(const System& system, VariableId id) {
 
 System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
   add_components(declaration);
+  const std::vector<Target> targets = find_targets(declaration);
+  add_structural_values(targets);
   add_connections(declaration);
-  add_start_values(declaration);
+  add_start_values(targets);
   add_outputs(declaration);
 }
 
@@ -335,19 +334,25 @@ void System::note_missing(const StartDeclaration& wanted) {
   }
 }
 
-std::vector<std::optional<VariableId>> System::find_targets(const SystemDeclaration& declaration) {
-  std::vector<std::optional<VariableId>> targets;
+/// Of those that are there; of the others, what is not meant to be passed over is an error.
+std::vector<System::Target> System::find_targets(const SystemDeclaration& declaration) {
+  std::vector<Target> targets;
+  std::vector<const StartDeclaration*> missing;
   std::set<std::size_t> found_groups;
   for (const StartDeclaration& wanted : declaration.start_values) {
-    const std::size_t index = find_component(wanted.component, wanted.where);
-    const auto variable = components_[index].description->find(wanted.variable);
-    targets.push_back(variable ? std::optional(VariableId{index, *variable}) : std::nullopt);
-    if (variable) found_groups.insert(wanted.group);
+    const std::size_t component = find_component(wanted.component, wanted.where);
+    const auto place = components_[component].description->find(wanted.variable);
+    if (!place) {
+      missing.push_back(&wanted);
+      continue;
+    }
+    const VariableId id{component, *place};
+    check_settable(variable(id), {wanted.where, wanted.component, wanted.variable, {}});
+    targets.push_back({&wanted, id});
+    found_groups.insert(wanted.group);
   }
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    const StartDeclaration& wanted = declaration.start_values[i];
-    if (targets[i] || (wanted.group != 0 && found_groups.contains(wanted.group))) continue;
-    note_missing(wanted);
+  for (const StartDeclaration* wanted : missing) {
+    if (wanted->group == 0 || !found_groups.contains(wanted->group)) note_missing(*wanted);
   }
   return targets;
 }
@@ -376,15 +381,35 @@ ValueBlock System::start_value(const StartDeclaration& wanted, VariableId id) co
   }
 }
 
-void System::add_start_values(const SystemDeclaration& declaration) {
+void System::resize(const StartDeclaration& declaration, VariableId structural_parameter,
+                    std::size_t size) {
+  auto& shared = components_[structural_parameter.component].description;
+  UnitDescription description = *shared;
+  if (const Variable* large = description.resize(variable(structural_parameter).reference, size)) {
+    fail_input({declaration.where, declaration.component, declaration.variable, {}},
+               fmt::format("with the value {}, '{}' would have more than {} elements", size,
+                           large->name, kMaxElements),
+               "give a smaller value");
+  }
+  shared = std::make_shared<const UnitDescription>(std::move(description));
+}
+
+void System::add_structural_values(const std::vector<Target>& targets) {
   std::map<VariableId, ValueBlock> values;
-  const std::vector<std::optional<VariableId>> targets = find_targets(declaration);
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    const StartDeclaration& wanted = declaration.start_values[i];
-    const std::optional<VariableId>& id = targets[i];
-    if (!id) continue;
-    check_settable(variable(*id), {wanted.where, wanted.component, wanted.variable, {}});
-    values.insert_or_assign(*id, start_value(wanted, *id));
+  for (const auto& [wanted, id] : targets) {
+    if (variable(id).causality != Causality::StructuralParameter) continue;
+    ValueBlock value = start_value(*wanted, id);
+    if (value.type() == ValueType::UInt64) resize(*wanted, id, value.numbers<std::uint64_t>()[0]);
+    values.insert_or_assign(id, std::move(value));
+  }
+  for (auto& [id, value] : values) structural_values_.push_back({id, std::move(value)});
+}
+
+void System::add_start_values(const std::vector<Target>& targets) {
+  std::map<VariableId, ValueBlock> values;
+  for (const auto& [wanted, id] : targets) {
+    if (variable(id).causality == Causality::StructuralParameter) continue;
+    values.insert_or_assign(id, start_value(*wanted, id));
   }
   for (auto& [id, value] : values) start_values_.push_back({id, std::move(value)});
 }

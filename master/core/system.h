@@ -114,6 +114,9 @@ class System {
   const std::vector<SystemOutput>& outputs() const { return outputs_; }
   VariableId output_id(std::size_t output) const { return {components_.size(), output}; }
   bool is_output(VariableId id) const { return id.component == components_.size(); }
+  /// Those of structural parameters, sorted by component; the sizes of the components' arrays, in
+  /// their descriptions, follow from them.
+  const std::vector<StartValue>& structural_values() const { return structural_values_; }
   /// What was passed over, in words.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -133,9 +136,18 @@ class System {
  private:
   void add_components(const SystemDeclaration& declaration);
   void add_connections(const SystemDeclaration& declaration);
-  void add_start_values(const SystemDeclaration& declaration);
   void add_outputs(const SystemDeclaration& declaration);
   void add_output(const OutputDeclaration& declaration);
+  /// A start value and what it is for.
+  struct Target {
+    const StartDeclaration* declaration;
+    VariableId id;
+  };
+  std::vector<Target> find_targets(const SystemDeclaration& declaration);
+  void add_structural_values(const std::vector<Target>& targets);
+  void add_start_values(const std::vector<Target>& targets);
+  void resize(const StartDeclaration& declaration, VariableId structural_parameter,
+              std::size_t size);
   std::size_t find_component(const std::string& name, const Location& where) const;
   VariableId find_variable(const std::string& component, const std::string& variable,
                            const Location& where) const;
@@ -148,7 +160,6 @@ class System {
   Connection connect(const ConnectionDeclaration& declaration) const;
   void check_ends(const ConnectionDeclaration& declaration, VariableId from, VariableId to) const;
   Waypoint waypoint(VariableId id) const;
-  std::vector<std::optional<VariableId>> find_targets(const SystemDeclaration& declaration);
   void note_missing(const StartDeclaration& declaration);
   ValueBlock start_value(const StartDeclaration& declaration, VariableId id) const;
 
@@ -157,6 +168,7 @@ class System {
   std::vector<Connection> connections_;
   std::vector<StartValue> start_values_;
   std::vector<SystemOutput> outputs_;
+  std::vector<StartValue> structural_values_;
   std::vector<std::string> warnings_;
   std::map<VariableId, MeasureUnit> connector_units_;  ///< those that connectors declare
 };

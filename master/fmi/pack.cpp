@@ -8,8 +8,9 @@
 
 #include "master/archive/zip.h"
 #include "master/core/error.h"
+#include "master/fmi/binaries.h"
+#include "master/fmi/fmi3_library.h"
 #include "master/fmi/idle_manifest.h"
-#include "master/fmi/library.h"
 #include "master/fmi/model_description.h"
 
 namespace stride::fmi {
@@ -38,7 +39,7 @@ class Preloaded {
 
 archive::Contents collect(const PackRequest& request) {
   const Preloaded bundled(request.bundled);
-  const Library library(request.library);
+  const Fmi3Library library(request.library);
   const std::string xml = library.describe(request.resources);
   auto description = parse_model_description(xml, request.library.string());
   const std::string binaries = fmt::format("binaries/{}/", platform());

@@ -184,8 +184,8 @@ class Completion {
 
   std::string dimensions(const core::Variable& variable) {
     std::string text;
-    for (const std::size_t size : variable.dimensions) {
-      text += fmt::format("<{}Dimension size=\"{}\"/>", ssc(), size);
+    for (const core::Dimension& dimension : variable.dimensions) {
+      text += fmt::format("<{}Dimension size=\"{}\"/>", ssc(), dimension.size);
     }
     return text;
   }

@@ -109,10 +109,18 @@ TEST_CASE("devices and sockets are refused") {
   }
 }
 
-TEST_CASE("an archive may not hold a file twice, nor a file as a folder") {
+TEST_CASE("an archive may hold a file twice if it is the same, but not as a folder") {
   const Scratch scratch;
-  CHECK_THAT(unpack_error(make_zip(scratch / "a.fmu", {kDescription, kDescription})),
-             Contains("'modelDescription.xml', which it holds twice"));
+  const std::string large(100'000, 'x');
+  const auto twice =
+      make_zip(scratch / "a.fmu", {{"a", large}, {"b", ""}, {"a", large}, {"b", ""}});
+  CHECK(read(UnpackedArchive(twice, kExpected).folder() / "a") == large);
+  for (const std::string& other : {large.substr(1), large + "x", std::string(100'000, 'y')}) {
+    CHECK_THAT(unpack_error(make_zip(scratch / "b.fmu", {{"a", large}, {"a", other}})),
+               Contains("'a', which it holds twice, with different contents"));
+  }
+  CHECK_THAT(unpack_error(make_zip(scratch / "d.fmu", {{"a/b", ""}, {"a", ""}})),
+             Contains("'a', which it holds twice"));
   CHECK_THAT(
       unpack_error(make_zip(scratch / "b.fmu", {kDescription, {"modelDescription.xml/x", ""}})),
       Contains("'modelDescription.xml/x', but also a file"));

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "master/fmi/library.h"
+#include "master/fmi/binaries.h"
 #include "tests/master/archive/support.h"
 
 namespace stride::tests {

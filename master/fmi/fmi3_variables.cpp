@@ -1,100 +1,19 @@
-#include "master/fmi/model_variables.h"
-
-#include <algorithm>
-#include <cmath>
+#include "master/fmi/fmi3_variables.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "master/fmi/clock_attributes.h"
+#include "master/fmi/variable_attributes.h"
 
 namespace stride::fmi {
 namespace {
 
 using core::Causality;
-using core::Initial;
 using core::ValueType;
 using core::Variability;
 
-/// Large enough for any model, small enough that a wrong number cannot take the memory.
-constexpr std::size_t kMaxElements = std::size_t{1} << 28;
-
 using TypeDefinitions = std::map<std::string, xml::Element>;
-
-/// The enumerator of this name, of the first `count`.
-template <class Enum>
-std::optional<Enum> find_named(std::string_view word, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    if (word == core::name(static_cast<Enum>(i))) return static_cast<Enum>(i);
-  }
-  return std::nullopt;
-}
-
-template <class Enum>
-Enum read_word(const xml::Element& element, const char* attribute, Enum otherwise,
-               std::size_t count) {
-  const auto word = element.attribute(attribute);
-  if (!word) return otherwise;
-  if (const auto found = find_named<Enum>(*word, count)) return *found;
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < count; ++i) names.emplace_back(core::name(static_cast<Enum>(i)));
-  element.fail(fmt::format("{}=\"{}\" of {}: expected one of {}", attribute, *word, element.tag(),
-                           fmt::join(names, ", ")));
-}
-
-/// FMI 3.0, 2.4.7.4: the default of the attribute `variability`.
-Variability default_variability(ValueType type, Causality causality) {
-  switch (causality) {
-    case Causality::Parameter:
-    case Causality::CalculatedParameter:
-    case Causality::StructuralParameter:
-      return Variability::Fixed;
-    default:
-      break;
-  }
-  const bool is_float = type == ValueType::Float32 || type == ValueType::Float64;
-  return is_float ? Variability::Continuous : Variability::Discrete;
-}
-
-/// FMI 3.0, 2.4.7.5, the table that defines `initial`: what it may be, its default first. Nothing
-/// for what cannot have the attribute.
-std::vector<Initial> possible_initials(const core::Variable& variable) {
-  if (variable.type == ValueType::Clock) return {};
-  switch (variable.causality) {
-    case Causality::Independent:
-      return {};
-    case Causality::Parameter:
-    case Causality::StructuralParameter:
-    case Causality::Input:
-      return {Initial::Exact};
-    default:
-      break;
-  }
-  switch (variable.variability) {
-    case Variability::Constant:
-      return {Initial::Exact};
-    case Variability::Fixed:
-    case Variability::Tunable:
-      return {Initial::Calculated, Initial::Approx};
-    default:
-      return {Initial::Calculated, Initial::Exact, Initial::Approx};
-  }
-}
-
-Initial read_initial(const xml::Element& element, const core::Variable& variable) {
-  const std::vector<Initial> possible = possible_initials(variable);
-  const auto word = element.attribute("initial");
-  if (!word) return possible.empty() ? Initial::None : possible.front();
-  for (const Initial initial : possible) {
-    if (*word == core::name(initial)) return initial;
-  }
-  std::vector<std::string> names;
-  for (const Initial initial : possible) names.emplace_back(core::name(initial));
-  element.fail(fmt::format("initial=\"{}\" of the {} {} '{}': expected {}", *word,
-                           core::name(variable.variability), core::name(variable.causality),
-                           variable.name,
-                           names.empty() ? "none" : fmt::format("{}", fmt::join(names, " or "))));
-}
 
 TypeDefinitions read_type_definitions(const xml::Element& root) {
   TypeDefinitions types;
@@ -135,29 +54,14 @@ std::string read_start(const xml::Element& element, ValueType type) {
   return fmt::format("{}", fmt::join(values, " "));
 }
 
-/// An attribute of the variable, or else of its declared type.
-std::string inherited(const xml::Element& element, const std::optional<xml::Element>& type,
-                      const char* attribute) {
-  return element.attribute_or(attribute, type ? type->attribute_or(attribute) : "");
-}
-
-double read_nominal(const xml::Element& element, ValueType type,
-                    const std::optional<xml::Element>& declared) {
-  if (type != ValueType::Float32 && type != ValueType::Float64) return 0;
-  const auto own = element.number<double>("nominal");
-  const auto nominal = own || !declared ? own : declared->number<double>("nominal");
-  return std::isfinite(nominal.value_or(0)) ? std::abs(nominal.value_or(0)) : 0;
-}
-
 core::Variable read_variable(const xml::Element& element, ValueType type,
                              const TypeDefinitions& types) {
   core::Variable variable;
   variable.name = element.required("name");
   variable.reference = element.required_number<core::ValueReference>("valueReference");
   variable.type = type;
-  variable.causality = read_word(element, "causality", Causality::Local, 7);
-  variable.variability =
-      read_word(element, "variability", default_variability(type, variable.causality), 5);
+  variable.causality = read_causality(element);
+  variable.variability = read_variability(element, type, variable.causality);
   variable.initial = read_initial(element, variable);
   variable.description = element.attribute_or("description");
   for (const xml::Element& alias : element.children("Alias")) {
@@ -179,9 +83,7 @@ core::Variable read_variable(const xml::Element& element, ValueType type,
   variable.intermediate_update = element.flag("intermediateUpdate");
   if (type != ValueType::Enumeration) return variable;
   if (!declared) element.required("declaredType");
-  for (const xml::Element& item : declared->children("Item")) {
-    variable.items.emplace_back(item.given("name"), item.required_number<std::int64_t>("value"));
-  }
+  variable.items = read_items(*declared);
   return variable;
 }
 
@@ -238,17 +140,17 @@ class Linker {
   void read_dimensions(std::size_t i) {
     core::Variable& variable = variables_[i];
     for (const xml::Element& dimension : elements_[i].children("Dimension")) {
-      const std::size_t size = read_size(dimension);
-      if (size > kMaxElements || (size != 0 && variable.size > kMaxElements / size)) {
-        dimension.fail(
-            fmt::format("variable '{}' has more than {} elements", variable.name, kMaxElements));
-      }
-      variable.dimensions.push_back(size);
-      variable.size *= size;
+      variable.dimensions.push_back(read_dimension(dimension));
     }
+    const auto size = core::element_count(variable.dimensions);
+    if (!size) {
+      elements_[i].fail(fmt::format("variable '{}' has more than {} elements", variable.name,
+                                    core::kMaxElements));
+    }
+    variable.size = *size;
   }
 
-  std::size_t read_size(const xml::Element& dimension) const {
+  core::Dimension read_dimension(const xml::Element& dimension) const {
     if (const auto fixed = dimension.number<std::uint64_t>("start")) return *fixed;
     const auto reference = dimension.number<core::ValueReference>("valueReference");
     if (!reference) dimension.fail("<Dimension> needs 'start' or 'valueReference'");
@@ -270,7 +172,8 @@ class Linker {
                       "expected a number of elements",
                       source->name, source->start));
     }
-    return *size;
+    const bool is_parameter = source->causality == Causality::StructuralParameter;
+    return {*size, is_parameter ? reference : std::nullopt};
   }
 
   const core::Variable* find(core::ValueReference reference) const {

@@ -1,6 +1,6 @@
-// Reads the variables of a modelDescription.xml, with what their declared types add.
-#ifndef STRIDE_MASTER_FMI_MODEL_VARIABLES_H
-#define STRIDE_MASTER_FMI_MODEL_VARIABLES_H
+// Reads the variables of an FMI 3.0 modelDescription.xml, with what their declared types add.
+#ifndef STRIDE_MASTER_FMI_FMI3_VARIABLES_H
+#define STRIDE_MASTER_FMI_FMI3_VARIABLES_H
 
 #include <map>
 #include <vector>
