@@ -29,6 +29,10 @@ std::vector<Candidate> candidates(const core::System& system) {
       found.push_back({{c, v}, system.full_name({c, v}), is_message});
     }
   }
+  for (std::size_t i = 0; i < system.outputs().size(); ++i) {
+    const core::VariableId id = system.output_id(i);
+    found.push_back({id, system.full_name(id), false});
+  }
   return found;
 }
 
