@@ -60,10 +60,10 @@ bool matches(const core::System& system, const Candidate& candidate, const std::
     return name == pattern || matches_glob(pattern, name);
   };
   if (is_matched(candidate.name)) return true;
-  const std::string& component = system.components()[candidate.id.component].name;
   const std::vector<std::string>& aliases = system.variable(candidate.id).aliases;
-  return std::any_of(aliases.begin(), aliases.end(),
-                     [&](const std::string& alias) { return is_matched(component + "." + alias); });
+  return std::any_of(aliases.begin(), aliases.end(), [&](const std::string& alias) {
+    return is_matched(system.prefix(candidate.id) + alias);
+  });
 }
 
 std::vector<core::VariableId> all_outputs(const core::System& system) {
