@@ -88,10 +88,8 @@ Fmi3Unit::Fmi3Unit(std::string name, UnitParts parts, InstanceOptions options)
 
 Fmi3Unit::~Fmi3Unit() {
   if (instance_ == nullptr || is_condemned_) return;
-  if (state_ != nullptr && fmi_.FreeFMUState != nullptr) {
-    const fmi3Status status = fmi_.FreeFMUState(instance_, &state_);
-    if (status == fmi3Fatal) parts_.library->condemn();
-  }
+  free_state(state_);
+  for (KeptState& kept : kept_states_) free_state(kept.state);
   if (!is_condemned_) fmi_.FreeInstance(instance_);
 }
 
