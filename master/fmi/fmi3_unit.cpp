@@ -13,9 +13,6 @@ namespace {
 
 constexpr std::size_t kMaxMessages = 8;
 
-/// noSetFMUStatePriorToCurrentPoint: a step is undone to where it began, never further.
-constexpr fmi3Boolean kNeverGoesBack = fmi3True;
-
 const char* status_name(fmi3Status status) {
   constexpr const char* kNames[] = {"fmi3OK", "fmi3Warning", "fmi3Discard", "fmi3Error",
                                     "fmi3Fatal"};
@@ -294,8 +291,9 @@ core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
   bool early = false;
   double last_successful = interval.end_seconds;
   step_point_ = interval.begin_seconds;
+  const fmi3Boolean never_goes_back = !options_.may_go_back;  // noSetFMUStatePriorToCurrentPoint
   const fmi3Status status =
-      call_discardable("fmi3DoStep", fmi_.DoStep, interval.begin_seconds, size, kNeverGoesBack,
+      call_discardable("fmi3DoStep", fmi_.DoStep, interval.begin_seconds, size, never_goes_back,
                        &event_needed, &terminate, &early, &last_successful);
   rethrow_update_failure();
   if (status == fmi3Discard) {
