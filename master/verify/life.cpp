@@ -59,8 +59,8 @@ Life::Life(const Subject& subject, SharedNote& note, LifeOptions options)
             fmi::InstanceOptions{.early_return_allowed = options_.early_return_allowed,
                                  .may_go_back = true}));
         return units;
-      }()),
-      clocks_(subject.system(), units_) {
+      }()) {
+  clocks_.emplace(subject_.system(), units_);
   for (const Subject::Group& group : subject.observed()) {
     blocks_.emplace_back(group.type, group.size);
   }
@@ -83,11 +83,13 @@ void Life::set_start_values() {
 void Life::enter_initialization() {
   position_ = {};
   recording_ = {};
+  records_ = true;
   unit().enter_initialization(position_.now, std::nullopt);
 }
 
 void Life::exit_initialization() {
-  clocks_.begin(position_.now);
+  clocks_.emplace(subject_.system(), units_);
+  clocks_->begin(position_.now);
   unit().exit_initialization();
   if (subject_.description().has_event_mode) finish_events();
 }
@@ -186,7 +188,7 @@ void Life::advance(Time to) {
     if (is_event_due()) handle_events();
     Time end = to;
     if (position_.next_event) end = std::min(end, *position_.next_event);
-    if (const auto tick = clocks_.next()) end = std::min(end, *tick);
+    if (const auto tick = clocks_->next()) end = std::min(end, *tick);
     if (!try_step(end)) shorten(end);
   }
 }
@@ -212,12 +214,8 @@ bool Life::try_step(Time to) {
     ++recording_.rejections;
     return false;
   }
-  if (result.early_return) ++recording_.early_returns;
-  if (result.early_return && !subject_.description().may_return_early) {
-    throw Failure(
-        fmt::format("at {} s it returns early, which it does not declare "
-                    "(mightReturnEarlyFromDoStep)",
-                    core::to_text(result.reached)));
+  if (result.early_return && ++recording_.early_returns == 1) {
+    recording_.first_early_return = result.reached.time_since_epoch().count();
   }
   const bool stands_still = result.reached == position_.now && !result.event_needed;
   if (stands_still) {
@@ -235,7 +233,7 @@ bool Life::try_step(Time to) {
 bool Life::is_event_due() {
   if (!subject_.description().has_event_mode) return false;
   const bool is_announced = position_.next_event && *position_.next_event <= position_.now;
-  return is_announced || !clocks_.due(position_.now).empty();
+  return is_announced || !clocks_->due(position_.now).empty();
 }
 
 bool Life::ticks(ValueReference clock) const {
@@ -271,23 +269,23 @@ void Life::finish_events() {
       throw Failure(fmt::format("at {} s its events do not come to an end: {} iterations",
                                 core::to_text(position_.now), iteration));
     }
-    if (!clocks_.due(position_.now).empty()) {
-      clocks_.tick(position_.now);
-      const auto ticked = clocks_.ticking(0);
+    if (!clocks_->due(position_.now).empty()) {
+      clocks_->tick(position_.now);
+      const auto ticked = clocks_->ticking(0);
       ticking_.insert(ticking_.end(), ticked.begin(), ticked.end());
     }
     set_clocked_inputs(position_.point);
     record_ticks();
     const core::EventResult result = unit().update_discrete_states();
     ticking_.clear();
-    clocks_.update(0, position_.now);
+    clocks_->update(0, position_.now);
     position_.next_event = result.next_event;
     recording_.has_ended = recording_.has_ended || result.terminate;
     if (result.next_event && *result.next_event < position_.now) {
       throw Failure(fmt::format("at {} s it announces its next event for {} s, which is over",
                                 core::to_text(position_.now), core::to_text(*result.next_event)));
     }
-    const bool is_over = !result.iterate && clocks_.due(position_.now).empty();
+    const bool is_over = !result.iterate && clocks_->due(position_.now).empty();
     if (is_over || recording_.has_ended) break;
   }
   ++recording_.events;
@@ -326,7 +324,7 @@ void Life::save(std::size_t slot) {
   unit().save_state();
   if (saved_.size() <= slot) saved_.resize(slot + 1);
   saved_[slot].position = position_;
-  saved_[slot].clocks.emplace(clocks_);
+  saved_[slot].clocks.emplace(*clocks_);
 }
 
 void Life::restore(std::size_t slot) {
@@ -337,7 +335,7 @@ void Life::restore(std::size_t slot) {
 
 void Life::stand_at(const Position& position, const core::Clocks* clocks) {
   position_ = position;
-  if (clocks != nullptr) clocks_.resume(*clocks);
+  if (clocks != nullptr) clocks_->resume(*clocks);
   recording_.has_ended = false;
 }
 

@@ -78,7 +78,7 @@ class Life {
   /// After the unit itself got a state of another life at this position. `clocks` may be null for a
   /// unit without time-based clocks.
   void stand_at(const Position& position, const core::Clocks* clocks);
-  const core::Clocks& clocks() const { return clocks_; }
+  const core::Clocks& clocks() const { return *clocks_; }
 
  private:
   struct Saved {  // by slot
@@ -101,9 +101,9 @@ class Life {
   LifeOptions options_;
   Stimulus stimulus_;
   std::vector<std::unique_ptr<core::Unit>> units_;  ///< one
-  core::Clocks clocks_;
-  std::vector<core::ValueBlock> blocks_;       ///< for the groups of Subject::observed()
-  std::vector<core::ValueReference> ticking_;  ///< input clocks in this super-dense instant
+  std::optional<core::Clocks> clocks_;              ///< new with each start
+  std::vector<core::ValueBlock> blocks_;            ///< for the groups of Subject::observed()
+  std::vector<core::ValueReference> ticking_;       ///< input clocks in this super-dense instant
   Position position_;
   Recording recording_;
   bool records_ = false;

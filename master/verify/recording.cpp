@@ -96,7 +96,9 @@ std::string to_text(const Recording& recording) {
     rows.push_back({row.picoseconds, row.is_event, row.values});
   }
   return Json{{"rows", std::move(rows)},
-              {"counts", {recording.rejections, recording.early_returns, recording.events}},
+              {"counts",
+               {recording.rejections, recording.early_returns, recording.events,
+                recording.first_early_return}},
               {"ended", recording.has_ended}}
       .dump(-1, ' ', true, Json::error_handler_t::replace);
 }
@@ -111,6 +113,7 @@ Recording recording_from_text(const std::string& text) {
   recording.rejections = json["counts"][0];
   recording.early_returns = json["counts"][1];
   recording.events = json["counts"][2];
+  recording.first_early_return = json["counts"][3];
   recording.has_ended = json["ended"];
   return recording;
 }

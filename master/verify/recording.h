@@ -26,7 +26,8 @@ struct Recording {
   std::vector<Row> rows;
   /// Beside what was recorded, how the unit went on.
   std::size_t rejections = 0, early_returns = 0, events = 0;
-  bool has_ended = false;  ///< the unit wanted the simulation to end
+  std::int64_t first_early_return = 0;  ///< [ps]
+  bool has_ended = false;               ///< the unit wanted the simulation to end
 
   bool operator==(const Recording&) const = default;
   Recording without_events() const;

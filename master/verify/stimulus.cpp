@@ -72,6 +72,11 @@ std::int64_t other_item(const Variable& variable, std::int64_t start) {
 
 }  // namespace
 
+bool has_start_value(const Variable& variable) {
+  const bool is_opaque = variable.type == ValueType::String || variable.type == ValueType::Binary;
+  return variable.dimensions.empty() || !is_opaque;
+}
+
 ValueBlock start_value(const Variable& variable) {
   if (!variable.start.empty()) return core::parse(variable, variable.start);
   ValueBlock block(variable.type, variable.size);

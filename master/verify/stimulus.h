@@ -44,6 +44,10 @@ class Stimulus {
 /// is none.
 core::ValueBlock other_value(const core::Variable& variable, const core::ValueBlock& start);
 
+/// Whether start_value() knows the value: of an array of texts or bytes a description has no text
+/// that tells the elements apart.
+bool has_start_value(const core::Variable& variable);
+
 /// A value that a description gives as text, or zeros where it gives none.
 core::ValueBlock start_value(const core::Variable& variable);
 

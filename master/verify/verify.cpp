@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -73,7 +74,11 @@ Finding run_isolated(const Check& check, const Subject& subject, const Hooks& ho
 
 /// A message of several lines as one.
 void flatten(std::string& text) {
-  for (std::size_t at; (at = text.find('\n')) != std::string::npos;) text.replace(at, 1, ";");
+  constexpr std::string_view kHint = "\n  hint: ";
+  for (std::size_t at = text.find(kHint); at != std::string::npos; at = text.find(kHint)) {
+    text.replace(at, kHint.size(), "; ");
+  }
+  std::replace(text.begin(), text.end(), '\n', ';');
 }
 
 }  // namespace

@@ -62,6 +62,7 @@ class Examination {
   }
 
   void examine_range(const Variable& variable) {
+    if (!has_start_value(variable)) return;
     try {
       const core::ValueBlock start = core::parse(variable, variable.start);
       compare(variable, start);

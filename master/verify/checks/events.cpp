@@ -4,11 +4,17 @@
 
 namespace stride::verify {
 
-// A life itself fails a unit that returns early without having declared it, wants Event Mode and
-// has none, announces what is over, or iterates for ever.
+// A life itself fails a unit that wants Event Mode and has none, announces what is over, or
+// iterates for ever; an instance, one that returns early where that is not allowed.
 Finding check_events(const Trial& trial) {
   const core::UnitDescription& unit = trial.subject.description();
   const Recording run = trial.record();
+  if (run.early_returns > 0 && !unit.may_return_early) {
+    return failed(
+        fmt::format("at {} s it returns early, which it does not declare "
+                    "(mightReturnEarlyFromDoStep)",
+                    core::to_text(Time(Duration(run.first_early_return)))));
+  }
   const Recording obedient = trial.record({.early_return_allowed = false});
   std::string text = fmt::format("{} super-dense instants", run.events);
   if (!unit.has_event_mode) text = "no Event Mode";

@@ -21,6 +21,8 @@ using Clock = std::chrono::steady_clock;
 constexpr double kMostHeap = 16;
 /// Pages come and go, and a library may have an allocator of its own.
 constexpr double kMostResident = 1024;
+/// Below this all together, it may be what malloc() itself keeps at hand of each size [byte].
+constexpr double kNoise = 8192;
 constexpr std::size_t kWarmUp = 20;
 constexpr std::size_t kFewest = 40;
 constexpr std::size_t kMostSteps = 20'000;
@@ -51,7 +53,10 @@ struct Growth {
   double heap = 0;        ///< [byte per repetition], in the quarter of the run with the least
   double resident = 0;
 
-  bool is_leak() const { return heap > kMostHeap || resident > kMostResident; }
+  bool is_leak() const {
+    const bool is_noise = std::max(heap, resident) * static_cast<double>(count) < kNoise;
+    return !is_noise && (heap > kMostHeap || resident > kMostResident);
+  }
   std::string text(const char* one) const {
     return fmt::format("{:.0f} bytes of heap and {:.0f} of resident memory per {}",
                        std::max(0.0, heap), std::max(0.0, resident), one);
@@ -64,13 +69,14 @@ Growth measure(std::size_t wanted, Clock::time_point deadline, Work&& work) {
   for (std::size_t i = 0; i < kWarmUp; ++i) work();
   constexpr std::size_t kQuarters = 4;
   // the number of repetitions that fit is found on the way, and the marks are set by it
-  std::vector<Usage> marks{usage()};
-  marks.reserve(wanted + 1);
-  while (marks.size() <= wanted && (marks.size() <= kFewest || Clock::now() < deadline)) {
+  std::vector<Usage> marks(wanted + 1);  // in memory before the first measurement
+  std::size_t count = 0;
+  marks[0] = usage();
+  while (count < wanted && (count < kFewest || Clock::now() < deadline)) {
     work();
-    marks.push_back(usage());
+    marks[++count] = usage();
   }
-  Growth growth{marks.size() - 1, 1e300, 1e300};
+  Growth growth{count, 1e300, 1e300};
   const std::size_t length = growth.count / kQuarters;
   for (std::size_t q = 0; q < kQuarters; ++q) {
     const Usage& from = marks[q * length];

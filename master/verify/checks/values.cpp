@@ -21,7 +21,7 @@ bool is_readable(const Variable& variable) {
 
 /// Its value before the start is what the description says.
 bool has_exact_start(const Variable& variable) {
-  return is_readable(variable) && variable.initial == Initial::Exact &&
+  return is_readable(variable) && variable.initial == Initial::Exact && has_start_value(variable) &&
          variable.causality != Causality::StructuralParameter;
 }
 
