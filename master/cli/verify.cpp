@@ -49,6 +49,15 @@ std::string conclusion(const std::vector<verify::Result>& results) {
   return fmt::format("{} passed, {} failed, {} skipped", counts[0], counts[1], counts[2]);
 }
 
+/// Their names, for the error with which the program ends.
+std::string failed_checks(const std::vector<verify::Result>& results) {
+  std::vector<std::string> names;
+  for (const auto& result : results) {
+    if (result.finding.verdict == verify::Verdict::Failed) names.push_back(result.check);
+  }
+  return core::quoted(names);
+}
+
 void run(const Options& options) {
   verify::Request request = options.request;
   request.file = find_unit(request.file, {});
@@ -71,7 +80,8 @@ void run(const Options& options) {
     json->write(verify::json_text(subject, results));
     json->close();
   }
-  if (!verify::all_good(results)) throw CLI::RuntimeError(1);
+  const std::string failures = failed_checks(results);
+  if (!failures.empty()) core::fail_run({}, "it fails " + failures);
 }
 
 /// An option whose text becomes a number by a function that throws std::invalid_argument.
@@ -120,7 +130,7 @@ void add_times(CLI::App& command, verify::Request& request) {
         const double seconds = std::min(io::parse_above_zero(text), 1e9);
         request.limit = std::chrono::milliseconds(std::max(1L, std::lround(seconds * 1000)));
       },
-      "What takes longer hangs; for each check, 120 if left out")
+      "What takes longer hangs; for each check, 60 if left out")
       ->type_name("SECONDS");
 }
 

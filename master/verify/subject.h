@@ -26,7 +26,7 @@ struct Request {
   std::optional<Duration> stop;       ///< nothing = the unit's own, within reason
   std::uint64_t seed = 1;             ///< of the stimulus
   unsigned lives = 1000;              ///< of the check of memory
-  std::chrono::milliseconds limit{120'000};  ///< for each check
+  std::chrono::milliseconds limit{60'000};  ///< for each check
 };
 
 /// A unit with the choices that the checks share. Its library is not loaded by this.

@@ -115,12 +115,12 @@ Finding check_memory(const Trial& trial) {
     return failed(fmt::format("it leaks {}, over {} lives (allowed: {} and {})", lives.text("life"),
                               lives.count, kMostHeap, kMostResident));
   }
+  const std::size_t all_lives = lives.count + kWarmUp;
   const std::size_t files = open_files();
-  if (files > files_before) {
-    return failed(fmt::format("{} lives leave {} files open", lives.count, files - files_before));
+  if (files > files_before + all_lives / 2) {
+    return failed(fmt::format("{} lives leave {} files open", all_lives, files - files_before));
   }
   const std::size_t tasks = threads();
-  const std::size_t all_lives = lives.count + kWarmUp;
   if (tasks > threads_before + all_lives / 2) {
     return failed(
         fmt::format("{} lives leave {} threads running", all_lives, tasks - threads_before));
@@ -135,6 +135,10 @@ Finding check_memory(const Trial& trial) {
                               steps.text("step"), steps.count, kMostHeap, kMostResident));
   }
   std::vector<std::string> notes;
+  if (files > files_before) {
+    notes.push_back(
+        fmt::format("{} files stay open when no instance is left", files - files_before));
+  }
   if (tasks > threads_before) {
     notes.push_back(
         fmt::format("{} threads run on when no instance is left", tasks - threads_before));

@@ -80,7 +80,7 @@ class Lying : public stride::Unit {
     y_ += h / 0.05 * (u_ - y_);
     ++count_;
     ++shared_count;
-    steps_ = kLie == SharesState ? shared_count : count_;
+    if (kLie != DependsOnSplit) steps_ = kLie == SharesState ? shared_count : count_;
     if (kLie == NotDeterministic) {
       echo_ = static_cast<double>(reinterpret_cast<std::uintptr_t>(this));
     }
