@@ -27,7 +27,7 @@ struct ChildOutcome {
 };
 
 struct ChildOptions {
-  std::optional<std::chrono::milliseconds> limit;  ///< nothing = it may run for ever
+  std::optional<std::chrono::milliseconds> limit{};  ///< nothing = it may run for ever
   /// Looked at while the child runs; a signal handler sets it to end the child.
   const volatile std::sig_atomic_t* interrupted = nullptr;
 };

@@ -19,11 +19,12 @@ namespace stride::verify {
 
 /// What the user asks for.
 struct Request {
-  std::filesystem::path file;         ///< a .fmu or its unpacked folder
-  std::vector<std::string> settings;  ///< "variable=value"; an input that is set is not stimulated
-  std::vector<std::string> checks;    ///< only these; empty = all
-  std::optional<Duration> step;       ///< nothing = the unit's own, or 1 ms
-  std::optional<Duration> stop;       ///< nothing = the unit's own, within reason
+  std::filesystem::path file{};  ///< a .fmu or its unpacked folder
+  std::vector<std::string>
+      settings{};                     ///< "variable=value"; an input that is set is not stimulated
+  std::vector<std::string> checks{};  ///< only these; empty = all
+  std::optional<Duration> step{};     ///< nothing = the unit's own, or 1 ms
+  std::optional<Duration> stop{};     ///< nothing = the unit's own, within reason
   std::uint64_t seed = 1;             ///< of the stimulus
   unsigned lives = 1000;              ///< of the check of memory
   std::chrono::milliseconds limit{60'000};  ///< for each check
