@@ -134,7 +134,7 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 point, fmi3Float64 size
     *event_needed = outcome.event_needed;
     *terminate = outcome.terminate;
     *early = outcome.early;
-    *reached = outcome.early ? stride::to_seconds(outcome.reached) : point + size;
+    *reached = outcome.whole ? point + size : stride::to_seconds(outcome.reached);
     return rejected ? fmi3Discard : fmi3OK;
   });
 }

@@ -107,7 +107,7 @@ void Instance::build() {
   time_seconds_ = 0;
   next_event_.reset();
   inputs_changed_ = true;
-  event_pending_ = false;
+  event_pending_ = warned_of_inputs_ = warned_of_outputs_ = false;
 }
 
 void Instance::reset() { build(); }
@@ -132,6 +132,7 @@ void Instance::enter_initialization_mode(Time start, std::optional<Time> stop) {
 void Instance::exit_initialization_mode() {
   refresh();
   mode_ = importer_.event_mode_used ? EventMode : StepMode;
+  if (!importer_.event_mode_used) begin_own_events();
 }
 
 void Instance::terminate() {
@@ -185,7 +186,7 @@ void Instance::check_outcome(const Step& step) const {
   if (!unit_->info().early_return) {
     throw std::logic_error("step() returned early, but the unit did not declare early_return");
   }
-  if (!importer_.early_return_allowed) {
+  if (!step.early_return_allowed()) {
     throw std::logic_error("step() returned early, which the importer does not allow");
   }
 }
@@ -194,26 +195,27 @@ Instance::StepOutcome Instance::do_step(double point, double size) {
   const Time from = checked_time(point);
   const Time to = checked_time(point + size);
   check_step(point, size, from, to);
-  for (Clock* clock : table_->output_clocks()) clock->clear();
   step_point_ = point;
   step_size_ = size;
+  if (!importer_.event_mode_used) return step_through_events(to);
+  const Step step = step_to(to, importer_.early_return_allowed);
+  if (step.rejection()) return {step.rejection(), false, false, false, time_, false};
+  event_pending_ = step.event_needed() || any_clock_ticked();
+  return {std::nullopt, event_pending_, step.terminates(), time_ < to, time_, time_ == to};
+}
+
+/// The unit's own step, from where it stands.
+Step Instance::step_to(Time to, bool may_return_early) {
+  for (Clock* clock : table_->output_clocks()) clock->clear();
   const bool can_update =
       importer_.intermediate_update != nullptr && !importer_.intermediate_variables.empty();
-  Step step(time_, to, importer_.early_return_allowed, can_update ? this : nullptr);
+  Step step(time_, to, may_return_early, can_update ? this : nullptr);
   unit_->step(step);
   check_outcome(step);
-  if (step.rejection()) return {step.rejection(), false, false, false, time_};
+  if (step.rejection()) return step;
   time_ = step.reached().value_or(to);
   time_seconds_ = to_seconds(time_);
-  bool event = step.event_needed() || any_clock_ticked();
-  if (event && !importer_.event_mode_used) {
-    importer_.message(
-        fmi3Warning, LogWarnings,
-        "an event at " + text(time_) + " s is lost, because the importer does not use Event Mode");
-    event = false;
-  }
-  event_pending_ = event;
-  return {std::nullopt, event, step.terminates(), time_ < to, time_};
+  return step;
 }
 
 Instance::UpdateOutcome Instance::update_discrete_states() {
@@ -339,6 +341,7 @@ void Instance::set_binary(const fmi3ValueReference references[], std::size_t cou
     }
   }
   inputs_changed_ = true;
+  note_discrete_change(references, count);
 }
 
 void Instance::get_output_derivatives(const fmi3ValueReference references[], std::size_t count,

@@ -77,9 +77,10 @@ class Instance final : private InputUpdater {
   void reset();
 
   struct StepOutcome {
-    std::optional<std::string> rejection;  ///< why; then nothing else has a meaning
+    std::optional<std::string> rejection;  ///< why; then only `reached` has a meaning
     bool event_needed, terminate, early;
     Time reached;
+    bool whole;  ///< it reached the end of the step
   };
   StepOutcome do_step(double point, double size);
 
@@ -129,6 +130,14 @@ class Instance final : private InputUpdater {
  private:
   void build();
   void check_step(double point, double size, Time from, Time to) const;
+  Step step_to(Time to, bool may_return_early);
+  StepOutcome step_through_events(Time to);
+  StepOutcome undo(const std::string& rejection, const std::optional<SavedState>& before);
+  void begin_own_events();
+  bool event_is_due() const;
+  bool handle_own_events();
+  void note_discrete_change(const fmi3ValueReference references[], std::size_t count);
+  void warn_of_clocks(Causality causality, bool& warned, const std::string& consequence);
   void check_outcome(const Step& step) const;
   void check_intermediate_variables() const;
   bool is_intermediate(fmi3ValueReference reference) const;
@@ -160,8 +169,11 @@ class Instance final : private InputUpdater {
   std::optional<Time> next_event_;  ///< as the unit announced it
   Mode mode_ = Instantiated;
   bool inputs_changed_ = true;
-  bool event_pending_ = false;  ///< the last step asked for Event Mode, which was not entered
-  double step_point_ = 0;       ///< the present step as the importer gave it
+  bool event_pending_ = false;  ///< the last step asked for Event Mode, which was not entered; or,
+                                ///< without Event Mode, a discrete input has been set
+  bool warned_of_inputs_ = false;  ///< that their clocks do not tick without Event Mode
+  bool warned_of_outputs_ = false;
+  double step_point_ = 0;  ///< the present step as the importer gave it
   double step_size_ = 0;
 };
 
@@ -208,6 +220,7 @@ void Instance::set(const fmi3ValueReference references[], std::size_t count, con
     at += to.size;
   }
   inputs_changed_ = true;
+  note_discrete_change(references, count);
 }
 
 }  // namespace stride::kit

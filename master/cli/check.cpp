@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "master/cli/commands.h"
 #include "master/cli/evaluation_text.h"
@@ -24,10 +25,18 @@ std::string unit_table(const LoadedScenario& loaded) {
   return table.text();
 }
 
-std::string conversion(const core::LinearConversion& linear) {
-  if (linear.is_identity()) return "";
-  if (linear.offset == 0) return fmt::format("× {}", linear.factor);
-  return fmt::format("× {} + {}", linear.factor, linear.offset);
+std::string conversion(const core::Conversion& conversion) {
+  const auto& [factor, offset] = conversion.linear;
+  if (!conversion.map.empty()) {
+    std::vector<std::string> entries;
+    for (const auto& [source, target] : conversion.map) {
+      entries.push_back(fmt::format("{} → {}", source, target));
+    }
+    return fmt::format("{}", fmt::join(entries, ", "));
+  }
+  if (conversion.linear.is_identity()) return "";
+  if (offset == 0) return fmt::format("× {}", factor);
+  return fmt::format("× {} + {}", factor, offset);
 }
 
 std::string connection_table(const core::System& system) {

@@ -21,7 +21,7 @@ std::string range(const core::Variable& variable) {
 
 std::string type(const core::Variable& variable) {
   std::string text = core::name(variable.type);
-  for (const std::size_t size : variable.dimensions) text += fmt::format("[{}]", size);
+  for (const core::Dimension& d : variable.dimensions) text += fmt::format("[{}]", d.size);
   if (variable.is_time_based_clock())
     text += fmt::format(" ({})", name(variable.clock->variability));
   return text;

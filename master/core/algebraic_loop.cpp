@@ -35,17 +35,23 @@ bool is_finite(const ValueBlock& block) {
 
 /// The precision of the numbers that run through the loop.
 double epsilon(const System& system, const EvaluationBlock& plan) {
-  const bool coarse = std::any_of(plan.inputs.begin(), plan.inputs.end(), [&](VariableId id) {
+  const auto is_coarse = [&](VariableId id) {
     return system.variable(id).type == ValueType::Float32;
-  });
+  };
+  bool coarse = std::ranges::any_of(plan.inputs, is_coarse);
+  for (const EvaluationStep& step : plan.steps) {
+    coarse |= std::ranges::any_of(step.outputs, is_coarse);
+  }
   return coarse ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
 }
 
 }  // namespace
 
-AlgebraicLoop::AlgebraicLoop(const System& system, const EvaluationBlock& plan, Exchange& exchange,
+AlgebraicLoop::AlgebraicLoop(const System& system, std::span<const std::unique_ptr<Unit>> units,
+                             const EvaluationBlock& plan, Exchange& exchange,
                              StagedExchange& staged)
     : system_(system), plan_(plan), staged_(staged) {
+  if (LoopTangents::exist(system, plan)) tangents_.emplace(system, units, plan);
   scale_.epsilon = epsilon(system, plan);
   for (const Tear& tear : plan.tears) {
     const Variable& input = system.variable(tear.inputs.front());
@@ -164,7 +170,16 @@ bool AlgebraicLoop::solve_reals() {
       g[i] = real(cuts_[reals_[i].cut].result, reals_[i].element);
     }
   };
-  return solve_loop(function, std::move(guess), scale_).found;
+  LoopJacobian jacobian;
+  if (tangents_) {
+    jacobian = [&](std::span<const double> x, std::span<double> columns) {
+      for (std::size_t i = 0; i < reals_.size(); ++i) {
+        tangents_->derive(reals_[i].cut, reals_[i].element,
+                          columns.subspan(i * x.size(), x.size()));
+      }
+    };
+  }
+  return solve_loop(function, std::move(guess), scale_, jacobian).found;
 }
 
 bool AlgebraicLoop::is_held_settled() const {

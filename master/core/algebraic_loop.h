@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +15,7 @@
 #include "master/core/evaluation_order.h"
 #include "master/core/exchange.h"
 #include "master/core/loop_solver.h"
+#include "master/core/loop_tangents.h"
 #include "master/core/staged_exchange.h"
 #include "master/core/system.h"
 
@@ -30,8 +33,8 @@ class AlgebraicLoop {
   using Sweep = std::function<void()>;
 
   /// `plan` is a loop and outlives this object, as do the others.
-  AlgebraicLoop(const System& system, const EvaluationBlock& plan, Exchange& exchange,
-                StagedExchange& staged);
+  AlgebraicLoop(const System& system, std::span<const std::unique_ptr<Unit>> units,
+                const EvaluationBlock& plan, Exchange& exchange, StagedExchange& staged);
 
   /// Takes the values that the units have for the inputs at which the loop is cut.
   void guess();
@@ -77,8 +80,9 @@ class AlgebraicLoop {
   StagedExchange& staged_;
   std::vector<Cut> cuts_;
   std::vector<Unknown> unknowns_;
-  std::vector<Unknown> reals_;  ///< those of the unknowns that Newton's method is for
-  LoopScale scale_;             ///< of the reals
+  std::vector<Unknown> reals_;            ///< those of the unknowns that Newton's method is for
+  LoopScale scale_;                       ///< of the reals
+  std::optional<LoopTangents> tangents_;  ///< where the units know their derivatives
 
   const Sweep* sweep_ = nullptr;
   std::size_t sweeps_ = 0;

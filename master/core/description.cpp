@@ -50,28 +50,37 @@ std::optional<std::size_t> UnitDescription::find(ValueReference reference) const
   return static_cast<std::size_t>(found - variables.begin());
 }
 
+std::optional<std::size_t> element_count(const std::vector<Dimension>& dimensions) {
+  std::size_t count = 1;
+  for (const Dimension& dimension : dimensions) {
+    if (dimension.size == 0) return 0;
+    if (dimension.size > kMaxElements / count) return std::nullopt;
+    count *= dimension.size;
+  }
+  return count;
+}
+
+const Variable* UnitDescription::resize(ValueReference structural_parameter, std::size_t value) {
+  std::vector<Variable> resized = variables;
+  for (std::size_t i = 0; i < resized.size(); ++i) {
+    Variable& variable = resized[i];
+    for (Dimension& dimension : variable.dimensions) {
+      if (dimension.parameter == structural_parameter) dimension.size = value;
+    }
+    const auto size = element_count(variable.dimensions);
+    if (!size) return &variables[i];
+    variable.size = *size;
+  }
+  variables = std::move(resized);
+  return nullptr;
+}
+
 bool UnitDescription::is_sampled(const Variable& variable) const {
   return variable.is_clocked() &&
          std::all_of(variable.clocks.begin(), variable.clocks.end(), [&](ValueReference clock) {
            const auto place = find(clock);
            return place && variables[*place].is_time_based_clock();
          });
-}
-
-std::optional<LinearConversion> convert(const UnitDescription& from_description,
-                                        const std::string& from,
-                                        const UnitDescription& to_description,
-                                        const std::string& to) {
-  if (from.empty() || to.empty()) return LinearConversion{};
-  const auto source = from_description.units.find(from);
-  const auto target = to_description.units.find(to);
-  const bool both_known =
-      source != from_description.units.end() && target != to_description.units.end();
-  if (!both_known) return from == to ? std::optional(LinearConversion{}) : std::nullopt;
-  const BaseUnit& a = source->second;
-  const BaseUnit& b = target->second;
-  if (a.exponents != b.exponents) return std::nullopt;
-  return LinearConversion{a.factor / b.factor, (a.offset - b.offset) / b.factor};
 }
 
 }  // namespace stride::core

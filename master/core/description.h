@@ -92,6 +92,22 @@ struct ClockAttributes {
   bool is_periodic() const { return variability <= IntervalVariability::Tunable; }
 };
 
+struct Dimension {
+  constexpr Dimension(std::size_t elements, std::optional<ValueReference> given_by = {})
+      : size(elements), parameter(given_by) {}
+
+  std::size_t size;
+  std::optional<ValueReference> parameter;  ///< the structural parameter that gives it
+  bool operator==(const Dimension&) const = default;
+};
+
+/// What an array may have: enough for any model, and so few that a wrong number cannot take the
+/// memory.
+inline constexpr std::size_t kMaxElements = std::size_t{1} << 28;
+
+/// The product of the sizes; nothing if it is above kMaxElements.
+std::optional<std::size_t> element_count(const std::vector<Dimension>& dimensions);
+
 struct Variable {
   std::string name;
   std::vector<std::string> aliases;  ///< its other names
@@ -100,8 +116,8 @@ struct Variable {
   Causality causality = Causality::Local;
   Variability variability = Variability::Continuous;
   Initial initial = Initial::Calculated;
-  std::vector<std::size_t> dimensions;  ///< empty for a scalar
-  std::size_t size = 1;                 ///< the number of elements
+  std::vector<Dimension> dimensions;  ///< empty for a scalar
+  std::size_t size = 1;               ///< the number of elements
   std::string unit;
   std::string description;
   std::string start;  ///< as it stands in the description; elements separated by blanks
@@ -157,6 +173,7 @@ struct UnitDescription {
   bool needs_execution_tool = false;
   /// It can ask for its inputs within a step (fmi3IntermediateUpdateCallback).
   bool provides_intermediate_update = false;
+  bool provides_directional_derivatives = false;
   unsigned max_output_derivative_order = 0;
   /// It can promise to be idle (org.stride.idle, see <stride/idle.h>).
   bool promises_idle = false;
@@ -175,6 +192,10 @@ struct UnitDescription {
   /// The place of the variable with this value reference.
   std::optional<std::size_t> find(ValueReference reference) const;
 
+  /// Gives a structural parameter its value: the arrays whose dimensions depend on it get their
+  /// sizes. Returns the first variable that would have too many elements, and is then unchanged.
+  const Variable* resize(ValueReference structural_parameter, std::size_t value);
+
   /// Whether the variable belongs to time-based clocks only: its value is exchanged at their ticks,
   /// and holds between them.
   bool is_sampled(const Variable& variable) const;
@@ -186,14 +207,6 @@ struct LinearConversion {
   double offset = 0;
   bool is_identity() const { return factor == 1 && offset == 0; }
 };
-
-/// How values in unit `from` of one description become values in unit `to` of another. Units of the
-/// same name, or where one side has none, are taken as they are; nothing if they cannot be
-/// converted into each other.
-std::optional<LinearConversion> convert(const UnitDescription& from_description,
-                                        const std::string& from,
-                                        const UnitDescription& to_description,
-                                        const std::string& to);
 
 }  // namespace stride::core
 

@@ -18,16 +18,17 @@ Evaluation::Evaluation(const System& system, std::span<const std::unique_ptr<Uni
     }
   }
   blocks_.reserve(order_.size());
-  for (const EvaluationBlock& planned : order_) plan(planned, targets);
+  for (const EvaluationBlock& planned : order_) plan(planned, targets, units);
   if (phase == Phase::Events) find_direct_inputs();
 }
 
-void Evaluation::plan(const EvaluationBlock& planned, const Targets& targets) {
+void Evaluation::plan(const EvaluationBlock& planned, const Targets& targets,
+                      std::span<const std::unique_ptr<Unit>> units) {
   Block& block = blocks_.emplace_back();
   block.plan = &planned;
   std::set<VariableId> inner(planned.inputs.begin(), planned.inputs.end());
   std::set<VariableId> cut;
-  if (planned.is_loop()) block.loop.emplace(system_, planned, exchange_, staged_);
+  if (planned.is_loop()) block.loop.emplace(system_, units, planned, exchange_, staged_);
   for (const Tear& tear : planned.tears) cut.insert(tear.inputs.begin(), tear.inputs.end());
   std::vector<VariableId> onward;
   for (const EvaluationStep& step : planned.steps) {
@@ -47,13 +48,16 @@ void Evaluation::plan(const EvaluationBlock& planned, const Targets& targets) {
 
 void Evaluation::find_direct_inputs() {
   const Dependencies dependencies(system_, phase_);
+  std::set<VariableId> sources;
+  for (const Connection& connection : system_.connections()) sources.insert(connection.from);
   for (std::size_t i = 0; i < system_.components().size(); ++i) {
     const auto& variables = system_.components()[i].description->variables;
     const std::vector<std::size_t>& all = dependencies.all_inputs(i);
     std::set<std::size_t> direct;
     for (std::size_t k = 0; k < variables.size() && direct.size() < all.size(); ++k) {
       const Variable& output = variables[k];
-      if (output.causality != Causality::Output || output.is_clocked()) continue;
+      const bool is_local = output.causality == Causality::Local && sources.contains({i, k});
+      if ((output.causality != Causality::Output && !is_local) || output.is_clocked()) continue;
       if (output.type == ValueType::Clock) continue;
       const Dependencies::Inputs inputs = dependencies.inputs_of({i, k});
       const auto& depends_on = inputs.declared ? inputs.variables : all;

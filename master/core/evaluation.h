@@ -69,7 +69,8 @@ class Evaluation {
   };
 
   using Targets = std::map<VariableId, std::vector<VariableId>>;  // of an output
-  void plan(const EvaluationBlock& planned, const Targets& targets);
+  void plan(const EvaluationBlock& planned, const Targets& targets,
+            std::span<const std::unique_ptr<Unit>> units);
   void find_direct_inputs();
   void evaluate(Stage& stage);
   void route(StagedExchange::Wire& wire);

@@ -144,7 +144,7 @@ class LoopPlanner {
     const auto order = order_with_few_back_edges(inner_edges([](VariableId) { return true; }));
     std::vector<std::size_t> position(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) position[order[i]] = i;
-    using Key = std::tuple<VariableId, double, double>;
+    using Key = std::tuple<VariableId, double, double, NumberMap, ValueType>;
     std::map<Key, Tear> tears;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       for (const VariableId input : network_.inputs_of(nodes_[i])) {
@@ -153,8 +153,9 @@ class LoopPlanner {
         if (from == local_.end()) continue;
         inner_.insert(input);
         if (position[from->second] < position[i] || !cut_.insert(input).second) continue;
-        const LinearConversion& conversion = connection.conversion;
-        Tear& tear = tears[{connection.from, conversion.factor, conversion.offset}];
+        const Conversion& conversion = connection.conversion;
+        Tear& tear = tears[{connection.from, conversion.linear.factor, conversion.linear.offset,
+                            conversion.map, network_.system().variable(input).type}];
         tear.source = connection.from;
         tear.conversion = conversion;
         tear.inputs.push_back(input);

@@ -20,7 +20,7 @@ struct EvaluationStep {
 /// Where a loop is cut: these inputs get the same value from one output, and it is solved for.
 struct Tear {
   VariableId source;
-  LinearConversion conversion;
+  Conversion conversion;
   std::vector<VariableId> inputs;  ///< sorted
 };
 

@@ -6,7 +6,10 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <type_traits>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace stride::core {
 namespace {
@@ -63,6 +66,11 @@ void plan(Transfers& transfers, Transfers& sampled, const System& system,
 template <std::size_t kSize, class Copies>
 void copy_numbers(const Copies& copies) {
   for (const auto& copy : copies) std::memcpy(copy.to, copy.from, kSize);
+}
+
+template <class To, class From>
+void copy_mapped(void* to, const void* from, const Conversion& conversion) {
+  *static_cast<To*>(to) = converted<To>(*static_cast<const From*>(from), conversion);
 }
 
 }  // namespace
@@ -154,46 +162,65 @@ Exchange::Place Exchange::place(VariableId id) {
 void Exchange::add_copies(const Connection& connection) {
   const Found from = locate_output(connection.from);
   const Found to = locate_input(connection.to);
-  const ValueBlock& source = from.transfer->block;
-  ValueBlock& target = to.transfer->block;
   for (std::size_t i = 0; i < system_.variable(connection.from).size; ++i) {
-    const std::size_t source_at = from.first + i;
-    const std::size_t target_at = to.first + i;
-    switch (target.type()) {
-      case ValueType::String:
-        strings_.push_back({&target.strings()[target_at], &source.strings()[source_at]});
-        break;
-      case ValueType::Binary:
-        binaries_.push_back({&target.binaries()[target_at], &source.binaries()[source_at]});
-        break;
-      case ValueType::Float64:
-        add_real(doubles_, connection, &target.numbers<double>()[target_at],
-                 &source.numbers<double>()[source_at]);
-        break;
-      case ValueType::Float32:
-        add_real(floats_, connection, &target.numbers<float>()[target_at],
-                 &source.numbers<float>()[source_at]);
-        break;
-      default: {
-        const std::size_t size = element_size(target.type());
-        const std::size_t list = size == 1 ? 0 : size == 2 ? 1 : size == 4 ? 2 : 3;
-        numbers_[list].push_back(
-            {target.bytes() + target_at * size, source.bytes() + source_at * size});
-      }
-    }
+    add_copy(connection, to.transfer->block, to.first + i, from.transfer->block, from.first + i);
   }
 }
 
-template <class Real>
-void Exchange::add_real(RealLists<Real>& lists, const Connection& connection, Real* to,
-                        const Real* from) {
+void Exchange::add_copy(const Connection& connection, ValueBlock& target, std::size_t target_at,
+                        const ValueBlock& source, std::size_t source_at) {
+  switch (source.type()) {
+    case ValueType::String:
+      strings_.push_back({&target.strings()[target_at], &source.strings()[source_at]});
+      break;
+    case ValueType::Binary:
+      binaries_.push_back({&target.binaries()[target_at], &source.binaries()[source_at]});
+      break;
+    case ValueType::Float64:
+      add_real(doubles_, connection, target, target_at, &source.numbers<double>()[source_at]);
+      break;
+    case ValueType::Float32:
+      add_real(floats_, connection, target, target_at, &source.numbers<float>()[source_at]);
+      break;
+    default:
+      add_number(connection, target, target_at, source, source_at);
+  }
+}
+
+template <class Real, class Other>
+void Exchange::add_real(RealLists<Real, Other>& lists, const Connection& connection,
+                        ValueBlock& target, std::size_t target_at, const Real* from) {
+  const LinearConversion& linear = connection.conversion.linear;
   lists.checked.push_back({from, connection.from});
-  if (connection.conversion.is_identity()) {
-    lists.plain.push_back({to, from});
+  if (target.type() != system_.variable(connection.from).type) {
+    lists.changed.push_back(
+        {&target.numbers<Other>()[target_at], from, linear.factor, linear.offset});
+  } else if (linear.is_identity()) {
+    lists.plain.push_back({&target.numbers<Real>()[target_at], from});
   } else {
     lists.converted.push_back(
-        {to, from, connection.conversion.factor, connection.conversion.offset});
+        {&target.numbers<Real>()[target_at], from, linear.factor, linear.offset});
   }
+}
+
+void Exchange::add_number(const Connection& connection, ValueBlock& target, std::size_t target_at,
+                          const ValueBlock& source, std::size_t source_at) {
+  const std::size_t size = element_size(target.type());
+  const Conversion& conversion = connection.conversion;
+  std::byte* const to = target.bytes() + target_at * size;
+  if (target.type() == source.type() && conversion.is_identity()) {
+    const std::size_t list = size == 1 ? 0 : size == 2 ? 1 : size == 4 ? 2 : 3;
+    numbers_[list].push_back({to, source.bytes() + source_at * size});
+    return;
+  }
+  const auto* const from = source.bytes() + source_at * element_size(source.type());
+  visit(target, [&]<class To>(std::span<To>) {
+    visit(source, [&]<class From>(std::span<const From>) {
+      if constexpr (std::is_arithmetic_v<To> && std::is_integral_v<From>) {
+        mapped_.push_back({&copy_mapped<To, From>, to, from, &connection});
+      }
+    });
+  });
 }
 
 void Exchange::fetch(std::size_t component, Unit& unit) {
@@ -296,7 +323,7 @@ std::vector<ContinuousLink> Exchange::continuous_links() {
                        connection.to,
                        {&from.transfer->block, from.first + i},
                        {&to.transfer->block, to.first + i},
-                       connection.conversion});
+                       connection.conversion.linear});
     }
   }
   return links;
@@ -340,19 +367,24 @@ void Exchange::add_changes(const Transfer& transfer, const ValueBlock& before,
   }
 }
 
-template <class Real>
-bool Exchange::RealLists<Real>::route() const {
+template <class Real, class Other>
+bool Exchange::RealLists<Real, Other>::route() const {
   bool has_nan = false;
   for (const auto& [to, from] : plain) {
     const Real value = *from;
     *to = value;
     has_nan |= std::isnan(value);
   }
-  for (const auto& copy : converted) {
-    const Real value = *copy.from;
-    *copy.to = static_cast<Real>(copy.factor * value + copy.offset);
-    has_nan |= std::isnan(value);
-  }
+  const auto route_converted =
+      [&has_nan]<class To>(const std::vector<ConvertedCopy<To, Real>>& copies) {
+        for (const auto& copy : copies) {
+          const Real value = *copy.from;
+          *copy.to = static_cast<To>(copy.factor * value + copy.offset);
+          has_nan |= std::isnan(value);
+        }
+      };
+  route_converted(converted);
+  route_converted(changed);
   return has_nan;
 }
 
@@ -360,20 +392,37 @@ void Exchange::route(Time time) {
   std::fill(is_delivered_.begin(), is_delivered_.end(), false);
   bool has_nan = doubles_.route();
   if (has_other_types_) {
-    route_other_types();
+    route_other_types(time);
     has_nan |= floats_.route();
   }
   if (has_nan) [[unlikely]]
     check_nan(time);
 }
 
-void Exchange::route_other_types() {
+void Exchange::route_other_types(Time time) {
   copy_numbers<1>(numbers_[0]);
   copy_numbers<2>(numbers_[1]);
   copy_numbers<4>(numbers_[2]);
   copy_numbers<8>(numbers_[3]);
+  for (const MappedCopy& copy : mapped_) {
+    copy.copy(copy.to, copy.from, copy.connection->conversion);
+    if (!copy.connection->conversion.valid.empty()) check_item(copy, time);
+  }
   for (const auto& copy : strings_) *copy.to = *copy.from;
   for (const auto& copy : binaries_) *copy.to = *copy.from;
+}
+
+/// An Enumeration takes 64 bits.
+void Exchange::check_item(const MappedCopy& copy, Time time) const {
+  const std::int64_t value = *static_cast<const std::int64_t*>(copy.to);
+  const auto& valid = copy.connection->conversion.valid;
+  if (std::binary_search(valid.begin(), valid.end(), value)) [[likely]]
+    return;
+  const VariableId to = copy.connection->to;
+  fail_run({{}, system_.components()[to.component].name, system_.variable(to).name, time},
+           fmt::format("'{}' gives it {}, which is no item of its Enumeration",
+                       system_.full_name(copy.connection->from), value),
+           "map such values in an <ssc:IntegerMappingTransformation> at the connection");
 }
 
 void Exchange::check_nan(Time time) const {
@@ -381,8 +430,8 @@ void Exchange::check_nan(Time time) const {
   check_nan(floats_, time);
 }
 
-template <class Real>
-void Exchange::check_nan(const RealLists<Real>& lists, Time time) const {
+template <class Real, class Other>
+void Exchange::check_nan(const RealLists<Real, Other>& lists, Time time) const {
   for (const auto& [value, id] : lists.checked) {
     if (!std::isnan(*value)) [[likely]]
       continue;

@@ -56,7 +56,7 @@ class Exchange {
   /// Reads a unit's outputs and recorded variables.
   void fetch(std::size_t component, Unit& unit);
   /// Copies the outputs of all units to the inputs of all units. Throws Error (Run) where a
-  /// connected output is NaN.
+  /// connected output is NaN, or an integer becomes no item of an Enumeration.
   void route(Time time);
   /// Throws as route() does.
   void check_nan(Time time) const;
@@ -143,10 +143,10 @@ class Exchange {
     T* to;
     const T* from;
   };
-  template <class Real>
+  template <class To, class From>
   struct ConvertedCopy {
-    Real* to;
-    const Real* from;
+    To* to;
+    const From* from;
     double factor, offset;
   };
   template <class Real>
@@ -154,14 +154,22 @@ class Exchange {
     const Real* value;
     VariableId id;
   };
-  template <class Real>
+  template <class Real, class Other>
   struct RealLists {
     std::vector<Copy<Real>> plain;
-    std::vector<ConvertedCopy<Real>> converted;
-    std::vector<Checked<Real>> checked;  ///< the sources of all of them
+    std::vector<ConvertedCopy<Real, Real>> converted;
+    std::vector<ConvertedCopy<Other, Real>> changed;  ///< to another type
+    std::vector<Checked<Real>> checked;               ///< the sources of all of them
 
     /// Tells whether one of the sources is NaN.
     bool route() const;
+  };
+  /// A whole number that is mapped or becomes one of another type.
+  struct MappedCopy {
+    void (*copy)(void* to, const void* from, const Conversion& conversion);
+    void* to;
+    const void* from;
+    const Connection* connection;
   };
 
   std::vector<RealValue> elements(std::vector<Transfer>& transfers,
@@ -174,14 +182,20 @@ class Exchange {
   bool any_discrete_change(std::size_t component) const;
   void deliver_discrete(std::size_t component, Unit& unit);
   void bind_step_values();
-  void route_other_types();
+  void route_other_types(Time time);
   void add_changes(const Transfer& transfer, const ValueBlock& before,
                    std::vector<VariableId>& changes) const;
-  template <class Real>
-  void check_nan(const RealLists<Real>& lists, Time time) const;
+  template <class Real, class Other>
+  void check_nan(const RealLists<Real, Other>& lists, Time time) const;
+  void check_item(const MappedCopy& copy, Time time) const;
   void add_copies(const Connection& connection);
-  template <class Real>
-  void add_real(RealLists<Real>& lists, const Connection& connection, Real* to, const Real* from);
+  void add_copy(const Connection& connection, ValueBlock& target, std::size_t target_at,
+                const ValueBlock& source, std::size_t source_at);
+  template <class Real, class Other>
+  void add_real(RealLists<Real, Other>& lists, const Connection& connection, ValueBlock& target,
+                std::size_t target_at, const Real* from);
+  void add_number(const Connection& connection, ValueBlock& target, std::size_t target_at,
+                  const ValueBlock& source, std::size_t source_at);
   /// The transfer that holds the variable and its place there; null if there is none.
   struct Found {
     Transfer* transfer = nullptr;
@@ -203,8 +217,9 @@ class Exchange {
   std::array<std::vector<Copy<std::byte>>, 4> numbers_;  // of 1, 2, 4 and 8 bytes
   std::vector<Copy<std::string>> strings_;
   std::vector<Copy<Binary>> binaries_;
-  RealLists<double> doubles_;
-  RealLists<float> floats_;
+  std::vector<MappedCopy> mapped_;
+  RealLists<double, float> doubles_;
+  RealLists<float, double> floats_;
   bool has_other_types_ = false;  ///< than Float64, in connections
 };
 

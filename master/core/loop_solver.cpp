@@ -29,8 +29,10 @@ std::vector<double> to_std(const Vector& vector) {
 
 class Solver {
  public:
-  Solver(const LoopFunction& function, std::vector<double> guess, const LoopScale& scale)
+  Solver(const LoopFunction& function, std::vector<double> guess, const LoopScale& scale,
+         const LoopJacobian& jacobian)
       : function_(function),
+        jacobian_(jacobian),
         nominals_(Eigen::Map<const Vector>(scale.nominals.data(),
                                            static_cast<Eigen::Index>(scale.nominals.size()))),
         epsilon_(scale.epsilon),
@@ -89,32 +91,54 @@ class Solver {
   }
 
   bool newton() {
+    if (jacobian_ && newton(&Solver::derivatives, false)) return true;
+    return newton(&Solver::differences, true);
+  }
+
+  /// A step that is small says that x is near only if its Jacobian is to be believed.
+  bool newton(std::optional<Matrix> (Solver::*jacobian)(), bool is_believed) {
     for (int i = 0; i < kMostNewtonSteps; ++i) {
       if (is_settled()) return true;
       scale_ = scale();
-      const auto step = newton_step();
+      const auto step = newton_step((this->*jacobian)());
       if (!step) return false;
       const double size = step->cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
-      if (size <= 2 * epsilon_) return true;
-      if (!search(*step)) return size <= kGoodStep;
+      if (size <= 2 * epsilon_) return is_believed;
+      if (!search(*step)) return is_believed && size <= kGoodStep;
     }
     return false;
   }
 
-  /// Nothing where the differences tell no direction.
-  std::optional<Vector> newton_step() {
+  /// Nothing where the Jacobian tells no direction.
+  std::optional<Vector> newton_step(const std::optional<Matrix>& jacobian) {
+    if (!jacobian) return std::nullopt;
     const Eigen::Index n = now_.x.size();
-    Matrix jacobian(n, n);  // of g, between unknowns divided by their scales
+    const Eigen::ColPivHouseholderQR<Matrix> qr(Matrix::Identity(n, n) - *jacobian);
+    const double error = 64 * std::sqrt(epsilon_);  // of a difference, generously
+    if (qr.matrixR().diagonal().cwiseAbs().minCoeff() <= error) return std::nullopt;
+    const Vector step = qr.solve((now_.g - now_.x).cwiseQuotient(scale_)).cwiseProduct(scale_);
+    return step.allFinite() ? std::optional(step) : std::nullopt;
+  }
+
+  /// Of g, between unknowns divided by their scales; nothing where it is not finite.
+  std::optional<Matrix> derivatives() {
+    if (last_x_ != now_.x) now_ = evaluate(now_.x);
+    const Eigen::Index n = now_.x.size();
+    Matrix jacobian(n, n);
+    jacobian_(view(now_.x), {jacobian.data(), static_cast<std::size_t>(jacobian.size())});
+    jacobian = scale_.cwiseInverse().asDiagonal() * jacobian * scale_.asDiagonal();
+    return jacobian.allFinite() ? std::optional(jacobian) : std::nullopt;
+  }
+
+  std::optional<Matrix> differences() {
+    const Eigen::Index n = now_.x.size();
+    Matrix jacobian(n, n);
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto column = difference(i);
       if (!column) return std::nullopt;
       jacobian.col(i) = *column;
     }
-    const Eigen::ColPivHouseholderQR<Matrix> qr(Matrix::Identity(n, n) - jacobian);
-    const double error = 64 * std::sqrt(epsilon_);  // of a difference, generously
-    if (qr.matrixR().diagonal().cwiseAbs().minCoeff() <= error) return std::nullopt;
-    const Vector step = qr.solve((now_.g - now_.x).cwiseQuotient(scale_)).cwiseProduct(scale_);
-    return step.allFinite() ? std::optional(step) : std::nullopt;
+    return jacobian;
   }
 
   std::optional<Vector> difference(Eigen::Index i) {
@@ -165,6 +189,7 @@ class Solver {
   }
 
   const LoopFunction& function_;
+  const LoopJacobian& jacobian_;
   Vector nominals_;
   double epsilon_;
   Vector guess_;
@@ -184,8 +209,9 @@ bool is_settled(double x, double g, double nominal, double epsilon) {
   return std::abs(g - x) <= tolerance;
 }
 
-LoopSolution solve_loop(const LoopFunction& g, std::vector<double> guess, const LoopScale& scale) {
-  return Solver(g, std::move(guess), scale).run();
+LoopSolution solve_loop(const LoopFunction& g, std::vector<double> guess, const LoopScale& scale,
+                        const LoopJacobian& jacobian) {
+  return Solver(g, std::move(guess), scale, jacobian).run();
 }
 
 }  // namespace stride::core

@@ -12,6 +12,9 @@ namespace stride::core {
 /// Writes g(x), of the same size as x.
 using LoopFunction = std::function<void(std::span<const double> x, std::span<double> g)>;
 
+/// Writes ∂g/∂x at x, column by column; x is where g was evaluated last.
+using LoopJacobian = std::function<void(std::span<const double> x, std::span<double> columns)>;
+
 struct LoopScale {
   /// Of each unknown the magnitude that it is expected to have; 0 = not known.
   std::vector<double> nominals;
@@ -33,7 +36,8 @@ bool is_settled(double x, double g, double nominal, double epsilon);
 /// Newton's method on F(x) = g(x) - x, as in C. T. Kelley, "Solving Nonlinear Equations with
 /// Newton's Method" (SIAM 2003), chapters 1 and 2:
 ///
-/// - The Jacobian comes from forward differences with the increment √ε max(|x|, |g|, nominal),
+/// - The Jacobian is `jacobian`, if there is one. Without one, and where it does not lead to
+///   x = g(x), it comes from forward differences with the increment √ε max(|x|, |g|, nominal),
 ///   toward the other side where g is not finite. Central differences would take twice the
 ///   evaluations, each of which is a round of calls of all units in the loop, and Newton's method
 ///   makes up for the error of the simpler ones.
@@ -47,7 +51,8 @@ bool is_settled(double x, double g, double nominal, double epsilon);
 /// damped fixed-point iteration x ← x + ω (g(x) - x) follows, with ω halved where the residual
 /// grows. If g(guess) is not finite, the iteration starts at plus or minus the nominal values, 1
 /// where there are none. The last evaluation of g is the one at the x that is returned.
-LoopSolution solve_loop(const LoopFunction& g, std::vector<double> guess, const LoopScale& scale);
+LoopSolution solve_loop(const LoopFunction& g, std::vector<double> guess, const LoopScale& scale,
+                        const LoopJacobian& jacobian = {});
 
 }  // namespace stride::core
 

@@ -13,21 +13,6 @@ std::vector<VariableId> targets_of(const System& system, VariableId source) {
   return targets;
 }
 
-/// The inputs that the value travels to when the clock ticks: those that belong to a clock wired to
-/// it.
-std::vector<VariableId> targets_of(const System& system, VariableId value,
-                                   std::span<const VariableId> clock_targets) {
-  std::vector<VariableId> targets = targets_of(system, value);
-  std::erase_if(targets, [&](VariableId input) {
-    return std::ranges::none_of(clock_targets, [&](VariableId clock) {
-      const auto& clocks = system.variable(input).clocks;
-      return clock.component == input.component &&
-             std::ranges::find(clocks, system.variable(clock).reference) != clocks.end();
-    });
-  });
-  return targets;
-}
-
 }  // namespace
 
 MessageExchange::MessageExchange(const System& system, std::span<const std::unique_ptr<Unit>> units)
@@ -49,13 +34,33 @@ MessageExchange::MessageExchange(const System& system, std::span<const std::uniq
         output.payloads.push_back({{component, k},
                                    variable.reference,
                                    ValueBlock(variable.type, variable.size),
-                                   targets_of(system, {component, k}, output.targets)});
+                                   receivers_of({component, k}, output.targets)});
       }
       line.references.push_back(clock.reference);
       line.clocks.push_back(std::move(output));
     }
     line.ticked = ValueBlock(ValueType::Clock, line.clocks.size());
   }
+}
+
+/// The inputs that the value travels to when the clock ticks: those that belong to a clock wired to
+/// it.
+std::vector<MessageExchange::Receiver> MessageExchange::receivers_of(
+    VariableId value, std::span<const VariableId> clock_targets) const {
+  std::vector<Receiver> receivers;
+  for (const Connection& connection : system_.connections()) {
+    if (connection.from != value) continue;
+    const VariableId input = connection.to;
+    const Variable& variable = system_.variable(input);
+    const bool is_reached = std::ranges::any_of(clock_targets, [&](VariableId clock) {
+      return clock.component == input.component &&
+             std::ranges::find(variable.clocks, system_.variable(clock).reference) !=
+                 variable.clocks.end();
+    });
+    if (!is_reached) continue;
+    receivers.push_back({input, &connection, ValueBlock(variable.type, variable.size)});
+  }
+  return receivers;
 }
 
 void MessageExchange::begin_instant() {
@@ -80,8 +85,9 @@ void MessageExchange::set_clock(VariableId target) {
   units_[target.component]->set({&system_.variable(target).reference, 1}, tick_);
 }
 
-void MessageExchange::set_payload(VariableId target, const Payload& payload) {
-  units_[target.component]->set({&system_.variable(target).reference, 1}, payload.block);
+void MessageExchange::set_payload(Receiver& receiver, const ValueBlock& payload) {
+  copy_elements(receiver.block, 0, payload, 0, payload.size(), receiver.connection->conversion);
+  units_[receiver.id.component]->set({&system_.variable(receiver.id).reference, 1}, receiver.block);
 }
 
 }  // namespace stride::core

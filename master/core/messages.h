@@ -37,12 +37,18 @@ class MessageExchange {
   }
 
  private:
+  /// An input that a value travels to, and what it becomes on the way.
+  struct Receiver {
+    VariableId id;
+    const Connection* connection;
+    ValueBlock block;
+  };
   /// A value that travels with a clock's tick.
   struct Payload {
     VariableId id;
     ValueReference reference;
     ValueBlock block;
-    std::vector<VariableId> targets;
+    std::vector<Receiver> receivers;
   };
   struct OutputClock {
     VariableId id;
@@ -60,7 +66,9 @@ class MessageExchange {
   bool poll(std::size_t component);
   void fetch(std::size_t component, Payload& payload);
   void set_clock(VariableId target);
-  void set_payload(VariableId target, const Payload& payload);
+  void set_payload(Receiver& receiver, const ValueBlock& payload);
+  std::vector<Receiver> receivers_of(VariableId value,
+                                     std::span<const VariableId> clock_targets) const;
 
   template <class Prepare, class Tell>
   void hand_over(std::size_t component, OutputClock& clock, Prepare& prepare, Tell& tell) {
@@ -74,10 +82,10 @@ class MessageExchange {
       set_clock(target);
       if (clock.payloads.empty()) tell(target, true, static_cast<const ValueBlock*>(nullptr));
     }
-    for (const Payload& payload : clock.payloads) {
-      for (const VariableId target : payload.targets) {
-        set_payload(target, payload);
-        tell(target, true, &payload.block);
+    for (Payload& payload : clock.payloads) {
+      for (Receiver& receiver : payload.receivers) {
+        set_payload(receiver, payload.block);
+        tell(receiver.id, true, &receiver.block);
       }
     }
   }

@@ -87,9 +87,8 @@ class Simulation::Run {
 
   void initialize() {
     time_ = options_.start;
-    for (const StartValue& start : system_.start_values()) {
-      units_[start.id.component]->set({&system_.variable(start.id).reference, 1}, start.value);
-    }
+    configure();
+    for (const StartValue& start : system_.start_values()) set(start);
     if (ledger_) ledger_->enable();
     for (std::size_t i = 0; i < count(); ++i) {
       clock_.timed(statistics_.units[i].initialization_time,
@@ -107,6 +106,25 @@ class Simulation::Run {
     instant_.begin();
     settle();
     for (Observer* observer : observers_) observer->on_communication_point(time_);
+  }
+
+  /// Structural parameters; they give arrays their sizes, so they come first.
+  void configure() {
+    const std::span<const StartValue> all = system_.structural_values();
+    for (auto first = all.begin(); first != all.end();) {
+      Unit& unit = *units_[first->id.component];
+      const auto last = std::find_if(first, all.end(), [&](const StartValue& value) {
+        return value.id.component != first->id.component;
+      });
+      unit.enter_configuration_mode();
+      std::for_each(first, last, [&](const StartValue& value) { set(value); });
+      unit.exit_configuration_mode();
+      first = last;
+    }
+  }
+
+  void set(const StartValue& start) {
+    units_[start.id.component]->set({&system_.variable(start.id).reference, 1}, start.value);
   }
 
   void start_observers() {

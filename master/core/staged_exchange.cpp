@@ -10,7 +10,7 @@ namespace {
 
 /// For the blocks of an exchange.
 bool copy(const Exchange::Place& to, const ValueBlock& from, std::size_t first, std::size_t size,
-          const LinearConversion& conversion = {}) {
+          const Conversion& conversion = {}) {
   return copy_elements(*to.block, to.first, from, first, size, conversion);
 }
 

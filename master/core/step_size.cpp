@@ -135,16 +135,22 @@ bool StepSize::accept(Time from, Time reached, const Excess& excess) {
 }
 
 void StepSize::fail_tolerance(Time from, Time reached, const Excess& excess) const {
+  const bool is_grid = quantum_ > options_.minimum;
   fail_run(
       {{},
        system_.components()[excess.output.component].name,
        system_.variable(excess.output).name,
        from},
       fmt::format("over a step of {} s the output changes by {:.3g} times what the inputs that "
-                  "it feeds may be off by, and no shorter step is allowed",
-                  to_text(Time(reached - from)), excess.ratio),
-      "loosen the tolerances, allow a smaller minimum step, or let the unit announce the jump "
-      "as an event");
+                  "it feeds may be off by, and no shorter step is {}",
+                  to_text(Time(reached - from)), excess.ratio,
+                  is_grid ? fmt::format("possible, since steps end on the units' fixed internal "
+                                        "steps (fixedInternalStepSize) of {} s",
+                                        to_text(Time(quantum_)))
+                          : "allowed"),
+      is_grid ? "loosen the tolerances, or export the unit with a smaller internal step"
+              : "loosen the tolerances, allow a smaller minimum step, or let the unit announce the "
+                "jump as an event");
 }
 
 }  // namespace stride::core

@@ -178,7 +178,10 @@ inline bool Stepper::step_plainly(Lane& lane, const StepInterval& interval) {
   if (lane.result.went_through(interval.to)) [[likely]]
     return true;
   lane.outcome = lane.result.rejected ? Outcome::Rejected : Outcome::Stepped;
-  if (lane.result.rejected) lane.result = {.reached = interval.from};
+  if (lane.result.rejected) {
+    lane.possible = lane.result.reached;
+    lane.result = {.reached = interval.from};
+  }
   return false;
 }
 
@@ -202,7 +205,10 @@ inline Stepper::Outcome Stepper::go(Lane& lane, const StepInterval& interval) {
   if (!lane.can_vary_step && interval.to - interval.from != regular_) fail_size(lane, interval);
   if (inputs_ != nullptr) inputs_->before_step(lane.component, interval);
   const StepResult result = exchange_.step(lane.component, *lane.unit, interval);
-  if (result.rejected) return Outcome::Rejected;
+  if (result.rejected) {
+    lane.possible = result.reached;
+    return Outcome::Rejected;
+  }
   lane.result = result;
   ++lane.steps;
   if (inputs_ != nullptr) inputs_->after_step(lane.component, result.reached);
@@ -259,13 +265,19 @@ inline Time Stepper::take_down(Lane& lane, const StepInterval& interval) {
     case Outcome::Rejected:
       ++statistics_[lane.component].rejections;
       ++lane.rejections;
-      return interval.from + (interval.to - interval.from) / 2;
+      return retry_target(lane, interval);
     case Outcome::TooFar:
       fail_final(lane);
     case Outcome::Failed:
       break;
   }
   rethrow_failure(lane);
+}
+
+/// Where the unit that rejected the step may come to.
+Time Stepper::retry_target(const Lane& lane, const StepInterval& interval) {
+  const bool is_said = interval.from < lane.possible && lane.possible < interval.to;
+  return is_said ? lane.possible : interval.from + (interval.to - interval.from) / 2;
 }
 
 void Stepper::take_down_time(const Lane& lane) {
@@ -293,11 +305,10 @@ void Stepper::check_minimum(const StepInterval& interval, Time reached) const {
   const bool is_large_enough = reached - interval.from >= minimum_ && reached > interval.from;
   if (is_large_enough || !cut_.is_rejection) return;
   fail_run({{}, name(*cut_.by), {}, interval.from},
-           fmt::format("the unit rejected the step to {} s, {} in all, and half of it would be "
-                       "shorter than the minimum of "
-                       "{} s{}",
-                       to_text(interval.to), times(cut_.by->rejections), to_text(Time(minimum_)),
-                       reason(cut_)),
+           fmt::format("the unit rejected the step to {} s, {} in all, and the next one to try, to "
+                       "{} s, would be shorter than the minimum of {} s{}",
+                       to_text(interval.to), times(cut_.by->rejections), to_text(reached),
+                       to_text(Time(minimum_)), reason(cut_)),
            "look at what the unit received before this instant");
 }
 

@@ -28,8 +28,8 @@ namespace stride::core {
 
 /// Steps the units, stage by stage as step_order() has them: inputs, step, outputs, a unit at a
 /// time. All units of a stage are asked for the same target. If one stops early or rejects the
-/// step, the target becomes where the first of them stopped, or half the way; those that have gone
-/// further are rolled back and follow.
+/// step, the target becomes where the first of them stopped or could have come to, or half the way
+/// if it does not say; those that have gone further are rolled back and follow.
 ///
 /// What a unit did is taken down in the step order, whichever thread did it and in whatever order,
 /// so results, statistics and errors do not depend on the threads. Where several units of a stage
@@ -83,6 +83,7 @@ class Stepper {
     bool may_rest = false;
     bool is_plain = false;                 ///< there is nothing to do but the step itself
     StepResult result{};                   ///< where it stands, and how it came there
+    Time possible{};                       ///< how far it would have come in a rejected step
     std::uint64_t communication_step = 0;  ///< the last one of which it knows
     std::uint64_t steps = 0;
     Outcome outcome = Outcome::Stood;  ///< of the present pass, as the flags behind it
@@ -121,6 +122,7 @@ class Stepper {
   }
   const std::string& name(const Lane& lane) const;
   [[noreturn]] void rethrow_failure(const Lane& first) const;
+  static Time retry_target(const Lane& lane, const StepInterval& interval);
   void check_minimum(const StepInterval& interval, Time reached) const;
   std::string reason(const Cut& cut) const;
   [[noreturn]] void fail_size(const Lane& lane, const StepInterval& interval) const;

@@ -28,12 +28,13 @@ std::vector<std::string> variable_names(const UnitDescription& description) {
              suggestion(context.variable, variable_names(description)));
 }
 
+/// SSP lets a local variable be connected as if it were an output; messages come from outputs only.
 bool is_source(const Variable& variable) {
-  return variable.causality == Causality::Output ||
+  const bool is_local = variable.causality == Causality::Local && !variable.is_clocked() &&
+                        variable.type != ValueType::Clock;
+  return is_local || variable.causality == Causality::Output ||
          variable.causality == Causality::CalculatedParameter;
 }
-
-bool is_float(ValueType type) { return type == ValueType::Float32 || type == ValueType::Float64; }
 
 std::string shape(const Variable& variable) {
   if (variable.dimensions.empty()) return "a scalar";
@@ -42,9 +43,6 @@ std::string shape(const Variable& variable) {
 
 /// Only what FMI calls initial = exact or approx can be set before the start.
 void check_settable(const Variable& variable, const Context& context) {
-  if (variable.causality == Causality::StructuralParameter) {
-    fail_input(context, "structural parameters cannot be set yet");
-  }
   const bool exact = variable.initial == Initial::Exact || variable.initial == Initial::Approx;
   if (exact && variable.variability != Variability::Constant && variable.type != ValueType::Clock) {
     return;
@@ -88,6 +86,26 @@ void convert_start(ValueBlock& value, const LinearConversion& conversion) {
   });
 }
 
+/// What a value comes through, from its beginning on.
+struct Way {
+  std::vector<Waypoint> waypoints;
+  std::vector<Passage> passages{};
+
+  explicit Way(Waypoint first) : waypoints{std::move(first)} {}
+
+  template <class Declaration>
+  void go(const Declaration& wanted, Waypoint last) {
+    for (const ViaDeclaration& via : wanted.via) go(via.connector, via.passage);
+    go(std::move(last), Passage{wanted.suppress_unit_conversion, wanted.transformation});
+  }
+
+ private:
+  void go(Waypoint next, Passage passage) {
+    waypoints.push_back(std::move(next));
+    passages.push_back(std::move(passage));
+  }
+};
+
 /// The variable that carries a value through a connection between clocked variables also needs its
 /// clock connected.
 std::vector<VariableId> clocks_of(const System& system, VariableId id) {
@@ -103,8 +121,10 @@ std::vector<VariableId> clocks_of(const System& system, VariableId id) {
 
 System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
   add_components(declaration);
+  const std::vector<Target> targets = find_targets(declaration);
+  add_structural_values(targets);
   add_connections(declaration);
-  add_start_values(declaration);
+  add_start_values(targets);
 }
 
 std::string System::full_name(VariableId id) const {
@@ -127,7 +147,7 @@ void System::add_components(const SystemDeclaration& declaration) {
   }
 }
 
-void System::check_connectors(const ComponentDeclaration& component) const {
+void System::check_connectors(const ComponentDeclaration& component) {
   for (const ConnectorDeclaration& connector : component.connectors) {
     const Context context{connector.where, component.name, connector.name, {}};
     const auto found = component.description->find(connector.name);
@@ -142,11 +162,13 @@ void System::check_connectors(const ComponentDeclaration& component) const {
       fail_input(context, fmt::format("the connector says {}, the unit says {}",
                                       core::name(*connector.type), core::name(variable.type)));
     }
-    if (!connector.unit.empty() &&
-        !convert(*component.description, connector.unit, *component.description, variable.unit)) {
+    if (connector.unit.name.empty()) continue;
+    const MeasureUnit unit = known_unit(connector.unit, *component.description);
+    if (!convert(unit, known_unit({variable.unit}, *component.description))) {
       fail_input(context, fmt::format("the connector is in '{}', the unit's variable in '{}'",
-                                      connector.unit, variable.unit));
+                                      unit.name, variable.unit));
     }
+    connector_units_[{components_.size(), *found}] = unit;
   }
 }
 
@@ -254,9 +276,18 @@ void System::check_event_mode(const ConnectionDeclaration& wanted, VariableId id
              "use a unit that has Event Mode");
 }
 
-Connection System::connect(const ConnectionDeclaration& wanted) const {
-  const VariableId from = find_variable(wanted.from_component, wanted.from_connector, wanted.where);
-  const VariableId to = find_variable(wanted.to_component, wanted.to_connector, wanted.where);
+/// In the unit that the variable has, or else in the one that its connector declares.
+Waypoint System::waypoint(VariableId id) const {
+  const Variable& end = variable(id);
+  const auto declared = connector_units_.find(id);
+  const bool is_declared = end.unit.empty() && declared != connector_units_.end();
+  return {full_name(id), end.type,
+          is_declared ? declared->second
+                      : known_unit({end.unit}, *components_[id.component].description),
+          end.items, false};
+}
+
+void System::check_ends(const ConnectionDeclaration& wanted, VariableId from, VariableId to) const {
   const Variable& source = variable(from);
   const Variable& target = variable(to);
   const std::string wire = fmt::format("'{}' to '{}'", full_name(from), full_name(to));
@@ -268,57 +299,118 @@ Connection System::connect(const ConnectionDeclaration& wanted) const {
                "a connection starts at an output and ends at an input");
   }
   if (target.causality != Causality::Input) {
+    const bool is_parameter = target.causality == Causality::Parameter ||
+                              target.causality == Causality::StructuralParameter;
     fail_input(context,
                fmt::format("cannot connect {}: '{}' is no input but {}", wire, full_name(to),
                            core::name(target.causality)),
-               "a connection starts at an output and ends at an input");
+               is_parameter ? "give the parameter its value in a <ssd:ParameterBinding>"
+                            : "a connection starts at an output and ends at an input");
   }
   check_clocked(wanted, from, to);
   for (const VariableId end : {from, to}) check_event_mode(wanted, end);
-  if (source.type != target.type) {
-    fail_input(context, fmt::format("cannot connect {}: {} and {} are different types", wire,
-                                    core::name(source.type), core::name(target.type)));
-  }
   if (source.size != target.size) {
     fail_input(context,
                fmt::format("cannot connect {}: {} and {}", wire, shape(source), shape(target)));
   }
-  const auto conversion = convert(*components_[from.component].description, source.unit,
-                                  *components_[to.component].description, target.unit);
-  if (!conversion && !wanted.suppress_unit_conversion) {
-    fail_input(context,
-               fmt::format("cannot connect {}: '{}' is in '{}', '{}' in '{}', and one "
-                           "cannot be converted into the other",
-                           wire, full_name(from), source.unit, full_name(to), target.unit),
-               "correct the wiring, or say suppressUnitConversion=\"true\" if the numbers fit");
-  }
-  const bool wanted_as_is = wanted.suppress_unit_conversion || !is_float(source.type);
-  return {from, to, wanted_as_is ? LinearConversion{} : *conversion};
 }
 
-void System::add_start_values(const SystemDeclaration& declaration) {
-  std::map<VariableId, ValueBlock> values;
+Connection System::connect(const ConnectionDeclaration& wanted) const {
+  const VariableId from = find_variable(wanted.from_component, wanted.from_connector, wanted.where);
+  const VariableId to = find_variable(wanted.to_component, wanted.to_connector, wanted.where);
+  check_ends(wanted, from, to);
+  Way way(waypoint(from));
+  way.go(wanted, waypoint(to));
+  return {from, to, compose(way.waypoints, way.passages, {wanted.where, {}, {}, {}})};
+}
+
+/// Nothing, and a warning, where a parameter set holds a value for nobody, as SSP allows it to.
+void System::note_missing(const StartDeclaration& wanted) {
+  try {
+    find_variable(wanted.component, wanted.variable, wanted.where);
+  } catch (const Error& mistake) {
+    if (!wanted.is_optional) throw;
+    warnings_.push_back(
+        fmt::format("{}\n  the value is passed over, as SSP wants it", mistake.what()));
+  }
+}
+
+/// Of those that are there; of the others, what is not meant to be passed over is an error.
+std::vector<System::Target> System::find_targets(const SystemDeclaration& declaration) {
+  std::vector<Target> targets;
+  std::vector<const StartDeclaration*> missing;
+  std::set<std::size_t> found_groups;
   for (const StartDeclaration& wanted : declaration.start_values) {
-    const VariableId id = find_variable(wanted.component, wanted.variable, wanted.where);
-    const Variable& target = variable(id);
-    const Context context{wanted.where, wanted.component, wanted.variable, {}};
-    check_settable(target, context);
-    const UnitDescription& description = *components_[id.component].description;
-    const auto conversion = convert(description, wanted.unit, description, target.unit);
-    if (!conversion) {
-      fail_input(
-          context,
-          fmt::format("the value is in '{}', the variable in '{}'", wanted.unit, target.unit),
-          "give the value in the variable's unit");
+    const std::size_t component = find_component(wanted.component, wanted.where);
+    const auto place = components_[component].description->find(wanted.variable);
+    if (!place) {
+      missing.push_back(&wanted);
+      continue;
     }
-    try {
-      ValueBlock value = parse(target, wanted.value);
-      convert_start(value, *conversion);
-      check_range(target, value, context);
-      values.insert_or_assign(id, std::move(value));
-    } catch (const std::invalid_argument& mistake) {
-      fail_input(context, mistake.what());
-    }
+    const VariableId id{component, *place};
+    check_settable(variable(id), {wanted.where, wanted.component, wanted.variable, {}});
+    targets.push_back({&wanted, id});
+    found_groups.insert(wanted.group);
+  }
+  for (const StartDeclaration* wanted : missing) {
+    if (wanted->group == 0 || !found_groups.contains(wanted->group)) note_missing(*wanted);
+  }
+  return targets;
+}
+
+ValueBlock System::start_value(const StartDeclaration& wanted, VariableId id) const {
+  const Variable& target = variable(id);
+  const UnitDescription& description = *components_[id.component].description;
+  const Context context{wanted.where, wanted.component, wanted.variable, {}};
+  const MeasureUnit unit = known_unit(wanted.unit, description);
+  if (wanted.via.empty() && !wanted.suppress_unit_conversion && !convert(unit, waypoint(id).unit)) {
+    fail_input(context,
+               fmt::format("the value is in '{}', the variable in '{}'", unit.name,
+                           waypoint(id).unit.name),
+               "give the value in the variable's unit");
+  }
+  Way way({"the value", {}, unit, {}, true});
+  way.go(wanted, waypoint(id));
+  const auto [text, linear] = compose_text(wanted.value, way.waypoints, way.passages, context);
+  try {
+    ValueBlock value = parse(target, text);
+    convert_start(value, linear);
+    check_range(target, value, context);
+    return value;
+  } catch (const std::invalid_argument& mistake) {
+    fail_input(context, mistake.what());
+  }
+}
+
+void System::resize(const StartDeclaration& declaration, VariableId structural_parameter,
+                    std::size_t size) {
+  auto& shared = components_[structural_parameter.component].description;
+  UnitDescription description = *shared;
+  if (const Variable* large = description.resize(variable(structural_parameter).reference, size)) {
+    fail_input({declaration.where, declaration.component, declaration.variable, {}},
+               fmt::format("with the value {}, '{}' would have more than {} elements", size,
+                           large->name, kMaxElements),
+               "give a smaller value");
+  }
+  shared = std::make_shared<const UnitDescription>(std::move(description));
+}
+
+void System::add_structural_values(const std::vector<Target>& targets) {
+  std::map<VariableId, ValueBlock> values;
+  for (const auto& [wanted, id] : targets) {
+    if (variable(id).causality != Causality::StructuralParameter) continue;
+    ValueBlock value = start_value(*wanted, id);
+    if (value.type() == ValueType::UInt64) resize(*wanted, id, value.numbers<std::uint64_t>()[0]);
+    values.insert_or_assign(id, std::move(value));
+  }
+  for (auto& [id, value] : values) structural_values_.push_back({id, std::move(value)});
+}
+
+void System::add_start_values(const std::vector<Target>& targets) {
+  std::map<VariableId, ValueBlock> values;
+  for (const auto& [wanted, id] : targets) {
+    if (variable(id).causality == Causality::StructuralParameter) continue;
+    values.insert_or_assign(id, start_value(*wanted, id));
   }
   for (auto& [id, value] : values) start_values_.push_back({id, std::move(value)});
 }

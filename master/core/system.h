@@ -2,11 +2,13 @@
 #ifndef STRIDE_MASTER_CORE_SYSTEM_H
 #define STRIDE_MASTER_CORE_SYSTEM_H
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "master/core/conversion.h"
 #include "master/core/description.h"
 #include "master/core/error.h"
 #include "master/core/observer.h"
@@ -19,27 +21,43 @@ struct ConnectorDeclaration {
   std::string name;
   std::optional<ValueType> type;
   std::optional<Causality> causality;
-  std::string unit;
-  Location where;
+  MeasureUnit unit;
+  Location where{};
+  EnumerationItems items{};  ///< of its Enumeration, if that is declared
 };
 struct ComponentDeclaration {
   std::string name;
   std::shared_ptr<const UnitDescription> description;
   std::vector<ConnectorDeclaration> connectors;  ///< may be empty: resolved against the description
-  Location where;
+  Location where{};
   bool early_return_allowed = true;
+};
+/// A connector of a system that a value comes through, and what is done to it on the way there.
+struct ViaDeclaration {
+  Waypoint connector;
+  Passage passage;
 };
 struct ConnectionDeclaration {
   std::string from_component, from_connector;
   std::string to_component, to_connector;
   bool suppress_unit_conversion = false;
-  Location where;
+  Location where{};
+  Transformation transformation{};    ///< on the way from the last of `via`, as is the above
+  std::vector<ViaDeclaration> via{};  ///< connectors of systems in between
 };
 struct StartDeclaration {
   std::string component, variable;
   std::string value;
-  std::string unit;  ///< in which the value is given; empty = the variable's own
-  Location where;
+  MeasureUnit unit;  ///< in which the value is given; no name = the variable's own
+  Location where{};
+  bool suppress_unit_conversion = false;
+  Transformation transformation{};
+  std::vector<ViaDeclaration> via{};
+  /// Whether it is passed over, with a warning, if there is no such variable.
+  bool is_optional = false;
+  /// One name may stand for several variables: those with the same number, if it is not 0, of which
+  /// one must be there.
+  std::size_t group = 0;
 };
 struct SystemDeclaration {
   std::string name;
@@ -59,7 +77,7 @@ struct Component {
 struct Connection {
   VariableId from;
   VariableId to;
-  LinearConversion conversion;  ///< of Float32 and Float64 only
+  Conversion conversion;
 };
 struct StartValue {
   VariableId id;
@@ -79,6 +97,11 @@ class System {
   const std::vector<Component>& components() const { return components_; }
   const std::vector<Connection>& connections() const { return connections_; }
   const std::vector<StartValue>& start_values() const { return start_values_; }
+  /// Those of structural parameters, sorted by component; the sizes of the components' arrays, in
+  /// their descriptions, follow from them.
+  const std::vector<StartValue>& structural_values() const { return structural_values_; }
+  /// What was passed over, in words.
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
   const Variable& variable(VariableId id) const {
     return components_[id.component].description->variables[id.variable];
@@ -93,22 +116,38 @@ class System {
  private:
   void add_components(const SystemDeclaration& declaration);
   void add_connections(const SystemDeclaration& declaration);
-  void add_start_values(const SystemDeclaration& declaration);
+  /// A start value and what it is for.
+  struct Target {
+    const StartDeclaration* declaration;
+    VariableId id;
+  };
+  std::vector<Target> find_targets(const SystemDeclaration& declaration);
+  void add_structural_values(const std::vector<Target>& targets);
+  void add_start_values(const std::vector<Target>& targets);
+  void resize(const StartDeclaration& declaration, VariableId structural_parameter,
+              std::size_t size);
   std::size_t find_component(const std::string& name, const Location& where) const;
   VariableId find_variable(const std::string& component, const std::string& variable,
                            const Location& where) const;
-  void check_connectors(const ComponentDeclaration& component) const;
+  void check_connectors(const ComponentDeclaration& component);
   void check_clocks(const ComponentDeclaration& component) const;
   void check_clocked(const ConnectionDeclaration& declaration, VariableId from,
                      VariableId to) const;
   void check_event_mode(const ConnectionDeclaration& declaration, VariableId id) const;
   void check_message(const ConnectionDeclaration& declaration, const Connection& connection) const;
   Connection connect(const ConnectionDeclaration& declaration) const;
+  void check_ends(const ConnectionDeclaration& declaration, VariableId from, VariableId to) const;
+  Waypoint waypoint(VariableId id) const;
+  void note_missing(const StartDeclaration& declaration);
+  ValueBlock start_value(const StartDeclaration& declaration, VariableId id) const;
 
   std::string name_;
   std::vector<Component> components_;
   std::vector<Connection> connections_;
   std::vector<StartValue> start_values_;
+  std::vector<StartValue> structural_values_;
+  std::vector<std::string> warnings_;
+  std::map<VariableId, MeasureUnit> connector_units_;  ///< those that connectors declare
 };
 
 }  // namespace stride::core

@@ -51,11 +51,13 @@ struct StepValues {
 
 /// How a communication step ended.
 struct StepResult {
-  bool rejected = false;      ///< the unit is as it was before the step
+  bool rejected = false;      ///< the unit is as it was before the step, and stands at its begin
   bool early_return = false;  ///< it stopped before the end
   bool event_needed = false;  ///< it wants Event Mode where it stands now
   bool terminate = false;     ///< it wants the simulation to end
-  Time reached{};             ///< where it stands now
+  /// Where it stands now. Of a rejected step: how far the unit would have come; what is not within
+  /// the step means that it does not say.
+  Time reached{};
 
   /// It stands where it was sent, and wants nothing.
   bool went_through(Time to) const {
@@ -83,6 +85,7 @@ using InputUpdate = std::function<void(double seconds_into_step)>;
 
 /// One instance of a unit. Call order, as in FMI 3.0 Co-Simulation:
 ///
+///   {enter_configuration_mode, set (structural parameters), exit_configuration_mode},
 ///   set (start values), enter_initialization, {get, set}, exit_initialization, then
 ///   {events: {get, set, update_discrete_states}, enter_step_mode, {get, set, step},
 ///   enter_event_mode}, terminate.
@@ -93,6 +96,10 @@ using InputUpdate = std::function<void(double seconds_into_step)>;
 class Unit {
  public:
   virtual ~Unit() = default;
+
+  /// Only for a unit that has structural parameters.
+  virtual void enter_configuration_mode() {}
+  virtual void exit_configuration_mode() {}
 
   virtual void enter_initialization(Time start, std::optional<Time> stop) = 0;
   virtual void exit_initialization() = 0;
@@ -146,6 +153,14 @@ class Unit {
   virtual ClockInterval clock_interval(const Variable& /*clock*/) { return {}; }
   /// From the start to the first tick of a periodic clock; in Initialization Mode only.
   virtual Interval clock_shift(const Variable& /*clock*/) { return {}; }
+
+  /// How Float64 and Float32 unknowns change with known inputs: the sum over the knowns of
+  /// (∂ unknown / ∂ known) seed, arrays element by element. In Initialization Mode, Event Mode and
+  /// Step Mode; only with provides_directional_derivatives.
+  virtual void get_directional_derivative(std::span<const ValueReference> /*unknowns*/,
+                                          std::span<const ValueReference> /*knowns*/,
+                                          std::span<const double> /*seed*/,
+                                          std::span<double> /*sensitivity*/) {}
 
   /// Whom to ask for inputs within a step; an empty function ends it. A unit that has no use for it
   /// steps with the inputs that it was given before.

@@ -82,14 +82,12 @@ std::span<const T> elements(const ValueBlock& block) {
   }
 }
 
+/// Writes a value, and returns whether it was another one.
 template <class T>
-T converted(const T& value, const LinearConversion& conversion) {
-  if constexpr (std::is_floating_point_v<T>) {
-    if (conversion.is_identity()) return value;
-    return static_cast<T>(conversion.factor * value + conversion.offset);
-  } else {
-    return value;
-  }
+bool change(T& target, T value) {
+  const bool changes = !(target == value);
+  target = std::move(value);
+  return changes;
 }
 
 }  // namespace
@@ -113,17 +111,21 @@ ValueBlock::ValueBlock(ValueType type, std::size_t size) : type_(type), size_(si
 }
 
 bool copy_elements(ValueBlock& to, std::size_t to_first, const ValueBlock& from,
-                   std::size_t from_first, std::size_t size, const LinearConversion& conversion) {
-  return visit(to, [&]<class T>(std::span<T> targets) {
-    const std::span<const T> sources = elements<T>(from);
-    bool changes = false;
-    for (std::size_t i = 0; i < size; ++i) {
-      T value = converted(sources[from_first + i], conversion);
-      T& target = targets[to_first + i];
-      changes |= !(target == value);
-      target = std::move(value);
-    }
-    return changes;
+                   std::size_t from_first, std::size_t size, const Conversion& conversion) {
+  return visit(to, [&]<class To>(std::span<To> targets) {
+    return visit(from, [&]<class From>(std::span<const From> sources) {
+      bool changes = false;
+      for (std::size_t i = 0; i < size; ++i) {
+        const From& source = sources[from_first + i];
+        To& target = targets[to_first + i];
+        if constexpr (std::is_arithmetic_v<To> && std::is_arithmetic_v<From>) {
+          changes |= change(target, converted<To>(source, conversion));
+        } else if constexpr (std::is_same_v<To, From>) {
+          changes |= change(target, source);
+        }
+      }
+      return changes;
+    });
   });
 }
 

@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
+#include "master/core/conversion.h"
 #include "master/core/description.h"
 
 namespace stride::core {
@@ -94,15 +96,26 @@ decltype(auto) visit(Block& block, Visitor&& visitor) {
   return visitor(block.binaries());
 }
 
-/// Copies elements to a block of the same type, floating-point numbers converted; returns whether
-/// the target changes. NaN is another value each time.
+/// Copies elements, converted, to a block of the same type or of one that System lets be connected
+/// to it; returns whether the target changes. NaN is another value each time.
 bool copy_elements(ValueBlock& to, std::size_t to_first, const ValueBlock& from,
-                   std::size_t from_first, std::size_t size,
-                   const LinearConversion& conversion = {});
+                   std::size_t from_first, std::size_t size, const Conversion& conversion = {});
 
 /// An element of a Float64 or Float32 block as a double; set_real() rounds to the block's type.
 double real(const ValueBlock& block, std::size_t element);
 void set_real(ValueBlock& block, std::size_t element, double value);
+
+/// The value of type To that one of type From becomes.
+template <class To, class From>
+To converted(const From& value, const Conversion& conversion) {
+  if constexpr (std::is_floating_point_v<From>) {
+    if (conversion.linear.is_identity()) return static_cast<To>(value);
+    return static_cast<To>(conversion.linear.factor * value + conversion.linear.offset);
+  } else {
+    if (conversion.map.empty()) return static_cast<To>(value);
+    return static_cast<To>(mapped(conversion.map, static_cast<std::int64_t>(value)));
+  }
+}
 
 /// Whether a floating-point number of the block is NaN.
 bool has_nan(const ValueBlock& block);

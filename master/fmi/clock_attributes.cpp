@@ -14,7 +14,8 @@ using core::IntervalVariability;
 
 class Reader {
  public:
-  Reader(const Element& clock, const std::optional<Element>& type) : clock_(clock), type_(type) {}
+  Reader(const xml::Element& clock, const std::optional<xml::Element>& type)
+      : clock_(clock), type_(type) {}
 
   core::ClockAttributes read(core::Causality causality) const {
     core::ClockAttributes attributes;
@@ -29,21 +30,24 @@ class Reader {
 
  private:
   /// The element that has the attribute: the clock, or else its type.
-  const Element& place(const char* attribute) const {
-    return !clock_.text(attribute) && type_ ? *type_ : clock_;
+  const xml::Element& place(const char* attribute) const {
+    return !clock_.attribute(attribute) && type_ ? *type_ : clock_;
   }
-  bool has(const char* attribute) const { return place(attribute).text(attribute).has_value(); }
+  bool has(const char* attribute) const {
+    return place(attribute).attribute(attribute).has_value();
+  }
 
   [[noreturn]] void fail(const char* attribute, const std::string& expected) const {
-    const Element& element = place(attribute);
+    const xml::Element& element = place(attribute);
     element.fail(fmt::format("{}=\"{}\" of the clock '{}': {}", attribute,
-                             element.text_or(attribute), clock_.text_or("name"), expected));
+                             element.attribute_or(attribute), clock_.attribute_or("name"),
+                             expected));
   }
 
   IntervalVariability read_variability(core::Causality causality) const {
     const char* const attribute = "intervalVariability";
-    if (!has(attribute)) clock_.required_text(attribute);
-    const std::string word = *place(attribute).text(attribute);
+    if (!has(attribute)) clock_.required(attribute);
+    const std::string word = *place(attribute).attribute(attribute);
     for (std::size_t i = 0; i < core::kIntervalVariabilityCount; ++i) {
       const auto variability = static_cast<IntervalVariability>(i);
       if (word != core::name(variability)) continue;
@@ -66,7 +70,7 @@ class Reader {
       attributes.interval = decimal("intervalDecimal");
       if (has("shiftDecimal")) attributes.shift = decimal("shiftDecimal");
     } else if (attributes.variability == IntervalVariability::Constant) {
-      clock_.required_text("intervalDecimal");
+      clock_.required("intervalDecimal");
     }
     if (attributes.interval && attributes.interval->is_below_picosecond()) {
       fail(has("intervalCounter") ? "intervalCounter" : "intervalDecimal",
@@ -93,14 +97,14 @@ class Reader {
     }
   }
 
-  const Element& clock_;
-  const std::optional<Element>& type_;
+  const xml::Element& clock_;
+  const std::optional<xml::Element>& type_;
 };
 
 }  // namespace
 
-core::ClockAttributes read_clock_attributes(const Element& clock,
-                                            const std::optional<Element>& declared_type,
+core::ClockAttributes read_clock_attributes(const xml::Element& clock,
+                                            const std::optional<xml::Element>& declared_type,
                                             core::Causality causality) {
   return Reader(clock, declared_type).read(causality);
 }

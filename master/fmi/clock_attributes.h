@@ -5,15 +5,15 @@
 #include <optional>
 
 #include "master/core/description.h"
-#include "master/fmi/xml.h"
+#include "master/xml/element.h"
 
 namespace stride::fmi {
 
 /// The attributes of a <Clock>, which its declared <ClockType> may give as well (FMI 3.0, 2.4.7.4).
 /// Throws core::Error of the kind Input that names the attribute and its line: no interval where
 /// there must be one, one that is not positive, a time-based clock that is no input.
-core::ClockAttributes read_clock_attributes(const Element& clock,
-                                            const std::optional<Element>& declared_type,
+core::ClockAttributes read_clock_attributes(const xml::Element& clock,
+                                            const std::optional<xml::Element>& declared_type,
                                             core::Causality causality);
 
 }  // namespace stride::fmi

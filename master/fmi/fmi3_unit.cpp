@@ -1,24 +1,12 @@
 #include "master/fmi/fmi3_unit.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace stride::fmi {
 namespace {
-
-constexpr std::size_t kMaxMessages = 8;
-
-const char* status_name(fmi3Status status) {
-  constexpr const char* kNames[] = {"fmi3OK", "fmi3Warning", "fmi3Discard", "fmi3Error",
-                                    "fmi3Fatal"};
-  const auto i = static_cast<std::size_t>(status);
-  return i < std::size(kNames) ? kNames[i] : "a status that FMI 3.0 does not have";
-}
 
 /// The getter and setter of a C type. Enumerations travel as Int64.
 template <class T>
@@ -28,20 +16,11 @@ struct Access;
   struct Access<fmi3##T> {                                \
     static constexpr const char* kGetName = "fmi3Get" #T; \
     static constexpr const char* kSetName = "fmi3Set" #T; \
-    static constexpr auto kGet = &Functions::Get##T;      \
-    static constexpr auto kSet = &Functions::Set##T;      \
+    static constexpr auto kGet = &Fmi3Functions::Get##T;  \
+    static constexpr auto kSet = &Fmi3Functions::Set##T;  \
   };
 FMI3_VALUE_TYPES(STRIDE_ACCESS)
 #undef STRIDE_ACCESS
-
-/// How far the unit's idea of where a step ended may be from ours: the rounding of doubles, and
-/// what a unit that adds up its own internal steps may have drifted.
-double time_tolerance(double point, double end) {
-  constexpr double kPicosecond = 1e-12;
-  constexpr double kShareOfStep = 1e-6;
-  const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(end);
-  return kPicosecond + rounding + kShareOfStep * (end - point);
-}
 
 /// The inputs that may be set within a step.
 std::vector<core::ValueReference> intermediate_inputs(const core::UnitDescription& description) {
@@ -59,22 +38,21 @@ std::vector<core::ValueReference> intermediate_inputs(const core::UnitDescriptio
 
 // ---- Life and death ----
 
-Fmi3Unit::Fmi3Unit(std::string name, UnitParts parts, InstanceOptions options)
-    : fmi_(parts.library->functions()),
-      is_condemned_(parts.library->is_condemned()),
-      name_(std::move(name)),
-      parts_(std::move(parts)),
-      options_(std::move(options)),
+Fmi3Unit::Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library, UnitParts parts,
+                   InstanceOptions options)
+    : FmuInstance("fmi3", library, std::move(name), std::move(parts), std::move(options)),
+      fmi_(library->functions()),
+      library_(std::move(library)),
       tangent_outputs_(tangent_outputs(*parts_.description)) {
   check_callable("fmi3InstantiateCoSimulation");
   const core::UnitDescription& description = *parts_.description;
-  const bool has_resources = !parts_.resource_path.empty();
+  const bool has_resources = !parts_.resources.empty();
   std::vector<core::ValueReference> intermediate;
   if (options_.intermediate_update) intermediate = intermediate_inputs(description);
   ++calls_;
   instance_ = fmi_.InstantiateCoSimulation(
       name_.c_str(), description.instantiation_token.c_str(),
-      has_resources ? parts_.resource_path.c_str() : nullptr, fmi3False, options_.debug_logging,
+      has_resources ? parts_.resources.c_str() : nullptr, fmi3False, options_.debug_logging,
       description.has_event_mode, options_.early_return_allowed, intermediate.data(),
       intermediate.size(), this, &on_log, intermediate.empty() ? nullptr : &on_intermediate_update);
   if (instance_ == nullptr) {
@@ -90,6 +68,18 @@ Fmi3Unit::~Fmi3Unit() {
   if (!is_condemned_) fmi_.FreeInstance(instance_);
 }
 
+void Fmi3Unit::enter_configuration_mode() {
+  if (fmi_.EnterConfigurationMode == nullptr || fmi_.ExitConfigurationMode == nullptr) {
+    fail("its library does not export fmi3EnterConfigurationMode and fmi3ExitConfigurationMode",
+         "a unit with structural parameters must have them; leave these parameters as they are");
+  }
+  call("fmi3EnterConfigurationMode", fmi_.EnterConfigurationMode);
+}
+
+void Fmi3Unit::exit_configuration_mode() {
+  call("fmi3ExitConfigurationMode", fmi_.ExitConfigurationMode);
+}
+
 void Fmi3Unit::enter_initialization(Time start, std::optional<Time> stop) {
   time_ = start;
   call("fmi3EnterInitializationMode", fmi_.EnterInitializationMode, fmi3False, 0.0,
@@ -101,79 +91,13 @@ void Fmi3Unit::exit_initialization() {
 }
 
 void Fmi3Unit::terminate() {
-  if (failed_in_ != nullptr || is_condemned_) return;
+  if (has_failed()) return;
   call("fmi3Terminate", fmi_.Terminate);
-}
-
-// ---- Calls, messages and failures ----
-
-void Fmi3Unit::fail_not_callable(const char* name) const {
-  if (failed_in_ != nullptr) {
-    fail(fmt::format("{} cannot be called, because {} has failed before", name, failed_in_));
-  }
-  throw core::ConsequentError(
-      core::Error::Kind::Run, {.where = options_.where, .unit = name_, .time = time_},
-      fmt::format("{} cannot be called, because an instance of the same FMU has returned "
-                  "fmi3Fatal before",
-                  name));
-}
-
-inline void Fmi3Unit::rethrow_update_failure() {
-  if (update_failure_) [[unlikely]]
-    std::rethrow_exception(std::exchange(update_failure_, nullptr));
-}
-
-/// What a status other than fmi3OK, or a message of a failure, means for the call that has just
-/// ended.
-fmi3Status Fmi3Unit::look_into(const char* name, fmi3Status status) {
-  if (status == fmi3Discard) return status;
-  if (status != fmi3OK && status != fmi3Warning) fail_call(name, status);
-  if (has_messages_.load(std::memory_order_relaxed)) take_messages(name);
-  return status;
-}
-
-void Fmi3Unit::fail_call(const char* function, fmi3Status status) {
-  failed_in_ = function;
-  const bool is_fatal = status != fmi3Error && status != fmi3Discard;
-  if (is_fatal) parts_.library->condemn();
-  rethrow_update_failure();  // it is the cause of what the unit answered
-  fail(fmt::format("{} returned {}: {}", function, status_name(status), take_messages(function)),
-       is_fatal ? "the unit may have damaged this process; save what you need and end it" : "");
-}
-
-void Fmi3Unit::fail(const std::string& message, const std::string& hint) const {
-  core::fail_run({.where = options_.where, .unit = name_, .time = time_}, message, hint);
 }
 
 void Fmi3Unit::on_log(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category,
                       fmi3String message) {
-  try {
-    static_cast<Fmi3Unit*>(environment)
-        ->receive(status, category != nullptr ? category : "", message != nullptr ? message : "");
-  } catch (...) {  // nothing may cross the unit's C code
-  }
-}
-
-void Fmi3Unit::receive(fmi3Status status, const std::string& category, const std::string& message) {
-  if (status != fmi3OK && status != fmi3Warning) {
-    const std::lock_guard lock(messages_mutex_);
-    if (messages_.size() < kMaxMessages) messages_.push_back(message);
-    has_messages_ = true;
-  }
-  if (options_.log) options_.log(name_, status, category, message);
-}
-
-/// The failure messages of the call that has just ended, for one line of text.
-std::string Fmi3Unit::take_messages(const std::string& function) {
-  const std::lock_guard lock(messages_mutex_);
-  has_messages_ = false;
-  std::vector<std::string> messages = std::exchange(messages_, {});
-  if (messages.empty()) return "the unit gives no reason";
-  const std::string prefix = function + ": ";
-  for (std::string& message : messages) {
-    if (message.starts_with(prefix)) message.erase(0, prefix.size());
-  }
-  return fmt::format("{}", fmt::join(messages, "; "));
+  static_cast<Fmi3Unit*>(environment)->receive(static_cast<Status>(status), category, message);
 }
 
 // ---- Values ----
@@ -292,12 +216,12 @@ core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
   double last_successful = interval.end_seconds;
   step_point_ = interval.begin_seconds;
   const fmi3Boolean never_goes_back = !options_.may_go_back;  // noSetFMUStatePriorToCurrentPoint
-  const fmi3Status status =
+  const Status status =
       call_discardable("fmi3DoStep", fmi_.DoStep, interval.begin_seconds, size, never_goes_back,
                        &event_needed, &terminate, &early, &last_successful);
-  rethrow_update_failure();
-  if (status == fmi3Discard) {
-    rejection_reason_ = has_messages_ ? take_messages("fmi3DoStep") : "";
+  rethrow_callback_failure();
+  if (status == Status::Discard) {
+    take_rejection_reason("fmi3DoStep");
     return {.rejected = true, .reached = interval.from};
   }
   if (event_needed && !parts_.description->has_event_mode) [[unlikely]]
@@ -323,23 +247,21 @@ void Fmi3Unit::on_intermediate_update(fmi3InstanceEnvironment environment, fmi3F
 
 /// Nothing may cross the unit's C code: step() throws what goes wrong here.
 void Fmi3Unit::update_inputs(double time) noexcept {
-  if (!input_update_ || update_failure_) return;
+  if (!input_update_ || callback_failure_) return;
   try {
     input_update_(time - step_point_);
   } catch (...) {
-    update_failure_ = std::current_exception();
+    callback_failure_ = std::current_exception();
   }
 }
 
 /// FMI 3.0, 4.2: a unit with a fixed internal step may stand elsewhere than where it was sent.
 void Fmi3Unit::compare_times(const core::StepInterval& interval, double last_successful) {
-  const double tolerance = time_tolerance(interval.begin_seconds, interval.end_seconds);
-  if (std::abs(last_successful - interval.end_seconds) <= tolerance) return;
+  if (is_end(interval, last_successful)) return;
   checked_time(last_successful, "lastSuccessfulTime");
-  if (std::exchange(has_time_warning_, true) || !options_.log) return;
+  if (std::exchange(has_time_warning_, true)) return;
   const auto& internal_step = parts_.description->fixed_internal_step;
-  options_.log(
-      name_, fmi3Warning, "stride",
+  warn(
       fmt::format("the step to {} s ended at the unit's own time {} s (lastSuccessfulTime) without "
                   "an early return{}; its outputs are taken as those at {} s, here and in later "
                   "steps",
@@ -351,27 +273,17 @@ void Fmi3Unit::compare_times(const core::StepInterval& interval, double last_suc
 }
 
 Time Fmi3Unit::reached_early(const core::StepInterval& interval, double last_successful) const {
-  const double point = interval.begin_seconds;
-  const double end = interval.end_seconds;
-  const double tolerance = time_tolerance(point, end);
-  if (last_successful == end) return interval.to;  // which a double cannot always tell
+  if (last_successful == interval.end_seconds)
+    return interval.to;  // which a double cannot always tell
   if (!options_.early_return_allowed) {
     fail("fmi3DoStep returned early, which was not allowed at its instantiation");
   }
-  if (!(last_successful >= point - tolerance && last_successful <= end + tolerance)) {
+  if (!is_within(interval, last_successful)) {
     fail(fmt::format("fmi3DoStep returned early at {} s, which is outside of the step to {} s",
                      last_successful, core::to_text(interval.to)));
   }
   return std::clamp(checked_time(last_successful, "lastSuccessfulTime"), interval.from,
                     interval.to);
-}
-
-Time Fmi3Unit::checked_time(double seconds, const char* what) const {
-  try {
-    return time_from_seconds(seconds);
-  } catch (const std::out_of_range& error) {
-    fail(fmt::format("{} is {}: {}", what, seconds, error.what()));
-  }
 }
 
 void Fmi3Unit::save_state() {

@@ -26,27 +26,27 @@ void Fmi3Unit::require_idle_functions() const {
   if (!parts_.description->promises_idle) {
     fail("it has no manifest of " STRIDE_IDLE_NAME ", so it never promises to be idle");
   }
-  parts_.library->require_idle_functions(options_.where);
+  library_->require_idle_functions(options_.where);
 }
 
 void Fmi3Unit::enable_idle_skipping(Duration max_skip) {
   require_idle_functions();
   const bool is_endless = max_skip == Duration::max();
-  call("strideEnableIdleSkipping", parts_.library->idle_functions().EnableIdleSkipping,
+  call("strideEnableIdleSkipping", library_->idle_functions().EnableIdleSkipping,
        is_endless ? std::numeric_limits<double>::infinity() : to_seconds(max_skip));
   may_skip_ = true;
 }
 
 void Fmi3Unit::set_idle_tolerances(References outputs, std::span<const double> tolerances) {
   require_idle_functions();
-  call("strideSetIdleTolerances", parts_.library->idle_functions().SetIdleTolerances,
-       outputs.data(), outputs.size(), tolerances.data(), tolerances.size());
+  call("strideSetIdleTolerances", library_->idle_functions().SetIdleTolerances, outputs.data(),
+       outputs.size(), tolerances.data(), tolerances.size());
 }
 
 Time Fmi3Unit::idle_until() {
   if (!may_skip_) return Time::min();
   double until = -std::numeric_limits<double>::infinity();
-  call("strideGetIdlePromise", parts_.library->idle_functions().GetIdlePromise, &until);
+  call("strideGetIdlePromise", library_->idle_functions().GetIdlePromise, &until);
   if (until > kMaxSeconds) return Time::max();
   if (until < -kMaxSeconds) return Time::min();
   return checked_time(until, "the promise of strideGetIdlePromise");

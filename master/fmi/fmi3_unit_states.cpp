@@ -18,7 +18,7 @@ void Fmi3Unit::require(const char* name, Function* function) const {
 
 void Fmi3Unit::free_state(fmi3FMUState& state) {
   if (state == nullptr || is_condemned_ || fmi_.FreeFMUState == nullptr) return;
-  if (fmi_.FreeFMUState(instance_, &state) == fmi3Fatal) parts_.library->condemn();
+  if (fmi_.FreeFMUState(instance_, &state) == fmi3Fatal) condemn();
   state = nullptr;
 }
 

@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "master/fmi/binaries.h"
+#include "master/fmi/fmi2_unit.h"
+#include "master/fmi/fmi3_unit.h"
 #include "master/fmi/idle_manifest.h"
 #include "master/fmi/model_description.h"
 
@@ -81,50 +84,76 @@ void Fmu::read_folder() {
   unpacked_.emplace(path_, where_);
   resources_ = unpacked_->folder() / "resources";
   const std::string shown_as = (path_ / "modelDescription.xml").string();
-  auto description = std::make_shared<core::UnitDescription>(
+  auto description = std::make_shared<ModelDescription>(
       read_model_description(unpacked_->folder() / "modelDescription.xml", shown_as));
   const fs::path manifest = unpacked_->folder() / STRIDE_IDLE_MANIFEST;
-  if (fs::exists(manifest)) {
+  if (!description->fmi2 && fs::exists(manifest)) {  // its functions are in terms of FMI 3.0
     read_idle_manifest(manifest, (path_ / STRIDE_IDLE_MANIFEST).string(), *description);
   }
   description_ = std::move(description);
 }
 
 void Fmu::read_bare_library() {
-  library_ = std::make_shared<Library>(path_, where_);
+  fmi3_library_ = std::make_shared<Fmi3Library>(path_, where_);
   resources_ = fs::absolute(path_).parent_path() / "resources";
-  const std::string text = library_->describe(resources_, where_);
-  auto description = std::make_shared<core::UnitDescription>(
+  const std::string text = fmi3_library_->describe(resources_, where_);
+  auto description = std::make_shared<ModelDescription>(
       parse_model_description(text, path_.string() + ": its own description"));
-  const std::string manifest = library_->idle_manifest(resources_, where_);
+  const std::string manifest = fmi3_library_->idle_manifest(resources_, where_);
   if (!manifest.empty()) {
     parse_idle_manifest(manifest, path_.string() + ": its own idle manifest", *description);
   }
   description_ = std::move(description);
 }
 
-std::shared_ptr<const Library> Fmu::load_library() {
+fs::path Fmu::library_path() const {
+  return find_library(unpacked_->folder(), description_->fmi_version,
+                      description_->model_identifier, where_);
+}
+
+std::shared_ptr<const SharedLibrary> Fmu::load_library() {
+  if (description_->fmi2) return load_fmi2_library();
+  return load_fmi3_library();
+}
+
+std::shared_ptr<const Fmi2Library> Fmu::load_fmi2_library() {
   const std::lock_guard lock(library_mutex_);
-  if (!library_) {
-    library_ = std::make_shared<Library>(
-        find_library(unpacked_->folder(), description_->model_identifier, where_), where_);
-    if (description_->promises_idle) library_->require_idle_functions(where_);
+  if (!fmi2_library_ && description_->fmi2) {
+    fmi2_library_ =
+        std::make_shared<Fmi2Library>(library_path(), description_->model_identifier, where_);
   }
-  return library_;
+  return fmi2_library_;
+}
+
+std::shared_ptr<const Fmi3Library> Fmu::load_fmi3_library() {
+  const std::lock_guard lock(library_mutex_);
+  if (!fmi3_library_ && !description_->fmi2) {
+    fmi3_library_ = std::make_shared<Fmi3Library>(library_path(), where_);
+    if (description_->promises_idle) fmi3_library_->require_idle_functions(where_);
+  }
+  return fmi3_library_;
 }
 
 std::unique_ptr<core::Unit> Fmu::instantiate(const std::string& name, InstanceOptions options) {
   if (description_->needs_execution_tool && options.log) {
-    options.log(name, fmi3OK, "stride",
+    options.log(name, Status::Ok, "stride",
                 fmt::format("'{}' needs the tool that made it ({}) on this machine", path_.string(),
                             description_->generation_tool.empty() ? "which it does not name"
                                                                   : description_->generation_tool));
   }
-  auto library = load_library();
+  load_library();  // whose errors come before those of the instance
   const auto tenancy = std::make_shared<Tenancy>(shared_from_this(), name, options.where);
-  return std::make_unique<Fmi3Unit>(
-      name, UnitParts{std::move(library), description_, resource_path(resources_), tenancy},
-      std::move(options));
+  UnitParts parts{options.description ? options.description : description_, "", tenancy};
+  if (description_->fmi2) {
+    parts.resources = resource_uri(resources_);
+    return std::make_unique<Fmi2Unit>(
+        name, load_fmi2_library(),
+        std::shared_ptr<const Fmi2Attributes>(description_, &*description_->fmi2), std::move(parts),
+        std::move(options));
+  }
+  parts.resources = resource_path(resources_);
+  return std::make_unique<Fmi3Unit>(name, load_fmi3_library(), std::move(parts),
+                                    std::move(options));
 }
 
 }  // namespace stride::fmi

@@ -8,9 +8,11 @@
 #include <string>
 
 #include "master/core/unit.h"
-#include "master/fmi/archive.h"
-#include "master/fmi/fmi3_unit.h"
-#include "master/fmi/library.h"
+#include "master/fmi/fmi2_library.h"
+#include "master/fmi/fmi3_library.h"
+#include "master/fmi/fmu_instance.h"
+#include "master/fmi/model_description.h"
+#include "master/fmi/unpacked_fmu.h"
 
 namespace stride::fmi {
 
@@ -37,7 +39,10 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   }
 
   /// Loads the library, if that has not happened yet. Throws core::Error of the kind Input.
-  std::shared_ptr<const Library> load_library();
+  std::shared_ptr<const SharedLibrary> load_library();
+  /// Likewise of a unit of this version; null if it is of the other.
+  std::shared_ptr<const Fmi2Library> load_fmi2_library();
+  std::shared_ptr<const Fmi3Library> load_fmi3_library();
 
   /// Makes an instance, which keeps this object alive. Throws core::Error: Input if the library
   /// does not load, or if a second instance of a unit is asked for that allows one per process
@@ -48,14 +53,16 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   Fmu(std::filesystem::path path, core::Location where);
   void read_folder();
   void read_bare_library();
+  std::filesystem::path library_path() const;
 
   std::filesystem::path path_;
   core::Location where_;
   std::optional<UnpackedFmu> unpacked_;
   std::filesystem::path resources_;
-  std::shared_ptr<const core::UnitDescription> description_;
+  std::shared_ptr<const ModelDescription> description_;
   std::mutex library_mutex_;
-  std::shared_ptr<const Library> library_;
+  std::shared_ptr<const Fmi2Library> fmi2_library_;
+  std::shared_ptr<const Fmi3Library> fmi3_library_;
 };
 
 }  // namespace stride::fmi

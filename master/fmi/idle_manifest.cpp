@@ -8,7 +8,7 @@
 
 #include <stride/idle.h>
 
-#include "master/fmi/xml.h"
+#include "master/xml/document.h"
 
 namespace stride::fmi {
 namespace {
@@ -16,18 +16,18 @@ namespace {
 constexpr const char* kNamespace = "http://fmi-standard.org/fmi-ls-manifest";
 
 /// Whether elements that are not known here may be those of a later version.
-bool check_head(const Element& root) {
+bool check_head(const xml::Element& root) {
   constexpr const char* kRoot = "fmiLayeredStandardManifest";
   if (!root.is("", kRoot) && !root.is(kNamespace, kRoot)) {
     root.fail(
-        fmt::format("the document is a <{}>; expected <fmiLayeredStandardManifest>", root.name()));
+        fmt::format("the document is a {}; expected <fmiLayeredStandardManifest>", root.tag()));
   }
-  const auto name = root.text(kNamespace, "fmi-ls-name");
+  const auto name = root.attribute(kNamespace, "fmi-ls-name");
   if (name != STRIDE_IDLE_NAME) {
     root.fail(fmt::format("fmi-ls-name is \"{}\"; expected \"{}\", in the namespace {}",
                           name.value_or(""), STRIDE_IDLE_NAME, kNamespace));
   }
-  const std::string version = root.text(kNamespace, "fmi-ls-version").value_or("");
+  const std::string version = root.attribute(kNamespace, "fmi-ls-version").value_or("");
   if (!version.starts_with("1.")) {
     root.fail(fmt::format("fmi-ls-version=\"{}\" is not supported; expected 1.0.0", version),
               "take the manifest (" STRIDE_IDLE_MANIFEST
@@ -41,36 +41,36 @@ class Reader {
  public:
   explicit Reader(core::UnitDescription& unit) : unit_(unit) {}
 
-  void read(const Element& root) {
+  void read(const xml::Element& root) {
     const bool is_later = check_head(root);
-    for (const Element& element : root.children()) {
-      if (element.name() == "Input") {
+    for (const xml::Element& element : root.children()) {
+      if (element.name().local == "Input") {
         read_input(element);
-      } else if (element.name() == "Output") {
+      } else if (element.name().local == "Output") {
         read_output(element);
       } else if (!is_later) {
         element.fail(
-            fmt::format("<{}> has no meaning here; expected <Input> or <Output>", element.name()));
+            fmt::format("{} has no meaning here; expected <Input> or <Output>", element.tag()));
       }
     }
     unit_.promises_idle = true;
   }
 
  private:
-  void read_input(const Element& element) {
+  void read_input(const xml::Element& element) {
     core::Variable& input = find(element, core::Causality::Input, "deadband");
     input.deadband = element.required_number<double>("deadband");
     if (input.deadband >= 0 && std::isfinite(input.deadband)) return;
     element.fail(fmt::format("deadband=\"{}\" of '{}': expected a finite number, at least 0",
-                             *element.text("deadband"), input.name));
+                             *element.attribute("deadband"), input.name));
   }
 
-  void read_output(const Element& element) {
+  void read_output(const xml::Element& element) {
     core::Variable& output = find(element, core::Causality::Output, "tolerance");
     const double tolerance = element.required_number<double>("tolerance");
     if (!(tolerance > 0 && std::isfinite(tolerance))) {
       element.fail(fmt::format("tolerance=\"{}\" of '{}': expected a finite number above 0",
-                               *element.text("tolerance"), output.name));
+                               *element.attribute("tolerance"), output.name));
     }
     output.tolerance = tolerance;
     output.has_derivative = element.flag("hasDerivative");
@@ -82,8 +82,9 @@ class Reader {
     }
   }
 
-  core::Variable& find(const Element& element, core::Causality causality, const char* attribute) {
-    const std::string name = element.required_text("name");
+  core::Variable& find(const xml::Element& element, core::Causality causality,
+                       const char* attribute) {
+    const std::string name = element.required("name");
     const auto reference = element.required_number<core::ValueReference>("valueReference");
     const auto place = unit_.find(name);
     if (!place) element.fail(fmt::format("the unit has no variable '{}'", name));
@@ -109,12 +110,12 @@ class Reader {
 
 void parse_idle_manifest(const std::string& text, const std::string& shown_as,
                          core::UnitDescription& unit) {
-  Reader(unit).read(Document(text, shown_as).root());
+  Reader(unit).read(xml::Document::parse(text, shown_as).root());
 }
 
-void read_idle_manifest(const std::filesystem::path& xml, const std::string& shown_as,
+void read_idle_manifest(const std::filesystem::path& file, const std::string& shown_as,
                         core::UnitDescription& unit) {
-  parse_idle_manifest(read_text(xml, "idle manifest", shown_as), shown_as, unit);
+  Reader(unit).read(xml::Document(file, shown_as).root());
 }
 
 }  // namespace stride::fmi

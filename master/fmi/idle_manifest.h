@@ -13,7 +13,7 @@ namespace stride::fmi {
 /// Fills in promises_idle, and the deadbands and tolerances of the variables. Throws core::Error of
 /// the kind Input, with file and line, for what is no manifest of org.stride.idle 1.x, and for
 /// entries that do not fit the unit's variables. `shown_as` is the file's name in such messages.
-void read_idle_manifest(const std::filesystem::path& xml, const std::string& shown_as,
+void read_idle_manifest(const std::filesystem::path& file, const std::string& shown_as,
                         core::UnitDescription& unit);
 
 /// The same from the document's text.

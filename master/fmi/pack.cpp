@@ -1,60 +1,22 @@
 #include "master/fmi/pack.h"
 
-#include <array>
-#include <fstream>
-#include <map>
 #include <memory>
-#include <sstream>
 #include <string>
 
-#include <archive.h>
-#include <archive_entry.h>
 #include <dlfcn.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include "master/archive/zip.h"
 #include "master/core/error.h"
+#include "master/fmi/binaries.h"
+#include "master/fmi/fmi3_library.h"
 #include "master/fmi/idle_manifest.h"
-#include "master/fmi/library.h"
 #include "master/fmi/model_description.h"
 
 namespace stride::fmi {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Content {
-  std::string text;  ///< of an XML file
-  fs::path file;     ///< or the file to copy
-  bool executable = false;
-};
-
-/// Name in the archive -> content, so the archive's order is that of the names.
-using Contents = std::map<std::string, Content>;
-
-void add_file(Contents& contents, const std::string& name, const fs::path& file, bool executable) {
-  if (!fs::is_regular_file(file)) {
-    core::fail_input({}, fmt::format("'{}' is no file that can be packed", file.string()));
-  }
-  if (!contents.emplace(name, Content{{}, file, executable}).second) {
-    core::fail_input({}, fmt::format("two files would be '{}' in the archive", name));
-  }
-}
-
-void add_resources(Contents& contents, const fs::path& folder) {
-  if (folder.empty()) return;
-  if (!fs::is_directory(folder)) {
-    core::fail_input({}, fmt::format("the resources '{}' are no folder", folder.string()));
-  }
-  constexpr auto kFollow = fs::directory_options::follow_directory_symlink;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, kFollow)) {
-    if (entry.is_directory()) continue;
-    const bool executable =
-        (entry.status().permissions() & fs::perms::owner_exec) != fs::perms::none;
-    const fs::path name = "resources" / entry.path().lexically_relative(folder);
-    add_file(contents, name.generic_string(), entry.path(), executable);
-  }
-}
 
 /// The bundled libraries do not lie beside the unit's yet; once loaded, the loader knows them by
 /// their names.
@@ -75,118 +37,32 @@ class Preloaded {
   std::vector<std::unique_ptr<void, int (*)(void*)>> handles_;
 };
 
-Contents collect(const PackRequest& request) {
+archive::Contents collect(const PackRequest& request) {
   const Preloaded bundled(request.bundled);
-  const Library library(request.library);
+  const Fmi3Library library(request.library);
   const std::string xml = library.describe(request.resources);
   auto description = parse_model_description(xml, request.library.string());
   const std::string binaries = fmt::format("binaries/{}/", platform());
-  Contents contents;
+  archive::Contents contents;
   contents["modelDescription.xml"].text = xml;
   const std::string manifest = library.idle_manifest(request.resources);
   if (!manifest.empty()) {
     parse_idle_manifest(manifest, request.library.string(), description);
     contents[STRIDE_IDLE_MANIFEST].text = manifest;
   }
-  add_file(contents, binaries + description.model_identifier + ".so", request.library, true);
+  archive::add_file(contents, binaries + description.model_identifier + ".so", request.library,
+                    true);
   for (const fs::path& library : request.bundled) {
-    add_file(contents, binaries + library.filename().string(), library, true);
+    archive::add_file(contents, binaries + library.filename().string(), library, true);
   }
-  add_resources(contents, request.resources);
+  if (!request.resources.empty()) {
+    archive::add_folder(contents, "resources/", request.resources);
+  }
   return contents;
 }
 
-class ZipWriter {
- public:
-  explicit ZipWriter(const fs::path& path)
-      : path_(path), writer_(archive_write_new(), &archive_write_free) {
-    check(archive_write_set_format_zip(writer_.get()));
-    check(archive_write_open_filename(writer_.get(), path.c_str()));
-  }
-
-  void add(const std::string& name, const Content& content) {
-    if (content.file.empty()) {
-      write_header(name, content.text.size(), false);
-      write(content.text.data(), content.text.size());
-      return;
-    }
-    write_header(name, fs::file_size(content.file), content.executable);
-    std::ifstream file(content.file, std::ios::binary);
-    std::array<char, 1 << 16> buffer;
-    while (file.read(buffer.data(), buffer.size()) || file.gcount() > 0) {
-      write(buffer.data(), static_cast<std::size_t>(file.gcount()));
-    }
-    if (!file.eof()) {
-      core::fail_input({}, fmt::format("'{}' cannot be read", content.file.string()));
-    }
-  }
-
-  void close() { check(archive_write_close(writer_.get())); }
-
- private:
-  /// No time and no owner, so that the archive depends on the contents alone.
-  void write_header(const std::string& name, std::uintmax_t size, bool executable) {
-    const std::unique_ptr<archive_entry, decltype(&archive_entry_free)> entry(archive_entry_new(),
-                                                                              &archive_entry_free);
-    archive_entry_set_pathname_utf8(entry.get(), name.c_str());
-    archive_entry_set_filetype(entry.get(), AE_IFREG);
-    archive_entry_set_perm(entry.get(), executable ? 0755 : 0644);
-    archive_entry_set_size(entry.get(), static_cast<la_int64_t>(size));
-    check(archive_write_header(writer_.get(), entry.get()));
-  }
-
-  void write(const char* data, std::size_t size) {
-    if (archive_write_data(writer_.get(), data, size) != static_cast<la_ssize_t>(size)) {
-      check(ARCHIVE_FATAL);
-    }
-  }
-
-  void check(int status) const {
-    if (status >= ARCHIVE_WARN) return;
-    const char* reason = archive_error_string(writer_.get());
-    core::fail_run({}, fmt::format("cannot write '{}': {}", path_.string(),
-                                   reason != nullptr ? reason : "no reason is known"));
-  }
-
-  fs::path path_;
-  std::unique_ptr<archive, decltype(&archive_write_free)> writer_;
-};
-
-/// A file under a temporary name that goes unless it is kept.
-class PendingFile {
- public:
-  explicit PendingFile(fs::path target)
-      : target_(std::move(target)), path_(fmt::format("{}.{}.tmp", target_.string(), ::getpid())) {}
-  ~PendingFile() {
-    std::error_code ignored;
-    fs::remove(path_, ignored);
-  }
-  PendingFile(const PendingFile&) = delete;
-  PendingFile& operator=(const PendingFile&) = delete;
-
-  const fs::path& path() const { return path_; }
-  void keep() const {
-    std::error_code error;
-    fs::rename(path_, target_, error);
-    if (error) {
-      core::fail_run({}, fmt::format("cannot write '{}': {}", target_.string(), error.message()));
-    }
-  }
-
- private:
-  fs::path target_;
-  fs::path path_;
-};
-
 }  // namespace
 
-void pack(const PackRequest& request) {
-  const Contents contents = collect(request);
-  const PendingFile pending(request.output);
-  ZipWriter zip(pending.path());
-  for (const auto& [name, content] : contents) zip.add(name, content);
-  zip.close();
-  pending.keep();
-}
+void pack(const PackRequest& request) { archive::write_zip(request.output, collect(request)); }
 
 }  // namespace stride::fmi

@@ -10,22 +10,23 @@
 #include <fmt/format.h>
 
 #include "master/io/number_text.h"
-#include "master/io/xml.h"
+#include "master/io/ssp.h"
+#include "master/xml/element.h"
 
 namespace stride::io {
 namespace {
 
 constexpr const char* kType = "org.stride";
 
-void collect(const XmlElement& element, std::vector<XmlElement>& found) {
+void collect(const xml::Element& element, std::vector<xml::Element>& found) {
   if (element.is(kSsc, "Annotation") && element.attribute("type") == kType) {
     found.push_back(element);
     return;
   }
-  for (const XmlElement& child : element.children()) collect(child, found);
+  for (const xml::Element& child : element.children()) collect(child, found);
 }
 
-bool is_of_root_or_system(const XmlElement& annotation, const XmlElement& root) {
+bool is_of_root_or_system(const xml::Element& annotation, const xml::Element& root) {
   const auto annotations = annotation.parent();
   const auto owner = annotations ? annotations->parent() : std::nullopt;
   if (!owner) return false;
@@ -36,7 +37,7 @@ bool is_of_root_or_system(const XmlElement& annotation, const XmlElement& root) 
 
 /// What `parse` makes of the attribute, which is there; a std::invalid_argument is its mistake.
 template <class Parse>
-auto parse_attribute(const XmlElement& element, const char* name, Parse&& parse) {
+auto parse_attribute(const xml::Element& element, const char* name, Parse&& parse) {
   try {
     return parse(element.required(name));
   } catch (const std::invalid_argument& mistake) {
@@ -47,7 +48,7 @@ auto parse_attribute(const XmlElement& element, const char* name, Parse&& parse)
 using SetChoice = void (StepChoice::*)(std::string_view);
 
 /// Attributes that each set a part of the choice.
-void read_choices(const XmlElement& element, StepChoice& choice,
+void read_choices(const xml::Element& element, StepChoice& choice,
                   std::initializer_list<std::pair<const char*, SetChoice>> attributes) {
   for (const auto& [name, set] : attributes) {
     if (!element.attribute(name)) continue;
@@ -56,7 +57,7 @@ void read_choices(const XmlElement& element, StepChoice& choice,
   }
 }
 
-void read_step(const XmlElement& element, StepChoice& choice) {
+void read_step(const xml::Element& element, StepChoice& choice) {
   element.allow_attributes(
       {"policy", "size", "maximum", "minimum", "relativeTolerance", "absoluteTolerance"});
   element.allow_children({});
@@ -69,7 +70,7 @@ void read_step(const XmlElement& element, StepChoice& choice) {
                 {"absoluteTolerance", &StepChoice::set_absolute_tolerance}});
 }
 
-void read_exchange(const XmlElement& element, StepChoice& choice) {
+void read_exchange(const xml::Element& element, StepChoice& choice) {
   element.allow_attributes({"coupling", "extrapolation"});
   element.allow_children({});
   read_choices(
@@ -77,27 +78,27 @@ void read_exchange(const XmlElement& element, StepChoice& choice) {
       {{"coupling", &StepChoice::set_coupling}, {"extrapolation", &StepChoice::set_extrapolation}});
 }
 
-void read_record(const XmlElement& element, ScenarioAnnotation& annotation) {
+void read_record(const xml::Element& element, ScenarioAnnotation& annotation) {
   element.allow_attributes({"signals"});
   element.allow_children({});
   std::istringstream words(element.required("signals"));
   for (std::string word; words >> word;) annotation.record.push_back({word, element.where()});
 }
 
-std::vector<ComponentPattern> read_components(const XmlElement& element) {
+std::vector<ComponentPattern> read_components(const xml::Element& element) {
   std::vector<ComponentPattern> patterns;
   std::istringstream words(element.required("components"));
   for (std::string word; words >> word;) patterns.push_back({word, element.where()});
   return patterns;
 }
 
-void read_main_thread(const XmlElement& element, ScenarioAnnotation& annotation) {
+void read_main_thread(const xml::Element& element, ScenarioAnnotation& annotation) {
   element.allow_attributes({"components"});
   element.allow_children({});
   for (auto& pattern : read_components(element)) annotation.main_thread.push_back(pattern);
 }
 
-void read_early_return(const XmlElement& element, ScenarioAnnotation& annotation) {
+void read_early_return(const xml::Element& element, ScenarioAnnotation& annotation) {
   element.allow_attributes({"components", "allowed"});
   element.allow_children({});
   element.required("allowed");
@@ -107,7 +108,7 @@ void read_early_return(const XmlElement& element, ScenarioAnnotation& annotation
   }
 }
 
-void read_idle_skip(const XmlElement& element, IdleChoice& choice) {
+void read_idle_skip(const xml::Element& element, IdleChoice& choice) {
   element.allow_attributes({"components", "enabled", "maxSkip"});
   element.allow_children({});
   IdleRule rule{{}, element.flag("enabled", true), std::nullopt, element.where()};
@@ -123,20 +124,20 @@ void read_idle_skip(const XmlElement& element, IdleChoice& choice) {
 }
 
 /// <Deadband variable="…" value="…"/>, and the same for a tolerance.
-IdleNumber read_idle_number(const XmlElement& element, double (*parse)(std::string_view)) {
+IdleNumber read_idle_number(const xml::Element& element, double (*parse)(std::string_view)) {
   element.allow_attributes({"variable", "value"});
   element.allow_children({});
   return {element.required("variable"), parse_attribute(element, "value", parse), element.where()};
 }
 
-void check_file_name(const XmlElement& element, const char* attribute, const std::string& name) {
+void check_file_name(const xml::Element& element, const char* attribute, const std::string& name) {
   if (name == "." || name == ".." || name.find('/') != std::string::npos) {
     element.fail(fmt::format("{}=\"{}\" is no plain file name", attribute, name),
                  "the file goes into the results folder, so give its name only");
   }
 }
 
-void read_results(const XmlElement& element, ScenarioAnnotation& annotation) {
+void read_results(const xml::Element& element, ScenarioAnnotation& annotation) {
   element.allow_attributes({"signals", "events", "trace", "statistics"});
   element.allow_children({});
   ResultFiles& files = annotation.results;
@@ -156,7 +157,7 @@ void read_results(const XmlElement& element, ScenarioAnnotation& annotation) {
   }
 }
 
-ScenarioAnnotation read_scenario_element(const XmlElement& scenario) {
+ScenarioAnnotation read_scenario_element(const xml::Element& scenario) {
   scenario.allow_attributes({});
   scenario.allow_children({{kStrideScenario, "Step"},
                            {kStrideScenario, "Exchange"},
@@ -173,22 +174,22 @@ ScenarioAnnotation read_scenario_element(const XmlElement& scenario) {
   if (const auto exchange = scenario.child({kStrideScenario, "Exchange"})) {
     read_exchange(*exchange, annotation.step);
   }
-  for (const XmlElement& record : scenario.children({kStrideScenario, "Record"})) {
+  for (const xml::Element& record : scenario.children({kStrideScenario, "Record"})) {
     read_record(record, annotation);
   }
-  for (const XmlElement& element : scenario.children({kStrideScenario, "MainThread"})) {
+  for (const xml::Element& element : scenario.children({kStrideScenario, "MainThread"})) {
     read_main_thread(element, annotation);
   }
-  for (const XmlElement& element : scenario.children({kStrideScenario, "EarlyReturn"})) {
+  for (const xml::Element& element : scenario.children({kStrideScenario, "EarlyReturn"})) {
     read_early_return(element, annotation);
   }
-  for (const XmlElement& element : scenario.children({kStrideScenario, "IdleSkip"})) {
+  for (const xml::Element& element : scenario.children({kStrideScenario, "IdleSkip"})) {
     read_idle_skip(element, annotation.idle);
   }
-  for (const XmlElement& element : scenario.children({kStrideScenario, "Deadband"})) {
+  for (const xml::Element& element : scenario.children({kStrideScenario, "Deadband"})) {
     annotation.idle.deadbands.push_back(read_idle_number(element, parse_at_least_zero));
   }
-  for (const XmlElement& element : scenario.children({kStrideScenario, "Tolerance"})) {
+  for (const xml::Element& element : scenario.children({kStrideScenario, "Tolerance"})) {
     annotation.idle.tolerances.push_back(read_idle_number(element, parse_above_zero));
   }
   if (const auto results = scenario.child({kStrideScenario, "Results"})) {
@@ -199,10 +200,10 @@ ScenarioAnnotation read_scenario_element(const XmlElement& scenario) {
 
 }  // namespace
 
-ScenarioAnnotation read_annotation(const XmlElement& root) {
-  std::vector<XmlElement> found;
+ScenarioAnnotation read_annotation(const xml::Element& root) {
+  std::vector<xml::Element> found;
   collect(root, found);
-  for (const XmlElement& annotation : found) {
+  for (const xml::Element& annotation : found) {
     if (is_of_root_or_system(annotation, root)) continue;
     annotation.fail(fmt::format("an annotation of the type '{}' does not belong here", kType),
                     "move it to the <Annotations> at the end of <SystemStructureDescription>");

@@ -11,10 +11,9 @@
 #include "master/io/component_selection.h"
 #include "master/io/idle_choice.h"
 #include "master/io/step_choice.h"
+#include "master/xml/element.h"
 
 namespace stride::io {
-
-class XmlElement;
 
 /// A glob over "component.variable", and where it was written (an empty Location: nowhere).
 struct SignalPattern {
@@ -49,7 +48,7 @@ struct ScenarioAnnotation {
 /// Reads the <stride:Scenario> of a <ssd:SystemStructureDescription>, which stands in the root's
 /// annotations or in those of its system. Throws core::Error (Input) for what is unknown, doubled
 /// or in another place.
-ScenarioAnnotation read_annotation(const XmlElement& root);
+ScenarioAnnotation read_annotation(const xml::Element& root);
 
 }  // namespace stride::io
 

@@ -1,17 +1,17 @@
 #include "master/io/complete.h"
 
 #include <array>
-#include <cmath>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "master/io/scenario.h"
-#include "master/io/xml.h"
-#include "master/io/xml_edit.h"
+#include "master/io/definitions.h"
+#include "master/io/ssp.h"
+#include "master/io/system_reader.h"
+#include "master/xml/document.h"
+#include "master/xml/editor.h"
 
 namespace stride::io {
 namespace {
@@ -19,25 +19,6 @@ namespace {
 using core::ValueType;
 
 constexpr std::array<const char*, 8> kBaseUnits{"kg", "m", "s", "A", "K", "mol", "cd", "rad"};
-
-/// "1" as 1; what is no number counts as not written.
-double number_of(const XmlElement& element, const char* attribute, double otherwise) {
-  try {
-    return std::stod(element.attribute(attribute).value_or(""));
-  } catch (const std::logic_error&) {
-    return otherwise;
-  }
-}
-
-core::BaseUnit read_base_unit(const XmlElement& element) {
-  core::BaseUnit unit;
-  for (std::size_t i = 0; i < kBaseUnits.size(); ++i) {
-    unit.exponents[i] = static_cast<int>(number_of(element, kBaseUnits[i], 0));
-  }
-  unit.factor = number_of(element, "factor", 1);
-  unit.offset = number_of(element, "offset", 0);
-  return unit;
-}
 
 bool is_same(const core::BaseUnit& a, const core::BaseUnit& b) {
   return a.exponents == b.exponents && a.factor == b.factor && a.offset == b.offset;
@@ -48,21 +29,21 @@ std::string head(const std::string& prefix) { return prefix.empty() ? "" : prefi
 
 class Completion {
  public:
-  Completion(const XmlDocument& document, const Descriptions& descriptions)
+  Completion(const xml::Document& document, const Descriptions& descriptions)
       : root_(document.root()),
         descriptions_(descriptions),
         is_first_version_(root_.required("version") == "1.0"),
         ssd_(head(root_.prefix_of(kSsd).value_or(""))),
         editor_(document.text()) {
     find_common_prefix();
-    read_units();
-    read_enumerations();
+    const Definitions definitions = read_definitions(root_, kSsd);
+    units_ = definitions.units;
+    for (const auto& [name, items] : definitions.enumerations) enumerations_.insert(name);
   }
 
   std::string result() {
-    const XmlElement system = *root_.child({kSsd, "System"});
-    const XmlElement elements = *system.child({kSsd, "Elements"});
-    for (const XmlElement& component : elements.children()) complete_component(component);
+    const xml::Element system = *root_.child({kSsd, "System"});
+    complete_elements(system, "");
     add_list("Enumerations", new_enumerations_);
     add_list("Units", new_units_);
     return editor_.result();
@@ -87,30 +68,25 @@ class Completion {
     return ssc_;
   }
 
-  void read_units() {
-    const auto units = root_.child({kSsd, "Units"});
-    if (!units) return;
-    for (const XmlElement& unit : units->children({kSsc, "Unit"})) {
-      const auto base = unit.child({kSsc, "BaseUnit"});
-      if (base) units_.emplace(unit.required("name"), read_base_unit(*base));
+  void complete_elements(const xml::Element& system, const std::string& prefix) {
+    const auto elements = system.child({kSsd, "Elements"});
+    if (!elements) return;
+    for (const xml::Element& element : elements->children()) {
+      const std::string path = prefix + element.required("name");
+      if (element.is(kSsd, "System")) {
+        complete_elements(element, path + ".");
+      } else if (const auto found = descriptions_.find(path); found != descriptions_.end()) {
+        complete_component(element, path, *found->second);
+      }
     }
   }
 
-  void read_enumerations() {
-    const auto enumerations = root_.child({kSsd, "Enumerations"});
-    if (!enumerations) return;
-    for (const XmlElement& enumeration : enumerations->children({kSsc, "Enumeration"})) {
-      enumerations_.insert(enumeration.required("name"));
-    }
-  }
-
-  void complete_component(const XmlElement& component) {
-    const std::string name = component.required("name");
-    const core::UnitDescription& description = *descriptions_.at(name);
+  void complete_component(const xml::Element& component, const std::string& path,
+                          const core::UnitDescription& description) {
     const auto connectors = component.child({kSsd, "Connectors"});
     std::set<std::string> declared;
     if (connectors) {
-      for (const XmlElement& child : connectors->children())
+      for (const xml::Element& child : connectors->children())
         declared.insert(child.required("name"));
     }
     std::vector<std::string> added;
@@ -118,7 +94,7 @@ class Completion {
       const bool is_connector = variable.causality == core::Causality::Input ||
                                 variable.causality == core::Causality::Output;
       if (!is_connector || declared.contains(variable.name)) continue;
-      added.push_back(connector(component, description, variable));
+      added.push_back(connector(component, path, description, variable));
     }
     if (added.empty()) return;
     if (connectors) return editor_.append_children(connectors->index(), added);
@@ -127,28 +103,28 @@ class Completion {
     editor_.prepend_children(component.index(), {list + fmt::format("\n</{}Connectors>", ssd_)});
   }
 
-  std::string connector(const XmlElement& component, const core::UnitDescription& description,
-                        const core::Variable& variable) {
-    std::string content = type(component, description, variable);
+  std::string connector(const xml::Element& component, const std::string& path,
+                        const core::UnitDescription& description, const core::Variable& variable) {
+    std::string content = type(component, path, description, variable);
     if (!is_first_version_) content += dimensions(variable) + clocks(description, variable);
     const std::string start = fmt::format("<{}Connector name=\"{}\" kind=\"{}\"", ssd_,
-                                          xml_escaped(variable.name), name(variable.causality));
+                                          xml::escaped(variable.name), name(variable.causality));
     if (content.empty()) return start + "/>";
     return fmt::format("{}>{}</{}Connector>", start, content, ssd_);
   }
 
-  std::string type(const XmlElement& component, const core::UnitDescription& description,
-                   const core::Variable& variable) {
+  std::string type(const xml::Element& component, const std::string& path,
+                   const core::UnitDescription& description, const core::Variable& variable) {
     switch (variable.type) {
       case ValueType::Float32:
       case ValueType::Float64: {
         const std::string unit = declared_unit(description, variable.unit);
         const char* word = is_first_version_ ? "Real" : name(variable.type);
         return unit.empty() ? fmt::format("<{}{}/>", ssc(), word)
-                            : fmt::format("<{}{} unit=\"{}\"/>", ssc(), word, xml_escaped(unit));
+                            : fmt::format("<{}{} unit=\"{}\"/>", ssc(), word, xml::escaped(unit));
       }
       case ValueType::Enumeration:
-        return enumeration(component.required("name") + "." + variable.name, variable);
+        return enumeration(path + "." + variable.name, variable);
       case ValueType::Clock:
         return clock(component, variable);
       case ValueType::Boolean:
@@ -160,7 +136,7 @@ class Completion {
     }
   }
 
-  std::string clock(const XmlElement& component, const core::Variable& variable) {
+  std::string clock(const xml::Element& component, const core::Variable& variable) {
     if (is_first_version_) {
       component.fail(fmt::format("SSP 1.0 has no clocks, so '{}.{}' cannot be declared",
                                  component.required("name"), variable.name),
@@ -175,14 +151,14 @@ class Completion {
     if (variable.items.empty()) return "";
     if (enumerations_.insert(enumeration_name).second) {
       std::string text =
-          fmt::format("<{}Enumeration name=\"{}\">", ssc(), xml_escaped(enumeration_name));
+          fmt::format("<{}Enumeration name=\"{}\">", ssc(), xml::escaped(enumeration_name));
       for (const auto& [item, value] : variable.items) {
         text +=
-            fmt::format("\n\t<{}Item name=\"{}\" value=\"{}\"/>", ssc(), xml_escaped(item), value);
+            fmt::format("\n\t<{}Item name=\"{}\" value=\"{}\"/>", ssc(), xml::escaped(item), value);
       }
       new_enumerations_.push_back(text + fmt::format("\n</{}Enumeration>", ssc()));
     }
-    return fmt::format("<{}Enumeration name=\"{}\"/>", ssc(), xml_escaped(enumeration_name));
+    return fmt::format("<{}Enumeration name=\"{}\"/>", ssc(), xml::escaped(enumeration_name));
   }
 
   /// The unit's name if the file can define it; otherwise nothing, and the FMU's own unit holds.
@@ -203,13 +179,13 @@ class Completion {
     if (base.factor != 1) attributes += fmt::format(" factor=\"{}\"", base.factor);
     if (base.offset != 0) attributes += fmt::format(" offset=\"{}\"", base.offset);
     return fmt::format("<{0}Unit name=\"{1}\"><{0}BaseUnit{2}/></{0}Unit>", ssc(),
-                       xml_escaped(unit), attributes);
+                       xml::escaped(unit), attributes);
   }
 
   std::string dimensions(const core::Variable& variable) {
     std::string text;
-    for (const std::size_t size : variable.dimensions) {
-      text += fmt::format("<{}Dimension size=\"{}\"/>", ssc(), size);
+    for (const core::Dimension& dimension : variable.dimensions) {
+      text += fmt::format("<{}Dimension size=\"{}\"/>", ssc(), dimension.size);
     }
     return text;
   }
@@ -218,7 +194,7 @@ class Completion {
     std::string text;
     for (const core::ValueReference reference : variable.clocks) {
       const core::Variable& clock = description.variables[*description.find(reference)];
-      text += fmt::format("<{}Clock name=\"{}\"/>", ssd_, xml_escaped(clock.name));
+      text += fmt::format("<{}Clock name=\"{}\"/>", ssd_, xml::escaped(clock.name));
     }
     return text;
   }
@@ -236,17 +212,17 @@ class Completion {
       for (const char c : piece) text += c == '\n' ? "\n\t" : std::string(1, c);
     }
     const auto enumerations = root_.child({kSsd, "Enumerations"});
-    const XmlElement before = enumerations ? *enumerations : *root_.child({kSsd, "System"});
+    const xml::Element before = enumerations ? *enumerations : *root_.child({kSsd, "System"});
     editor_.insert_behind(before.index(), text + fmt::format("\n</{}{}>", ssd_, list));
   }
 
-  XmlElement root_;
+  xml::Element root_;
   const Descriptions& descriptions_;
   bool is_first_version_;
   std::string ssd_;
   std::string ssc_;
   bool needs_common_prefix_ = false;
-  XmlEditor editor_;
+  xml::Editor editor_;
   std::map<std::string, core::BaseUnit> units_;
   std::set<std::string> enumerations_;
   std::vector<std::string> new_units_;
@@ -255,9 +231,12 @@ class Completion {
 
 }  // namespace
 
-std::string complete(const std::filesystem::path& path, const Descriptions& descriptions) {
-  read_scenario(path);  // says what is wrong with the file
-  const XmlDocument document(path);
+std::string complete(const std::filesystem::path& path, const Descriptions& descriptions,
+                     const std::string& shown_as) {
+  const xml::Document document(path, shown_as);
+  const xml::Element root = document.root();
+  check_system_description(root);
+  if (!root.child({kSsd, "System"})) root.fail(fmt::format("{} holds no <System>", root.tag()));
   return Completion(document, descriptions).result();
 }
 

@@ -21,9 +21,9 @@ void write_quoted(OutputFile& file, std::string_view text) {
 std::string element_name(const core::Variable& variable, std::size_t element) {
   if (variable.dimensions.empty()) return variable.name;
   std::string indices;
-  for (auto size = variable.dimensions.rbegin(); size != variable.dimensions.rend(); ++size) {
-    indices = fmt::format("{}{}{}", element % *size + 1, indices.empty() ? "" : ",", indices);
-    element /= *size;
+  for (auto it = variable.dimensions.rbegin(); it != variable.dimensions.rend(); ++it) {
+    indices = fmt::format("{}{}{}", element % it->size + 1, indices.empty() ? "" : ",", indices);
+    element /= it->size;
   }
   return fmt::format("{}[{}]", variable.name, indices);
 }

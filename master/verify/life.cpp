@@ -57,7 +57,8 @@ Life::Life(const Subject& subject, SharedNote& note, LifeOptions options)
         units.push_back(std::make_unique<WatchedUnit>(
             subject, note, options_.name,
             fmi::InstanceOptions{.early_return_allowed = options_.early_return_allowed,
-                                 .may_go_back = true}));
+                                 .may_go_back = true,
+                                 .description = subject.system().components()[0].description}));
         return units;
       }()) {
   clocks_.emplace(subject_.system(), units_);
@@ -75,9 +76,16 @@ void Life::start() {
 }
 
 void Life::set_start_values() {
-  for (const core::StartValue& start : subject_.system().start_values()) {
-    set(subject_.system().variable(start.id), start.value);
+  const core::System& system = subject_.system();
+  const auto set_all = [&](std::span<const core::StartValue> values) {
+    for (const core::StartValue& start : values) set(system.variable(start.id), start.value);
+  };
+  if (!system.structural_values().empty()) {
+    unit().enter_configuration_mode();
+    set_all(system.structural_values());
+    unit().exit_configuration_mode();
   }
+  set_all(system.start_values());
 }
 
 void Life::enter_initialization() {

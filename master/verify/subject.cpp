@@ -33,11 +33,11 @@ core::SystemDeclaration declaration(const Request& request, const fmi::Fmu& fmu)
     if (equals == std::string::npos || equals == 0) {
       core::fail_input({}, fmt::format("--set {}: expected variable=value", text));
     }
-    system.start_values.push_back({"unit",
-                                   text.substr(0, equals),
-                                   text.substr(equals + 1),
-                                   "",
-                                   {fmt::format("--set {}", text), 0}});
+    system.start_values.push_back({.component = "unit",
+                                   .variable = text.substr(0, equals),
+                                   .value = text.substr(equals + 1),
+                                   .unit = {},
+                                   .where = {fmt::format("--set {}", text), 0}});
   }
   return system;
 }

@@ -46,7 +46,8 @@ class Subject {
 
   const Request& request() const { return request_; }
   fmi::Fmu& fmu() const { return *fmu_; }
-  const core::UnitDescription& description() const { return *fmu_->description(); }
+  /// With the array sizes that the user has set by structural parameters.
+  const core::UnitDescription& description() const { return *system_->components()[0].description; }
   /// One component, the unit, with the values that the user has set.
   const core::System& system() const { return *system_; }
   bool is_set(std::size_t variable) const;

@@ -45,6 +45,14 @@ WatchedUnit::~WatchedUnit() {
   watched("FreeInstance", [&] { unit_.reset(); });
 }
 
+void WatchedUnit::enter_configuration_mode() {
+  watched("EnterConfigurationMode", [&] { unit_->enter_configuration_mode(); });
+}
+
+void WatchedUnit::exit_configuration_mode() {
+  watched("ExitConfigurationMode", [&] { unit_->exit_configuration_mode(); });
+}
+
 void WatchedUnit::enter_initialization(Time start, std::optional<Time> stop) {
   now_ = start;
   watched("EnterInitializationMode", [&] { unit_->enter_initialization(start, stop); });

@@ -20,6 +20,8 @@ class WatchedUnit final : public core::Unit {
               fmi::InstanceOptions options);
   ~WatchedUnit() override;
 
+  void enter_configuration_mode() override;
+  void exit_configuration_mode() override;
   void enter_initialization(Time start, std::optional<Time> stop) override;
   void exit_initialization() override;
   void get(std::span<const core::ValueReference> references, core::ValueBlock& values) override;

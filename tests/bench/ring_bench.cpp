@@ -46,8 +46,8 @@ double run_stride(int size) {
 }
 
 double run_by_hand(int size) {
-  const auto library = minimal()->load_library();
-  const fmi::Functions& fmi = library->functions();
+  const auto library = minimal()->load_fmi3_library();
+  const fmi::Fmi3Functions& fmi = library->functions();
   const auto& description = *minimal()->description();
   const fmi3ValueReference u = description.variables[*description.find("u")].reference;
   const fmi3ValueReference y = description.variables[*description.find("y")].reference;

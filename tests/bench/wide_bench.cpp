@@ -65,8 +65,8 @@ std::vector<fmi3ValueReference> references(const std::string& name) {
 }
 
 double run_by_hand(std::size_t units, std::size_t steps) {
-  const auto library = wide()->load_library();
-  const fmi::Functions& fmi = library->functions();
+  const auto library = wide()->load_fmi3_library();
+  const fmi::Fmi3Functions& fmi = library->functions();
   const std::vector<fmi3ValueReference> inputs = references("u");
   const std::vector<fmi3ValueReference> outputs = references("y");
   std::vector<fmi3Instance> instances;

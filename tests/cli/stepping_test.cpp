@@ -95,6 +95,20 @@ TEST_CASE("the annotation chooses, and the command line chooses otherwise") {
   CHECK(other.run["step"]["coupling"] == "jacobi");
 }
 
+TEST_CASE("without any word on steps, they are those that the units prefer") {
+  struct Case {
+    std::string preference, steps;
+  };
+  const auto [preference, steps] = GENERATE(values<Case>(
+      {{"", "in steps of 0.001 s"},
+       {"fixedInternalStepSize=\"0.25\"", "in steps of 0.25 s"},
+       {"fixedInternalStepSize=\"0.25\"/><DefaultExperiment stepSize=\"0.5\"", "of 0.5 s"}}));
+  const Workspace workspace(Parts{component("unit", "raw")});
+  make_raw_fmu(workspace.scratch(), "raw",
+               "canHandleVariableCommunicationStepSize=\"true\" " + preference);
+  CHECK_THAT(workspace.stride({"check", "test.ssd"}).out, Contains(steps));
+}
+
 TEST_CASE("check prints how it would step") {
   const Workspace workspace(two_filters());
   const auto head = [&](const Arguments& options) {

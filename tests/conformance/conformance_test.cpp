@@ -9,8 +9,8 @@
 #include <catch2/catch.hpp>
 
 #include "master/core/values.h"
+#include "master/fmi/fmi3_library.h"
 #include "master/fmi/fmu.h"
-#include "master/fmi/library.h"
 
 namespace {
 
@@ -23,18 +23,18 @@ constexpr double kStep = 1e-3;
 /// The unit under test, unpacked and loaded once.
 struct Subject {
   std::shared_ptr<fmi::Fmu> fmu;
-  std::shared_ptr<const fmi::Library> library;
+  std::shared_ptr<const fmi::Fmi3Library> library;
   std::string resources;
 
   Subject() {
     const char* const path = std::getenv("STRIDE_FMU");
     if (path == nullptr) throw std::runtime_error("name the unit in STRIDE_FMU");
     fmu = fmi::Fmu::load(path);
-    library = fmu->load_library();
+    library = fmu->load_fmi3_library();
     const auto root = library->path().parent_path().parent_path().parent_path();
     resources = fmi::resource_path(root / "resources");
   }
-  const fmi::Functions& call() const { return library->functions(); }
+  const fmi::Fmi3Functions& call() const { return library->functions(); }
   const core::UnitDescription& description() const { return *fmu->description(); }
 };
 
@@ -97,7 +97,7 @@ class Instance {
   }
 
  private:
-  static const fmi::Functions& call() { return subject().call(); }
+  static const fmi::Fmi3Functions& call() { return subject().call(); }
 
   void handle_events() {
     bool again = true;

@@ -40,13 +40,13 @@ Life life_at(Duration instant, std::optional<Duration> max_skip) {
 TEST_CASE("a unit that never promises refuses to skip") {
   if (promises()) return;
   CHECK_THROWS_AS(Life(fmu(), {}, 1s), core::Error);
-  const auto& enable = fmu()->load_library()->idle_functions().EnableIdleSkipping;
+  const auto& enable = fmu()->load_fmi3_library()->idle_functions().EnableIdleSkipping;
   CHECK((enable == nullptr || enable(nullptr, 1.0) == fmi3Error));
 }
 
 TEST_CASE("nothing is promised unless skipping is enabled") {
   if (!promises()) return;
-  const auto library = fmu()->load_library();
+  const auto library = fmu()->load_fmi3_library();
   const auto& fmi = library->functions();
   const auto& description = *fmu()->description();
   const auto root = library->path().parent_path().parent_path().parent_path();

@@ -14,13 +14,15 @@ using namespace stride::tests;
 
 namespace {
 
-/// Units with all types and with messages.
-const fs::path kFmu = fs::path(STRIDE_TEST_FMU_DIR) / "types.fmu";
+/// Units with all types, and the first one with messages.
+const fs::path kFmu = test_fmu("types");
 
 }  // namespace
 
 TEST_CASE("a mutated model description is read or refused, and never anything else") {
-  const fmi::UnpackedFmu unpacked(kFmu);
+  const std::string unit = GENERATE("types", "fmi2_types", "fmi2_relaxation");
+  CAPTURE(unit);
+  const fmi::UnpackedFmu unpacked(test_fmu(unit));
   const std::string xml = read(unpacked.folder() / "modelDescription.xml");
   REQUIRE_NOTHROW(fmi::parse_model_description(xml, "x.xml"));
   Mutator mutator(20240118);
@@ -28,8 +30,9 @@ TEST_CASE("a mutated model description is read or refused, and never anything el
   int refused = 0;
   for (int i = 0; i < 4000; ++i) {
     try {
-      fmi::parse_model_description(mutator.mutate(xml), "x.xml");
+      const auto read = fmi::parse_model_description(mutator.mutate(xml), "x.xml");
       ++accepted;
+      if (read.fmi2) CHECK(read.fmi2->references.size() == read.variables.size());
     } catch (const core::Error& error) {
       ++refused;
       CHECK(error.kind() == core::Error::Kind::Input);

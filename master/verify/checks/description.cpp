@@ -156,8 +156,8 @@ std::string read_file(const std::filesystem::path& path) {
 
 /// A library of the unit kit knows its description; the one in the archive must be the same.
 void compare_with_library(const Trial& trial, std::vector<std::string>& mistakes) {
-  const auto library = trial.subject.fmu().load_library();
-  if (!library->describes_itself()) return;
+  const auto library = trial.subject.fmu().load_fmi3_library();
+  if (!library || !library->describes_itself()) return;
   const std::filesystem::path folder = trial.subject.fmu().folder();
   const std::filesystem::path resources = folder / "resources";
   trial.note.write("strideModelDescription", 0);

@@ -585,19 +585,6 @@ TEST_CASE("an announced event stays announced until it has come") {
   }
 }
 
-TEST_CASE("an event that an importer without Event Mode loses is reported") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
-  InstanceChoices choices;
-  choices.event_mode = false;
-  choices.logging = true;
-  UnitInstance unit(library, choices);
-  REQUIRE(unit.set_real("tick_at", 0.1) == fmi3OK);
-  REQUIRE(unit.initialize() == fmi3OK);
-  REQUIRE(unit.step(0, 0.1) == fmi3OK);
-  CHECK_FALSE(unit.last.event);
-  CHECK_THAT(unit.last_message(), Contains("an event at 0.1 s is lost"));
-}
-
 // ---- Output derivatives ----
 
 TEST_CASE("the first derivative of an output that has one") {

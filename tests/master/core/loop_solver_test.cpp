@@ -144,6 +144,42 @@ TEST_CASE("two equations that are coupled and not linear") {
   CHECK(solution.x[1] == Approx(2).epsilon(1e-13));
 }
 
+TEST_CASE("with a Jacobian, no evaluation is spent on differences") {
+  std::vector<double> last;
+  const auto g = [&](std::span<const double> x, std::span<double> result) {
+    last.assign(x.begin(), x.end());
+    result[0] = std::sqrt(x[1] + 2);
+    result[1] = x[0] * x[0] / 4 + 1;
+  };
+  const auto jacobian = [&](std::span<const double> x, std::span<double> columns) {
+    CHECK(last == std::vector<double>(x.begin(), x.end()));
+    columns[0] = 0;
+    columns[1] = x[0] / 2;
+    columns[2] = 0.5 / std::sqrt(x[1] + 2);
+    columns[3] = 0;
+  };
+  const LoopScale scale{{0, 0}, kEpsilon};
+  const LoopSolution exact = solve_loop(g, {0, 0}, scale, jacobian);
+  const LoopSolution differences = solve_loop(g, {0, 0}, scale);
+  REQUIRE(exact.found);
+  CHECK(exact.x[0] == Approx(2).epsilon(1e-15));
+  CHECK(exact.x[1] == Approx(2).epsilon(1e-15));
+  CHECK(2 * exact.evaluations <= differences.evaluations);
+}
+
+TEST_CASE("a Jacobian that is not finite, or wrong, does no harm") {
+  const double derivative = GENERATE(std::nan(""), 1.0, 1e300, -7.0);
+  const auto g = [](std::span<const double> x, std::span<double> result) {
+    result[0] = std::cos(x[0]);
+  };
+  const auto jacobian = [&](std::span<const double>, std::span<double> columns) {
+    columns[0] = derivative;
+  };
+  const LoopSolution solution = solve_loop(g, {0}, {{0}, kEpsilon}, jacobian);
+  CHECK(solution.found);
+  CHECK(solution.x[0] == Approx(0.73908513321516064).epsilon(1e-9));
+}
+
 TEST_CASE("single precision is enough for numbers of single precision") {
   const auto g = [](std::span<const double> x, std::span<double> result) {
     result[0] = static_cast<float>(-3 * static_cast<float>(x[0]) + 0.7F);

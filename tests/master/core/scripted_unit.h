@@ -76,6 +76,10 @@ class Describe {
     description_->variables.back().max = max;
     return *this;
   }
+  Describe& directional_derivatives() {
+    description_->provides_directional_derivatives = true;
+    return *this;
+  }
   /// Of the output listed last; without it, nothing is declared.
   Describe& depends_on(std::vector<ValueReference> inputs) {
     description_->outputs.push_back({description_->variables.back().reference, std::move(inputs)});
@@ -156,6 +160,9 @@ class ScriptedUnit : public Unit {
   std::function<Time(ScriptedUnit&)> on_idle_until = [](ScriptedUnit&) { return Time::min(); };
   std::function<double(ScriptedUnit&, ValueReference)> on_slope =
       [](ScriptedUnit&, ValueReference) { return 0.0; };
+  /// The derivatives of an unknown with respect to a known, each element of one by each of the
+  /// other, row by row.
+  std::function<std::vector<double>(ScriptedUnit&, ValueReference, ValueReference)> on_derivative;
   std::optional<Duration> max_skip;  ///< as it was enabled
   /// Keeps or brings back what the script holds beside the values.
   std::function<void(bool save)> on_state = [](bool) {};
@@ -234,6 +241,26 @@ class ScriptedUnit : public Unit {
   void get_derivatives(std::span<const ValueReference> outputs,
                        std::span<double> derivatives) override {
     for (std::size_t i = 0; i < outputs.size(); ++i) derivatives[i] = on_slope(*this, outputs[i]);
+  }
+  void get_directional_derivative(std::span<const ValueReference> unknowns,
+                                  std::span<const ValueReference> knowns,
+                                  std::span<const double> seed,
+                                  std::span<double> sensitivity) override {
+    calls.push_back("get_directional_derivative");
+    std::size_t row = 0;
+    for (const ValueReference unknown : unknowns) {
+      for (std::size_t i = 0; i < block(unknown).size(); ++i, ++row) {
+        sensitivity[row] = 0;
+        std::size_t column = 0;
+        for (const ValueReference known : knowns) {
+          const std::vector<double> derivatives = on_derivative(*this, unknown, known);
+          const std::size_t size = block(known).size();
+          for (std::size_t k = 0; k < size; ++k, ++column) {
+            sensitivity[row] += derivatives[i * size + k] * seed[column];
+          }
+        }
+      }
+    }
   }
   void terminate() override { calls.push_back("terminate"); }
 

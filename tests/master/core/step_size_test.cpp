@@ -168,8 +168,11 @@ TEST_CASE("a step that was too long is undone by all units and counted") {
 
 TEST_CASE("a jump that no step is short enough for is an error that names the output") {
   const double high = GENERATE(1.0, std::numeric_limits<double>::infinity());
+  const bool has_internal_step = GENERATE(false, true);
   ScriptedSystem f;
-  auto& jumper = f.add("jumper", Describe("jumper").output("y").can_save_state().done());
+  Describe description("jumper");
+  if (has_internal_step) description.fixed_internal_step(10ms);
+  auto& jumper = f.add("jumper", description.output("y").can_save_state().done());
   jumper.on_step = [high](ScriptedUnit& self, Time, Time to) {
     self.number(0) = to > Time(300ms) ? high : 0;
     return reached(to);
@@ -182,8 +185,12 @@ TEST_CASE("a jump that no step is short enough for is an error that names the ou
     f.build(1, 10ms).run();
     FAIL("the jump was not noticed");
   } catch (const Error& error) {
-    CHECK_THAT(error.what(), Contains("unit 'jumper', variable 'y', at 0.29999") &&
-                                 Contains("no shorter step is allowed"));
+    CHECK_THAT(error.what(), Contains("unit 'jumper', variable 'y', at 0."));
+    CHECK_THAT(error.what(),
+               Contains(has_internal_step ? "no shorter step is possible, since steps end on the "
+                                            "units' fixed internal steps (fixedInternalStepSize) "
+                                            "of 0.01 s"
+                                          : "no shorter step is allowed"));
   }
 }
 

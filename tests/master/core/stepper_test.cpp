@@ -155,6 +155,43 @@ TEST_CASE("where one unit rejects a step that another stops in, their order chan
   CHECK(f.instances[2]->number(1) == Approx(0.001).epsilon(1e-12));
 }
 
+TEST_CASE("a unit that says how far it could have come gets a point there") {
+  const bool is_alone = GENERATE(true, false);
+  ScriptedSystem f;
+  f.add("turns", Describe("t").can_save_state().output("y").done()).on_step =
+      [](ScriptedUnit&, Time from, Time to) {
+        const Time turn = at(0.0013);
+        if (from < turn && turn < to) return StepResult{.rejected = true, .reached = turn};
+        return reached(to);
+      };
+  if (!is_alone) f.add("follows", integrator().can_save_state().done()).on_step = integrate;
+  CHECK(points(f, 0.002, 1ms) == std::vector<Time>{at(0), at(0.001), at(0.0013), at(0.002)});
+  if (!is_alone) CHECK(f.instances[1]->number(1) == Approx(0.002).epsilon(1e-12));
+}
+
+TEST_CASE("half the way is tried where a unit names no instant within the step that it rejected") {
+  const Time said = GENERATE(at(0), at(0.001), at(0.5), at(-1));
+  ScriptedSystem f;
+  f.add("vague", Describe("v").can_save_state().output("y").done()).on_step =
+      [said](ScriptedUnit&, Time from, Time to) {
+        if (to - from > 800us) return StepResult{.rejected = true, .reached = said};
+        return reached(to);
+      };
+  CHECK(points(f, 0.001, 1ms) == std::vector<Time>{at(0), at(0.0005), at(0.001)});
+}
+
+TEST_CASE("an instant that is nearer than the minimum step is not tried") {
+  ScriptedSystem f;
+  f.add("near", Describe("n").can_save_state().output("y").done()).on_step = [](ScriptedUnit&,
+                                                                                Time from, Time) {
+    return StepResult{.rejected = true, .reached = from + Duration(10)};
+  };
+  CHECK_THAT(
+      failure(f.build(1, 1ms)),
+      Contains("unit 'near', at 0 s: the unit rejected the step to 0.001 s, once in all, and "
+               "the next one to try, to 0.00000000001 s, would be shorter"));
+}
+
 TEST_CASE("a unit that always rejects is named, with how often and where") {
   ScriptedSystem f;
   f.add("calm", integrator().can_save_state().done()).on_step = integrate;

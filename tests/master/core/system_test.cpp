@@ -72,11 +72,11 @@ std::string reason(std::vector<ConnectionDeclaration> connections) {
 TEST_CASE("a valid system is built, with conversions") {
   SystemDeclaration declared = declaration();
   declared.connections = {wire("y", "u")};
-  declared.start_values = {{"beta", "gain", "2.5", "", {"s.ssd", 12}},
-                           {"beta", "gain", "3.5", "", {"--set", 0}}};
+  declared.start_values = {{"beta", "gain", "2.5", {}, {"s.ssd", 12}},
+                           {"beta", "gain", "3.5", {}, {"--set", 0}}};
   const System system(declared);
   REQUIRE(system.connections().size() == 1);
-  CHECK(system.connections()[0].conversion.factor == Approx(1e-3));
+  CHECK(system.connections()[0].conversion.linear.factor == Approx(1e-3));
   CHECK(system.full_name(system.connections()[0].from) == "alpha.y");
   REQUIRE(system.start_values().size() == 1);
   CHECK(element_text(system.start_values()[0].value, 0) == "3.5");
@@ -89,7 +89,7 @@ TEST_CASE("names that do not exist are named with the nearest that does") {
   CHECK_THAT(reason({wire("y", "gian")}),
              Contains("unit 'beta', variable 'gian'") && Contains("did you mean 'gain'?"));
   SystemDeclaration system = declaration();
-  system.start_values = {{"beta", "gan", "1", "", {"s.ssd", 12}}};
+  system.start_values = {{"beta", "gan", "1", {}, {"s.ssd", 12}}};
   CHECK_THAT(reason(system), Contains("s.ssd:12") && Contains("did you mean 'gain'?"));
 }
 

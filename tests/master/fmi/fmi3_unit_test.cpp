@@ -326,10 +326,10 @@ TEST_CASE("a small drift of a unit's own time is tolerated") {
 
 TEST_CASE("a unit's own time may differ from the end of the step, which the log says once") {
   std::vector<std::string> logged;
-  const fmi::LogSink log = [&](const std::string& unit, fmi3Status status, const std::string&,
+  const fmi::LogSink log = [&](const std::string& unit, fmi::Status status, const std::string&,
                                const std::string& message) {
     CHECK(unit == "lies");
-    CHECK(status == fmi3Warning);
+    CHECK(status == fmi::Status::Warning);
     logged.push_back(message);
   };
   Raw fixed("lies", {.log = log}, "raw", "hasEventMode=\"true\" fixedInternalStepSize=\"0.5\"");
@@ -520,9 +520,10 @@ TEST_CASE("a state that cannot be saved or restored is an error") {
 
 TEST_CASE("a warning is logged and the step stands") {
   std::vector<std::string> logged;
-  Raw raw("warning", {.log = [&](const std::string& unit, fmi3Status status,
+  Raw raw("warning", {.log = [&](const std::string& unit, fmi::Status status,
                                  const std::string& category, const std::string& message) {
-            logged.push_back(unit + "/" + std::to_string(status) + "/" + category + "/" + message);
+            logged.push_back(unit + "/" + std::to_string(static_cast<int>(status)) + "/" +
+                             category + "/" + message);
           }});
   CHECK(raw.unit->step({{}, Time(1ms)}).reached == Time(1ms));
   CHECK(logged == std::vector<std::string>{"warning/1/logStatusWarning/it gets hot"});

@@ -50,7 +50,7 @@ TEST_CASE("an instance keeps the FMU and its unpacked files alive") {
   CHECK(text.strings()[0] == "text from the resources");
   const auto folders = [] {
     std::size_t count = 0;
-    for (const auto& entry : fs::directory_iterator(fmi::TemporaryFolder::parent())) {
+    for (const auto& entry : fs::directory_iterator(archive::TemporaryFolder::parent())) {
       count += entry.is_directory() ? 1 : 0;
     }
     return count;
@@ -81,9 +81,9 @@ TEST_CASE("a bare library that was not made with the kit is refused with advice"
 TEST_CASE("errors in the description are located in the FMU") {
   const Scratch scratch;
   const auto path = make_zip(scratch / "old.fmu",
-                             {{"modelDescription.xml", "<fmiModelDescription fmiVersion='2.0'/>"}});
+                             {{"modelDescription.xml", "<fmiModelDescription fmiVersion='1.0'/>"}});
   CHECK_THAT(input_error([&] { Fmu::load(path); }),
-             Contains("old.fmu/modelDescription.xml:1: FMI 2.0 units are not supported yet"));
+             Contains("old.fmu/modelDescription.xml:1: fmiVersion=\"1.0\" is not supported"));
   CHECK_THAT(input_error([] {
                Fmu::load("/absent.fmu", {"system.ssd", 9});
              }),
@@ -118,7 +118,7 @@ TEST_CASE("that a unit needs its tool is logged") {
   const auto fmu = Fmu::load(make_raw_fmu(scratch, "raw", "needsExecutionTool=\"true\""));
   std::string logged;
   fmu->instantiate("unit",
-                   {.log = [&](const std::string& unit, fmi3Status, const std::string&,
+                   {.log = [&](const std::string& unit, fmi::Status, const std::string&,
                                const std::string& message) { logged += unit + ": " + message; }});
   CHECK_THAT(logged, Contains("unit: ") && Contains("needs the tool that made it"));
 }

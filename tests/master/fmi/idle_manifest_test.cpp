@@ -116,9 +116,9 @@ TEST_CASE("entries must fit the unit's variables") {
                         "<Output name='level' valueReference='3' tolerance='2'/>"),
              Contains("'level' is listed twice"));
   CHECK_THAT(mistake_in("<Output valueReference='3' tolerance='1'/>"),
-             Contains("no attribute 'name'"));
+             Contains("needs the attribute 'name'"));
   CHECK_THAT(mistake_in("<Output name='level' tolerance='1'/>"),
-             Contains("no attribute 'valueReference'"));
+             Contains("needs the attribute 'valueReference'"));
 }
 
 TEST_CASE("a deadband is at least 0, a tolerance above it") {
@@ -135,7 +135,7 @@ TEST_CASE("a deadband is at least 0, a tolerance above it") {
   CHECK_THAT(mistake_in("<Output name='level' valueReference='3' tolerance='much'/>"),
              Contains("tolerance=\"much\""));
   CHECK_THAT(mistake_in("<Output name='level' valueReference='3'/>"),
-             Contains("no attribute 'tolerance'"));
+             Contains("needs the attribute 'tolerance'"));
 }
 
 TEST_CASE("an output has a derivative only where the unit has some") {

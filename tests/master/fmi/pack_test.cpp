@@ -2,8 +2,8 @@
 
 #include <ctime>
 
-#include "master/fmi/archive.h"
 #include "master/fmi/fmu.h"
+#include "master/fmi/unpacked_fmu.h"
 #include "tests/master/fmi/support.h"
 
 using namespace stride;
@@ -19,7 +19,7 @@ fmi::PackRequest stateless(const Scratch& scratch, const std::string& output = "
 }
 
 std::vector<std::string> names_in(const fs::path& path) {
-  archive* zip = archive_read_new();
+  ::archive* zip = archive_read_new();
   archive_read_support_format_zip(zip);
   REQUIRE(archive_read_open_filename(zip, path.c_str(), 4096) == ARCHIVE_OK);
   std::vector<std::string> names;
@@ -123,7 +123,7 @@ TEST_CASE("what cannot be packed is an error that says why") {
   SECTION("resources that are no folder") {
     request.library = STRIDE_TYPES_LIBRARY;
     request.resources = scratch / "resources/note.txt";
-    CHECK_THAT(input_error([&] { fmi::pack(request); }), Contains("are no folder"));
+    CHECK_THAT(input_error([&] { fmi::pack(request); }), Contains("note.txt' is no folder"));
   }
   SECTION("a library without the kit") {
     request.library = raw_library("raw");

@@ -134,7 +134,8 @@ TEST_CASE("A mistake in the annotation is named with its line") {
   CHECK_THAT(error("<stride:EarlyReturn components='a'/>"), Contains("'allowed'"));
   CHECK_THAT(error("<stride:EarlyReturn allowed='false'/>"), Contains("'components'"));
   CHECK_THAT(error("<stride:EarlyReturn components='a' allowed='no'/>"),
-             Contains("x.ssd:4: ") && Contains("allowed=\"no\" is neither true nor false"));
+             Contains("x.ssd:4: ") &&
+                 Contains("allowed=\"no\" of <stride:EarlyReturn>: expected true or false"));
   CHECK_THAT(error("<stride:IdleSkip maxSkip='0'/>"),
              Contains("x.ssd:4: ") && Contains("maxSkip: a skip must be above 0 s"));
   CHECK_THAT(error("<stride:Deadband variable='a.u' value='-1'/>"), Contains("of at least 0"));

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "master/xml/document.h"
 #include "tests/master/io/support.h"
 
 using namespace stride::io;
@@ -11,7 +12,7 @@ namespace {
 
 std::filesystem::path resolve(const std::string& source, const std::string& base = "runs") {
   const TemporaryFolder folder;
-  const XmlDocument document(folder.write("x.ssd", "<a source='" + source + "'/>"));
+  const stride::xml::Document document(folder.write("x.ssd", "<a source='" + source + "'/>"));
   return source_path(document.root(), base);
 }
 
@@ -45,4 +46,9 @@ TEST_CASE("What names no file here is refused") {
   CHECK_THROWS_WITH(resolve("a%2"), Contains("not followed by two hexadecimal digits"));
   CHECK_THROWS_WITH(resolve("a%00b"), Contains("not followed by two hexadecimal digits"));
   CHECK_THROWS_WITH(resolve(""), Contains("'source' of <a> is empty"));
+}
+
+TEST_CASE("A path becomes a URI that leads back to it") {
+  CHECK(uri_of("resources/a b#%ä.fmu") == "resources/a%20b%23%25%C3%A4.fmu");
+  CHECK(uri_of("plain-1_2~3.ssv") == "plain-1_2~3.ssv");
 }

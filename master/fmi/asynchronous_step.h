@@ -1,0 +1,32 @@
+// The end of a step that a unit makes in a thread of its own.
+#ifndef STRIDE_MASTER_FMI_ASYNCHRONOUS_STEP_H
+#define STRIDE_MASTER_FMI_ASYNCHRONOUS_STEP_H
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+
+#include "master/fmi/status.h"
+
+namespace stride::fmi {
+
+/// Where a unit's callback stepFinished says how a step ended, on whatever thread, and before or
+/// after fmi2DoStep returns.
+class AsynchronousStep {
+ public:
+  /// Before fmi2DoStep is called.
+  void begin();
+  void finish(Status status) noexcept;
+  /// The step's status, as soon as it is known; nothing if that takes longer.
+  std::optional<Status> wait(std::chrono::microseconds time);
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable is_finished_;
+  std::optional<Status> status_;
+};
+
+}  // namespace stride::fmi
+
+#endif

@@ -1,0 +1,29 @@
+// What the descriptions of both versions of FMI say in the same words.
+#ifndef STRIDE_MASTER_FMI_COMMON_DESCRIPTION_H
+#define STRIDE_MASTER_FMI_COMMON_DESCRIPTION_H
+
+#include <optional>
+#include <string>
+
+#include <stride/time.h>
+
+#include "master/core/description.h"
+#include "master/xml/element.h"
+
+namespace stride::fmi {
+
+// Each throws core::Error of the kind Input that names the place of what is wrong.
+
+/// <CoSimulation>, which the unit must have.
+xml::Element find_co_simulation(const xml::Element& root);
+/// The name of its library: a plain one, which cannot lead to another folder.
+std::string read_model_identifier(const xml::Element& co_simulation);
+/// Nothing if there is no such attribute; it must be positive.
+std::optional<Duration> read_step_size(const xml::Element& element, const char* attribute);
+/// <UnitDefinitions> and <DefaultExperiment>.
+void read_units(const xml::Element& root, core::UnitDescription& unit);
+void read_default_experiment(const xml::Element& root, core::UnitDescription& unit);
+
+}  // namespace stride::fmi
+
+#endif

@@ -1,0 +1,75 @@
+#include "master/fmi/fmi3_description.h"
+
+#include <fmt/format.h>
+
+#include "master/fmi/common_description.h"
+#include "master/fmi/fmi3_variables.h"
+
+namespace stride::fmi {
+namespace {
+
+void read_co_simulation(const xml::Element& element, core::UnitDescription& unit) {
+  unit.model_identifier = read_model_identifier(element);
+  unit.has_event_mode = element.flag("hasEventMode");
+  unit.can_save_state = element.flag("canGetAndSetFMUState");
+  unit.can_serialize_state = element.flag("canSerializeFMUState");
+  unit.can_vary_step = element.flag("canHandleVariableCommunicationStepSize");
+  unit.may_return_early = element.flag("mightReturnEarlyFromDoStep");
+  unit.single_instance = element.flag("canBeInstantiatedOnlyOncePerProcess");
+  unit.needs_execution_tool = element.flag("needsExecutionTool");
+  unit.provides_intermediate_update = element.flag("providesIntermediateUpdate");
+  unit.max_output_derivative_order =
+      element.number<unsigned>("maxOutputDerivativeOrder").value_or(0);
+  unit.fixed_internal_step = read_step_size(element, "fixedInternalStepSize");
+}
+
+core::ValueReference checked_reference(const xml::Element& element, core::ValueReference reference,
+                                       const VariableIndex& index) {
+  if (index.contains(reference)) return reference;
+  element.fail(fmt::format("{} refers to the value reference {}, which no variable has",
+                           element.tag(), reference));
+}
+
+std::vector<core::Unknown> read_unknowns(const xml::Element& structure, const char* name,
+                                         const VariableIndex& index) {
+  std::vector<core::Unknown> unknowns;
+  for (const xml::Element& element : structure.children(name)) {
+    core::Unknown& unknown = unknowns.emplace_back();
+    unknown.reference = checked_reference(
+        element, element.required_number<core::ValueReference>("valueReference"), index);
+    if (!element.attribute("dependencies")) continue;
+    unknown.dependencies = element.number_list<core::ValueReference>("dependencies");
+    for (const auto known : *unknown.dependencies) checked_reference(element, known, index);
+  }
+  return unknowns;
+}
+
+/// What FMI has no word for, in the annotation that the unit kit writes.
+void read_annotation(const xml::Element& root, core::UnitDescription& unit) {
+  const auto annotations = root.child("Annotations");
+  if (!annotations) return;
+  for (const xml::Element& annotation : annotations->children("Annotation")) {
+    if (annotation.attribute_or("type") != "org.stride.unit") continue;
+    for (const xml::Element& element : annotation.children()) {
+      if (!element.is("urn:org.stride:unit:1", "Unit")) continue;
+      unit.may_reject = element.flag("mayReject", unit.may_reject);
+      unit.split_invariant = element.flag("splitInvariant");
+      unit.maximum_step = read_step_size(element, "maximumStep");
+    }
+  }
+}
+
+}  // namespace
+
+void read_fmi3_description(const xml::Element& root, core::UnitDescription& unit) {
+  unit.instantiation_token = root.given("instantiationToken");
+  read_co_simulation(find_co_simulation(root), unit);
+  const VariableIndex index = read_variables(root, unit.variables);
+  const auto structure = root.child("ModelStructure");
+  if (!structure) root.fail("<ModelStructure> is missing");
+  unit.outputs = read_unknowns(*structure, "Output", index);
+  unit.initial_unknowns = read_unknowns(*structure, "InitialUnknown", index);
+  read_annotation(root, unit);
+}
+
+}  // namespace stride::fmi

@@ -1,0 +1,115 @@
+// FMI 2.0 units, as a user of the program meets them.
+#include <nlohmann/json.hpp>
+
+#include "master/fmi/unpacked_fmu.h"
+#include "tests/cli/scenarios.h"
+
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// An FMI 2.0 unit that turns at 0.25 s between two of FMI 3.0, which are rolled back.
+Parts mixed(const std::string& turner) {
+  return {component("filter", "minimal.fmu") + component("turner", turner) +
+              component("relaxation", "fmi2_relaxation.fmu") + component("last", "minimal.fmu"),
+          connection("turner.y", "filter.u") + connection("filter.y", "relaxation.u") +
+              connection("relaxation.x", "last.u")};
+}
+
+/// An FMU whose description is another's, with a part replaced, and without its libraries.
+void write_other(const Workspace& workspace, const std::string& part,
+                 const std::string& replacement) {
+  const stride::fmi::UnpackedFmu unpacked(test_fmu("fmi2_relaxation"));
+  std::string text = read(unpacked.folder() / "modelDescription.xml");
+  text.replace(text.find(part), part.size(), replacement);
+  workspace.scratch().write("other/modelDescription.xml", text);
+}
+
+}  // namespace
+
+TEST_CASE("inspect shows an FMI 2.0 unit") {
+  const Outcome outcome = Workspace("").stride(
+      {"inspect", (fs::path(STRIDE_TEST_FMU_DIR) / "fmi2_types.fmu").string()});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.out, Contains("fmi2_types: FMI 2.0 Co-Simulation\n"));
+  CHECK_THAT(outcome.out, Contains("can be rolled back, variable step\n"));
+  CHECK_THAT(outcome.out, Contains("gain.local"));
+  CHECK_THAT(outcome.out, Contains("Enumeration"));
+}
+
+TEST_CASE("units of both versions run together, and a discarded step is redone by all") {
+  const bool has_state = GENERATE(true, false);
+  const std::string unit = has_state ? "fmi2_turner.fmu" : "fmi2_turner_without_state.fmu";
+  const Workspace workspace(mixed(unit));
+  const Outcome outcome = workspace.run({"--step", "0.1", "--quiet"});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const Csv signals = workspace.signals();
+  const auto time = signals.numbers("time");
+  const auto y = signals.numbers("turner.y");
+  bool has_turn = false;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    CAPTURE(time[i]);
+    CHECK(y[i] == Approx(time[i] <= 0.25 ? time[i] : 0.5 - time[i]).margin(1e-12));
+    has_turn |= time[i] == 0.25;
+  }
+  CHECK(has_turn);
+  const auto run = nlohmann::json::parse(workspace.result("run.json"));
+  CHECK(run.at("communication_steps") == 11);
+  for (const auto& entry : run.at("units")) {
+    CAPTURE(entry.dump());
+    const bool is_turner = entry.at("name") == "turner";
+    CHECK(entry.at("rejections") == (is_turner && has_state ? 1 : 0));
+    CHECK(entry.at("early_returns") == (is_turner && !has_state ? 1 : 0));
+  }
+  if (has_state) CHECK(outcome.err == "");
+  if (!has_state) {
+    CHECK_THAT(outcome.err, Contains("warning: unit 'turner': the step to 0.3 s ended at 0.25 s"));
+  }
+}
+
+TEST_CASE("check lists FMI 2.0 units as what they are") {
+  const Outcome outcome = Workspace(mixed("fmi2_turner.fmu")).stride({"check", "test.ssd"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.out, Contains("2.0"));
+  CHECK_THAT(outcome.out, Contains("can be rolled back; its state is saved before each step"));
+}
+
+TEST_CASE("start values of FMI 2.0 inputs and parameters are set from outside") {
+  const Workspace workspace({component("r", "fmi2_relaxation.fmu")});
+  const Outcome outcome = workspace.run({"--set", "r.u=3", "--set", "r.x=3", "--quiet"});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  for (const double x : workspace.signals().numbers("r.x")) CHECK(x == 3);
+  CHECK_THAT(input_error_of(workspace.run({"--set", "r.der(x)=1"})),
+             Contains("initial = calculated cannot be set"));
+  CHECK_THAT(input_error_of(workspace.run({"--set", "r.x=101"})), Contains("at most 100"));
+}
+
+TEST_CASE("units that cannot be loaded say what to do") {
+  const Workspace workspace({component("r", "other")});
+  write_other(workspace, "fmiVersion=\"2.0\"", "fmiVersion=\"1.0\"");
+  CHECK_THAT(input_error_of(workspace.run()),
+             Contains("fmiVersion=\"1.0\" is not supported; expected 2.0 or 3.0") &&
+                 Contains("hint: export the unit as FMI 3.0 or FMI 2.0 Co-Simulation"));
+  write_other(workspace, "CoSimulation", "ModelExchange");
+  CHECK_THAT(input_error_of(workspace.run()),
+             Contains("it has ModelExchange only") && Contains("hint: export the unit for"));
+  write_other(workspace, "", "");
+  workspace.scratch().write("other/sources/relaxation.c", "");
+  CHECK_THAT(input_error_of(workspace.run()),
+             Contains("it has its source code only") && Contains("hint: compile the C files"));
+  workspace.scratch().write("other/binaries/win64/fmi2_relaxation.dll", "");
+  CHECK_THAT(input_error_of(workspace.run()),
+             Contains("it has win64") && Contains("a Windows library cannot be loaded on Linux"));
+}
+
+TEST_CASE("a unit of FMI 2.0 that fails is told with its message, and what was recorded is kept") {
+  const Workspace workspace({component("g", "fmi2_grumbler.fmu")});
+  const Outcome outcome = workspace.run({"--set", "g.mood=3", "--quiet"});
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("unit 'g', at 0 s: fmi2DoStep returned fmi2Error: mood of 3 in "
+                                   "channel #4"));
+  CHECK(workspace.signals().numbers("time") == std::vector<double>{0});
+}

@@ -1,0 +1,28 @@
+/* All types, with value references that are the same for different ones. Each output is its input,
+ * at once. `gain` is a parameter, an output and a local variable at once, by one value reference.
+ */
+#include "tests/test_units/fmi2/unit.h"
+
+enum { kIn = FIRST_INPUT, kMode, kOut = FIRST_OTHER, kModeOut, kGain };
+
+static void unit_start(Unit* unit) {
+  unit->model.real[kGain] = 3;
+  unit->model.integer[kMode] = 1;
+  strcpy(unit->model.string[kGain], unit->resources);
+}
+
+static void unit_outputs(Unit* unit) {
+  Model* const m = &unit->model;
+  m->real[kOut] = m->real[kIn] * m->real[kGain];
+  m->integer[kOut] = m->integer[kIn];
+  m->integer[kModeOut] = m->integer[kMode];
+  m->boolean[kOut] = m->boolean[kIn];
+  strcpy(m->string[kOut], m->string[kIn]);
+}
+
+static fmi2Status unit_step(Unit* unit, double begin, double size) {
+  unit->model.time = begin + size;
+  return fmi2OK;
+}
+
+static fmi2Status unit_poll(Unit* unit) { return refuse(unit, "asking for the status"); }

@@ -1,0 +1,85 @@
+/* y = gain * u, vectors of n elements, of which each has its own gain. n is a structural parameter:
+ * it is set in Configuration Mode only, and every other call has to have as many values as it says.
+ */
+#include <stride/fmi3.h>
+
+#define fmi3GetFloat64 raw_get_float64
+#define fmi3SetFloat64 raw_set_float64
+#define fmi3SetUInt64 raw_set_uint64
+#include "tests/test_units/raw/unit.c"
+#undef fmi3GetFloat64
+#undef fmi3SetFloat64
+#undef fmi3SetUInt64
+
+enum { N = 1, GAIN = 2, U = 3, Y = 4, MOST = 16 };
+
+typedef struct {
+  bool is_configured; /* it was in Configuration Mode, or kept what it is by default */
+  bool is_configuring;
+  size_t n;
+  double gain[MOST], u[MOST];
+} Vectors;
+
+static Vectors all[sizeof instances / sizeof *instances];
+
+static Vectors* vectors(fmi3Instance handle) { return &all[(Instance*)handle - instances]; }
+
+static fmi3Status fail(fmi3Instance handle, const char* message) {
+  Instance* instance = handle;
+  instance->log(instance->environment, fmi3Error, "logStatusError", message);
+  return fmi3Error;
+}
+
+fmi3Status fmi3EnterConfigurationMode(fmi3Instance handle) {
+  Vectors* v = vectors(handle);
+  if (v->is_configured) return fail(handle, "Configuration Mode after something was set");
+  v->is_configuring = v->is_configured = true;
+  return fmi3OK;
+}
+
+fmi3Status fmi3ExitConfigurationMode(fmi3Instance handle) {
+  vectors(handle)->is_configuring = false;
+  return fmi3OK;
+}
+
+fmi3Status fmi3SetUInt64(fmi3Instance handle, const fmi3ValueReference references[], size_t count,
+                         const fmi3UInt64 values[], size_t size) {
+  Vectors* v = vectors(handle);
+  if (!v->is_configuring) return fail(handle, "n is set in Configuration Mode only");
+  if (count != 1 || size != 1 || references[0] != N || values[0] > MOST) {
+    return fail(handle, "this is not n");
+  }
+  v->n = values[0];
+  return fmi3OK;
+}
+
+static size_t size_of(Vectors* v) {
+  if (v->is_configured) return v->n;
+  v->is_configured = true;
+  return v->n = 2;
+}
+
+fmi3Status fmi3SetFloat64(fmi3Instance handle, const fmi3ValueReference references[], size_t count,
+                          const fmi3Float64 values[], size_t size) {
+  Vectors* v = vectors(handle);
+  const size_t n = size_of(v);
+  if (size != count * n) return fail(handle, "another number of values than n says");
+  for (size_t i = 0; i < size; ++i) {
+    (references[i / n] == GAIN ? v->gain : v->u)[i % n] = values[i];
+  }
+  return fmi3OK;
+}
+
+fmi3Status fmi3GetFloat64(fmi3Instance handle, const fmi3ValueReference references[], size_t count,
+                          fmi3Float64 values[], size_t size) {
+  Vectors* v = vectors(handle);
+  const size_t n = size_of(v);
+  if (size != count * n) return fail(handle, "another number of values than n says");
+  for (size_t i = 0; i < size; ++i) {
+    const size_t k = i % n;
+    values[i] = references[i / n] == GAIN ? v->gain[k]
+                : references[i / n] == U  ? v->u[k]
+                                          : v->gain[k] * v->u[k];
+  }
+  return fmi3OK;
+}
