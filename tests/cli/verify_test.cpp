@@ -96,6 +96,10 @@ TEST_CASE("each lie is found, with variable, values and time") {
               "not list that");
   check_fails("lying_forgets_in_reset.fmu", "reset",
               "at 0.001 s 'steps' is 1 in a new instance, and 121 after a reset in Step Mode");
+  check_fails("lying_keeps_input_in_reset.fmu", "reset", "'u' is ");
+  check_fails(
+      "lying_keeps_input_in_reset.fmu", "reset",
+      "in Initialization Mode after a reset in Step Mode, though in a new instance it is 0");
   check_fails("lying_ignores_start.fmu", "values",
               "'y' is 0.25 in Initialization Mode, though its start value is 0");
   check_fails("lying_leaves_range.fmu", "values", "which is above its max 0.01");

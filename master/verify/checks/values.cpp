@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "master/verify/checks.h"
+#include "master/verify/start_values.h"
 
 namespace stride::verify {
 namespace {
@@ -15,57 +16,24 @@ using core::ValueBlock;
 using core::ValueType;
 using core::Variable;
 
-bool is_readable(const Variable& variable) {
-  return variable.type != ValueType::Clock && !variable.is_clocked();
-}
-
-/// Its value before the start is what the description says.
-bool has_exact_start(const Variable& variable) {
-  return is_readable(variable) && variable.initial == Initial::Exact && has_start_value(variable) &&
-         variable.causality != Causality::StructuralParameter;
-}
-
-std::string text_of(const ValueBlock& block) {
-  std::string text;
-  for (std::size_t e = 0; e < block.size(); ++e) {
-    text += (e == 0 ? "" : " ") + core::element_text(block, e);
-  }
-  return text.empty() ? "empty" : text;
-}
-
-void expect(Life& life, const Variable& variable, const ValueBlock& expected,
-            const std::string& when, const std::string& reason) {
-  const ValueBlock value = life.get(variable);
-  if (value == expected) return;
-  throw Failure(fmt::format("'{}' is {} {}, though {} {}", variable.name, text_of(value), when,
-                            reason, text_of(expected)));
-}
-
-void expect_start_values(const Trial& trial, Life& life, const std::string& when) {
-  for (const Variable& variable : trial.subject.description().variables) {
-    if (!has_exact_start(variable)) continue;
-    expect(life, variable, start_value(variable), when, "its start value is");
-  }
-}
-
 /// Sets each start value that can be set, reads them back, before and after the initialization.
 void examine_start(const Trial& trial) {
   const core::UnitDescription& unit = trial.subject.description();
   Life life = trial.live();
   const bool is_readable_at_once = !unit.fmi_version.starts_with("2");
-  if (is_readable_at_once) expect_start_values(trial, life, "in a new instance");
+  if (is_readable_at_once) expect_start_values(unit, life, "in a new instance");
   for (const Variable& variable : unit.variables) {
     const bool is_set =
         has_exact_start(variable) && variable.variability != core::Variability::Constant;
     if (is_set) life.set(variable, start_value(variable));
   }
   life.enter_initialization();
-  expect_start_values(trial, life, "in Initialization Mode");
+  expect_start_values(unit, life, "in Initialization Mode");
   for (const Variable& variable : unit.variables) {
     if (variable.causality != Causality::Input || !has_exact_start(variable)) continue;
     const ValueBlock other = other_value(variable, start_value(variable));
     life.set(variable, other);
-    expect(life, variable, other, "in Initialization Mode", "it was set to");
+    expect_value(life, variable, other, "in Initialization Mode", "it was set to");
     life.set(variable, start_value(variable));
   }
   life.exit_initialization();
@@ -73,7 +41,8 @@ void examine_start(const Trial& trial) {
     const bool is_kept =
         variable.causality == Causality::Input || variable.causality == Causality::Parameter;
     if (is_kept && has_exact_start(variable)) {
-      expect(life, variable, start_value(variable), "after the initialization", "it was set to");
+      expect_value(life, variable, start_value(variable), "after the initialization",
+                   "it was set to");
     } else if (is_readable(variable)) {
       life.get(variable);
     }

@@ -15,28 +15,30 @@ namespace {
 
 enum Lie {
   None,
-  ForgetsOnRestore,  ///< a variable of its state is not saved
-  DependsOnSplit,    ///< an explicit Euler step, though it declares split_invariant
-  Leaks,             ///< memory, with each instance
-  LeaksFiles,        ///< likewise
-  GrowsInSteps,      ///< memory, with each step
-  SharesState,       ///< with all instances of its process
-  CrashesInReset,    ///< when it is made again in its process
-  HangsInStep,       ///< from 0.02 s on
-  HiddenDependency,  ///< an output follows an input that it is declared not to depend on
-  ForgetsInReset,    ///< its count goes on where it was
-  IgnoresStart,      ///< an output's start value is not what the unit has
-  LeavesRange,       ///< an output goes above its max
-  NotDeterministic,  ///< it takes an address for a number
-  BreaksRejection,   ///< it rejects a step after it has made half of it
-  AnnouncesPast,     ///< its next event is over
-  IteratesForEver,   ///< its events do not end
-  ExitsInStep,       ///< it ends the process
+  ForgetsOnRestore,   ///< a variable of its state is not saved
+  DependsOnSplit,     ///< an explicit Euler step, though it declares split_invariant
+  Leaks,              ///< memory, with each instance
+  LeaksFiles,         ///< likewise
+  GrowsInSteps,       ///< memory, with each step
+  SharesState,        ///< with all instances of its process
+  CrashesInReset,     ///< when it is made again in its process
+  HangsInStep,        ///< from 0.02 s on
+  HiddenDependency,   ///< an output follows an input that it is declared not to depend on
+  KeepsInputInReset,  ///< has the input of its last step instead of the start value
+  ForgetsInReset,     ///< its count goes on where it was
+  IgnoresStart,       ///< an output's start value is not what the unit has
+  LeavesRange,        ///< an output goes above its max
+  NotDeterministic,   ///< it takes an address for a number
+  BreaksRejection,    ///< it rejects a step after it has made half of it
+  AnnouncesPast,      ///< its next event is over
+  IteratesForEver,    ///< its events do not end
+  ExitsInStep,        ///< it ends the process
 };
 constexpr Lie kLie = LIE;
 
 /// What all instances of a process share, and must not.
 int shared_count = 0;
+double shared_input = 0;
 bool was_initialized = false;
 void* volatile lost = nullptr;
 
@@ -57,6 +59,7 @@ class Lying : public stride::Unit {
     }
     if (kLie == CrashesInReset && was_initialized) std::raise(SIGSEGV);
     if (kLie == ForgetsInReset && was_initialized) count_ = shared_count;
+    if (kLie == KeepsInputInReset) u_ = shared_input;
     if (kLie == Leaks) lost = std::malloc(100);
     if (kLie == LeaksFiles) ::open("/dev/null", O_RDONLY);
   }
@@ -80,6 +83,7 @@ class Lying : public stride::Unit {
     y_ += h / 0.05 * (u_ - y_);
     ++count_;
     ++shared_count;
+    shared_input = u_;
     if (kLie != DependsOnSplit) steps_ = kLie == SharesState ? shared_count : count_;
     if (kLie == NotDeterministic) {
       echo_ = static_cast<double>(reinterpret_cast<std::uintptr_t>(this));
