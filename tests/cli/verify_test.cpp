@@ -127,7 +127,7 @@ TEST_CASE("what is left behind is found") {
 
 TEST_CASE("a unit that crashes, hangs or ends the process fails a check and no more") {
   check_fails("lying_crashes_in_reset.fmu", "reset",
-              "it crashed with signal 11 (SIGSEGV) in fmi3Reset at 0.12 s");
+              "it crashed with signal 11 (SIGSEGV) in fmi3Reset at 0 s");
   check_fails("lying_hangs_in_step.fmu", "events",
               "it did not come to an end in time in fmi3DoStep at 0.02 s (limit: 0.5 s)",
               {"--timeout", "0.5"});
