@@ -87,6 +87,7 @@ int main(int argc, char** argv) {
   stride::cli::add_run(app);
   stride::cli::add_check(app);
   stride::cli::add_inspect(app);
+  stride::cli::add_verify(app);
   stride::cli::add_complete(app);
   stride::cli::add_pack(app);
   stride::cli::add_trace(app);

@@ -25,6 +25,9 @@ struct InstanceOptions {
   bool early_return_allowed = false;
   /// Whether the unit may ask for its inputs within a step, where it can (set_input_update()).
   bool intermediate_update = false;
+  /// Whether states from before the present communication point may be restored; else the unit may
+  /// forget what it would need for that.
+  bool may_go_back = false;
   bool debug_logging = false;  ///< everything that the unit can log, not only warnings and errors
   /// The log says it when an asynchronous step takes longer (FMI 2.0, fmi2Pending).
   std::chrono::milliseconds patience = std::chrono::seconds(10);

@@ -283,6 +283,13 @@ TEST_CASE("whether the unit may reject a step") {
              Contains("unit.xml:") && Contains("mayReject=\"perhaps\""));
 }
 
+TEST_CASE("whether the unit's steps may be split") {
+  const std::string unit = "<stride:Unit xmlns:stride=\"urn:org.stride:unit:1\" mayReject=\"0\"";
+  CHECK_FALSE(annotated("org.stride.unit", unit + "/>").split_invariant);
+  CHECK(annotated("org.stride.unit", unit + " splitInvariant=\"true\"/>").split_invariant);
+  CHECK_FALSE(annotated("org.another", unit + " splitInvariant=\"true\"/>").split_invariant);
+}
+
 TEST_CASE("start values and clocks") {
   const auto unit = fmi::parse_model_description(kComplete, "unit.xml");
   CHECK(variable(unit, "temperature").start == "20");

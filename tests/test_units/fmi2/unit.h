@@ -168,6 +168,7 @@ EXPORT fmi2Status fmi2Terminate(fmi2Component c) {
 EXPORT fmi2Status fmi2Reset(fmi2Component c) {
   ALLOW("fmi2Reset", true)
   unit->mode = kInstantiated;
+  memset(&unit->model, 0, sizeof unit->model);
   unit_start(unit);
   return fmi2OK;
 }
