@@ -71,7 +71,7 @@ class Fmi2Unit final : public FmuInstance {
   void enter_event_mode() override;
   core::EventResult update_discrete_states() override;
   void enter_step_mode() override;
-  void set_input_update(core::InputUpdate update) override { input_update_ = std::move(update); }
+  void set_input_update(core::InputUpdate update) override;
   void terminate() override;
 
  private:

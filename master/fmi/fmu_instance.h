@@ -47,8 +47,8 @@ struct UnitParts {
 /// Calls functions of a unit, and turns what they answer into results and errors. A status Error or
 /// Fatal, and Discard of any function but those that may answer it, becomes a core::Error of the
 /// kind Run, with the name of the function, the simulated time and the unit's own messages. After
-/// it, no function of the instance is called any more; after Fatal none of any instance of the FMU,
-/// so they are not freed either, and the library stays loaded.
+/// it the instance is freed, and no other function of it is called; after Fatal none of any
+/// instance of the FMU, so they are not freed either, and the library stays loaded.
 class FmuInstance : public core::Unit {
  public:
   FmuInstance(const FmuInstance&) = delete;
