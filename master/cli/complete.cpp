@@ -6,8 +6,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "master/archive/zip.h"
 #include "master/cli/commands.h"
 #include "master/cli/loaded_scenario.h"
+#include "master/cli/unit_path.h"
 #include "master/io/replacement.h"
 
 namespace stride::cli {
@@ -18,15 +20,27 @@ struct Request {
   std::filesystem::path output;
 };
 
+/// A package is packed again, with the one file changed.
+void write_package(const Request& request, const io::Files::Archive& package,
+                   const std::filesystem::path& file, const std::string& text) {
+  archive::Contents contents;
+  archive::add_folder(contents, "", package.folder);
+  contents[file.lexically_relative(package.folder).string()] = {text, {}, false};
+  archive::write_zip(request.output.empty() ? package.path : request.output, contents);
+}
+
 void complete(const Request& request) {
-  const io::Scenario scenario = io::read_scenario(request.scenario);
+  const io::Scenario scenario = io::read_scenario(request.scenario, {find_unit, {}});
   io::Descriptions descriptions;
   const auto fmus = load_fmus(scenario);
   for (std::size_t i = 0; i < fmus.size(); ++i) {
     descriptions[scenario.system.components[i].name] = fmus[i]->description();
   }
-  const std::string text = io::complete(request.scenario, descriptions);
-  io::Replacement output(request.output.empty() ? request.scenario : request.output);
+  const std::filesystem::path file = scenario.files->system_file(request.scenario);
+  const std::string text = io::complete(file, descriptions, scenario.files->shown(file));
+  const auto archive = scenario.files->archive_of(file);
+  if (archive) return write_package(request, *archive, file, text);
+  io::Replacement output(request.output.empty() ? file : request.output);
   output.file().write(text);
   output.commit();
 }
@@ -38,7 +52,9 @@ void add_complete(CLI::App& app) {
       "complete",
       "Write the connectors that a scenario leaves out into it, as other SSP tools want them");
   const auto request = std::make_shared<Request>();
-  command->add_option("FILE", request->scenario, "The scenario, an SSP system file (.ssd)")
+  command
+      ->add_option("FILE", request->scenario,
+                   "The scenario: an SSP system file (.ssd) or package (.ssp)")
       ->required()
       ->type_name("");
   command->add_option("--output,-o", request->output, "Write there instead of into FILE itself")

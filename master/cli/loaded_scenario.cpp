@@ -38,6 +38,20 @@ Duration parse_option(const std::string& option, const std::string& text,
   }
 }
 
+/// The values of --set, which go before all others.
+std::vector<io::ParameterValue> set_values(const std::vector<std::string>& sets) {
+  std::vector<io::ParameterValue> values;
+  for (const std::string& text : sets) {
+    const auto [name, value] = split("--set", text, "component.variable=value");
+    io::ParameterValue& added = values.emplace_back();
+    added.name = name;
+    added.value = value;
+    added.where = {fmt::format("--set {}", text), 0};
+    added.is_required = true;
+  }
+  return values;
+}
+
 void log_message(const std::string& unit, fmi::Status status, const std::string&,
                  const std::string& message) {
   const auto level = status == fmi::Status::Ok        ? spdlog::level::info
@@ -62,12 +76,14 @@ std::vector<std::shared_ptr<fmi::Fmu>> load_fmus(const io::Scenario& scenario) {
 }
 
 LoadedScenario::LoadedScenario(const ScenarioRequest& request)
-    : scenario_(io::read_scenario(request.scenario)) {
+    : scenario_(io::read_scenario(request.scenario, {find_unit, set_values(request.sets)})) {
   for (const std::string& text : request.swaps) swap(text);
-  for (const std::string& text : request.sets) set(text);
   load_units();
   choose_early_returns();
   system_.emplace(scenario_.system);
+  for (const auto& warnings : {scenario_.warnings, system_->warnings()}) {
+    for (const std::string& warning : warnings) spdlog::warn("{}", warning);
+  }
   choose_times(request);
   choose_steps(request.step);
   choose_idle_skips(request);
@@ -99,23 +115,6 @@ void LoadedScenario::swap(const std::string& text) {
   const auto i = static_cast<std::size_t>(found - names.begin());
   scenario_.sources[i] = file;
   scenario_.system.components[i].where = {fmt::format("--swap {}", text), 0};
-}
-
-void LoadedScenario::set(const std::string& text) {
-  const auto [name, value] = split("--set", text, "component.variable=value");
-  std::string owner;  // the longest name that fits: component names may contain dots
-  for (const std::string& component : component_names()) {
-    if (name.starts_with(component + ".") && component.size() > owner.size()) owner = component;
-  }
-  if (!owner.empty()) {
-    const core::Location where{fmt::format("--set {}", text), 0};
-    scenario_.system.start_values.push_back(
-        {owner, name.substr(owner.size() + 1), value, {}, where});
-    return;
-  }
-  const std::string component = name.substr(0, name.find('.'));
-  core::fail_input({}, fmt::format("--set {}: there is no component '{}'", text, component),
-                   core::suggestion(component, component_names()));
 }
 
 void LoadedScenario::load_units() {

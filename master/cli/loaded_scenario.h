@@ -44,7 +44,6 @@ class LoadedScenario {
 
  private:
   void swap(const std::string& text);
-  void set(const std::string& text);
   void load_units();
   void choose_early_returns();
   void choose_times(const ScenarioRequest& request);

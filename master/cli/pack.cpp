@@ -1,26 +1,86 @@
-// stride pack: a library made with the unit kit becomes a .fmu.
+// stride pack: a library made with the unit kit becomes a .fmu, a scenario a .ssp.
 #include "master/fmi/pack.h"
 
+#include <functional>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "master/archive/temporary_folder.h"
+#include "master/archive/zip.h"
 #include "master/cli/commands.h"
+#include "master/cli/unit_path.h"
+#include "master/io/package.h"
+#include "master/io/scenario.h"
 
 namespace stride::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Makes archives of units that are folders or libraries, which go with this object.
+class FmuArchives {
+ public:
+  fs::path operator()(const fs::path& source, const core::Location& where) {
+    const fs::path unit = find_unit(source, where);
+    const bool is_library = unit.extension() == ".so";
+    if (!is_library && !fs::is_directory(unit)) return unit;
+    const fs::path made = folder_.path() / fmt::format("{}.fmu", ++count_);
+    if (is_library) {
+      fmi::pack({unit, {}, {}, made});
+    } else {
+      archive::Contents contents;
+      archive::add_folder(contents, "", unit);
+      archive::write_zip(made, contents);
+    }
+    return made;
+  }
+
+ private:
+  archive::TemporaryFolder folder_;
+  int count_ = 0;
+};
+
+bool is_scenario(const fs::path& path) {
+  return fs::is_directory(path) || path.extension() == ".ssd" || path.extension() == ".ssp";
+}
+
+void pack_scenario(const fmi::PackRequest& request) {
+  if (!request.resources.empty() || !request.bundled.empty()) {
+    core::fail_input({}, "--resources and --bundle are for the library of a unit",
+                     "a scenario is packed with all that it names");
+  }
+  if (request.output.extension() != ".ssp") {
+    core::fail_input(
+        {},
+        fmt::format("--output {}: a scenario becomes a package (.ssp)", request.output.string()),
+        "give the output a name that ends in .ssp");
+  }
+  const io::Scenario scenario = io::read_scenario(request.library, {find_unit, {}});
+  FmuArchives fmus;
+  archive::write_zip(request.output,
+                     io::package_contents(scenario.files->system_file(request.library),
+                                          *scenario.files, std::ref(fmus)));
+}
+
+}  // namespace
 
 void add_pack(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "pack", "Make a .fmu from a library of the unit kit and a resources folder");
+      "pack",
+      "Make a .fmu from a library of the unit kit and a resources folder, or a .ssp from a "
+      "scenario and all that it names");
   const auto request = std::make_shared<fmi::PackRequest>();
-  command->add_option("LIBRARY", request->library, "The unit's shared library (.so)")
+  command
+      ->add_option("FILE", request->library,
+                   "The unit's shared library (.so), or a scenario (.ssd)")
       ->required()
-      ->check(CLI::ExistingFile)
+      ->check(CLI::ExistingPath)
       ->type_name("");
-  command->add_option("--output,-o", request->output, "The .fmu to write")
+  command->add_option("--output,-o", request->output, "The .fmu or .ssp to write")
       ->required()
-      ->type_name("FILE.fmu");
+      ->type_name("FILE");
   command
       ->add_option("--resources", request->resources, "The unit's resources: an MJCF, a program, …")
       ->type_name("FOLDER");
@@ -29,7 +89,10 @@ void add_pack(CLI::App& app) {
                    "Shared library to put beside the unit's own; may be given several times")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  command->callback([request] { fmi::pack(*request); });
+  command->callback([request] {
+    if (is_scenario(request->library)) return pack_scenario(*request);
+    fmi::pack(*request);
+  });
 }
 
 }  // namespace stride::cli

@@ -57,7 +57,7 @@ void run(const Request& request) {
   io::ResultFiles files = scenario.annotation.results;
   if (request.no_trace) files.trace.clear();
   const std::filesystem::path folder =
-      request.out.empty() ? std::filesystem::path("results") / scenario.path.stem() : request.out;
+      request.out.empty() ? std::filesystem::path("results") / scenario.stem() : request.out;
   io::make_results_folder(folder);
 
   core::RunOptions options = loaded.options();

@@ -55,7 +55,9 @@ void add_step_options(CLI::App& command, io::StepChoice& choice) {
 }  // namespace
 
 void add_scenario_options(CLI::App& command, ScenarioRequest& request) {
-  command.add_option("FILE", request.scenario, "The scenario, an SSP system file (.ssd)")
+  command
+      .add_option("FILE", request.scenario,
+                  "The scenario: an SSP system file (.ssd) or package (.ssp)")
       ->required()
       ->type_name("");
   command.add_option("--stop", request.stop, "Simulated time at which to end")

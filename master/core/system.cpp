@@ -325,15 +325,37 @@ Connection System::connect(const ConnectionDeclaration& wanted) const {
 }
 
 /// Nothing, and a warning, where a parameter set holds a value for nobody, as SSP allows it to.
-std::optional<VariableId> System::find_target(const StartDeclaration& wanted) {
+void System::note_missing(const StartDeclaration& wanted) {
   try {
-    return find_variable(wanted.component, wanted.variable, wanted.where);
+    find_variable(wanted.component, wanted.variable, wanted.where);
   } catch (const Error& mistake) {
     if (!wanted.is_optional) throw;
     warnings_.push_back(
         fmt::format("{}\n  the value is passed over, as SSP wants it", mistake.what()));
-    return std::nullopt;
   }
+}
+
+/// Of those that are there; of the others, what is not meant to be passed over is an error.
+std::vector<System::Target> System::find_targets(const SystemDeclaration& declaration) {
+  std::vector<Target> targets;
+  std::vector<const StartDeclaration*> missing;
+  std::set<std::size_t> found_groups;
+  for (const StartDeclaration& wanted : declaration.start_values) {
+    const std::size_t component = find_component(wanted.component, wanted.where);
+    const auto place = components_[component].description->find(wanted.variable);
+    if (!place) {
+      missing.push_back(&wanted);
+      continue;
+    }
+    const VariableId id{component, *place};
+    check_settable(variable(id), {wanted.where, wanted.component, wanted.variable, {}});
+    targets.push_back({&wanted, id});
+    found_groups.insert(wanted.group);
+  }
+  for (const StartDeclaration* wanted : missing) {
+    if (wanted->group == 0 || !found_groups.contains(wanted->group)) note_missing(*wanted);
+  }
+  return targets;
 }
 
 ValueBlock System::start_value(const StartDeclaration& wanted, VariableId id) const {
@@ -371,17 +393,6 @@ void System::resize(const StartDeclaration& declaration, VariableId structural_p
                "give a smaller value");
   }
   shared = std::make_shared<const UnitDescription>(std::move(description));
-}
-
-std::vector<System::Target> System::find_targets(const SystemDeclaration& declaration) {
-  std::vector<Target> targets;
-  for (const StartDeclaration& wanted : declaration.start_values) {
-    const auto id = find_target(wanted);
-    if (!id) continue;
-    check_settable(variable(*id), {wanted.where, wanted.component, wanted.variable, {}});
-    targets.push_back({&wanted, *id});
-  }
-  return targets;
 }
 
 void System::add_structural_values(const std::vector<Target>& targets) {

@@ -55,6 +55,9 @@ struct StartDeclaration {
   std::vector<ViaDeclaration> via{};
   /// Whether it is passed over, with a warning, if there is no such variable.
   bool is_optional = false;
+  /// One name may stand for several variables: those with the same number, if it is not 0, of which
+  /// one must be there.
+  std::size_t group = 0;
 };
 struct SystemDeclaration {
   std::string name;
@@ -135,7 +138,7 @@ class System {
   Connection connect(const ConnectionDeclaration& declaration) const;
   void check_ends(const ConnectionDeclaration& declaration, VariableId from, VariableId to) const;
   Waypoint waypoint(VariableId id) const;
-  std::optional<VariableId> find_target(const StartDeclaration& declaration);
+  void note_missing(const StartDeclaration& declaration);
   ValueBlock start_value(const StartDeclaration& declaration, VariableId id) const;
 
   std::string name_;

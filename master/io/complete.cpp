@@ -1,16 +1,15 @@
 #include "master/io/complete.h"
 
 #include <array>
-#include <cmath>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "master/io/scenario.h"
+#include "master/io/definitions.h"
 #include "master/io/ssp.h"
+#include "master/io/system_reader.h"
 #include "master/xml/document.h"
 #include "master/xml/editor.h"
 
@@ -20,25 +19,6 @@ namespace {
 using core::ValueType;
 
 constexpr std::array<const char*, 8> kBaseUnits{"kg", "m", "s", "A", "K", "mol", "cd", "rad"};
-
-/// "1" as 1; what is no number counts as not written.
-double number_of(const xml::Element& element, const char* attribute, double otherwise) {
-  try {
-    return std::stod(element.attribute(attribute).value_or(""));
-  } catch (const std::logic_error&) {
-    return otherwise;
-  }
-}
-
-core::BaseUnit read_base_unit(const xml::Element& element) {
-  core::BaseUnit unit;
-  for (std::size_t i = 0; i < kBaseUnits.size(); ++i) {
-    unit.exponents[i] = static_cast<int>(number_of(element, kBaseUnits[i], 0));
-  }
-  unit.factor = number_of(element, "factor", 1);
-  unit.offset = number_of(element, "offset", 0);
-  return unit;
-}
 
 bool is_same(const core::BaseUnit& a, const core::BaseUnit& b) {
   return a.exponents == b.exponents && a.factor == b.factor && a.offset == b.offset;
@@ -56,14 +36,14 @@ class Completion {
         ssd_(head(root_.prefix_of(kSsd).value_or(""))),
         editor_(document.text()) {
     find_common_prefix();
-    read_units();
-    read_enumerations();
+    const Definitions definitions = read_definitions(root_, kSsd);
+    units_ = definitions.units;
+    for (const auto& [name, items] : definitions.enumerations) enumerations_.insert(name);
   }
 
   std::string result() {
     const xml::Element system = *root_.child({kSsd, "System"});
-    const xml::Element elements = *system.child({kSsd, "Elements"});
-    for (const xml::Element& component : elements.children()) complete_component(component);
+    complete_elements(system, "");
     add_list("Enumerations", new_enumerations_);
     add_list("Units", new_units_);
     return editor_.result();
@@ -88,26 +68,21 @@ class Completion {
     return ssc_;
   }
 
-  void read_units() {
-    const auto units = root_.child({kSsd, "Units"});
-    if (!units) return;
-    for (const xml::Element& unit : units->children({kSsc, "Unit"})) {
-      const auto base = unit.child({kSsc, "BaseUnit"});
-      if (base) units_.emplace(unit.required("name"), read_base_unit(*base));
+  void complete_elements(const xml::Element& system, const std::string& prefix) {
+    const auto elements = system.child({kSsd, "Elements"});
+    if (!elements) return;
+    for (const xml::Element& element : elements->children()) {
+      const std::string path = prefix + element.required("name");
+      if (element.is(kSsd, "System")) {
+        complete_elements(element, path + ".");
+      } else if (const auto found = descriptions_.find(path); found != descriptions_.end()) {
+        complete_component(element, path, *found->second);
+      }
     }
   }
 
-  void read_enumerations() {
-    const auto enumerations = root_.child({kSsd, "Enumerations"});
-    if (!enumerations) return;
-    for (const xml::Element& enumeration : enumerations->children({kSsc, "Enumeration"})) {
-      enumerations_.insert(enumeration.required("name"));
-    }
-  }
-
-  void complete_component(const xml::Element& component) {
-    const std::string name = component.required("name");
-    const core::UnitDescription& description = *descriptions_.at(name);
+  void complete_component(const xml::Element& component, const std::string& path,
+                          const core::UnitDescription& description) {
     const auto connectors = component.child({kSsd, "Connectors"});
     std::set<std::string> declared;
     if (connectors) {
@@ -119,7 +94,7 @@ class Completion {
       const bool is_connector = variable.causality == core::Causality::Input ||
                                 variable.causality == core::Causality::Output;
       if (!is_connector || declared.contains(variable.name)) continue;
-      added.push_back(connector(component, description, variable));
+      added.push_back(connector(component, path, description, variable));
     }
     if (added.empty()) return;
     if (connectors) return editor_.append_children(connectors->index(), added);
@@ -128,9 +103,9 @@ class Completion {
     editor_.prepend_children(component.index(), {list + fmt::format("\n</{}Connectors>", ssd_)});
   }
 
-  std::string connector(const xml::Element& component, const core::UnitDescription& description,
-                        const core::Variable& variable) {
-    std::string content = type(component, description, variable);
+  std::string connector(const xml::Element& component, const std::string& path,
+                        const core::UnitDescription& description, const core::Variable& variable) {
+    std::string content = type(component, path, description, variable);
     if (!is_first_version_) content += dimensions(variable) + clocks(description, variable);
     const std::string start = fmt::format("<{}Connector name=\"{}\" kind=\"{}\"", ssd_,
                                           xml::escaped(variable.name), name(variable.causality));
@@ -138,8 +113,8 @@ class Completion {
     return fmt::format("{}>{}</{}Connector>", start, content, ssd_);
   }
 
-  std::string type(const xml::Element& component, const core::UnitDescription& description,
-                   const core::Variable& variable) {
+  std::string type(const xml::Element& component, const std::string& path,
+                   const core::UnitDescription& description, const core::Variable& variable) {
     switch (variable.type) {
       case ValueType::Float32:
       case ValueType::Float64: {
@@ -149,7 +124,7 @@ class Completion {
                             : fmt::format("<{}{} unit=\"{}\"/>", ssc(), word, xml::escaped(unit));
       }
       case ValueType::Enumeration:
-        return enumeration(component.required("name") + "." + variable.name, variable);
+        return enumeration(path + "." + variable.name, variable);
       case ValueType::Clock:
         return clock(component, variable);
       case ValueType::Boolean:
@@ -256,9 +231,12 @@ class Completion {
 
 }  // namespace
 
-std::string complete(const std::filesystem::path& path, const Descriptions& descriptions) {
-  read_scenario(path);  // says what is wrong with the file
-  const xml::Document document(path);
+std::string complete(const std::filesystem::path& path, const Descriptions& descriptions,
+                     const std::string& shown_as) {
+  const xml::Document document(path, shown_as);
+  const xml::Element root = document.root();
+  check_system_description(root);
+  if (!root.child({kSsd, "System"})) root.fail(fmt::format("{} holds no <System>", root.tag()));
   return Completion(document, descriptions).result();
 }
 

@@ -15,24 +15,31 @@ namespace {
 using core::Causality;
 using core::ValueType;
 
-std::optional<Causality> read_kind(const xml::Element& connector) {
-  const std::string kind = connector.required("kind");
+Flow flow_of(Causality causality) {
+  const bool is_in = causality == Causality::Input || causality == Causality::Parameter ||
+                     causality == Causality::StructuralParameter;
+  return is_in ? Flow::In : Flow::Out;
+}
+
+void read_kind(const xml::Element& element, Connector& connector) {
+  const std::string kind = element.required("kind");
   for (const Causality causality :
        {Causality::Input, Causality::Output, Causality::Parameter, Causality::CalculatedParameter,
         Causality::StructuralParameter, Causality::Local}) {
-    if (kind == core::name(causality)) return causality;
+    if (kind != core::name(causality)) continue;
+    connector.declared.causality = causality;
+    connector.flow = flow_of(causality);
+    return;
   }
-  if (kind == "constant" || kind == "unspecified") return std::nullopt;
-  if (kind == "inout") {
-    connector.fail("no variable of an FMU is of the kind 'inout'", "write input or output");
-  }
+  if (kind == "constant") connector.flow = Flow::Out;
+  if (kind == "constant" || kind == "unspecified" || kind == "inout") return;
   const std::vector<std::string> known{
       "input",    "output", "parameter", "calculatedParameter", "structuralParameter",
       "constant", "local",  "inout",     "unspecified"};
-  connector.fail(fmt::format("the kind '{}' is not known", kind), core::suggestion(kind, known));
+  element.fail(fmt::format("the kind '{}' is not known", kind), core::suggestion(kind, known));
 }
 
-std::optional<ValueType> read_type(const xml::Element& type, const std::string& ssp_version) {
+std::optional<ValueType> type_of(const xml::Element& type, const std::string& ssp_version) {
   const std::string_view name = type.name().local;
   const bool has_width = ssp_version != "1.0";
   if (name == "Real") return has_width ? std::optional(ValueType::Float64) : std::nullopt;
@@ -47,57 +54,69 @@ std::optional<ValueType> read_type(const xml::Element& type, const std::string& 
             core::suggestion(std::string(name), known));
 }
 
-void read_child(const xml::Element& child, const std::string& ssp_version,
+void read_child(const xml::Element& child, const SspFile& file,
                 core::ConnectorDeclaration& connector, bool& has_type) {
   const xml::Name name = child.name();
   // a unit's own dimensions and clocks hold; geometry and annotations change nothing
   if (name == xml::Name{kSsc, "Dimension"} || name == xml::Name{kSsd, "Clock"} ||
-      name == xml::Name{kSsd, "ConnectorGeometry"} || name == xml::Name{kSsd, "Annotations"}) {
+      name == xml::Name{kSsd, "ConnectorGeometry"} || name == xml::Name{kSsd, "Annotations"} ||
+      name == xml::Name{kSsc, "MetaData"} || name == xml::Name{kSsc, "Signature"}) {
     return;
   }
-  if (name.name_space != kSsc) {
+  if (!read_type(child, file, connector)) {
     child.fail(fmt::format("{} is not known in a connector", child.tag()),
                fmt::format("a type stands in the namespace '{}': <ssc:Float64/>", kSsc));
   }
-  if (has_type) child.fail(fmt::format("{} is a second type of this connector", child.tag()));
-  has_type = true;
-  connector.type = read_type(child, ssp_version);
-  connector.unit.name = child.attribute("unit").value_or("");
+  if (std::exchange(has_type, true)) {
+    child.fail(fmt::format("{} is a second type of this connector", child.tag()));
+  }
 }
 
-core::ConnectorDeclaration read_connector(const xml::Element& element,
-                                          const std::string& ssp_version) {
+Connector read_connector(const xml::Element& element, const SspFile& file) {
   element.allow_attributes({"name", "kind"});
-  core::ConnectorDeclaration connector;
-  connector.name = element.required("name");
-  connector.causality = read_kind(element);
-  connector.where = element.where();
+  Connector connector;
+  connector.declared.name = element.required("name");
+  connector.declared.where = element.where();
+  read_kind(element, connector);
   bool has_type = false;
   for (const xml::Element& child : element.children()) {
-    read_child(child, ssp_version, connector, has_type);
+    read_child(child, file, connector.declared, has_type);
   }
   return connector;
 }
 
 }  // namespace
 
-std::vector<core::ConnectorDeclaration> read_connectors(const xml::Element& component,
-                                                        const std::string& ssp_version) {
-  std::vector<core::ConnectorDeclaration> declared;
-  const auto connectors = component.child({kSsd, "Connectors"});
-  if (!connectors) return declared;
+bool read_type(const xml::Element& child, const SspFile& file,
+               core::ConnectorDeclaration& connector) {
+  if (child.name().name_space != kSsc) return false;
+  connector.type = type_of(child, file.version);
+  connector.unit = file.definitions.unit(child.attribute_or("unit"));
+  if (connector.type == ValueType::Enumeration) {
+    const auto& enumerations = file.definitions.enumerations;
+    const auto found = enumerations.find(child.attribute_or("name"));
+    if (found != enumerations.end()) connector.items = found->second;
+  }
+  return true;
+}
+
+std::vector<Connector> read_connectors(const xml::Element& owner, const SspFile& file) {
+  std::vector<Connector> all;
+  const auto connectors = owner.child({kSsd, "Connectors"});
+  if (!connectors) return all;
   connectors->allow_children({{kSsd, "Connector"}});
   std::map<std::string, int> lines;
   for (const xml::Element& element : connectors->children()) {
-    core::ConnectorDeclaration connector = read_connector(element, ssp_version);
-    const auto [first, is_new] = lines.emplace(connector.name, connector.where.line);
+    Connector connector = read_connector(element, file);
+    const core::ConnectorDeclaration& declared = connector.declared;
+    const auto [first, is_new] = lines.emplace(declared.name, declared.where.line);
     if (!is_new) {
       element.fail(fmt::format("two connectors are named '{}'; the first is in line {}",
-                               connector.name, first->second));
+                               declared.name, first->second));
     }
-    declared.push_back(std::move(connector));
+    all.push_back(std::move(connector));
   }
-  return declared;
+  return all;
 }
 
 }  // namespace stride::io

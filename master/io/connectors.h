@@ -1,4 +1,4 @@
-// The connectors that a component declares.
+// The connectors that a component or system declares.
 #ifndef STRIDE_MASTER_IO_CONNECTORS_H
 #define STRIDE_MASTER_IO_CONNECTORS_H
 
@@ -6,14 +6,26 @@
 #include <vector>
 
 #include "master/core/system.h"
+#include "master/io/definitions.h"
+#include "master/io/system_tree.h"
 #include "master/xml/element.h"
 
 namespace stride::io {
 
-/// Reads <ssd:Connectors> of a component. In a file of SSP 1.0, Real and Integer leave the width
-/// open, so they set no type. Throws core::Error (Input).
-std::vector<core::ConnectorDeclaration> read_connectors(const xml::Element& component,
-                                                        const std::string& ssp_version);
+/// A file of SSP, as far as those who read its parts need to know it.
+struct SspFile {
+  std::string version;      ///< "1.0" or "2.0"
+  Definitions definitions;  ///< of units and enumerations
+};
+
+/// Reads <ssd:Connectors> of a component or system. In a file of SSP 1.0, Real and Integer leave
+/// the width open, so they set no type. Throws core::Error (Input).
+std::vector<Connector> read_connectors(const xml::Element& owner, const SspFile& file);
+
+/// Reads the type of a connector or dictionary entry from one of its children; false if the child
+/// is something else. Throws core::Error (Input).
+bool read_type(const xml::Element& child, const SspFile& file,
+               core::ConnectorDeclaration& connector);
 
 }  // namespace stride::io
 

@@ -1,4 +1,4 @@
-// Parameter bindings of SSP: inline sets, and .ssv files.
+// Parameter bindings of SSP: sets (.ssv) and mappings (.ssm), inline or in files.
 #ifndef STRIDE_MASTER_IO_PARAMETERS_H
 #define STRIDE_MASTER_IO_PARAMETERS_H
 
@@ -6,23 +6,27 @@
 #include <string>
 #include <vector>
 
-#include "master/core/error.h"
+#include "master/io/definitions.h"
+#include "master/io/files.h"
+#include "master/io/system_tree.h"
 #include "master/xml/element.h"
 
 namespace stride::io {
 
-struct ParameterValue {
-  std::string name;   ///< with the binding's prefix before it
-  std::string value;  ///< the elements of an array separated by blanks
-  std::string unit;   ///< empty = the variable's own
-  core::Location where;
+/// Where the bindings of a component or system stand.
+struct BindingContext {
+  Files& files;
+  std::filesystem::path folder;       ///< of the .ssd
+  const Definitions& definitions;     ///< of the .ssd
+  std::filesystem::path component{};  ///< the source of the component, if it is an FMU
+  std::vector<std::string>& warnings;
 };
 
 /// The values of all bindings of a component or system, in the order of the file: a later one
-/// replaces an earlier one. External sets are read relative to `folder`. Throws core::Error
-/// (Input).
+/// replaces an earlier one. With a parameter mapping, those that it names, by their new names;
+/// a name that it maps and no set has is warned of. Throws core::Error (Input).
 std::vector<ParameterValue> read_parameters(const xml::Element& owner,
-                                            const std::filesystem::path& folder);
+                                            const BindingContext& context);
 
 }  // namespace stride::io
 

@@ -1,11 +1,12 @@
 #include "master/io/scenario.h"
 
-#include <array>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "master/io/flatten.h"
 #include "master/io/ssp.h"
 #include "master/io/system_reader.h"
 #include "master/io/time_text.h"
@@ -13,45 +14,6 @@
 
 namespace stride::io {
 namespace {
-
-/// What a file of another kind is, so that the error can say so.
-std::string kind_of(const xml::Name& root) {
-  constexpr std::array<std::pair<xml::Name, const char*>, 4> kKinds{
-      {{{kSsv, "ParameterSet"}, "a parameter set (.ssv)"},
-       {{kSsm, "ParameterMapping"}, "a parameter mapping (.ssm)"},
-       {{kSsb, "SignalDictionary"}, "a signal dictionary (.ssb)"},
-       {{"", "fmiModelDescription"}, "the model description of an FMU"}}};
-  for (const auto& [name, kind] : kKinds) {
-    if (name == root) return kind;
-  }
-  if (root.local == "SystemStructureDescription") {
-    return fmt::format("a <SystemStructureDescription> of the namespace '{}'", root.name_space);
-  }
-  return fmt::format("an XML file with the root element <{}>", root.local);
-}
-
-void check_root(const xml::Element& root) {
-  if (!root.is(kSsd, "SystemStructureDescription")) {
-    root.fail(fmt::format("this is {}, expected a system structure description (.ssd)",
-                          kind_of(root.name())),
-              fmt::format("its root element is <SystemStructureDescription> of the namespace '{}'",
-                          kSsd));
-  }
-  root.allow_attributes({"version", "name", "author", "fileversion", "copyright", "license",
-                         "generationTool", "generationDateAndTime"});
-  const std::string version = root.required("version");
-  if (version != "1.0" && version != "2.0") {
-    root.fail(fmt::format("the SSP version '{}' is not known", version),
-              "stride reads 1.0 and 2.0");
-  }
-  root.allow_children({{kSsd, "System"},
-                       {kSsd, "Enumerations"},
-                       {kSsd, "Units"},
-                       {kSsd, "DefaultExperiment"},
-                       {kSsc, "MetaData"},
-                       {kSsc, "Signature"},
-                       {kSsd, "Annotations"}});
-}
 
 std::optional<Time> read_time(const xml::Element& element, const char* attribute) {
   const auto text = element.attribute(attribute);
@@ -80,19 +42,27 @@ void read_default_experiment(const xml::Element& root, Scenario& scenario) {
 
 }  // namespace
 
-Scenario read_scenario(const std::filesystem::path& path) {
-  const xml::Document document(path);
-  const xml::Element root = document.root();
-  check_root(root);
+std::string Scenario::stem() const {
+  if (std::error_code error; !std::filesystem::is_directory(path, error)) return path.stem();
+  return std::filesystem::canonical(path).filename();
+}
+
+Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& options) {
   Scenario scenario;
   scenario.path = path;
+  scenario.files = std::make_shared<Files>(options.find_unit);
+  const std::filesystem::path file = scenario.files->system_file(path);
+  const xml::Document document(file, scenario.files->shown(file));
+  const xml::Element root = document.root();
+  check_system_description(root);
   scenario.name = root.required("name");
   scenario.ssp_version = root.required("version");
-  const auto system = root.child({kSsd, "System"});
-  if (!system) root.fail(fmt::format("{} holds no <System>", root.tag()));
-  SystemContent content = read_system(*system, scenario.ssp_version, path.parent_path());
-  scenario.system = std::move(content.declaration);
-  scenario.sources = std::move(content.sources);
+  SystemNode system = read_system(root, file, *scenario.files, scenario.warnings);
+  system.parameters.insert(system.parameters.end(), options.parameters.begin(),
+                           options.parameters.end());
+  FlatSystem flat = flatten(system, scenario.warnings);
+  scenario.system = std::move(flat.declaration);
+  scenario.sources = std::move(flat.sources);
   read_default_experiment(root, scenario);
   scenario.annotation = read_annotation(root);
   return scenario;

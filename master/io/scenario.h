@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_IO_SCENARIO_H
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,28 +12,41 @@
 
 #include "master/core/system.h"
 #include "master/io/annotation.h"
+#include "master/io/files.h"
+#include "master/io/system_tree.h"
 
 namespace stride::io {
 
 struct Scenario {
-  std::filesystem::path path;
-  std::string name;         ///< of the system structure description
-  std::string ssp_version;  ///< "1.0" or "2.0"
-  /// Its components have no description yet. Values bound to the system stand behind those bound to
-  /// its components, so they replace them, as SSP wants it.
+  std::filesystem::path path;  ///< as it was given
+  std::string name;            ///< of the system structure description
+  std::string ssp_version;     ///< "1.0" or "2.0"
+  /// Made of components alone, see flatten.h, which have no description yet.
   core::SystemDeclaration system;
   /// The FMU of each of system.components: relative to the working directory or absolute.
   std::vector<std::filesystem::path> sources;
   std::optional<Time> start;  ///< of the DefaultExperiment
   std::optional<Time> stop;
   ScenarioAnnotation annotation;
+  std::vector<std::string> warnings;  ///< of what is odd, but no mistake
+  std::shared_ptr<Files> files;       ///< holds the folders that packages are unpacked to
+
+  /// A name for its results: that of its file, or of its folder.
+  std::string stem() const;
 };
 
-/// Reads a .ssd of SSP 1.0 or 2.0 and the .ssv files that it names. Throws core::Error (Input) with
-/// file and line for what is missing, malformed or unknown, and for those parts of SSP that stride
-/// does not support: nothing is passed over, except what has no influence on a simulation
-/// (geometry, graphics, meta data, other tools' annotations).
-Scenario read_scenario(const std::filesystem::path& path);
+/// What a scenario is read with.
+struct ReadOptions {
+  UnitFinder find_unit{};                    ///< says where the FMUs are that hold parameters
+  std::vector<ParameterValue> parameters{};  ///< bound to the root system behind all others
+};
+
+/// Reads a system of SSP 1.0 or 2.0: a .ssd, a package (.ssp), or the folder that one unpacks to;
+/// and what it names, but for its FMUs. Throws core::Error (Input) with file and line for what is
+/// missing, malformed or unknown, and for those parts of SSP that stride does not support: nothing
+/// is passed over, except what has no influence on a simulation (geometry, graphics, meta data,
+/// other tools' annotations).
+Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& options = {});
 
 }  // namespace stride::io
 

@@ -1,6 +1,9 @@
 #include "master/io/system_reader.h"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,215 +11,317 @@
 #include "master/core/suggest.h"
 #include "master/io/connectors.h"
 #include "master/io/parameters.h"
+#include "master/io/signal_dictionary.h"
 #include "master/io/ssp.h"
+#include "master/io/transformation.h"
 #include "master/io/uri.h"
+#include "master/xml/document.h"
 
 namespace stride::io {
 namespace {
 
 constexpr const char* kFmuType = "application/x-fmu-sharedlibrary";
+constexpr const char* kSystemType = "application/x-ssp-definition";
+constexpr const char* kPackageType = "application/x-ssp-package";
+constexpr std::size_t kMostNested = 64;
+constexpr std::size_t kMostSystems = 10'000;
 
-void check_implementation(const xml::Element& component) {
-  const std::string type = component.attribute("type").value_or(kFmuType);
-  if (type == "application/x-ssp-definition" || type == "application/x-ssp-package") {
-    component.fail_unsupported("a system (.ssd, .ssp) as a component of another",
-                               "put its components into this file");
+/// What a file of another kind is, so that the error can say so.
+std::string kind_of(const xml::Name& root) {
+  constexpr std::array<std::pair<xml::Name, const char*>, 4> kKinds{
+      {{{kSsv, "ParameterSet"}, "a parameter set (.ssv)"},
+       {{kSsm, "ParameterMapping"}, "a parameter mapping (.ssm)"},
+       {{kSsb, "SignalDictionary"}, "a signal dictionary (.ssb)"},
+       {{"", "fmiModelDescription"}, "the model description of an FMU"}}};
+  for (const auto& [name, kind] : kKinds) {
+    if (name == root) return kind;
   }
-  if (type != kFmuType) {
-    component.fail_unsupported(fmt::format("components of the type '{}'", type),
-                               fmt::format("the type '{}' is read", kFmuType));
+  if (root.local == "SystemStructureDescription") {
+    return fmt::format("a <SystemStructureDescription> of the namespace '{}'", root.name_space);
   }
-  const std::string implementation = component.attribute("implementation").value_or("any");
-  if (implementation != "any" && implementation != "CoSimulation") {
-    component.fail_unsupported(fmt::format("FMUs for '{}'", implementation),
-                               "only FMUs for Co-Simulation are run");
-  }
+  return fmt::format("an XML file with the root element <{}>", root.local);
 }
 
-core::ComponentDeclaration read_component(const xml::Element& component,
-                                          const std::string& version) {
-  component.allow_attributes({"name", "type", "source", "implementation"});
-  component.allow_children({{kSsd, "Connectors"},
+/// What all files have in common that one .ssd leads to.
+struct Reading {
+  Files& files;
+  std::vector<std::string>& warnings;
+  std::vector<core::Location> open{};  ///< the components that are systems, from the root on
+  std::size_t systems = 0;
+};
+
+/// The systems of one .ssd.
+class SystemReader {
+ public:
+  SystemReader(const xml::Element& root, const std::filesystem::path& path, Reading& reading)
+      : root_(root),
+        folder_(path.parent_path()),
+        file_{root.required("version"), read_definitions(root, kSsd)},
+        reading_(reading) {}
+
+  SystemNode read() {
+    const auto system = root_.child({kSsd, "System"});
+    if (!system) root_.fail(fmt::format("{} holds no <System>", root_.tag()));
+    return read_system(*system);
+  }
+
+ private:
+  SystemNode read_system(const xml::Element& element) {
+    if (++reading_.systems > kMostSystems) {
+      element.fail(fmt::format("there are more than {} systems", kMostSystems));
+    }
+    element.allow_attributes({"name"});
+    element.allow_children({{kSsd, "Connectors"},
+                            {kSsd, "ElementGeometry"},
+                            {kSsd, "ParameterBindings"},
+                            {kSsc, "MetaData"},
+                            {kSsc, "Signature"},
+                            {kSsd, "Elements"},
+                            {kSsd, "Connections"},
+                            {kSsd, "SignalDictionaries"},
+                            {kSsd, "SystemGeometry"},
+                            {kSsd, "GraphicalElements"},
+                            {kSsd, "Annotations"}});
+    SystemNode system;
+    system.name = element.required("name");
+    system.where = element.where();
+    system.connectors = read_connectors(element, file_);
+    if (const auto dictionaries = element.child({kSsd, "SignalDictionaries"})) {
+      system.dictionaries = read_signal_dictionaries(*dictionaries, folder_, reading_.files);
+    }
+    if (const auto elements = element.child({kSsd, "Elements"})) read_elements(*elements, system);
+    if (const auto connections = element.child({kSsd, "Connections"})) {
+      connections->allow_children({{kSsd, "Connection"}});
+      for (const xml::Element& connection : connections->children()) {
+        system.connections.push_back(read_connection(connection));
+      }
+    }
+    system.parameters = read_bindings(element, {});
+    return system;
+  }
+
+  std::vector<ParameterValue> read_bindings(const xml::Element& owner,
+                                            const std::filesystem::path& component) const {
+    return read_parameters(
+        owner, {reading_.files, folder_, file_.definitions, component, reading_.warnings});
+  }
+
+  void read_elements(const xml::Element& elements, SystemNode& system) {
+    elements.allow_children(
+        {{kSsd, "Component"}, {kSsd, "SignalDictionaryReference"}, {kSsd, "System"}});
+    for (const xml::Element& element : elements.children()) {
+      ElementNode node = read_element(element);
+      const auto twin = std::find_if(system.elements.begin(), system.elements.end(),
+                                     [&](const auto& other) { return other.name == node.name; });
+      if (twin != system.elements.end()) {
+        element.fail(fmt::format("two components are named '{}'; the first is in line {}",
+                                 node.name, twin->where.line),
+                     "give one of them another name");
+      }
+      system.elements.push_back(std::move(node));
+    }
+  }
+
+  ElementNode read_element(const xml::Element& element) {
+    if (element.is(kSsd, "System")) {
+      ElementNode node;
+      node.name = element.required("name");
+      node.where = element.where();
+      node.system = std::make_unique<SystemNode>(read_system(element));
+      return node;
+    }
+    if (element.is(kSsd, "SignalDictionaryReference")) return read_reference(element);
+    return read_component(element);
+  }
+
+  ElementNode read_reference(const xml::Element& element) {
+    element.allow_attributes({"name", "dictionary"});
+    element.allow_children({{kSsd, "Connectors"},
                             {kSsd, "ElementGeometry"},
                             {kSsd, "ParameterBindings"},
                             {kSsc, "MetaData"},
                             {kSsc, "Signature"},
                             {kSsd, "Annotations"}});
-  check_implementation(component);
-  return {component.required("name"), nullptr, read_connectors(component, version),
-          component.where()};
-}
+    ElementNode node;
+    node.name = element.required("name");
+    node.where = element.where();
+    node.connectors = read_connectors(element, file_);
+    node.dictionary = element.required("dictionary");
+    return node;
+  }
 
-void add_component(const xml::Element& element, const std::string& version,
-                   const std::filesystem::path& folder, SystemContent& content) {
-  core::ComponentDeclaration component = read_component(element, version);
-  const auto& others = content.declaration.components;
-  const auto twin = std::find_if(others.begin(), others.end(),
-                                 [&](const auto& other) { return other.name == component.name; });
-  if (twin != others.end()) {
-    element.fail(fmt::format("two components are named '{}'; the first is in line {}",
-                             component.name, twin->where.line),
-                 "give one of them another name");
-  }
-  if (!element.attribute("source")) {
-    element.fail(fmt::format("the component '{}' has no source", component.name),
-                 "name its FMU: source=\"unit.fmu\"");
-  }
-  for (ParameterValue& value : read_parameters(element, folder)) {
-    content.declaration.start_values.push_back({component.name,
-                                                std::move(value.name),
-                                                std::move(value.value),
-                                                {value.unit, {}},
-                                                value.where});
-  }
-  content.sources.push_back(source_path(element, folder));
-  content.declaration.components.push_back(std::move(component));
-}
-
-void read_elements(const xml::Element& system, const std::string& version,
-                   const std::filesystem::path& folder, SystemContent& content) {
-  const auto elements = system.child({kSsd, "Elements"});
-  if (!elements) {
-    system.fail(fmt::format("{} has no <Elements>, so there is nothing to simulate", system.tag()));
-  }
-  elements->allow_children(
-      {{kSsd, "Component"}, {kSsd, "SignalDictionaryReference"}, {kSsd, "System"}});
-  for (const xml::Element& element : elements->children()) {
-    if (element.is(kSsd, "System")) {
-      element.fail_unsupported("systems inside a system",
-                               "put its components and connections into the outer system");
+  ElementNode read_component(const xml::Element& element) {
+    element.allow_attributes({"name", "type", "source", "implementation"});
+    element.allow_children({{kSsd, "Connectors"},
+                            {kSsd, "ElementGeometry"},
+                            {kSsd, "ParameterBindings"},
+                            {kSsc, "MetaData"},
+                            {kSsc, "Signature"},
+                            {kSsd, "Annotations"}});
+    ElementNode node;
+    node.name = element.required("name");
+    node.where = element.where();
+    node.connectors = read_connectors(element, file_);
+    if (!element.attribute("source")) {
+      element.fail(fmt::format("the component '{}' has no source", node.name),
+                   "name its FMU: source=\"unit.fmu\"");
     }
-    if (element.is(kSsd, "SignalDictionaryReference")) {
-      element.fail_unsupported("signal dictionaries", "connect the components directly");
+    if (is_system(element)) {
+      node.system = std::make_unique<SystemNode>(read_component_system(element));
+      for (ParameterValue& value : read_bindings(element, {})) {
+        node.system->parameters.push_back(std::move(value));
+      }
+      return node;
     }
-    add_component(element, version, folder, content);
+    check_implementation(element);
+    check_kinds(element, node);
+    node.source = source_path(element, folder_);
+    node.parameters = read_bindings(element, node.source);
+    return node;
   }
-  if (content.declaration.components.empty()) {
-    elements->fail("the system has no component, so there is nothing to simulate");
-  }
-}
 
-bool declares(const core::SystemDeclaration& system, const std::string& component,
-              const std::string& connector, core::Causality causality) {
-  for (const core::ComponentDeclaration& candidate : system.components) {
-    if (candidate.name != component) continue;
-    for (const core::ConnectorDeclaration& declared : candidate.connectors) {
-      if (declared.name == connector) return declared.causality == causality;
+  /// FMI has no such variables.
+  static void check_kinds(const xml::Element& component, const ElementNode& node) {
+    const auto connectors = component.child({kSsd, "Connectors"});
+    for (std::size_t i = 0; i < node.connectors.size(); ++i) {
+      const xml::Element connector = connectors->children()[i];
+      if (connector.required("kind") != "inout") continue;
+      connector.fail("no variable of an FMU is of the kind 'inout'", "write input or output");
     }
   }
-  return false;
-}
 
-/// In SSP, start and end do not say which way a value flows: the kinds of the connectors do. Where
-/// they are left out, the start is the output.
-void orient(core::ConnectionDeclaration& connection, const core::SystemDeclaration& system) {
-  const bool is_reversed =
-      declares(system, connection.from_component, connection.from_connector,
-               core::Causality::Input) &&
-      declares(system, connection.to_component, connection.to_connector, core::Causality::Output);
-  if (!is_reversed) return;
-  std::swap(connection.from_component, connection.to_component);
-  std::swap(connection.from_connector, connection.to_connector);
-}
+  static std::string type_of(const xml::Element& component) {
+    if (const auto type = component.attribute("type")) return *type;
+    const std::string source = component.required("source");
+    if (source.starts_with('#') || source.ends_with(".ssd")) return kSystemType;
+    if (source.ends_with(".ssp")) return kPackageType;
+    return kFmuType;
+  }
 
-core::ConnectionDeclaration read_connection(const xml::Element& element) {
-  element.allow_attributes({"startElement", "startConnector", "startIndices", "endElement",
-                            "endConnector", "endIndices", "suppressUnitConversion"});
-  element.allow_children({{kSsc, "LinearTransformation"},
-                          {kSsc, "BooleanMappingTransformation"},
-                          {kSsc, "IntegerMappingTransformation"},
-                          {kSsc, "EnumerationMappingTransformation"},
-                          {kSsd, "ConnectionGeometry"},
-                          {kSsd, "Annotations"}});
-  for (const xml::Element& child : element.children()) {
-    if (child.name().name_space == kSsc) {
-      child.fail_unsupported("transformations at a connection",
-                             "let one of the two units transform the value");
+  static bool is_system(const xml::Element& component) {
+    const std::string type = type_of(component);
+    return type == kSystemType || type == kPackageType;
+  }
+
+  static void check_implementation(const xml::Element& component) {
+    const std::string type = type_of(component);
+    if (type != kFmuType) {
+      component.fail_unsupported(fmt::format("components of the type '{}'", type),
+                                 fmt::format("the types '{}', '{}' and '{}' are read", kFmuType,
+                                             kSystemType, kPackageType));
+    }
+    const std::string implementation = component.attribute_or("implementation", "any");
+    if (implementation != "any" && implementation != "CoSimulation") {
+      component.fail_unsupported(fmt::format("FMUs for '{}'", implementation),
+                                 "only FMUs for Co-Simulation are run");
     }
   }
-  if (element.attribute("startIndices") || element.attribute("endIndices")) {
-    element.fail_unsupported("connections of parts of an array (startIndices, endIndices)",
-                             "connect the whole array");
-  }
-  if (!element.attribute("startElement") || !element.attribute("endElement")) {
-    element.fail_unsupported("connections to a connector of the system itself",
-                             "name both components: startElement and endElement");
-  }
-  return {element.required("startElement"),
-          element.required("startConnector"),
-          element.required("endElement"),
-          element.required("endConnector"),
-          element.flag("suppressUnitConversion", false),
-          element.where()};
-}
 
-void read_connections(const xml::Element& system, core::SystemDeclaration& declaration) {
-  const auto connections = system.child({kSsd, "Connections"});
-  if (!connections) return;
-  connections->allow_children({{kSsd, "Connection"}});
-  for (const xml::Element& element : connections->children()) {
-    declaration.connections.push_back(read_connection(element));
-    orient(declaration.connections.back(), declaration);
-  }
-}
-
-/// Splits "component.variable" at the longest name of a component that fits.
-core::StartDeclaration split_name(ParameterValue value, const core::SystemDeclaration& system) {
-  const std::string* found = nullptr;
-  std::vector<std::string> names;
-  for (const core::ComponentDeclaration& component : system.components) {
-    names.push_back(component.name);
-    const bool fits = value.name.starts_with(component.name + ".");
-    if (fits && (found == nullptr || component.name.size() > found->size())) {
-      found = &component.name;
+  SystemNode read_component_system(const xml::Element& component) {
+    if (reading_.open.size() >= kMostNested) {
+      const core::Location& first = reading_.open.front();
+      component.fail(fmt::format("more than {} systems inside each other, begun in {}:{}; one of "
+                                 "them is a part of itself",
+                                 kMostNested, first.file, first.line),
+                     "take the component out that leads back");
     }
+    reading_.open.push_back(component.where());
+    SystemNode system = component.required("source").starts_with('#') ? read_own_system(component)
+                                                                      : read_other_file(component);
+    reading_.open.pop_back();
+    return system;
   }
-  if (found == nullptr) {
-    const std::string head = value.name.substr(0, value.name.find('.'));
-    core::fail_input({.where = value.where},
-                     fmt::format("the parameter '{}' belongs to no component; at the system, names "
-                                 "read component.variable",
-                                 value.name),
-                     core::suggestion(head, names));
+
+  /// A system in this file, used once more: source="#id".
+  SystemNode read_own_system(const xml::Element& component) {
+    const std::string id = component.required("source").substr(1);
+    const auto found = find_system(root_, id);
+    if (!found) {
+      component.fail(fmt::format("no <ssd:System> of this file has the id '{}'", id),
+                     "write the id of a system behind the '#'");
+    }
+    return read_system(*found);
   }
-  return {*found,
-          value.name.substr(found->size() + 1),
-          std::move(value.value),
-          {value.unit, {}},
-          value.where};
-}
+
+  static std::optional<xml::Element> find_system(const xml::Element& below, const std::string& id) {
+    for (const xml::Element& child : below.children()) {
+      if (child.is(kSsd, "System") && child.attribute("id") == id) return child;
+      if (const auto found = find_system(child, id)) return found;
+    }
+    return std::nullopt;
+  }
+
+  SystemNode read_other_file(const xml::Element& component) {
+    const auto [source, variant] = source_of(component, folder_);
+    if (!std::filesystem::exists(source)) {
+      component.fail(fmt::format("the system '{}' does not exist", reading_.files.shown(source)),
+                     "its path is relative to this file");
+    }
+    const std::filesystem::path path =
+        variant.empty() ? reading_.files.system_file(source, component.where())
+                        : reading_.files.system_file(source, variant, component.where());
+    const xml::Document document(path, reading_.files.shown(path));
+    const xml::Element root = document.root();
+    check_system_description(root);
+    return SystemReader(root, path, reading_).read();
+  }
+
+  static SystemConnection read_connection(const xml::Element& element) {
+    element.allow_attributes({"startElement", "startConnector", "startIndices", "endElement",
+                              "endConnector", "endIndices", "suppressUnitConversion"});
+    element.allow_children({{kSsc, "LinearTransformation"},
+                            {kSsc, "BooleanMappingTransformation"},
+                            {kSsc, "IntegerMappingTransformation"},
+                            {kSsc, "EnumerationMappingTransformation"},
+                            {kSsd, "ConnectionGeometry"},
+                            {kSsc, "MetaData"},
+                            {kSsc, "Signature"},
+                            {kSsd, "Annotations"}});
+    if (element.attribute("startIndices") || element.attribute("endIndices")) {
+      element.fail_unsupported("connections of parts of an array (startIndices, endIndices)",
+                               "connect the whole array");
+    }
+    return {{element.attribute_or("startElement"), element.required("startConnector")},
+            {element.attribute_or("endElement"), element.required("endConnector")},
+            read_passage(element),
+            element.where()};
+  }
+
+  xml::Element root_;
+  std::filesystem::path folder_;
+  SspFile file_;
+  Reading& reading_;
+};
 
 }  // namespace
 
-SystemContent read_system(const xml::Element& system, const std::string& ssp_version,
-                          const std::filesystem::path& folder) {
-  system.allow_attributes({"name"});
-  system.allow_children({{kSsd, "Connectors"},
-                         {kSsd, "ElementGeometry"},
-                         {kSsd, "ParameterBindings"},
-                         {kSsc, "MetaData"},
-                         {kSsc, "Signature"},
-                         {kSsd, "Elements"},
-                         {kSsd, "Connections"},
-                         {kSsd, "SignalDictionaries"},
-                         {kSsd, "SystemGeometry"},
-                         {kSsd, "GraphicalElements"},
-                         {kSsd, "Annotations"}});
-  SystemContent content;
-  content.declaration.name = system.required("name");
-  if (const auto connectors = system.child({kSsd, "Connectors"})) {
-    connectors->fail_unsupported("connectors of the system itself",
-                                 "connect the components with each other");
+void check_system_description(const xml::Element& root) {
+  if (!root.is(kSsd, "SystemStructureDescription")) {
+    root.fail(fmt::format("this is {}, expected a system structure description (.ssd)",
+                          kind_of(root.name())),
+              fmt::format("its root element is <SystemStructureDescription> of the namespace '{}'",
+                          kSsd));
   }
-  if (const auto dictionaries = system.child({kSsd, "SignalDictionaries"})) {
-    dictionaries->fail_unsupported("signal dictionaries", "connect the components directly");
+  root.allow_attributes({"version", "name", "author", "fileversion", "copyright", "license",
+                         "generationTool", "generationDateAndTime"});
+  const std::string version = root.required("version");
+  if (version != "1.0" && version != "2.0") {
+    root.fail(fmt::format("the SSP version '{}' is not known", version),
+              "stride reads 1.0 and 2.0");
   }
-  read_elements(system, ssp_version, folder, content);
-  read_connections(system, content.declaration);
-  for (ParameterValue& value : read_parameters(system, folder)) {
-    content.declaration.start_values.push_back(split_name(std::move(value), content.declaration));
-  }
-  return content;
+  root.allow_children({{kSsd, "System"},
+                       {kSsd, "Enumerations"},
+                       {kSsd, "Units"},
+                       {kSsd, "DefaultExperiment"},
+                       {kSsc, "MetaData"},
+                       {kSsc, "Signature"},
+                       {kSsd, "Annotations"}});
+}
+
+SystemNode read_system(const xml::Element& root, const std::filesystem::path& path, Files& files,
+                       std::vector<std::string>& warnings) {
+  Reading reading{files, warnings};
+  return SystemReader(root, path, reading).read();
 }
 
 }  // namespace stride::io

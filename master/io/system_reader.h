@@ -1,25 +1,27 @@
-// The <ssd:System> of a scenario.
+// The <ssd:System> of a scenario, with all that it names in other files of SSP.
 #ifndef STRIDE_MASTER_IO_SYSTEM_READER_H
 #define STRIDE_MASTER_IO_SYSTEM_READER_H
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "master/core/system.h"
+#include "master/io/files.h"
+#include "master/io/system_tree.h"
 #include "master/xml/element.h"
 
 namespace stride::io {
 
-struct SystemContent {
-  core::SystemDeclaration declaration;
-  std::vector<std::filesystem::path> sources;  ///< of the components, in their order
-};
+/// Checks the root element of a .ssd. Throws core::Error (Input), also for a file of another kind,
+/// which it calls by its name.
+void check_system_description(const xml::Element& root);
 
-/// Components, connections and parameters. `folder` is where the .ssd stands. Throws core::Error
-/// (Input).
-SystemContent read_system(const xml::Element& system, const std::string& ssp_version,
-                          const std::filesystem::path& folder);
+/// Reads the system below a root element that was checked, and the .ssd and .ssp files that are
+/// components of it. `path` is where it stands; what is odd, but no mistake, is told in `warnings`.
+/// Throws core::Error (Input).
+SystemNode read_system(const xml::Element& root, const std::filesystem::path& path, Files& files,
+                       std::vector<std::string>& warnings);
 
 }  // namespace stride::io
 

@@ -44,8 +44,7 @@ std::string percent_decoded(std::string_view text, const xml::Element& element) 
 
 }  // namespace
 
-std::filesystem::path source_path(const xml::Element& element,
-                                  const std::filesystem::path& folder) {
+Source source_of(const xml::Element& element, const std::filesystem::path& folder) {
   const std::string source = element.required("source");
   std::string_view rest = source;
   const std::string scheme = take_scheme(rest);
@@ -62,16 +61,38 @@ std::filesystem::path source_path(const xml::Element& element,
     }
     rest.remove_prefix(path);
   }
-  if (rest.find('#') != std::string_view::npos) {
-    element.fail_unsupported(
-        fmt::format("a source with a fragment, which names a part of a file: \"{}\"", source),
-        "write %23 if the file's name has a '#'");
-  }
+  const std::size_t hash = rest.find('#');
+  const std::string_view fragment = hash == rest.npos ? "" : rest.substr(hash + 1);
+  rest = rest.substr(0, hash);
   if (rest.find('?') != std::string_view::npos) {
     element.fail(fmt::format("source=\"{}\" has a query", source),
                  "write %3F if the file's name has a '?'");
   }
-  return (folder / percent_decoded(rest, element)).lexically_normal();
+  return {(folder / percent_decoded(rest, element)).lexically_normal(),
+          percent_decoded(fragment, element)};
+}
+
+std::filesystem::path source_path(const xml::Element& element,
+                                  const std::filesystem::path& folder) {
+  Source source = source_of(element, folder);
+  if (!source.fragment.empty()) {
+    element.fail_unsupported(fmt::format("a source with a fragment, which names a part of a file: "
+                                         "\"{}\"",
+                                         element.required("source")),
+                             "write %23 if the file's name has a '#'");
+  }
+  return source.path;
+}
+
+std::string uri_of(const std::filesystem::path& path) {
+  constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
+  std::string uri;
+  for (const char c : path.generic_string()) {
+    const bool is_plain = kPlain.find(c) != kPlain.npos;
+    uri += is_plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return uri;
 }
 
 }  // namespace stride::io

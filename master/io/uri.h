@@ -9,10 +9,21 @@
 
 namespace stride::io {
 
-/// The path that the attribute `source` of an element names: a URI (RFC 3986) relative to `folder`,
-/// or with the scheme file. Throws core::Error (Input) for any other scheme, a fragment, a query or
-/// a malformed escape.
+/// What the attribute `source` of an element names.
+struct Source {
+  std::filesystem::path path;
+  std::string fragment;  ///< what stands behind a '#', a part of the file
+};
+
+/// A URI (RFC 3986) relative to `folder`, or with the scheme file. Throws core::Error (Input) for
+/// any other scheme, a query or a malformed escape.
+Source source_of(const xml::Element& element, const std::filesystem::path& folder);
+
+/// Likewise, where a fragment is refused, too.
 std::filesystem::path source_path(const xml::Element& element, const std::filesystem::path& folder);
+
+/// A relative path as a URI: what is neither a letter, a digit nor one of "-._~/" is escaped.
+std::string uri_of(const std::filesystem::path& path);
 
 }  // namespace stride::io
 

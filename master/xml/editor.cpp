@@ -146,6 +146,24 @@ void Editor::add_attribute(std::size_t element, const std::string& name, const s
   edits_.push_back({at, 0, " " + name + "=\"" + escaped(value) + "\""});
 }
 
+void Editor::set_attribute(std::size_t element, const std::string& name, const std::string& value) {
+  const ElementPlace& place = places_[element];
+  std::size_t at = text_.find_first_of(kBlanks, place.begin);
+  while (at < place.start_tag_end) {
+    const std::size_t begin = text_.find_first_not_of(kBlanks, at);
+    const std::size_t equals = text_.find('=', begin);
+    const std::size_t open = text_.find_first_of("'\"", equals);
+    if (open >= place.start_tag_end) break;
+    const std::size_t close = text_.find(text_[open], open + 1);
+    const std::size_t name_end = text_.find_last_not_of(kBlanks, equals - 1) + 1;
+    if (text_.substr(begin, name_end - begin) == name) {
+      edits_.push_back({open, close + 1 - open, "\"" + escaped(value) + "\""});
+      return;
+    }
+    at = close + 1;
+  }
+}
+
 std::string Editor::result() const {
   std::vector<Edit> edits = edits_;
   std::stable_sort(edits.begin(), edits.end(),

@@ -20,7 +20,7 @@ struct ElementPlace {
 /// The places of all elements in document order. The text must be well-formed.
 std::vector<ElementPlace> element_places(const std::string& text);
 
-/// Collects insertions, then makes them all at once.
+/// Collects changes, then makes them all at once.
 class Editor {
  public:
   /// The text must be well-formed and outlive the editor.
@@ -35,6 +35,8 @@ class Editor {
   void append_children(std::size_t element, const std::vector<std::string>& pieces);
   void insert_behind(std::size_t element, const std::string& piece);
   void add_attribute(std::size_t element, const std::string& name, const std::string& value);
+  /// Replaces the value of an attribute, which the element must have.
+  void set_attribute(std::size_t element, const std::string& name, const std::string& value);
 
   std::string result() const;
 

@@ -125,8 +125,12 @@ TEST_CASE("pack makes a .fmu that can be inspected and run") {
 
 TEST_CASE("pack does not take what is no unit") {
   const Workspace workspace(two_filters());
-  const Outcome outcome = workspace.stride({"pack", "test.ssd", "--output", "packed.fmu"});
+  workspace.scratch().write("notes.txt", "no library");
+  const Outcome outcome = workspace.stride({"pack", "notes.txt", "--output", "packed.fmu"});
   CHECK(outcome.exit_code == 2);
-  CHECK_THAT(outcome.err, Contains("test.ssd' cannot be loaded"));
+  CHECK_THAT(outcome.err, Contains("notes.txt' cannot be loaded"));
+  const Outcome scenario = workspace.stride({"pack", "test.ssd", "--output", "packed.fmu"});
+  CHECK(scenario.exit_code == 2);
+  CHECK_THAT(scenario.err, Contains("a scenario becomes a package (.ssp)"));
   CHECK_FALSE(fs::exists(workspace / "packed.fmu"));
 }

@@ -47,3 +47,8 @@ TEST_CASE("What names no file here is refused") {
   CHECK_THROWS_WITH(resolve("a%00b"), Contains("not followed by two hexadecimal digits"));
   CHECK_THROWS_WITH(resolve(""), Contains("'source' of <a> is empty"));
 }
+
+TEST_CASE("A path becomes a URI that leads back to it") {
+  CHECK(uri_of("resources/a b#%ä.fmu") == "resources/a%20b%23%25%C3%A4.fmu");
+  CHECK(uri_of("plain-1_2~3.ssv") == "plain-1_2~3.ssv");
+}

@@ -34,6 +34,18 @@ TEST_CASE("Children are added with the file's own indentation and line ends") {
         "</c>\r\n   <g/>\r\n</a>\r\n");
 }
 
+TEST_CASE("The value of an attribute is replaced, and nothing else") {
+  const std::string text = "<a x = 'y=\"1\"'\n  y=\"2\" xy='3'/>";
+  const auto with = [&](const char* name) {
+    Editor editor(text);
+    editor.set_attribute(0, name, "<&>");
+    return editor.result();
+  };
+  CHECK(with("x") == "<a x = \"&lt;&amp;&gt;\"\n  y=\"2\" xy='3'/>");
+  CHECK(with("y") == "<a x = 'y=\"1\"'\n  y=\"&lt;&amp;&gt;\" xy='3'/>");
+  CHECK(with("xy") == "<a x = 'y=\"1\"'\n  y=\"2\" xy=\"&lt;&amp;&gt;\"/>");
+}
+
 TEST_CASE("Elements on one line stay well-formed") {
   const std::string text = "<a><b></b><c><d/></c></a>";
   Editor first(text);

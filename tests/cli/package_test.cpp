@@ -1,0 +1,116 @@
+// Scenarios in packages, and systems in systems, from outside.
+#include <catch2/catch.hpp>
+
+#include "master/archive/zip.h"
+#include "tests/cli/scenarios.h"
+
+using namespace stride::tests;
+using Catch::Contains;
+
+namespace {
+
+/// The second low-pass stands in a system of its own, behind a gain.
+Parts nested_filters() {
+  Parts parts;
+  parts.components =
+      component("first", "minimal.fmu") +
+      "<ssd:System name=\"inner\"><ssd:Connectors>"
+      "<ssd:Connector name=\"u\" kind=\"input\"/><ssd:Connector name=\"y\" kind=\"output\"/>"
+      "</ssd:Connectors><ssd:Elements>" +
+      component("second", "minimal.fmu") +
+      "</ssd:Elements><ssd:Connections>"
+      "<ssd:Connection startConnector=\"u\" endElement=\"second\" endConnector=\"u\">"
+      "<ssc:LinearTransformation factor=\"2\" offset=\"1\"/></ssd:Connection>"
+      "<ssd:Connection startElement=\"second\" startConnector=\"y\" endConnector=\"y\"/>"
+      "</ssd:Connections></ssd:System>\n" +
+      component("third", "minimal.fmu");
+  parts.connections = connection("first.y", "inner.u") + connection("inner.y", "third.u");
+  return parts;
+}
+
+const Arguments kFirst{"--set", "first.u=1"};
+
+}  // namespace
+
+TEST_CASE("a system in a system runs as its components do") {
+  const Workspace nested(nested_filters());
+  REQUIRE(nested.run(kFirst).exit_code == 0);
+  const Csv signals = nested.signals();
+  CHECK(signals.titles() ==
+        std::vector<std::string>{"time", "first.y", "inner.second.y", "third.y"});
+  CHECK_THAT(nested.stride({"check", "test.ssd"}).out, Contains("× 2 + 1"));
+}
+
+TEST_CASE("a value for a connector of a system is set where it leads") {
+  const Workspace nested(nested_filters());
+  CHECK(nested.run({"--set", "inner.u=3", "--signals", "inner.second.u"}).exit_code == 0);
+  CHECK_THAT(input_error_of(nested.run({"--set", "inner.secnd.u=3"})),
+             Contains("--set inner.secnd.u=3: ") && Contains("did you mean 'second'?"));
+}
+
+TEST_CASE("a scenario is packed with its units, and gives the same results") {
+  const Workspace plain(nested_filters());
+  REQUIRE(plain.run(kFirst).exit_code == 0);
+  REQUIRE(plain.stride({"pack", "test.ssd", "-o", "test.ssp"}).exit_code == 0);
+
+  const Scratch elsewhere;
+  fs::copy_file(plain / "test.ssp", elsewhere / "moved.ssp");
+  Arguments arguments{"run", "moved.ssp", "--out", "out"};
+  arguments.insert(arguments.end(), kFirst.begin(), kFirst.end());
+  const Outcome outcome = run_program(arguments, elsewhere.path());
+  REQUIRE(outcome.exit_code == 0);
+  CHECK(read(elsewhere / "out" / "signals.csv") == plain.result("signals.csv"));
+}
+
+TEST_CASE("nothing is left of a package that was run, well or not") {
+  const Workspace workspace(nested_filters());
+  REQUIRE(workspace.stride({"pack", "test.ssd", "-o", "test.ssp"}).exit_code == 0);
+  CHECK(workspace.stride({"run", "test.ssp"}).exit_code == 0);
+  CHECK(fs::exists(workspace / "results/test/signals.csv"));
+  CHECK(workspace.left_behind().empty());
+  CHECK(workspace.stride({"run", "test.ssp", "--set", "nobody.u=1"}).exit_code == 2);
+  CHECK(workspace.left_behind().empty());
+}
+
+TEST_CASE("a package without a system says what it holds") {
+  const Workspace workspace(nested_filters());
+  stride::archive::write_zip(workspace / "odd.ssp", {{"resources/notes.txt", {"x", {}, false}}});
+  CHECK_THAT(input_error_of(workspace.stride({"run", "odd.ssp"})),
+             Contains("'odd.ssp' has no SystemStructure.ssd; it holds resources/notes.txt"));
+}
+
+TEST_CASE("a mistake in a package is named by the package's name") {
+  const Workspace workspace(nested_filters());
+  stride::archive::write_zip(workspace / "odd.ssp", {{"SystemStructure.ssd", {"<a>", {}, false}}});
+  CHECK_THAT(input_error_of(workspace.stride({"check", "odd.ssp"})),
+             Contains("odd.ssp/SystemStructure.ssd:1: this is not well-formed XML"));
+}
+
+TEST_CASE("a package is completed as a package") {
+  const Workspace workspace(nested_filters());
+  REQUIRE(workspace.stride({"pack", "test.ssd", "-o", "test.ssp"}).exit_code == 0);
+  REQUIRE(workspace.stride({"complete", "test.ssp"}).exit_code == 0);
+  CHECK(workspace.stride({"run", "test.ssp"}).exit_code == 0);
+  const std::string once = read(workspace / "test.ssp");
+  REQUIRE(workspace.stride({"complete", "test.ssp"}).exit_code == 0);
+  CHECK(read(workspace / "test.ssp") == once);
+}
+
+TEST_CASE("a value that SSP lets stand for nobody is told of") {
+  Parts parts = two_filters();
+  parts.components =
+      component("first", "minimal.fmu",
+                "<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues>"
+                "<v:ParameterSet version=\"2.0\" name=\"p\" "
+                "xmlns:v=\"http://ssp-standard.org/SSP1/SystemStructureParameterValues\">"
+                "<v:Parameters><v:Parameter name=\"time_constnt\"><v:Real value=\"1\"/>"
+                "</v:Parameter></v:Parameters></v:ParameterSet></ssd:ParameterValues>"
+                "</ssd:ParameterBinding></ssd:ParameterBindings>") +
+      component("second", "minimal.fmu");
+  const Workspace workspace(parts);
+  const Outcome outcome = workspace.run();
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("unit 'first', variable 'time_constnt'") &&
+                              Contains("did you mean 'time_constant'?") &&
+                              Contains("passed over, as SSP wants it"));
+}
