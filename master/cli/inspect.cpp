@@ -46,6 +46,7 @@ std::string capabilities(const core::UnitDescription& unit) {
   add(unit.can_vary_step, "variable step");
   add(unit.may_return_early, "may return early");
   add(unit.provides_intermediate_update, "inputs may change within a step");
+  add(unit.provides_directional_derivatives, "directional derivatives");
   add(unit.max_output_derivative_order > 0,
       fmt::format("output derivatives up to order {}", unit.max_output_derivative_order));
   add(unit.fixed_internal_step.has_value(),
@@ -54,6 +55,14 @@ std::string capabilities(const core::UnitDescription& unit) {
   add(unit.promises_idle, "promises to be idle");
   add(unit.single_instance, "one instance per process");
   add(unit.needs_execution_tool, "needs its own tool");
+  return text;
+}
+
+std::string meaning(const core::Variable& variable) {
+  std::string text = variable.description;
+  for (const std::string& alias : variable.aliases) {
+    text += fmt::format("{}also {}", text.empty() ? "" : "; ", alias);
+  }
   return text;
 }
 
@@ -68,7 +77,7 @@ void inspect(const std::filesystem::path& file) {
   for (const core::Variable& variable : unit.variables) {
     table.add({variable.name, core::name(variable.causality),
                type(variable) + clock_names(unit, variable), variable.unit, variable.start,
-               range(variable), variable.description});
+               range(variable), meaning(variable)});
   }
   fmt::print("\n{}", table.text());
 }

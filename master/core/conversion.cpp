@@ -89,11 +89,9 @@ std::optional<std::int64_t> number_of(const EnumerationItems& items, const std::
 /// Puts the passages together, one after the other.
 class Composer {
  public:
-  Composer(std::vector<Waypoint> waypoints, std::span<const Passage> passages,
+  Composer(const std::vector<Waypoint>& waypoints, std::span<const Passage> passages,
            const Context& context)
-      : waypoints_(std::move(waypoints)), passages_(passages), context_(context) {
-    complete();
-  }
+      : waypoints_(completed(waypoints)), passages_(passages), context_(context) {}
 
   LinearConversion linear() const {
     LinearConversion linear;
@@ -145,24 +143,6 @@ class Composer {
 
  private:
   ValueType type(std::size_t waypoint) const { return *waypoints_[waypoint].type; }
-
-  void complete() {
-    const auto inherit = [](Waypoint& to, const Waypoint& from) {
-      if (!to.type) to.type = from.type;
-      if (to.unit.name.empty() && is_float(to.type.value_or(ValueType::String)))
-        to.unit = from.unit;
-      if (to.items.empty() && to.type == ValueType::Enumeration) to.items = from.items;
-    };
-    for (std::size_t i = waypoints_.size() - 1; i-- > 0;) {
-      if (waypoints_[i].takes_after_next) inherit(waypoints_[i], waypoints_[i + 1]);
-    }
-    for (std::size_t i = 1; i + 1 < waypoints_.size(); ++i) {
-      inherit(waypoints_[i], waypoints_[i - 1]);
-    }
-    for (std::size_t i = waypoints_.size() - 1; i-- > 0;) {
-      if (!waypoints_[i].type) inherit(waypoints_[i], waypoints_[i + 1]);
-    }
-  }
 
   std::string wire(std::size_t passage) const {
     return fmt::format("'{}' to '{}'", waypoints_[passage].name, waypoints_[passage + 1].name);
@@ -415,14 +395,30 @@ bool converts_without_loss(ValueType from, ValueType to, const EnumerationItems&
   return target->holds(*source);
 }
 
-Conversion compose(std::vector<Waypoint> waypoints, std::span<const Passage> passages,
-                   const Context& context) {
-  return Composer(std::move(waypoints), passages, context).conversion();
+std::vector<Waypoint> completed(std::vector<Waypoint> waypoints) {
+  const auto inherit = [](Waypoint& to, const Waypoint& from) {
+    if (!to.type) to.type = from.type;
+    if (to.unit.name.empty() && to.type && is_float(*to.type)) to.unit = from.unit;
+    if (to.items.empty() && to.type == ValueType::Enumeration) to.items = from.items;
+  };
+  for (std::size_t i = waypoints.size() - 1; i-- > 0;) {
+    if (waypoints[i].takes_after_next) inherit(waypoints[i], waypoints[i + 1]);
+  }
+  for (std::size_t i = 1; i < waypoints.size(); ++i) inherit(waypoints[i], waypoints[i - 1]);
+  for (std::size_t i = waypoints.size() - 1; i-- > 0;) {
+    if (!waypoints[i].type) inherit(waypoints[i], waypoints[i + 1]);
+  }
+  return waypoints;
 }
 
-TextConversion compose_text(const std::string& text, std::vector<Waypoint> waypoints,
+Conversion compose(const std::vector<Waypoint>& waypoints, std::span<const Passage> passages,
+                   const Context& context) {
+  return Composer(waypoints, passages, context).conversion();
+}
+
+TextConversion compose_text(const std::string& text, const std::vector<Waypoint>& waypoints,
                             std::span<const Passage> passages, const Context& context) {
-  const Composer composer(std::move(waypoints), passages, context);
+  const Composer composer(waypoints, passages, context);
   return {composer.words(text), composer.linear()};
 }
 

@@ -76,11 +76,13 @@ struct Waypoint {
   bool takes_after_next = false;
 };
 
-/// Composes the passages between waypoints, of which there is one more. The first and the last have
-/// their types. Throws Error (Input) at `context`, or at the transformation that is wrong, for
-/// units that cannot be converted into each other, types that cannot or could lose something, and
-/// transformations that do not fit the types.
-Conversion compose(std::vector<Waypoint> waypoints, std::span<const Passage> passages,
+/// The waypoints with what they take after others. The type of the first or the last is known.
+std::vector<Waypoint> completed(std::vector<Waypoint> waypoints);
+
+/// Composes the passages between waypoints, of which there is one more. Throws Error (Input) at
+/// `context`, or at the transformation that is wrong, for units that cannot be converted into each
+/// other, types that cannot or could lose something, and transformations that do not fit the types.
+Conversion compose(const std::vector<Waypoint>& waypoints, std::span<const Passage> passages,
                    const Context& context);
 
 /// Likewise for a value that is given as text, whose type and enumeration need not be known: the
@@ -89,7 +91,7 @@ struct TextConversion {
   std::string text;
   LinearConversion linear;
 };
-TextConversion compose_text(const std::string& text, std::vector<Waypoint> waypoints,
+TextConversion compose_text(const std::string& text, const std::vector<Waypoint>& waypoints,
                             std::span<const Passage> passages, const Context& context);
 
 /// Whether each value of a type is one of the other. An Enumeration is seen as an Int64, and fits

@@ -17,6 +17,7 @@
 #include "master/core/step_inputs.h"
 #include "master/core/step_size.h"
 #include "master/core/stepper.h"
+#include "master/core/system_outputs.h"
 
 namespace stride::core {
 namespace {
@@ -33,7 +34,8 @@ class Simulation::Run {
         units_(std::move(units)),
         options_(std::move(options)),
         step_size_(system, options_),
-        exchange_(system, options_.recorded),
+        outputs_(system, options_.recorded),
+        exchange_(system, outputs_.sources()),
         inputs_(make_inputs()),
         statistics_{.units = std::vector<UnitStatistics>(units_.size())},
         ledger_(make_ledger()),
@@ -44,6 +46,7 @@ class Simulation::Run {
                  options_.sets_inputs_in_steps() ? &*inputs_ : nullptr,
                  ledger_ ? &*ledger_ : nullptr) {
     statistics_.start = statistics_.reached = options_.start;
+    outputs_.connect(exchange_);
     if (options_.sets_inputs_in_steps()) lead_inputs_within_steps();
   }
 
@@ -105,6 +108,11 @@ class Simulation::Run {
     start_observers();
     instant_.begin();
     settle();
+    tell_observers();
+  }
+
+  void tell_observers() {
+    outputs_.update();
     for (Observer* observer : observers_) observer->on_communication_point(time_);
   }
 
@@ -129,7 +137,7 @@ class Simulation::Run {
 
   void start_observers() {
     std::vector<Signal> signals;
-    for (const VariableId id : options_.recorded) signals.push_back(exchange_.signal(id));
+    for (const VariableId id : options_.recorded) signals.push_back(outputs_.signal(id, exchange_));
     for (Observer* observer : observers_) observer->on_start(signals);
   }
 
@@ -168,9 +176,7 @@ class Simulation::Run {
     ++statistics_.communication_steps;
     statistics_.parallel_steps += stepper_.was_parallel();
     statistics_.reached = time_;
-    clock_.timed(statistics_.phases.observers, [&] {
-      for (Observer* observer : observers_) observer->on_communication_point(time_);
-    });
+    clock_.timed(statistics_.phases.observers, [&] { tell_observers(); });
   }
 
   void take_requests() {
@@ -222,6 +228,7 @@ class Simulation::Run {
   std::vector<std::unique_ptr<Unit>> units_;
   RunOptions options_;
   StepSize step_size_;
+  SystemOutputs outputs_;
   Exchange exchange_;
   std::optional<StepInputs> inputs_;
   std::vector<Observer*> observers_;

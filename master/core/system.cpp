@@ -98,8 +98,6 @@ struct Way {
     for (const ViaDeclaration& via : wanted.via) go(via.connector, via.passage);
     go(std::move(last), Passage{wanted.suppress_unit_conversion, wanted.transformation});
   }
-
- private:
   void go(Waypoint next, Passage passage) {
     waypoints.push_back(std::move(next));
     passages.push_back(std::move(passage));
@@ -125,10 +123,11 @@ System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
   add_structural_values(targets);
   add_connections(declaration);
   add_start_values(targets);
+  add_outputs(declaration);
 }
 
-std::string System::full_name(VariableId id) const {
-  return components_[id.component].name + "." + variable(id).name;
+std::string System::prefix(VariableId id) const {
+  return is_output(id) ? "" : components_[id.component].name + ".";
 }
 
 void System::add_components(const SystemDeclaration& declaration) {
@@ -413,6 +412,39 @@ void System::add_start_values(const std::vector<Target>& targets) {
     values.insert_or_assign(id, start_value(*wanted, id));
   }
   for (auto& [id, value] : values) start_values_.push_back({id, std::move(value)});
+}
+
+void System::add_outputs(const SystemDeclaration& declaration) {
+  std::set<std::string> names;
+  for (std::size_t c = 0; !declaration.outputs.empty() && c < components_.size(); ++c) {
+    const auto& variables = components_[c].description->variables;
+    for (std::size_t v = 0; v < variables.size(); ++v) names.insert(full_name({c, v}));
+  }
+  for (const OutputDeclaration& wanted : declaration.outputs) {
+    // a variable of that name is recorded as it is
+    if (!names.contains(wanted.via.back().connector.name)) add_output(wanted);
+  }
+}
+
+void System::add_output(const OutputDeclaration& wanted) {
+  const VariableId from = find_variable(wanted.component, wanted.variable, wanted.where);
+  const Variable& source = variable(from);
+  const bool is_message =
+      source.type == ValueType::Clock || (source.is_clocked() && !is_sampled(from));
+  if (is_message) return;  // it is seen where it is sent
+  Way way(waypoint(from));
+  for (const ViaDeclaration& via : wanted.via) way.go(via.connector, via.passage);
+  const std::vector<Waypoint> waypoints = completed(way.waypoints);
+  const Waypoint& end = waypoints.back();
+  SystemOutput output{from, compose(waypoints, way.passages, {wanted.where, {}, {}, {}}), source};
+  output.variable.name = end.name;
+  output.variable.aliases.clear();
+  output.variable.type = *end.type;
+  output.variable.unit = end.unit.name;
+  output.variable.items = end.items;
+  output.variable.causality = Causality::Output;
+  output.variable.clocks.clear();
+  outputs_.push_back(std::move(output));
 }
 
 }  // namespace stride::core

@@ -45,6 +45,12 @@ struct ConnectionDeclaration {
   Transformation transformation{};    ///< on the way from the last of `via`, as is the above
   std::vector<ViaDeclaration> via{};  ///< connectors of systems in between
 };
+/// A value that leaves the system under a name of its own.
+struct OutputDeclaration {
+  std::string component, variable;
+  std::vector<ViaDeclaration> via;  ///< the last one is the system's connector itself, by its name
+  Location where{};
+};
 struct StartDeclaration {
   std::string component, variable;
   std::string value;
@@ -64,6 +70,7 @@ struct SystemDeclaration {
   std::vector<ComponentDeclaration> components;
   std::vector<ConnectionDeclaration> connections;
   std::vector<StartDeclaration> start_values;  ///< a later one replaces an earlier one
+  std::vector<OutputDeclaration> outputs{};
 };
 
 struct Component {
@@ -78,6 +85,12 @@ struct Connection {
   VariableId from;
   VariableId to;
   Conversion conversion;
+};
+/// What a system puts out: a component's variable, converted, by another name.
+struct SystemOutput {
+  VariableId from;
+  Conversion conversion;
+  Variable variable;  ///< its name, type, size and unit
 };
 struct StartValue {
   VariableId id;
@@ -97,6 +110,10 @@ class System {
   const std::vector<Component>& components() const { return components_; }
   const std::vector<Connection>& connections() const { return connections_; }
   const std::vector<StartValue>& start_values() const { return start_values_; }
+  /// Their ids are those of a component behind the last one: see output_id(). None is a message.
+  const std::vector<SystemOutput>& outputs() const { return outputs_; }
+  VariableId output_id(std::size_t output) const { return {components_.size(), output}; }
+  bool is_output(VariableId id) const { return id.component == components_.size(); }
   /// Those of structural parameters, sorted by component; the sizes of the components' arrays, in
   /// their descriptions, follow from them.
   const std::vector<StartValue>& structural_values() const { return structural_values_; }
@@ -104,18 +121,23 @@ class System {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   const Variable& variable(VariableId id) const {
+    if (is_output(id)) return outputs_[id.variable].variable;
     return components_[id.component].description->variables[id.variable];
   }
   /// Whether the variable belongs to time-based clocks only; see UnitDescription::is_sampled().
   bool is_sampled(VariableId id) const {
-    return components_[id.component].description->is_sampled(variable(id));
+    return !is_output(id) && components_[id.component].description->is_sampled(variable(id));
   }
-  /// "component.variable"
-  std::string full_name(VariableId id) const;
+  /// "component.variable"; of an output of the system its name.
+  std::string full_name(VariableId id) const { return prefix(id) + variable(id).name; }
+  /// What stands before the variable's name in that: "component.", or nothing.
+  std::string prefix(VariableId id) const;
 
  private:
   void add_components(const SystemDeclaration& declaration);
   void add_connections(const SystemDeclaration& declaration);
+  void add_outputs(const SystemDeclaration& declaration);
+  void add_output(const OutputDeclaration& declaration);
   /// A start value and what it is for.
   struct Target {
     const StartDeclaration* declaration;
@@ -145,6 +167,7 @@ class System {
   std::vector<Component> components_;
   std::vector<Connection> connections_;
   std::vector<StartValue> start_values_;
+  std::vector<SystemOutput> outputs_;
   std::vector<StartValue> structural_values_;
   std::vector<std::string> warnings_;
   std::map<VariableId, MeasureUnit> connector_units_;  ///< those that connectors declare

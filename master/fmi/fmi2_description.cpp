@@ -26,6 +26,7 @@ void read_co_simulation(const xml::Element& element, ModelDescription& unit) {
   unit.single_instance = element.flag("canBeInstantiatedOnlyOncePerProcess");
   unit.needs_execution_tool = element.flag("needsExecutionTool");
   unit.provides_intermediate_update = element.flag("canInterpolateInputs");
+  unit.provides_directional_derivatives = element.flag("providesDirectionalDerivative");
   unit.max_output_derivative_order =
       element.number<unsigned>("maxOutputDerivativeOrder").value_or(0);
   unit.fmi2->can_run_asynchronously =

@@ -110,10 +110,11 @@ std::string Fmi2Unit::variable_name(char type, fmi2ValueReference reference) con
 // ---- Values ----
 
 /// The unit's value references, in place of core's.
-inline const fmi2ValueReference* Fmi2Unit::own(References references) {
-  own_.resize(references.size());
-  for (std::size_t i = 0; i < references.size(); ++i) own_[i] = unit_references_[references[i]];
-  return own_.data();
+inline const fmi2ValueReference* Fmi2Unit::own(References references,
+                                               std::vector<fmi2ValueReference>& into) {
+  into.resize(references.size());
+  for (std::size_t i = 0; i < references.size(); ++i) into[i] = unit_references_[references[i]];
+  return into.data();
 }
 
 // Most values are of this type.
@@ -233,6 +234,17 @@ void Fmi2Unit::set_strings(References references, std::span<const std::string> v
                  [](const std::string& value) { return value.c_str(); });
   call("fmi2SetString", fmi_.SetString, own(references), references.size(),
        std::as_const(texts_).data());
+}
+
+void Fmi2Unit::get_directional_derivative(References unknowns, References knowns,
+                                          std::span<const double> seed,
+                                          std::span<double> sensitivity) {
+  if (fmi_.GetDirectionalDerivative == nullptr) {
+    fail("its library does not export fmi2GetDirectionalDerivative",
+         "a unit that provides derivatives must have it (providesDirectionalDerivative)");
+  }
+  call("fmi2GetDirectionalDerivative", fmi_.GetDirectionalDerivative, own(unknowns),
+       unknowns.size(), own(knowns, own_knowns_), knowns.size(), seed.data(), sensitivity.data());
 }
 
 // ---- Steps ----

@@ -56,6 +56,9 @@ class Fmi2Unit final : public FmuInstance {
   void get(std::span<const core::ValueReference> references, core::ValueBlock& values) override;
   void set(std::span<const core::ValueReference> references,
            const core::ValueBlock& values) override;
+  void get_directional_derivative(References unknowns, References knowns,
+                                  std::span<const double> seed,
+                                  std::span<double> sensitivity) override;
   core::StepResult step(const core::StepInterval& interval) override;
   core::StepResult step(const core::StepInterval& interval,
                         const core::StepValues& values) override;
@@ -79,7 +82,8 @@ class Fmi2Unit final : public FmuInstance {
   static void on_step_finished(fmi2ComponentEnvironment environment, fmi2Status status);
   std::string variable_name(char type, fmi2ValueReference reference) const;
 
-  const fmi2ValueReference* own(References references);
+  const fmi2ValueReference* own(References references) { return own(references, own_); }
+  const fmi2ValueReference* own(References references, std::vector<fmi2ValueReference>& into);
   void get(const core::BoundValues& values);
   void set(const core::BoundValues& values);
   void get_enumerations(References references, std::span<std::int64_t> values);
@@ -127,7 +131,7 @@ class Fmi2Unit final : public FmuInstance {
   bool is_instantiated_only_ = true;
   std::vector<std::pair<std::vector<core::ValueReference>, core::ValueBlock>> kept_inputs_;
 
-  std::vector<fmi2ValueReference> own_;
+  std::vector<fmi2ValueReference> own_, own_knowns_;
   std::vector<fmi2Integer> integers_;
   std::vector<fmi2String> texts_;
 };

@@ -18,6 +18,7 @@ void read_co_simulation(const xml::Element& element, core::UnitDescription& unit
   unit.single_instance = element.flag("canBeInstantiatedOnlyOncePerProcess");
   unit.needs_execution_tool = element.flag("needsExecutionTool");
   unit.provides_intermediate_update = element.flag("providesIntermediateUpdate");
+  unit.provides_directional_derivatives = element.flag("providesDirectionalDerivatives");
   unit.max_output_derivative_order =
       element.number<unsigned>("maxOutputDerivativeOrder").value_or(0);
   unit.fixed_internal_step = read_step_size(element, "fixedInternalStepSize");

@@ -199,6 +199,18 @@ void Fmi3Unit::set_binaries(References references, std::span<const core::Binary>
        std::as_const(sizes_).data(), std::as_const(bytes_).data(), bytes_.size());
 }
 
+void Fmi3Unit::get_directional_derivative(References unknowns, References knowns,
+                                          std::span<const double> seed,
+                                          std::span<double> sensitivity) {
+  if (fmi_.GetDirectionalDerivative == nullptr) {
+    fail("its library does not export fmi3GetDirectionalDerivative",
+         "a unit that provides derivatives must have it (providesDirectionalDerivatives)");
+  }
+  call("fmi3GetDirectionalDerivative", fmi_.GetDirectionalDerivative, unknowns.data(),
+       unknowns.size(), knowns.data(), knowns.size(), seed.data(), seed.size(), sensitivity.data(),
+       sensitivity.size());
+}
+
 // ---- Steps and events ----
 
 core::StepResult Fmi3Unit::step(const core::StepInterval& interval) {

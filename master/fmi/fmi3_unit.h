@@ -40,6 +40,9 @@ class Fmi3Unit final : public FmuInstance {
   void get(std::span<const core::ValueReference> references, core::ValueBlock& values) override;
   void set(std::span<const core::ValueReference> references,
            const core::ValueBlock& values) override;
+  void get_directional_derivative(References unknowns, References knowns,
+                                  std::span<const double> seed,
+                                  std::span<double> sensitivity) override;
   core::StepResult step(const core::StepInterval& interval) override;
   core::StepResult step(const core::StepInterval& interval,
                         const core::StepValues& values) override;

@@ -62,6 +62,7 @@ class Flattener {
       follow(i, way, [&](const std::vector<std::size_t>& found) { add_connection(found); });
     }
     add_parameters(root);
+    add_outputs(root);
     return std::move(flat_);
   }
 
@@ -307,6 +308,27 @@ class Flattener {
     connection.where = last.where;
     for (std::size_t i = 0; i + 1 < way.size(); ++i) connection.via.push_back(via(way[i]));
     flat_.declaration.connections.push_back(std::move(connection));
+  }
+
+  /// What comes out of the root system.
+  void add_outputs(const SystemNode& root) {
+    for (const auto& connector : root.connectors) {
+      if (connector.flow != Flow::Out) continue;
+      core::OutputDeclaration output;
+      output.where = connector.declared.where;
+      std::size_t port = systems_.at(&root).ports.at(connector.declared.name);
+      std::set<std::size_t> seen;
+      while (!ports_[port].is_component() && !ports_[port].incoming.empty()) {
+        const std::size_t wire = ports_[port].incoming.front();
+        if (!seen.insert(wire).second) fail_round(wires_[wire]);
+        output.via.insert(output.via.begin(), via(wire));
+        port = wires_[wire].from;
+      }
+      if (!ports_[port].is_component()) continue;  // nothing is connected to it
+      output.component = flat_.declaration.components[ports_[port].component].name;
+      output.variable = ports_[port].connector;
+      flat_.declaration.outputs.push_back(std::move(output));
+    }
   }
 
   // ---- Parameters ----

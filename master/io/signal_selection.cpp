@@ -1,5 +1,6 @@
 #include "master/io/signal_selection.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -28,6 +29,10 @@ std::vector<Candidate> candidates(const core::System& system) {
       found.push_back({{c, v}, system.full_name({c, v}), is_message});
     }
   }
+  for (std::size_t i = 0; i < system.outputs().size(); ++i) {
+    const core::VariableId id = system.output_id(i);
+    found.push_back({id, system.full_name(id), false});
+  }
   return found;
 }
 
@@ -47,6 +52,18 @@ std::vector<Candidate> candidates(const core::System& system) {
   core::fail_input({.where = pattern.where},
                    fmt::format("'{}' matches no variable to record", pattern.text),
                    core::suggestion(pattern.text, names));
+}
+
+/// A variable is asked for by its name or by an alias of it.
+bool matches(const core::System& system, const Candidate& candidate, const std::string& pattern) {
+  const auto is_matched = [&](const std::string& name) {
+    return name == pattern || matches_glob(pattern, name);
+  };
+  if (is_matched(candidate.name)) return true;
+  const std::vector<std::string>& aliases = system.variable(candidate.id).aliases;
+  return std::any_of(aliases.begin(), aliases.end(), [&](const std::string& alias) {
+    return is_matched(system.prefix(candidate.id) + alias);
+  });
 }
 
 std::vector<core::VariableId> all_outputs(const core::System& system) {
@@ -70,7 +87,7 @@ std::vector<core::VariableId> select_signals(const core::System& system,
     const Candidate* message = nullptr;
     bool has_match = false;
     for (const Candidate& candidate : all) {
-      if (candidate.name != pattern.text && !matches_glob(pattern.text, candidate.name)) continue;
+      if (!matches(system, candidate, pattern.text)) continue;
       if (candidate.is_message) {
         message = &candidate;
         continue;

@@ -105,8 +105,7 @@ std::string VcdRecorder::next_code() {
 std::string VcdRecorder::declare(VcdScope& top, core::VariableId id, std::size_t element) {
   const core::Variable& variable = system_.variable(id);
   std::string code = next_code();
-  top.scope(system_.components()[id.component].name)
-      .add(element_name(variable, element), variable.type, code);
+  top.add(system_.prefix(id) + element_name(variable, element), variable.type, code);
   return code;
 }
 

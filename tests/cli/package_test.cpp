@@ -41,6 +41,26 @@ TEST_CASE("a system in a system runs as its components do") {
   CHECK_THAT(nested.stride({"check", "test.ssd"}).out, Contains("× 2 + 1"));
 }
 
+TEST_CASE("what leaves the root system is recorded under its name, converted") {
+  Parts parts = two_filters();
+  std::string text = scenario_text(parts);
+  const std::string root = "<ssd:System name=\"root\">";
+  text.insert(text.find(root) + root.size(),
+              "<ssd:Connectors><ssd:Connector name=\"level\" kind=\"output\"/></ssd:Connectors>");
+  text.insert(text.find("</ssd:Connections>"),
+              "<ssd:Connection startElement=\"second\" startConnector=\"y\" "
+              "endConnector=\"level\"><ssc:LinearTransformation factor=\"-2\"/></ssd:Connection>");
+  const Workspace workspace(text);
+  REQUIRE(workspace.run(kFirst).exit_code == 0);
+  const auto inside = workspace.signals().numbers("second.y");
+  const auto outside = workspace.signals().numbers("level");
+  REQUIRE(inside.size() == outside.size());
+  CHECK(inside.back() > 0);
+  for (std::size_t i = 0; i < inside.size(); ++i) CHECK(outside[i] == -2 * inside[i]);
+  REQUIRE(workspace.run({"--signals", "level"}).exit_code == 0);
+  CHECK(workspace.signals().titles() == std::vector<std::string>{"time", "level"});
+}
+
 TEST_CASE("a value for a connector of a system is set where it leads") {
   const Workspace nested(nested_filters());
   CHECK(nested.run({"--set", "inner.u=3", "--signals", "inner.second.u"}).exit_code == 0);

@@ -213,6 +213,17 @@ TEST_CASE("aliases have the same value") {
   CHECK(unit.get("gain.local") == 7);
 }
 
+TEST_CASE("directional derivatives of an FMI 2.0 unit") {
+  Fixture unit("fmi2_types");
+  unit.set("gain", 7);
+  unit.start();
+  const std::vector knowns{unit.reference("gain"), unit.reference("real")};
+  const std::vector unknowns{unit.reference("real.echo")};
+  double sensitivity = 0;
+  unit->get_directional_derivative(unknowns, knowns, std::vector{1.0, 0.5}, {&sensitivity, 1});
+  CHECK(sensitivity == 3.5);
+}
+
 TEST_CASE("an enumeration of FMI 2.0 has 32 bits") {
   Fixture unit("fmi2_types");
   unit.start();

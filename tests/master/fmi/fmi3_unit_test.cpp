@@ -599,3 +599,40 @@ TEST_CASE("Event Mode is not wanted by who has none") {
   CHECK_THROWS_WITH(raw.unit->step({Time(), Time(1ms)}),
                     Contains("eventHandlingNeeded") && Contains("hasEventMode"));
 }
+
+TEST_CASE("structural parameters are set in Configuration Mode, before all others") {
+  const auto fmu = fmi::Fmu::load(test_fmu("resizable"));
+  const auto unit = fmu->instantiate("unit");
+  const auto reference = [&](const char* name) {
+    return fmu->description()->variables[*fmu->description()->find(name)].reference;
+  };
+  const std::vector n{reference("n")}, gain{reference("gain")}, u{reference("u")},
+      y{reference("y")};
+  core::ValueBlock three(core::ValueType::UInt64, 1);
+  three.numbers<std::uint64_t>()[0] = 3;
+  core::ValueBlock values(core::ValueType::Float64, 3);
+  std::ranges::copy(std::vector{2.0, 3.0, 4.0}, values.numbers<double>().begin());
+  unit->enter_configuration_mode();
+  unit->set(n, three);
+  unit->exit_configuration_mode();
+  unit->set(gain, values);
+  unit->enter_initialization({}, {});
+  unit->set(u, values);
+  core::ValueBlock result(core::ValueType::Float64, 3);
+  unit->get(y, result);
+  CHECK(std::ranges::equal(result.numbers<double>(), std::vector{4.0, 9.0, 16.0}));
+
+  std::vector<double> sensitivity(3);
+  unit->get_directional_derivative(y, u, std::vector{1.0, 0.5, -1.0}, sensitivity);
+  CHECK(sensitivity == std::vector{2.0, 1.5, -4.0});
+}
+
+TEST_CASE("what a library does not export for structure and derivatives is named") {
+  const Scratch scratch;
+  const auto fmu = fmi::Fmu::load(make_raw_fmu(scratch, "raw"));
+  const auto unit = fmu->instantiate("unit");
+  CHECK_THAT(run_error([&] { unit->enter_configuration_mode(); }),
+             Contains("does not export fmi3EnterConfigurationMode"));
+  CHECK_THAT(run_error([&] { unit->get_directional_derivative({}, {}, {}, {}); }),
+             Contains("does not export fmi3GetDirectionalDerivative"));
+}

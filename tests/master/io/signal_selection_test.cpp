@@ -49,6 +49,11 @@ TEST_CASE("A glob passes over messages; a message alone is refused") {
   CHECK_THROWS_WITH(selected({"a.tick"}), Contains("'a.tick' cannot be recorded as a signal"));
 }
 
+TEST_CASE("An alias is another name of its variable") {
+  CHECK(selected({"a.range"}) == Names{"a.distance"});
+  CHECK(selected({"*.ran?e"}) == Names{"a.distance", "b, c.distance"});
+}
+
 TEST_CASE("A pattern that matches nothing is refused, and the nearest name suggested") {
   CHECK_THROWS_WITH(selected({"a.distnace"}),
                     Contains("x.ssd:12: 'a.distnace' matches no variable to record") &&

@@ -106,6 +106,7 @@ inline std::shared_ptr<core::UnitDescription> sample_description() {
   auto& variables = description->variables;
   variables.push_back(variable("time", 0, ValueType::Float64, Causality::Independent));
   variables.push_back(variable("distance", 1, ValueType::Float64, Causality::Output, "m"));
+  variables.back().aliases = {"range"};
   variables.push_back(variable("led", 2, ValueType::Boolean));
   variables.push_back(variable("frames.count", 3, ValueType::Int32));
   variables.push_back(variable("position", 4, ValueType::Float64, Causality::Output, "m"));

@@ -20,6 +20,22 @@ static void unit_outputs(Unit* unit) {
   strcpy(m->string[kOut], m->string[kIn]);
 }
 
+/* Of the Real output by the Real input. */
+EXPORT fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknowns[],
+                                               size_t n_unknowns, const fmi2ValueReference knowns[],
+                                               size_t n_knowns, const fmi2Real seed[],
+                                               fmi2Real sensitivity[]) {
+  ALLOW("fmi2GetDirectionalDerivative", unit->mode != kInstantiated)
+  for (size_t i = 0; i < n_unknowns; ++i) {
+    sensitivity[i] = 0;
+    for (size_t k = 0; k < n_knowns; ++k) {
+      const bool depends = unknowns[i] == kOut && knowns[k] == kIn;
+      sensitivity[i] += depends ? unit->model.real[kGain] * seed[k] : 0;
+    }
+  }
+  return fmi2OK;
+}
+
 static fmi2Status unit_step(Unit* unit, double begin, double size) {
   unit->model.time = begin + size;
   return fmi2OK;

@@ -83,3 +83,23 @@ fmi3Status fmi3GetFloat64(fmi3Instance handle, const fmi3ValueReference referenc
   }
   return fmi3OK;
 }
+
+/* Of y by u. */
+fmi3Status fmi3GetDirectionalDerivative(fmi3Instance handle, const fmi3ValueReference unknowns[],
+                                        size_t n_unknowns, const fmi3ValueReference knowns[],
+                                        size_t n_knowns, const fmi3Float64 seed[], size_t n_seed,
+                                        fmi3Float64 sensitivity[], size_t n_sensitivity) {
+  Vectors* v = vectors(handle);
+  const size_t n = size_of(v);
+  if (n_seed != n_knowns * n || n_sensitivity != n_unknowns * n) {
+    return fail(handle, "another number of values than n says");
+  }
+  for (size_t i = 0; i < n_sensitivity; ++i) {
+    sensitivity[i] = 0;
+    for (size_t k = 0; k < n_knowns; ++k) {
+      const bool depends = unknowns[i / n] == Y && knowns[k] == U;
+      sensitivity[i] += depends ? v->gain[i % n] * seed[k * n + i % n] : 0;
+    }
+  }
+  return fmi3OK;
+}

@@ -1,0 +1,43 @@
+// The values that leave a system under names of its own.
+#ifndef STRIDE_MASTER_CORE_SYSTEM_OUTPUTS_H
+#define STRIDE_MASTER_CORE_SYSTEM_OUTPUTS_H
+
+#include <span>
+#include <vector>
+
+#include "master/core/exchange.h"
+#include "master/core/system.h"
+
+namespace stride::core {
+
+/// Those of System::outputs() that are recorded. They have places of their own, since they are
+/// converted on their way out.
+class SystemOutputs {
+ public:
+  SystemOutputs(const System& system, std::span<const VariableId> recorded);
+
+  /// What an Exchange has to record for all that is recorded.
+  const std::vector<VariableId>& sources() const { return sources_; }
+  /// Where the values come from; the exchange must outlive this object.
+  void connect(Exchange& exchange);
+  /// Takes what stands in the exchange.
+  void update();
+  /// Of a recorded variable, whether it is an output of the system or not.
+  Signal signal(VariableId id, Exchange& exchange) const;
+
+ private:
+  struct Output {
+    VariableId id;
+    const SystemOutput* output;
+    ValueBlock block;
+    Signal source{};
+  };
+
+  const System& system_;
+  std::vector<VariableId> sources_;
+  std::vector<Output> outputs_;  ///< pointers into it stay valid
+};
+
+}  // namespace stride::core
+
+#endif
