@@ -105,6 +105,12 @@ class Extraction {
                    "set TMPDIR to a folder that you may write to and that has room");
   }
 
+  /// libarchive does not always have one.
+  std::string reason() const {
+    const char* const known = archive_error_string(reader_.get());
+    return known != nullptr ? known : "no reason is known";
+  }
+
   void open() {
     if (::access(archive_.c_str(), R_OK) != 0) {
       fail(fmt::format("cannot be read: {}", std::strerror(errno)));
@@ -119,8 +125,7 @@ class Extraction {
     const int status = archive_read_next_header(reader_.get(), &entry_);
     if (status == ARCHIVE_EOF) return false;
     if (status >= ARCHIVE_WARN) return true;
-    fail(fmt::format("is damaged: {}", archive_error_string(reader_.get())),
-         "pack or copy it again");
+    fail(fmt::format("is damaged: {}", reason()), "pack or copy it again");
   }
 
   void unpack_entry() {
@@ -189,7 +194,7 @@ class Extraction {
   std::size_t read_piece() {
     const la_ssize_t size = archive_read_data(reader_.get(), buffer_.data(), buffer_.size());
     if (size < 0) {
-      fail_entry(fmt::format("which is damaged: {}", archive_error_string(reader_.get())));
+      fail_entry(fmt::format("which is damaged: {}", reason()));
     }
     bytes_ += static_cast<std::uint64_t>(size);
     if (bytes_ > limits_.bytes) {

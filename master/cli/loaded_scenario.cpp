@@ -78,7 +78,9 @@ std::vector<std::shared_ptr<fmi::Fmu>> load_fmus(const io::Scenario& scenario) {
   std::vector<std::shared_ptr<fmi::Fmu>> fmus;
   for (std::size_t i = 0; i < scenario.sources.size(); ++i) {
     const core::Location& where = scenario.system.components[i].where;
-    const std::filesystem::path path = find_unit(scenario.sources[i], where);
+    const std::filesystem::path& source = scenario.sources[i];
+    const std::filesystem::path path =
+        find_shown_unit(source, scenario.files->shown(source), where);
     auto& fmu = loaded[path];
     if (!fmu) fmu = fmi::Fmu::load(path, where);
     fmus.push_back(fmu);

@@ -46,10 +46,15 @@ std::vector<fs::path> unit_folders() {
 }
 
 fs::path find_unit(const fs::path& path, const core::Location& where) {
+  return find_shown_unit(path, path.string(), where);
+}
+
+fs::path find_shown_unit(const fs::path& path, const std::string& shown_as,
+                         const core::Location& where) {
   std::error_code unreadable;
   if (fs::exists(path, unreadable)) return path;
   if (path.filename().empty()) {
-    core::fail_input({where, {}, {}, {}}, fmt::format("there is no unit '{}'", path.string()));
+    core::fail_input({where, {}, {}, {}}, fmt::format("there is no unit '{}'", shown_as));
   }
   const std::vector<fs::path> folders = unit_folders();
   std::string searched;
@@ -60,7 +65,7 @@ fs::path find_unit(const fs::path& path, const core::Location& where) {
   }
   const std::vector<std::string> known = known_units(folders);
   core::fail_input({where, {}, {}, {}},
-                   fmt::format("there is no unit '{}', and none named '{}' in{}", path.string(),
+                   fmt::format("there is no unit '{}', and none named '{}' in{}", shown_as,
                                path.filename().string(), searched),
                    known.empty() ? "build the unit, or name its folder in STRIDE_UNITS"
                                  : core::suggestion(path.filename().string(), known));

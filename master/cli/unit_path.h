@@ -17,6 +17,9 @@ std::vector<std::filesystem::path> unit_folders();
 /// The path itself if it exists, else the file of that name in the first unit folder that has it.
 /// Throws core::Error (Input) that lists where it was looked for.
 std::filesystem::path find_unit(const std::filesystem::path& path, const core::Location& where);
+/// Likewise; complaints call the path `shown_as`.
+std::filesystem::path find_shown_unit(const std::filesystem::path& path,
+                                      const std::string& shown_as, const core::Location& where);
 
 }  // namespace stride::cli
 

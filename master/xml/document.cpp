@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
+#include "master/xml/editor.h"
+
 namespace stride::xml {
 namespace {
 
@@ -99,6 +101,16 @@ void check_encoding(const std::string& text, const std::string& file) {
   }
 }
 
+/// tinyxml2 takes </a/> for an element, so it finds more of them than there are.
+std::size_t count_elements(const tinyxml2::XMLNode& node) {
+  std::size_t count = node.ToElement() != nullptr ? 1 : 0;
+  for (const auto* child = node.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    count += count_elements(*child);
+  }
+  return count;
+}
+
 }  // namespace
 
 struct Document::Content {
@@ -131,6 +143,10 @@ Document Document::parse(std::string text, const std::string& shown_as) {
   if (root == nullptr) fail(shown_as, "the file holds no XML element");
   if (const auto* second = root->NextSiblingElement()) {
     Element(*second, shown_as).fail(fmt::format("a second root element <{}>", second->Name()));
+  }
+  if (count_elements(document) != element_places(content->text).size()) {
+    fail(shown_as, "this is not well-formed XML: there is an end tag with a '/' at its end",
+         "write </name> to end an element, and <name/> for an empty one");
   }
   return Document(std::move(content));
 }

@@ -54,3 +54,9 @@ TEST_CASE("A document's elements stay valid when it is moved") {
   CHECK(second.root().child("b")->tag() == "<b>");
   CHECK(second.text() == "<a>\n<b/></a>");
 }
+
+TEST_CASE("an end tag is no element") {
+  CHECK_THROWS_WITH(xml::Document::parse("<a></b c='1'/></a>", "x.xml"),
+                    Contains("x.xml: this is not well-formed XML") && Contains("'/' at its end"));
+  CHECK_NOTHROW(xml::Document::parse("<a><!-- </b/> --><![CDATA[</c/>]]><d/></a>", "x.xml"));
+}
