@@ -38,8 +38,7 @@ Fmi2Unit::Fmi2Unit(std::string name, std::shared_ptr<const Fmi2Library> library,
 Fmi2Unit::~Fmi2Unit() {
   if (instance_ == nullptr) return;
   free_state(before_step_);
-  free_state(saved_);
-  for (SavedState& kept : kept_states_) free_state(kept);
+  for (SavedState& saved : states_) free_state(saved);
   if (!is_condemned_) fmi_.FreeInstance(instance_);
 }
 
@@ -241,10 +240,8 @@ void Fmi2Unit::set_strings(References references, std::span<const std::string> v
 void Fmi2Unit::get_directional_derivative(References unknowns, References knowns,
                                           std::span<const double> seed,
                                           std::span<double> sensitivity) {
-  if (fmi_.GetDirectionalDerivative == nullptr) {
-    fail("its library does not export fmi2GetDirectionalDerivative",
-         "a unit that provides derivatives must have it (providesDirectionalDerivative)");
-  }
+  require("fmi2GetDirectionalDerivative", fmi_.GetDirectionalDerivative,
+          "providesDirectionalDerivative");
   call("fmi2GetDirectionalDerivative", fmi_.GetDirectionalDerivative, own(unknowns),
        unknowns.size(), own(knowns, own_knowns_), knowns.size(), seed.data(), sensitivity.data());
 }
@@ -276,45 +273,6 @@ core::StepResult Fmi2Unit::step(const core::StepInterval& interval,
   time_ = result.reached;
   for (const core::BoundValues& output : values.outputs) get(output);
   return result;
-}
-
-// ---- State ----
-
-void Fmi2Unit::save_state() {
-  save(saved_);
-  is_as_saved_ = true;
-}
-
-void Fmi2Unit::restore_state() {
-  restore(saved_);
-  is_as_saved_ = true;
-}
-
-void Fmi2Unit::save(SavedState& saved) {
-  if (fmi_.GetFMUstate == nullptr) {
-    fail("its library does not export fmi2GetFMUstate",
-         "a unit that is to be rolled back must have it (canGetAndSetFMUstate)");
-  }
-  call("fmi2GetFMUstate", fmi_.GetFMUstate, &saved.state);  // the unit uses its memory again
-  saved.time = time_;
-  saved.is_instantiated_only = is_instantiated_only_;
-}
-
-void Fmi2Unit::restore(const SavedState& saved) {
-  if (saved.state == nullptr) fail("no state of it has been saved that could be restored");
-  if (fmi_.SetFMUstate == nullptr) {
-    fail("its library does not export fmi2SetFMUstate",
-         "a unit that is to be rolled back must have it (canGetAndSetFMUstate)");
-  }
-  call("fmi2SetFMUstate", fmi_.SetFMUstate, saved.state);
-  time_ = saved.time;
-  is_instantiated_only_ = saved.is_instantiated_only;
-}
-
-void Fmi2Unit::free_state(SavedState& saved) {
-  if (saved.state == nullptr || fmi_.FreeFMUstate == nullptr || is_condemned_) return;
-  if (fmi_.FreeFMUstate(instance_, &saved.state) == fmi2Fatal) condemn();
-  saved.state = nullptr;
 }
 
 }  // namespace stride::fmi

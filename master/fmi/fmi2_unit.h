@@ -15,6 +15,7 @@
 #include "master/fmi/fmi2_library.h"
 #include "master/fmi/fmu_instance.h"
 #include "master/fmi/input_derivatives.h"
+#include "master/fmi/saved_states.h"
 
 namespace stride::fmi {
 
@@ -103,8 +104,6 @@ class Fmi2Unit final : public FmuInstance {
   void save(SavedState& saved);
   void restore(const SavedState& saved);
   void free_state(SavedState& saved);
-  template <class Function>
-  void require(const char* name, Function* function) const;
 
   Status do_step(const core::StepInterval& interval, double size);
   Status wait_for_step();
@@ -121,13 +120,11 @@ class Fmi2Unit final : public FmuInstance {
   const Fmi2Functions& fmi_;
   const fmi2ValueReference* unit_references_;  ///< by core's reference
   bool saves_each_step_;
-  bool is_as_saved_ = false;  ///< the unit is what saved_ holds
+  bool is_as_saved_ = false;  ///< the unit is what the chosen state holds
   core::InputUpdate input_update_;
   InputDerivatives* sampled_inputs_ = nullptr;  ///< who is given inputs in place of the unit
   SavedState before_step_;
-  SavedState saved_;                     ///< by save_state(), in the slot that is chosen
-  std::vector<SavedState> kept_states_;  ///< by slot; that of the chosen one is saved_
-  std::size_t state_slot_ = 0;
+  SavedStates<SavedState> states_;
   bool has_discard_warning_ = false;
   std::shared_ptr<const Fmi2Library> library_;
   std::shared_ptr<const Fmi2Attributes> attributes_;

@@ -1,49 +1,71 @@
-// Several kept states, states as bytes, and the way back to the beginning.
-#include <algorithm>
-#include <utility>
-
-#include <fmt/format.h>
-
+// Kept states, states as bytes, and the way back to the beginning.
 #include "master/fmi/fmi2_unit.h"
 
 namespace stride::fmi {
+namespace {
 
-/// Not every library has these functions.
-template <class Function>
-void Fmi2Unit::require(const char* name, Function* function) const {
-  if (function != nullptr) return;
-  fail(fmt::format("its library does not export {}", name),
-       "a unit that can serialise its state must have it (canSerializeFMUstate)");
+constexpr const char* kSaving = "canGetAndSetFMUstate";
+constexpr const char* kSerializing = "canSerializeFMUstate";
+
+}  // namespace
+
+void Fmi2Unit::save_state() {
+  save(states_.chosen());
+  is_as_saved_ = true;
+}
+
+void Fmi2Unit::restore_state() {
+  restore(states_.chosen());
+  is_as_saved_ = true;
+}
+
+void Fmi2Unit::save(SavedState& saved) {
+  require("fmi2GetFMUstate", fmi_.GetFMUstate, kSaving);
+  call("fmi2GetFMUstate", fmi_.GetFMUstate, &saved.state);  // the unit uses its memory again
+  saved.time = time_;
+  saved.is_instantiated_only = is_instantiated_only_;
+}
+
+void Fmi2Unit::restore(const SavedState& saved) {
+  if (saved.state == nullptr) fail("no state of it has been saved that could be restored");
+  require("fmi2SetFMUstate", fmi_.SetFMUstate, kSaving);
+  call("fmi2SetFMUstate", fmi_.SetFMUstate, saved.state);
+  time_ = saved.time;
+  is_instantiated_only_ = saved.is_instantiated_only;
+}
+
+void Fmi2Unit::free_state(SavedState& saved) {
+  if (saved.state == nullptr || is_condemned_ || fmi_.FreeFMUstate == nullptr) return;
+  if (fmi_.FreeFMUstate(instance_, &saved.state) == fmi2Fatal) condemn();
+  saved = {};
 }
 
 void Fmi2Unit::select_state(std::size_t slot) {
-  if (slot == state_slot_) return;
-  kept_states_.resize(std::max({kept_states_.size(), slot + 1, state_slot_ + 1}));
-  kept_states_[state_slot_] = std::exchange(saved_, {});
-  saved_ = std::exchange(kept_states_[slot], {});
-  state_slot_ = slot;
+  states_.choose(slot);
   is_as_saved_ = false;
 }
 
 std::vector<std::uint8_t> Fmi2Unit::serialize_state() {
-  if (saved_.state == nullptr) fail("no state of it has been saved that could be serialised");
-  require("fmi2SerializedFMUstateSize", fmi_.SerializedFMUstateSize);
-  require("fmi2SerializeFMUstate", fmi_.SerializeFMUstate);
+  const SavedState& saved = states_.chosen();
+  if (saved.state == nullptr) fail("no state of it has been saved that could be serialised");
+  require("fmi2SerializedFMUstateSize", fmi_.SerializedFMUstateSize, kSerializing);
+  require("fmi2SerializeFMUstate", fmi_.SerializeFMUstate, kSerializing);
   std::size_t size = 0;
-  call("fmi2SerializedFMUstateSize", fmi_.SerializedFMUstateSize, saved_.state, &size);
+  call("fmi2SerializedFMUstateSize", fmi_.SerializedFMUstateSize, saved.state, &size);
   std::vector<std::uint8_t> bytes(size);
-  call("fmi2SerializeFMUstate", fmi_.SerializeFMUstate, saved_.state,
+  call("fmi2SerializeFMUstate", fmi_.SerializeFMUstate, saved.state,
        reinterpret_cast<fmi2Byte*>(bytes.data()), size);
   return bytes;
 }
 
+/// The bytes do not tell the time.
 void Fmi2Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
-  require("fmi2DeSerializeFMUstate", fmi_.DeSerializeFMUstate);
-  free_state(saved_);
-  saved_ = {};  // the bytes do not tell the time
+  require("fmi2DeSerializeFMUstate", fmi_.DeSerializeFMUstate, kSerializing);
+  SavedState& saved = states_.chosen();
+  free_state(saved);
   is_as_saved_ = false;
   call("fmi2DeSerializeFMUstate", fmi_.DeSerializeFMUstate,
-       reinterpret_cast<const fmi2Byte*>(bytes.data()), bytes.size(), &saved_.state);
+       reinterpret_cast<const fmi2Byte*>(bytes.data()), bytes.size(), &saved.state);
 }
 
 void Fmi2Unit::reset() {
@@ -52,8 +74,8 @@ void Fmi2Unit::reset() {
   call("fmi2Reset", fmi_.Reset);
   time_.reset();
   rejection_reason_.clear();
-  is_as_saved_ = false;
-  is_instantiated_only_ = true;
+  is_as_saved_ = has_discard_warning_ = false;
+  has_patience_ = is_instantiated_only_ = true;
   kept_inputs_.clear();
 }
 

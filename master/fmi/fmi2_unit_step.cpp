@@ -70,7 +70,7 @@ core::StepResult Fmi2Unit::settle_discard(const core::StepInterval& interval) {
   const std::optional<Time> stands = last_successful_time(interval);
   if (wants_end()) return end_run(interval, stands);
   if (!saves_each_step_) return stand(interval, stands);
-  restore(is_as_saved_ ? saved_ : before_step_);
+  restore(is_as_saved_ ? states_.chosen() : before_step_);
   return {.rejected = true, .reached = stands.value_or(interval.from)};
 }
 
@@ -83,7 +83,7 @@ core::StepResult Fmi2Unit::end_run(const core::StepInterval& interval, std::opti
           "the unit ended the simulation within its step (fmi2Terminated), and does not say when "
           "(fmi2LastSuccessfulTime)");
     }
-    restore(is_as_saved_ ? saved_ : before_step_);
+    restore(is_as_saved_ ? states_.chosen() : before_step_);
     stands = interval.from;
   }
   return {.early_return = *stands != interval.to, .terminate = true, .reached = *stands};
@@ -160,10 +160,7 @@ void Fmi2Unit::set_input_derivatives(double size) {
   input_derivatives_.compute(size);
   const auto& references = input_derivatives_.references();
   if (references.empty()) return;
-  if (fmi_.SetRealInputDerivatives == nullptr) {
-    fail("its library does not export fmi2SetRealInputDerivatives",
-         "a unit that interpolates its inputs must have it (canInterpolateInputs)");
-  }
+  require("fmi2SetRealInputDerivatives", fmi_.SetRealInputDerivatives, "canInterpolateInputs");
   call("fmi2SetRealInputDerivatives", fmi_.SetRealInputDerivatives, references.data(),
        references.size(), input_derivatives_.orders().data(), input_derivatives_.values().data());
 }

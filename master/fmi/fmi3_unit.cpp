@@ -63,16 +63,14 @@ Fmi3Unit::Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library,
 
 Fmi3Unit::~Fmi3Unit() {
   if (instance_ == nullptr || is_condemned_) return;
-  free_state(state_);
-  for (KeptState& kept : kept_states_) free_state(kept.state);
+  for (SavedState& saved : states_) free_state(saved);
   if (!is_condemned_) fmi_.FreeInstance(instance_);
 }
 
 void Fmi3Unit::enter_configuration_mode() {
-  if (fmi_.EnterConfigurationMode == nullptr || fmi_.ExitConfigurationMode == nullptr) {
-    fail("its library does not export fmi3EnterConfigurationMode and fmi3ExitConfigurationMode",
-         "a unit with structural parameters must have them; leave these parameters as they are");
-  }
+  const char* const capability = "structural parameters";
+  require("fmi3EnterConfigurationMode", fmi_.EnterConfigurationMode, capability);
+  require("fmi3ExitConfigurationMode", fmi_.ExitConfigurationMode, capability);
   call("fmi3EnterConfigurationMode", fmi_.EnterConfigurationMode);
 }
 
@@ -197,10 +195,8 @@ void Fmi3Unit::set_binaries(References references, std::span<const core::Binary>
 void Fmi3Unit::get_directional_derivative(References unknowns, References knowns,
                                           std::span<const double> seed,
                                           std::span<double> sensitivity) {
-  if (fmi_.GetDirectionalDerivative == nullptr) {
-    fail("its library does not export fmi3GetDirectionalDerivative",
-         "a unit that provides derivatives must have it (providesDirectionalDerivatives)");
-  }
+  require("fmi3GetDirectionalDerivative", fmi_.GetDirectionalDerivative,
+          "providesDirectionalDerivatives");
   call("fmi3GetDirectionalDerivative", fmi_.GetDirectionalDerivative, unknowns.data(),
        unknowns.size(), knowns.data(), knowns.size(), seed.data(), seed.size(), sensitivity.data(),
        sensitivity.size());
@@ -296,25 +292,6 @@ Time Fmi3Unit::reached_early(const core::StepInterval& interval, double last_suc
   }
   return std::clamp(checked_time(last_successful, "lastSuccessfulTime"), interval.from,
                     interval.to);
-}
-
-void Fmi3Unit::save_state() {
-  if (fmi_.GetFMUState == nullptr) {
-    fail("its library does not export fmi3GetFMUState",
-         "a unit that is to be rolled back must have it (canGetAndSetFMUState)");
-  }
-  call("fmi3GetFMUState", fmi_.GetFMUState, &state_);  // the unit uses the state's memory again
-  state_time_ = time_;
-}
-
-void Fmi3Unit::restore_state() {
-  if (state_ == nullptr) fail("no state of it has been saved that could be restored");
-  if (fmi_.SetFMUState == nullptr) {
-    fail("its library does not export fmi3SetFMUState",
-         "a unit that is to be rolled back must have it (canGetAndSetFMUState)");
-  }
-  call("fmi3SetFMUState", fmi_.SetFMUState, state_);
-  time_ = state_time_;
 }
 
 void Fmi3Unit::enter_event_mode() { call("fmi3EnterEventMode", fmi_.EnterEventMode); }

@@ -13,6 +13,7 @@
 #include "master/core/error.h"
 #include "master/fmi/fmi3_library.h"
 #include "master/fmi/fmu_instance.h"
+#include "master/fmi/saved_states.h"
 
 namespace stride::fmi {
 
@@ -85,9 +86,12 @@ class Fmi3Unit final : public FmuInstance {
   void get_binaries(References references, std::span<core::Binary> values);
   void set_binaries(References references, std::span<const core::Binary> values);
 
-  void free_state(fmi3FMUState& state);
-  template <class Function>
-  void require(const char* name, Function* function) const;
+  /// What the unit was at some time.
+  struct SavedState {
+    fmi3FMUState state = nullptr;
+    std::optional<Time> time;
+  };
+  void free_state(SavedState& saved);
 
   template <class Function, class... Arguments>
   void call_clock(const char* name, Function* function, const core::Variable& clock,
@@ -116,15 +120,7 @@ class Fmi3Unit final : public FmuInstance {
 
   core::InputUpdate input_update_;
 
-  fmi3FMUState state_ = nullptr;
-  std::optional<Time> state_time_;  ///< time_ when the state was saved
-
-  struct KeptState {
-    fmi3FMUState state = nullptr;
-    std::optional<Time> time;
-  };
-  std::vector<KeptState> kept_states_;  ///< by slot; that of the chosen one is state_
-  std::size_t state_slot_ = 0;
+  SavedStates<SavedState> states_;
 
   bool may_skip_ = false;
   std::vector<TangentOutput> tangent_outputs_;  ///< in the order of their references

@@ -1,52 +1,56 @@
-// Several kept states, states as bytes, and the way back to the beginning.
-#include <algorithm>
-#include <utility>
-
-#include <fmt/format.h>
-
+// Kept states, states as bytes, and the way back to the beginning.
 #include "master/fmi/fmi3_unit.h"
 
 namespace stride::fmi {
+namespace {
 
-/// Not every library has these functions.
-template <class Function>
-void Fmi3Unit::require(const char* name, Function* function) const {
-  if (function != nullptr) return;
-  fail(fmt::format("its library does not export {}", name),
-       "a unit that can serialise its state must have it (canSerializeFMUState)");
+constexpr const char* kSaving = "canGetAndSetFMUState";
+constexpr const char* kSerializing = "canSerializeFMUState";
+
+}  // namespace
+
+void Fmi3Unit::save_state() {
+  require("fmi3GetFMUState", fmi_.GetFMUState, kSaving);
+  SavedState& saved = states_.chosen();
+  call("fmi3GetFMUState", fmi_.GetFMUState, &saved.state);  // the unit uses its memory again
+  saved.time = time_;
 }
 
-void Fmi3Unit::free_state(fmi3FMUState& state) {
-  if (state == nullptr || is_condemned_ || fmi_.FreeFMUState == nullptr) return;
-  if (fmi_.FreeFMUState(instance_, &state) == fmi3Fatal) condemn();
-  state = nullptr;
+void Fmi3Unit::restore_state() {
+  const SavedState& saved = states_.chosen();
+  if (saved.state == nullptr) fail("no state of it has been saved that could be restored");
+  require("fmi3SetFMUState", fmi_.SetFMUState, kSaving);
+  call("fmi3SetFMUState", fmi_.SetFMUState, saved.state);
+  time_ = saved.time;
 }
 
-void Fmi3Unit::select_state(std::size_t slot) {
-  if (slot == state_slot_) return;
-  kept_states_.resize(std::max({kept_states_.size(), slot + 1, state_slot_ + 1}));
-  kept_states_[state_slot_] = {std::exchange(state_, nullptr), state_time_};
-  state_ = std::exchange(kept_states_[slot].state, nullptr);
-  state_time_ = kept_states_[slot].time;
-  state_slot_ = slot;
+void Fmi3Unit::free_state(SavedState& saved) {
+  if (saved.state == nullptr || is_condemned_ || fmi_.FreeFMUState == nullptr) return;
+  if (fmi_.FreeFMUState(instance_, &saved.state) == fmi3Fatal) condemn();
+  saved = {};
 }
+
+void Fmi3Unit::select_state(std::size_t slot) { states_.choose(slot); }
 
 std::vector<std::uint8_t> Fmi3Unit::serialize_state() {
-  if (state_ == nullptr) fail("no state of it has been saved that could be serialised");
-  require("fmi3SerializedFMUStateSize", fmi_.SerializedFMUStateSize);
-  require("fmi3SerializeFMUState", fmi_.SerializeFMUState);
+  const SavedState& saved = states_.chosen();
+  if (saved.state == nullptr) fail("no state of it has been saved that could be serialised");
+  require("fmi3SerializedFMUStateSize", fmi_.SerializedFMUStateSize, kSerializing);
+  require("fmi3SerializeFMUState", fmi_.SerializeFMUState, kSerializing);
   std::size_t size = 0;
-  call("fmi3SerializedFMUStateSize", fmi_.SerializedFMUStateSize, state_, &size);
+  call("fmi3SerializedFMUStateSize", fmi_.SerializedFMUStateSize, saved.state, &size);
   std::vector<std::uint8_t> bytes(size);
-  call("fmi3SerializeFMUState", fmi_.SerializeFMUState, state_, bytes.data(), size);
+  call("fmi3SerializeFMUState", fmi_.SerializeFMUState, saved.state, bytes.data(), size);
   return bytes;
 }
 
+/// The bytes do not tell the time.
 void Fmi3Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
-  require("fmi3DeserializeFMUState", fmi_.DeserializeFMUState);
-  free_state(state_);
-  state_time_.reset();  // the bytes do not tell
-  call("fmi3DeserializeFMUState", fmi_.DeserializeFMUState, bytes.data(), bytes.size(), &state_);
+  require("fmi3DeserializeFMUState", fmi_.DeserializeFMUState, kSerializing);
+  SavedState& saved = states_.chosen();
+  free_state(saved);
+  call("fmi3DeserializeFMUState", fmi_.DeserializeFMUState, bytes.data(), bytes.size(),
+       &saved.state);
 }
 
 void Fmi3Unit::reset() {

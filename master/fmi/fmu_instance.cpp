@@ -75,6 +75,11 @@ void FmuInstance::fail(const std::string& message, const std::string& hint) cons
   core::fail_run({.where = options_.where, .unit = name_, .time = time_}, message, hint);
 }
 
+void FmuInstance::fail_missing(const char* name, const char* capability) const {
+  fail(fmt::format("its library does not export {}", name),
+       fmt::format("a unit with {} must export it", capability));
+}
+
 // ---- Messages ----
 
 void FmuInstance::receive(Status status, const char* category, const char* message) noexcept {

@@ -90,6 +90,13 @@ class FmuInstance : public core::Unit {
   }
   void condemn() const { library_->condemn(); }
 
+  /// For functions that a library exports only if the unit has the capability.
+  template <class Function>
+  void require(const char* name, Function* function, const char* capability) const {
+    if (function == nullptr) [[unlikely]]
+      fail_missing(name, capability);
+  }
+
   /// Of a message of the unit; may be called on any thread, throws nothing.
   void receive(Status status, const char* category, const char* message) noexcept;
   /// The failure messages of the call that has just ended, for one line of text.
@@ -121,6 +128,7 @@ class FmuInstance : public core::Unit {
 
  private:
   [[noreturn]] void fail_not_callable(const char* name) const;
+  [[noreturn]] void fail_missing(const char* name, const char* capability) const;
   std::string status_name(Status status) const;
 
   const char* prefix_;
