@@ -27,6 +27,7 @@ Serialized serialize(const Trial& trial) {
   life.unit().save_state();
   made.bytes = life.unit().serialize_state();
   made.position = life.position();
+  life.forget_rows();
   life.run_to(made.to);
   made.rows = life.recording().rows;
   return made;
