@@ -7,9 +7,19 @@ void AsynchronousStep::begin() {
   status_.reset();
 }
 
+void AsynchronousStep::note_asked() {
+  const std::lock_guard lock(mutex_);
+  late_ += !status_;
+}
+
 void AsynchronousStep::finish(Status status) noexcept {
   const std::lock_guard lock(mutex_);
-  if (status != Status::Pending) status_ = status;
+  if (status == Status::Pending) return;
+  if (late_ > 0) {
+    --late_;
+    return;
+  }
+  status_ = status;
   is_finished_.notify_one();
 }
 

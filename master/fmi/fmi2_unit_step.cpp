@@ -51,7 +51,9 @@ Status Fmi2Unit::poll_step() {
   const auto answer = static_cast<Status>(fmi_.GetStatus(instance_, fmi2DoStepStatus, &of_step));
   if (answer == Status::Error || answer == Status::Fatal) fail_call("fmi2GetStatus", answer);
   const bool is_known = answer == Status::Ok || answer == Status::Warning;
-  return is_known ? static_cast<Status>(of_step) : Status::Pending;
+  if (!is_known || of_step == fmi2Pending) return Status::Pending;
+  asynchronous_.note_asked();
+  return static_cast<Status>(of_step);
 }
 
 /// What the unit says of a step that is not finished.

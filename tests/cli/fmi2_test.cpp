@@ -33,7 +33,7 @@ TEST_CASE("inspect shows an FMI 2.0 unit") {
       {"inspect", (fs::path(STRIDE_TEST_FMU_DIR) / "fmi2_types.fmu").string()});
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.out, Contains("fmi2_types: FMI 2.0 Co-Simulation\n"));
-  CHECK_THAT(outcome.out, Contains("can be rolled back, variable step\n"));
+  CHECK_THAT(outcome.out, Contains("can be rolled back, variable step"));
   CHECK_THAT(outcome.out, Contains("gain.local"));
   CHECK_THAT(outcome.out, Contains("Enumeration"));
 }

@@ -44,8 +44,9 @@ static void* run(void* c) {
   Unit* const unit = c;
   LOCK(); /* so not before fmi2DoStep is done */
   const fmi2Status status = end_step(unit, finish(unit));
+  const fmi2CallbackFunctions call = unit->call;
   UNLOCK();
-  unit->call.stepFinished(unit->call.componentEnvironment, status);
+  call.stepFinished(call.componentEnvironment, status);
   return NULL;
 }
 
