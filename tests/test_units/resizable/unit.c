@@ -6,10 +6,12 @@
 #define fmi3GetFloat64 raw_get_float64
 #define fmi3SetFloat64 raw_set_float64
 #define fmi3SetUInt64 raw_set_uint64
+#define fmi3InstantiateCoSimulation raw_instantiate
 #include "tests/test_units/raw/unit.c"
 #undef fmi3GetFloat64
 #undef fmi3SetFloat64
 #undef fmi3SetUInt64
+#undef fmi3InstantiateCoSimulation
 
 enum { N = 1, GAIN = 2, U = 3, Y = 4, MOST = 16 };
 
@@ -23,6 +25,23 @@ typedef struct {
 static Vectors all[sizeof instances / sizeof *instances];
 
 static Vectors* vectors(fmi3Instance handle) { return &all[(Instance*)handle - instances]; }
+
+fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources,
+                                         fmi3Boolean visible, fmi3Boolean logging,
+                                         fmi3Boolean event_mode, fmi3Boolean early_return,
+                                         const fmi3ValueReference required[], size_t n_required,
+                                         fmi3InstanceEnvironment environment,
+                                         fmi3LogMessageCallback log,
+                                         fmi3IntermediateUpdateCallback update) {
+  const fmi3Instance handle =
+      raw_instantiate(name, token, resources, visible, logging, event_mode, early_return, required,
+                      n_required, environment, log, update);
+  if (handle == NULL) return NULL;
+  Vectors* v = vectors(handle);
+  memset(v, 0, sizeof *v);
+  for (size_t i = 0; i < MOST; ++i) v->gain[i] = 1;
+  return handle;
+}
 
 static fmi3Status fail(fmi3Instance handle, const char* message) {
   Instance* instance = handle;
