@@ -24,7 +24,8 @@ std::map<std::string, SignalDictionary> read(const std::string& inside,
                                              const std::filesystem::path& folder = {}) {
   const auto document = stride::xml::Document::parse(
       ssd("<ssd:SignalDictionaries>" + inside + "</ssd:SignalDictionaries>"), "x.ssd");
-  return read_signal_dictionaries(*document.root().child({kSsd, "SignalDictionaries"}), folder, Files());
+  return read_signal_dictionaries(*document.root().child({kSsd, "SignalDictionaries"}), folder,
+                                  Files());
 }
 
 const std::string kSpeed =
