@@ -52,9 +52,12 @@ enum class Severity { Info, Warning };
 struct UnitInfo {
   std::string description;
   std::string version = "1.0";
-  bool early_return = false;             ///< it may return early from a step
-  bool may_reject = false;               ///< it may reject a step
-  bool single_instance = false;          ///< no second instance in the same process
+  bool early_return = false;     ///< it may return early from a step
+  bool may_reject = false;       ///< it may reject a step
+  bool single_instance = false;  ///< no second instance in the same process
+  /// While its inputs are held, steps of any sizes between two instants lead to the same values,
+  /// but for rounding.
+  bool split_invariant = false;
   bool promises_idle = false;            ///< idle_until() may promise something (<stride/idle.h>)
   std::optional<Duration> fixed_step;    ///< its internal step size, where that is fixed
   std::optional<Duration> maximum_step;  ///< no communication step may be longer

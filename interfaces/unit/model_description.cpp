@@ -268,6 +268,7 @@ class Writer {
     xml_.open("stride:Unit")
         .attribute("xmlns:stride", "urn:org.stride:unit:1")
         .attribute("mayReject", unit_.info().may_reject);
+    if (unit_.info().split_invariant) xml_.attribute("splitInvariant", true);
     if (const auto& longest = unit_.info().maximum_step) {
       xml_.attribute("maximumStep", to_seconds(*longest));
     }

@@ -52,12 +52,23 @@ std::vector<io::ParameterValue> set_values(const std::vector<std::string>& sets)
   return values;
 }
 
+/// A step that is discarded is tried again, so it is no failure yet.
+spdlog::level::level_enum level(fmi::Status status) {
+  switch (status) {
+    case fmi::Status::Ok:
+    case fmi::Status::Discard:
+    case fmi::Status::Pending:
+      return spdlog::level::info;
+    case fmi::Status::Warning:
+      return spdlog::level::warn;
+    default:
+      return spdlog::level::err;
+  }
+}
+
 void log_message(const std::string& unit, fmi::Status status, const std::string&,
                  const std::string& message) {
-  const auto level = status == fmi::Status::Ok        ? spdlog::level::info
-                     : status == fmi::Status::Warning ? spdlog::level::warn
-                                                      : spdlog::level::err;
-  spdlog::log(level, "unit '{}': {}", unit, message);
+  spdlog::log(level(status), "unit '{}': {}", unit, message);
 }
 
 }  // namespace

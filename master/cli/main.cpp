@@ -72,8 +72,8 @@ int main(int argc, char** argv) {
   set_up_log();
   std::signal(SIGXFSZ, SIG_IGN);  // writing fails then, and is told, where the signal would kill
   CLI::App app(
-      "stride couples simulators: it loads FMI 3.0 units as plug-ins and runs them in steps,\n"
-      "as a scenario (an SSP system file, .ssd) wires them.\n",
+      "stride couples simulators: it loads FMI 3.0 and FMI 2.0 units as plug-ins and\n"
+      "runs them in steps, as a scenario (an SSP system file, .ssd) wires them.\n",
       "stride");
   app.set_version_flag("--version", "stride " STRIDE_VERSION);
   app.require_subcommand(1);
@@ -87,6 +87,7 @@ int main(int argc, char** argv) {
   stride::cli::add_run(app);
   stride::cli::add_check(app);
   stride::cli::add_inspect(app);
+  stride::cli::add_verify(app);
   stride::cli::add_complete(app);
   stride::cli::add_pack(app);
   stride::cli::add_trace(app);

@@ -74,6 +74,8 @@ Interruption::~Interruption() {
   for (const Handled& handled : handled_) sigaction(handled.signal, &handled.before, nullptr);
 }
 
+const volatile std::sig_atomic_t& Interruption::flag() { return interrupted; }
+
 void Interruption::on_communication_point(Time time) {
   if (interrupted == 0) [[likely]]
     return;

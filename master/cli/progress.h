@@ -42,6 +42,9 @@ class Interruption : public core::Observer {
   ~Interruption() override;
   void on_communication_point(Time time) override;
 
+  /// Not 0 after a signal, for what has no communication points.
+  static const volatile std::sig_atomic_t& flag();
+
  private:
   struct Handled {
     int signal;

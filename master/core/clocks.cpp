@@ -44,6 +44,14 @@ void Clocks::begin(Time start_time) {
   due(start_time);
 }
 
+void Clocks::resume(const Clocks& other) {
+  lines_ = other.lines_;
+  is_stale_ = true;
+  next_.reset();
+  due_.clear();
+  find_due(Time::min());
+}
+
 void Clocks::start(Schedule& clock, Time start_time) {
   clock.base = start_time;
   if (clock.attributes->interval) {

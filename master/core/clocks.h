@@ -35,6 +35,9 @@ class Clocks {
   /// and time where an interval cannot be.
   void begin(Time start);
 
+  /// Instead of begin(): goes on where another one, of the same system, stands.
+  void resume(const Clocks& other);
+
   /// The next tick, after the last due().
   std::optional<Time> next() const { return next_; }
   /// The components of which a clock ticks at `time`, in order.

@@ -179,6 +179,9 @@ struct UnitDescription {
   bool promises_idle = false;
   /// Whether the unit may reject a step (fmi3Discard); true unless it says otherwise.
   bool may_reject = true;
+  /// Steps of any sizes between two instants lead to the same values, but for rounding, while the
+  /// inputs are held; false unless the unit says so.
+  bool split_invariant = false;
   std::optional<Duration> fixed_internal_step;
   std::optional<Duration> maximum_step;  ///< no step may be longer
   std::optional<Duration> default_step;  ///< DefaultExperiment

@@ -6,7 +6,9 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <stride/time.h>
 
@@ -123,6 +125,23 @@ class Unit {
   virtual void save_state() = 0;
   /// Makes the unit what it was at save_state(), any number of times.
   virtual void restore_state() = 0;
+  /// Chooses among several kept states the one that the calls above and below are about; it is the
+  /// first, 0, until another is chosen. The others stay.
+  virtual void select_state(std::size_t /*slot*/) {
+    throw std::logic_error("this kind of unit keeps one state only");
+  }
+  /// The kept state as bytes, for any unit of the same FMU, also in another process. Only with
+  /// can_serialize_state.
+  virtual std::vector<std::uint8_t> serialize_state() {
+    throw std::logic_error("this kind of unit cannot serialise its state");
+  }
+  /// Keeps the state that these bytes are, in place of what was kept before.
+  virtual void deserialize_state(std::span<const std::uint8_t> /*bytes*/) {
+    throw std::logic_error("this kind of unit cannot deserialise a state");
+  }
+  /// Makes the unit what it was when it was made: no start value is set, and kept states stay. Also
+  /// after it has failed, or was terminated.
+  virtual void reset() { throw std::logic_error("this kind of unit cannot be reset"); }
 
   virtual void enter_event_mode() = 0;
   virtual EventResult update_discrete_states() = 0;

@@ -1,5 +1,6 @@
 #include "master/fmi/common_description.h"
 
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -81,6 +82,9 @@ void read_default_experiment(const xml::Element& root, core::UnitDescription& un
   if (!experiment) return;
   unit.default_step = read_step_size(*experiment, "stepSize");
   const Duration start = read_seconds(*experiment, "startTime").value_or(Duration{});
+  const auto seconds = experiment->number<double>("stopTime");
+  // such an experiment cannot be run to its end, but the unit can be used in others
+  if (seconds && std::isfinite(*seconds) && *seconds > kMaxSeconds) return;
   const auto stop = read_seconds(*experiment, "stopTime");
   if (!stop) return;
   if (*stop <= start) {

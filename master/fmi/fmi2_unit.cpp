@@ -39,6 +39,7 @@ Fmi2Unit::~Fmi2Unit() {
   if (instance_ == nullptr) return;
   free_state(before_step_);
   free_state(saved_);
+  for (SavedState& kept : kept_states_) free_state(kept);
   if (!is_condemned_) fmi_.FreeInstance(instance_);
 }
 
@@ -72,6 +73,7 @@ void Fmi2Unit::enter_step_mode() { fail("FMI 2.0 Co-Simulation has no Event Mode
 
 void Fmi2Unit::on_log(fmi2ComponentEnvironment environment, fmi2String, fmi2Status status,
                       fmi2String category, fmi2String message, ...) {
+  if (environment == nullptr) return;  // some units do not pass on what they were given
   std::va_list arguments;
   va_start(arguments, message);
   try {
@@ -295,6 +297,7 @@ void Fmi2Unit::save(SavedState& saved) {
   }
   call("fmi2GetFMUstate", fmi_.GetFMUstate, &saved.state);  // the unit uses its memory again
   saved.time = time_;
+  saved.is_instantiated_only = is_instantiated_only_;
 }
 
 void Fmi2Unit::restore(const SavedState& saved) {
@@ -305,11 +308,13 @@ void Fmi2Unit::restore(const SavedState& saved) {
   }
   call("fmi2SetFMUstate", fmi_.SetFMUstate, saved.state);
   time_ = saved.time;
+  is_instantiated_only_ = saved.is_instantiated_only;
 }
 
 void Fmi2Unit::free_state(SavedState& saved) {
   if (saved.state == nullptr || fmi_.FreeFMUstate == nullptr || is_condemned_) return;
   if (fmi_.FreeFMUstate(instance_, &saved.state) == fmi2Fatal) condemn();
+  saved.state = nullptr;
 }
 
 }  // namespace stride::fmi

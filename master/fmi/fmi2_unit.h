@@ -64,10 +64,14 @@ class Fmi2Unit final : public FmuInstance {
                         const core::StepValues& values) override;
   void save_state() override;
   void restore_state() override;
+  void select_state(std::size_t slot) override;
+  std::vector<std::uint8_t> serialize_state() override;
+  void deserialize_state(std::span<const std::uint8_t> bytes) override;
+  void reset() override;
   void enter_event_mode() override;
   core::EventResult update_discrete_states() override;
   void enter_step_mode() override;
-  void set_input_update(core::InputUpdate update) override { input_update_ = std::move(update); }
+  void set_input_update(core::InputUpdate update) override;
   void terminate() override;
 
  private:
@@ -75,6 +79,7 @@ class Fmi2Unit final : public FmuInstance {
   struct SavedState {
     fmi2FMUstate state = nullptr;
     std::optional<Time> time;
+    bool is_instantiated_only = false;
   };
 
   static void on_log(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status,
@@ -98,6 +103,8 @@ class Fmi2Unit final : public FmuInstance {
   void save(SavedState& saved);
   void restore(const SavedState& saved);
   void free_state(SavedState& saved);
+  template <class Function>
+  void require(const char* name, Function* function) const;
 
   Status do_step(const core::StepInterval& interval, double size);
   Status wait_for_step();
@@ -118,7 +125,9 @@ class Fmi2Unit final : public FmuInstance {
   core::InputUpdate input_update_;
   InputDerivatives* sampled_inputs_ = nullptr;  ///< who is given inputs in place of the unit
   SavedState before_step_;
-  SavedState saved_;  ///< by save_state()
+  SavedState saved_;                     ///< by save_state(), in the slot that is chosen
+  std::vector<SavedState> kept_states_;  ///< by slot; that of the chosen one is saved_
+  std::size_t state_slot_ = 0;
   bool has_discard_warning_ = false;
   std::shared_ptr<const Fmi2Library> library_;
   std::shared_ptr<const Fmi2Attributes> attributes_;

@@ -7,17 +7,12 @@
 #include "master/fmi/fmi2_unit.h"
 
 namespace stride::fmi {
-namespace {
-
-/// noSetFMUStatePriorToCurrentPoint: a step is undone to where it began, never further.
-constexpr fmi2Boolean kNeverGoesBack = fmi2True;
-
-}  // namespace
-
 Status Fmi2Unit::do_step(const core::StepInterval& interval, double size) {
   if (callbacks_.stepFinished != nullptr) asynchronous_.begin();
+  // noSetFMUStatePriorToCurrentPoint
+  const fmi2Boolean never_goes_back = options_.may_go_back ? fmi2False : fmi2True;
   const Status status =
-      call_discardable("fmi2DoStep", fmi_.DoStep, interval.begin_seconds, size, kNeverGoesBack);
+      call_discardable("fmi2DoStep", fmi_.DoStep, interval.begin_seconds, size, never_goes_back);
   return status == Status::Pending ? wait_for_step() : status;
 }
 
@@ -141,6 +136,10 @@ bool Fmi2Unit::wants_end() {
 }
 
 // ---- Inputs within a step ----
+
+void Fmi2Unit::set_input_update(core::InputUpdate update) {
+  if (parts_.description->provides_intermediate_update) input_update_ = std::move(update);
+}
 
 /// The input update sets inputs at three instants, and these are its.
 void Fmi2Unit::set_input_derivatives(double size) {

@@ -54,6 +54,7 @@ void read_annotation(const xml::Element& root, core::UnitDescription& unit) {
     for (const xml::Element& element : annotation.children()) {
       if (!element.is("urn:org.stride:unit:1", "Unit")) continue;
       unit.may_reject = element.flag("mayReject", unit.may_reject);
+      unit.split_invariant = element.flag("splitInvariant");
       unit.maximum_step = read_step_size(element, "maximumStep");
     }
   }

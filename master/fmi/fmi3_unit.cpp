@@ -8,9 +8,6 @@
 namespace stride::fmi {
 namespace {
 
-/// noSetFMUStatePriorToCurrentPoint: a step is undone to where it began, never further.
-constexpr fmi3Boolean kNeverGoesBack = fmi3True;
-
 /// The getter and setter of a C type. Enumerations travel as Int64.
 template <class T>
 struct Access;
@@ -66,10 +63,8 @@ Fmi3Unit::Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library,
 
 Fmi3Unit::~Fmi3Unit() {
   if (instance_ == nullptr || is_condemned_) return;
-  if (state_ != nullptr && fmi_.FreeFMUState != nullptr) {
-    const fmi3Status status = fmi_.FreeFMUState(instance_, &state_);
-    if (status == fmi3Fatal) condemn();
-  }
+  free_state(state_);
+  for (KeptState& kept : kept_states_) free_state(kept.state);
   if (!is_condemned_) fmi_.FreeInstance(instance_);
 }
 
@@ -232,8 +227,9 @@ core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
   bool early = false;
   double last_successful = interval.end_seconds;
   step_point_ = interval.begin_seconds;
+  const fmi3Boolean never_goes_back = !options_.may_go_back;  // noSetFMUStatePriorToCurrentPoint
   const Status status =
-      call_discardable("fmi3DoStep", fmi_.DoStep, interval.begin_seconds, size, kNeverGoesBack,
+      call_discardable("fmi3DoStep", fmi_.DoStep, interval.begin_seconds, size, never_goes_back,
                        &event_needed, &terminate, &early, &last_successful);
   rethrow_callback_failure();
   if (status == Status::Discard) {

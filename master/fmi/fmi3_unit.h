@@ -48,6 +48,10 @@ class Fmi3Unit final : public FmuInstance {
                         const core::StepValues& values) override;
   void save_state() override;
   void restore_state() override;
+  void select_state(std::size_t slot) override;
+  std::vector<std::uint8_t> serialize_state() override;
+  void deserialize_state(std::span<const std::uint8_t> bytes) override;
+  void reset() override;
   void enter_event_mode() override;
   core::EventResult update_discrete_states() override;
   void enter_step_mode() override;
@@ -81,6 +85,10 @@ class Fmi3Unit final : public FmuInstance {
   void get_binaries(References references, std::span<core::Binary> values);
   void set_binaries(References references, std::span<const core::Binary> values);
 
+  void free_state(fmi3FMUState& state);
+  template <class Function>
+  void require(const char* name, Function* function) const;
+
   template <class Function, class... Arguments>
   void call_clock(const char* name, Function* function, const core::Variable& clock,
                   Arguments... arguments);
@@ -110,6 +118,13 @@ class Fmi3Unit final : public FmuInstance {
 
   fmi3FMUState state_ = nullptr;
   std::optional<Time> state_time_;  ///< time_ when the state was saved
+
+  struct KeptState {
+    fmi3FMUState state = nullptr;
+    std::optional<Time> time;
+  };
+  std::vector<KeptState> kept_states_;  ///< by slot; that of the chosen one is state_
+  std::size_t state_slot_ = 0;
 
   bool may_skip_ = false;
   std::vector<TangentOutput> tangent_outputs_;  ///< in the order of their references

@@ -33,6 +33,11 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   const std::filesystem::path& path() const { return path_; }
   std::shared_ptr<const core::UnitDescription> description() const { return description_; }
 
+  /// Where its files are: the unpacked archive, or the folder itself. Empty for a bare library.
+  std::filesystem::path folder() const {
+    return unpacked_ ? unpacked_->folder() : std::filesystem::path();
+  }
+
   /// Loads the library, if that has not happened yet. Throws core::Error of the kind Input.
   std::shared_ptr<const SharedLibrary> load_library();
   /// Likewise of a unit of this version; null if it is of the other.

@@ -25,6 +25,9 @@ struct InstanceOptions {
   bool early_return_allowed = false;
   /// Whether the unit may ask for its inputs within a step, where it can (set_input_update()).
   bool intermediate_update = false;
+  /// Whether states from before the present communication point may be restored; else the unit may
+  /// forget what it would need for that.
+  bool may_go_back = false;
   bool debug_logging = false;  ///< everything that the unit can log, not only warnings and errors
   /// The log says it when an asynchronous step takes longer (FMI 2.0, fmi2Pending).
   std::chrono::milliseconds patience = std::chrono::seconds(10);
@@ -44,8 +47,8 @@ struct UnitParts {
 /// Calls functions of a unit, and turns what they answer into results and errors. A status Error or
 /// Fatal, and Discard of any function but those that may answer it, becomes a core::Error of the
 /// kind Run, with the name of the function, the simulated time and the unit's own messages. After
-/// it, no function of the instance is called any more; after Fatal none of any instance of the FMU,
-/// so they are not freed either, and the library stays loaded.
+/// it the instance is freed, and no other function of it is called; after Fatal none of any
+/// instance of the FMU, so they are not freed either, and the library stays loaded.
 class FmuInstance : public core::Unit {
  public:
   FmuInstance(const FmuInstance&) = delete;

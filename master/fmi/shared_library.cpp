@@ -1,5 +1,6 @@
 #include "master/fmi/shared_library.h"
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 
@@ -21,6 +22,21 @@ std::string_view between(std::string_view text, std::string_view before, std::st
   return text.substr(0, text.find(after));
 }
 
+constexpr const char* kSymbolHint =
+    "link the unit with the library that defines it (the linker option --no-undefined finds this "
+    "when the unit is built)";
+constexpr const char* kPythonHint =
+    "the unit embeds Python, and expects its library in the process: start stride with "
+    "LD_PRELOAD=libpython3.x.so.1.0, of the Python that the unit is for";
+
+/// Py_IsInitialized, PyExc_RuntimeError, _Py_NoneStruct, …: units of PythonFMU are not linked with
+/// what defines them.
+bool is_of_python(std::string_view symbol) {
+  symbol.remove_prefix(std::min(symbol.find_first_not_of('_'), symbol.size()));
+  const auto is_upper = [](char c) { return c == '_' || (c >= 'A' && c <= 'Z'); };
+  return symbol.size() > 2 && symbol.substr(0, 2) == "Py" && is_upper(symbol[2]);
+}
+
 /// Turns the loader's message (glibc's dlerror) into what is missing and how to get it.
 [[noreturn]] void fail_to_load(const fs::path& path, const std::string& reason,
                                const core::Location& where) {
@@ -35,14 +51,14 @@ std::string_view between(std::string_view text, std::string_view before, std::st
         "install the package that provides it, put it beside the unit's library "
         "(pack --bundle), or name its folder in LD_LIBRARY_PATH");
   }
-  const std::string_view symbol = between(reason, "undefined symbol: ", " ");
+  std::string_view symbol = between(reason, "undefined symbol: ", " ");
   if (!symbol.empty()) {
+    symbol = symbol.substr(0, symbol.find(','));
     core::fail_input(context,
                      fmt::format("{}it needs the symbol '{}', which no library that it is linked "
                                  "with has",
-                                 head, symbol.substr(0, symbol.find(','))),
-                     "link the unit with the library that defines it (the linker option "
-                     "--no-undefined finds this when the unit is built)");
+                                 head, symbol),
+                     is_of_python(symbol) ? kPythonHint : kSymbolHint);
   }
   core::fail_input(context, head + reason,
                    fmt::format("expected a shared library for {}", platform()));

@@ -77,7 +77,7 @@ TEST_CASE("check lists FMI 2.0 units as what they are") {
 }
 
 TEST_CASE("start values of FMI 2.0 inputs and parameters are set from outside") {
-  const Workspace workspace({component("r", "fmi2_relaxation.fmu")});
+  const Workspace workspace(Parts{component("r", "fmi2_relaxation.fmu")});
   const Outcome outcome = workspace.run({"--set", "r.u=3", "--set", "r.x=3", "--quiet"});
   CAPTURE(outcome.err);
   REQUIRE(outcome.exit_code == 0);
@@ -88,7 +88,7 @@ TEST_CASE("start values of FMI 2.0 inputs and parameters are set from outside") 
 }
 
 TEST_CASE("units that cannot be loaded say what to do") {
-  const Workspace workspace({component("r", "other")});
+  const Workspace workspace(Parts{component("r", "other")});
   write_other(workspace, "fmiVersion=\"2.0\"", "fmiVersion=\"1.0\"");
   CHECK_THAT(input_error_of(workspace.run()),
              Contains("fmiVersion=\"1.0\" is not supported; expected 2.0 or 3.0") &&
@@ -106,7 +106,7 @@ TEST_CASE("units that cannot be loaded say what to do") {
 }
 
 TEST_CASE("a unit of FMI 2.0 that fails is told with its message, and what was recorded is kept") {
-  const Workspace workspace({component("g", "fmi2_grumbler.fmu")});
+  const Workspace workspace(Parts{component("g", "fmi2_grumbler.fmu")});
   const Outcome outcome = workspace.run({"--set", "g.mood=3", "--quiet"});
   CHECK(outcome.exit_code == 1);
   CHECK_THAT(outcome.err, Contains("unit 'g', at 0 s: fmi2DoStep returned fmi2Error: mood of 3 in "

@@ -15,7 +15,7 @@ from reference_master import Master
 from stride_run import RunFailed, System, differences, read_table, run_system
 
 MODELS = pathlib.Path(__file__).parent / "python_units"
-VERSIONS = ("fmi3",)  # as far as stride runs them
+VERSIONS = ("fmi2", "fmi3")
 
 
 def python_library():
@@ -93,6 +93,14 @@ class Checks:
         if rejections["counter"] == 0 or int(ours["counter.steps"][-1]) != run["communication_steps"]:
             problems.append(f"{rejections} rejections, {ours['counter.steps'][-1]} steps of {run['communication_steps']}")
         return problems
+
+    def check_the_library_of_python_is_asked_for(self, version):
+        name = f"without_python_{version}"
+        try:
+            run_system(self.program, System({"filter": self.fmus[f"low_pass_{version}"]}), self.folder / name)
+        except RunFailed as failure:
+            return [f"{text} is not in: {failure}" for text in ("LowPass", "LD_PRELOAD=libpython3") if text not in str(failure)]
+        return ["it ran without"]
 
     def check_an_exception_ends_the_run(self, version):
         name = f"failure_{version}"

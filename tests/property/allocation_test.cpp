@@ -42,10 +42,12 @@ Assembly ring() {
 }
 
 core::RunStatistics run_counted(const Assembly& assembly, AllocationCounter& counter,
-                                const core::IdleOptions& idle = {}) {
+                                const core::IdleOptions& idle = {},
+                                core::Extrapolation extrapolation = core::Extrapolation::Hold) {
   const core::System system(assembly.declaration());
   core::RunOptions options = fixed_steps(1ms, Time(1s));
   options.idle = idle;
+  options.extrapolation = extrapolation;
   core::Simulation simulation(system, assembly.instantiate(), options);
   simulation.add_observer(counter);
   simulation.run();
@@ -92,5 +94,22 @@ TEST_CASE("nor does it where units are left alone") {
   idle.max_skip.assign(11, Duration(10ms));
   const core::RunStatistics statistics = run_counted(system, counter, idle);
   CHECK(statistics.units.back().rests > 50);
+  CHECK(counter.last - counter.at_warm == 0);
+}
+
+TEST_CASE("nor does it with units of FMI 2.0, saved before each step, with derivatives of inputs") {
+  Assembly system = ring();
+  system.add("turns", "fmi2_turner", {{"turn", "0.0505"}})
+      .add("relaxation", "fmi2_relaxation")
+      .add("sum", "fmi2_integrator")
+      .add("types", "fmi2_types")
+      .wire("r3.x", "relaxation.u")
+      .wire("relaxation.x", "sum.u")
+      .wire("turns.y", "types.real");
+  AllocationCounter counter;
+  const core::RunStatistics statistics =
+      run_counted(system, counter, {}, core::Extrapolation::Quadratic);
+  CHECK(statistics.units[10].rejections == 1);
+  CHECK(counter.points == 900);
   CHECK(counter.last - counter.at_warm == 0);
 }

@@ -16,7 +16,9 @@ constexpr double kPowerDeadband = 1e-5;         // [W]
 class Environment : public stride::Unit {
  public:
   Environment() {
-    describe("Thermal environment: the sensor's case in ambient air").promises_idle = true;
+    auto& info = describe("Thermal environment: the sensor's case in ambient air");
+    info.promises_idle = true;
+    info.split_invariant = true;
     input("absorbed_power", absorbed_power_)
         .unit("W")
         .deadband(kPowerDeadband)

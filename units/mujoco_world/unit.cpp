@@ -50,6 +50,7 @@ class MujocoWorld : public stride::Unit {
     auto& info = describe("A MuJoCo world: its actuators in, its joints, sites and sensors out");
     info.fixed_step = world_.timestep();
     info.promises_idle = true;
+    info.split_invariant = true;
     const auto& catalogue = world_.catalogue();
     inputs_.resize(catalogue.actuators.size());
     joints_.resize(catalogue.joints.size());

@@ -94,8 +94,10 @@ class NfcChannel : public stride::Unit {
  public:
   explicit NfcChannel(const stride::Setup& setup)
       : p_(parameters_for(setup.resources)), channel_(p_) {
-    describe("Near-field channel between a reader's antenna and tags: power and frames")
-        .promises_idle = true;
+    auto& info =
+        describe("Near-field channel between a reader's antenna and tags: power and frames");
+    info.promises_idle = true;
+    info.split_invariant = true;
     tags_.resize(p_.tags.size());
     tag_coils_.resize(p_.tags.size());
     list_coil("reader_coil", "reader", p_.reader.coil, reader_coil_);

@@ -48,6 +48,7 @@ class ReaderUnit : public stride::Unit {
       : resources_(setup.resources), reader_(load(resources_, choice_)), loaded_(choice_) {
     auto& info = describe("Robot with an NFC reader: runs a program of movements and commands");
     info.early_return = true;
+    info.split_invariant = true;
     info.promises_idle = true;
     list_variables();
     auto& s = reader_.state();

@@ -12,8 +12,10 @@ namespace {
 /// Some of what a model description says.
 class Sample : public Unit {
  public:
-  explicit Sample(bool may_reject = false) {
-    describe("A sample").may_reject = may_reject;
+  explicit Sample(bool may_reject = false, bool split_invariant = false) {
+    auto& info = describe("A sample");
+    info.may_reject = may_reject;
+    info.split_invariant = split_invariant;
     parameter("gain", gain_);
     input("in", in_);
     output("clock", clock_);
@@ -53,4 +55,10 @@ TEST_CASE("whether the unit may reject a step is annotated at the end") {
   CHECK_THAT(never.substr(at),
              Contains(R"(<stride:Unit xmlns:stride="urn:org.stride:unit:1" mayReject="false"/>)"));
   CHECK_THAT(describe(Sample(true)), Contains(R"(mayReject="true")"));
+}
+
+TEST_CASE("that steps may be split is annotated where it is so") {
+  CHECK_THAT(describe(Sample()), !Contains("splitInvariant"));
+  CHECK_THAT(describe(Sample(false, true)),
+             Contains(R"(mayReject="false" splitInvariant="true"/>)"));
 }

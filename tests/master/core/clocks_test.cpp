@@ -121,6 +121,30 @@ TEST_CASE("a million ticks of a third of a millisecond do not drift") {
   CHECK(wrong == 0);
 }
 
+TEST_CASE("clocks that resume tick when those would have that they continue") {
+  ScriptedSystem f;
+  f.add("a",
+        Describe("a").clock("tick", IntervalVariability::Constant, every(3ms), every(1ms)).done());
+  const System system(f.declaration);
+  Clocks clocks(system, f.units);
+  clocks.begin({});
+  const auto tick = [](Clocks& ticking, Time time) {
+    ticking.due(time);
+    ticking.tick(time);
+    ticking.update(0, time);
+    ticking.due(time);
+  };
+  tick(clocks, Time(1ms));
+  Clocks other(system, f.units);
+  other.resume(clocks);
+  CHECK(other.next() == Time(4ms));
+  tick(clocks, Time(4ms));
+  CHECK(other.next() == Time(4ms));
+  tick(other, Time(4ms));
+  CHECK(other.next() == clocks.next());
+  CHECK(other.next() == Time(7ms));
+}
+
 TEST_CASE("a clock that ticks at once, and one that ticks at the end") {
   ScriptedSystem f;
   Watch watch(f.add("a", sampler("a", 4ms)));

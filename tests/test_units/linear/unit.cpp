@@ -20,7 +20,7 @@ Complex exp_minus_1(Complex z) {
 class Linear : public stride::Unit {
  public:
   Linear() {
-    describe("Damped rotation of (x, y), driven by u");
+    describe("Damped rotation of (x, y), driven by u").split_invariant = true;
     input("u", u_);
     output("x", x_).exact().depends_on({}).derivative(x_rate_);
     output("y", y_).exact().depends_on({}).derivative(y_rate_);

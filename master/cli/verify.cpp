@@ -1,0 +1,173 @@
+// stride verify: puts a single unit through its paces.
+#include "master/verify/verify.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "master/cli/commands.h"
+#include "master/cli/progress.h"
+#include "master/cli/table.h"
+#include "master/cli/unit_path.h"
+#include "master/core/error.h"
+#include "master/io/number_text.h"
+#include "master/io/output_file.h"
+#include "master/io/time_text.h"
+#include "master/verify/checks.h"
+
+namespace stride::cli {
+namespace {
+
+struct Options {
+  verify::Request request;
+  std::string json;  ///< a file, or empty
+};
+
+/// Which check is at work, on a terminal, where the next one and the table take its place.
+void show(const char* check) {
+  if (::isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[Kchecking {} …", check);
+}
+
+std::string table_text(const std::vector<verify::Result>& results) {
+  Table table({{"check"}, {"verdict"}, {"what was seen"}});
+  for (const auto& [check, finding, seconds] : results) {
+    table.add({check, verify::name(finding.verdict), finding.seen});
+    for (const std::string& note : finding.notes) table.add({"", "note", note});
+  }
+  return table.text();
+}
+
+std::string conclusion(const std::vector<verify::Result>& results) {
+  std::size_t counts[3] = {};
+  for (const auto& result : results) ++counts[static_cast<std::size_t>(result.finding.verdict)];
+  return fmt::format("{} passed, {} failed, {} skipped", counts[0], counts[1], counts[2]);
+}
+
+/// Their names, for the error with which the program ends.
+std::string failed_checks(const std::vector<verify::Result>& results) {
+  std::vector<std::string> names;
+  for (const auto& result : results) {
+    if (result.finding.verdict == verify::Verdict::Failed) names.push_back(result.check);
+  }
+  return core::quoted(names);
+}
+
+void run(const Options& options) {
+  verify::Request request = options.request;
+  request.file = find_unit(request.file, {});
+  const verify::Subject subject(std::move(request));
+  std::optional<io::OutputFile> json;
+  if (!options.json.empty()) {
+    json.emplace(options.json, io::OutputFile::Hints{"name a file where you may write"});
+  }
+  const core::UnitDescription& unit = subject.description();
+  fmt::print("{}: FMI {}, steps of {} s to {} s, seed {}\n\n", unit.model_name, unit.fmi_version,
+             core::to_text(Time(subject.step())), core::to_text(subject.point(subject.steps())),
+             subject.request().seed);
+  std::fflush(stdout);
+  const Interruption interruption;
+  const auto results =
+      verify::verify(subject, {.on_begin = show, .interrupted = &Interruption::flag()});
+  if (::isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K");
+  fmt::print("{}\n{}\n", table_text(results), conclusion(results));
+  if (json) {
+    json->write(verify::json_text(subject, results));
+    json->close();
+  }
+  const std::string failures = failed_checks(results);
+  if (!failures.empty()) core::fail_run({}, "it fails " + failures);
+}
+
+/// An option whose text becomes a number by a function that throws std::invalid_argument.
+template <class Take>
+CLI::Option* add_parsed(CLI::App& command, const std::string& name, Take take,
+                        const std::string& help) {
+  return command.add_option_function<std::string>(
+      name,
+      [name, take](const std::string& text) {
+        try {
+          take(text);
+        } catch (const std::invalid_argument& mistake) {
+          core::fail_input({}, fmt::format("{} {}: {}", name, text, mistake.what()));
+        }
+      },
+      help);
+}
+
+Duration parse_step(const std::string& text) {
+  const Duration step = io::parse_seconds(text);
+  if (step <= Duration::zero()) throw std::invalid_argument("expected a step above 0 s");
+  return step;
+}
+
+std::string check_list() {
+  std::string text = "Checks:\n";
+  for (const verify::Check& check : verify::checks()) {
+    text += fmt::format("  {:<14} {}\n", check.name, check.summary);
+  }
+  return text;
+}
+
+void add_times(CLI::App& command, verify::Request& request) {
+  add_parsed(
+      command, "--step", [&request](const std::string& text) { request.step = parse_step(text); },
+      "Size of the communication steps; the unit's own if left out, or 0.001")
+      ->type_name("SECONDS");
+  add_parsed(
+      command, "--stop",
+      [&request](const std::string& text) { request.stop = io::parse_seconds(text); },
+      "How long a run is; the unit's own if left out, or 200 steps, but 1000 steps at most")
+      ->type_name("SECONDS");
+  add_parsed(
+      command, "--timeout",
+      [&request](const std::string& text) {
+        const double seconds = std::min(io::parse_above_zero(text), 1e9);
+        request.limit = std::chrono::milliseconds(std::max(1L, std::lround(seconds * 1000)));
+      },
+      "What takes longer hangs; for each check, 60 if left out")
+      ->type_name("SECONDS");
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "verify", "Put a single unit through its paces, to see whether it keeps what it declares");
+  const auto options = std::make_shared<Options>();
+  verify::Request& request = options->request;
+  command->add_option("FILE", request.file, "An FMU: a .fmu, or its unpacked folder")
+      ->required()
+      ->type_name("");
+  command->add_option("--check", request.checks, "Only this check; may be given several times")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--set", request.settings,
+                   "Start value of a parameter or an input; an input stays at it; may be given "
+                   "several times")
+      ->type_name("VARIABLE=VALUE")
+      ->allow_extra_args(false);
+  add_times(*command, request);
+  command->add_option("--seed", request.seed, "Of the course that each other numeric input takes")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--lives", request.lives, "Instances that 'memory' makes and frees")
+      ->type_name("N")
+      ->check(CLI::Range(40U, 10'000'000U))
+      ->capture_default_str();
+  command->add_option("--json", options->json, "Write the results to a file, too")
+      ->type_name("FILE");
+  command->footer(
+      check_list() +
+      "\nEach check runs in a process of its own, so a unit that crashes or hangs fails "
+      "it.\nExit codes: 0 all good, 1 a check failed, 2 the input was wrong.\n");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace stride::cli

@@ -1,0 +1,145 @@
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "master/core/error.h"
+#include "master/verify/checks.h"
+
+namespace stride::verify {
+namespace {
+
+using core::ValueReference;
+using core::Variable;
+
+enum class State { Instantiated, Initialization, StepMode, EventMode, Terminated };
+constexpr const char* kStateNames[] = {"Instantiated", "Initialization Mode", "Step Mode",
+                                       "Event Mode", "Terminated"};
+
+/// Leads a new life into a state.
+Life live_until(const Trial& trial, State state) {
+  Life life = trial.live();
+  if (state == State::Instantiated) return life;
+  life.set_start_values();
+  life.enter_initialization();
+  if (state == State::Initialization) return life;
+  life.exit_initialization();
+  life.run_to(3);
+  if (state == State::EventMode) life.unit().enter_event_mode();
+  if (state == State::Terminated) life.terminate();
+  return life;
+}
+
+/// A call that is not allowed in a state (FMI 3.0, 2.3 and 4.2; FMI 2.0, 4.2.4).
+struct Offence {
+  std::string function;
+  State state;
+  std::function<void(Life&)> commit;
+};
+
+ValueReference unused_reference(const core::UnitDescription& unit) {
+  ValueReference reference = 0;
+  for (const Variable& variable : unit.variables) {
+    reference = std::max(reference, variable.reference);
+  }
+  return reference + 1;
+}
+
+void step(Life& life) { life.unit().step({life.now(), life.now() + std::chrono::milliseconds(1)}); }
+
+std::vector<Offence> offences(const Subject& subject) {
+  const core::UnitDescription& unit = subject.description();
+  std::vector<Offence> list = {
+      {"DoStep", State::Instantiated, step},
+      {"DoStep", State::Initialization, step},
+      {"DoStep", State::Terminated, step},
+      {"ExitInitializationMode", State::Instantiated,
+       [](Life& life) { life.unit().exit_initialization(); }},
+      {"ExitInitializationMode", State::StepMode,
+       [](Life& life) { life.unit().exit_initialization(); }},
+      {"EnterInitializationMode", State::StepMode,
+       [](Life& life) { life.unit().enter_initialization({}, std::nullopt); }},
+      {"Terminate", State::Instantiated, [](Life& life) { life.terminate(); }},
+  };
+  if (unit.has_event_mode) {
+    list.push_back({"DoStep", State::EventMode, step});
+    list.push_back({"EnterEventMode", State::Instantiated,
+                    [](Life& life) { life.unit().enter_event_mode(); }});
+    list.push_back({"UpdateDiscreteStates", State::StepMode,
+                    [](Life& life) { life.unit().update_discrete_states(); }});
+    list.push_back(
+        {"EnterStepMode", State::StepMode, [](Life& life) { life.unit().enter_step_mode(); }});
+  }
+  if (unit.fmi_version.starts_with("2")) return list;  // there the importer numbers the variables
+  const ValueReference unknown = unused_reference(unit);
+  list.push_back({"GetBoolean of a value reference that no variable has", State::StepMode,
+                  [unknown](Life& life) {
+                    core::ValueBlock value(core::ValueType::Boolean, 1);
+                    life.unit().get({&unknown, 1}, value);
+                  }});
+  list.push_back({"SetBoolean of a value reference that no variable has", State::StepMode,
+                  [unknown](Life& life) {
+                    const core::ValueBlock value(core::ValueType::Boolean, 1);
+                    life.unit().set({&unknown, 1}, value);
+                  }});
+  return list;
+}
+
+/// "refused", "accepted", or how it ended.
+std::string consequence(const Trial& trial, const Offence& offence) {
+  try {
+    return trial.in_child([&] {
+      Life life = live_until(trial, offence.state);
+      try {
+        offence.commit(life);
+        return std::string("accepted");
+      } catch (const core::Error&) {
+        return std::string("refused");
+      }
+    });
+  } catch (const Failure& failure) {
+    return failure.what();
+  }
+}
+
+/// An instance may be freed in each state.
+std::size_t end_everywhere(const Trial& trial) {
+  std::size_t count = 0;
+  for (const State state : {State::Instantiated, State::Initialization, State::StepMode,
+                            State::EventMode, State::Terminated}) {
+    if (state == State::EventMode && !trial.subject.description().has_event_mode) continue;
+    trial.in_child([&] {
+      live_until(trial, state);
+      return std::string();
+    });
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+Finding check_calls(const Trial& trial) {
+  const std::size_t ends = end_everywhere(trial);
+  // the standard wants an error from who detects it, so only our own kit, which does, can fail
+  const bool is_of_kit = trial.in_child([&] {
+    const auto library = trial.subject.fmu().load_fmi3_library();
+    return std::string(library && library->describes_itself() ? "yes" : "no");
+  }) == "yes";
+  std::vector<std::string> notes;
+  const std::vector<Offence> list = offences(trial.subject);
+  for (const Offence& offence : list) {
+    const std::string seen = consequence(trial, offence);
+    if (seen == "refused") continue;
+    std::string text =
+        fmt::format("{} in the state {}: {}", trial.subject.function(offence.function),
+                    kStateNames[static_cast<std::size_t>(offence.state)], seen);
+    if (is_of_kit) return failed(std::move(text));
+    notes.push_back(std::move(text));
+  }
+  return passed(fmt::format("a whole life, {} ways to end it; {} of {} calls out of order are "
+                            "refused",
+                            ends, list.size() - notes.size(), list.size()),
+                std::move(notes));
+}
+
+}  // namespace stride::verify

@@ -1,0 +1,193 @@
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "master/verify/checks.h"
+
+namespace stride::verify {
+namespace {
+
+using core::Causality;
+using core::Initial;
+using core::Unknown;
+using core::ValueReference;
+using core::ValueType;
+using core::Variable;
+
+/// Collects what is wrong.
+class Examination {
+ public:
+  explicit Examination(const core::UnitDescription& unit) : unit_(unit) {}
+
+  void run() {
+    for (const Variable& variable : unit_.variables) examine(variable);
+    examine_unknowns(unit_.outputs, "Output");
+    examine_unknowns(unit_.initial_unknowns, "InitialUnknown");
+    require_listed();
+    require_event_mode();
+  }
+  const std::vector<std::string>& mistakes() const { return mistakes_; }
+  const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  template <class... Arguments>
+  void mistake(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+    mistakes_.push_back(fmt::format(text, std::forward<Arguments>(arguments)...));
+  }
+
+  void examine(const Variable& variable) {
+    const bool is_known = variable.causality == Causality::Input ||
+                          variable.causality == Causality::Parameter ||
+                          variable.initial == Initial::Exact || variable.initial == Initial::Approx;
+    if (is_known && variable.start.empty() && has_start(variable)) {
+      mistake("'{}' is {} and has no start value", variable.name, name(variable.causality));
+    }
+    if (!variable.unit.empty() && !unit_.units.contains(variable.unit) &&
+        said_units_.insert(variable.unit).second) {
+      notes_.push_back(fmt::format(
+          "the unit '{}' of '{}' is not defined by a BaseUnit, so it cannot be converted",
+          variable.unit, variable.name));
+    }
+    examine_range(variable);
+  }
+
+  /// An empty text is a start value, too.
+  static bool has_start(const Variable& variable) {
+    return variable.type != ValueType::Clock && variable.type != ValueType::String &&
+           variable.type != ValueType::Binary;
+  }
+
+  void examine_range(const Variable& variable) {
+    if (!has_start_value(variable)) return;
+    try {
+      const core::ValueBlock start = core::parse(variable, variable.start);
+      compare(variable, start);
+    } catch (const std::invalid_argument& error) {
+      if (variable.start.empty()) return;
+      mistake("'{}' has the start value '{}': {}", variable.name, variable.start, error.what());
+    }
+  }
+
+  void compare(const Variable& variable, const core::ValueBlock& start) {
+    core::visit(start, [&]<class T>(std::span<const T> elements) {
+      if constexpr (std::is_arithmetic_v<T>) {
+        for (const T element : elements) {
+          const auto number = static_cast<double>(element);
+          const bool is_low = !variable.min.empty() && number < std::stod(variable.min);
+          const bool is_high = !variable.max.empty() && number > std::stod(variable.max);
+          if (!is_low && !is_high) continue;
+          mistake("'{}' has the start value {}, which is {} its {} {}", variable.name,
+                  variable.start, is_low ? "below" : "above", is_low ? "min" : "max",
+                  is_low ? variable.min : variable.max);
+          return;
+        }
+      }
+    });
+  }
+
+  void examine_unknowns(const std::vector<Unknown>& unknowns, const char* element) {
+    std::set<ValueReference> listed;
+    for (const Unknown& unknown : unknowns) {
+      const Variable& variable = unit_.variables[*unit_.find(unknown.reference)];
+      if (!listed.insert(unknown.reference).second) {
+        mistake("<{}> lists '{}' twice", element, variable.name);
+      }
+      const bool is_output = variable.causality == Causality::Output;
+      if (std::string(element) == "Output" && !is_output) {
+        mistake("<Output> lists '{}', which is {}", variable.name, name(variable.causality));
+      }
+      for (const ValueReference known :
+           unknown.dependencies.value_or(std::vector<ValueReference>{})) {
+        const Variable& source = unit_.variables[*unit_.find(known)];
+        if (source.variability != core::Variability::Constant) continue;
+        mistake("<{}> lets '{}' depend on '{}', which is a constant", element, variable.name,
+                source.name);
+      }
+    }
+  }
+
+  static bool lists(const std::vector<Unknown>& unknowns, ValueReference reference) {
+    return std::any_of(unknowns.begin(), unknowns.end(),
+                       [&](const Unknown& unknown) { return unknown.reference == reference; });
+  }
+
+  void require_listed() {
+    for (const Variable& variable : unit_.variables) {
+      const bool is_output = variable.causality == Causality::Output;
+      if (is_output && !lists(unit_.outputs, variable.reference)) {
+        mistake("<ModelStructure> has no <Output> for '{}'", variable.name);
+      }
+      const bool is_computed =
+          variable.initial == Initial::Calculated || variable.initial == Initial::Approx;
+      const bool is_unknown = (is_output && is_computed && !variable.is_clocked()) ||
+                              variable.causality == Causality::CalculatedParameter;
+      if (is_unknown && !lists(unit_.initial_unknowns, variable.reference)) {
+        mistake(
+            "<ModelStructure> has no <InitialUnknown> for '{}', whose initial value is computed",
+            variable.name);
+      }
+    }
+  }
+
+  void require_event_mode() {
+    if (unit_.has_event_mode) return;
+    for (const Variable& variable : unit_.variables) {
+      if (variable.type != ValueType::Clock) continue;
+      return mistake("'{}' is a clock, and the unit has no Event Mode (hasEventMode)",
+                     variable.name);
+    }
+  }
+
+  const core::UnitDescription& unit_;
+  std::vector<std::string> mistakes_;
+  std::vector<std::string> notes_;
+  std::set<std::string> said_units_;
+};
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// A library of the unit kit knows its description; the one in the archive must be the same.
+void compare_with_library(const Trial& trial, std::vector<std::string>& mistakes) {
+  const auto library = trial.subject.fmu().load_fmi3_library();
+  if (!library || !library->describes_itself()) return;
+  const std::filesystem::path folder = trial.subject.fmu().folder();
+  const std::filesystem::path resources = folder / "resources";
+  trial.note.write("strideModelDescription", 0);
+  const std::string own =
+      library->describe(std::filesystem::is_directory(resources) ? resources : "");
+  trial.note.clear();
+  const std::string packed = read_file(folder / "modelDescription.xml");
+  if (own == packed) return;
+  const auto place = std::mismatch(own.begin(), own.end(), packed.begin(), packed.end()).first;
+  mistakes.push_back(
+      fmt::format("modelDescription.xml is not what the library says of itself, first in line {}; "
+                  "pack the unit again",
+                  1 + std::count(own.begin(), place, '\n')));
+}
+
+}  // namespace
+
+Finding check_description(const Trial& trial) {
+  const core::UnitDescription& unit = trial.subject.description();
+  Examination examination(unit);
+  examination.run();
+  std::vector<std::string> mistakes = examination.mistakes();
+  compare_with_library(trial, mistakes);
+  if (!mistakes.empty()) {
+    std::vector<std::string> notes(mistakes.begin() + 1, mistakes.end());
+    return failed(mistakes.front(), std::move(notes));
+  }
+  return passed(fmt::format("{} outputs and {} initial unknowns are listed", unit.outputs.size(),
+                            unit.initial_unknowns.size()),
+                examination.notes());
+}
+
+}  // namespace stride::verify

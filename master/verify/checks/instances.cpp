@@ -1,0 +1,49 @@
+#include <fmt/format.h>
+
+#include "master/verify/checks.h"
+
+namespace stride::verify {
+namespace {
+
+void compare(const Trial& trial, const Recording& alone, const Life& life, const char* which) {
+  const auto differs = difference(trial.subject, alone.rows, life.recording().rows,
+                                  "in an instance that is alone", which);
+  if (differs) throw Failure(*differs);
+}
+
+}  // namespace
+
+Finding check_instances(const Trial& trial) {
+  const Subject& subject = trial.subject;
+  if (subject.description().single_instance) {
+    return skipped("it declares canBeInstantiatedOnlyOncePerProcess");
+  }
+  const Recording alone = trial.record();
+  const std::size_t steps = subject.steps();
+  std::optional<Life> first(trial.live({.name = "first"}));
+  std::optional<Life> second(trial.live({.name = "second", .seed = subject.request().seed + 1}));
+  std::optional<Life> third;
+  first->start();
+  second->start();
+  // the second is ahead, with other inputs; half-way the third takes its place
+  for (std::size_t k = 0; k < steps; ++k) {
+    if (second) second->run_to(std::min(steps, 2 * k + 2), false);
+    if (k == steps / 2) {
+      second.reset();
+      third.emplace(trial.live({.name = "third"}));
+      third->start();
+    }
+    if (third) third->run_to(2 * (k - steps / 2));
+    first->run_to(k + 1);
+  }
+  compare(trial, alone, *first, "in one beside others");
+  first.reset();
+  third->run_to(steps);
+  compare(trial, alone, *third, "in one that was made later beside others");
+  return passed(
+      fmt::format("three instances, two at a time, are each like one that is alone, for {} "
+                  "steps",
+                  steps));
+}
+
+}  // namespace stride::verify

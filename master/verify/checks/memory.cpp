@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <malloc.h>
+#include <unistd.h>
+
+#include "master/verify/checks.h"
+
+namespace stride::verify {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A block that is lost in every second life, or step, is above this: none takes less than 32
+/// bytes.
+constexpr double kMostHeap = 16;
+/// Pages come and go, and a library may have an allocator of its own.
+constexpr double kMostResident = 1024;
+/// Below this all together, it may be what malloc() itself keeps at hand of each size [byte].
+constexpr double kNoise = 8192;
+constexpr std::size_t kWarmUp = 20;
+constexpr std::size_t kFewest = 40;
+constexpr std::size_t kMostSteps = 20'000;
+
+struct Usage {
+  double heap = 0;      ///< bytes that malloc() has given out
+  double resident = 0;  ///< bytes of the process in memory
+};
+
+Usage usage() {
+  const struct mallinfo2 info = ::mallinfo2();
+  std::size_t pages = 0;
+  std::size_t resident = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident;
+  return {static_cast<double>(info.uordblks + info.hblkhd),
+          static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE))};
+}
+
+std::size_t entries(const char* folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+std::size_t open_files() { return entries("/proc/self/fd"); }
+std::size_t threads() { return entries("/proc/self/task"); }
+
+/// How much more is in use after each repetition.
+struct Growth {
+  std::size_t count = 0;  ///< of repetitions that were measured
+  double heap = 0;        ///< [byte per repetition], in the quarter of the run with the least
+  double resident = 0;
+
+  bool is_leak() const {
+    const bool is_noise = std::max(heap, resident) * static_cast<double>(count) < kNoise;
+    return !is_noise && (heap > kMostHeap || resident > kMostResident);
+  }
+  std::string text(const char* one) const {
+    return fmt::format("{:.0f} bytes of heap and {:.0f} of resident memory per {}",
+                       std::max(0.0, heap), std::max(0.0, resident), one);
+  }
+};
+
+/// What grows in each quarter of the repetitions grows for ever: caches and pools fill up once.
+template <class Work>
+Growth measure(std::size_t wanted, Clock::time_point deadline, Work&& work) {
+  for (std::size_t i = 0; i < kWarmUp; ++i) work();
+  constexpr std::size_t kQuarters = 4;
+  // the number of repetitions that fit is found on the way, and the marks are set by it
+  std::vector<Usage> marks(wanted + 1);  // in memory before the first measurement
+  std::size_t count = 0;
+  marks[0] = usage();
+  while (count < wanted && (count < kFewest || Clock::now() < deadline)) {
+    work();
+    marks[++count] = usage();
+  }
+  Growth growth{count, 1e300, 1e300};
+  const std::size_t length = growth.count / kQuarters;
+  for (std::size_t q = 0; q < kQuarters; ++q) {
+    const Usage& from = marks[q * length];
+    const Usage& to = marks[(q + 1) * length];
+    const auto each = static_cast<double>(length);
+    growth.heap = std::min(growth.heap, (to.heap - from.heap) / each);
+    growth.resident = std::min(growth.resident, (to.resident - from.resident) / each);
+  }
+  return growth;
+}
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kIsSanitized = true;  // which has an allocator of its own and keeps what is freed
+#else
+constexpr bool kIsSanitized = false;
+#endif
+
+}  // namespace
+
+Finding check_memory(const Trial& trial) {
+  if (kIsSanitized) return skipped("memory cannot be measured in a build with sanitizers");
+  const Subject& subject = trial.subject;
+  const auto share = subject.request().limit / 3;
+  subject.fmu().load_library();
+  const std::size_t files_before = open_files();
+  const std::size_t threads_before = threads();
+  const std::size_t few_steps = std::min<std::size_t>(5, subject.steps());
+
+  const Growth lives = measure(subject.request().lives, Clock::now() + share, [&] {
+    Life life = trial.live();
+    life.start();
+    life.run_to(few_steps, false);
+    if (!life.recording().has_ended) life.terminate();
+  });
+  if (lives.is_leak()) {
+    return failed(fmt::format("it leaks {}, over {} lives (allowed: {} and {})", lives.text("life"),
+                              lives.count, kMostHeap, kMostResident));
+  }
+  const std::size_t all_lives = lives.count + kWarmUp;
+  const std::size_t files = open_files();
+  if (files > files_before + all_lives / 2) {
+    return failed(fmt::format("{} lives leave {} files open", all_lives, files - files_before));
+  }
+  const std::size_t tasks = threads();
+  if (tasks > threads_before + all_lives / 2) {
+    return failed(
+        fmt::format("{} lives leave {} threads running", all_lives, tasks - threads_before));
+  }
+
+  Life life = trial.live();
+  life.start();
+  const Growth steps =
+      measure(kMostSteps, Clock::now() + share, [&] { life.run_to(life.at() + 1, false); });
+  if (steps.is_leak()) {
+    return failed(fmt::format("while it runs it grows by {}, over {} steps (allowed: {} and {})",
+                              steps.text("step"), steps.count, kMostHeap, kMostResident));
+  }
+  std::vector<std::string> notes;
+  if (files > files_before) {
+    notes.push_back(
+        fmt::format("{} files stay open when no instance is left", files - files_before));
+  }
+  if (tasks > threads_before) {
+    notes.push_back(
+        fmt::format("{} threads run on when no instance is left", tasks - threads_before));
+  }
+  return passed(fmt::format("{} after {} lives; {} after {} steps", lives.text("life"), lives.count,
+                            steps.text("step"), steps.count),
+                std::move(notes));
+}
+
+}  // namespace stride::verify

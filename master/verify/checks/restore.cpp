@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include "master/verify/checks.h"
+
+namespace stride::verify {
+namespace {
+
+constexpr std::size_t kEarly = 0, kLate = 1, kBeginning = 2;
+
+class Restorer {
+ public:
+  Restorer(const Trial& trial, Life& life) : trial_(trial), life_(life) {}
+
+  /// Saves here, and notes what follows until point `to`.
+  void save(std::size_t slot, std::size_t to) {
+    life_.save(slot);
+    const std::vector<std::string> values = life_.observe();
+    life_.forget_rows();
+    life_.run_to(to);
+    expected_[slot] = {to, values, life_.recording().rows};
+  }
+
+  void restore(std::size_t slot, const std::string& when) {
+    const Expected& expected = expected_[slot];
+    life_.restore(slot);
+    const std::int64_t now = life_.now().time_since_epoch().count();
+    compare({{now, expected.values, false}}, {{now, life_.observe(), false}}, "when it was saved",
+            "when it is restored" + when);
+    life_.forget_rows();
+    life_.run_to(expected.to);
+    compare(expected.rows, life_.recording().rows, "after the save", "after the restore" + when);
+  }
+
+ private:
+  struct Expected {
+    std::size_t to = 0;
+    std::vector<std::string> values;
+    std::vector<Row> rows;
+  };
+
+  void compare(const std::vector<Row>& expected, const std::vector<Row>& seen,
+               const std::string& expected_when, const std::string& seen_when) {
+    const auto differs = difference(trial_.subject, expected, seen, expected_when, seen_when);
+    if (differs) throw Failure(*differs);
+  }
+
+  const Trial& trial_;
+  Life& life_;
+  Expected expected_[3];
+};
+
+}  // namespace
+
+Finding check_restore(const Trial& trial) {
+  const Subject& subject = trial.subject;
+  if (!subject.description().can_save_state) return skipped("it has no canGetAndSetFMUState");
+  Life life = trial.live();
+  Restorer restorer(trial, life);
+  const std::size_t early = trial.point_at(0.3);
+  const std::size_t late = trial.point_at(0.7);
+  life.start();
+  restorer.save(kBeginning, early);
+  restorer.save(kEarly, late);
+  restorer.restore(kEarly, "");
+  restorer.restore(kEarly, " for the second time");
+  restorer.save(kLate, subject.steps());
+  restorer.restore(kEarly, " from a later instant, with another state saved meanwhile");
+  restorer.restore(kLate, " from an earlier instant");
+  restorer.restore(kBeginning, " of the beginning");
+  return passed(
+      fmt::format("three states alive at once, five restores, each followed by {} to {} "
+                  "steps",
+                  std::min(early, late - early), subject.steps() - early));
+}
+
+}  // namespace stride::verify

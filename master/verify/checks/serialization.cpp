@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "master/core/error.h"
+#include "master/verify/checks.h"
+
+namespace stride::verify {
+namespace {
+
+using Json = nlohmann::json;
+using Bytes = std::vector<std::uint8_t>;
+
+/// A state as bytes, where it was made, and what followed.
+struct Serialized {
+  Bytes bytes;
+  Life::Position position;
+  std::vector<Row> rows;
+  std::size_t to;
+};
+
+Serialized serialize(const Trial& trial) {
+  const std::size_t from = trial.point_at(0.3);
+  Serialized made{{}, {}, {}, trial.point_at(0.8)};
+  Life life = trial.live();
+  life.start();
+  life.run_to(from, false);
+  life.unit().save_state();
+  made.bytes = life.unit().serialize_state();
+  made.position = life.position();
+  life.run_to(made.to);
+  made.rows = life.recording().rows;
+  return made;
+}
+
+std::string to_text(const Serialized& made) {
+  const auto& [now, point, next] = made.position;
+  return Json{{"bytes", core::to_hex(made.bytes)},
+              {"now", now.time_since_epoch().count()},
+              {"point", point},
+              {"next", next.value_or(Time::min()).time_since_epoch().count()},
+              {"to", made.to},
+              {"recording", to_text(Recording{made.rows})}}
+      .dump();
+}
+
+Bytes from_hex(const std::string& text) {
+  const auto digit = [](char c) { return c <= '9' ? c - '0' : (c | 0x20) - 'a' + 10; };
+  Bytes bytes;
+  for (std::size_t i = 0; i + 1 < text.size(); i += 2) {
+    bytes.push_back(static_cast<std::uint8_t>(16 * digit(text[i]) + digit(text[i + 1])));
+  }
+  return bytes;
+}
+
+Serialized serialized_from_text(const std::string& text) {
+  const Json json = Json::parse(text);
+  const auto time = [&](const char* key) { return Time(Duration(json[key].get<std::int64_t>())); };
+  Serialized made{from_hex(json["bytes"]),
+                  {time("now"), json["point"], time("next")},
+                  recording_from_text(json["recording"]).rows,
+                  json["to"]};
+  if (made.position.next_event == Time::min()) made.position.next_event.reset();
+  return made;
+}
+
+bool has_schedule(const core::UnitDescription& unit) {
+  return std::any_of(unit.variables.begin(), unit.variables.end(),
+                     [](const core::Variable& variable) { return variable.is_time_based_clock(); });
+}
+
+/// Goes on from the bytes in an instance that was never started. The importer's own schedule of
+/// time-based clocks is not in them: a second life, which makes the same way, has it.
+Recording continue_from(const Trial& trial, const Serialized& made) {
+  std::optional<core::Clocks> clocks;
+  if (has_schedule(trial.subject.description())) {
+    Life guide = trial.live({.name = "guide"});
+    guide.start();
+    guide.run_to(made.position.point, false);
+    clocks.emplace(guide.clocks());
+  }
+  Life life = trial.live();
+  life.unit().deserialize_state(made.bytes);
+  life.unit().restore_state();
+  life.stand_at(made.position, clocks ? &*clocks : nullptr);
+  life.run_to(made.to);
+  return life.recording();
+}
+
+void compare(const Trial& trial, const Serialized& made, const Recording& seen,
+             const std::string& where) {
+  const auto differs =
+      difference(trial.subject, made.rows, seen.rows, "in the instance that was serialised", where);
+  if (differs) throw Failure(*differs);
+}
+
+/// What the unit makes of bytes that are no state.
+std::string reaction(const Trial& trial, const Bytes& bytes) {
+  try {
+    return trial.in_child([&] {
+      Life life = trial.live();
+      try {
+        life.unit().deserialize_state(bytes);
+        life.unit().restore_state();
+        return std::string("accepted");
+      } catch (const core::Error&) {
+        return std::string("refused");
+      }
+    });
+  } catch (const Failure& failure) {
+    return failure.what();
+  }
+}
+
+}  // namespace
+
+Finding check_serialization(const Trial& trial) {
+  const core::UnitDescription& unit = trial.subject.description();
+  if (!unit.can_serialize_state) return skipped("it has no canSerializeFMUState");
+  const Serialized made = serialized_from_text(trial.in_child([&] {
+    const Serialized own = serialize(trial);
+    if (!trial.subject.description().single_instance) {
+      compare(trial, own, continue_from(trial, own), "in another one of the same process");
+    }
+    return to_text(own);
+  }));
+  compare(trial, made,
+          recording_from_text(trial.in_child([&] { return to_text(continue_from(trial, made)); })),
+          "in an instance of another process");
+
+  std::vector<std::string> notes;
+  const auto examine = [&](const char* what, const Bytes& bytes) {
+    const std::string seen = reaction(trial, bytes);
+    if (seen != "refused") notes.push_back(fmt::format("{}: {}", what, seen));
+  };
+  examine("bytes that break off",
+          Bytes(made.bytes.begin(),
+                made.bytes.begin() + static_cast<std::ptrdiff_t>(made.bytes.size() / 2)));
+  examine("no bytes at all", {});
+  Bytes longer = made.bytes;
+  longer.insert(longer.end(), 64, 0xFF);
+  examine("bytes with something behind them", longer);
+  return passed(fmt::format("{} bytes go on in a new instance of {} process{}", made.bytes.size(),
+                            unit.single_instance ? "another" : "this and of another",
+                            notes.empty() ? "; damaged bytes are refused" : ""),
+                std::move(notes));
+}
+
+}  // namespace stride::verify

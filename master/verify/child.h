@@ -1,0 +1,72 @@
+// Work in a process of its own: what goes wrong there, goes wrong there only.
+#ifndef STRIDE_MASTER_VERIFY_CHILD_H
+#define STRIDE_MASTER_VERIFY_CHILD_H
+
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace stride::verify {
+
+/// How a child ended.
+struct ChildOutcome {
+  enum class End {
+    Answered,     ///< `text` is what the work returned
+    Threw,        ///< `text` is the message of the exception that left it
+    Exited,       ///< something in it ended the process; `code` is the exit code
+    Killed,       ///< by the signal `code`
+    TimedOut,     ///< it was killed, because its time was over
+    Interrupted,  ///< likewise, because the user wanted so
+  };
+  End end = End::Answered;
+  int code = 0;
+  std::string text;
+  std::string printed;  ///< the last 4 KiB that it wrote to its standard output and error
+};
+
+struct ChildOptions {
+  std::optional<std::chrono::milliseconds> limit{};  ///< nothing = it may run for ever
+  /// Looked at while the child runs; a signal handler sets it to end the child.
+  const volatile std::sig_atomic_t* interrupted = nullptr;
+};
+
+/// Runs the work in a fork of this process and waits for its end. The child has its own process
+/// group, which is killed as a whole when the child has ended, and it is killed when the thread
+/// that called this ends; nothing of it stays. Its standard input is empty, it leaves no core dump,
+/// and no destructor of its runs after the work. It may itself call this function. Throws
+/// std::system_error if there can be no child.
+ChildOutcome run_in_child(const std::function<std::string()>& work,
+                          const ChildOptions& options = {});
+
+/// "SIGSEGV"
+std::string signal_name(int signal);
+
+/// Text in memory that a process shares with the children that it makes afterwards, so that it
+/// outlives them: what they were at.
+class SharedNote {
+ public:
+  SharedNote();
+  ~SharedNote();
+  SharedNote(const SharedNote&) = delete;
+  SharedNote& operator=(const SharedNote&) = delete;
+
+  /// `what` is cut off after some 100 characters. `picoseconds`: the simulated time.
+  void write(const char* what, std::int64_t picoseconds);
+  void clear() { write("", 0); }
+
+  std::string what() const;
+  std::int64_t picoseconds() const { return memory_->picoseconds; }
+
+ private:
+  struct Memory {
+    std::int64_t picoseconds;
+    char what[120];
+  };
+  Memory* memory_;
+};
+
+}  // namespace stride::verify
+
+#endif

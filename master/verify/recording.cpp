@@ -1,0 +1,121 @@
+#include "master/verify/recording.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "master/core/error.h"
+
+namespace stride::verify {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string time_text(std::int64_t picoseconds) {
+  return core::to_text(Time(Duration(picoseconds)));
+}
+
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kMost = 60;
+  return text.size() <= kMost ? text : text.substr(0, kMost) + "…";
+}
+
+std::string describe(const Row& row) {
+  std::string text;
+  for (const std::string& value : row.values) text += (text.empty() ? "" : ", ") + value;
+  return shortened(text);
+}
+
+std::string compare(const std::vector<std::string>& names, const Row& expected, const Row& seen,
+                    const std::string& expected_when, const std::string& seen_when) {
+  const std::string at = fmt::format("at {} s ", time_text(expected.picoseconds));
+  if (expected.picoseconds != seen.picoseconds || expected.is_event != seen.is_event) {
+    const auto what = [](const Row& row) {
+      return fmt::format("{} at {} s", row.is_event ? "the event " + describe(row) : "no event",
+                         time_text(row.picoseconds));
+    };
+    return fmt::format("there is {} {}, and {} {}", what(expected), expected_when, what(seen),
+                       seen_when);
+  }
+  if (expected.is_event) {
+    return at + fmt::format("the event {} is {} {}", describe(expected), describe(seen), seen_when);
+  }
+  const auto [here, there] = std::mismatch(expected.values.begin(), expected.values.end(),
+                                           seen.values.begin(), seen.values.end());
+  const auto place = static_cast<std::size_t>(here - expected.values.begin());
+  std::size_t others = 0;
+  for (std::size_t i = place + 1; i < expected.values.size(); ++i) {
+    others += expected.values[i] != seen.values[i] ? 1U : 0U;
+  }
+  return at + fmt::format("'{}' is {} {}, and {} {}{}", names[place], shortened(*here),
+                          expected_when, shortened(*there), seen_when,
+                          others > 0 ? fmt::format(" ({} more differ)", others) : "");
+}
+
+}  // namespace
+
+Recording Recording::without_events() const {
+  Recording rest;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(rest.rows),
+               [](const Row& row) { return !row.is_event; });
+  return rest;
+}
+
+std::vector<std::string> observed_names(const Subject& subject) {
+  std::vector<std::string> names;
+  for (const Subject::Group& group : subject.observed()) {
+    for (const std::size_t i : group.places) {
+      names.push_back(subject.description().variables[i].name);
+    }
+  }
+  return names;
+}
+
+std::optional<std::string> difference(const Subject& subject, const std::vector<Row>& expected,
+                                      const std::vector<Row>& seen,
+                                      const std::string& expected_when,
+                                      const std::string& seen_when) {
+  const std::size_t common = std::min(expected.size(), seen.size());
+  for (std::size_t i = 0; i < common; ++i) {
+    if (expected[i] == seen[i]) continue;
+    return compare(observed_names(subject), expected[i], seen[i], expected_when, seen_when);
+  }
+  if (expected.size() == seen.size()) return std::nullopt;
+  const bool is_shorter = seen.size() < expected.size();
+  const std::string end =
+      common > 0 ? time_text(expected[common - 1].picoseconds) : std::string("0");
+  return fmt::format("nothing follows after {} s {}, but something does {}", end,
+                     is_shorter ? seen_when : expected_when,
+                     is_shorter ? expected_when : seen_when);
+}
+
+std::string to_text(const Recording& recording) {
+  Json rows = Json::array();
+  for (const Row& row : recording.rows) {
+    rows.push_back({row.picoseconds, row.is_event, row.values});
+  }
+  return Json{{"rows", std::move(rows)},
+              {"counts",
+               {recording.rejections, recording.early_returns, recording.events,
+                recording.first_early_return}},
+              {"ended", recording.has_ended}}
+      .dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
+Recording recording_from_text(const std::string& text) {
+  const Json json = Json::parse(text);
+  Recording recording;
+  for (const Json& row : json["rows"]) {
+    recording.rows.push_back(
+        {row[0].get<std::int64_t>(), row[2].get<std::vector<std::string>>(), row[1].get<bool>()});
+  }
+  recording.rejections = json["counts"][0];
+  recording.early_returns = json["counts"][1];
+  recording.events = json["counts"][2];
+  recording.first_early_return = json["counts"][3];
+  recording.has_ended = json["ended"];
+  return recording;
+}
+
+}  // namespace stride::verify

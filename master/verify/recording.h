@@ -1,0 +1,52 @@
+// What was seen of a unit during a run.
+#ifndef STRIDE_MASTER_VERIFY_RECORDING_H
+#define STRIDE_MASTER_VERIFY_RECORDING_H
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "master/verify/subject.h"
+
+namespace stride::verify {
+
+/// The values at one instant, as texts that read back as the same bits.
+struct Row {
+  std::int64_t picoseconds = 0;
+  /// Of a communication point the observed variables, in the order of Subject::observed(); of a
+  /// super-dense instant of Event Mode what ticked, "name=value".
+  std::vector<std::string> values;
+  bool is_event = false;
+
+  bool operator==(const Row&) const = default;
+};
+
+struct Recording {
+  std::vector<Row> rows;
+  /// Beside what was recorded, how the unit went on.
+  std::size_t rejections = 0, early_returns = 0, events = 0;
+  std::int64_t first_early_return = 0;  ///< [ps]
+  bool has_ended = false;               ///< the unit wanted the simulation to end
+
+  bool operator==(const Recording&) const = default;
+  Recording without_events() const;
+};
+
+/// `expected_when`, `seen_when`: "in the first run", "in the second". Nothing if the rows are
+/// equal.
+std::optional<std::string> difference(const Subject& subject, const std::vector<Row>& expected,
+                                      const std::vector<Row>& seen,
+                                      const std::string& expected_when,
+                                      const std::string& seen_when);
+
+/// Names of the columns of a communication point.
+std::vector<std::string> observed_names(const Subject& subject);
+
+/// The two ways between processes.
+std::string to_text(const Recording& recording);
+Recording recording_from_text(const std::string& text);
+
+}  // namespace stride::verify
+
+#endif

@@ -1,0 +1,52 @@
+#include "master/verify/start_values.h"
+
+#include <fmt/format.h>
+
+#include "master/verify/finding.h"
+#include "master/verify/stimulus.h"
+
+namespace stride::verify {
+
+using core::Causality;
+using core::Initial;
+using core::ValueBlock;
+using core::ValueType;
+using core::Variable;
+
+namespace {
+
+std::string text_of(const ValueBlock& block) {
+  std::string text;
+  for (std::size_t e = 0; e < block.size(); ++e) {
+    text += (e == 0 ? "" : " ") + core::element_text(block, e);
+  }
+  return text.empty() ? "empty" : text;
+}
+
+}  // namespace
+
+bool is_readable(const Variable& variable) {
+  return variable.type != ValueType::Clock && !variable.is_clocked();
+}
+
+bool has_exact_start(const Variable& variable) {
+  return is_readable(variable) && variable.initial == Initial::Exact && has_start_value(variable) &&
+         variable.causality != Causality::StructuralParameter;
+}
+
+void expect_value(Life& life, const Variable& variable, const ValueBlock& expected,
+                  const std::string& when, const std::string& reason) {
+  const ValueBlock value = life.get(variable);
+  if (value == expected) return;
+  throw Failure(fmt::format("'{}' is {} {}, though {} {}", variable.name, text_of(value), when,
+                            reason, text_of(expected)));
+}
+
+void expect_start_values(const core::UnitDescription& unit, Life& life, const std::string& when) {
+  for (const Variable& variable : unit.variables) {
+    if (!has_exact_start(variable)) continue;
+    expect_value(life, variable, start_value(variable), when, "its start value is");
+  }
+}
+
+}  // namespace stride::verify

@@ -1,0 +1,131 @@
+#include "master/verify/verify.h"
+
+#include <algorithm>
+#include <chrono>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "master/core/error.h"
+#include "master/core/suggest.h"
+#include "master/verify/checks.h"
+#include "master/verify/child.h"
+
+namespace stride::verify {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using End = ChildOutcome::End;
+
+std::string dump(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string to_text(const Finding& finding) {
+  return dump({static_cast<int>(finding.verdict), finding.seen, finding.notes});
+}
+
+Finding finding_from_text(const std::string& text) {
+  const Json json = Json::parse(text);
+  return {static_cast<Verdict>(json[0].get<int>()), json[1], json[2]};
+}
+
+void check_names(const std::vector<std::string>& wanted) {
+  std::vector<std::string> known;
+  for (const Check& check : checks()) known.emplace_back(check.name);
+  for (const std::string& name : wanted) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    core::fail_input(
+        {}, fmt::format("--check {}: there is no such check", name),
+        fmt::format("{}; there are {}", core::suggestion(name, known), core::quoted(known)));
+  }
+}
+
+bool is_wanted(const Check& check, const std::vector<std::string>& wanted) {
+  return wanted.empty() || std::find(wanted.begin(), wanted.end(), check.name) != wanted.end();
+}
+
+Finding run_isolated(const Check& check, const Subject& subject, const Hooks& hooks) {
+  SharedNote note;
+  const auto work = [&] {
+    const Trial trial{subject, note};
+    try {
+      return to_text(check.run(trial));
+    } catch (const Failure& failure) {
+      return to_text(failed(failure.what()));
+    } catch (const core::Error& error) {
+      return to_text(failed(error.what()));
+    }
+  };
+  const ChildOutcome outcome =
+      run_in_child(work, {.limit = subject.request().limit, .interrupted = hooks.interrupted});
+  if (outcome.end == End::Interrupted) {
+    core::fail_run({}, fmt::format("interrupted during the check '{}'", check.name));
+  }
+  if (outcome.end == End::Answered) return finding_from_text(outcome.text);
+  std::string text = explain(outcome, note);
+  if (outcome.end == End::TimedOut) {
+    text += fmt::format(" (limit: {} s)",
+                        std::chrono::duration<double>(subject.request().limit).count());
+  }
+  return failed(std::move(text));
+}
+
+/// A message of several lines as one.
+void flatten(std::string& text) {
+  constexpr std::string_view kHint = "\n  hint: ";
+  for (std::size_t at = text.find(kHint); at != std::string::npos; at = text.find(kHint)) {
+    text.replace(at, kHint.size(), "; ");
+  }
+  std::replace(text.begin(), text.end(), '\n', ';');
+}
+
+}  // namespace
+
+std::vector<Result> verify(const Subject& subject, const Hooks& hooks) {
+  check_names(subject.request().checks);
+  std::vector<Result> results;
+  bool has_loaded = true;
+  for (const Check& check : checks()) {
+    if (!is_wanted(check, subject.request().checks)) continue;
+    hooks.on_begin(check.name);
+    const auto begin = std::chrono::steady_clock::now();
+    Finding finding = has_loaded ? run_isolated(check, subject, hooks)
+                                 : skipped("the library cannot be used, see 'load'");
+    if (check.run == &check_load) has_loaded = finding.verdict == Verdict::Passed;
+    flatten(finding.seen);
+    for (std::string& note : finding.notes) flatten(note);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    results.push_back({check.name, std::move(finding), seconds.count()});
+  }
+  return results;
+}
+
+bool all_good(const std::vector<Result>& results) {
+  return std::none_of(results.begin(), results.end(), [](const Result& result) {
+    return result.finding.verdict == Verdict::Failed;
+  });
+}
+
+std::string json_text(const Subject& subject, const std::vector<Result>& results) {
+  const core::UnitDescription& unit = subject.description();
+  Json json = {{"file", subject.request().file.string()},
+               {"model", unit.model_name},
+               {"fmi_version", unit.fmi_version},
+               {"step", to_seconds(subject.step())},
+               {"stop", to_seconds(subject.point(subject.steps()))},
+               {"seed", subject.request().seed},
+               {"good", all_good(results)},
+               {"checks", Json::array()}};
+  for (const auto& [check, finding, seconds] : results) {
+    json["checks"].push_back({{"name", check},
+                              {"verdict", name(finding.verdict)},
+                              {"seen", finding.seen},
+                              {"notes", finding.notes},
+                              {"wall_time", seconds}});
+  }
+  return dump(json) + '\n';
+}
+
+}  // namespace stride::verify

@@ -1,0 +1,116 @@
+// A unit that does not keep what it declares. The macro LIE says what is wrong with it; a copy of
+// the source is built for each. But for the lie it is a low-pass of first order that counts.
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <cstdlib>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+
+#include <stride/unit.h>
+
+namespace {
+
+enum Lie {
+  None,
+  ForgetsOnRestore,   ///< a variable of its state is not saved
+  DependsOnSplit,     ///< an explicit Euler step, though it declares split_invariant
+  Leaks,              ///< memory, with each instance
+  LeaksFiles,         ///< likewise
+  GrowsInSteps,       ///< memory, with each step
+  SharesState,        ///< with all instances of its process
+  CrashesInReset,     ///< when it is made again in its process
+  HangsInStep,        ///< from 0.02 s on
+  HiddenDependency,   ///< an output follows an input that it is declared not to depend on
+  KeepsInputInReset,  ///< has the input of its last step instead of the start value
+  ForgetsInReset,     ///< its count goes on where it was
+  IgnoresStart,       ///< an output's start value is not what the unit has
+  LeavesRange,        ///< an output goes above its max
+  NotDeterministic,   ///< it takes an address for a number
+  BreaksRejection,    ///< it rejects a step after it has made half of it
+  AnnouncesPast,      ///< its next event is over
+  IteratesForEver,    ///< its events do not end
+  ExitsInStep,        ///< it ends the process
+};
+constexpr Lie kLie = LIE;
+
+/// What all instances of a process share, and must not.
+int shared_count = 0;
+double shared_input = 0;
+bool was_initialized = false;
+void* volatile lost = nullptr;
+
+class Lying : public stride::Unit {
+ public:
+  Lying() {
+    auto& info = describe("Does not keep what it declares");
+    info.may_reject = kLie == BreaksRejection;
+    info.split_invariant = kLie == DependsOnSplit;
+    input("u", u_);
+    output("y", y_).exact().depends_on({}).range(-10, kLie == LeavesRange ? 0.01 : 10);
+    output("steps", steps_).exact().depends_on({});
+    output("echo", echo_).exact().depends_on({});
+    if (kLie == ForgetsOnRestore) {
+      state(hidden_);
+    } else {
+      state(hidden_, count_);
+    }
+    if (kLie == CrashesInReset && was_initialized) std::raise(SIGSEGV);
+    if (kLie == ForgetsInReset && was_initialized) count_ = shared_count;
+    if (kLie == KeepsInputInReset) u_ = shared_input;
+    if (kLie == Leaks) lost = std::malloc(100);
+    if (kLie == LeaksFiles) ::open("/dev/null", O_RDONLY);
+  }
+
+  void initialize(stride::Time) override {
+    if (kLie == IgnoresStart) y_ = 0.25;
+    was_initialized = true;
+  }
+
+  void step(stride::Step& step) override {
+    if (kLie == HangsInStep && step.to() > stride::Time(std::chrono::milliseconds(20))) {
+      for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
+    }
+    if (kLie == ExitsInStep) std::exit(3);
+    const double h = stride::to_seconds(step.size());
+    if (kLie == BreaksRejection && h > 0.003) {
+      y_ += h / 2 * (u_ - y_);
+      return step.reject("too long");
+    }
+    if (kLie == GrowsInSteps) grown_.push_back(std::vector<char>(100));
+    y_ += h / 0.05 * (u_ - y_);
+    ++count_;
+    ++shared_count;
+    shared_input = u_;
+    if (kLie != DependsOnSplit) steps_ = kLie == SharesState ? shared_count : count_;
+    if (kLie == NotDeterministic) {
+      echo_ = static_cast<double>(reinterpret_cast<std::uintptr_t>(this));
+    }
+  }
+
+  void update_outputs() override {
+    if (kLie == HiddenDependency) echo_ = 2 * u_;
+  }
+
+  void event(stride::Event& event) override {
+    if (kLie == AnnouncesPast && event.time() > stride::Time(std::chrono::milliseconds(30))) {
+      event.next_event(event.time() - std::chrono::milliseconds(20));
+    }
+    if (kLie == IteratesForEver) event.iterate();
+  }
+
+ private:
+  double u_ = 0;
+  double y_ = 0;
+  std::int32_t steps_ = 0;
+  double echo_ = 0;
+  std::int32_t count_ = 0;
+  double hidden_ = 0;
+  std::vector<std::vector<char>> grown_;
+};
+
+}  // namespace
+
+STRIDE_UNIT(Lying)
