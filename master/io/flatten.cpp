@@ -1,300 +1,59 @@
 #include "master/io/flatten.h"
 
 #include <algorithm>
-#include <map>
-#include <optional>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "master/core/suggest.h"
+#include "master/io/port_graph.h"
 
 namespace stride::io {
 namespace {
 
 using core::ViaDeclaration;
 
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-
-/// Where connections meet: a component's connector, a system's, or a signal of a dictionary.
-struct Port {
-  std::string path;  ///< for people: "arm.motor.torque"
-  Flow flow = Flow::Unsaid;
-  std::size_t component = kNone;  ///< of a component's connector
-  std::string connector;
-  core::Waypoint waypoint;              ///< of another
-  std::vector<std::size_t> outgoing{};  ///< wires, once their directions are known
-  std::vector<std::size_t> incoming{};
-
-  bool is_component() const { return component != kNone; }
-};
-
-/// A connection that knows its direction.
-struct Wire {
-  std::size_t from, to;  ///< ports
-  core::Passage passage;
-  core::Location where;
-};
-
-/// The part that a port plays within a system.
-enum class Role { Source, Sink, Either };
-
-std::string joined(const std::string& prefix, const std::string& name) {
-  return prefix.empty() ? name : prefix + "." + name;
-}
-
 class Flattener {
  public:
-  explicit Flattener(std::vector<std::string>& warnings) : warnings_(warnings) {}
+  Flattener(const SystemNode& root, std::vector<std::string>& warnings)
+      : root_(root),
+        graph_(root),
+        ports_(graph_.ports()),
+        wires_(graph_.wires()),
+        warnings_(warnings) {}
 
-  FlatSystem run(const SystemNode& root) {
-    flat_.declaration.name = root.name;
-    add_system(root, "");
-    if (flat_.declaration.components.empty()) {
-      core::fail_input({root.where, {}, {}, {}},
+  FlatSystem run() {
+    flat_.declaration.name = root_.name;
+    if (graph_.components().empty()) {
+      core::fail_input({root_.where, {}, {}, {}},
                        "the system has no component, so there is nothing to simulate");
     }
-    for (std::size_t i = 0; i < wires_.size(); ++i) check_wire(i);
+    for (const PortGraph::Component& component : graph_.components()) add_component(component);
     for (std::size_t i = 0; i < ports_.size(); ++i) {
       if (!ports_[i].is_component()) continue;
-      std::vector<std::size_t> way;
-      follow(i, way, [&](const std::vector<std::size_t>& found) { add_connection(found); });
+      graph_.follow(i, [&](const PortGraph::Way& found) { add_connection(found); });
     }
-    add_parameters(root);
-    add_outputs(root);
+    add_parameters(root_);
+    add_outputs();
     return std::move(flat_);
   }
 
  private:
-  // ---- Ports ----
-
-  struct System {
-    std::string prefix;
-    const SystemNode* around = nullptr;
-    std::map<std::string, std::size_t> ports;  ///< of its connectors
-  };
-  using PortKey = std::pair<const void*, std::string>;
-
-  void add_system(const SystemNode& node, const std::string& prefix,
-                  const SystemNode* around = nullptr) {
-    System& system = systems_[&node];
-    system.prefix = prefix;
-    system.around = around;
-    for (const Connector& connector : node.connectors) {
-      const core::ConnectorDeclaration& declared = connector.declared;
-      Port port{joined(prefix, declared.name), connector.flow, kNone, declared.name, {}};
-      port.waypoint = {port.path, declared.type, declared.unit, declared.items,
-                       connector.flow == Flow::In};
-      system.ports.emplace(declared.name, ports_.size());
-      ports_.push_back(std::move(port));
+  void add_component(const PortGraph::Component& component) {
+    core::ComponentDeclaration& declared = flat_.declaration.components.emplace_back();
+    declared.name = component.path;
+    declared.where = component.node->where;
+    for (const Connector& connector : component.node->connectors) {
+      declared.connectors.push_back(connector.declared);
     }
-    for (const ElementNode& element : node.elements) {
-      const std::string path = joined(prefix, element.name);
-      if (element.system) {
-        add_system(*element.system, path, &node);
-        check_connectors(element, path);
-      } else if (!element.dictionary.empty()) {
-        dictionaries_[&element] = &find_dictionary(node, element);
-      } else {
-        add_component(element, path);
-      }
-    }
-    for (const SystemConnection& connection : node.connections) add_wire(node, connection);
-  }
-
-  void add_component(const ElementNode& element, const std::string& path) {
-    auto& components = flat_.declaration.components;
-    const auto [twin, is_new] = names_.emplace(path, element.where);
-    if (!is_new) {
-      core::fail_input({element.where, {}, {}, {}},
-                       fmt::format("two components are named '{}'; the first is in line {}", path,
-                                   twin->second.line),
-                       "components in systems are named by their paths, and a name may hold dots, "
-                       "too; give one of them another name");
-    }
-    components_[&element] = components.size();
-    core::ComponentDeclaration& component = components.emplace_back();
-    component.name = path;
-    component.where = element.where;
-    for (const Connector& connector : element.connectors) {
-      component.connectors.push_back(connector.declared);
-    }
-    flat_.sources.push_back(element.source);
-  }
-
-  /// What a component declares that is a system must be there.
-  void check_connectors(const ElementNode& element, const std::string& path) const {
-    const System& inside = systems_.at(element.system.get());
-    for (const Connector& connector : element.connectors) {
-      if (inside.ports.contains(connector.declared.name)) continue;
-      fail_unknown(inside, path, connector.declared.name, connector.declared.where);
-    }
-  }
-
-  [[noreturn]] static void fail_unknown(const System& system, const std::string& path,
-                                        const std::string& connector, const core::Location& where) {
-    std::vector<std::string> names;
-    for (const auto& [name, port] : system.ports) names.push_back(name);
-    core::fail_input(
-        {where, {}, {}, {}},
-        path.empty() ? fmt::format("the system itself has no connector '{}'", connector)
-                     : fmt::format("the system '{}' has no connector '{}'", path, connector),
-        names.empty() ? "declare it in its <ssd:Connectors>" : core::suggestion(connector, names));
-  }
-
-  /// The names of dictionaries are looked up from the inside to the outside.
-  const SignalDictionary& find_dictionary(const SystemNode& system,
-                                          const ElementNode& reference) const {
-    std::vector<std::string> names;
-    for (const SystemNode* at = &system; at != nullptr; at = systems_.at(at).around) {
-      const auto found = at->dictionaries.find(reference.dictionary);
-      if (found != at->dictionaries.end()) return found->second;
-      for (const auto& [name, dictionary] : at->dictionaries) names.push_back(name);
-    }
-    core::fail_input({reference.where, {}, {}, {}},
-                     fmt::format("there is no signal dictionary '{}' in this system or around it",
-                                 reference.dictionary),
-                     core::suggestion(reference.dictionary, names));
-  }
-
-  /// The port of a connector, and its part within the system.
-  std::pair<std::size_t, Role> find_port(const SystemNode& node, const ConnectionEnd& end,
-                                         const core::Location& where) {
-    const System& system = systems_.at(&node);
-    if (end.element.empty()) {
-      const auto found = system.ports.find(end.connector);
-      if (found == system.ports.end()) fail_unknown(system, system.prefix, end.connector, where);
-      const Flow flow = ports_[found->second].flow;
-      return {found->second, flow == Flow::In    ? Role::Source
-                             : flow == Flow::Out ? Role::Sink
-                                                 : Role::Either};
-    }
-    const auto element =
-        std::find_if(node.elements.begin(), node.elements.end(),
-                     [&](const ElementNode& other) { return other.name == end.element; });
-    if (element == node.elements.end()) fail_no_element(node, end.element, where);
-    const std::size_t port = find_port(*element, system, end.connector, where);
-    const Flow flow = ports_[port].flow;
-    return {port, flow == Flow::In ? Role::Sink : flow == Flow::Out ? Role::Source : Role::Either};
-  }
-
-  [[noreturn]] static void fail_no_element(const SystemNode& node, const std::string& name,
-                                           const core::Location& where) {
-    std::vector<std::string> names;
-    for (const ElementNode& element : node.elements) names.push_back(element.name);
-    core::fail_input({where, {}, {}, {}}, fmt::format("there is no component '{}'", name),
-                     core::suggestion(name, names));
-  }
-
-  std::size_t find_port(const ElementNode& element, const System& system,
-                        const std::string& connector, const core::Location& where) {
-    const std::string path = joined(system.prefix, element.name);
-    if (element.system) {
-      const System& inside = systems_.at(element.system.get());
-      const auto found = inside.ports.find(connector);
-      if (found == inside.ports.end()) fail_unknown(inside, path, connector, where);
-      return found->second;
-    }
-    if (!element.dictionary.empty()) return find_signal(element, path, connector, where);
-    const auto [entry, is_new] = shared_.try_emplace({&element, connector}, ports_.size());
-    if (!is_new) return entry->second;
-    Port port{joined(path, connector), Flow::Unsaid, components_.at(&element), connector, {}};
-    for (const Connector& declared : element.connectors) {
-      if (declared.declared.name == connector) port.flow = declared.flow;
-    }
-    ports_.push_back(std::move(port));
-    return entry->second;
-  }
-
-  /// All references to a dictionary share its signals.
-  std::size_t find_signal(const ElementNode& reference, const std::string& path,
-                          const std::string& name, const core::Location& where) {
-    const SignalDictionary& dictionary = *dictionaries_.at(&reference);
-    const auto entry = dictionary.entries.find(name);
-    if (entry == dictionary.entries.end()) {
-      std::vector<std::string> names;
-      for (const auto& [known, declared] : dictionary.entries) names.push_back(known);
-      core::fail_input({where, {}, {}, {}},
-                       fmt::format("the signal dictionary '{}', which '{}' refers to, has no "
-                                   "entry '{}'",
-                                   reference.dictionary, path, name),
-                       core::suggestion(name, names));
-    }
-    const auto [shared, is_new] = shared_.try_emplace({&dictionary, name}, ports_.size());
-    if (!is_new) return shared->second;
-    const core::ConnectorDeclaration& declared = entry->second;
-    Port port{joined(path, name), Flow::Unsaid, kNone, name, {}};
-    port.waypoint = {port.path, declared.type, declared.unit, declared.items, false};
-    ports_.push_back(std::move(port));
-    return shared->second;
-  }
-
-  // ---- Connections ----
-
-  /// In SSP, start and end do not say which way a value goes: the kinds of the connectors do. Where
-  /// they are left out, the start is the source.
-  void add_wire(const SystemNode& node, const SystemConnection& connection) {
-    auto [start, start_role] = find_port(node, connection.start, connection.where);
-    auto [end, end_role] = find_port(node, connection.end, connection.where);
-    const bool is_reversed = (start_role == Role::Sink && end_role != Role::Sink) ||
-                             (start_role == Role::Either && end_role == Role::Source);
-    if (start_role == end_role && start_role != Role::Either &&
-        !(ports_[start].is_component() && ports_[end].is_component())) {
-      core::fail_input(
-          {connection.where, {}, {}, {}},
-          fmt::format("cannot connect '{}' to '{}': a value {} both", ports_[start].path,
-                      ports_[end].path, start_role == Role::Source ? "comes from" : "goes to"),
-          "an input of a system leads to the inputs of its components, and their "
-          "outputs to its outputs");
-    }
-    if (is_reversed) std::swap(start, end);
-    ports_[start].outgoing.push_back(wires_.size());
-    ports_[end].incoming.push_back(wires_.size());
-    wires_.push_back({start, end, connection.passage, connection.where});
-  }
-
-  void check_wire(std::size_t wire) const {
-    const Port& port = ports_[wires_[wire].to];
-    if (port.is_component() || port.incoming.front() == wire) return;
-    const Wire& first = wires_[port.incoming.front()];
-    core::fail_input(
-        {wires_[wire].where, {}, {}, {}},
-        fmt::format("'{}' has two sources: '{}' here and '{}' in line {}", port.path,
-                    ports_[wires_[wire].from].path, ports_[first.from].path, first.where.line),
-        "remove one of the two connections");
-  }
-
-  /// Calls `found` with the wires to each component's connector behind the port.
-  template <class Found>
-  void follow(std::size_t port, std::vector<std::size_t>& way, Found&& found) const {
-    for (const std::size_t next : ports_[port].outgoing) {
-      const bool is_round = std::any_of(
-          way.begin(), way.end(), [&](std::size_t w) { return wires_[w].from == wires_[next].to; });
-      if (is_round) fail_round(wires_[next]);
-      way.push_back(next);
-      if (ports_[wires_[next].to].is_component()) {
-        found(way);
-      } else {
-        follow(wires_[next].to, way, found);
-      }
-      way.pop_back();
-    }
-  }
-
-  [[noreturn]] void fail_round(const Wire& wire) const {
-    core::fail_input({wire.where, {}, {}, {}},
-                     fmt::format("this connection leads from '{}' back to '{}' through connectors "
-                                 "of systems alone, so no component says what the value is",
-                                 ports_[wire.from].path, ports_[wire.to].path),
-                     "remove one of the connections in the circle");
+    flat_.sources.push_back(component.node->source);
   }
 
   ViaDeclaration via(std::size_t wire) const {
     return {ports_[wires_[wire].to].waypoint, wires_[wire].passage};
   }
 
-  void add_connection(const std::vector<std::size_t>& way) {
+  void add_connection(const PortGraph::Way& way) {
     const Wire& last = wires_[way.back()];
     const Port& from = ports_[wires_[way.front()].from];
     const Port& to = ports_[last.to];
@@ -311,22 +70,18 @@ class Flattener {
   }
 
   /// What comes out of the root system.
-  void add_outputs(const SystemNode& root) {
-    for (const auto& connector : root.connectors) {
+  void add_outputs() {
+    for (const Connector& connector : root_.connectors) {
       if (connector.flow != Flow::Out) continue;
+      const PortGraph::Way way =
+          graph_.way_to(graph_.connectors(root_).at(connector.declared.name));
+      if (way.empty() || !ports_[wires_[way.front()].from].is_component()) continue;
+      const Port& from = ports_[wires_[way.front()].from];
       core::OutputDeclaration output;
+      output.component = flat_.declaration.components[from.component].name;
+      output.variable = from.connector;
       output.where = connector.declared.where;
-      std::size_t port = systems_.at(&root).ports.at(connector.declared.name);
-      std::set<std::size_t> seen;
-      while (!ports_[port].is_component() && !ports_[port].incoming.empty()) {
-        const std::size_t wire = ports_[port].incoming.front();
-        if (!seen.insert(wire).second) fail_round(wires_[wire]);
-        output.via.insert(output.via.begin(), via(wire));
-        port = wires_[wire].from;
-      }
-      if (!ports_[port].is_component()) continue;  // nothing is connected to it
-      output.component = flat_.declaration.components[ports_[port].component].name;
-      output.variable = ports_[port].connector;
+      for (const std::size_t wire : way) output.via.push_back(via(wire));
       flat_.declaration.outputs.push_back(std::move(output));
     }
   }
@@ -341,7 +96,7 @@ class Flattener {
         continue;
       }
       for (const ParameterValue& value : element.parameters) {
-        add_start(value, components_.at(&element), value.name);
+        add_start(value, graph_.component(element), value.name);
       }
     }
     for (const ParameterValue& value : node.parameters) {
@@ -355,7 +110,7 @@ class Flattener {
   /// dots. Returns whether there is any.
   bool apply(const ParameterValue& value, const SystemNode& node, const std::string& name) {
     bool is_found = false;
-    const auto& ports = systems_.at(&node).ports;
+    const auto& ports = graph_.connectors(node);
     if (const auto port = ports.find(name); port != ports.end()) {
       apply(value, port->second);
       is_found = true;
@@ -366,7 +121,7 @@ class Flattener {
       if (element.system) {
         is_found |= apply(value, *element.system, rest);
       } else if (element.dictionary.empty()) {
-        add_start(value, components_.at(&element), rest);
+        add_start(value, graph_.component(element), rest);
         is_found = true;
       }
     }
@@ -404,8 +159,7 @@ class Flattener {
   void apply(const ParameterValue& value, std::size_t port) {
     if (ports_[port].flow == Flow::Out) return apply_backward(value, port);
     const std::size_t before = flat_.declaration.start_values.size();
-    std::vector<std::size_t> way;
-    follow(port, way, [&](const std::vector<std::size_t>& found) {
+    graph_.follow(port, [&](const PortGraph::Way& found) {
       const Wire& last = wires_[found.back()];
       const Port& to = ports_[last.to];
       core::StartDeclaration start = this->start(value, to.component, to.connector);
@@ -420,20 +174,18 @@ class Flattener {
 
   void apply_backward(const ParameterValue& value, std::size_t port) {
     std::vector<ViaDeclaration> via{{ports_[port].waypoint, value.passage}};
-    std::set<std::size_t> seen;
-    while (!ports_[port].is_component() && !ports_[port].incoming.empty()) {
-      const Wire& wire = wires_[ports_[port].incoming.front()];
-      if (wire.passage.transformation.kind != core::Transformation::Kind::None) {
+    const PortGraph::Way way = graph_.way_to(port);
+    for (auto wire = way.rbegin(); wire != way.rend(); ++wire) {
+      const auto& [from, to, passage, where] = wires_[*wire];
+      if (passage.transformation.kind != core::Transformation::Kind::None) {
         core::fail_input({value.where, {}, {}, {}},
                          fmt::format("'{}' is an output behind a transformation (line {}), so it "
                                      "cannot be given a start value",
-                                     value.name, wire.passage.transformation.where.line),
+                                     value.name, passage.transformation.where.line),
                          "give the value to the component's variable");
       }
-      if (!seen.insert(port).second) fail_round(wire);
-      port = wire.from;
-      via.push_back(
-          {ports_[port].waypoint, core::Passage{wire.passage.suppress_unit_conversion, {}}});
+      port = from;
+      via.push_back({ports_[port].waypoint, core::Passage{passage.suppress_unit_conversion, {}}});
     }
     if (!ports_[port].is_component()) return warn_of_open(value, port);
     core::StartDeclaration start =
@@ -473,7 +225,7 @@ class Flattener {
   void tell_of_nobody(const ParameterValue& value, const SystemNode& node) {
     const auto [at, rest] = descend(node, value.name);
     std::vector<std::string> names;
-    for (const auto& [name, port] : systems_.at(at).ports) names.push_back(name);
+    for (const auto& [name, port] : graph_.connectors(*at)) names.push_back(name);
     for (const ElementNode& element : at->elements) names.push_back(element.name);
     const std::string head = rest.substr(0, rest.find('.'));
     const std::string hint = core::suggestion(head, names);
@@ -487,22 +239,19 @@ class Flattener {
                             value.name, hint.empty() ? "" : "\n  hint: " + hint));
   }
 
+  const SystemNode& root_;
+  PortGraph graph_;
+  const std::vector<Port>& ports_;
+  const std::vector<Wire>& wires_;
   std::vector<std::string>& warnings_;
   FlatSystem flat_;
-  std::map<std::string, core::Location> names_;  ///< of the components
   std::size_t groups_ = 0;
-  std::vector<Port> ports_;
-  std::vector<Wire> wires_;
-  std::map<const SystemNode*, System> systems_;
-  std::map<const ElementNode*, std::size_t> components_;
-  std::map<const ElementNode*, const SignalDictionary*> dictionaries_;
-  std::map<PortKey, std::size_t> shared_;  ///< of components and dictionaries
 };
 
 }  // namespace
 
 FlatSystem flatten(const SystemNode& root, std::vector<std::string>& warnings) {
-  return Flattener(warnings).run(root);
+  return Flattener(root, warnings).run();
 }
 
 }  // namespace stride::io
