@@ -22,7 +22,7 @@ constexpr double kMostHeap = 16;
 /// Pages come and go, and a library may have an allocator of its own.
 constexpr double kMostResident = 1024;
 /// Below this all together, it may be what malloc() itself keeps at hand of each size [byte].
-constexpr double kNoise = 8192;
+constexpr double kNoise = 16384;
 constexpr std::size_t kWarmUp = 20;
 constexpr std::size_t kFewest = 40;
 constexpr std::size_t kMostSteps = 20'000;
