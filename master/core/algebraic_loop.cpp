@@ -15,8 +15,6 @@ namespace {
 constexpr int kMostRounds = 100;
 constexpr std::size_t kMostValues = 8;  // in a message
 
-bool is_real(ValueType type) { return type == ValueType::Float64 || type == ValueType::Float32; }
-
 /// Returns whether it was another one.
 bool change_real(const Exchange::Place& place, std::size_t element, double value) {
   const double before = real(*place.block, place.first + element);

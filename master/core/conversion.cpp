@@ -13,8 +13,6 @@
 namespace stride::core {
 namespace {
 
-bool is_float(ValueType type) { return type == ValueType::Float32 || type == ValueType::Float64; }
-
 /// The whole numbers of a type; Boolean and Enumeration as integers.
 struct Range {
   std::int64_t least;
@@ -65,7 +63,7 @@ std::optional<Range> range_of(ValueType type) {
   return std::nullopt;
 }
 
-bool is_integer(ValueType type) { return range_of(type) && !is_float(type); }
+bool is_integer(ValueType type) { return range_of(type) && !is_real(type); }
 
 /// b after a
 LinearConversion then(const LinearConversion& a, const LinearConversion& b) {
@@ -107,7 +105,7 @@ class Composer {
       is_plain &= !passages_[i].suppress_unit_conversion &&
                   transformation.kind != Transformation::Kind::Linear;
     }
-    if (!is_float(type(passages_.size()))) return {};
+    if (!is_real(type(passages_.size()))) return {};
     // by way of another unit, it would be rounded more than once
     const auto direct = convert(waypoints_.front().unit, waypoints_.back().unit);
     return is_plain && direct ? *direct : linear;
@@ -164,7 +162,7 @@ class Composer {
         is_integer(*from.type) && is_integer(*to.type) &&
         passages_[passage].transformation.kind != Transformation::Kind::None;
     if (is_checked_later || converts_without_loss(*from.type, *to.type, from.items)) return;
-    if (is_float(*from.type) && is_float(*to.type)) return;
+    if (is_real(*from.type) && is_real(*to.type)) return;
     fail(fmt::format(
              "cannot connect {}: {} and {} are different types, and {}", wire(passage),
              core::name(*from.type), core::name(*to.type),
@@ -194,7 +192,7 @@ class Composer {
       case Transformation::Kind::None:
         return;
       case Transformation::Kind::Linear:
-        if (!both(is_float)) complain("Float64 and Float32");
+        if (!both(is_real)) complain("Float64 and Float32");
         return;
       case Transformation::Kind::BooleanMapping:
         if (!both([](ValueType t) { return t == ValueType::Boolean; })) complain("Boolean");
@@ -210,7 +208,7 @@ class Composer {
   }
 
   static const char* transformation_for(ValueType type) {
-    if (is_float(type)) return "a <ssc:LinearTransformation factor=\"…\" offset=\"…\"/>";
+    if (is_real(type)) return "a <ssc:LinearTransformation factor=\"…\" offset=\"…\"/>";
     if (type == ValueType::Boolean) return "a <ssc:BooleanMappingTransformation>";
     if (type == ValueType::Enumeration) return "an <ssc:EnumerationMappingTransformation>";
     if (is_integer(type)) return "an <ssc:IntegerMappingTransformation>";
@@ -387,7 +385,7 @@ bool converts_without_loss(ValueType from, ValueType to, const EnumerationItems&
   const auto target = range_of(to);
   const auto source = range_of(from);
   if (!source || !target) return false;
-  if (is_float(from)) return from == ValueType::Float32 && to == ValueType::Float64;
+  if (is_real(from)) return from == ValueType::Float32 && to == ValueType::Float64;
   if (from == ValueType::Enumeration && !items.empty()) {
     return std::all_of(items.begin(), items.end(),
                        [&](const auto& item) { return target->holds(item.second); });
@@ -398,7 +396,7 @@ bool converts_without_loss(ValueType from, ValueType to, const EnumerationItems&
 std::vector<Waypoint> completed(std::vector<Waypoint> waypoints) {
   const auto inherit = [](Waypoint& to, const Waypoint& from) {
     if (!to.type) to.type = from.type;
-    if (to.unit.name.empty() && to.type && is_float(*to.type)) to.unit = from.unit;
+    if (to.unit.name.empty() && to.type && is_real(*to.type)) to.unit = from.unit;
     if (to.items.empty() && to.type == ValueType::Enumeration) to.items = from.items;
   };
   for (std::size_t i = waypoints.size() - 1; i-- > 0;) {

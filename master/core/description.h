@@ -37,6 +37,11 @@ enum class ValueType : std::uint8_t {
 };
 inline constexpr std::size_t kValueTypeCount = 15;
 
+/// Whether it is a floating-point type.
+inline bool is_real(ValueType type) {
+  return type == ValueType::Float64 || type == ValueType::Float32;
+}
+
 enum class Causality : std::uint8_t {
   Parameter,
   CalculatedParameter,

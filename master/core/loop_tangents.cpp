@@ -4,16 +4,8 @@
 #include <set>
 
 namespace stride::core {
-namespace {
-
-bool is_real(const Variable& variable) {
-  return variable.type == ValueType::Float64 || variable.type == ValueType::Float32;
-}
-
-}  // namespace
-
 bool LoopTangents::exist(const System& system, const EvaluationBlock& loop) {
-  const auto is_real_one = [&](VariableId id) { return is_real(system.variable(id)); };
+  const auto is_real_one = [&](VariableId id) { return is_real(system.variable(id).type); };
   return std::ranges::all_of(loop.inputs, is_real_one) &&
          std::ranges::all_of(loop.steps, [&](const EvaluationStep& step) {
            return system.components()[step.component]
@@ -25,14 +17,14 @@ bool LoopTangents::exist(const System& system, const EvaluationBlock& loop) {
 LoopTangents::LoopTangents(const System& system, std::span<const std::unique_ptr<Unit>> units,
                            const EvaluationBlock& loop)
     : system_(system), units_(units), loop_(loop) {
-  place_inputs(loop);
+  place_inputs();
   for (const EvaluationStep& step : loop.steps) add_stage(step);
-  add_wires(loop);
+  add_wires();
 }
 
 /// They are sorted, so those of a component stand in a row.
-void LoopTangents::place_inputs(const EvaluationBlock& loop) {
-  for (const VariableId id : loop.inputs) {
+void LoopTangents::place_inputs() {
+  for (const VariableId id : loop_.inputs) {
     input_places_[id] = inputs_.size();
     inputs_.resize(inputs_.size() + system_.variable(id).size);
   }
@@ -56,13 +48,13 @@ void LoopTangents::add_stage(const EvaluationStep& step) {
 }
 
 /// Those at which the loop is cut are not carried on within a sweep.
-void LoopTangents::add_wires(const EvaluationBlock& loop) {
+void LoopTangents::add_wires() {
   std::set<VariableId> cut;
-  for (const Tear& tear : loop.tears) cut.insert(tear.inputs.begin(), tear.inputs.end());
-  for (std::size_t i = 0; i < loop.steps.size(); ++i) {
+  for (const Tear& tear : loop_.tears) cut.insert(tear.inputs.begin(), tear.inputs.end());
+  for (std::size_t i = 0; i < loop_.steps.size(); ++i) {
     for (const Connection& connection : system_.connections()) {
       const auto to = input_places_.find(connection.to);
-      const bool begins_here = std::ranges::binary_search(loop.steps[i].outputs, connection.from);
+      const bool begins_here = std::ranges::binary_search(loop_.steps[i].outputs, connection.from);
       if (!begins_here || to == input_places_.end() || cut.contains(connection.to)) continue;
       wires_.push_back({i, output_places_.at(connection.from), to->second,
                         system_.variable(connection.to).size, connection.conversion.linear.factor});

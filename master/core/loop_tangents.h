@@ -44,9 +44,9 @@ class LoopTangents {
     double factor;
   };
 
-  void place_inputs(const EvaluationBlock& loop);
+  void place_inputs();
   void add_stage(const EvaluationStep& step);
-  void add_wires(const EvaluationBlock& loop);
+  void add_wires();
 
   const System& system_;
   std::span<const std::unique_ptr<Unit>> units_;

@@ -160,7 +160,9 @@ class Unit {
   virtual void get_directional_derivative(std::span<const ValueReference> /*unknowns*/,
                                           std::span<const ValueReference> /*knowns*/,
                                           std::span<const double> /*seed*/,
-                                          std::span<double> /*sensitivity*/) {}
+                                          std::span<double> /*sensitivity*/) {
+    throw std::logic_error("this kind of unit has no directional derivatives");
+  }
 
   /// Whom to ask for inputs within a step; an empty function ends it. A unit that has no use for it
   /// steps with the inputs that it was given before.
