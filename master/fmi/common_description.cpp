@@ -34,6 +34,17 @@ core::BaseUnit read_base_unit(const xml::Element& element) {
   return base;
 }
 
+std::string read_model_identifier(const xml::Element& co_simulation) {
+  const std::string identifier = co_simulation.required("modelIdentifier");
+  const bool is_plain =
+      !identifier.empty() && identifier.front() != '.' && identifier.find('/') == std::string::npos;
+  if (!is_plain) {
+    co_simulation.fail(fmt::format(
+        "modelIdentifier=\"{}\": expected the plain name of the unit's library", identifier));
+  }
+  return identifier;
+}
+
 }  // namespace
 
 xml::Element find_co_simulation(const xml::Element& root) {
@@ -48,15 +59,13 @@ xml::Element find_co_simulation(const xml::Element& root) {
       "export the unit for Co-Simulation, with a solver of its own");
 }
 
-std::string read_model_identifier(const xml::Element& co_simulation) {
-  const std::string identifier = co_simulation.required("modelIdentifier");
-  const bool is_plain =
-      !identifier.empty() && identifier.front() != '.' && identifier.find('/') == std::string::npos;
-  if (!is_plain) {
-    co_simulation.fail(fmt::format(
-        "modelIdentifier=\"{}\": expected the plain name of the unit's library", identifier));
-  }
-  return identifier;
+void read_capabilities(const xml::Element& co_simulation, core::UnitDescription& unit) {
+  unit.model_identifier = read_model_identifier(co_simulation);
+  unit.can_vary_step = co_simulation.flag("canHandleVariableCommunicationStepSize");
+  unit.single_instance = co_simulation.flag("canBeInstantiatedOnlyOncePerProcess");
+  unit.needs_execution_tool = co_simulation.flag("needsExecutionTool");
+  unit.max_output_derivative_order =
+      co_simulation.number<unsigned>("maxOutputDerivativeOrder").value_or(0);
 }
 
 std::optional<Duration> read_step_size(const xml::Element& element, const char* attribute) {

@@ -16,8 +16,9 @@ namespace stride::fmi {
 
 /// <CoSimulation>, which the unit must have.
 xml::Element find_co_simulation(const xml::Element& root);
-/// The name of its library: a plain one, which cannot lead to another folder.
-std::string read_model_identifier(const xml::Element& co_simulation);
+/// Its attributes that have one name in both. The name of the library is a plain one, which cannot
+/// lead to another folder.
+void read_capabilities(const xml::Element& co_simulation, core::UnitDescription& unit);
 /// Nothing if there is no such attribute; it must be positive.
 std::optional<Duration> read_step_size(const xml::Element& element, const char* attribute);
 /// <UnitDefinitions> and <DefaultExperiment>.

@@ -19,16 +19,11 @@ using core::ValueType;
 using core::Variability;
 
 void read_co_simulation(const xml::Element& element, ModelDescription& unit) {
-  unit.model_identifier = read_model_identifier(element);
+  read_capabilities(element, unit);
   unit.can_save_state = element.flag("canGetAndSetFMUstate");
   unit.can_serialize_state = element.flag("canSerializeFMUstate");
-  unit.can_vary_step = element.flag("canHandleVariableCommunicationStepSize");
-  unit.single_instance = element.flag("canBeInstantiatedOnlyOncePerProcess");
-  unit.needs_execution_tool = element.flag("needsExecutionTool");
   unit.provides_intermediate_update = element.flag("canInterpolateInputs");
   unit.provides_directional_derivatives = element.flag("providesDirectionalDerivative");
-  unit.max_output_derivative_order =
-      element.number<unsigned>("maxOutputDerivativeOrder").value_or(0);
   unit.fmi2->can_run_asynchronously =
       element.flag("canRunAsynchronuously");  // as it is spelt there
 }
@@ -72,9 +67,7 @@ class Variables {
     const auto definitions = root.child("TypeDefinitions");
     if (!definitions) return;
     for (const xml::Element& definition : definitions->children("SimpleType")) {
-      const std::string name = definition.required("name");
-      if (types_.emplace(name, type_element(definition)).second) continue;
-      definition.fail(fmt::format("the type '{}' is defined twice", name));
+      types_.add(definition, type_element(definition));
     }
   }
 
@@ -82,7 +75,7 @@ class Variables {
     const auto reference = element.required_number<fmi2ValueReference>("valueReference");
     core::Variable variable = read(element);
     variable.reference = static_cast<core::ValueReference>(unit_.variables.size());
-    check_name(element, variable.name);
+    names_.add(variable.name, element);
     if (variable.causality == Causality::Input) check_input(element, variable, reference);
     unit_.fmi2->references.push_back(reference);
     unit_.variables.push_back(std::move(variable));
@@ -123,24 +116,10 @@ class Variables {
   }
 
   std::optional<xml::Element> declared_type(const xml::Element& typed) const {
-    const auto name = typed.attribute("declaredType");
-    if (!name) return std::nullopt;
-    const auto found = types_.find(*name);
-    if (found == types_.end()) {
-      typed.fail(
-          fmt::format("declaredType=\"{}\": there is no such type in <TypeDefinitions>", *name));
-    }
-    if (found->second.name() == typed.name()) return found->second;
-    typed.fail(fmt::format("declaredType=\"{}\" is a {}; expected a {}", *name, found->second.tag(),
-                           typed.tag()));
-  }
-
-  void check_name(const xml::Element& element, const std::string& name) {
-    const int line = element.where().line;
-    const auto [same, is_new] = names_.emplace(name, line);
-    if (is_new) return;
-    element.fail(
-        fmt::format("the variable name '{}' is used twice, first in line {}", name, same->second));
+    const auto type = types_.declared(typed);
+    if (!type || type->name() == typed.name()) return type;
+    typed.fail(fmt::format("declaredType=\"{}\" is a {}; expected a {}",
+                           *typed.attribute("declaredType"), type->tag(), typed.tag()));
   }
 
   /// One of them would take the other's values away.
@@ -155,8 +134,8 @@ class Variables {
   }
 
   ModelDescription& unit_;
-  std::map<std::string, xml::Element> types_;
-  std::map<std::string, int> names_;  ///< with their lines
+  TypeDefinitions types_;
+  VariableNames names_;
   std::map<std::pair<ValueType, fmi2ValueReference>, std::string> inputs_;
 };
 

@@ -248,10 +248,6 @@ void Fmi2Unit::get_directional_derivative(References unknowns, References knowns
 
 // ---- Steps ----
 
-core::StepResult Fmi2Unit::step(const core::StepInterval& interval) {
-  return step(interval, core::StepValues{});
-}
-
 core::StepResult Fmi2Unit::step(const core::StepInterval& interval,
                                 const core::StepValues& values) {
   for (const core::BoundValues& input : values.inputs) set(input);

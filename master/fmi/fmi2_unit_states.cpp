@@ -46,16 +46,9 @@ void Fmi2Unit::select_state(std::size_t slot) {
 }
 
 std::vector<std::uint8_t> Fmi2Unit::serialize_state() {
-  const SavedState& saved = states_.chosen();
-  if (saved.state == nullptr) fail("no state of it has been saved that could be serialised");
-  require("fmi2SerializedFMUstateSize", fmi_.SerializedFMUstateSize, kSerializing);
-  require("fmi2SerializeFMUstate", fmi_.SerializeFMUstate, kSerializing);
-  std::size_t size = 0;
-  call("fmi2SerializedFMUstateSize", fmi_.SerializedFMUstateSize, saved.state, &size);
-  std::vector<std::uint8_t> bytes(size);
-  call("fmi2SerializeFMUstate", fmi_.SerializeFMUstate, saved.state,
-       reinterpret_cast<fmi2Byte*>(bytes.data()), size);
-  return bytes;
+  return serialized(states_.chosen().state, "fmi2SerializedFMUstateSize",
+                    fmi_.SerializedFMUstateSize, "fmi2SerializeFMUstate", fmi_.SerializeFMUstate,
+                    kSerializing);
 }
 
 /// The bytes do not tell the time.
@@ -69,11 +62,7 @@ void Fmi2Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
 }
 
 void Fmi2Unit::reset() {
-  if (fmi_.Reset == nullptr) fail("its library does not export fmi2Reset");
-  failed_in_ = nullptr;
-  call("fmi2Reset", fmi_.Reset);
-  time_.reset();
-  rejection_reason_.clear();
+  reset_by("fmi2Reset", fmi_.Reset);
   is_as_saved_ = has_discard_warning_ = false;
   has_patience_ = is_instantiated_only_ = true;
   kept_inputs_.clear();

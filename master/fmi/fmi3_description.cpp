@@ -9,18 +9,13 @@ namespace stride::fmi {
 namespace {
 
 void read_co_simulation(const xml::Element& element, core::UnitDescription& unit) {
-  unit.model_identifier = read_model_identifier(element);
+  read_capabilities(element, unit);
   unit.has_event_mode = element.flag("hasEventMode");
   unit.can_save_state = element.flag("canGetAndSetFMUState");
   unit.can_serialize_state = element.flag("canSerializeFMUState");
-  unit.can_vary_step = element.flag("canHandleVariableCommunicationStepSize");
   unit.may_return_early = element.flag("mightReturnEarlyFromDoStep");
-  unit.single_instance = element.flag("canBeInstantiatedOnlyOncePerProcess");
-  unit.needs_execution_tool = element.flag("needsExecutionTool");
   unit.provides_intermediate_update = element.flag("providesIntermediateUpdate");
   unit.provides_directional_derivatives = element.flag("providesDirectionalDerivatives");
-  unit.max_output_derivative_order =
-      element.number<unsigned>("maxOutputDerivativeOrder").value_or(0);
   unit.fixed_internal_step = read_step_size(element, "fixedInternalStepSize");
 }
 

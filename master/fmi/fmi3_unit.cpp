@@ -204,10 +204,6 @@ void Fmi3Unit::get_directional_derivative(References unknowns, References knowns
 
 // ---- Steps and events ----
 
-core::StepResult Fmi3Unit::step(const core::StepInterval& interval) {
-  return step(interval, core::StepValues{});
-}
-
 core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
                                 const core::StepValues& values) {
   for (const core::BoundValues& input : values.inputs) set(input);

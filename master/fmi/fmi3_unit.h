@@ -44,7 +44,7 @@ class Fmi3Unit final : public FmuInstance {
   void get_directional_derivative(References unknowns, References knowns,
                                   std::span<const double> seed,
                                   std::span<double> sensitivity) override;
-  core::StepResult step(const core::StepInterval& interval) override;
+  using FmuInstance::step;
   core::StepResult step(const core::StepInterval& interval,
                         const core::StepValues& values) override;
   void save_state() override;

@@ -33,15 +33,9 @@ void Fmi3Unit::free_state(SavedState& saved) {
 void Fmi3Unit::select_state(std::size_t slot) { states_.choose(slot); }
 
 std::vector<std::uint8_t> Fmi3Unit::serialize_state() {
-  const SavedState& saved = states_.chosen();
-  if (saved.state == nullptr) fail("no state of it has been saved that could be serialised");
-  require("fmi3SerializedFMUStateSize", fmi_.SerializedFMUStateSize, kSerializing);
-  require("fmi3SerializeFMUState", fmi_.SerializeFMUState, kSerializing);
-  std::size_t size = 0;
-  call("fmi3SerializedFMUStateSize", fmi_.SerializedFMUStateSize, saved.state, &size);
-  std::vector<std::uint8_t> bytes(size);
-  call("fmi3SerializeFMUState", fmi_.SerializeFMUState, saved.state, bytes.data(), size);
-  return bytes;
+  return serialized(states_.chosen().state, "fmi3SerializedFMUStateSize",
+                    fmi_.SerializedFMUStateSize, "fmi3SerializeFMUState", fmi_.SerializeFMUState,
+                    kSerializing);
 }
 
 /// The bytes do not tell the time.
@@ -54,11 +48,7 @@ void Fmi3Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
 }
 
 void Fmi3Unit::reset() {
-  if (fmi_.Reset == nullptr) fail("its library does not export fmi3Reset");
-  failed_in_ = nullptr;
-  call("fmi3Reset", fmi_.Reset);
-  time_.reset();
-  rejection_reason_.clear();
+  reset_by("fmi3Reset", fmi_.Reset);
   has_time_warning_ = false;
   may_skip_ = false;
 }

@@ -13,36 +13,25 @@ using core::Causality;
 using core::ValueType;
 using core::Variability;
 
-using TypeDefinitions = std::map<std::string, xml::Element>;
-
 TypeDefinitions read_type_definitions(const xml::Element& root) {
   TypeDefinitions types;
   const auto definitions = root.child("TypeDefinitions");
   if (!definitions) return types;
   for (const xml::Element& definition : definitions->children()) {
-    if (definition.is("", "Annotations")) continue;
-    const std::string name = definition.required("name");
-    if (!types.emplace(name, definition).second) {
-      definition.fail(fmt::format("the type '{}' is defined twice", name));
-    }
+    if (!definition.is("", "Annotations")) types.add(definition, definition);
   }
   return types;
 }
 
 std::optional<xml::Element> declared_type(const xml::Element& element,
                                           const TypeDefinitions& types) {
-  const auto name = element.attribute("declaredType");
-  if (!name) return std::nullopt;
-  const auto found = types.find(*name);
-  if (found == types.end()) {
-    element.fail(
-        fmt::format("declaredType=\"{}\": there is no such type in <TypeDefinitions>", *name));
+  const auto type = types.declared(element);
+  if (type && type->name().local != fmt::format("{}Type", element.name().local)) {
+    element.fail(fmt::format("declaredType=\"{}\" is a {}; expected a <{}Type>",
+                             *element.attribute("declaredType"), type->tag(),
+                             element.name().local));
   }
-  if (found->second.name().local != fmt::format("{}Type", element.name().local)) {
-    element.fail(fmt::format("declaredType=\"{}\" is a {}; expected a <{}Type>", *name,
-                             found->second.tag(), element.name().local));
-  }
-  return found->second;
+  return type;
 }
 
 /// A String or Binary variable has an element per start value, the other types an attribute.
@@ -105,22 +94,15 @@ class Linker {
  private:
   void add(std::size_t i) {
     const core::Variable& variable = variables_[i];
-    add_name(variable.name, elements_[i]);
+    names_.add(variable.name, elements_[i]);
     for (const xml::Element& alias : elements_[i].children("Alias")) {
-      add_name(alias.required("name"), alias);
+      names_.add(alias.required("name"), alias);
     }
     const auto [same_reference, is_new] = index_.emplace(variable.reference, i);
     if (is_new) return;
     elements_[i].fail(fmt::format(
         "variable '{}' has the value reference {} of '{}' in line {}", variable.name,
         variable.reference, variables_[same_reference->second].name, line(same_reference->second)));
-  }
-
-  void add_name(const std::string& name, const xml::Element& place) {
-    const auto [same, is_new] = names_.emplace(name, place.where().line);
-    if (is_new) return;
-    place.fail(
-        fmt::format("the variable name '{}' is used twice, first in line {}", name, same->second));
   }
 
   void check_clocks(std::size_t i) const {
@@ -184,7 +166,7 @@ class Linker {
 
   std::vector<core::Variable>& variables_;
   const std::vector<xml::Element>& elements_;
-  std::map<std::string, int> names_;  ///< and aliases, with their lines
+  VariableNames names_;
   VariableIndex index_;
 };
 

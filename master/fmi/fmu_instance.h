@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <memory>
@@ -54,6 +55,10 @@ class FmuInstance : public core::Unit {
   FmuInstance(const FmuInstance&) = delete;
   FmuInstance& operator=(const FmuInstance&) = delete;
 
+  using core::Unit::step;
+  core::StepResult step(const core::StepInterval& interval) final {
+    return step(interval, core::StepValues{});
+  }
   std::string rejection_reason() const override { return rejection_reason_; }
   std::uint64_t calls() const override { return calls_; }
 
@@ -96,6 +101,16 @@ class FmuInstance : public core::Unit {
     if (function == nullptr) [[unlikely]]
       fail_missing(name, capability);
   }
+
+  /// Calls the unit's function for it, also after a failure, and forgets the life that it had.
+  template <class Function>
+  void reset_by(const char* name, Function* function);
+  /// The bytes of a kept state. `size_of` and `write` are the unit's functions for them.
+  template <class SizeOf, class Answer, class Byte>
+  std::vector<std::uint8_t> serialized(void* state, const char* size_name, SizeOf* size_of,
+                                       const char* name,
+                                       Answer (*write)(void*, void*, Byte*, std::size_t),
+                                       const char* capability);
 
   /// Of a message of the unit; may be called on any thread, throws nothing.
   void receive(Status status, const char* category, const char* message) noexcept;
@@ -156,6 +171,30 @@ template <class Function, class... Arguments>
   const Status status = call_discardable(name, function, arguments...);
   if (status == Status::Discard || status == Status::Pending) [[unlikely]]
     fail_call(name, status);
+}
+
+template <class Function>
+void FmuInstance::reset_by(const char* name, Function* function) {
+  if (function == nullptr) fail(std::string("its library does not export ") + name);
+  failed_in_ = nullptr;
+  call(name, function);
+  time_.reset();
+  rejection_reason_.clear();
+}
+
+template <class SizeOf, class Answer, class Byte>
+std::vector<std::uint8_t> FmuInstance::serialized(void* state, const char* size_name,
+                                                  SizeOf* size_of, const char* name,
+                                                  Answer (*write)(void*, void*, Byte*, std::size_t),
+                                                  const char* capability) {
+  if (state == nullptr) fail("no state of it has been saved that could be serialised");
+  require(size_name, size_of, capability);
+  require(name, write, capability);
+  std::size_t size = 0;
+  call(size_name, size_of, state, &size);
+  std::vector<std::uint8_t> bytes(size);
+  call(name, write, state, reinterpret_cast<Byte*>(bytes.data()), size);
+  return bytes;
 }
 
 }  // namespace stride::fmi

@@ -34,8 +34,7 @@ Variability default_variability(ValueType type, Causality causality) {
     default:
       break;
   }
-  const bool is_float = type == ValueType::Float32 || type == ValueType::Float64;
-  return is_float ? Variability::Continuous : Variability::Discrete;
+  return core::is_real(type) ? Variability::Continuous : Variability::Discrete;
 }
 
 /// FMI 3.0, 2.4.7.5, the table that defines `initial`: what it may be, its default first. Nothing
@@ -64,6 +63,27 @@ std::vector<Initial> possible_initials(const core::Variable& variable) {
 }
 
 }  // namespace
+
+void VariableNames::add(const std::string& name, const xml::Element& place) {
+  const auto [same, is_new] = lines_.emplace(name, place.where().line);
+  if (is_new) return;
+  place.fail(
+      fmt::format("the variable name '{}' is used twice, first in line {}", name, same->second));
+}
+
+void TypeDefinitions::add(const xml::Element& definition, const xml::Element& type) {
+  const std::string name = definition.required("name");
+  if (types_.emplace(name, type).second) return;
+  definition.fail(fmt::format("the type '{}' is defined twice", name));
+}
+
+std::optional<xml::Element> TypeDefinitions::declared(const xml::Element& element) const {
+  const auto name = element.attribute("declaredType");
+  if (!name) return std::nullopt;
+  if (const auto found = types_.find(*name); found != types_.end()) return found->second;
+  element.fail(
+      fmt::format("declaredType=\"{}\": there is no such type in <TypeDefinitions>", *name));
+}
 
 core::Causality read_causality(const xml::Element& variable) {
   return read_word(variable, "causality", Causality::Local, 7);
@@ -96,7 +116,7 @@ std::string inherited(const xml::Element& element, const std::optional<xml::Elem
 
 double read_nominal(const xml::Element& element, ValueType type,
                     const std::optional<xml::Element>& declared) {
-  if (type != ValueType::Float32 && type != ValueType::Float64) return 0;
+  if (!core::is_real(type)) return 0;
   const auto own = element.number<double>("nominal");
   const auto nominal = own || !declared ? own : declared->number<double>("nominal");
   return std::isfinite(nominal.value_or(0)) ? std::abs(nominal.value_or(0)) : 0;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,6 +24,28 @@ std::optional<Enum> find_named(std::string_view word, std::size_t count) {
   }
   return std::nullopt;
 }
+
+/// The names of the variables and aliases of a description.
+class VariableNames {
+ public:
+  /// Throws core::Error of the kind Input at `place` for a name that is there already.
+  void add(const std::string& name, const xml::Element& place);
+
+ private:
+  std::map<std::string, int> lines_;
+};
+
+/// The types that are declared by name, each by the element that says what it is.
+class TypeDefinitions {
+ public:
+  /// Throws core::Error of the kind Input at the definition whose name is there already.
+  void add(const xml::Element& definition, const xml::Element& type);
+  /// The `declaredType` of an element, if it has one, which must be there.
+  std::optional<xml::Element> declared(const xml::Element& element) const;
+
+ private:
+  std::map<std::string, xml::Element> types_;
+};
 
 // Each throws core::Error of the kind Input where the attribute has another value than it may.
 
