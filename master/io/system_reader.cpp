@@ -134,8 +134,8 @@ class SystemReader {
     return read_component(element);
   }
 
-  ElementNode read_reference(const xml::Element& element) {
-    element.allow_attributes({"name", "dictionary"});
+  /// What a component and a reference have in common.
+  ElementNode read_leaf(const xml::Element& element) {
     element.allow_children({{kSsd, "Connectors"},
                             {kSsd, "ElementGeometry"},
                             {kSsd, "ParameterBindings"},
@@ -146,22 +146,19 @@ class SystemReader {
     node.name = element.required("name");
     node.where = element.where();
     node.connectors = read_connectors(element, file_);
+    return node;
+  }
+
+  ElementNode read_reference(const xml::Element& element) {
+    element.allow_attributes({"name", "dictionary"});
+    ElementNode node = read_leaf(element);
     node.dictionary = element.required("dictionary");
     return node;
   }
 
   ElementNode read_component(const xml::Element& element) {
     element.allow_attributes({"name", "type", "source", "implementation"});
-    element.allow_children({{kSsd, "Connectors"},
-                            {kSsd, "ElementGeometry"},
-                            {kSsd, "ParameterBindings"},
-                            {kSsc, "MetaData"},
-                            {kSsc, "Signature"},
-                            {kSsd, "Annotations"}});
-    ElementNode node;
-    node.name = element.required("name");
-    node.where = element.where();
-    node.connectors = read_connectors(element, file_);
+    ElementNode node = read_leaf(element);
     if (!element.attribute("source")) {
       element.fail(fmt::format("the component '{}' has no source", node.name),
                    "name its FMU: source=\"unit.fmu\"");
