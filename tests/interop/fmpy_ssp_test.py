@@ -1,7 +1,6 @@
 """fmpy_ssp_test.py STRIDE FOLDER: FMPy's simulation of an SSP package agrees with stride's run of the same file. The units
 are those of python_units/ in FMI 2.0, the only version that FMPy couples. Results go into FOLDER."""
 
-import os
 import pathlib
 import shutil
 import sys
@@ -10,7 +9,7 @@ import zipfile
 
 from fmpy.ssp.simulation import simulate_ssp
 
-from python_units_test import build, python_library
+from python_units_test import build, python_library, skipped_without_python_library
 from stride_run import System, differences, run_file
 
 TOLERANCE = 1e-12  # FMPy adds up its times
@@ -38,9 +37,8 @@ def simulated_by_fmpy(package):
 
 
 def main(program, folder):
-    if not python_library().exists():
-        print(f"SKIPPED: units made with PythonFMU need {python_library()} (on Debian the package libpython3.11)")
-        return 1 if os.environ.get("CI") == "true" else 77
+    if (code := skipped_without_python_library()) is not None:
+        return code
     folder = pathlib.Path(folder).resolve()
     shutil.rmtree(folder, ignore_errors=True)
     fmus = build(folder / "fmus")

@@ -12,7 +12,7 @@ from pyssp_standard.ssd import SSD, Component, Connection, Connector, DefaultExp
 from pyssp_standard.ssp import SSP
 from pyssp_standard.ssv import SSV
 
-from python_units_test import build, python_library
+from python_units_test import build, python_library, skipped_without_python_library
 from reference_master import Master
 from stride_run import System, differences, run_file
 
@@ -93,9 +93,8 @@ def check_ours(program, fmus, folder, environment):
 
 
 def main(program, folder):
-    if not python_library().exists():
-        print(f"SKIPPED: units made with PythonFMU need {python_library()} (on Debian the package libpython3.11)")
-        return 1 if os.environ.get("CI") == "true" else 77
+    if (code := skipped_without_python_library()) is not None:
+        return code
     folder = pathlib.Path(folder).resolve()
     shutil.rmtree(folder, ignore_errors=True)
     fmus = build(folder / "fmus")

@@ -23,6 +23,14 @@ def python_library():
     return pathlib.Path(sysconfig.get_config_var("LIBDIR")) / sysconfig.get_config_var("INSTSONAME")
 
 
+def skipped_without_python_library():
+    """Says so, and returns the exit code, if the library is not there; CI must have it."""
+    if python_library().exists():
+        return None
+    print(f"SKIPPED: units made with PythonFMU need {python_library()} (on Debian the package libpython3.11)")
+    return 1 if os.environ.get("CI") == "true" else 77
+
+
 def build(folder):
     """The FMUs, by the names of their models."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -119,9 +127,8 @@ class Checks:
 
 
 def main(program, units, folder):
-    if not python_library().exists():
-        print(f"SKIPPED: units made with PythonFMU need {python_library()} (on Debian the package libpython3.11)")
-        return 1 if os.environ.get("CI") == "true" else 77
+    if (code := skipped_without_python_library()) is not None:
+        return code
     checks = Checks(program, units, pathlib.Path(folder).resolve())
     mistakes = 0
     for name in sorted(name for name in dir(Checks) if name.startswith("check_")):
