@@ -1,12 +1,12 @@
 #define SC_INCLUDE_DYNAMIC_PROCESSES
-#include "units/systemc/kernel.h"
-
 #include <algorithm>
 #include <vector>
 
+#include <stride/systemc/kernel.h>
+#include <stride/systemc/time.h>
+#include <stride/systemc/timer.h>
+
 #include "units/systemc/sanitizer.h"
-#include "units/systemc/time.h"
-#include "units/systemc/timer.h"
 
 namespace stride::systemc {
 namespace {

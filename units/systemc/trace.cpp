@@ -1,5 +1,3 @@
-#include "units/systemc/trace.h"
-
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -10,6 +8,8 @@
 #include <stdexcept>
 
 #include <fnmatch.h>
+
+#include <stride/systemc/trace.h>
 
 namespace stride::systemc {
 namespace {

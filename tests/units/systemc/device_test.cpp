@@ -1,11 +1,11 @@
-#include "units/systemc/device.h"
-
 #include <memory>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
+
+#include <stride/systemc/device.h>
 
 #include "tests/units/systemc/blinker.h"
 

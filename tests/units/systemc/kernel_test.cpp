@@ -1,5 +1,3 @@
-#include "units/systemc/kernel.h"
-
 #include <cstdio>
 #include <stdexcept>
 #include <string>
@@ -8,8 +6,10 @@
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
+#include <stride/systemc/device.h>
+#include <stride/systemc/kernel.h>
+
 #include "tests/units/systemc/blinker.h"
-#include "units/systemc/device.h"
 
 using blinker::Actor;
 using blinker::Blinker;

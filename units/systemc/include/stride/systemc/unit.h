@@ -18,8 +18,8 @@
 //     bool lit_ = false;
 //   };
 //   STRIDE_UNIT(Blinker)
-#ifndef STRIDE_UNITS_SYSTEMC_UNIT_H
-#define STRIDE_UNITS_SYSTEMC_UNIT_H
+#ifndef STRIDE_SYSTEMC_UNIT_H
+#define STRIDE_SYSTEMC_UNIT_H
 
 #include <algorithm>
 #include <deque>
@@ -28,11 +28,10 @@
 #include <string>
 #include <utility>
 
+#include <stride/systemc/device.h>
+#include <stride/systemc/idle.h>
+#include <stride/systemc/trace.h>
 #include <stride/unit.h>
-
-#include "units/systemc/device.h"
-#include "units/systemc/idle.h"
-#include "units/systemc/trace.h"
 
 namespace stride::systemc {
 

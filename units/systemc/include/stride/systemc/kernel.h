@@ -1,6 +1,6 @@
 // One SystemC simulation among others in the same process.
-#ifndef STRIDE_UNITS_SYSTEMC_KERNEL_H
-#define STRIDE_UNITS_SYSTEMC_KERNEL_H
+#ifndef STRIDE_SYSTEMC_KERNEL_H
+#define STRIDE_SYSTEMC_KERNEL_H
 
 #include <cstdint>
 #include <functional>
@@ -12,9 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include <stride/systemc/scope.h>
 #include <stride/time.h>
-
-#include "units/systemc/scope.h"
 
 namespace stride::systemc {
 

@@ -1,12 +1,12 @@
 // An sc_module with a kernel of its own.
-#ifndef STRIDE_UNITS_SYSTEMC_DEVICE_H
-#define STRIDE_UNITS_SYSTEMC_DEVICE_H
+#ifndef STRIDE_SYSTEMC_DEVICE_H
+#define STRIDE_SYSTEMC_DEVICE_H
 
 #include <memory>
 #include <optional>
 #include <utility>
 
-#include "units/systemc/kernel.h"
+#include <stride/systemc/kernel.h>
 
 namespace stride::systemc {
 

@@ -1,6 +1,6 @@
 // A device's signals in a VCD file.
-#ifndef STRIDE_UNITS_SYSTEMC_TRACE_H
-#define STRIDE_UNITS_SYSTEMC_TRACE_H
+#ifndef STRIDE_SYSTEMC_TRACE_H
+#define STRIDE_SYSTEMC_TRACE_H
 
 #include <functional>
 #include <string>
@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "units/systemc/kernel.h"
+#include <stride/systemc/kernel.h>
 
 namespace stride::systemc {
 
