@@ -47,6 +47,7 @@ Kernel::Kernel(Log log) : log_(std::move(log)) {
 Kernel::~Kernel() {
   const Entry entry(*this);
   alarm_.reset();
+  owned_.clear();
   // the modules have cancelled their events; this gives them back to the kernel's pool
   sc_core::sc_time ignored;
   context_->next_time(ignored);
@@ -93,6 +94,9 @@ void Kernel::require_usable() const {
 void Kernel::initialize() {
   require_usable();
   within([this] {
+    if (context_->get_status() != sc_core::SC_ELABORATION) {
+      fail("it called sc_start before it was complete; the unit runs the simulation");
+    }
     ticks_ = systemc::ticks_per_picosecond();
     if (ticks_ == 0) {
       fail("its time resolution is coarser than 1 ps; let it use the default");

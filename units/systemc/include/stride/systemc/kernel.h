@@ -56,6 +56,10 @@ class Kernel {
     }
   }
 
+  /// Keeps a channel that ports of the modules are bound to; it is destroyed with the kernel. To be
+  /// made within().
+  void own(std::shared_ptr<void> channel) { owned_.push_back(std::move(channel)); }
+
   /// Ends elaboration and runs the processes until they rest at time 0.
   void initialize();
 
@@ -143,6 +147,7 @@ class Kernel {
   Log log_;
   std::unique_ptr<sc_core::sc_simcontext> context_;
   std::uint64_t ticks_ = 1;
+  std::vector<std::shared_ptr<void>> owned_;
   bool initialized_ = false;
   std::string failure_;
   sc_dt::uint64 advance_time_ = 0;
