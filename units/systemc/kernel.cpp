@@ -6,6 +6,7 @@
 #include <stride/systemc/time.h>
 #include <stride/systemc/timer.h>
 
+#include "units/systemc/reset_finders.h"
 #include "units/systemc/sanitizer.h"
 
 namespace stride::systemc {
@@ -94,13 +95,15 @@ void Kernel::require_usable() const {
 void Kernel::initialize() {
   require_usable();
   within([this] {
-    if (context_->get_status() != sc_core::SC_ELABORATION) {
+    if (context_->get_status() == sc_core::SC_PAUSED) {
       fail("it called sc_start before it was complete; the unit runs the simulation");
     }
     ticks_ = systemc::ticks_per_picosecond();
     if (ticks_ == 0) {
       fail("its time resolution is coarser than 1 ps; let it use the default");
     }
+    context_->elaborate();
+    forget_reset_finders(*context_);
     context_->initialize(true);
     require_not_stopped();
     settle();
