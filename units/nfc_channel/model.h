@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include <stride/nfc/frame.h>
 #include <stride/time.h>
 
-#include "units/nfc/frame.h"
 #include "units/nfc_channel/circuit.h"
 #include "units/nfc_channel/coil.h"
 #include "units/nfc_channel/parameters.h"

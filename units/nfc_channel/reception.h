@@ -5,9 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <stride/nfc/frame.h>
 #include <stride/time.h>
-
-#include "units/nfc/frame.h"
 
 namespace nfc_channel {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include <stride/nfc/frame.h>
 #include <stride/time.h>
 
-#include "units/nfc/frame.h"
 #include "units/reader/answer.h"
 #include "units/reader/program.h"
 #include "units/reader/variation.h"

@@ -4,8 +4,9 @@
 #include <chrono>
 #include <limits>
 
+#include <stride/systemc/time.h>
+
 #include "units/sensor/adc.h"
-#include "units/systemc/time.h"
 
 namespace sensor {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "units/nfc/iso14443a.h"
+#include <stride/nfc/iso14443a.h>
 
 using nfc::Bits;
 using nfc::Bytes;

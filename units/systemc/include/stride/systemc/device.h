@@ -1,12 +1,13 @@
 // An sc_module with a kernel of its own.
-#ifndef STRIDE_UNITS_SYSTEMC_DEVICE_H
-#define STRIDE_UNITS_SYSTEMC_DEVICE_H
+#ifndef STRIDE_SYSTEMC_DEVICE_H
+#define STRIDE_SYSTEMC_DEVICE_H
 
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
-#include "units/systemc/kernel.h"
+#include <stride/systemc/kernel.h>
 
 namespace stride::systemc {
 
@@ -17,18 +18,26 @@ class Device {
   /// `name` is the module's name; the other arguments follow it in Module's constructor. Throws
   /// DeviceError if elaboration fails.
   template <class... Arguments>
-  Device(Kernel::Log log, const char* name, Arguments&&... arguments) : kernel_(std::move(log)) {
-    kernel_.within(
-        [&] { module_ = std::make_unique<Module>(name, std::forward<Arguments>(arguments)...); });
-    kernel_.initialize();
+  Device(Kernel::Log log, const char* name, Arguments&&... arguments)
+      : Device(std::move(log), [&](Kernel&) {
+          return std::make_unique<Module>(name, std::forward<Arguments>(arguments)...);
+        }) {}
+
+  /// `make(kernel)` returns the module, with channels bound to its ports that the kernel owns.
+  template <class Make, std::enable_if_t<std::is_invocable_v<Make, Kernel&>, int> = 0>
+  Device(Kernel::Log log, Make&& make) : kernel_(std::move(log)) {
+    kernel_.within([&] { module_ = make(kernel_); });
+    try {
+      kernel_.initialize();
+    } catch (...) {
+      destroy_module();
+      throw;
+    }
   }
 
   ~Device() {
     kernel_.end_threads();
-    try {
-      kernel_.within([this] { module_.reset(); });
-    } catch (const DeviceError&) {  // reported while it was destroyed
-    }
+    destroy_module();
   }
 
   Device(const Device&) = delete;
@@ -48,6 +57,13 @@ class Device {
   Module& module() { return *module_; }
 
  private:
+  void destroy_module() noexcept {
+    try {
+      kernel_.within([this] { module_.reset(); });
+    } catch (const DeviceError&) {  // reported while it was destroyed
+    }
+  }
+
   Kernel kernel_;
   std::unique_ptr<Module> module_;
 };

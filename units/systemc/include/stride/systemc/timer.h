@@ -1,13 +1,12 @@
 // A device's alarm clock: what sc_event::notify(delay) is to a simulation without idle skipping.
-#ifndef STRIDE_UNITS_SYSTEMC_TIMER_H
-#define STRIDE_UNITS_SYSTEMC_TIMER_H
+#ifndef STRIDE_SYSTEMC_TIMER_H
+#define STRIDE_SYSTEMC_TIMER_H
 
 #include <optional>
 #include <systemc>
 
+#include <stride/systemc/kernel.h>
 #include <stride/time.h>
-
-#include "units/systemc/kernel.h"
 
 namespace stride::systemc {
 

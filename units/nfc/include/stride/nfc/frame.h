@@ -8,8 +8,8 @@
 // A receiver is handed what it hears at the instant at which it ends there, the start unchanged:
 // the end of the frame, or where the signal was lost. What is lost are bits at the end; a frame of
 // which not one bit is heard is not handed over.
-#ifndef STRIDE_UNITS_NFC_FRAME_H
-#define STRIDE_UNITS_NFC_FRAME_H
+#ifndef STRIDE_NFC_FRAME_H
+#define STRIDE_NFC_FRAME_H
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 // Entering and leaving the SystemC kernel, which is one per process and holds its state in globals.
-#ifndef STRIDE_UNITS_SYSTEMC_SCOPE_H
-#define STRIDE_UNITS_SYSTEMC_SCOPE_H
+#ifndef STRIDE_SYSTEMC_SCOPE_H
+#define STRIDE_SYSTEMC_SCOPE_H
 
 #include <mutex>
 #include <systemc>

@@ -18,47 +18,22 @@
 //     bool lit_ = false;
 //   };
 //   STRIDE_UNIT(Blinker)
-#ifndef STRIDE_UNITS_SYSTEMC_UNIT_H
-#define STRIDE_UNITS_SYSTEMC_UNIT_H
+#ifndef STRIDE_SYSTEMC_UNIT_H
+#define STRIDE_SYSTEMC_UNIT_H
 
 #include <algorithm>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include <stride/systemc/device.h>
+#include <stride/systemc/idle.h>
+#include <stride/systemc/message.h>
+#include <stride/systemc/trace.h>
 #include <stride/unit.h>
 
-#include "units/systemc/device.h"
-#include "units/systemc/idle.h"
-#include "units/systemc/trace.h"
-
 namespace stride::systemc {
-
-/// Messages that wait for their tick: a clock ticks once at a super-dense instant, so each further
-/// message of the same instant, or of a step that could not stop early, takes one more.
-class MessageOutput {
- public:
-  MessageOutput(Binary& value, Clock& clock) : value_(value), clock_(clock) {}
-
-  void push(Binary message) { waiting_.push_back(std::move(message)); }
-  void clear() { waiting_.clear(); }
-  bool empty() const { return waiting_.empty(); }
-
-  /// Puts out the next message, if there is one, and ticks.
-  void publish() {
-    if (waiting_.empty()) return;
-    value_ = std::move(waiting_.front());
-    waiting_.pop_front();
-    clock_.tick();
-  }
-
- private:
-  Binary& value_;
-  Clock& clock_;
-  std::deque<Binary> waiting_;
-};
 
 /// The device's own time starts at zero where the simulation starts. A device that calls sc_pause
 /// asks for a communication point at that instant, and gets it if the master allows early return.

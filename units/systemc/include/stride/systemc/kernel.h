@@ -1,6 +1,6 @@
 // One SystemC simulation among others in the same process.
-#ifndef STRIDE_UNITS_SYSTEMC_KERNEL_H
-#define STRIDE_UNITS_SYSTEMC_KERNEL_H
+#ifndef STRIDE_SYSTEMC_KERNEL_H
+#define STRIDE_SYSTEMC_KERNEL_H
 
 #include <cstdint>
 #include <functional>
@@ -12,9 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include <stride/systemc/scope.h>
 #include <stride/time.h>
-
-#include "units/systemc/scope.h"
 
 namespace stride::systemc {
 
@@ -56,6 +55,10 @@ class Kernel {
       fail(describe(report));
     }
   }
+
+  /// Keeps a channel that ports of the modules are bound to; it is destroyed with the kernel. To be
+  /// made within().
+  void own(std::shared_ptr<void> channel) { owned_.push_back(std::move(channel)); }
 
   /// Ends elaboration and runs the processes until they rest at time 0.
   void initialize();
@@ -144,6 +147,7 @@ class Kernel {
   Log log_;
   std::unique_ptr<sc_core::sc_simcontext> context_;
   std::uint64_t ticks_ = 1;
+  std::vector<std::shared_ptr<void>> owned_;
   bool initialized_ = false;
   std::string failure_;
   sc_dt::uint64 advance_time_ = 0;

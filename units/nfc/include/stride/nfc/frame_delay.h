@@ -1,10 +1,10 @@
 // When an answer may start.
-#ifndef STRIDE_UNITS_SENSOR_FRAME_DELAY_H
-#define STRIDE_UNITS_SENSOR_FRAME_DELAY_H
+#ifndef STRIDE_NFC_FRAME_DELAY_H
+#define STRIDE_NFC_FRAME_DELAY_H
 
 #include <stride/time.h>
 
-namespace sensor {
+namespace nfc {
 
 /// The first instant, not before `earliest`, at which an answer to a request that ended at
 /// `request_end` may start: (n * 128 + 84) / fc later, n >= 9 (ISO/IEC 14443-3, 6.2.1.1, frame
@@ -13,6 +13,6 @@ namespace sensor {
 /// the same grid, and here it is counted from the end of the frame.
 stride::Time answer_start(stride::Time request_end, stride::Time earliest);
 
-}  // namespace sensor
+}  // namespace nfc
 
 #endif

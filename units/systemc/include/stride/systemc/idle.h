@@ -1,14 +1,13 @@
 // Skipping a device's idle time.
-#ifndef STRIDE_UNITS_SYSTEMC_IDLE_H
-#define STRIDE_UNITS_SYSTEMC_IDLE_H
+#ifndef STRIDE_SYSTEMC_IDLE_H
+#define STRIDE_SYSTEMC_IDLE_H
 
 #include <cstdint>
 #include <optional>
 #include <string>
 
+#include <stride/systemc/kernel.h>
 #include <stride/time.h>
-
-#include "units/systemc/kernel.h"
 
 namespace stride::systemc {
 

@@ -1,8 +1,8 @@
 // The application protocol between reader and sensor: a request is a command byte and its
 // arguments, an answer is a status byte and data, both in standard frames that end with CRC_A.
 // Numbers of more than one byte have their most significant byte first.
-#ifndef STRIDE_UNITS_NFC_COMMANDS_H
-#define STRIDE_UNITS_NFC_COMMANDS_H
+#ifndef STRIDE_NFC_COMMANDS_H
+#define STRIDE_NFC_COMMANDS_H
 
 #include <cstddef>
 #include <cstdint>

@@ -1,11 +1,11 @@
 // ISO/IEC 14443-3 type A: parity, CRC_A, and frames of whole bytes.
-#ifndef STRIDE_UNITS_NFC_ISO14443A_H
-#define STRIDE_UNITS_NFC_ISO14443A_H
+#ifndef STRIDE_NFC_ISO14443A_H
+#define STRIDE_NFC_ISO14443A_H
 
 #include <cstdint>
 #include <optional>
 
-#include "units/nfc/frame.h"
+#include <stride/nfc/frame.h>
 
 namespace nfc {
 

@@ -1,6 +1,6 @@
 // Between stride's time and SystemC's, exactly.
-#ifndef STRIDE_UNITS_SYSTEMC_TIME_H
-#define STRIDE_UNITS_SYSTEMC_TIME_H
+#ifndef STRIDE_SYSTEMC_TIME_H
+#define STRIDE_SYSTEMC_TIME_H
 
 #include <cstdint>
 #include <systemc>

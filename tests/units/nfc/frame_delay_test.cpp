@@ -1,10 +1,10 @@
-#include "units/sensor/frame_delay.h"
-
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
-using sensor::answer_start;
+#include <stride/nfc/frame_delay.h>
+
+using nfc::answer_start;
 using stride::Duration;
 using stride::Time;
 

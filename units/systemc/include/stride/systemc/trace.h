@@ -1,14 +1,15 @@
 // A device's signals in a VCD file.
-#ifndef STRIDE_UNITS_SYSTEMC_TRACE_H
-#define STRIDE_UNITS_SYSTEMC_TRACE_H
+#ifndef STRIDE_SYSTEMC_TRACE_H
+#define STRIDE_SYSTEMC_TRACE_H
 
 #include <functional>
 #include <string>
 #include <systemc>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "units/systemc/kernel.h"
+#include <stride/systemc/kernel.h>
 
 namespace stride::systemc {
 
@@ -27,19 +28,35 @@ class SignalList {
     add_interface<T>(signal, signal);
   }
 
-  /// Each sc_signal and sc_clock below the module, of type bool, sc_logic, float, double or one of
-  /// the integers of C++.
+  /// What a port of a module is bound to, under the port's name, if it can be traced.
+  template <class T>
+  void add_port(const sc_core::sc_object& port, const sc_core::sc_signal_in_if<T>& signal) {
+    if constexpr (kIsTraced<T>) add_interface(port, signal);
+  }
+
+  /// Each sc_signal and sc_clock below the module, of a type that is bool, sc_logic, float, double,
+  /// an integer of C++, or an sc_uint, sc_int, sc_bv or sc_lv of up to 64 bits.
   void add_all_within(const sc_core::sc_object& module);
 
   const std::vector<Signal>& signals() const { return signals_; }
 
  private:
+  /// An enum would be traced through a temporary integer.
+  template <class T>
+  static constexpr bool kIsTraced =
+      std::is_arithmetic_v<T> || std::is_same_v<T, sc_dt::sc_logic> ||
+      std::is_base_of_v<sc_dt::sc_uint_base, T> || std::is_base_of_v<sc_dt::sc_int_base, T> ||
+      std::is_base_of_v<sc_dt::sc_unsigned, T> || std::is_base_of_v<sc_dt::sc_signed, T> ||
+      std::is_base_of_v<sc_dt::sc_bv_base, T> || std::is_base_of_v<sc_dt::sc_lv_base, T>;
+
   template <class T>
   void add_interface(const sc_core::sc_object& object, const sc_core::sc_signal_in_if<T>& signal) {
     add_named(object, [&signal](sc_core::sc_trace_file* file, const std::string& name) {
       sc_core::sc_trace(file, signal, name);
     });
   }
+  template <int... Width>
+  void add_if_wide(const sc_core::sc_object& object, std::integer_sequence<int, Width...>);
   template <class... T>
   void add_if_any_of(const sc_core::sc_object& object);
   void add_named(const sc_core::sc_object& object,
