@@ -40,8 +40,9 @@ enum class Status : std::uint8_t {
   kBadArgument = 0x02,  ///< out of range, or not as many bytes as the command takes
 };
 
-inline constexpr std::size_t kLogSamples = 8;      ///< at most, in an answer to kReadLog
-inline constexpr std::size_t kLogSampleBytes = 4;  ///< age and temperature
+inline constexpr std::size_t kLogSamples = 8;          ///< at most, in an answer to kReadLog
+inline constexpr std::size_t kLogSampleBytes = 4;      ///< age and temperature
+inline constexpr std::uint16_t kOldestLogAge = 65535;  ///< of a sample [s]: so much, or more
 
 /// How many bytes of arguments a command takes; -1 for a byte that is no command.
 constexpr int argument_bytes(Command command) {
