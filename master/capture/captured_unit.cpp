@@ -83,7 +83,7 @@ void CapturedUnit::note(Input& input, const core::ValueBlock& values, std::size_
   input.latest = now;
   if (mode_ == Mode::Event) {
     waiting_.push_back({&input, std::move(now)});
-  } else if (mode_ != Mode::Start) {
+  } else if (mode_ == Mode::Step) {
     write(input, "", now);
   }
 }
@@ -112,8 +112,12 @@ void CapturedUnit::enter_initialization(Time start, std::optional<Time> stop) {
   mode_ = Mode::Initialization;
 }
 
+/// What was tried on the way to the initial values is left out.
 void CapturedUnit::exit_initialization() {
   unit_->exit_initialization();
+  for (const Input& input : inputs_) {
+    if (input.latest) write(input, "", *input.latest);
+  }
   mode_ = description_.has_event_mode ? Mode::Event : Mode::Step;
 }
 
