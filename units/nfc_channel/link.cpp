@@ -61,10 +61,6 @@ double signal_to_noise(double signal_power, const BitSignal& bit, double noise_d
   return noise_density > 0.0 ? energy / noise_density : std::numeric_limits<double>::infinity();
 }
 
-double decibels(double ratio) {
-  return std::clamp(10.0 * std::log10(std::max(ratio, 0.0)), -200.0, 200.0);
-}
-
 double bit_error_probability(double signal_to_noise, bool coherent) {
   const double ratio = std::max(signal_to_noise, 0.0);
   return coherent ? 0.5 * std::erfc(std::sqrt(ratio)) : 0.5 * std::exp(-0.5 * ratio);

@@ -9,7 +9,8 @@ namespace sensor {
 struct TransceiverParameters {
   std::int32_t fifo_depth = 4;       ///< commands that can wait for the control unit
   double transmit_current = 1.0e-3;  ///< of the load modulator while it transmits [A]
-  double carrier_threshold = 1e-6;   ///< field power from which on there is a carrier [W]
+  double carrier_threshold = 1e-6;   ///< field power from which on there is a carrier [W]; 0: it
+                                     ///< has one of its own
   bool always_selected = true;       ///< answers all commands without having been selected
 };
 
@@ -81,7 +82,7 @@ void visit_parameters(Parameters& parameters, Visitor&& visit) {
   add(transceiver.transmit_current, "transceiver.transmit_current", "A", 0, 1,
       "current of the load modulator while it transmits");
   add(transceiver.carrier_threshold, "transceiver.carrier_threshold", "W", 0, 1,
-      "field power from which on there is a carrier to answer with");
+      "field power from which on there is a carrier to answer with; 0 if it has its own");
   add(transceiver.always_selected, "transceiver.always_selected", "", 0, 1,
       "whether all commands are answered without a selection");
 

@@ -39,7 +39,7 @@ Transceiver::Transceiver(sc_core::sc_module_name name, const TransceiverParamete
 bool Transceiver::idle() const { return arriving_.empty() && !reception_ && !answer_ && !on_air_; }
 
 bool Transceiver::has_carrier() const {
-  return field_power.read() > 0 && field_power.read() >= parameters_.carrier_threshold;
+  return field_power.read() >= parameters_.carrier_threshold;
 }
 
 void Transceiver::detect_carrier() { carrier.write(has_carrier()); }

@@ -1,16 +1,15 @@
-#include "units/nfc_channel/reception.h"
+#include "units/channel/superposition.h"
 
+#include <algorithm>
 #include <random>
 
 #include <catch2/catch.hpp>
 
 #include <stride/nfc/iso14443a.h>
 
-using nfc::Bits;
+using channel::superposed;
 using nfc::Bytes;
 using nfc::Frame;
-using nfc_channel::Reception;
-using nfc_channel::superposed;
 using stride::Duration;
 using stride::Time;
 
@@ -29,44 +28,6 @@ bool is_good(const Frame& frame) {
 }
 
 }  // namespace
-
-TEST_CASE("The first bit ends after the start of communication, the last one bit before the end") {
-  Reception reception(answer({1, 2}), 0, 0);
-  CHECK(reception.next_bit_end() == kStart + 2 * kBit);
-  reception.heard = reception.sent.bits;
-  CHECK(reception.complete());
-  CHECK(reception.end == kStart + nfc::air_time(reception.sent));
-  CHECK(reception.next_bit_end() == reception.end);
-}
-
-TEST_CASE("Frames overlap while both are on the air, not where one begins as the other ends") {
-  const Reception first(answer({1}), 0, 0);
-  CHECK(first.overlaps(Reception(answer({1}, first.end - Duration{1}), 1, 0)));
-  CHECK_FALSE(first.overlaps(Reception(answer({1}, first.end), 1, 0)));
-}
-
-TEST_CASE("A frame that is cut ends with the bits that got out, or sooner") {
-  const Bits few = {1, 0, 1};
-  Reception reception(answer({1, 2}), 0, 0);
-  reception.heard = {1, 0, 1, 1, 0};
-  reception.cut(few);
-  CHECK(reception.sent.bits == few);
-  CHECK(reception.heard.size() == 3);
-  CHECK(reception.end == kStart + 5 * kBit);
-  reception.end = kStart + 4 * kBit;  // with the carrier
-  reception.cut(few);
-  CHECK(reception.end == kStart + 4 * kBit);
-}
-
-TEST_CASE("Without the carrier a frame ends with what was heard, once and for all") {
-  Reception reception(answer({1, 2}), 0, 0);
-  reception.heard = {1, 0, 1};
-  reception.end_with_carrier(kStart + 4 * kBit + kBit / 2);
-  CHECK(reception.lost);
-  CHECK(reception.end == kStart + 5 * kBit);
-  reception.end_with_carrier(kStart + 6 * kBit);
-  CHECK(reception.end == kStart + 5 * kBit);
-}
 
 TEST_CASE("Tags that answer the same at the same time are heard as one") {
   const Frame frame = answer({0, 7, 9});

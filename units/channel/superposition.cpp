@@ -1,9 +1,10 @@
-#include "units/nfc_channel/reception.h"
+#include "units/channel/superposition.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 
-namespace nfc_channel {
+namespace channel {
 namespace {
 
 using stride::Duration;
@@ -88,31 +89,6 @@ class Grid {
 
 }  // namespace
 
-Reception::Reception(const nfc::Frame& frame, std::uint32_t tag, std::uint64_t number)
-    : sent(frame), tag(tag), number(number), end(frame.start + nfc::air_time(frame)) {
-  heard.reserve(frame.bits.size());
-}
-
-Time Reception::next_bit_end() const {
-  return sent.start +
-         nfc::bit_duration(sent.bit_rate) * static_cast<std::int64_t>(heard.size() + 2);
-}
-
-bool Reception::overlaps(const Reception& other) const {
-  return sent.start < other.end && other.sent.start < end;
-}
-
-void Reception::cut(const nfc::Bits& bits) {
-  sent.bits = bits;
-  if (heard.size() > bits.size()) heard.resize(bits.size());
-  end = std::min(end, sent.start + nfc::air_time(sent));
-}
-
-void Reception::end_with_carrier(Time now) {
-  lost = true;
-  end = std::min(end, std::max(now, sent.start + nfc::air_time(heard_frame())));
-}
-
 nfc::Frame superposed(const std::vector<nfc::Frame>& frames) {
   const auto earlier = [](const nfc::Frame& a, const nfc::Frame& b) { return a.start < b.start; };
   Grid grid(*std::min_element(frames.begin(), frames.end(), earlier));
@@ -124,4 +100,4 @@ nfc::Frame superposed(const std::vector<nfc::Frame>& frames) {
   return grid.frame();
 }
 
-}  // namespace nfc_channel
+}  // namespace channel

@@ -1,4 +1,4 @@
-#include "units/nfc_channel/tag_list.h"
+#include "units/channel/tag_list.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include <tinyxml2.h>
 
-namespace nfc_channel {
+namespace channel {
 namespace {
 
 constexpr std::array<std::string_view, 7> kReserved = {
@@ -60,29 +60,31 @@ void require_name(const tinyxml2::XMLElement& tag, const std::string& file, cons
 
 }  // namespace
 
-std::vector<std::string> read_tag_list(const std::string& file) {
+std::vector<std::string> read_tag_list(const std::string& file, const std::string& root) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) fail(file, 0, "cannot be opened");
   std::ostringstream text;
   text << stream.rdbuf();
-  return parse_tag_list(text.str(), file);
+  return parse_tag_list(text.str(), file, root);
 }
 
-std::vector<std::string> parse_tag_list(const std::string& text, const std::string& file) {
+std::vector<std::string> parse_tag_list(const std::string& text, const std::string& file,
+                                        const std::string& expected_root) {
+  const std::string element = "<" + expected_root + ">";
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     fail(file, document.ErrorLineNum(),
          "cannot be read as XML: " + std::string(document.ErrorStr()));
   }
-  if (document.RootElement() == nullptr) fail(file, 1, "is empty: expected <nfc-channel>");
+  if (document.RootElement() == nullptr) fail(file, 1, "is empty: expected " + element);
   const auto& root = *document.RootElement();
-  if (std::string_view(root.Name()) != "nfc-channel") {
+  if (root.Name() != expected_root) {
     fail(file, root.GetLineNum(),
-         "the root element is <" + std::string(root.Name()) + ">: expected <nfc-channel>");
+         "the root element is <" + std::string(root.Name()) + ">: expected " + element);
   }
   require_attribute(root, file, "version");
   if (std::string_view(root.Attribute("version")) != "1") {
-    fail(file, root.GetLineNum(), "<nfc-channel>: expected version=\"1\"");
+    fail(file, root.GetLineNum(), element + ": expected version=\"1\"");
   }
 
   std::vector<std::string> names;
@@ -90,7 +92,7 @@ std::vector<std::string> parse_tag_list(const std::string& text, const std::stri
     if (node->ToComment() != nullptr) continue;
     const auto* tag = node->ToElement();
     if (tag == nullptr || std::string_view(tag->Name()) != "tag" || !tag->NoChildren()) {
-      fail(file, node->GetLineNum(), "expected nothing but <tag name=\"...\"/> in <nfc-channel>");
+      fail(file, node->GetLineNum(), "expected nothing but <tag name=\"...\"/> in " + element);
     }
     require_attribute(*tag, file, "name");
     const std::string name = tag->Attribute("name");
@@ -101,4 +103,4 @@ std::vector<std::string> parse_tag_list(const std::string& text, const std::stri
   return names;
 }
 
-}  // namespace nfc_channel
+}  // namespace channel

@@ -1,6 +1,6 @@
-#include "units/nfc_channel/noise.h"
+#include "units/channel/noise.h"
 
-namespace nfc_channel {
+namespace channel {
 namespace {
 
 std::uint32_t low(std::uint64_t value) { return static_cast<std::uint32_t>(value); }
@@ -30,4 +30,4 @@ double uniform(std::uint64_t seed, FrameNumber frame, std::uint32_t bit) {
   return static_cast<double>(random >> 11) * 0x1p-53;
 }
 
-}  // namespace nfc_channel
+}  // namespace channel

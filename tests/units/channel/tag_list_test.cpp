@@ -1,4 +1,4 @@
-#include "units/nfc_channel/tag_list.h"
+#include "units/channel/tag_list.h"
 
 #include <string>
 #include <vector>
@@ -9,7 +9,9 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-Names read(const std::string& text) { return nfc_channel::parse_tag_list(text, "channel.xml"); }
+Names read(const std::string& text) {
+  return channel::parse_tag_list(text, "channel.xml", "nfc-channel");
+}
 
 }  // namespace
 
@@ -54,6 +56,6 @@ TEST_CASE("What is wrong is told with file and line") {
 }
 
 TEST_CASE("A file that is not there is named") {
-  CHECK_THROWS_WITH(nfc_channel::read_tag_list("/nowhere/channel.xml"),
+  CHECK_THROWS_WITH(channel::read_tag_list("/nowhere/channel.xml", "nfc-channel"),
                     Catch::Contains("/nowhere/channel.xml"));
 }

@@ -1,4 +1,4 @@
-#include "units/nfc_channel/noise.h"
+#include "units/channel/noise.h"
 
 #include <cmath>
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace nfc_channel;
+using namespace channel;
 using Words = std::array<std::uint32_t, 4>;
 
 namespace {

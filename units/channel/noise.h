@@ -1,11 +1,11 @@
 // Random numbers without a generator's state: each is a function of the seed and of a counter.
-#ifndef STRIDE_UNITS_NFC_CHANNEL_NOISE_H
-#define STRIDE_UNITS_NFC_CHANNEL_NOISE_H
+#ifndef STRIDE_UNITS_CHANNEL_NOISE_H
+#define STRIDE_UNITS_CHANNEL_NOISE_H
 
 #include <array>
 #include <cstdint>
 
-namespace nfc_channel {
+namespace channel {
 
 /// Philox 4x32-10: 128 random bits for a counter and a key (Salmon et al., "Parallel Random
 /// Numbers: As Easy as 1, 2, 3", SC11, 2011).
@@ -22,6 +22,6 @@ struct FrameNumber {
 /// A number from [0, 1) for one bit of one frame, uniform and independent of all others.
 double uniform(std::uint64_t seed, FrameNumber frame, std::uint32_t bit);
 
-}  // namespace nfc_channel
+}  // namespace channel
 
 #endif

@@ -1,11 +1,11 @@
 // The file that names a channel's tags.
-#ifndef STRIDE_UNITS_NFC_CHANNEL_TAG_LIST_H
-#define STRIDE_UNITS_NFC_CHANNEL_TAG_LIST_H
+#ifndef STRIDE_UNITS_CHANNEL_TAG_LIST_H
+#define STRIDE_UNITS_CHANNEL_TAG_LIST_H
 
 #include <string>
 #include <vector>
 
-namespace nfc_channel {
+namespace channel {
 
 /// The tags' names in the order of the file, which looks like
 ///
@@ -14,13 +14,15 @@ namespace nfc_channel {
 ///       <tag name="window"/>
 ///     </nfc-channel>
 ///
+/// with the root element that the technology expects.
 /// A name is an identifier, begins the names of the tag's variables, and is not one of those that
 /// the channel itself uses. Throws std::runtime_error with file, line and what was expected.
-std::vector<std::string> read_tag_list(const std::string& file);
+std::vector<std::string> read_tag_list(const std::string& file, const std::string& root);
 
 /// The same from a text, for whose errors `file` is the name.
-std::vector<std::string> parse_tag_list(const std::string& text, const std::string& file);
+std::vector<std::string> parse_tag_list(const std::string& text, const std::string& file,
+                                        const std::string& root);
 
-}  // namespace nfc_channel
+}  // namespace channel
 
 #endif
