@@ -1,4 +1,4 @@
-// stride pack: a library made with the unit kit becomes a .fmu, a scenario a .ssp.
+// stride pack: a library made with the unit kit becomes a .fmu, a scenario a .ssp, a .fmu another.
 #include "master/fmi/pack.h"
 
 #include <functional>
@@ -67,16 +67,15 @@ void pack_scenario(const fmi::PackRequest& request) {
 }  // namespace
 
 void add_pack(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "pack",
-      "Make a .fmu from a library of the unit kit and a resources folder, or a .ssp from a "
-      "scenario and all that it names");
+  CLI::App* command = app.add_subcommand("pack",
+                                         "Make a .fmu from a library of the unit kit, or from "
+                                         "another .fmu, and a resources folder; or "
+                                         "a .ssp from a scenario and all that it names");
   const auto request = std::make_shared<fmi::PackRequest>();
   command
       ->add_option("FILE", request->library,
-                   "The unit's shared library (.so), or a scenario (.ssd)")
+                   "The unit's shared library (.so) or .fmu, or a scenario (.ssd)")
       ->required()
-      ->check(CLI::ExistingPath)
       ->type_name("");
   command->add_option("--output,-o", request->output, "The .fmu or .ssp to write")
       ->required()
@@ -90,6 +89,7 @@ void add_pack(CLI::App& app) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   command->callback([request] {
+    request->library = find_unit(request->library, {});
     if (is_scenario(request->library)) return pack_scenario(*request);
     fmi::pack(*request);
   });
