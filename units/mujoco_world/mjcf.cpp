@@ -107,7 +107,7 @@ std::vector<Actuator> list_actuators(const mjModel& model) {
     const std::string unit = count == 1 ? control_unit(model, i) : "";
     for (int k = 0; k < count; ++k) {
       list.push_back(
-          {name, unit, first + k, count == 1 ? 0 : k + 1, control_range(model, first + k)});
+          {name, unit, i, first + k, count == 1 ? 0 : k + 1, control_range(model, first + k)});
     }
   }
   return list;
