@@ -44,7 +44,7 @@ std::string suggestion(const std::string& word, std::span<const std::string> can
     return fmt::format("did you mean '{}'?", near);
   }
   if (candidates.empty()) return "there are none";
-  constexpr std::size_t kMost = 90;  // characters
+  constexpr std::size_t kMost = 100;  // characters
   std::string shown;
   for (const std::string& candidate : candidates) {
     if (!shown.empty() && shown.size() + candidate.size() > kMost) return shown + ", …";
