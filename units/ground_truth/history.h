@@ -42,7 +42,9 @@ class History {
 
   History() = default;
   /// What is older than `length` may be forgotten.
-  History(Grain grain, stride::Duration length) : grain_(grain), length_(length) {}
+  History(Grain grain, stride::Duration length) { configure(grain, length); }
+  /// From now on; what is remembered stays.
+  void configure(Grain grain, stride::Duration length) { grain_ = grain, length_ = length; }
 
   /// The value at an instant, which is not before the last one. At the same instant it is a jump:
   /// then both values count.

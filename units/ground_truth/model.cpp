@@ -18,14 +18,6 @@ void require(bool ok, const std::string& what) {
   if (!ok) throw std::invalid_argument(what);
 }
 
-Parameters checked(const Parameters& p) {
-  require(p.tolerance >= 0.0 && std::isfinite(p.tolerance),
-          "tolerance is " + quantity_text(p.tolerance, "") + ": expected 0 or more");
-  require(p.max_age >= stride::Duration{}, "max_age is less than 0: expected 0 s or more");
-  require(p.memory >= stride::Duration{}, "memory is less than 0: expected 0 s or more");
-  return p;
-}
-
 /// time - duration, or the first instant that there is if that is later.
 stride::Time earlier(stride::Time time, stride::Duration duration) {
   return time < stride::Time::min() + duration ? stride::Time::min() : time - duration;
@@ -35,11 +27,18 @@ std::string seconds(stride::Time time) { return quantity_text(stride::to_seconds
 
 }  // namespace
 
-Judge::Judge(const Parameters& parameters, Quantity quantity)
-    : parameters_(checked(parameters)),
-      quantity_(std::move(quantity)),
-      history_({parameters.tolerance * kWidthShare, parameters.max_age / kTimeShare},
-               parameters.memory) {}
+Judge::Judge(const Parameters& parameters, Quantity quantity) : quantity_(std::move(quantity)) {
+  configure(parameters);
+}
+
+void Judge::configure(const Parameters& p) {
+  require(p.tolerance >= 0.0 && std::isfinite(p.tolerance),
+          "tolerance is " + quantity_text(p.tolerance, "") + ": expected 0 or more");
+  require(p.max_age >= stride::Duration{}, "max_age is less than 0: expected 0 s or more");
+  require(p.memory >= stride::Duration{}, "memory is less than 0: expected 0 s or more");
+  parameters_ = p;
+  history_.configure({p.tolerance * kWidthShare, p.max_age / kTimeShare}, p.memory);
+}
 
 Comparison Judge::compare(const Measurement& measurement) {
   require(std::isfinite(measurement.value), "the measured value is not a finite number");
@@ -98,10 +97,9 @@ std::string Judge::text_of(const Comparison& comparison) const {
     return measured + " was made " + made + ", of which the truth is not remembered; " +
            "it is not compared";
   }
-  return measured + " is " + (comparison.finding == Finding::kRight ? "right" : "wrong") +
-         ", error " + quantity_text(deviation.error, quantity_.difference) + ", tolerance " +
-         quantity_text(parameters_.tolerance, quantity_.difference) + "; the nearest truth " +
-         made + " is " + quantity_text(deviation.truth, quantity_.unit);
+  return measured + " is wrong, error " + quantity_text(deviation.error, quantity_.difference) +
+         ", tolerance " + quantity_text(parameters_.tolerance, quantity_.difference) +
+         "; the nearest truth " + made + " is " + quantity_text(deviation.truth, quantity_.unit);
 }
 
 }  // namespace ground_truth

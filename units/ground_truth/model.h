@@ -71,6 +71,8 @@ class Judge {
   Judge() = default;
   /// Throws std::invalid_argument that names the parameter which is out of its range.
   Judge(const Parameters& parameters, Quantity quantity);
+  /// From now on; what was found stays. Throws likewise.
+  void configure(const Parameters& parameters);
 
   void note(stride::Time time, double truth) { history_.note(time, truth); }
   /// Throws std::invalid_argument for a value that is not finite.
@@ -82,8 +84,8 @@ class Judge {
   /// Such as "2 of 3 measurements right; worst error 0.995 K at 24.0008 s: 22.5 degC for 21.505
   /// degC"; without a comma, for it stands in tables.
   std::string verdict_text() const;
-  /// Such as "measurement at 24.0008 s: 22.5 degC is wrong, error 0.995 K, tolerance 0.03 K; the
-  /// nearest truth between 23.9908 s and 24.0008 s is 21.505 degC".
+  /// Of one that is not right, such as "measurement at 24.0008 s: 22.5 degC is wrong, error 0.995
+  /// K, tolerance 0.03 K; the nearest truth between 23.9908 s and 24.0008 s is 21.505 degC".
   std::string text_of(const Comparison& comparison) const;
 
   History& history() { return history_; }

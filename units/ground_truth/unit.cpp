@@ -1,5 +1,4 @@
 // The judge of measurements as an FMU. The units of its variables come from its resources.
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <stdexcept>
@@ -36,7 +35,8 @@ stride::Duration duration(const char* name, double seconds) {
 
 class GroundTruth : public stride::Unit {
  public:
-  explicit GroundTruth(const stride::Setup& setup) : quantity_(load(setup.resources)) {
+  explicit GroundTruth(const stride::Setup& setup)
+      : quantity_(load(setup.resources)), judge_({}, quantity_) {
     describe("Compares measurements that were received with what was true").promises_idle = true;
     list_inputs();
     list_parameters();
@@ -69,13 +69,7 @@ class GroundTruth : public stride::Unit {
   stride::Time idle_until(stride::Time) const override { return stride::Time::max(); }
 
   // a state may come from an instance with other parameters
-  void load_state(stride::StateReader&) override {
-    const auto history = judge_.history().state();
-    const auto state = judge_.state();
-    judge_ = ground_truth::Judge(parameters(), quantity_);
-    judge_.history().state() = history;
-    judge_.state() = state;
-  }
+  void load_state(stride::StateReader&) override { judge_.configure(parameters()); }
 
  private:
   void list_inputs() {
