@@ -23,12 +23,13 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"master/fmi", {"stride", "master/core", "master/xml", "master/archive", "fmt"}},
     {"master/io",
      {"stride/time.h", "master/core", "master/xml", "master/archive", "fmt", "nlohmann"}},
+    {"master/capture", {"stride/time.h", "master/core", "master/io", "fmt"}},
     {"master/trace", {"stride/time.h", "master/core", "master/io", "fmt"}},
     {"master/verify",
      {"stride/time.h", "master/core", "master/fmi", "fmt", "nlohmann", "malloc.h"}},
     {"master/cli",
-     {"stride", "master/core", "master/archive", "master/fmi", "master/io", "master/trace",
-      "master/verify", "fmt", "spdlog", "CLI"}},
+     {"stride", "master/core", "master/archive", "master/capture", "master/fmi", "master/io",
+      "master/trace", "master/verify", "fmt", "spdlog", "CLI"}},
     {"units/minimal", {"stride"}},
     {"units/nfc", {"stride/time.h"}},
     {"units/systemc", {"stride", "systemc", "sanitizer", "cxxabi.h"}},
@@ -39,6 +40,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"units/reader", {"stride", "units/nfc", "tinyxml2.h"}},
     {"units/environment", {"stride"}},
     {"units/ground_truth", {"stride", "tinyxml2.h"}},
+    {"units/player", {"stride"}},
 };
 
 /// The libraries among the units are installed, and included as a user sees them.

@@ -2,6 +2,14 @@
 
 namespace player {
 
+bool Playback::is_before_run(stride::Time start) const {
+  const Entry& entry = next();
+  if (entry.kind == Entry::Kind::End) return false;
+  if (entry.kind == Entry::Kind::Step) return after_next().time <= start;
+  const bool is_event = entry.kind == Entry::Kind::Tick || entry.event > Entry::kAtStepEnd;
+  return entry.time < start || (entry.time == start && !is_event);
+}
+
 /// A step is over where something follows it.
 bool Playback::is_due(stride::Time now) const {
   const Entry& entry = next();

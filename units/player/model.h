@@ -14,9 +14,9 @@
 
 namespace player {
 
-/// Goes through the entries of stimuli, which must outlive it, from the first to the last. At an
-/// instant come first those that arrived there in Step Mode or in the first event iteration, with
-/// come_to(); then the others, iteration by iteration, with iterate().
+/// Goes through the entries of stimuli, which must outlive it, from the first to the last, once
+/// begin() was called. At an instant come first those that arrived there in Step Mode or in the
+/// first event iteration, with come_to(); then the others, iteration by iteration, with iterate().
 class Playback {
  public:
   /// All that is to be kept when a state is saved.
@@ -32,7 +32,17 @@ class Playback {
   Position& position() { return position_; }
   const Position& position() const { return position_; }
 
-  /// At the start, or where a step has ended. Calls play(entry) for each value and tick that is
+  /// At the start, from the first entry on: the values that are there then. What ticked before is
+  /// passed over.
+  template <class Play>
+  void begin(stride::Time start, Play&& play) {
+    position_ = {};
+    while (is_before_run(start)) {
+      if (next().kind == Entry::Kind::Value) play(next());
+      ++position_.next;
+    }
+  }
+  /// Where a step has ended. Calls play(entry) for each value and tick that is
   /// due. Returns whether entries were passed: another target is next then.
   template <class Play>
   bool come_to(stride::Time now, Play&& play) {
@@ -71,6 +81,7 @@ class Playback {
       ++position_.next;
     }
   }
+  bool is_before_run(stride::Time start) const;
   bool is_due(stride::Time now) const;
   void note_irregular(stride::Time now);
 

@@ -68,14 +68,12 @@ class PlayerUnit : public stride::Unit {
   }
 
   void initialize(stride::Time start) override {
-    if (start != stimuli_.start()) {
-      throw std::runtime_error("the stimuli begin at " + text(stimuli_.start()) +
-                               " s, the run at " + text(start) +
-                               " s; let it begin where they do (startTime)");
-    }
-    playback_.position() = {};
     show_start_values();
-    come_to(start);
+    playback_.begin(start, [this](const player::Entry& entry) { play(entry); });
+    if (start <= stimuli_.start() || std::exchange(told_start_, true)) return;
+    log(stride::Severity::Warning, "the stimuli begin at " + text(stimuli_.start()) +
+                                       " s, the run at " + text(start) +
+                                       " s, so what was received before is not played");
   }
 
   void step(stride::Step& step) override {
@@ -184,6 +182,7 @@ class PlayerUnit : public stride::Unit {
   std::vector<std::unique_ptr<Place>> places_;          ///< by input; none of clocks
   std::vector<std::unique_ptr<stride::Clock>> clocks_;  ///< by input; of clocks only
   bool stop_at_stimuli_ = false;
+  bool told_start_ = false;
   bool told_late_ = false;
   bool told_beside_ = false;
 };
