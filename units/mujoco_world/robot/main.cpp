@@ -21,8 +21,7 @@ using namespace mujoco_world;
 std::string number(double value, const char* format) {
   char text[64];
   std::snprintf(text, sizeof text, format, value);
-  const std::string zero = std::string(text);
-  return zero == "-0.0000" ? "0.0000" : zero;
+  return std::string(text) == "-0.0000" ? "0.0000" : text;
 }
 
 Mount parse_mount(const std::string& text) {
@@ -97,24 +96,43 @@ std::string pose_name(double distance) {
   return name;
 }
 
-void show_keyframe(const Pose& pose) {
-  const auto list_of = [](const std::vector<double>& values) {
-    std::string text;
-    for (const double value : values) text += (text.empty() ? "" : " ") + number(value, "%.4f");
-    return text;
-  };
-  std::cout << "<key name=\"start\" qpos=\"" << list_of(pose.positions) << "\" ctrl=\""
-            << list_of(pose.commands) << "\"/>\n";
+/// An element without children, in lines of 100 characters where that is possible.
+std::string element(const std::string& name, const std::vector<std::string>& attributes) {
+  constexpr std::size_t kWidth = 100;
+  const std::string indent(name.size() + 2, ' ');
+  std::string text, line = "<" + name;
+  for (const std::string& attribute : attributes) {
+    if (line.size() > indent.size() && line.size() + 1 + attribute.size() > kWidth) {
+      text += line + "\n";
+      line = indent + attribute;
+    } else {
+      line += " " + attribute;
+    }
+  }
+  return text + line + "/>\n";
 }
 
-void show_pose(const Reach& reach, double distance, const Pose& pose) {
-  std::cout << "<pose name=\"" << pose_name(distance) << "\"";
+std::string show_keyframe(const Pose& pose) {
+  const auto list_of = [](const std::string& key, const std::vector<double>& values) {
+    std::string text;
+    for (const double value : values) text += (text.empty() ? "" : " ") + number(value, "%.4f");
+    return key + "=\"" + text + "\"";
+  };
+  return element(
+      "key", {"name=\"start\"", list_of("qpos", pose.positions), list_of("ctrl", pose.commands)});
+}
+
+std::string show_pose(const Reach& reach, double distance, const Pose& pose) {
+  std::vector<std::string> attributes{"name=\"" + pose_name(distance) + "\""};
   for (const Actuator& actuator : reach.catalogue().actuators) {
     if (actuator.element > 0) continue;
-    std::cout << " " << actuator.name << "=\""
-              << number(pose.commands[static_cast<std::size_t>(actuator.control)], "%.4f") << "\"";
+    const double command = pose.commands[static_cast<std::size_t>(actuator.control)];
+    attributes.push_back(actuator.name + "=\"" + number(command, "%.4f") + "\"");
   }
-  std::cout << "/>\n";
+  return element("pose", attributes);
+}
+
+void show_doubts(const Pose& pose) {
   for (const std::string& pair : pose.contacts) std::cout << "  there " << pair << " touch\n";
   for (const std::string& joint : pose.overload) {
     std::cout << "  the drive of " << joint << " is too weak to hold that\n";
@@ -124,9 +142,10 @@ void show_pose(const Reach& reach, double distance, const Pose& pose) {
 void run_reach(const ReachRequest& request) {
   Reach reach(request.folder, request.site, request.target);
   const std::vector<Pose> poses = reach.solve(request.distances);
-  show_keyframe(poses.front());
+  std::cout << show_keyframe(poses.front());
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    show_pose(reach, request.distances[i], poses[i]);
+    std::cout << show_pose(reach, request.distances[i], poses[i]);
+    show_doubts(poses[i]);
   }
 }
 
