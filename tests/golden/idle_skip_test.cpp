@@ -57,8 +57,8 @@ double greatest_difference(const Csv& skipping, const Csv& full, const std::stri
 }  // namespace
 
 TEST_CASE("idle skipping changes no message, and values within their tolerances") {
-  const std::string scenario =
-      GENERATE("nfc_approach", "nfc_far", "nfc_jitter", "nfc_brownout", "nfc_two_tags");
+  const std::string scenario = GENERATE("nfc_approach", "nfc_far", "nfc_jitter", "nfc_brownout",
+                                        "nfc_two_tags", "rf_approach");
   const std::string max_skip = GENERATE("0.01", "10");
   INFO(scenario << " with --max-skip " << max_skip);
   Arguments full_run{"--no-trace", "--stop", kStop, "--no-idle-skip"};

@@ -165,6 +165,30 @@ TEST_CASE("nfc_two_tags: two units that may both return early are refused, with 
           Catch::Contains("<stride:EarlyReturn components=\"sensor_right\" allowed=\"false\"/>"));
 }
 
+TEST_CASE("rf_approach: nearer is not better where two rays cancel, and the retries outlast it") {
+  const ScenarioRun run("rf_approach", {"--no-trace", "--no-idle-skip"});
+  CHECK(golden_differences("rf_approach", run) == "");
+  // far away the first try is answered
+  CHECK(run.at("0.5", "channel.distance [m]") == Approx(0.728).margin(1e-3));
+  CHECK(run.at("0.6", "reader.messages.answered") == 1);
+  CHECK(run.at("0.6", "reader.messages.retries") == 0);
+  // nearer, where the paths differ by one wave, none is
+  const Extremes null = run.between("3.2", "4", "channel.distance [m]");
+  CHECK(null.most == Approx(0.429).margin(1e-3));
+  CHECK(std::hypot(0.38, 0.4) - null.most == Approx(299792458 / 2.45e9).margin(1e-3));
+  CHECK(run.between("3.2", "4", "channel.snr.down [dB]").most < -6);
+  CHECK(run.at("4", "reader.messages.retries") > 10);
+  CHECK(run.at("4", "reader.messages.answered") == 1);
+  CHECK(run.at("4", "sensor.frames.received") == 1);
+  // the arm moves on
+  CHECK(run.at("4.6", "reader.messages.answered") == 2);
+  CHECK(run.at("8", "reader.messages.as_expected") == 3);
+  CHECK(run.at("7", "channel.snr.down [dB]") > 13);
+  // all of this on the charge of the sensor's capacitor
+  CHECK(run.between("0", "8", "sensor.mcu.powered").most == 1);
+  CHECK(run.at("8", "sensor.capacitor.voltage [V]") > 4.1);
+}
+
 TEST_CASE("a mistake in a program ends with its file and line") {
   const Outcome outcome = run_program({"run", STRIDE_SOURCE_DIR "/scenarios/nfc_far/nfc_far.ssd",
                                        "--set", "reader.program=other.xml", "--out",

@@ -37,6 +37,8 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"units/mujoco_world", {"stride", "mujoco", "tinyxml2.h", "CLI"}},
     {"units/channel", {"stride", "Eigen", "units/nfc", "tinyxml2.h"}},
     {"units/nfc_channel", {"stride", "Eigen", "units/channel", "units/nfc"}},
+    {"units/rf_channel", {"stride", "Eigen", "units/channel", "units/nfc"}},
+    {"units/ideal_channel", {"stride", "units/channel"}},
     {"units/reader", {"stride", "units/nfc", "tinyxml2.h"}},
     {"units/environment", {"stride"}},
     {"units/ground_truth", {"stride", "tinyxml2.h"}},

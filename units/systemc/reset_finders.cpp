@@ -1,4 +1,4 @@
-#include "units/systemc/reset_finders.h"
+#include <stride/systemc/reset_finders.h>
 
 namespace stride::systemc {
 namespace {

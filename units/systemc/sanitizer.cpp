@@ -1,4 +1,4 @@
-#include "units/systemc/sanitizer.h"
+#include <stride/systemc/sanitizer.h>
 
 #ifdef __SANITIZE_ADDRESS__
 

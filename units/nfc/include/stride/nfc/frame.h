@@ -5,8 +5,9 @@
 // over again at the instant of the cut: with the same start, and with the bits that got out
 // (cut_off()); this replaces the frame that is still on the air.
 //
-// A receiver is handed what it hears at the instant at which it ends there, the start unchanged:
-// the end of the frame, or where the signal was lost. What is lost are bits at the end; a frame of
+// A receiver is handed what it hears at the instant at which it ends there: the end of the frame,
+// or where the signal was lost. Its start is unchanged, or later by the time that the channel
+// takes, so that the frame ends as it is handed over. What is lost are bits at the end; a frame of
 // which not one bit is heard is not handed over.
 #ifndef STRIDE_NFC_FRAME_H
 #define STRIDE_NFC_FRAME_H
