@@ -3,10 +3,11 @@
 #include <vector>
 
 #include <stride/systemc/kernel.h>
-#include <stride/systemc/reset_finders.h>
-#include <stride/systemc/sanitizer.h>
 #include <stride/systemc/time.h>
 #include <stride/systemc/timer.h>
+
+#include "units/systemc/reset_finders.h"
+#include "units/systemc/sanitizer.h"
 
 namespace stride::systemc {
 namespace {

@@ -1,4 +1,4 @@
-#include <stride/systemc/reset_finders.h>
+#include "units/systemc/reset_finders.h"
 
 namespace stride::systemc {
 namespace {

@@ -1,4 +1,4 @@
-#include <stride/systemc/sanitizer.h>
+#include "units/systemc/sanitizer.h"
 
 #ifdef __SANITIZE_ADDRESS__
 
