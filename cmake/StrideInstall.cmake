@@ -4,6 +4,9 @@ include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/stride")
 
 install(TARGETS stride_cli EXPORT stride RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET stride_robot)
+  install(TARGETS stride_robot RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
 install(TARGETS stride_interfaces stride_unit EXPORT stride ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY interfaces/stride DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(FILES interfaces/schemas/org.stride.idle.xsd DESTINATION ${CMAKE_INSTALL_DATADIR}/stride/schemas)
@@ -39,7 +42,7 @@ foreach(fmu IN LISTS fmus)
     install(FILES "${fmu}" DESTINATION lib/stride/units)
   endif()
 endforeach()
-install(DIRECTORY scenarios/ DESTINATION ${CMAKE_INSTALL_DATADIR}/stride/scenarios
+install(DIRECTORY scenarios/ DESTINATION ${CMAKE_INSTALL_DATADIR}/stride/scenarios USE_SOURCE_PERMISSIONS
   PATTERN CMakeLists.txt EXCLUDE
   PATTERN golden EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

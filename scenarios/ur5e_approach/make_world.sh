@@ -2,17 +2,19 @@
 # Packs ur5e_world.fmu: the arm of the Python package airo-models (a UR5e as URDF, MIT licence) with the scene beside this
 # script. Nothing of the package is part of stride.
 #   scenarios/ur5e_approach/make_world.sh build/release
-# A build of stride gets it into its folder units/. Exit code 77 = the package cannot be fetched from PyPI.
+# It goes to the units of that build or installation. Exit code 77 = the package cannot be fetched from PyPI.
 set -euo pipefail
 
 version=0.0.12
 
 if [ $# -ne 1 ] || [ ! -x "$1/bin/stride-robot" ]; then
-  echo "usage: $0 BUILD, the folder of a build of stride, such as build/release" >&2
+  echo "usage: $0 FOLDER, that of a build of stride, such as build/release, or of an installation" >&2
   exit 2
 fi
 here=$(cd "$(dirname "$0")" && pwd)
 build=$(cd "$1" && pwd)
+units=$build/units
+[ -d "$units" ] || units=$build/lib/stride/units
 package=$build/robots/airo_models-$version
 
 if [ ! -d "$package" ]; then
@@ -30,4 +32,4 @@ rm -rf "$world"
 cp -r "$here/world" "$world"
 "$build/bin/stride-robot" convert "$package/airo_models/arms/ur5e/ur5e.urdf" --mount "tool0=$here/antenna.xml" \
   --output "$world/ur5e.xml"
-"$build/bin/stride" pack mujoco_world.fmu --resources "$world" --output "$build/units/ur5e_world.fmu"
+"$build/bin/stride" pack mujoco_world.fmu --resources "$world" --output "$units/ur5e_world.fmu"
