@@ -5,6 +5,15 @@
 #include <stdexcept>
 
 namespace channel {
+namespace {
+
+bool is_place(const Pose& pose) { return pose.position.array().isFinite().all(); }
+
+bool is_directed(const Pose& pose) {
+  return pose.axis.array().isFinite().all() && pose.axis.norm() > 0.0;
+}
+
+}  // namespace
 
 void out_of_range(const std::string& name, double value, const std::string& range) {
   std::ostringstream message;
@@ -21,15 +30,19 @@ void require_not_negative(const std::string& name, double value) {
 }
 
 void require_pose(const std::string& antenna, const Pose& pose) {
-  const auto finite = [](const Eigen::Vector3d& v) { return v.array().isFinite().all(); };
-  if (!finite(pose.position)) {
+  if (!is_place(pose)) {
     throw std::invalid_argument("the position of " + antenna + " is not finite: expected metres");
   }
-  if (!finite(pose.axis) || !(pose.axis.norm() > 0.0)) {
+  if (!is_directed(pose)) {
     throw std::invalid_argument("the axis of " + antenna +
                                 " is no direction: expected a finite normal vector, its length "
                                 "not zero");
   }
+}
+
+// at each step: the name is made where it is needed only
+void require_pose(const TagName& tag, const Pose& pose) {
+  if (!is_place(pose) || !is_directed(pose)) require_pose(tag.coil(), pose);
 }
 
 void require_carrier_power(double power) {

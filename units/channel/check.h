@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "units/channel/names.h"
 #include "units/channel/pose.h"
 
 namespace channel {
@@ -17,6 +18,7 @@ void require_not_negative(const std::string& name, double value);
 
 /// Throws std::invalid_argument for an antenna at no place, or with an axis of length zero.
 void require_pose(const std::string& antenna, const Pose& pose);
+void require_pose(const TagName& tag, const Pose& pose);
 
 /// Throws std::invalid_argument for a power [W] that is negative or no number.
 void require_carrier_power(double power);

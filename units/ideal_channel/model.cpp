@@ -34,7 +34,7 @@ void Channel::move(const Pose& reader, const std::vector<Pose>& tags, double car
   channel::require_carrier_power(carrier_power);
   channel::require_pose("reader_coil", reader);
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    channel::require_pose(parameters_.tags[i].coil(), tags[i]);
+    channel::require_pose(parameters_.tags[i], tags[i]);
     Link& link = links_[i];
     link.distance = (tags[i].position - reader.position).norm();
     link.in_range = parameters_.range == 0.0 || link.distance <= parameters_.range;

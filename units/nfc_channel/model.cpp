@@ -57,7 +57,7 @@ void Channel::move(const Pose& reader_coil, const std::vector<Pose>& tag_coils,
   channel::require_pose("reader_coil", reader_coil);
   carrier_power_ = carrier_power;
   for (std::size_t i = 0; i < tags_.size(); ++i) {
-    channel::require_pose(tags_[i].parameters.name.coil(), tag_coils[i]);
+    channel::require_pose(tags_[i].parameters.name, tag_coils[i]);
     move_tag(i, reader_coil, tag_coils[i]);
   }
 }

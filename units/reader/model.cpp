@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "units/reader/text.h"
+#include "units/xml/text.h"
 
 namespace reader {
 namespace {
@@ -238,7 +239,7 @@ std::optional<stride::Time> Reader::next_event_time(stride::Time now) const {
 std::string Reader::report(std::size_t index) const {
   const Record& record = state_.records[index];
   const ProgramCommand& command = program_.commands[index];
-  std::string text = "at " + shortest(stride::to_seconds(record.sent_at)) + " s " +
+  std::string text = "at " + xml::shortest(stride::to_seconds(record.sent_at)) + " s " +
                      name_of(command.command) + ": expected " + text_of(command.expectation) +
                      "; got " + got_text(record, command.command);
   if (record.tries > 0) {

@@ -66,7 +66,7 @@ void Channel::move(const Pose& reader, const std::vector<Pose>& tags, double car
   channel::require_pose("reader_coil", reader);
   carrier_power_ = carrier_power;
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    channel::require_pose(parameters_.tags[i].name.coil(), tags[i]);
+    channel::require_pose(parameters_.tags[i].name, tags[i]);
     move_tag(i, reader, tags[i]);
   }
 }

@@ -37,4 +37,6 @@ TEST_CASE("An antenna is at a place and points somewhere") {
   CHECK_THROWS_WITH(require_pose("tag_coil", pose), Contains("the axis of tag_coil"));
   pose.position.x() = kInfinity;
   CHECK_THROWS_WITH(require_pose("tag_coil", pose), Contains("the position of tag_coil"));
+  CHECK_THROWS_WITH(require_pose(TagName{"door"}, pose), Contains("the position of door.coil"));
+  CHECK_NOTHROW(require_pose(TagName{}, Pose{}));
 }

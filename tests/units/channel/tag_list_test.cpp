@@ -22,12 +22,12 @@ TEST_CASE("The tags are listed in the order of the file") {
 
 TEST_CASE("What is wrong is told with file and line") {
   const auto [text, line, message] = GENERATE(table<std::string, std::string, std::string>({
-      {"<nfc-channel version=\"1\">\n<tag name=\"a\">", "channel.xml:", "cannot be read as XML"},
-      {"", "channel.xml:", "cannot be read as XML"},
+      {"<nfc-channel version=\"1\">\n<tag name=\"a\">", "channel.xml:", "expected well-formed XML"},
+      {"", "channel.xml:", "expected well-formed XML"},
       {"<!-- nothing -->", "channel.xml:1", "expected <nfc-channel>"},
       {"\n<channel version=\"1\"/>", "channel.xml:2", "expected <nfc-channel>"},
       {"<nfc-channel/>", "channel.xml:1", "expected the attribute 'version'"},
-      {"<nfc-channel version=\"2\"/>", "channel.xml:1", "expected version=\"1\""},
+      {"<nfc-channel version=\"2\"/>", "channel.xml:1", "is not known: expected 1"},
       {"<nfc-channel version=\"1\"/>", "channel.xml:1", "expected one at least"},
       {"<nfc-channel version=\"1\" x=\"\"/>", "channel.xml:1", "unknown attribute 'x'"},
       {"<nfc-channel version=\"1\">\n<tag/></nfc-channel>", "channel.xml:2",
@@ -36,10 +36,9 @@ TEST_CASE("What is wrong is told with file and line") {
        "unknown attribute 'radius'"},
       {"<nfc-channel version=\"1\">\n\n<sensor name=\"a\"/></nfc-channel>", "channel.xml:3",
        "expected nothing but <tag"},
-      {"<nfc-channel version=\"1\">text</nfc-channel>", "channel.xml:1",
-       "expected nothing but <tag"},
+      {"<nfc-channel version=\"1\">text</nfc-channel>", "channel.xml:1", "expected no text"},
       {"<nfc-channel version=\"1\">\n<tag name=\"a\"><b/></tag></nfc-channel>", "channel.xml:2",
-       "expected nothing but <tag"},
+       "expected no element inside <tag>"},
       {"<nfc-channel version=\"1\">\n<tag name=\"2a\"/></nfc-channel>", "channel.xml:2",
        "no digit first"},
       {"<nfc-channel version=\"1\">\n<tag name=\"\"/></nfc-channel>", "channel.xml:2",

@@ -1,4 +1,4 @@
-#include "units/reader/xml.h"
+#include "units/xml/element.h"
 
 #include <algorithm>
 #include <charconv>
@@ -7,9 +7,9 @@
 
 #include <tinyxml2.h>
 
-#include "units/reader/text.h"
+#include "units/xml/text.h"
 
-namespace reader {
+namespace xml {
 
 std::string Element::name() const { return element_->Name(); }
 
@@ -104,10 +104,4 @@ void Element::fail(const std::string& message) const {
                            element_->Name() + ">: " + message);
 }
 
-std::string quoted_list(const std::vector<std::string>& words) {
-  std::string list;
-  for (const auto& word : words) list += (list.empty() ? "'" : ", '") + word + "'";
-  return list;
-}
-
-}  // namespace reader
+}  // namespace xml

@@ -1,6 +1,6 @@
 // XML elements whose errors say where they are and what was expected.
-#ifndef STRIDE_UNITS_READER_XML_H
-#define STRIDE_UNITS_READER_XML_H
+#ifndef STRIDE_UNITS_XML_ELEMENT_H
+#define STRIDE_UNITS_XML_ELEMENT_H
 
 #include <cstdint>
 #include <optional>
@@ -13,7 +13,7 @@ namespace tinyxml2 {
 class XMLElement;
 }
 
-namespace reader {
+namespace xml {
 
 /// An element of a file. All its functions throw std::runtime_error with the file and the line.
 /// It refers to the document and the file's name, which have to outlive it.
@@ -54,9 +54,6 @@ class Element {
   const std::string* file_;
 };
 
-/// The words in quotation marks with commas between them, for messages.
-std::string quoted_list(const std::vector<std::string>& words);
-
-}  // namespace reader
+}  // namespace xml
 
 #endif
