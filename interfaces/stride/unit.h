@@ -17,6 +17,7 @@
 #ifndef STRIDE_UNIT_H
 #define STRIDE_UNIT_H
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
@@ -123,6 +124,13 @@ class Unit {
   template <class T>
   VariableBuilder output(std::string name, T& member) {
     return add(std::move(name), Causality::Output, Initial::Calculated, member);
+  }
+  /// Of an array whose size is known at run time only: so many elements from this one on, which
+  /// must stay there.
+  template <class T>
+  VariableBuilder output(std::string name, T* elements, std::size_t size) {
+    return add_row(std::move(name), Causality::Output, Initial::Calculated, detail::type_of<T>(),
+                   elements, size, {size});
   }
   /// Fixed, unless tunable() is said.
   template <class T>

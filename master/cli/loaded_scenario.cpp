@@ -19,16 +19,6 @@ namespace {
 
 constexpr Duration kDefaultStep = std::chrono::milliseconds(1);
 
-/// "LEFT=RIGHT" of an option.
-std::pair<std::string, std::string> split(const std::string& option, const std::string& text,
-                                          const std::string& form) {
-  const std::size_t at = text.find('=');
-  if (at == std::string::npos || at == 0) {
-    core::fail_input({}, fmt::format("{} {}: expected {}", option, text, form));
-  }
-  return {text.substr(0, at), text.substr(at + 1)};
-}
-
 Duration parse_option(const std::string& option, const std::string& text,
                       Duration (*parse)(std::string_view) = &io::parse_seconds) {
   try {
@@ -42,7 +32,7 @@ Duration parse_option(const std::string& option, const std::string& text,
 std::vector<io::ParameterValue> set_values(const std::vector<std::string>& sets) {
   std::vector<io::ParameterValue> values;
   for (const std::string& text : sets) {
-    const auto [name, value] = split("--set", text, "component.variable=value");
+    const auto [name, value] = split_option("--set", text, "component.variable=value");
     io::ParameterValue& added = values.emplace_back();
     added.name = name;
     added.value = value;
@@ -72,6 +62,15 @@ void log_message(const std::string& unit, fmi::Status status, const std::string&
 }
 
 }  // namespace
+
+std::pair<std::string, std::string> split_option(const std::string& option, const std::string& text,
+                                                 const std::string& form) {
+  const std::size_t at = text.find('=');
+  if (at == std::string::npos || at == 0) {
+    core::fail_input({}, fmt::format("{} {}: expected {}", option, text, form));
+  }
+  return {text.substr(0, at), text.substr(at + 1)};
+}
 
 std::vector<std::shared_ptr<fmi::Fmu>> load_fmus(const io::Scenario& scenario) {
   std::map<std::filesystem::path, std::shared_ptr<fmi::Fmu>> loaded;
@@ -117,7 +116,7 @@ std::vector<std::string> LoadedScenario::component_names() const {
 }
 
 void LoadedScenario::swap(const std::string& text) {
-  const auto [name, file] = split("--swap", text, "component=FILE.fmu");
+  const auto [name, file] = split_option("--swap", text, "component=FILE.fmu");
   if (file.empty()) core::fail_input({}, fmt::format("--swap {}: no file is named", text));
   const std::vector<std::string> names = component_names();
   const auto found = std::find(names.begin(), names.end(), name);

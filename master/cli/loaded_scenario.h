@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "master/core/simulation.h"
@@ -58,6 +59,11 @@ class LoadedScenario {
   std::optional<core::System> system_;
   core::RunOptions options_;
 };
+
+/// The two sides of "LEFT=RIGHT", which an option was given. Throws core::Error (Input) that says
+/// which `form` was expected.
+std::pair<std::string, std::string> split_option(const std::string& option, const std::string& text,
+                                                 const std::string& form);
 
 /// The descriptions of a scenario's units, by component; for `complete`, which wants no system yet.
 std::vector<std::shared_ptr<fmi::Fmu>> load_fmus(const io::Scenario& scenario);

@@ -118,6 +118,11 @@ TEST_CASE("a unit that lacks what the scenario connects cannot be swapped in") {
   CHECK_THAT(input_error_of(workspace.run({"--swap", "first=thrower.fmu"})),
              Contains(workspace.at("<ssd:Connection ") + "unit 'first', variable 'y'") &&
                  Contains("its model 'thrower' has no such variable") && Contains("steps"));
+  CHECK_THAT(
+      input_error_of(
+          workspace.run({"--swap", "second=thrower.fmu", "--set", "second.time_constant=1"})),
+      Contains("unit 'second': 2 things do not fit") && Contains("variable 'time_constant'") &&
+          Contains("variable 'u'") && Contains("expected an input Float64, fed by 'first.y'"));
 }
 
 TEST_CASE("a pattern of signals that matches nothing is a mistake") {

@@ -5,10 +5,11 @@
 
 #include <catch2/catch.hpp>
 
+#include <stride/nfc/frame.h>
+#include <stride/nfc/iso14443a.h>
+
 #include "tests/fuzz/mutator.h"
 #include "units/channel/tag_list.h"
-#include "units/nfc/frame.h"
-#include "units/nfc/iso14443a.h"
 #include "units/reader/program.h"
 
 using stride::tests::Mutator;

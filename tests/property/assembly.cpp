@@ -167,7 +167,8 @@ core::RunOptions fixed_steps(Duration step, Time stop) {
   return options;
 }
 
-Results run(const Assembly& assembly, core::RunOptions options) {
+Results run(const Assembly& assembly, core::RunOptions options,
+            const std::vector<capture::Request>& captures) {
   const Scratch scratch;
   const core::System system(assembly.declaration());
   options.recorded = all_outputs(system);
@@ -175,12 +176,17 @@ Results run(const Assembly& assembly, core::RunOptions options) {
   io::CsvRecorder signals(system, scratch / "signals.csv");
   io::EventRecorder events(system, scratch / "events.csv");
   ValueRecorder values(system, results);
-  core::Simulation simulation(system, assembly.instantiate(), options);
+  capture::Capture capture(system, "assembly", options, captures);
+  auto units = assembly.instantiate();
+  capture.wrap(units);
+  core::Simulation simulation(system, std::move(units), options);
+  capture.follow(simulation);
   for (core::Observer* observer :
-       std::initializer_list<core::Observer*>{&signals, &events, &values}) {
+       std::initializer_list<core::Observer*>{&signals, &events, &values, &capture}) {
     simulation.add_observer(*observer);
   }
   simulation.run();
+  capture.end("completed");
   results.signals = read(scratch / "signals.csv");
   results.events = read(scratch / "events.csv");
   results.statistics = simulation.statistics();

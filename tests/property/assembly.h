@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "master/capture/capture.h"
 #include "master/core/simulation.h"
 #include "master/core/system.h"
 #include "master/fmi/fmu.h"
@@ -62,8 +63,9 @@ struct Results {
 
 core::RunOptions fixed_steps(Duration step, Time stop);
 
-/// Records all outputs, whatever the options say of it.
-Results run(const Assembly& assembly, core::RunOptions options);
+/// Records all outputs, whatever the options say of it, and captures what these receive.
+Results run(const Assembly& assembly, core::RunOptions options,
+            const std::vector<capture::Request>& captures = {});
 /// Runs from 0 s to `stop` in fixed steps.
 inline Results run(const Assembly& assembly, Duration step, Time stop,
                    const core::ThreadOptions& threads = {}) {

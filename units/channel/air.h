@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include <stride/nfc/frame.h>
 #include <stride/time.h>
 
 #include "units/channel/reception.h"
-#include "units/nfc/frame.h"
 
 namespace channel {
 

@@ -6,9 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include <stride/nfc/frame.h>
 #include <stride/time.h>
-
-#include "units/nfc/frame.h"
 
 namespace channel {
 

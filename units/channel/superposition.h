@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "units/nfc/frame.h"
+#include <stride/nfc/frame.h>
 
 namespace channel {
 

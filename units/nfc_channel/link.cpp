@@ -4,9 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <stride/nfc/frame.h>
 #include <stride/time.h>
-
-#include "units/nfc/frame.h"
 
 namespace nfc_channel {
 namespace {

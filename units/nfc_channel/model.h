@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <stride/time.h>
+
 #include "units/channel/air.h"
 #include "units/nfc_channel/circuit.h"
 #include "units/nfc_channel/coil.h"

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <string>
 
+#include <stride/nfc/commands.h>
+#include <stride/nfc/frame.h>
 #include <stride/time.h>
 
-#include "units/nfc/commands.h"
-#include "units/nfc/frame.h"
 #include "units/reader/expectation.h"
 #include "units/xml/element.h"
 

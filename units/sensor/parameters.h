@@ -32,6 +32,7 @@ struct ControlUnitParameters {
 struct AdcParameters {
   double minimum = -40.0;                ///< the temperature of code 0 [degC]
   double maximum = 125.0;                ///< the temperature of code 4095 [degC]
+  double offset_error = 0.0;             ///< so much too high it converts [K]
   std::int32_t conversion_cycles = 800;  ///< of the control unit's clock
   double current = 0.2e-3;               ///< while it converts [A]
 };
@@ -111,6 +112,8 @@ void visit_parameters(Parameters& parameters, Visitor&& visit) {
 
   add(adc.minimum, "adc.minimum", "degC", -273.15, 327, "temperature of code 0");
   add(adc.maximum, "adc.maximum", "degC", -273.15, 327, "temperature of code 4095");
+  add(adc.offset_error, "adc.offset_error", "K", -100, 100,
+      "by how much too high a temperature is converted, for want of calibration");
   add(adc.conversion_cycles, "adc.conversion_cycles", "", 1, 1e9, "clock cycles of a conversion");
   add(adc.current, "adc.current", "A", 0, 1, "current while it converts");
 

@@ -8,8 +8,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <stride/nfc/iso14443a.h>
+
 #include "units/channel/superposition.h"
-#include "units/nfc/iso14443a.h"
 
 using namespace channel;
 using stride::Duration;

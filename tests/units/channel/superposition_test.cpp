@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "units/nfc/iso14443a.h"
+#include <stride/nfc/iso14443a.h>
 
 using channel::superposed;
 using nfc::Bytes;

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "units/nfc/iso14443a.h"
+#include <stride/nfc/iso14443a.h>
 
 using namespace ideal_channel;
 using stride::Duration;

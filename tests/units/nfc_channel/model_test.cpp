@@ -10,8 +10,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <stride/nfc/iso14443a.h>
+
 #include "units/channel/decibels.h"
-#include "units/nfc/iso14443a.h"
 
 using namespace nfc_channel;
 using channel::decibels;

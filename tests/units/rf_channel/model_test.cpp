@@ -9,7 +9,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "units/nfc/iso14443a.h"
+#include <stride/nfc/iso14443a.h>
 
 using namespace rf_channel;
 using stride::Duration;

@@ -1,0 +1,63 @@
+// stride run --capture: what components receive in a run, kept to be played to them again.
+#ifndef STRIDE_MASTER_CAPTURE_CAPTURE_H
+#define STRIDE_MASTER_CAPTURE_CAPTURE_H
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "master/capture/captured_unit.h"
+#include "master/core/observer.h"
+#include "master/core/run_options.h"
+#include "master/core/simulation.h"
+#include "master/core/system.h"
+
+namespace stride::capture {
+
+struct Request {
+  std::string component;
+  std::filesystem::path file;
+};
+
+/// Call order: construction, wrap(), follow(), add_observer() before the run; end() behind it. The
+/// files hold all up to the last communication point that was reached, whatever ended the run.
+class Capture final : public core::Observer {
+ public:
+  /// Creates the files. Throws core::Error (Input) for a component that the system has not, one
+  /// that is named twice, a file that is named twice or cannot be created, and options with which
+  /// inputs change within a step.
+  Capture(const core::System& system, const std::string& system_name,
+          const core::RunOptions& options, std::span<const Request> requests);
+
+  bool is_empty() const { return files_.empty(); }
+  /// Puts a CapturedUnit around each unit that is to be captured; the others stay as they are.
+  void wrap(std::vector<std::unique_ptr<core::Unit>>& units);
+  /// The simulation that the units go into; it must outlive the run only.
+  void follow(const core::Simulation& simulation);
+
+  void on_communication_point(Time time) override;
+  void on_finish() override;
+
+  /// Writes the end mark: why the run ended. Throws core::Error (Run) if that fails.
+  void end(const std::string& ending);
+
+ private:
+  struct File {
+    std::size_t component;
+    std::unique_ptr<StimuliFile> file;
+    CapturedUnit* unit = nullptr;
+  };
+
+  void open(const core::System& system, const std::string& system_name, const Request& request,
+            std::span<const Request> earlier);
+
+  const core::System& system_;
+  std::vector<File> files_;
+  SuperDenseIndex index_;
+};
+
+}  // namespace stride::capture
+
+#endif

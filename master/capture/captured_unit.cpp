@@ -1,0 +1,195 @@
+#include "master/capture/captured_unit.h"
+
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+
+namespace stride::capture {
+namespace {
+
+/// Whether the bits are the same, as -0 and 0 have not.
+bool is_same(const core::ValueBlock& a, const core::ValueBlock& b) {
+  return core::visit(a, [&]<class T>(std::span<const T> elements) {
+    if constexpr (std::is_arithmetic_v<T>) {
+      return std::memcmp(a.bytes(), b.bytes(), elements.size_bytes()) == 0;
+    } else {
+      return a == b;
+    }
+  });
+}
+
+core::ValueBlock part(const core::ValueBlock& values, std::size_t first, std::size_t size) {
+  core::ValueBlock copy(values.type(), size);
+  core::visit(copy, [&]<class T>(std::span<T> elements) {
+    core::visit(values, [&]<class U>(std::span<const U> all) {
+      if constexpr (std::is_same_v<T, U>)
+        std::ranges::copy_n(all.begin() + static_cast<std::ptrdiff_t>(first),
+                            static_cast<std::ptrdiff_t>(size), elements.begin());
+    });
+  });
+  return copy;
+}
+
+bool is_message(const core::UnitDescription& description, const core::Variable& variable) {
+  return variable.is_clocked() && !description.is_sampled(variable);
+}
+
+}  // namespace
+
+CapturedUnit::CapturedUnit(std::unique_ptr<core::Unit> unit,
+                           const core::UnitDescription& description, StimuliFile& file,
+                           const SuperDenseIndex& index)
+    : unit_(std::move(unit)), description_(description), file_(file), index_(index) {
+  for (const core::Variable& variable : description.variables) {
+    if (is_stimulus(variable)) inputs_.push_back({&variable, is_message(description, variable)});
+  }
+  std::ranges::sort(inputs_, {}, [](const Input& input) { return input.variable->reference; });
+}
+
+CapturedUnit::Input* CapturedUnit::find_input(core::ValueReference reference) {
+  const auto found = std::ranges::lower_bound(
+      inputs_, reference, {}, [](const Input& input) { return input.variable->reference; });
+  return found != inputs_.end() && found->variable->reference == reference ? &*found : nullptr;
+}
+
+// ---- What arrives ----
+
+void CapturedUnit::set(std::span<const core::ValueReference> references,
+                       const core::ValueBlock& values) {
+  unit_->set(references, values);
+  note(references, values);
+}
+
+void CapturedUnit::note(std::span<const core::ValueReference> references,
+                        const core::ValueBlock& values) {
+  std::size_t first = 0;
+  for (const core::ValueReference reference : references) {
+    Input* const input = find_input(reference);
+    const core::Variable& variable =
+        input != nullptr ? *input->variable : description_.variables[*description_.find(reference)];
+    if (mode_ == Mode::Start) file_.add_start_value(variable, values, first);
+    if (input != nullptr) note(*input, values, first);
+    first += variable.size;
+  }
+}
+
+void CapturedUnit::note(Input& input, const core::ValueBlock& values, std::size_t first) {
+  core::ValueBlock now = part(values, first, input.variable->size);
+  if (input.variable->type == core::ValueType::Clock) {
+    if (now.numbers<bool>()[0]) waiting_.push_back({&input, std::move(now)});
+    return;
+  }
+  if (!input.is_message && input.latest && is_same(*input.latest, now)) return;
+  input.latest = now;
+  if (mode_ == Mode::Event) {
+    waiting_.push_back({&input, std::move(now)});
+  } else if (mode_ == Mode::Step) {
+    write(input, "", now);
+  }
+}
+
+void CapturedUnit::write(const Input& input, std::string_view event,
+                         const core::ValueBlock& values) {
+  if (input.variable->type == core::ValueType::Clock) {
+    file_.add_tick(time_, event, *input.variable);
+  } else {
+    file_.add_value(time_, event, *input.variable, values, 0);
+  }
+}
+
+void CapturedUnit::write_waiting(std::uint64_t index) {
+  const std::string event = std::to_string(index);
+  for (const Waiting& waiting : waiting_) write(*waiting.input, event, waiting.values);
+  waiting_.clear();
+}
+
+// ---- What it is told to do ----
+
+void CapturedUnit::enter_initialization(Time start, std::optional<Time> stop) {
+  unit_->enter_initialization(start, stop);
+  file_.end_head(start);
+  time_ = start;
+  mode_ = Mode::Initialization;
+}
+
+/// What was tried on the way to the initial values is left out.
+void CapturedUnit::exit_initialization() {
+  unit_->exit_initialization();
+  for (const Input& input : inputs_) {
+    if (input.latest) write(input, "", *input.latest);
+  }
+  mode_ = description_.has_event_mode ? Mode::Event : Mode::Step;
+}
+
+core::StepResult CapturedUnit::step(const core::StepInterval& interval) {
+  const core::StepResult result = unit_->step(interval);
+  note_step(interval, result);
+  return result;
+}
+
+core::StepResult CapturedUnit::step(const core::StepInterval& interval,
+                                    const core::StepValues& values) {
+  const core::StepResult result = unit_->step(interval, values);
+  for (const core::BoundValues& input : values.inputs) note(input.references, *input.block);
+  note_step(interval, result);
+  return result;
+}
+
+void CapturedUnit::note_step(const core::StepInterval& interval, const core::StepResult& result) {
+  if (result.rejected) return;
+  file_.add_step(interval.from, interval.to);
+  time_ = result.reached;
+}
+
+void CapturedUnit::enter_event_mode() {
+  unit_->enter_event_mode();
+  mode_ = Mode::Event;
+}
+
+core::EventResult CapturedUnit::update_discrete_states() {
+  const std::uint64_t index = index_.at(time_);
+  write_waiting(index);
+  next_index_ = index + 1;
+  return unit_->update_discrete_states();
+}
+
+void CapturedUnit::enter_step_mode() {
+  unit_->enter_step_mode();
+  write_waiting(next_index_);
+  mode_ = Mode::Step;
+}
+
+// ---- States, idle time, the end ----
+
+void CapturedUnit::save_state() {
+  unit_->save_state();
+  saved_ = {file_.mark(), time_, mode_, inputs_};
+}
+
+void CapturedUnit::restore_state() {
+  unit_->restore_state();
+  file_.drop(saved_.mark);
+  time_ = saved_.time;
+  mode_ = saved_.mode;
+  inputs_ = saved_.inputs;
+}
+
+void CapturedUnit::enable_idle_skipping(Duration max_skip) {
+  unit_->enable_idle_skipping(max_skip);
+  file_.add_skip(max_skip);
+}
+
+void CapturedUnit::set_idle_tolerances(std::span<const core::ValueReference> outputs,
+                                       std::span<const double> tolerances) {
+  unit_->set_idle_tolerances(outputs, tolerances);
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    file_.add_tolerance(description_.variables[*description_.find(outputs[i])], tolerances[i]);
+  }
+}
+
+void CapturedUnit::terminate() {
+  unit_->terminate();
+  commit();
+}
+
+}  // namespace stride::capture

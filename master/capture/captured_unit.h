@@ -1,0 +1,138 @@
+#ifndef STRIDE_MASTER_CAPTURE_CAPTURED_UNIT_H
+#define STRIDE_MASTER_CAPTURE_CAPTURED_UNIT_H
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "master/capture/stimuli_file.h"
+#include "master/core/statistics.h"
+#include "master/core/unit.h"
+
+namespace stride::capture {
+
+/// The number of an event iteration within its instant, from the count of all of a run.
+class SuperDenseIndex {
+ public:
+  /// The count, kept up to date by a simulation.
+  void follow(const std::uint64_t& event_iterations) { count_ = &event_iterations; }
+  void on_communication_point(Time time) {
+    if (time != point_) first_ = next_first_;
+    point_ = time;
+    next_first_ = count();
+  }
+  /// Of the iteration at `time` that goes on now.
+  std::uint64_t at(Time time) const {
+    return count() - 1 - (time == point_ ? first_ : next_first_);
+  }
+
+ private:
+  std::uint64_t count() const { return count_ == nullptr ? 0 : *count_; }
+
+  const std::uint64_t* count_ = nullptr;
+  Time point_ = Time::min();      ///< the last communication point
+  std::uint64_t first_ = 0;       ///< the count where its instant began
+  std::uint64_t next_first_ = 0;  ///< likewise, of the next instant
+};
+
+/// A unit, with all that it receives written down as it arrives: what it is given in Step Mode and
+/// in which event iteration, and the steps that it makes. What is undone by a restored state is
+/// taken back; a rejected step has not been.
+///
+/// One state is kept at a time; a reset and serialised states are refused, as those of a unit that
+/// has none.
+class CapturedUnit final : public core::Unit {
+ public:
+  /// All but the unit must outlive this object.
+  CapturedUnit(std::unique_ptr<core::Unit> unit, const core::UnitDescription& description,
+               StimuliFile& file, const SuperDenseIndex& index);
+
+  /// All units have reached a communication point: what was written is final.
+  void commit() { file_.commit(time_); }
+
+  void enter_configuration_mode() override { unit_->enter_configuration_mode(); }
+  void exit_configuration_mode() override { unit_->exit_configuration_mode(); }
+  void enter_initialization(Time start, std::optional<Time> stop) override;
+  void exit_initialization() override;
+  void get(std::span<const core::ValueReference> references, core::ValueBlock& values) override {
+    unit_->get(references, values);
+  }
+  void set(std::span<const core::ValueReference> references,
+           const core::ValueBlock& values) override;
+  core::StepResult step(const core::StepInterval& interval) override;
+  core::StepResult step(const core::StepInterval& interval,
+                        const core::StepValues& values) override;
+  std::string rejection_reason() const override { return unit_->rejection_reason(); }
+  void save_state() override;
+  void restore_state() override;
+  void enter_event_mode() override;
+  core::EventResult update_discrete_states() override;
+  void enter_step_mode() override;
+  core::ClockInterval clock_interval(const core::Variable& clock) override {
+    return unit_->clock_interval(clock);
+  }
+  core::Interval clock_shift(const core::Variable& clock) override {
+    return unit_->clock_shift(clock);
+  }
+  void get_directional_derivative(std::span<const core::ValueReference> unknowns,
+                                  std::span<const core::ValueReference> knowns,
+                                  std::span<const double> seed,
+                                  std::span<double> sensitivity) override {
+    unit_->get_directional_derivative(unknowns, knowns, seed, sensitivity);
+  }
+  void enable_idle_skipping(Duration max_skip) override;
+  void set_idle_tolerances(std::span<const core::ValueReference> outputs,
+                           std::span<const double> tolerances) override;
+  Time idle_until() override { return unit_->idle_until(); }
+  void get_derivatives(std::span<const core::ValueReference> outputs,
+                       std::span<double> derivatives) override {
+    unit_->get_derivatives(outputs, derivatives);
+  }
+  void terminate() override;
+  std::uint64_t calls() const override { return unit_->calls(); }
+
+ private:
+  enum class Mode { Start, Initialization, Event, Step };
+
+  /// An input, and what it was given last.
+  struct Input {
+    const core::Variable* variable;
+    bool is_message;  ///< it exists at ticks only, so a value that it had before is new again
+    std::optional<core::ValueBlock> latest{};
+  };
+  /// What was set in Event Mode, in an iteration whose number is known at its end only.
+  struct Waiting {
+    Input* input;
+    core::ValueBlock values;
+  };
+  struct Saved {
+    std::size_t mark = 0;
+    Time time{};
+    Mode mode = Mode::Start;
+    std::vector<Input> inputs;
+  };
+
+  Input* find_input(core::ValueReference reference);
+  void note(std::span<const core::ValueReference> references, const core::ValueBlock& values);
+  void note(Input& input, const core::ValueBlock& values, std::size_t first);
+  void note_step(const core::StepInterval& interval, const core::StepResult& result);
+  void write(const Input& input, std::string_view event, const core::ValueBlock& values);
+  void write_waiting(std::uint64_t index);
+
+  std::unique_ptr<core::Unit> unit_;
+  const core::UnitDescription& description_;
+  StimuliFile& file_;
+  const SuperDenseIndex& index_;
+  Mode mode_ = Mode::Start;
+  Time time_{};
+  std::vector<Input> inputs_;  ///< in the order of their references
+  std::vector<Waiting> waiting_;
+  std::uint64_t next_index_ = 0;  ///< of the iteration behind the last one
+  Saved saved_;
+};
+
+}  // namespace stride::capture
+
+#endif

@@ -1,0 +1,183 @@
+// What a component of any system received, played to it alone, is the same to it bit by bit.
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "master/fmi/binaries.h"
+#include "master/fmi/fmi3_library.h"
+#include "tests/master/archive/support.h"
+#include "tests/property/random_system.h"
+
+using namespace stride;
+using namespace stride::tests;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr unsigned kSystems = kSanitized ? 10 : 100;
+constexpr Duration kStep = 1ms;
+constexpr Time kStop{100ms};
+
+/// The unit player with this file, as `stride pack` makes it, but for the archive.
+std::shared_ptr<fmi::Fmu> player_of(const Scratch& scratch, const fs::path& stimuli) {
+  const fs::path folder = scratch / "player";
+  const fs::path binaries = folder / "binaries" / fmi::platform();
+  fs::create_directories(folder / "resources");
+  fs::create_directories(binaries);
+  fs::copy_file(stimuli, folder / "resources/stimuli.csv");
+  fs::create_symlink(STRIDE_PLAYER_LIBRARY, binaries / "player.so");
+  const fmi::Fmi3Library library(STRIDE_PLAYER_LIBRARY);
+  scratch.write("player/modelDescription.xml", library.describe(folder / "resources"));
+  return fmi::Fmu::load(folder);
+}
+
+/// The component of the system, as it is there, with a player in the place of all others.
+Assembly alone(const Assembly& system, const std::string& component,
+               std::shared_ptr<fmi::Fmu> player) {
+  const core::SystemDeclaration& whole = system.declaration();
+  const auto declared = std::find_if(whole.components.begin(), whole.components.end(),
+                                     [&](const auto& c) { return c.name == component; });
+  Assembly assembly;
+  assembly.add("player", std::move(player)).add(component, declared->description->model_name);
+  for (const auto& value : whole.start_values) {
+    if (value.component == component) assembly.set(component + "." + value.variable, value.value);
+  }
+  for (const auto& wire : whole.connections) {
+    if (wire.to_component != component) continue;
+    assembly.wire("player." + wire.to_connector, component + "." + wire.to_connector);
+  }
+  return assembly;
+}
+
+/// The values of one component's outputs at an instant.
+std::vector<double> values_at(const Results& results, const std::string& component, Time time) {
+  std::vector<double> values;
+  const std::vector<double>& all = results.values.at(time);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (results.names[i].rfind(component + ".", 0) == 0) values.push_back(all[i]);
+  }
+  return values;
+}
+
+/// Those of its communication points at which it was in Event Mode.
+std::set<std::string> event_times(const std::string& stimuli) {
+  std::set<std::string> times;
+  std::istringstream lines(stimuli.substr(stimuli.find("\ntime,")));
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t comma = line.find(',');
+    if (comma + 1 < line.size() && std::isdigit(line[comma + 1]))
+      times.insert(line.substr(0, comma));
+  }
+  return times;
+}
+
+/// What it received is in its stimuli.
+std::string sent_by(const Results& results, const std::string& component) {
+  std::string rows;
+  std::istringstream lines(results.events);
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_sent = line.find(",sent,") != std::string::npos;
+    if (is_sent && line.find("," + component + ",") != std::string::npos) rows += line + "\n";
+  }
+  return rows;
+}
+
+core::RunOptions one_step() { return fixed_steps(kStop.time_since_epoch(), kStop); }
+
+struct Replay {
+  Results original, replayed;
+  std::string stimuli, replayed_stimuli;
+};
+
+/// `max_skip`: of the component, in both runs.
+Replay replay(const Assembly& system, const std::string& component, core::RunOptions options,
+              std::optional<Duration> max_skip = std::nullopt) {
+  const Scratch scratch;
+  Replay result;
+  core::RunOptions replay_options = one_step();
+  replay_options.idle = {{std::nullopt, max_skip}, {}, {}, kStop.time_since_epoch()};
+  result.original = run(system, std::move(options), {{component, scratch / "stimuli.csv"}});
+  result.stimuli = read(scratch / "stimuli.csv");
+  const Assembly only = alone(system, component, player_of(scratch, scratch / "stimuli.csv"));
+  result.replayed = run(only, replay_options, {{component, scratch / "again.csv"}});
+  result.replayed_stimuli = read(scratch / "again.csv");
+  return result;
+}
+
+/// Where it was left alone, the original has its outputs on their tangents until it is called.
+void check_same(const Replay& result, const std::string& component, bool may_rest = false) {
+  CHECK(result.replayed.values.size() >= 2);
+  CHECK(result.replayed_stimuli == result.stimuli);
+  const std::set<std::string> events = event_times(result.stimuli);
+  for (const auto& [time, all] : result.replayed.values) {
+    if (may_rest && events.count(core::to_text(time)) == 0) continue;
+    INFO(core::to_text(time) << " s");
+    CHECK(values_at(result.replayed, component, time) ==
+          values_at(result.original, component, time));
+  }
+  CHECK(sent_by(result.replayed, component) == sent_by(result.original, component));
+}
+
+}  // namespace
+
+TEST_CASE("a replay is what the component saw and did, captured again it is the same file") {
+  std::set<std::string> models;
+  for (unsigned seed = 0; seed < kSystems; ++seed) {
+    const Assembly system = random_system(seed, Wiring::Continuous);
+    const auto& components = system.declaration().components;
+    const auto& chosen = components[seed % components.size()];
+    INFO("seed " << seed << ", " << chosen.name << "\n" << system.text());
+    models.insert(chosen.description->model_name);
+    check_same(replay(system, chosen.name, fixed_steps(kStep, kStop)), chosen.name);
+  }
+  if (!kSanitized) CHECK(models.size() >= 6);
+}
+
+TEST_CASE("so it is where steps follow events only, or an error, and are undone") {
+  const auto policy = GENERATE(core::StepPolicy::EventDriven, core::StepPolicy::ErrorControlled);
+  core::RunOptions options = fixed_steps(kStep, kStop);
+  options.step.policy = policy;
+  options.step.maximum = 5ms;
+  options.step.relative_tolerance = options.step.absolute_tolerance = 1e-2;
+  std::uint64_t undone = 0;
+  unsigned compared = 0;
+  for (unsigned seed = 0; compared < kSystems / 5; ++seed) {
+    const Assembly system = random_system(seed, Wiring::Continuous);
+    const auto& components = system.declaration().components;
+    const bool can_go_back = std::all_of(components.begin(), components.end(), [](const auto& c) {
+      return c.description->can_save_state;
+    });
+    if (policy == core::StepPolicy::ErrorControlled && !can_go_back) continue;
+    ++compared;
+    const std::string& component = components[seed % components.size()].name;
+    INFO("seed " << seed << ", " << component << "\n" << system.text());
+    const Replay result = replay(system, component, options);
+    check_same(result, component);
+    undone += result.original.statistics.undone_steps;
+  }
+  if (policy == core::StepPolicy::ErrorControlled) CHECK(undone > 0);
+}
+
+TEST_CASE("so it is where the component was left alone while it was idle") {
+  const auto max_skip = GENERATE(Duration(2ms), Duration(7ms), Duration(1s));
+  const std::string announces = GENERATE("0", "1");
+  Assembly system;
+  system.add("pump", "ticker", {{"period", "0.006"}});
+  system.add("clock", "ticker", {{"period", "0.0031"}, {"announces", announces}});
+  system.add("tank", "idler",
+             {{"rate", "5"}, {"period", "0.0215"}, {"announces", announces}, {"inflow", "0"}});
+  system.wire("pump.level", "tank.inflow").wire("clock.tick.clock", "tank.ask");
+  core::RunOptions options = fixed_steps(kStep, kStop);
+  options.idle.max_skip.assign(3, max_skip);
+  options.idle.least = kStep;
+  const Replay result = replay(system, "tank", options, max_skip);
+  CHECK(result.original.units.at("tank").rests > 3);
+  CHECK(result.original.units.at("tank").messages_sent > 3);
+  CHECK(event_times(result.stimuli).size() > 20);
+  check_same(result, "tank", true);
+}

@@ -1,0 +1,59 @@
+// The player seen by an importer.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "tests/interfaces/unit/importer.h"
+#include "tests/units/player/example.h"
+
+using namespace stride::tests;
+using Catch::Contains;
+
+namespace {
+
+class Resources {
+ public:
+  explicit Resources(const std::string& stimuli) {
+    std::string name = (std::filesystem::temp_directory_path() / "stride-test-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = name;
+    if (!stimuli.empty()) std::ofstream(path_ / "stimuli.csv") << stimuli;
+  }
+  ~Resources() { std::filesystem::remove_all(path_); }
+  Resources(const Resources&) = delete;
+  Resources& operator=(const Resources&) = delete;
+
+  std::string path() const { return path_.string() + "/"; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace
+
+TEST_CASE("the table is that of the captured inputs") {
+  const UnitLibrary library(STRIDE_PLAYER_LIBRARY);
+  const Resources resources(example());
+  const std::string xml = library.describe(resources.path());
+  CHECK(attribute(xml, "name=\"level\"", "causality") == "output");
+  CHECK(attribute(xml, "name=\"level\"", "unit") == "V");
+  CHECK(attribute(xml, "name=\"mode\"", "variability") == "discrete");
+  CHECK(attribute(xml, "name=\"message.text\"", "clocks") ==
+        attribute(xml, "name=\"message.clock\"", "valueReference"));
+  CHECK_THAT(xml, Contains("Plays to 'lamp' what 'left' received in 'room'"));
+  CHECK_THAT(xml, Contains("<Item name=\"on\" value=\"2\""));
+}
+
+TEST_CASE("without stimuli, or with bad ones, it says what it wants") {
+  const UnitLibrary library(STRIDE_PLAYER_LIBRARY);
+  CHECK_THROWS_WITH(library.describe(),
+                    Contains("expected one with stimuli.csv") && Contains("stride run --capture"));
+  const Resources none("");
+  CHECK_THROWS_WITH(library.describe(none.path()), Contains("stimuli.csv: cannot be read"));
+  const Resources bad(replaced(example(), "0.25,,level,0.75", "0.25,,level,x"));
+  CHECK_THROWS_WITH(library.describe(bad.path()), Contains("stimuli.csv:20: 'x' is no Float64"));
+}

@@ -1,0 +1,43 @@
+#ifndef STRIDE_UNITS_PLAYER_CSV_H
+#define STRIDE_UNITS_PLAYER_CSV_H
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace player {
+
+/// The rows of a CSV file (RFC 4180), one by one. A field in quotation marks may hold line feeds;
+/// every row ends with one.
+class CsvRows {
+ public:
+  CsvRows(const std::string& text, std::string file) : text_(text), file_(std::move(file)) {}
+
+  /// Whether there is another row, which is in fields() then. Throws std::runtime_error, as fail()
+  /// does, for a last row without its end, and for quotation marks where none may be.
+  bool next();
+  const std::vector<std::string>& fields() const { return fields_; }
+  /// Where the row begins, from 1 on.
+  int line() const { return line_; }
+  bool at_end() const { return at_ == text_.size(); }
+
+  /// Throws std::runtime_error "FILE:LINE: message".
+  [[noreturn]] void fail(const std::string& message) const;
+
+ private:
+  std::string take_field();
+  std::string take_quoted();
+
+  const std::string& text_;
+  std::string file_;
+  std::size_t at_ = 0;
+  int line_ = 0;
+  int next_line_ = 1;
+  std::vector<std::string> fields_;
+};
+
+}  // namespace player
+
+#endif

@@ -1,0 +1,190 @@
+// The player as an FMU. Its variable table comes from the stimuli in its resources.
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <stride/unit.h>
+
+#include "units/player/model.h"
+
+namespace {
+
+/// An item of an Enumeration, whichever it is.
+enum class Item : std::int64_t {};
+
+std::filesystem::path stimuli_file(const std::filesystem::path& resources) {
+  if (resources.empty()) {
+    throw std::runtime_error(
+        "the player has no resources folder: expected one with stimuli.csv, which `stride run "
+        "--capture COMPONENT=stimuli.csv` writes");
+  }
+  return resources / "stimuli.csv";
+}
+
+/// Where the values of one output stand, and how they come there.
+class Place {
+ public:
+  virtual ~Place() = default;
+  /// Values of the input, from this one on.
+  virtual void show(const player::Values& values, std::size_t first) = 0;
+};
+
+template <class T, class Source>
+class PlaceOf final : public Place {
+ public:
+  explicit PlaceOf(std::size_t size) : size_(size), elements_(std::make_unique<T[]>(size)) {}
+  T* elements() { return elements_.get(); }
+  void show(const player::Values& values, std::size_t first) override {
+    const auto& list = std::get<std::vector<Source>>(values);
+    for (std::size_t i = 0; i < size_; ++i) elements_[i] = static_cast<T>(list[first + i]);
+  }
+
+ private:
+  std::size_t size_;
+  std::unique_ptr<T[]> elements_;
+};
+
+}  // namespace
+
+class PlayerUnit : public stride::Unit {
+ public:
+  explicit PlayerUnit(const stride::Setup& setup)
+      : stimuli_(player::load_stimuli(stimuli_file(setup.resources).string())),
+        playback_(stimuli_),
+        places_(stimuli_.inputs.size()),
+        clocks_(stimuli_.inputs.size()) {
+    auto& info = describe("Plays to '" + stimuli_.unit + "' what '" + stimuli_.component +
+                          "' received in '" + stimuli_.system + "'");
+    info.split_invariant = true;
+    info.promises_idle = true;
+    for (std::size_t i = 0; i < stimuli_.inputs.size(); ++i) list_clock(i);
+    for (std::size_t i = 0; i < stimuli_.inputs.size(); ++i) list_value(i);
+    list_origin();
+    state(playback_.position());
+    show_start_values();
+  }
+
+  void initialize(stride::Time start) override {
+    show_start_values();
+    playback_.begin(start, [this](const player::Entry& entry) { play(entry); });
+    if (start <= stimuli_.start() || std::exchange(told_start_, true)) return;
+    log(stride::Severity::Warning, "the stimuli begin at " + text(stimuli_.start()) +
+                                       " s, the run at " + text(start) +
+                                       " s, so what was received before is not played");
+  }
+
+  void step(stride::Step& step) override {
+    if (come_to(step.to())) step.need_event();
+  }
+
+  void event(stride::Event& event) override {
+    playback_.iterate(event.time(), [this](const player::Entry& entry) { play(entry); });
+    report();
+    if (playback_.has_more(event.time())) return event.iterate();
+    const auto next = stop_at_stimuli_ ? playback_.following() : playback_.target();
+    next ? event.next_event(*next) : event.no_next_event();
+  }
+
+  stride::Time idle_until(stride::Time) const override {
+    return playback_.following().value_or(stride::Time::max());
+  }
+
+ private:
+  static std::string text(stride::Time time) { return std::to_string(stride::to_seconds(time)); }
+
+  void list_clock(std::size_t i) {
+    const player::Input& input = stimuli_.inputs[i];
+    if (input.type != player::Type::Clock) return;
+    clocks_[i] = std::make_unique<stride::Clock>();
+    output(input.name, *clocks_[i]).description("ticks as that of the captured unit");
+  }
+
+  void list_value(std::size_t i) {
+    const player::Input& input = stimuli_.inputs[i];
+    if (input.type == player::Type::Clock) return;
+    auto row = add_output(i);
+    row.depends_on({}).description("as the captured unit received it");
+    if (!input.unit.empty()) row.unit(input.unit);
+    if (!input.items.empty()) row.items(input.items);
+    if (!input.is_continuous) row.discrete();
+    if (input.clock) row.clocked_by(*clocks_[*input.clock]);
+  }
+
+  stride::VariableBuilder add_output(std::size_t i) {
+    if (stimuli_.inputs[i].type == player::Type::Enumeration) {
+      return add_output<Item, std::int64_t>(i);
+    }
+    return std::visit(
+        [&](const auto& list) {
+          return add_output<typename std::decay_t<decltype(list)>::value_type>(i);
+        },
+        stimuli_.inputs[i].values);
+  }
+  template <class T, class Source = T>
+  stride::VariableBuilder add_output(std::size_t i) {
+    const player::Input& input = stimuli_.inputs[i];
+    auto place = std::make_unique<PlaceOf<T, Source>>(input.size);
+    T* const elements = place->elements();
+    places_[i] = std::move(place);
+    if (input.dimensions.empty()) return output(input.name, *elements);
+    return output(input.name, elements, input.size).dimensions(input.dimensions);
+  }
+  void list_origin() {
+    const auto constant = [this](const char* name, std::string& text, const char* meaning) {
+      local(name, text).constant().description(meaning);
+    };
+    constant("captured.unit", stimuli_.unit, "model of the unit that received them");
+    constant("captured.component", stimuli_.component, "its name in its system");
+    constant("captured.system", stimuli_.system, "the system");
+    parameter("stop_at_stimuli", stop_at_stimuli_)
+        .description("a communication point at each stimulus: for another unit than that one");
+  }
+
+  void show_start_values() {
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      if (places_[i]) places_[i]->show(stimuli_.inputs[i].values, 0);
+    }
+  }
+
+  bool come_to(stride::Time now) {
+    return playback_.come_to(now, [this](const player::Entry& entry) { play(entry); });
+  }
+  void play(const player::Entry& entry) {
+    if (entry.kind == player::Entry::Kind::Tick) return clocks_[entry.input]->tick();
+    places_[entry.input]->show(stimuli_.inputs[entry.input].values, entry.first);
+  }
+
+  /// From event() only, because a step may be taken back.
+  void report() {
+    player::Playback::Position& position = playback_.position();
+    if (position.late >= 0 && !std::exchange(told_late_, true)) {
+      const auto& entry = stimuli_.entries[static_cast<std::size_t>(position.late)];
+      log(stride::Severity::Warning,
+          "what the captured unit received at " + text(entry.time) +
+              " s comes late, because the unit that it is played to does not stop there as the "
+              "captured one did (see stop_at_stimuli)");
+    }
+    if (position.beside >= 0 && !std::exchange(told_beside_, true)) {
+      log(stride::Severity::Warning, "there is a communication point at " +
+                                         text(stride::Time(stride::Duration(position.beside))) +
+                                         " s, which the captured unit did not have, so steps are "
+                                         "cut otherwise than they were; "
+                                         "a step as long as the run adds none");
+    }
+    position.late = position.beside = -1;
+  }
+
+  player::Stimuli stimuli_;
+  player::Playback playback_;
+  std::vector<std::unique_ptr<Place>> places_;          ///< by input; none of clocks
+  std::vector<std::unique_ptr<stride::Clock>> clocks_;  ///< by input; of clocks only
+  bool stop_at_stimuli_ = false;
+  bool told_start_ = false;
+  bool told_late_ = false;
+  bool told_beside_ = false;
+};
+
+STRIDE_UNIT(PlayerUnit)
