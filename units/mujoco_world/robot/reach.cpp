@@ -204,7 +204,8 @@ void Reach::note_miss(double distance, const Miss& miss, std::size_t reached) {
   nearest_ = "a distance of " + std::to_string(distance) +
              " m is out of reach: the nearest pose misses it by " + std::to_string(miss.place) +
              " m and " + std::to_string(miss.turn) +
-             " rad; move the target, or widen the joints' ranges";
+             " rad; move the target, turn a site whose z axis points away, or widen the joints' "
+             "ranges";
 }
 
 std::vector<Pose> Reach::solve(const std::vector<double>& distances) {
