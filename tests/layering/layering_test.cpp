@@ -42,7 +42,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"units/ideal_channel", {"stride", "units/channel"}},
     {"units/reader", {"stride", "units/nfc", "units/xml"}},
     {"units/environment", {"stride"}},
-    {"units/ground_truth", {"stride", "tinyxml2.h"}},
+    {"units/ground_truth", {"stride", "units/xml"}},
     {"units/player", {"stride"}},
 };
 

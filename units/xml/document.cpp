@@ -26,25 +26,27 @@ void require_well_formed(const tinyxml2::XMLDocument& document, const std::strin
 
 }  // namespace
 
-Document Document::load(const std::string& path, const std::string& root) {
+Document Document::load(const std::string& path, const std::string& root,
+                        const std::vector<std::string>& attributes) {
   auto document = std::make_unique<tinyxml2::XMLDocument>();
   document->LoadFile(path.c_str());
-  return Document(std::move(document), path, root);
+  return Document(std::move(document), path, root, attributes);
 }
 
-Document Document::parse(const std::string& text, const std::string& name,
-                         const std::string& root) {
+Document Document::parse(const std::string& text, const std::string& name, const std::string& root,
+                         const std::vector<std::string>& attributes) {
   auto document = std::make_unique<tinyxml2::XMLDocument>();
   document->Parse(text.data(), text.size());
-  return Document(std::move(document), name, root);
+  return Document(std::move(document), name, root, attributes);
 }
 
 Document::Document(std::unique_ptr<tinyxml2::XMLDocument> document, const std::string& name,
-                   const std::string& expected_root)
+                   const std::string& expected_root, std::vector<std::string> attributes)
     : document_(std::move(document)), name_(std::make_unique<const std::string>(name)) {
   require_well_formed(*document_, name, expected_root);
   if (root().name() != expected_root) root().fail("expected <" + expected_root + "> as the root");
-  root().allow_only({"version"});
+  attributes.insert(attributes.begin(), "version");
+  root().allow_only(attributes);
   if (const std::string version = root().text("version"); version != "1") {
     root().fail("version=\"" + version + "\" is not known: expected 1");
   }

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "units/xml/element.h"
 
@@ -13,13 +14,15 @@ class XMLDocument;
 
 namespace xml {
 
-/// Its root element has the attribute version="1" and no other. All functions throw
-/// std::runtime_error with the file, the line and what was expected.
+/// Its root element has the attribute version="1", and may have those in `attributes`. All
+/// functions throw std::runtime_error with the file, the line and what was expected.
 class Document {
  public:
-  static Document load(const std::string& path, const std::string& root);
+  static Document load(const std::string& path, const std::string& root,
+                       const std::vector<std::string>& attributes = {});
   /// From a text, for whose errors `name` is the file.
-  static Document parse(const std::string& text, const std::string& name, const std::string& root);
+  static Document parse(const std::string& text, const std::string& name, const std::string& root,
+                        const std::vector<std::string>& attributes = {});
 
   Document(Document&& other) noexcept;
   Document& operator=(Document&&) = delete;
@@ -30,7 +33,7 @@ class Document {
 
  private:
   Document(std::unique_ptr<tinyxml2::XMLDocument> document, const std::string& name,
-           const std::string& root);
+           const std::string& root, std::vector<std::string> attributes);
 
   std::unique_ptr<tinyxml2::XMLDocument> document_;
   std::unique_ptr<const std::string> name_;

@@ -97,7 +97,7 @@ TEST_CASE("the units of the variables come from the resources") {
   CHECK(attribute(xml, "name=\"worst.error\"", "unit") == "K");
   CHECK(attribute(xml, "<stride:Unit", "verdict") == "passed");
   CHECK(attribute(xml, "<stride:Unit", "verdictText") == "text");
-  CHECK_THROWS_WITH(library().describe("/nowhere/"), Contains("quantity.xml:0: cannot be opened"));
+  CHECK_THROWS_WITH(library().describe("/nowhere/"), Contains("quantity.xml: cannot be read"));
   CHECK_THROWS_WITH(library().describe(), Contains("no resources folder"));
 }
 

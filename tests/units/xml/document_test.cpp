@@ -34,6 +34,13 @@ TEST_CASE("What is no such document is refused with file, line and what was expe
                     Contains("x.xml:") && Contains(message));
 }
 
+TEST_CASE("A root may have further attributes") {
+  const std::string text = "<list version=\"1\" size=\"3\"/>";
+  CHECK(Document::parse(text, "x.xml", "list", {"size"}).root().number("size") == 3);
+  CHECK_THROWS_WITH(Document::parse(text, "x.xml", "list", {"length"}),
+                    Contains("unknown attribute 'size'"));
+}
+
 TEST_CASE("A file is read, and one that is not there is named") {
   CHECK_THROWS_WITH(Document::load("/nowhere/x.xml", "list"),
                     "/nowhere/x.xml: cannot be read: expected a file with <list> in it");
