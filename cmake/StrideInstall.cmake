@@ -1,13 +1,28 @@
-# What `cmake --install` puts where: the program, the public headers and the unit kit, a package for find_package(stride),
-# and the units and scenarios as examples.
+# What `cmake --install` puts where: the program, the public headers and the kits, a package for find_package(stride), and
+# the units and scenarios as examples.
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/stride")
 
 install(TARGETS stride_cli EXPORT stride RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET stride_robot)
+  install(TARGETS stride_robot RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
 install(TARGETS stride_interfaces stride_unit EXPORT stride ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY interfaces/stride DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(FILES interfaces/schemas/org.stride.idle.xsd DESTINATION ${CMAKE_INSTALL_DATADIR}/stride/schemas)
 install(EXPORT stride NAMESPACE stride:: FILE strideTargets.cmake DESTINATION ${package_dir})
+
+# the components of the package
+if(STRIDE_BUILD_UNITS)
+  foreach(component IN ITEMS nfc systemc)
+    install(TARGETS stride_${component} EXPORT stride_${component}
+      ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(EXPORT stride_${component}
+      NAMESPACE stride:: FILE stride-${component}.cmake DESTINATION ${package_dir})
+    install(DIRECTORY units/${component}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+  endforeach()
+  install(FILES cmake/FindSystemCLanguage.cmake DESTINATION ${package_dir})
+endif()
 
 configure_package_config_file(cmake/strideConfig.cmake.in "${PROJECT_BINARY_DIR}/strideConfig.cmake"
   INSTALL_DESTINATION ${package_dir})
@@ -27,7 +42,7 @@ foreach(fmu IN LISTS fmus)
     install(FILES "${fmu}" DESTINATION lib/stride/units)
   endif()
 endforeach()
-install(DIRECTORY scenarios/ DESTINATION ${CMAKE_INSTALL_DATADIR}/stride/scenarios
+install(DIRECTORY scenarios/ DESTINATION ${CMAKE_INSTALL_DATADIR}/stride/scenarios USE_SOURCE_PERMISSIONS
   PATTERN CMakeLists.txt EXCLUDE
   PATTERN golden EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

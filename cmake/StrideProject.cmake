@@ -5,8 +5,10 @@ endif()
 
 find_program(STRIDE_CCACHE ccache)
 if(STRIDE_CCACHE)
-  set(CMAKE_C_COMPILER_LAUNCHER ${STRIDE_CCACHE})
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${STRIDE_CCACHE})
+  # what two builds of one source tree compile alike, such as those for two versions of MuJoCo, is compiled once
+  set(launcher ${CMAKE_COMMAND} -E env CCACHE_NOHASHDIR=1 ${STRIDE_CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
 endif()
 
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)

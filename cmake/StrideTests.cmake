@@ -16,6 +16,7 @@ function(stride_add_test name)
     STRIDE_FMU_DIR="${CMAKE_BINARY_DIR}/units"
     STRIDE_TEST_FMU_DIR="${CMAKE_BINARY_DIR}/tests/units"
     STRIDE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_compile_options(${name} PRIVATE -O0)  # checks are long to optimise, and run once
   if(STRIDE_SANITIZE MATCHES undefined)
     # in a test's own code, where these are a fifth of the compile time; the libraries under test keep them
     target_compile_options(${name} PRIVATE -fno-sanitize=null,alignment,vptr,object-size)

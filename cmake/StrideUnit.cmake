@@ -4,6 +4,10 @@
 # its modelDescription.xml and packs NAME.fmu into ${CMAKE_BINARY_DIR}/units (or STRIDE_UNIT_DIR, if set). RESOURCES is
 # the FMU's resources folder; BUNDLE names shared libraries that go into the archive beside the unit's own.
 #
+# stride_add_systemc_unit(NAME SOURCES file... [LIBRARIES target...] [RESOURCES folder] [BUNDLE file...])
+#
+# The same for a unit that is made with the SystemC kit, which is linked and goes into the archive.
+#
 # stride_pack_unit(NAME UNIT unit RESOURCES folder)
 #
 # Packs the library of an existing unit with other resources, as NAME.fmu.
@@ -30,6 +34,21 @@ function(stride_add_unit name)
     "LINKER:--version-script=${STRIDE_UNIT_EXPORTS}" "LINKER:--no-undefined")
   set_property(TARGET ${name} APPEND PROPERTY LINK_DEPENDS "${STRIDE_UNIT_EXPORTS}")
   stride_pack_unit(${name} UNIT ${name} RESOURCES "${arg_RESOURCES}")
+endfunction()
+
+function(stride_add_systemc_unit name)
+  if(NOT TARGET stride::systemc)
+    message(FATAL_ERROR "stride_add_systemc_unit(${name}): the SystemC kit is missing; outside of stride's own build "
+      "say find_package(stride REQUIRED COMPONENTS systemc)")
+  endif()
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "RESOURCES" "SOURCES;LIBRARIES;BUNDLE")
+  set(resources "")
+  if(arg_RESOURCES)
+    set(resources RESOURCES "${arg_RESOURCES}")
+  endif()
+  stride_add_unit(${name} SOURCES ${arg_SOURCES} ${resources}
+    LIBRARIES stride::systemc ${arg_LIBRARIES}
+    BUNDLE "$<TARGET_FILE:stride::systemc>" ${arg_BUNDLE})
 endfunction()
 
 function(stride_pack_unit name)

@@ -29,10 +29,16 @@ TAIL = """  </ssd:Elements></ssd:System>
 """
 
 
-def component(index, start_values):
-    values = "".join(f'<ssv:Parameter name="{name}"><ssv:Float64 value="{value!r}"/></ssv:Parameter>'
+def start_value(value):
+    if isinstance(value, bool):
+        return f'<ssv:Boolean value="{str(value).lower()}"/>'
+    return f'<ssv:Enumeration value="{value}"/>' if isinstance(value, str) else f'<ssv:Float64 value="{value!r}"/>'
+
+
+def component(index, unit, start_values):
+    values = "".join(f'<ssv:Parameter name="{name}">{start_value(value)}</ssv:Parameter>'
                      for name, value in start_values.items())
-    return (f'<ssd:Component name="p{index}" source="nfc_channel.fmu"><ssd:ParameterBindings><ssd:ParameterBinding>'
+    return (f'<ssd:Component name="p{index}" source="{unit}.fmu"><ssd:ParameterBindings><ssd:ParameterBinding>'
             f'<ssd:ParameterValues><ssv:ParameterSet version="2.0" name="p"><ssv:Parameters>{values}'
             '</ssv:Parameters></ssv:ParameterSet></ssd:ParameterValues></ssd:ParameterBinding>'
             '</ssd:ParameterBindings></ssd:Component>\n')
@@ -44,11 +50,11 @@ def pose(distance, lateral=0.0, tilt=0.0):
             "tag_coil.axis.x": math.sin(tilt), "tag_coil.axis.z": math.cos(tilt)}
 
 
-def run(program, poses):
-    """For each pose the channel's outputs by name."""
+def run(program, poses, unit="nfc_channel"):
+    """For each pose, which is the start values of a channel, its outputs by name."""
     with tempfile.TemporaryDirectory() as folder:
         scenario = Path(folder) / "sweep.ssd"
-        scenario.write_text(HEAD + "".join(component(i, p) for i, p in enumerate(poses)) + TAIL)
+        scenario.write_text(HEAD + "".join(component(i, unit, p) for i, p in enumerate(poses)) + TAIL)
         subprocess.run([program, "run", scenario, "--out", Path(folder) / "out", "--signals", "*", "--no-trace", "--quiet"],
                        check=True)
         with open(Path(folder) / "out" / "signals.csv", newline="") as file:
@@ -120,7 +126,7 @@ class Panel:
         self.text(self.left + self.WIDTH - 4, self.y(value) - 4, text, "end", "#718096")
 
     def curve(self, points, colour, dash=""):
-        inside = [(x, y) for x, y in points if y >= 10.0 ** self.decades[0]]
+        inside = [(x, y) for x, y in points if y >= 10.0 ** self.decades[0] and self.x_range[0] <= x <= self.x_range[1]]
         shape = " ".join(f"{self.x(x):.1f},{self.y(y):.1f}" for x, y in inside)
         self.parts.append(f'<polyline points="{shape}" fill="none" stroke="{colour}" stroke-width="1.8" '
                           f'stroke-dasharray="{dash}"/>')

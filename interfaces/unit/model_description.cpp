@@ -272,6 +272,10 @@ class Writer {
     if (const auto& longest = unit_.info().maximum_step) {
       xml_.attribute("maximumStep", to_seconds(*longest));
     }
+    for (const Variable& row : unit_.variables()) {
+      if (row.is_verdict) xml_.attribute("verdict", row.name);
+      if (row.is_verdict_text) xml_.attribute("verdictText", row.name);
+    }
     xml_.close().close().close();
   }
 

@@ -179,6 +179,7 @@ Table::Table(const Unit& unit, double& time) {
       clocks.push_back(static_cast<Clock*>(row->data));
     }
   }
+  check_verdict();
 }
 
 void Table::check(const Variable& row) const {
@@ -208,6 +209,27 @@ void Table::check_references(const Variable& row) const {
            "so it depends on no input of its own instant");
   }
   for (const std::string& dependency : *row.dependencies) reference_of(dependency);
+}
+
+void Table::check_verdict() const {
+  const Variable* verdict = nullptr;
+  const Variable* text = nullptr;
+  const auto take = [](const Variable& row, Type type, const Variable*& first) {
+    if (row.type != type || row.causality != Causality::Output || !row.dimensions.empty() ||
+        row.clock != nullptr) {
+      reject(row, std::string("only a scalar ") + name(type) + " output without a clock can be a " +
+                      (type == Type::Boolean ? "verdict()" : "verdict_text()"));
+    }
+    if (first != nullptr) reject(row, "'" + first->name + "' is that already; a unit has one");
+    first = &row;
+  };
+  for (const Variable* row : rows_) {
+    if (row->is_verdict) take(*row, Type::Boolean, verdict);
+    if (row->is_verdict_text) take(*row, Type::String, text);
+  }
+  if (text != nullptr && verdict == nullptr) {
+    reject(*text, "there is no verdict to explain; say verdict() of a Boolean output, too");
+  }
 }
 
 fmi3ValueReference Table::reference_of(const Clock& clock) const {

@@ -72,8 +72,8 @@ struct Slot {
 class Table {
  public:
   /// Checks the unit's rows: names unique and well-formed, dimensions, bounds that the type can
-  /// hold, clocks and dependencies that exist. Throws std::logic_error that names the variable and
-  /// the mistake. `time` and `unit` must outlive the table.
+  /// hold, clocks and dependencies that exist, one verdict at most. Throws std::logic_error that
+  /// names the variable and the mistake. `time` and `unit` must outlive the table.
   Table(const Unit& unit, double& time);
 
   std::size_t size() const { return rows_.size(); }
@@ -91,6 +91,7 @@ class Table {
  private:
   void check(const Variable& row) const;
   void check_references(const Variable& row) const;
+  void check_verdict() const;
 
   Variable time_;
   std::vector<const Variable*> rows_;

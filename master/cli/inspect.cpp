@@ -58,6 +58,14 @@ std::string capabilities(const core::UnitDescription& unit) {
   return text;
 }
 
+std::string verdict(const core::UnitDescription& unit) {
+  if (!unit.verdict) return "";
+  const std::string passed = unit.variables[*unit.verdict].name;
+  if (!unit.verdict_text) return fmt::format("verdict on the run: {}\n", passed);
+  return fmt::format("verdict on the run: {}, explained by {}\n", passed,
+                     unit.variables[*unit.verdict_text].name);
+}
+
 std::string meaning(const core::Variable& variable) {
   std::string text = variable.description;
   for (const std::string& alias : variable.aliases) {
@@ -73,6 +81,7 @@ void inspect(const std::filesystem::path& file) {
              unit.generation_tool.empty() ? "" : ", made with " + unit.generation_tool);
   if (!unit.description.empty()) fmt::print("{}\n", unit.description);
   if (const std::string can = capabilities(unit); !can.empty()) fmt::print("{}\n", can);
+  fmt::print("{}", verdict(unit));
   Table table({{"variable"}, {"causality"}, {"type"}, {"unit"}, {"start"}, {"range"}, {"meaning"}});
   for (const core::Variable& variable : unit.variables) {
     table.add({variable.name, core::name(variable.causality),

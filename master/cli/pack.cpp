@@ -1,5 +1,5 @@
-// stride pack: a library made with the unit kit or captured stimuli become a .fmu, a scenario a
-// .ssp.
+// stride pack: a library made with the unit kit, another .fmu or captured stimuli become a .fmu, a
+// scenario a .ssp.
 #include "master/fmi/pack.h"
 
 #include <fstream>
@@ -108,14 +108,16 @@ void pack_stimuli(const fmi::PackRequest& request) {
 void add_pack(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "pack",
-      "Make a .fmu from a library of the unit kit and a resources folder, or from stimuli that "
-      "--capture wrote, or a .ssp from a scenario and all that it names");
+      "Make a .fmu from a library of the unit kit, or from another .fmu, and a resources folder, "
+      "or "
+      "from stimuli that --capture wrote; or a .ssp from a scenario and all that it names");
   const auto request = std::make_shared<fmi::PackRequest>();
   command
-      ->add_option("FILE", request->library,
-                   "The unit's shared library (.so), captured stimuli (.csv), or a scenario (.ssd)")
+      ->add_option(
+          "FILE", request->library,
+          "The unit's shared library (.so) or .fmu, captured stimuli (.csv), or a scenario "
+          "(.ssd)")
       ->required()
-      ->check(CLI::ExistingPath)
       ->type_name("");
   command->add_option("--output,-o", request->output, "The .fmu or .ssp to write")
       ->required()
@@ -129,6 +131,7 @@ void add_pack(CLI::App& app) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   command->callback([request] {
+    request->library = find_unit(request->library, {});
     if (is_scenario(request->library)) return pack_scenario(*request);
     if (is_stimuli(request->library)) return pack_stimuli(*request);
     fmi::pack(*request);

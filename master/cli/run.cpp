@@ -16,6 +16,7 @@
 #include "master/cli/progress.h"
 #include "master/cli/scenario_options.h"
 #include "master/cli/summary.h"
+#include "master/cli/verdicts.h"
 #include "master/io/csv_recorder.h"
 #include "master/io/event_recorder.h"
 #include "master/io/results_folder.h"
@@ -55,6 +56,14 @@ struct Recorders {
     if (trace) simulation.add_observer(*trace);
   }
 };
+
+void print_results(const std::filesystem::path& folder, const io::ResultFiles& files) {
+  fmt::print("\nResults in {}:", folder.string());
+  for (const std::string& file : {files.signals, files.events, files.trace, files.statistics}) {
+    if (!file.empty()) fmt::print(" {}", file);
+  }
+  fmt::print("\n");
+}
 
 std::vector<capture::Request> captures(const Request& request) {
   std::vector<capture::Request> captures;
@@ -97,7 +106,7 @@ void run(const Request& request) {
   const auto write_statistics = [&](const std::optional<std::string>& error) {
     if (files.statistics.empty()) return;
     io::write_run_json(folder / files.statistics, scenario.path, loaded.system(), options,
-                       simulation.statistics(), error);
+                       simulation.statistics(), simulation.verdicts(), error);
   };
   try {
     simulation.run();
@@ -115,12 +124,12 @@ void run(const Request& request) {
   }
   capture.end(simulation.statistics().terminated_by_unit ? "ended by a unit" : "completed");
   write_statistics(std::nullopt);
-  if (request.quiet) return;
-  fmt::print("\n{}\nResults in {}:", summary.text(simulation.statistics()), folder.string());
-  for (const std::string& file : {files.signals, files.events, files.trace, files.statistics}) {
-    if (!file.empty()) fmt::print(" {}", file);
+  if (!request.quiet) {
+    fmt::print("\n{}{}", summary.text(simulation.statistics()),
+               verdict_table(loaded.system(), simulation.verdicts()));
+    print_results(folder, files);
   }
-  fmt::print("\n");
+  require_passed(loaded.system(), simulation.verdicts());
 }
 
 }  // namespace

@@ -187,6 +187,10 @@ struct UnitDescription {
   /// Steps of any sizes between two instants lead to the same values, but for rounding, while the
   /// inputs are held; false unless the unit says so.
   bool split_invariant = false;
+  /// The place of the Boolean output that is the unit's verdict on a run, if it gives one, and of
+  /// the String output that explains it.
+  std::optional<std::size_t> verdict;
+  std::optional<std::size_t> verdict_text;
   std::optional<Duration> fixed_internal_step;
   std::optional<Duration> maximum_step;  ///< no step may be longer
   std::optional<Duration> default_step;  ///< DefaultExperiment

@@ -5,9 +5,22 @@
 #include <fmt/format.h>
 
 namespace stride::core {
-namespace {
+Error::Error(Kind kind, Context context, const std::string& message, const std::string& hint)
+    : std::runtime_error(to_text(context) + message + (hint.empty() ? "" : "\n  hint: " + hint)),
+      kind_(kind),
+      context_(std::move(context)),
+      message_(message),
+      hint_(hint) {}
 
-std::string compose(const Context& context, const std::string& message, const std::string& hint) {
+void fail_input(Context context, const std::string& message, const std::string& hint) {
+  throw Error(Error::Kind::Input, std::move(context), message, hint);
+}
+
+void fail_run(Context context, const std::string& message, const std::string& hint) {
+  throw Error(Error::Kind::Run, std::move(context), message, hint);
+}
+
+std::string to_text(const Context& context) {
   std::string head;
   if (!context.where.file.empty()) {
     head += context.where.file;
@@ -22,22 +35,7 @@ std::string compose(const Context& context, const std::string& message, const st
   if (!context.variable.empty()) add(fmt::format("variable '{}'", context.variable));
   if (context.time) add(fmt::format("at {} s", to_text(*context.time)));
   if (!subject.empty()) subject += ": ";
-  return head + subject + message + (hint.empty() ? "" : "\n  hint: " + hint);
-}
-
-}  // namespace
-
-Error::Error(Kind kind, Context context, const std::string& message, const std::string& hint)
-    : std::runtime_error(compose(context, message, hint)),
-      kind_(kind),
-      context_(std::move(context)) {}
-
-void fail_input(Context context, const std::string& message, const std::string& hint) {
-  throw Error(Error::Kind::Input, std::move(context), message, hint);
-}
-
-void fail_run(Context context, const std::string& message, const std::string& hint) {
-  throw Error(Error::Kind::Run, std::move(context), message, hint);
+  return head + subject;
 }
 
 std::string quoted(std::span<const std::string> names) {

@@ -38,10 +38,14 @@ class Error : public std::runtime_error {
 
   Kind kind() const { return kind_; }
   const Context& context() const { return context_; }
+  /// Without the context, and without the hint.
+  const std::string& message() const { return message_; }
+  const std::string& hint() const { return hint_; }
 
  private:
   Kind kind_;
   Context context_;
+  std::string message_, hint_;
 };
 
 /// A unit cannot be called, because another one has failed before. Where units step at the same
@@ -56,6 +60,9 @@ class ConsequentError : public Error {
                              const std::string& hint = "");
 [[noreturn]] void fail_run(Context context, const std::string& message,
                            const std::string& hint = "");
+
+/// "FILE:LINE: unit 'U', variable 'V', at T s: ", as far as it is known.
+std::string to_text(const Context& context);
 
 /// "'a', 'b'"
 std::string quoted(std::span<const std::string> names);

@@ -52,6 +52,7 @@ class Simulation::Run {
 
   void add_observer(Observer& observer) { observers_.push_back(&observer); }
   const RunStatistics& statistics() const { return statistics_; }
+  std::span<const Verdict> verdicts() const { return verdicts_; }
 
   void run() {
     if (std::exchange(has_run_, true)) throw std::logic_error("a simulation runs once");
@@ -61,6 +62,7 @@ class Simulation::Run {
       clock_.timed(statistics_.phases.initialization, [&] { initialize(); });
       while (time_ < options_.stop && !statistics_.terminated_by_unit) communication_step();
       if (ledger_) ledger_->settle(time_);
+      verdicts_ = read_verdicts(system_, units_);
       for (auto& unit : units_) unit->terminate();
     } catch (...) {
       failure = std::current_exception();
@@ -71,7 +73,9 @@ class Simulation::Run {
       statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].rests;
     }
     finish_observers(failure);
-    if (failure) std::rethrow_exception(failure);
+    if (!failure) return;
+    verdicts_.clear();
+    std::rethrow_exception(failure);
   }
 
  private:
@@ -233,6 +237,7 @@ class Simulation::Run {
   std::optional<StepInputs> inputs_;
   std::vector<Observer*> observers_;
   RunStatistics statistics_;
+  std::vector<Verdict> verdicts_;
   std::optional<IdleLedger> ledger_;  ///< nothing where nobody may rest
   WallClock clock_;
   Instant instant_;
@@ -254,5 +259,7 @@ void Simulation::add_observer(Observer& observer) { run_->add_observer(observer)
 void Simulation::run() { run_->run(); }
 
 const RunStatistics& Simulation::statistics() const { return run_->statistics(); }
+
+std::span<const Verdict> Simulation::verdicts() const { return run_->verdicts(); }
 
 }  // namespace stride::core

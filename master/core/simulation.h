@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_CORE_SIMULATION_H
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <stride/time.h>
@@ -12,6 +13,7 @@
 #include "master/core/statistics.h"
 #include "master/core/system.h"
 #include "master/core/unit.h"
+#include "master/core/verdict.h"
 
 namespace stride::core {
 
@@ -30,6 +32,8 @@ class Simulation {
   void run();
 
   const RunStatistics& statistics() const;
+  /// What the units say of the run, where it ended; none where it failed.
+  std::span<const Verdict> verdicts() const;
 
  private:
   class Run;

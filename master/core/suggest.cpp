@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace stride::core {
 namespace {
@@ -45,10 +44,13 @@ std::string suggestion(const std::string& word, std::span<const std::string> can
     return fmt::format("did you mean '{}'?", near);
   }
   if (candidates.empty()) return "there are none";
-  constexpr std::size_t kMost = 12;
-  const auto shown = candidates.first(std::min(kMost, candidates.size()));
-  return fmt::format("known are: {}{}", fmt::join(shown, ", "),
-                     candidates.size() > kMost ? ", …" : "");
+  constexpr std::size_t kMost = 100;  // characters
+  std::string shown;
+  for (const std::string& candidate : candidates) {
+    if (!shown.empty() && shown.size() + candidate.size() > kMost) return shown + ", …";
+    shown += (shown.empty() ? "known are: " : ", ") + candidate;
+  }
+  return shown;
 }
 
 }  // namespace stride::core

@@ -11,35 +11,10 @@
 #include <fmt/format.h>
 
 #include "master/core/suggest.h"
+#include "master/core/unknown_variable.h"
 
 namespace stride::core {
 namespace {
-
-std::vector<std::string> variable_names(const UnitDescription& description) {
-  std::vector<std::string> names;
-  for (const Variable& variable : description.variables) names.push_back(variable.name);
-  return names;
-}
-
-/// The component is in the context; a swapped one is another model than its name lets expect.
-[[noreturn]] void fail_unknown_variable(const Context& context,
-                                        const UnitDescription& description) {
-  fail_input(context, fmt::format("its model '{}' has no such variable", description.model_name),
-             suggestion(context.variable, variable_names(description)));
-}
-
-/// SSP lets a local variable be connected as if it were an output; messages come from outputs only.
-bool is_source(const Variable& variable) {
-  const bool is_local = variable.causality == Causality::Local && !variable.is_clocked() &&
-                        variable.type != ValueType::Clock;
-  return is_local || variable.causality == Causality::Output ||
-         variable.causality == Causality::CalculatedParameter;
-}
-
-std::string shape(const Variable& variable) {
-  if (variable.dimensions.empty()) return "a scalar";
-  return fmt::format("an array of {} elements", variable.size);
-}
 
 /// Only what FMI calls initial = exact or approx can be set before the start.
 void check_settable(const Variable& variable, const Context& context) {
@@ -104,25 +79,17 @@ struct Way {
   }
 };
 
-/// The variable that carries a value through a connection between clocked variables also needs its
-/// clock connected.
-std::vector<VariableId> clocks_of(const System& system, VariableId id) {
-  const UnitDescription& description = *system.components()[id.component].description;
-  std::vector<VariableId> clocks;
-  for (const ValueReference reference : system.variable(id).clocks) {
-    clocks.push_back({id.component, *description.find(reference)});
-  }
-  return clocks;
-}
-
 }  // namespace
 
+/// What is wrong is told at once, as far as it does not follow from something else.
 System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
-  add_components(declaration);
-  const std::vector<Target> targets = find_targets(declaration);
-  add_structural_values(targets);
-  add_connections(declaration);
-  add_start_values(targets);
+  Mistakes mistakes;
+  add_components(declaration, mistakes);
+  const std::vector<Target> targets = find_targets(declaration, mistakes);
+  if (!mistakes.attempt([&] { add_structural_values(targets); })) mistakes.raise();
+  add_connections(declaration, mistakes);
+  add_start_values(targets, mistakes);
+  mistakes.raise();
   add_outputs(declaration);
 }
 
@@ -130,7 +97,7 @@ std::string System::prefix(VariableId id) const {
   return is_output(id) ? "" : components_[id.component].name + ".";
 }
 
-void System::add_components(const SystemDeclaration& declaration) {
+void System::add_components(const SystemDeclaration& declaration, Mistakes& mistakes) {
   if (declaration.components.empty()) {
     fail_input({}, "the system has no component, so there is nothing to simulate");
   }
@@ -140,35 +107,39 @@ void System::add_components(const SystemDeclaration& declaration) {
       fail_input({component.where}, fmt::format("two components are named '{}'", component.name),
                  "give one of them another name");
     }
-    check_connectors(component);
+    for (const ConnectorDeclaration& connector : component.connectors) {
+      mistakes.attempt([&] { check_connector(declaration, component, connector); });
+    }
     check_clocks(component);
     components_.push_back({component.name, component.description, component.early_return_allowed});
   }
 }
 
-void System::check_connectors(const ComponentDeclaration& component) {
-  for (const ConnectorDeclaration& connector : component.connectors) {
-    const Context context{connector.where, component.name, connector.name, {}};
-    const auto found = component.description->find(connector.name);
-    if (!found) fail_unknown_variable(context, *component.description);
-    const Variable& variable = component.description->variables[*found];
-    if (connector.causality && *connector.causality != variable.causality) {
-      fail_input(context,
-                 fmt::format("the connector says {}, the unit says {}",
-                             core::name(*connector.causality), core::name(variable.causality)));
-    }
-    if (connector.type && *connector.type != variable.type) {
-      fail_input(context, fmt::format("the connector says {}, the unit says {}",
-                                      core::name(*connector.type), core::name(variable.type)));
-    }
-    if (connector.unit.name.empty()) continue;
-    const MeasureUnit unit = known_unit(connector.unit, *component.description);
-    if (!convert(unit, known_unit({variable.unit}, *component.description))) {
-      fail_input(context, fmt::format("the connector is in '{}', the unit's variable in '{}'",
-                                      unit.name, variable.unit));
-    }
-    connector_units_[{components_.size(), *found}] = unit;
+void System::check_connector(const SystemDeclaration& declaration,
+                             const ComponentDeclaration& component,
+                             const ConnectorDeclaration& connector) {
+  const Context context{connector.where, component.name, connector.name, {}};
+  const auto found = component.description->find(connector.name);
+  if (!found) {
+    fail_unknown_variable(context, *component.description, &declaration);
   }
+  const Variable& variable = component.description->variables[*found];
+  if (connector.causality && *connector.causality != variable.causality) {
+    fail_input(context,
+               fmt::format("the connector says {}, the unit says {}",
+                           core::name(*connector.causality), core::name(variable.causality)));
+  }
+  if (connector.type && *connector.type != variable.type) {
+    fail_input(context, fmt::format("the connector says {}, the unit says {}",
+                                    core::name(*connector.type), core::name(variable.type)));
+  }
+  if (connector.unit.name.empty()) return;
+  const MeasureUnit unit = known_unit(connector.unit, *component.description);
+  if (!convert(unit, known_unit({variable.unit}, *component.description))) {
+    fail_input(context, fmt::format("the connector is in '{}', the unit's variable in '{}'",
+                                    unit.name, variable.unit));
+  }
+  connector_units_[{components_.size(), *found}] = unit;
 }
 
 void System::check_clocks(const ComponentDeclaration& component) const {
@@ -201,80 +172,6 @@ VariableId System::find_variable(const std::string& component, const std::string
   fail_unknown_variable({where, component, variable, {}}, description);
 }
 
-void System::add_connections(const SystemDeclaration& declaration) {
-  std::map<VariableId, const ConnectionDeclaration*> sources;
-  for (const ConnectionDeclaration& wanted : declaration.connections) {
-    const Connection connection = connect(wanted);
-    const auto [first, is_new] = sources.emplace(connection.to, &wanted);
-    if (!is_new) {
-      fail_input(
-          {wanted.where, wanted.to_component, wanted.to_connector, {}},
-          fmt::format("this input has two sources: '{}.{}' here and '{}.{}' in line {}",
-                      wanted.from_component, wanted.from_connector, first->second->from_component,
-                      first->second->from_connector, first->second->where.line),
-          "remove one of the two connections");
-    }
-    connections_.push_back(connection);
-  }
-  std::sort(connections_.begin(), connections_.end(),
-            [](const Connection& a, const Connection& b) { return a.to < b.to; });
-  for (const Connection& connection : connections_) {
-    check_message(*sources.at(connection.to), connection);
-  }
-}
-
-/// What carries a message from clock to clock needs its clock connected, too.
-void System::check_message(const ConnectionDeclaration& wanted,
-                           const Connection& connection) const {
-  if (is_sampled(connection.to)) return;
-  const auto from_clocks = clocks_of(*this, connection.from);
-  for (const VariableId to_clock : clocks_of(*this, connection.to)) {
-    const bool wired = std::any_of(connections_.begin(), connections_.end(), [&](const auto& c) {
-      return c.to == to_clock &&
-             std::find(from_clocks.begin(), from_clocks.end(), c.from) != from_clocks.end();
-    });
-    if (wired) continue;
-    fail_input({wanted.where, wanted.to_component, wanted.to_connector, {}},
-               fmt::format("its clock '{}' is not connected to the clock of '{}'",
-                           full_name(to_clock), full_name(connection.from)),
-               "a message needs two connections: one for its value, one for its clock");
-  }
-}
-
-/// A message goes to a message. A value that is sampled at a time-based clock's ticks, on either
-/// side, may be connected to any other value that is no message.
-void System::check_clocked(const ConnectionDeclaration& wanted, VariableId from,
-                           VariableId to) const {
-  const std::string wire = fmt::format("'{}' to '{}'", full_name(from), full_name(to));
-  const Context context{wanted.where, {}, {}, {}};
-  if (variable(to).is_time_based_clock()) {
-    fail_input(context,
-               fmt::format("cannot connect {}: '{}' is a {} clock, which ticks by the time alone",
-                           wire, full_name(to), core::name(variable(to).clock->variability)),
-               "remove the connection; the master ticks such a clock when its unit says");
-  }
-  const bool from_message = variable(from).is_clocked() && !is_sampled(from);
-  const bool to_message = variable(to).is_clocked() && !is_sampled(to);
-  if (from_message == to_message) return;
-  const VariableId message = from_message ? from : to;
-  fail_input(context,
-             fmt::format("cannot connect {}: '{}' is a message, which exists at the ticks of its "
-                         "triggered clock only, and the other is not",
-                         wire, full_name(message)),
-             "connect a message, and its clock, to another message");
-}
-
-/// Clocks tick in Event Mode only, so without it a message would be lost without a word.
-void System::check_event_mode(const ConnectionDeclaration& wanted, VariableId id) const {
-  const Variable& connected = variable(id);
-  const bool ticks = connected.type == ValueType::Clock || connected.is_clocked();
-  if (!ticks || components_[id.component].description->has_event_mode) return;
-  fail_input({wanted.where, components_[id.component].name, connected.name, {}},
-             "this is a clock, or belongs to one, which ticks in Event Mode, and the unit has none "
-             "(hasEventMode)",
-             "use a unit that has Event Mode");
-}
-
 /// In the unit that the variable has, or else in the one that its connector declares.
 Waypoint System::waypoint(VariableId id) const {
   const Variable& end = variable(id);
@@ -284,34 +181,6 @@ Waypoint System::waypoint(VariableId id) const {
           is_declared ? declared->second
                       : known_unit({end.unit}, *components_[id.component].description),
           end.items, false};
-}
-
-void System::check_ends(const ConnectionDeclaration& wanted, VariableId from, VariableId to) const {
-  const Variable& source = variable(from);
-  const Variable& target = variable(to);
-  const std::string wire = fmt::format("'{}' to '{}'", full_name(from), full_name(to));
-  const Context context{wanted.where, {}, {}, {}};
-  if (!is_source(source)) {
-    fail_input(context,
-               fmt::format("cannot connect {}: '{}' is no output but {}", wire, full_name(from),
-                           core::name(source.causality)),
-               "a connection starts at an output and ends at an input");
-  }
-  if (target.causality != Causality::Input) {
-    const bool is_parameter = target.causality == Causality::Parameter ||
-                              target.causality == Causality::StructuralParameter;
-    fail_input(context,
-               fmt::format("cannot connect {}: '{}' is no input but {}", wire, full_name(to),
-                           core::name(target.causality)),
-               is_parameter ? "give the parameter its value in a <ssd:ParameterBinding>"
-                            : "a connection starts at an output and ends at an input");
-  }
-  check_clocked(wanted, from, to);
-  for (const VariableId end : {from, to}) check_event_mode(wanted, end);
-  if (source.size != target.size) {
-    fail_input(context,
-               fmt::format("cannot connect {}: {} and {}", wire, shape(source), shape(target)));
-  }
 }
 
 Connection System::connect(const ConnectionDeclaration& wanted) const {
@@ -335,7 +204,8 @@ void System::note_missing(const StartDeclaration& wanted) {
 }
 
 /// Of those that are there; of the others, what is not meant to be passed over is an error.
-std::vector<System::Target> System::find_targets(const SystemDeclaration& declaration) {
+std::vector<System::Target> System::find_targets(const SystemDeclaration& declaration,
+                                                 Mistakes& mistakes) {
   std::vector<Target> targets;
   std::vector<const StartDeclaration*> missing;
   std::set<std::size_t> found_groups;
@@ -347,12 +217,15 @@ std::vector<System::Target> System::find_targets(const SystemDeclaration& declar
       continue;
     }
     const VariableId id{component, *place};
-    check_settable(variable(id), {wanted.where, wanted.component, wanted.variable, {}});
-    targets.push_back({&wanted, id});
     found_groups.insert(wanted.group);
+    mistakes.attempt([&] {
+      check_settable(variable(id), {wanted.where, wanted.component, wanted.variable, {}});
+      targets.push_back({&wanted, id});
+    });
   }
   for (const StartDeclaration* wanted : missing) {
-    if (wanted->group == 0 || !found_groups.contains(wanted->group)) note_missing(*wanted);
+    if (wanted->group != 0 && found_groups.contains(wanted->group)) continue;
+    mistakes.attempt([&] { note_missing(*wanted); });
   }
   return targets;
 }
@@ -405,11 +278,12 @@ void System::add_structural_values(const std::vector<Target>& targets) {
   for (auto& [id, value] : values) structural_values_.push_back({id, std::move(value)});
 }
 
-void System::add_start_values(const std::vector<Target>& targets) {
+void System::add_start_values(const std::vector<Target>& targets, Mistakes& mistakes) {
   std::map<VariableId, ValueBlock> values;
-  for (const auto& [wanted, id] : targets) {
+  for (const Target& target : targets) {
+    const VariableId id = target.id;
     if (variable(id).causality == Causality::StructuralParameter) continue;
-    values.insert_or_assign(id, start_value(*wanted, id));
+    mistakes.attempt([&] { values.insert_or_assign(id, start_value(*target.declaration, id)); });
   }
   for (auto& [id, value] : values) start_values_.push_back({id, std::move(value)});
 }

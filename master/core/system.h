@@ -11,6 +11,7 @@
 #include "master/core/conversion.h"
 #include "master/core/description.h"
 #include "master/core/error.h"
+#include "master/core/mistakes.h"
 #include "master/core/observer.h"
 #include "master/core/values.h"
 
@@ -103,7 +104,7 @@ class System {
  public:
   /// Checks names, types, causality, units, sizes, clocks and that each input has one source at
   /// most. Throws Error of the kind Input with file and line, and with the nearest name where a
-  /// name is unknown.
+  /// name is unknown; several mistakes are one Error, with a line for each.
   explicit System(const SystemDeclaration& declaration);
 
   const std::string& name() const { return name_; }
@@ -134,8 +135,8 @@ class System {
   std::string prefix(VariableId id) const;
 
  private:
-  void add_components(const SystemDeclaration& declaration);
-  void add_connections(const SystemDeclaration& declaration);
+  void add_components(const SystemDeclaration& declaration, Mistakes& mistakes);
+  void add_connections(const SystemDeclaration& declaration, Mistakes& mistakes);
   void add_outputs(const SystemDeclaration& declaration);
   void add_output(const OutputDeclaration& declaration);
   /// A start value and what it is for.
@@ -143,20 +144,25 @@ class System {
     const StartDeclaration* declaration;
     VariableId id;
   };
-  std::vector<Target> find_targets(const SystemDeclaration& declaration);
+  std::vector<Target> find_targets(const SystemDeclaration& declaration, Mistakes& mistakes);
   void add_structural_values(const std::vector<Target>& targets);
-  void add_start_values(const std::vector<Target>& targets);
+  void add_start_values(const std::vector<Target>& targets, Mistakes& mistakes);
   void resize(const StartDeclaration& declaration, VariableId structural_parameter,
               std::size_t size);
   std::size_t find_component(const std::string& name, const Location& where) const;
   VariableId find_variable(const std::string& component, const std::string& variable,
                            const Location& where) const;
-  void check_connectors(const ComponentDeclaration& component);
+  void check_connector(const SystemDeclaration& declaration, const ComponentDeclaration& component,
+                       const ConnectorDeclaration& connector);
   void check_clocks(const ComponentDeclaration& component) const;
   void check_clocked(const ConnectionDeclaration& declaration, VariableId from,
                      VariableId to) const;
   void check_event_mode(const ConnectionDeclaration& declaration, VariableId id) const;
   void check_message(const ConnectionDeclaration& declaration, const Connection& connection) const;
+  bool has_ends(const SystemDeclaration& declaration, const ConnectionDeclaration& wanted,
+                Mistakes& mistakes) const;
+  static void check_only(const ConnectionDeclaration& declaration,
+                         const ConnectionDeclaration* first);
   Connection connect(const ConnectionDeclaration& declaration) const;
   void check_ends(const ConnectionDeclaration& declaration, VariableId from, VariableId to) const;
   Waypoint waypoint(VariableId id) const;

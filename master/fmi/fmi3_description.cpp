@@ -40,6 +40,21 @@ std::vector<core::Unknown> read_unknowns(const xml::Element& structure, const ch
   return unknowns;
 }
 
+/// The place of the output that an attribute names, if it is there.
+std::optional<std::size_t> read_output(const xml::Element& element, const char* attribute,
+                                       core::ValueType type, const core::UnitDescription& unit) {
+  const auto name = element.attribute(attribute);
+  if (!name) return std::nullopt;
+  const auto place = unit.find(*name);
+  const core::Variable* variable = place ? &unit.variables[*place] : nullptr;
+  const bool fits = variable != nullptr && variable->type == type && variable->size == 1 &&
+                    variable->causality == core::Causality::Output && !variable->is_clocked();
+  if (fits) return place;
+  element.fail(fmt::format("{}=\"{}\" of {} is {}; expected a scalar {} output without a clock",
+                           attribute, *name, element.tag(),
+                           place ? "another variable" : "no variable", core::name(type)));
+}
+
 /// What FMI has no word for, in the annotation that the unit kit writes.
 void read_annotation(const xml::Element& root, core::UnitDescription& unit) {
   const auto annotations = root.child("Annotations");
@@ -51,6 +66,8 @@ void read_annotation(const xml::Element& root, core::UnitDescription& unit) {
       unit.may_reject = element.flag("mayReject", unit.may_reject);
       unit.split_invariant = element.flag("splitInvariant");
       unit.maximum_step = read_step_size(element, "maximumStep");
+      unit.verdict = read_output(element, "verdict", core::ValueType::Boolean, unit);
+      unit.verdict_text = read_output(element, "verdictText", core::ValueType::String, unit);
     }
   }
 }

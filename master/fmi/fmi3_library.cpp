@@ -90,7 +90,8 @@ std::string Fmi3Library::ask(strideModelDescriptionTYPE* function, const fs::pat
   const char* text = function(folder.empty() ? nullptr : folder.c_str(), &error);
   if (text != nullptr) return text;
   core::fail_input({.where = where},
-                   fmt::format("the unit in '{}' cannot describe itself: {}", path().string(),
+                   fmt::format("the unit in '{}' cannot describe itself: {}",
+                               path().filename().string(),  // it may be unpacked somewhere
                                error != nullptr ? error : "it gives no reason"));
 }
 

@@ -1,5 +1,6 @@
 #include "master/fmi/pack.h"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -12,6 +13,7 @@
 #include "master/fmi/fmi3_library.h"
 #include "master/fmi/idle_manifest.h"
 #include "master/fmi/model_description.h"
+#include "master/fmi/unpacked_fmu.h"
 
 namespace stride::fmi {
 namespace {
@@ -61,8 +63,31 @@ archive::Contents collect(const PackRequest& request) {
   return contents;
 }
 
+/// The same for the library in an unpacked FMU, with what lies beside it.
+PackRequest with_library_of(const fs::path& fmu, PackRequest request) {
+  if (request.resources.empty()) {
+    core::fail_input({}, fmt::format("'{}' is packed already", request.library.string()),
+                     "name the folder that it is to be packed again with: --resources FOLDER");
+  }
+  const auto description = read_model_description(fmu / "modelDescription.xml");
+  request.library = find_library(fmu, description.fmi_version, description.model_identifier);
+  std::vector<fs::path> beside;
+  for (const fs::directory_entry& entry : fs::directory_iterator(request.library.parent_path())) {
+    if (entry.path() != request.library) beside.push_back(entry.path());
+  }
+  std::sort(beside.begin(), beside.end());  // the order in which they are loaded
+  request.bundled.insert(request.bundled.begin(), beside.begin(), beside.end());
+  return request;
+}
+
 }  // namespace
 
-void pack(const PackRequest& request) { archive::write_zip(request.output, collect(request)); }
+void pack(const PackRequest& request) {
+  if (request.library.extension() != ".fmu") {
+    return archive::write_zip(request.output, collect(request));
+  }
+  const UnpackedFmu fmu(request.library);
+  archive::write_zip(request.output, collect(with_library_of(fmu.folder(), request)));
+}
 
 }  // namespace stride::fmi

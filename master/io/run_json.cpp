@@ -62,13 +62,19 @@ const char* outcome(const core::RunStatistics& statistics, bool has_failed) {
 
 void write_run_json(const std::filesystem::path& file, const std::filesystem::path& scenario,
                     const core::System& system, const core::RunOptions& options,
-                    const core::RunStatistics& statistics,
+                    const core::RunStatistics& statistics, std::span<const core::Verdict> verdicts,
                     const std::optional<std::string>& error) {
   Json run = {
       {"scenario", scenario.string()},      {"system", system.name()},
       {"start", to_seconds(options.start)}, {"stop", to_seconds(options.stop)},
       {"step", step_entry(options)},        {"outcome", outcome(statistics, error.has_value())}};
   if (error) run["error"] = *error;
+  run["verdicts"] = Json::array();
+  for (const core::Verdict& verdict : verdicts) {
+    run["verdicts"].push_back({{"component", system.components()[verdict.component].name},
+                               {"passed", verdict.passed},
+                               {"text", verdict.text}});
+  }
   run["reached"] = to_seconds(statistics.reached);
   run["communication_steps"] = statistics.communication_steps;
   run["undone_steps"] = statistics.undone_steps;

@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "master/core/simulation.h"
 #include "master/core/statistics.h"
 #include "master/core/system.h"
+#include "master/core/verdict.h"
 
 namespace stride::io {
 
@@ -17,6 +19,7 @@ namespace stride::io {
 void write_run_json(const std::filesystem::path& file, const std::filesystem::path& scenario,
                     const core::System& system, const core::RunOptions& options,
                     const core::RunStatistics& statistics,
+                    std::span<const core::Verdict> verdicts = {},
                     const std::optional<std::string>& error = std::nullopt);
 
 }  // namespace stride::io

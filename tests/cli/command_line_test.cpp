@@ -17,8 +17,9 @@ TEST_CASE("--help and --version are answered on the standard output") {
   const Outcome help = run_program({"--help"});
   CHECK(help.exit_code == 0);
   CHECK(help.err == "");
-  CHECK_THAT(help.out, Contains("Usage: stride") && Contains("Exit codes: 0 good, 1 the run "
-                                                             "failed, 2 the input was wrong."));
+  CHECK_THAT(help.out, Contains("Usage: stride") &&
+                           Contains("Exit codes: 0 good, 1 the run failed or a "
+                                    "unit's verdict is bad, 2 the input was wrong."));
   const Outcome run_help = run_program({"run", "--help"});
   CHECK(run_help.exit_code == 0);
   for (const char* option : {"--stop", "--step", "--set", "--swap", "--signals", "--out",
@@ -118,6 +119,11 @@ TEST_CASE("a unit that lacks what the scenario connects cannot be swapped in") {
   CHECK_THAT(input_error_of(workspace.run({"--swap", "first=thrower.fmu"})),
              Contains(workspace.at("<ssd:Connection ") + "unit 'first', variable 'y'") &&
                  Contains("its model 'thrower' has no such variable") && Contains("steps"));
+  CHECK_THAT(
+      input_error_of(
+          workspace.run({"--swap", "second=thrower.fmu", "--set", "second.time_constant=1"})),
+      Contains("unit 'second': 2 things do not fit") && Contains("variable 'time_constant'") &&
+          Contains("variable 'u'") && Contains("expected an input Float64, fed by 'first.y'"));
 }
 
 TEST_CASE("a pattern of signals that matches nothing is a mistake") {

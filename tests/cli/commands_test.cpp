@@ -123,6 +123,17 @@ TEST_CASE("pack makes a .fmu that can be inspected and run") {
   CHECK(workspace.run({"--quiet"}).exit_code == 0);
 }
 
+TEST_CASE("pack finds a .fmu among the units, and gives it other resources") {
+  const Workspace workspace(two_filters());
+  workspace.scratch().write("resources/note.txt", "a note");
+  const Outcome outcome = workspace.stride(
+      {"pack", "minimal.fmu", "--resources", "resources", "--output", "packed.fmu"});
+  CHECK(outcome.err == "");
+  CHECK(outcome.exit_code == 0);
+  CHECK(workspace.stride({"inspect", "packed.fmu"}).out ==
+        run_program({"inspect", "minimal.fmu"}).out);
+}
+
 TEST_CASE("pack does not take what is no unit") {
   const Workspace workspace(two_filters());
   workspace.scratch().write("notes.txt", "no library");

@@ -5,11 +5,14 @@
     <!-- test: scenario NAME -->          XML, a scenario NAME.ssd to be run
     <!-- test: file FILE -->              a file beside the scenarios, such as a parameter set
     <!-- test: result SCENARIO FILE -->   how that file in the results folder of the scenario begins
-    <!-- test: session NAME -->           console, commands behind "$ " and what they print, beside the files
+    <!-- test: session NAME -->           console, commands behind "$ " and what they print, beside the files; blocks of
+                                          one name are one session
+    <!-- test: part PATH -->              lines that stand so, whatever their indentation, in that file of the repository
 
 blocks.py extract FOLDER PAGE...   writes them into the folder and prints "unit NAME", "scenario NAME" and
                                    "session NAME", one a line
-blocks.py check PAGE...            fails for a page without a marked block, and for a result without its scenario
+blocks.py check PAGE...            fails for a page without a marked block, for a result without its scenario, and for a
+                                   part that is no part of its file
 """
 
 import pathlib
@@ -19,7 +22,9 @@ import sys
 MARKER = re.compile(r"<!--\s*test:\s*(.*?)\s*-->")
 FENCE = re.compile(r"```(\w*)")
 NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]*")
-WORDS = {"unit": 1, "resource": 2, "scenario": 1, "file": 1, "result": 2, "session": 1}
+PATH = re.compile(rf"{NAME.pattern}(/{NAME.pattern})*")
+WORDS = {"unit": 1, "resource": 2, "scenario": 1, "file": 1, "result": 2, "session": 1, "part": 1}
+ROOT = pathlib.Path(__file__).parents[2]
 TESTS = ("unit", "scenario", "session")
 LANGUAGES = {"unit": "cpp", "scenario": "xml", "session": "console"}
 
@@ -56,7 +61,8 @@ def blocks_of(page):
             continue
         place = f"{page}:{number}"
         kind, *words = marker.group(1).split() or [""]
-        if kind not in WORDS or len(words) != WORDS[kind] or not all(map(NAME.fullmatch, words)):
+        pattern = PATH if kind == "part" else NAME
+        if kind not in WORDS or len(words) != WORDS[kind] or not all(map(pattern.fullmatch, words)):
             raise Mistake(f"{place}: '{marker.group(1)}' is no test; see tests/docs/blocks.py for those there are")
         opening = FENCE.fullmatch(lines[number]) if number < len(lines) else None
         if not opening:
@@ -84,17 +90,34 @@ def extract(folder, pages):
     found = []
     for page in filter(pathlib.Path.exists, pages):
         for kind, words, text in blocks_of(page):
+            if kind == "part":
+                continue
             path = target(kind, words)
-            if written.setdefault(path, text) != text:
+            if kind == "session":
+                written[path] = written.get(path, "") + text
+            elif written.setdefault(path, text) != text:
                 raise Mistake(f"{page}: '{kind} {' '.join(words)}' differs from the block of that name before it")
-            write(folder / path, text)
             entry = f"{kind} {words[0]}"
             if kind in TESTS and entry not in found:
                 found.append(entry)
+    for path, text in written.items():
+        write(folder / path, text)
     for old in sorted(folder.rglob("*")):
         if old.is_file() and str(old.relative_to(folder)) not in written:
             old.unlink()
     print("\n".join(found))
+
+
+def without_indentation(text):
+    return "\n" + "".join(f"{line.strip()}\n" for line in text.splitlines())
+
+
+def check_part(page, path, text):
+    file = ROOT / path
+    if not file.is_file():
+        raise Mistake(f"{page}: there is no file {path}")
+    if without_indentation(text) not in without_indentation(file.read_text(encoding="utf-8")):
+        raise Mistake(f"{page}: what it shows of {path} does not stand there:\n{text}")
 
 
 def check(pages):
@@ -106,6 +129,9 @@ def check(pages):
         print(f"{page}: {len(blocks)} blocks")
         scenarios |= {words[0] for kind, words, _ in blocks if kind == "scenario"}
         results += [(page, words) for kind, words, _ in blocks if kind == "result"]
+        for kind, words, text in blocks:
+            if kind == "part":
+                check_part(page, words[0], text)
     for page, (scenario, file) in results:
         if scenario not in scenarios:
             raise Mistake(f"{page}: the result {file} is of '{scenario}', which is no scenario")

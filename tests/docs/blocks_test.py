@@ -41,6 +41,23 @@ class BlocksTest(unittest.TestCase):
         self.extract("<!-- test: file b.ssv -->\n```xml\n<a/>\n```\n")
         self.assertFalse((self.folder / "out/a.ssv").exists())
 
+    def test_sessions_of_one_name_are_one(self):
+        status, found = self.extract("<!-- test: session look -->\n```console\n$ ls\n```\nNow:\n"
+                                     "<!-- test: session look -->\n```console\n$ pwd\n```\n")
+        self.assertEqual((status, found), (0, "session look\n"))
+        self.assertEqual((self.folder / "out/look.session").read_text(), "$ ls\n$ pwd\n")
+
+    def test_a_part_must_stand_in_its_file(self):
+        session = "<!-- test: session a -->\n```console\n$ ls\n```\n"
+        part = "<!-- test: part tests/docs/blocks_test.py -->\n```python\nimport contextlib\n{}\n```\n"
+        self.assertEqual(self.run_on(session + part.format("  import io"), "check")[0], 0)
+        status, output = self.run_on(session + part.format("import ioo"), "check")
+        self.assertEqual(status, 1)
+        self.assertIn("does not stand there", output)
+        status, output = self.run_on(session + part.replace("_test.py", "_best.py"), "check")
+        self.assertEqual(status, 1)
+        self.assertIn("no file tests/docs/blocks_best.py", output)
+
     def test_a_marker_within_a_block_is_text(self):
         status, found = self.extract("```md\n<!-- test: unit tank -->\n```\n")
         self.assertEqual((status, found.strip()), (0, ""))

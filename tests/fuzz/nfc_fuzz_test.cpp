@@ -5,10 +5,11 @@
 
 #include <catch2/catch.hpp>
 
+#include <stride/nfc/frame.h>
+#include <stride/nfc/iso14443a.h>
+
 #include "tests/fuzz/mutator.h"
-#include "units/nfc/frame.h"
-#include "units/nfc/iso14443a.h"
-#include "units/nfc_channel/tag_list.h"
+#include "units/channel/tag_list.h"
 #include "units/reader/program.h"
 
 using stride::tests::Mutator;
@@ -78,13 +79,13 @@ TEST_CASE("a mutated list of tags is read or refused with its file") {
   <tag name="window_2"/>
 </nfc-channel>
 )";
-  REQUIRE(nfc_channel::parse_tag_list(list, "x.xml").size() == 2);
+  REQUIRE(channel::parse_tag_list(list, "x.xml", "nfc-channel").size() == 2);
   Mutator mutator(20240122);
   int accepted = 0;
   int refused = 0;
   for (int i = 0; i < 4000; ++i) {
     try {
-      accepted += !nfc_channel::parse_tag_list(mutator.mutate(list), "x.xml").empty();
+      accepted += !channel::parse_tag_list(mutator.mutate(list), "x.xml", "nfc-channel").empty();
     } catch (const std::runtime_error& error) {
       ++refused;
       CHECK(std::string(error.what()).find("x.xml:") == 0);

@@ -165,6 +165,10 @@ TEST_CASE("the reader learns the temperature that the environment has") {
   CHECK(at("24", "reader.measured.temperature [degC]") == 0);
   CHECK(at("30", "reader.measured.temperature [degC]") ==
         Approx(at("24", "environment.temperature [degC]")).margin(0.05));
+  CHECK(at("24", "ground_truth.passed") == 0);
+  CHECK(at("24.002", "ground_truth.passed") == 1);
+  CHECK(at("30", "ground_truth.measurements.right") == 1);
+  CHECK(at("30", "ground_truth.measurements.wrong") == 0);
 }
 
 TEST_CASE("at the end the antenna is on, and the field gets too weak to live on") {

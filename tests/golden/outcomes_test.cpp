@@ -1,5 +1,7 @@
 // What the smaller scenarios are there to show, and their golden results.
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <fstream>
 
 #include <catch2/catch.hpp>
@@ -163,6 +165,57 @@ TEST_CASE("nfc_two_tags: two units that may both return early are refused, with 
       outcome.err,
       Catch::Contains("'sensor_left' and 'sensor_right' may both return early") &&
           Catch::Contains("<stride:EarlyReturn components=\"sensor_right\" allowed=\"false\"/>"));
+}
+
+TEST_CASE("rf_approach: nearer is not better where two rays cancel, and the retries outlast it") {
+  const ScenarioRun run("rf_approach", {"--no-trace", "--no-idle-skip"});
+  CHECK(golden_differences("rf_approach", run) == "");
+  // far away the first try is answered
+  CHECK(run.at("0.5", "channel.distance [m]") == Approx(0.728).margin(1e-3));
+  CHECK(run.at("0.6", "reader.messages.answered") == 1);
+  CHECK(run.at("0.6", "reader.messages.retries") == 0);
+  // nearer, where the paths differ by one wave, none is
+  const Extremes null = run.between("3.2", "4", "channel.distance [m]");
+  CHECK(null.most == Approx(0.429).margin(1e-3));
+  CHECK(std::hypot(0.38, 0.4) - null.most == Approx(299792458 / 2.45e9).margin(1e-3));
+  CHECK(run.between("3.2", "4", "channel.snr.down [dB]").most < -6);
+  CHECK(run.at("4", "reader.messages.retries") > 10);
+  CHECK(run.at("4", "reader.messages.answered") == 1);
+  CHECK(run.at("4", "sensor.frames.received") == 1);
+  // the arm moves on
+  CHECK(run.at("4.6", "reader.messages.answered") == 2);
+  CHECK(run.at("8", "reader.messages.as_expected") == 3);
+  CHECK(run.at("7", "channel.snr.down [dB]") > 13);
+  // all of this on the charge of the sensor's capacitor
+  CHECK(run.between("0", "8", "sensor.mcu.powered").most == 1);
+  CHECK(run.at("8", "sensor.capacitor.voltage [V]") > 4.1);
+}
+
+TEST_CASE("rf_approach: all along the way there are two rays between where the antennas are") {
+  const ScenarioRun run("rf_approach",
+                        {"--no-trace", "--no-idle-skip", "--signals", "world.site.*.position.*",
+                         "--signals", "channel.coupling"});
+  const auto column = [&](const std::string& name) { return run.signals().numbers(name); };
+  const auto position = [&](const std::string& site, const std::string& axis) {
+    return column("world.site." + site + ".position." + axis + " [m]");
+  };
+  const auto x = position("reader_coil", "x"), z = position("reader_coil", "z");
+  const auto tag_x = position("tag_coil", "x"), tag_z = position("tag_coil", "z");
+  const auto coupling = column("channel.coupling");
+  // both dipoles lie across the way, and the bench turns such a field round
+  const double wavelength = 299792458 / 2.45e9;
+  const double gain = std::pow(10, 0.176) * wavelength / (4 * M_PI);
+  REQUIRE(coupling.size() > 8000);
+  double greatest = 0;
+  for (std::size_t i = 0; i < coupling.size(); ++i) {
+    const double direct = std::hypot(tag_x[i] - x[i], tag_z[i] - z[i]);
+    const double reflected = std::hypot(tag_x[i] - x[i], tag_z[i] + z[i]);
+    const std::complex<double> field =
+        std::polar(1 / direct, -2 * M_PI * direct / wavelength) -
+        std::polar(1 / reflected, -2 * M_PI * reflected / wavelength);
+    greatest = std::max(greatest, std::abs(coupling[i] / (gain * std::abs(field)) - 1));
+  }
+  CHECK(greatest < 0.01);
 }
 
 TEST_CASE("a mistake in a program ends with its file and line") {

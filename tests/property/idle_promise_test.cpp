@@ -156,7 +156,9 @@ TEST_CASE("an arm that has settled keeps what it promises") {
 }
 
 TEST_CASE("the channel keeps what it promises") {
-  const auto fmu = unit("nfc_channel");
+  const std::string name = GENERATE("nfc_channel", "rf_channel", "ideal_channel");
+  CAPTURE(name);
+  const auto fmu = unit(name);
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     CAPTURE(seed);
     Random random(seed);

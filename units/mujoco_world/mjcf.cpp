@@ -107,7 +107,7 @@ std::vector<Actuator> list_actuators(const mjModel& model) {
     const std::string unit = count == 1 ? control_unit(model, i) : "";
     for (int k = 0; k < count; ++k) {
       list.push_back(
-          {name, unit, first + k, count == 1 ? 0 : k + 1, control_range(model, first + k)});
+          {name, unit, i, first + k, count == 1 ? 0 : k + 1, control_range(model, first + k)});
     }
   }
   return list;
@@ -175,7 +175,9 @@ fs::path find_scene(const fs::path& folder) {
   }
   if (fs::exists(folder / "scene.xml")) return folder / "scene.xml";
   fs::path found;
+  bool has_urdf = false;
   for (const auto& entry : fs::directory_iterator(folder)) {
+    has_urdf = has_urdf || entry.path().extension() == ".urdf";
     if (entry.path().extension() != ".xml") continue;
     if (!found.empty()) {
       throw std::runtime_error("several .xml files in " + where +
@@ -184,7 +186,8 @@ fs::path find_scene(const fs::path& folder) {
     found = entry.path();
   }
   if (found.empty()) {
-    throw std::runtime_error("no MJCF in " + where + ": put the world there as scene.xml");
+    throw std::runtime_error("no MJCF in " + where + ": put the world there as scene.xml" +
+                             (has_urdf ? "; stride-robot convert makes one of a URDF" : ""));
   }
   return found;
 }

@@ -22,6 +22,7 @@ using ModelPointer = std::unique_ptr<mjModel, DeleteModel>;
 struct Actuator {
   std::string name;
   std::string unit;  ///< "rad", "m", "rad/s", "m/s", "N.m", "N", or "" where it cannot be told
+  int id;            ///< of the actuator in the model
   int control;       ///< index into ctrl
   int element;       ///< 1, 2 ... if the actuator has several controls, else 0
   std::optional<std::pair<double, double>> range;  ///< to which MuJoCo clamps the control

@@ -1,6 +1,4 @@
 // Any MJCF world as an FMU: the variable table follows from the model in the resources folder.
-#include <algorithm>
-#include <cctype>
 #include <deque>
 #include <string>
 #include <vector>
@@ -9,29 +7,13 @@
 
 #include "units/mujoco_world/hooks.h"
 #include "units/mujoco_world/model.h"
+#include "units/mujoco_world/names.h"
 
 namespace {
 
+using mujoco_world::name_part;
 using mujoco_world::Vector;
 using mujoco_world::World;
-
-bool is_identifier(const std::string& name) {
-  const auto is_word = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
-  return !std::isdigit(static_cast<unsigned char>(name[0])) &&
-         std::all_of(name.begin(), name.end(), is_word);
-}
-
-/// A model's name as one part of a structured variable name: quoted unless it is an identifier
-/// (FMI 3.0, 2.4.7.5.1).
-std::string part(const std::string& name) {
-  if (is_identifier(name)) return name;
-  std::string quoted = "'";
-  for (const char c : name) {
-    if (c == '\'' || c == '\\') quoted += '\\';
-    quoted += c;
-  }
-  return quoted + "'";
-}
 
 std::string indexed(const std::string& name, int index) {
   return name + "[" + std::to_string(index) + "]";
@@ -157,7 +139,7 @@ class MujocoWorld : public stride::Unit {
 
   void list_actuator(std::size_t i) {
     const auto& actuator = world_.catalogue().actuators[i];
-    const std::string name = "actuator." + part(actuator.name);
+    const std::string name = "actuator." + name_part(actuator.name);
     inputs_[i] = world_.input(i);
     auto row = input(actuator.element == 0 ? name : indexed(name, actuator.element), inputs_[i]);
     row.unit(actuator.unit).description("control of the actuator " + actuator.name);
@@ -166,7 +148,7 @@ class MujocoWorld : public stride::Unit {
 
   void list_joint(std::size_t i) {
     const auto& joint = world_.catalogue().joints[i];
-    const std::string name = "joint." + part(joint.name);
+    const std::string name = "joint." + name_part(joint.name);
     output(name + ".position", joints_[i].position)
         .unit(joint.unit)
         .depends_on({})
@@ -182,7 +164,7 @@ class MujocoWorld : public stride::Unit {
 
   void list_site(std::size_t i) {
     const std::string& site = world_.catalogue().sites[i].name;
-    const std::string name = "site." + part(site);
+    const std::string name = "site." + name_part(site);
     constexpr const char* kAxes[] = {"x", "y", "z"};
     for (std::size_t k = 0; k < 3; ++k) {
       output(name + ".position." + kAxes[k], sites_[i].position[k])
@@ -202,7 +184,7 @@ class MujocoWorld : public stride::Unit {
   }
 
   void list_sensor(const mujoco_world::Sensor& sensor) {
-    const std::string name = "sensor." + part(sensor.name);
+    const std::string name = "sensor." + name_part(sensor.name);
     auto& values = sensors_.emplace_back(sensor.dimension);
     for (int k = 0; k < sensor.dimension; ++k) {
       output(sensor.dimension == 1 ? name : indexed(name, k + 1),

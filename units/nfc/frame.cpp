@@ -1,8 +1,8 @@
-#include "units/nfc/frame.h"
-
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+
+#include <stride/nfc/frame.h>
 
 namespace nfc {
 namespace {

@@ -1,6 +1,6 @@
-#include "units/nfc/iso14443a.h"
-
 #include <utility>
+
+#include <stride/nfc/iso14443a.h>
 
 namespace nfc {
 namespace {

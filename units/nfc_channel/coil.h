@@ -2,7 +2,7 @@
 #ifndef STRIDE_UNITS_NFC_CHANNEL_COIL_H
 #define STRIDE_UNITS_NFC_CHANNEL_COIL_H
 
-#include <Eigen/Core>
+#include "units/channel/pose.h"
 
 namespace nfc_channel {
 
@@ -17,11 +17,8 @@ struct Coil {
   double quality_factor;  ///< omega L / R of the coil at the carrier frequency
 };
 
-/// Where a coil is, in coordinates that all coils share.
-struct Pose {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< the coil's centre [m]
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();     ///< its normal, of any length but zero
-};
+/// The coil's centre and its normal.
+using channel::Pose;
 
 /// The inductance [H]: the coil's own value if it has one, otherwise N^2 mu0 a (ln(8a/w) - 2), a
 /// thin ring whose current flows on the wire's surface (Grover, "Inductance Calculations", 1946).

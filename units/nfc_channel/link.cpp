@@ -4,9 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <stride/nfc/frame.h>
 #include <stride/time.h>
-
-#include "units/nfc/frame.h"
 
 namespace nfc_channel {
 namespace {
@@ -60,10 +59,6 @@ double signal_to_noise(double signal_power, const BitSignal& bit, double noise_d
   const double energy = signal_power * bit.seconds;
   if (!(energy > 0.0)) return 0.0;
   return noise_density > 0.0 ? energy / noise_density : std::numeric_limits<double>::infinity();
-}
-
-double decibels(double ratio) {
-  return std::clamp(10.0 * std::log10(std::max(ratio, 0.0)), -200.0, 200.0);
 }
 
 double bit_error_probability(double signal_to_noise, bool coherent) {

@@ -50,9 +50,6 @@ double sideband_power(const Circuit& circuit, double mutual_inductance, const Op
 /// Eb / N0 of a bit, linear; infinite without noise.
 double signal_to_noise(double signal_power, const BitSignal& bit, double noise_density);
 
-/// The ratio in decibels, but not below -200 dB nor above 200 dB, so that it can be recorded.
-double decibels(double ratio);
-
 /// The probability that a bit is received wrong. Not coherent: 1/2 exp(-x / 2), the detection of
 /// two orthogonal signals by their envelopes, which type A's halves of a bit are. Coherent: 1/2
 /// erfc(sqrt(x)), two opposite phases. (Proakis and Salehi, "Digital Communications", 5th ed.,

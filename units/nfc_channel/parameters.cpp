@@ -1,25 +1,16 @@
 #include "units/nfc_channel/parameters.h"
 
-#include <cmath>
-#include <sstream>
 #include <stdexcept>
+#include <string>
+
+#include "units/channel/check.h"
 
 namespace nfc_channel {
 namespace {
 
-[[noreturn]] void out_of_range(const std::string& name, double value, const std::string& range) {
-  std::ostringstream message;
-  message << name << " is " << value << ": expected " << range;
-  throw std::invalid_argument(message.str());
-}
-
-void require_positive(const std::string& name, double value) {
-  if (!(value > 0.0 && std::isfinite(value))) out_of_range(name, value, "more than 0");
-}
-
-void require_not_negative(const std::string& name, double value) {
-  if (!(value >= 0.0 && std::isfinite(value))) out_of_range(name, value, "0 or more");
-}
+using channel::out_of_range;
+using channel::require_not_negative;
+using channel::require_positive;
 
 void check(const std::string& name, const Coil& coil) {
   require_positive(name + ".radius", coil.radius);
@@ -46,8 +37,8 @@ void check(const ReaderParameters& reader) {
 }
 
 void check(const TagParameters& tag) {
-  const std::string name = tag.chip_name();
-  check(tag.coil_name(), tag.coil);
+  const std::string name = tag.name.prefix();
+  check(tag.name.coil(), tag.coil);
   require_not_negative(name + ".capacitance", tag.chip.capacitance);
   require_positive(name + ".load_resistance", tag.chip.load_resistance);
   require_positive(name + ".voltage_limit", tag.chip.voltage_limit);

@@ -3,9 +3,9 @@
 #define STRIDE_UNITS_NFC_CHANNEL_PARAMETERS_H
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
+#include "units/channel/names.h"
 #include "units/nfc_channel/circuit.h"
 #include "units/nfc_channel/coil.h"
 #include "units/nfc_channel/link.h"
@@ -21,14 +21,11 @@ struct ReaderParameters {
 };
 
 struct TagParameters {
-  std::string name;  ///< empty for the only tag of a channel that lists none
+  channel::TagName name;
   Coil coil{0.008, 12, 0.1e-3, 0.0, 35.0};
   TagChip chip{0.0, 1500.0, 5.5, 500.0};
   double power_threshold = 1e-6;  ///< a tag with less does not demodulate [W]
   Noise noise{290.0, 3e-7};
-
-  std::string coil_name() const { return name.empty() ? "tag_coil" : name + ".coil"; }
-  std::string chip_name() const { return name.empty() ? "tag" : name; }
 };
 
 struct Parameters {

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "units/nfc/iso14443a.h"
+#include <stride/nfc/iso14443a.h>
 
 namespace reader {
 namespace {

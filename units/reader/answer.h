@@ -8,10 +8,9 @@
 #include <optional>
 #include <string>
 
+#include <stride/nfc/commands.h>
+#include <stride/nfc/frame.h>
 #include <stride/time.h>
-
-#include "units/nfc/commands.h"
-#include "units/nfc/frame.h"
 
 namespace reader {
 

@@ -3,7 +3,12 @@
 #include <array>
 #include <vector>
 
+#include "units/xml/text.h"
+
 namespace reader {
+
+using xml::Element;
+
 namespace {
 
 constexpr double kDefaultTimeout = 0.05;  // [s]
@@ -92,7 +97,7 @@ nfc::Command to_command(const Element& element) {
     known.push_back(entry.name);
   }
   known.push_back(kRaw);
-  element.fail("unknown command '" + name + "': expected one of " + quoted_list(known));
+  element.fail("unknown command '" + name + "': expected one of " + xml::quoted_list(known));
 }
 
 Request request(const Element& element) {
@@ -177,7 +182,7 @@ void read_status(const Element& element, Expectation& expectation) {
   }
   known.push_back("none");
   if (name != "none") {
-    element.fail("unknown status '" + name + "': expected one of " + quoted_list(known));
+    element.fail("unknown status '" + name + "': expected one of " + xml::quoted_list(known));
   }
   expectation.answer = false;
 }

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <string>
 
+#include <stride/nfc/commands.h>
+#include <stride/nfc/frame.h>
 #include <stride/time.h>
 
-#include "units/nfc/commands.h"
-#include "units/nfc/frame.h"
 #include "units/reader/expectation.h"
-#include "units/reader/xml.h"
+#include "units/xml/element.h"
 
 namespace reader {
 
@@ -26,8 +26,8 @@ struct ProgramCommand {
   Expectation expectation;
 };
 
-/// Reads a <command>. Throws as Element does.
-ProgramCommand parse_command(const Element& element);
+/// Reads a <command>. Throws as xml::Element does.
+ProgramCommand parse_command(const xml::Element& element);
 
 /// What a command is called in programs and reports, such as "read_temperature"; "raw 0x7F" for one
 /// that has no name.

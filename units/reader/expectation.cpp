@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "units/reader/text.h"
+#include "units/xml/text.h"
 
 namespace reader {
 namespace {
@@ -14,10 +15,11 @@ bool is_within(const Expectation& expectation, double temperature) {
 
 std::string range_text(const Expectation& expectation) {
   if (expectation.lowest && expectation.highest) {
-    return shortest(*expectation.lowest) + " to " + shortest(*expectation.highest) + " degC";
+    return xml::shortest(*expectation.lowest) + " to " + xml::shortest(*expectation.highest) +
+           " degC";
   }
-  if (expectation.lowest) return shortest(*expectation.lowest) + " degC or more";
-  if (expectation.highest) return shortest(*expectation.highest) + " degC or less";
+  if (expectation.lowest) return xml::shortest(*expectation.lowest) + " degC or more";
+  if (expectation.highest) return xml::shortest(*expectation.highest) + " degC or less";
   return "";
 }
 
@@ -33,8 +35,8 @@ std::string log_text(const Answer& answer) {
   };
   const auto [coldest, warmest] = std::minmax_element(
       answer.samples.begin(), answer.samples.begin() + answer.sample_count, colder);
-  return text + " of " + shortest(coldest->temperature) + " to " + shortest(warmest->temperature) +
-         " degC";
+  return text + " of " + xml::shortest(coldest->temperature) + " to " +
+         xml::shortest(warmest->temperature) + " degC";
 }
 
 }  // namespace
@@ -70,7 +72,7 @@ std::string text_of(nfc::Command command, const Answer& answer) {
     return text + " identifier " + hexadecimal(answer.identifier);
   }
   if (command == nfc::Command::kReadTemperature) {
-    return text + " " + shortest(answer.temperature) + " degC";
+    return text + " " + xml::shortest(answer.temperature) + " degC";
   }
   if (command == nfc::Command::kReadLog) return text + log_text(answer);
   return text;

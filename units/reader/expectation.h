@@ -6,7 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "units/nfc/commands.h"
+#include <stride/nfc/commands.h>
+
 #include "units/reader/answer.h"
 
 namespace reader {

@@ -1,12 +1,16 @@
 #include "units/reader/model.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "units/reader/text.h"
+#include "units/xml/text.h"
 
 namespace reader {
 namespace {
+
+constexpr stride::Duration kSecond = std::chrono::seconds(1);
 
 /// Added to the latest end of an answer, so that one that ends just then is heard before the reader
 /// gives up at that instant.
@@ -148,14 +152,35 @@ void Reader::finish_reception() {
   const Answer& answer = reception.answer;
   const bool is_ok = answer.status == nfc::Status::kOk;
   state_.records.back().answer = answer;
-  if (is_ok) keep_measurements(answer);
+  if (is_ok) keep_what_is_new(answer);
   settle(reception.end, is_ok ? Outcome::kAnswered : Outcome::kRefused);
 }
 
-void Reader::keep_measurements(const Answer& answer) {
+void Reader::keep_what_is_new(const Answer& answer) {
   if (current().command == nfc::Command::kIdentify) state_.identifier = answer.identifier;
   if (current().command == nfc::Command::kReadTemperature) state_.temperature = answer.temperature;
   if (current().command == nfc::Command::kReadLog) state_.logged = answer.sample_count;
+  keep_temperatures(answer);
+}
+
+void Reader::keep_temperatures(const Answer& answer) {
+  const stride::Time received = state_.reception.end;
+  if (current().command == nfc::Command::kReadTemperature) {
+    state_.measurements.push_back({received, answer.temperature, {}, {}});
+  }
+  for (std::uint32_t i = 0; i < answer.sample_count; ++i) {
+    const Sample& sample = answer.samples[i];
+    const bool is_known = sample.age < nfc::kOldestLogAge;
+    state_.measurements.push_back(
+        {received, sample.temperature, sample.age * kSecond,
+         is_known ? kSecond : stride::duration_from_seconds(stride::kMaxSeconds)});
+  }
+}
+
+Measurement Reader::take_measurement() {
+  const Measurement measurement = state_.measurements.front();
+  state_.measurements.pop_front();
+  return measurement;
 }
 
 void Reader::fail_try(stride::Time at, Outcome outcome) {
@@ -214,7 +239,7 @@ std::optional<stride::Time> Reader::next_event_time(stride::Time now) const {
 std::string Reader::report(std::size_t index) const {
   const Record& record = state_.records[index];
   const ProgramCommand& command = program_.commands[index];
-  std::string text = "at " + shortest(stride::to_seconds(record.sent_at)) + " s " +
+  std::string text = "at " + xml::shortest(stride::to_seconds(record.sent_at)) + " s " +
                      name_of(command.command) + ": expected " + text_of(command.expectation) +
                      "; got " + got_text(record, command.command);
   if (record.tries > 0) {

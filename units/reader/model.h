@@ -4,13 +4,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <stride/nfc/frame.h>
 #include <stride/time.h>
 
-#include "units/nfc/frame.h"
 #include "units/reader/answer.h"
 #include "units/reader/program.h"
 #include "units/reader/variation.h"
@@ -35,6 +36,14 @@ struct Record {
   Outcome outcome = Outcome::kWaiting;
   Answer answer;             ///< if there was an intact one
   bool as_expected = false;  ///< once it is settled
+};
+
+/// A temperature that the sensor has sent.
+struct Measurement {
+  stride::Time received;  ///< when its answer ended
+  double temperature;     ///< [degC]
+  stride::Duration age;   ///< that the sensor says, when it was received: it is this at least,
+  stride::Duration age_resolution;  ///< and less than this more, but for the answer's way
 };
 
 /// How many commands were sent, and what became of them. A command that is still waiting is in
@@ -85,9 +94,10 @@ class Reader {
     Outcome last_try = Outcome::kWaiting;
     Reception reception;
     Counts counts;
-    double temperature = 0.0;      ///< last measured [degC], 0 before the first
-    std::uint32_t identifier = 0;  ///< of the sensor, 0 before it is known
-    std::uint32_t logged = 0;      ///< samples in the last log that was read
+    double temperature = 0.0;              ///< last measured [degC], 0 before the first
+    std::uint32_t identifier = 0;          ///< of the sensor, 0 before it is known
+    std::uint32_t logged = 0;              ///< samples in the last log that was read
+    std::deque<Measurement> measurements;  ///< not taken yet, in the order of the answers
   };
 
   Reader() = default;
@@ -111,6 +121,10 @@ class Reader {
   /// limit; a second one that overlaps it destroys both.
   void receive(const nfc::Frame& frame);
 
+  /// The temperatures that were received, one at a time: each sample of a log is one, oldest first.
+  bool has_measurement() const { return !state_.measurements.empty(); }
+  Measurement take_measurement();
+
   /// The next instant after `now` at which something happens by itself: a command, a switch of the
   /// antenna, the end of an answer, of the time for one, or of a pause.
   std::optional<stride::Time> next_event_time(stride::Time now) const;
@@ -130,7 +144,8 @@ class Reader {
   nfc::Frame cut();
   void begin_try(stride::Time now);
   void finish_reception();
-  void keep_measurements(const Answer& answer);
+  void keep_what_is_new(const Answer& answer);
+  void keep_temperatures(const Answer& answer);
   void fail_try(stride::Time at, Outcome outcome);
   void skip_without_antenna(stride::Time now);
   void settle(stride::Time at, Outcome outcome);

@@ -6,12 +6,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include <tinyxml2.h>
-
-#include "units/reader/text.h"
-#include "units/reader/xml.h"
+#include "units/xml/document.h"
+#include "units/xml/text.h"
 
 namespace reader {
+
+using xml::Element;
+
 namespace {
 
 constexpr double kLargestTremor = 0.5;       // [rad]
@@ -22,11 +23,6 @@ constexpr double kHighestFrequency = 100.0;  // of a tremor [Hz]
 class Parser {
  public:
   Program parse(const Element& root) {
-    if (root.name() != "reader-program") root.fail("expected <reader-program> as the root");
-    root.allow_only({"version"});
-    if (const std::string version = root.text("version"); version != "1") {
-      root.fail("version=\"" + version + "\" is not known: expected 1");
-    }
     for (const auto& element : root.children()) section(element);
     if (!program_.axes.empty() && program_.waypoints.empty()) {
       root.fail("expected a <motion> with at least one <waypoint>, because there are axes");
@@ -97,9 +93,9 @@ class Parser {
     frequency("lowest_frequency", variation.lowest_frequency);
     frequency("highest_frequency", variation.highest_frequency);
     if (variation.lowest_frequency < variation.highest_frequency) return;
-    element.fail("expected lowest_frequency (" + shortest(variation.lowest_frequency) +
+    element.fail("expected lowest_frequency (" + xml::shortest(variation.lowest_frequency) +
                  " Hz) to be less than highest_frequency (" +
-                 shortest(variation.highest_frequency) + " Hz)");
+                 xml::shortest(variation.highest_frequency) + " Hz)");
   }
 
   void pose(const Element& element) {
@@ -132,7 +128,7 @@ class Parser {
   std::string pose_names() const {
     std::vector<std::string> names;
     for (const auto& entry : poses_) names.push_back(entry.first);
-    return quoted_list(names);
+    return xml::quoted_list(names);
   }
 
   void antenna(const Element& element) {
@@ -171,20 +167,7 @@ class Parser {
   bool has_variation_ = false;
 };
 
-Program parse_document(const tinyxml2::XMLDocument& document, const std::string& name) {
-  if (document.ErrorID() == tinyxml2::XML_ERROR_FILE_NOT_FOUND ||
-      document.ErrorID() == tinyxml2::XML_ERROR_FILE_COULD_NOT_BE_OPENED) {
-    throw std::runtime_error(name + ": cannot be read: expected the reader's program file");
-  }
-  if (document.Error()) {
-    throw std::runtime_error(name + ":" + std::to_string(document.ErrorLineNum()) +
-                             ": expected well-formed XML: " + document.ErrorName());
-  }
-  if (document.RootElement() == nullptr) {
-    throw std::runtime_error(name + ":1: expected <reader-program> as the root");
-  }
-  return Parser().parse(Element(*document.RootElement(), name));
-}
+constexpr const char* kRoot = "reader-program";
 
 }  // namespace
 
@@ -205,15 +188,13 @@ std::optional<stride::Time> carrier_end(const Program& program, stride::Time tim
 }
 
 Program load_program(const std::string& path) {
-  tinyxml2::XMLDocument document;
-  document.LoadFile(path.c_str());
-  return parse_document(document, path);
+  const auto document = xml::Document::load(path, kRoot);
+  return Parser().parse(document.root());
 }
 
 Program parse_program(const std::string& text, const std::string& name) {
-  tinyxml2::XMLDocument document;
-  document.Parse(text.data(), text.size());
-  return parse_document(document, name);
+  const auto document = xml::Document::parse(text, name, kRoot);
+  return Parser().parse(document.root());
 }
 
 }  // namespace reader

@@ -1,15 +1,6 @@
 #include "units/reader/text.h"
 
-#include <array>
-#include <charconv>
-
 namespace reader {
-
-std::string shortest(double number) {
-  std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr;
-  return std::string(buffer.data(), end);
-}
 
 std::string hexadecimal(std::uint32_t number) {
   std::string text = "0x";

@@ -53,7 +53,8 @@ class ReaderUnit : public stride::Unit {
     list_variables();
     auto& s = reader_.state();
     state(s.records, s.phase, s.request_start, s.request_end, s.deadline, s.give_up_at, s.retry_at,
-          s.last_try, s.reception, s.counts, s.temperature, s.identifier, s.logged, reported_);
+          s.last_try, s.reception, s.counts, s.temperature, s.identifier, s.logged, s.measurements,
+          reported_);
   }
 
   void initialize(stride::Time start) override {
@@ -73,7 +74,7 @@ class ReaderUnit : public stride::Unit {
       step.need_event();
     }
     reader_.advance(end);
-    if (reader_.is_due(end) || has_report()) step.need_event();
+    if (reader_.is_due(end) || has_news()) step.need_event();
     show(end);
   }
 
@@ -88,12 +89,13 @@ class ReaderUnit : public stride::Unit {
     }
     show(now);
     if (has_report()) report();
+    if (reader_.has_measurement()) tell(reader_.take_measurement(), now);
     const auto next = reader_.next_event_time(now);
     next ? event.next_event(*next) : event.no_next_event();
   }
 
   stride::Time idle_until(stride::Time now) const override {
-    return has_report() ? now : reader::idle_until(reader_, now);
+    return has_news() ? now : reader::idle_until(reader_, now);
   }
 
   // a state may come from an instance that runs another program, or with another seed
@@ -166,6 +168,22 @@ class ReaderUnit : public stride::Unit {
     output("measured.log_size", logged_)
         .depends_on({})
         .description("samples in the log that was read last");
+    list_measurement();
+  }
+
+  void list_measurement() {
+    output("measurement.clock", measurement_clock_)
+        .description("ticks for each temperature that was received, each sample of a log");
+    const auto list = [&](const char* name, double& value, const char* unit, const char* meaning) {
+      output(std::string("measurement.") + name, value)
+          .unit(unit)
+          .clocked_by(measurement_clock_)
+          .depends_on({})
+          .description(meaning);
+    };
+    list("temperature", measurement_, "degC", "the temperature");
+    list("age", age_, "s", "how old it is at least, as the sensor says");
+    list("age_resolution", age_resolution_, "s", "how much older it may be for want of digits");
   }
 
   void list_counts() {
@@ -207,13 +225,22 @@ class ReaderUnit : public stride::Unit {
     return reported_ < records.size() && records[reported_].outcome != reader::Outcome::kWaiting;
   }
 
-  // only from event(), because a step may be taken back; the tick brings another iteration, and
-  // with it the next report
+  bool has_news() const { return has_report() || reader_.has_measurement(); }
+
+  // these two only from event(), because a step may be taken back; the tick brings another
+  // iteration, and with it the next report or measurement
   void report() {
     const bool as_expected = reader_.state().records[reported_].as_expected;
     report_text_ = reader_.report(reported_++);
     report_clock_.tick();
     log(as_expected ? stride::Severity::Info : stride::Severity::Warning, report_text_);
+  }
+
+  void tell(const reader::Measurement& measurement, stride::Time now) {
+    measurement_ = measurement.temperature;
+    age_ = stride::to_seconds(measurement.age + (now - measurement.received));
+    age_resolution_ = stride::to_seconds(measurement.age_resolution);
+    measurement_clock_.tick();
   }
 
   std::filesystem::path resources_;
@@ -228,6 +255,10 @@ class ReaderUnit : public stride::Unit {
   stride::Binary receive_frame_;
   stride::Clock report_clock_;
   std::string report_text_;
+  stride::Clock measurement_clock_;
+  double measurement_ = 0.0;     // [degC]
+  double age_ = 0.0;             // [s]
+  double age_resolution_ = 0.0;  // [s]
 
   std::vector<double> axes_;
   double carrier_power_ = 0.0;

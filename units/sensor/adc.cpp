@@ -11,8 +11,8 @@ constexpr std::int32_t kMaximumCode = 4095;
 }  // namespace
 
 std::int32_t to_code(const AdcParameters& parameters, double temperature) {
-  const double share =
-      (temperature - parameters.minimum) / (parameters.maximum - parameters.minimum);
+  const double share = (temperature + parameters.offset_error - parameters.minimum) /
+                       (parameters.maximum - parameters.minimum);
   return static_cast<std::int32_t>(std::lround(std::clamp(share, 0.0, 1.0) * kMaximumCode));
 }
 

@@ -9,7 +9,7 @@
 
 namespace sensor {
 
-/// Twelve bits over [minimum, maximum], nearest code, saturating.
+/// Twelve bits over [minimum, maximum], nearest code, saturating; off by the offset error.
 std::int32_t to_code(const AdcParameters& parameters, double temperature);
 
 /// The calibrated result: the temperature of a code in 1/100 degC, rounded.

@@ -8,9 +8,8 @@
 #include <systemc>
 #include <utility>
 
+#include <stride/nfc/frame.h>
 #include <stride/time.h>
-
-#include "units/nfc/frame.h"
 
 namespace sensor {
 

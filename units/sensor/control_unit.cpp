@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
+
+#include <stride/systemc/time.h>
 
 #include "units/sensor/adc.h"
-#include "units/systemc/time.h"
 
 namespace sensor {
 namespace {
@@ -42,9 +42,8 @@ void append(nfc::Bytes& bytes, const nfc::Bytes& more) {
 }
 
 std::uint16_t age_in_seconds(stride::Time taken) {
-  constexpr std::int64_t kOldest = std::numeric_limits<std::uint16_t>::max();
   const std::int64_t age = (current_time() - taken) / kSecond;
-  return static_cast<std::uint16_t>(std::min(age, kOldest));
+  return static_cast<std::uint16_t>(std::min<std::int64_t>(age, nfc::kOldestLogAge));
 }
 
 }  // namespace

@@ -5,14 +5,14 @@
 #include <cstdint>
 #include <systemc>
 
+#include <stride/nfc/commands.h>
+#include <stride/systemc/timer.h>
 #include <stride/time.h>
 
-#include "units/nfc/commands.h"
 #include "units/sensor/command_fifo.h"
 #include "units/sensor/parameters.h"
 #include "units/sensor/sample_log.h"
 #include "units/sensor/transceiver.h"
-#include "units/systemc/timer.h"
 
 namespace sensor {
 

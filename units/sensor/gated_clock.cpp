@@ -1,6 +1,6 @@
 #include "units/sensor/gated_clock.h"
 
-#include "units/systemc/time.h"
+#include <stride/systemc/time.h>
 
 namespace sensor {
 

@@ -9,7 +9,8 @@ namespace sensor {
 struct TransceiverParameters {
   std::int32_t fifo_depth = 4;       ///< commands that can wait for the control unit
   double transmit_current = 1.0e-3;  ///< of the load modulator while it transmits [A]
-  double carrier_threshold = 1e-6;   ///< field power from which on there is a carrier [W]
+  double carrier_threshold = 1e-6;   ///< field power from which on there is a carrier [W]; 0: it
+                                     ///< has one of its own
   bool always_selected = true;       ///< answers all commands without having been selected
 };
 
@@ -31,6 +32,7 @@ struct ControlUnitParameters {
 struct AdcParameters {
   double minimum = -40.0;                ///< the temperature of code 0 [degC]
   double maximum = 125.0;                ///< the temperature of code 4095 [degC]
+  double offset_error = 0.0;             ///< so much too high it converts [K]
   std::int32_t conversion_cycles = 800;  ///< of the control unit's clock
   double current = 0.2e-3;               ///< while it converts [A]
 };
@@ -80,7 +82,7 @@ void visit_parameters(Parameters& parameters, Visitor&& visit) {
   add(transceiver.transmit_current, "transceiver.transmit_current", "A", 0, 1,
       "current of the load modulator while it transmits");
   add(transceiver.carrier_threshold, "transceiver.carrier_threshold", "W", 0, 1,
-      "field power from which on there is a carrier to answer with");
+      "field power from which on there is a carrier to answer with; 0 if it has its own");
   add(transceiver.always_selected, "transceiver.always_selected", "", 0, 1,
       "whether all commands are answered without a selection");
 
@@ -110,6 +112,8 @@ void visit_parameters(Parameters& parameters, Visitor&& visit) {
 
   add(adc.minimum, "adc.minimum", "degC", -273.15, 327, "temperature of code 0");
   add(adc.maximum, "adc.maximum", "degC", -273.15, 327, "temperature of code 4095");
+  add(adc.offset_error, "adc.offset_error", "K", -100, 100,
+      "by how much too high a temperature is converted, for want of calibration");
   add(adc.conversion_cycles, "adc.conversion_cycles", "", 1, 1e9, "clock cycles of a conversion");
   add(adc.current, "adc.current", "A", 0, 1, "current while it converts");
 

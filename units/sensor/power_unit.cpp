@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "units/systemc/time.h"
+#include <stride/systemc/time.h>
 
 namespace sensor {
 

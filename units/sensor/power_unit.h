@@ -5,11 +5,11 @@
 #include <optional>
 #include <systemc>
 
+#include <stride/systemc/timer.h>
 #include <stride/time.h>
 
 #include "units/sensor/parameters.h"
 #include "units/sensor/supply.h"
-#include "units/systemc/timer.h"
 
 namespace sensor {
 

@@ -6,9 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <stride/nfc/commands.h>
 #include <stride/time.h>
-
-#include "units/nfc/commands.h"
 
 namespace sensor {
 

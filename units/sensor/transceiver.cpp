@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "units/nfc/iso14443a.h"
-#include "units/sensor/frame_delay.h"
-#include "units/systemc/time.h"
+#include <stride/nfc/frame_delay.h>
+#include <stride/nfc/iso14443a.h>
+#include <stride/systemc/time.h>
 
 namespace sensor {
 namespace {
@@ -39,7 +39,7 @@ Transceiver::Transceiver(sc_core::sc_module_name name, const TransceiverParamete
 bool Transceiver::idle() const { return arriving_.empty() && !reception_ && !answer_ && !on_air_; }
 
 bool Transceiver::has_carrier() const {
-  return field_power.read() > 0 && field_power.read() >= parameters_.carrier_threshold;
+  return field_power.read() >= parameters_.carrier_threshold;
 }
 
 void Transceiver::detect_carrier() { carrier.write(has_carrier()); }
@@ -123,7 +123,8 @@ void Transceiver::run_transmitter() {
   if (on_air_ && now >= transmission_end_) finish_transmission();
   stride::Time next = on_air_ ? transmission_end_ : stride::Time::max();
   if (answer_ && !on_air_) {
-    next = answer_start(answer_->request_end, reception_ ? std::max(now, reception_->end) : now);
+    next =
+        nfc::answer_start(answer_->request_end, reception_ ? std::max(now, reception_->end) : now);
     if (next == now) {
       begin_transmission();
       next = transmission_end_;

@@ -8,12 +8,12 @@
 #include <optional>
 #include <systemc>
 
+#include <stride/nfc/frame.h>
+#include <stride/systemc/timer.h>
 #include <stride/time.h>
 
-#include "units/nfc/frame.h"
 #include "units/sensor/command_fifo.h"
 #include "units/sensor/parameters.h"
-#include "units/systemc/timer.h"
 
 namespace sensor {
 

@@ -1,6 +1,4 @@
 // The NFC smart sensor as a unit.
-#include "units/systemc/unit.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -8,7 +6,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "units/nfc/frame.h"
+#include <stride/nfc/frame.h>
+#include <stride/systemc/unit.h>
+
 #include "units/sensor/sensor.h"
 
 namespace sensor {

@@ -1,7 +1,7 @@
-#include "units/systemc/idle.h"
-
 #include <algorithm>
 #include <sstream>
+
+#include <stride/systemc/idle.h>
 
 namespace stride::systemc {
 namespace {

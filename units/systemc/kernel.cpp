@@ -1,12 +1,13 @@
 #define SC_INCLUDE_DYNAMIC_PROCESSES
-#include "units/systemc/kernel.h"
-
 #include <algorithm>
 #include <vector>
 
+#include <stride/systemc/kernel.h>
+#include <stride/systemc/time.h>
+#include <stride/systemc/timer.h>
+
+#include "units/systemc/reset_finders.h"
 #include "units/systemc/sanitizer.h"
-#include "units/systemc/time.h"
-#include "units/systemc/timer.h"
 
 namespace stride::systemc {
 namespace {
@@ -47,6 +48,7 @@ Kernel::Kernel(Log log) : log_(std::move(log)) {
 Kernel::~Kernel() {
   const Entry entry(*this);
   alarm_.reset();
+  owned_.clear();
   // the modules have cancelled their events; this gives them back to the kernel's pool
   sc_core::sc_time ignored;
   context_->next_time(ignored);
@@ -93,10 +95,15 @@ void Kernel::require_usable() const {
 void Kernel::initialize() {
   require_usable();
   within([this] {
+    if (context_->get_status() == sc_core::SC_PAUSED) {
+      fail("it called sc_start before it was complete; the unit runs the simulation");
+    }
     ticks_ = systemc::ticks_per_picosecond();
     if (ticks_ == 0) {
       fail("its time resolution is coarser than 1 ps; let it use the default");
     }
+    context_->elaborate();
+    forget_reset_finders(*context_);
     context_->initialize(true);
     require_not_stopped();
     settle();

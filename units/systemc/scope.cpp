@@ -1,4 +1,4 @@
-#include "units/systemc/scope.h"
+#include <stride/systemc/scope.h>
 
 // SystemC's library refers to it; a unit has no main program.
 int sc_main(int, char*[]) { return 0; }

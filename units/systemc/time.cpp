@@ -1,6 +1,5 @@
-#include "units/systemc/time.h"
-
-#include "units/systemc/kernel.h"
+#include <stride/systemc/kernel.h>
+#include <stride/systemc/time.h>
 
 namespace stride::systemc {
 

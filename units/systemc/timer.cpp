@@ -1,10 +1,9 @@
-#include "units/systemc/timer.h"
-
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 
-#include "units/systemc/time.h"
+#include <stride/systemc/time.h>
+#include <stride/systemc/timer.h>
 
 namespace stride::systemc {
 namespace {

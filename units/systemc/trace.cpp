@@ -1,5 +1,3 @@
-#include "units/systemc/trace.h"
-
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -10,6 +8,8 @@
 #include <stdexcept>
 
 #include <fnmatch.h>
+
+#include <stride/systemc/trace.h>
 
 namespace stride::systemc {
 namespace {
@@ -83,10 +83,18 @@ void SignalList::add_if_any_of(const sc_core::sc_object& object) {
   (add_if(dynamic_cast<const sc_core::sc_signal_in_if<T>*>(&object)), ...);
 }
 
+template <int... Width>
+void SignalList::add_if_wide(const sc_core::sc_object& object,
+                             std::integer_sequence<int, Width...>) {
+  add_if_any_of<sc_dt::sc_uint<Width + 1>..., sc_dt::sc_int<Width + 1>...,
+                sc_dt::sc_bv<Width + 1>..., sc_dt::sc_lv<Width + 1>...>(object);
+}
+
 void SignalList::add_all_within(const sc_core::sc_object& module) {
   for (const sc_core::sc_object* object : module.get_child_objects()) {
     add_if_any_of<bool, sc_dt::sc_logic, float, double, char, unsigned char, short, unsigned short,
                   int, unsigned int, long, unsigned long, sc_dt::int64, sc_dt::uint64>(*object);
+    add_if_wide(*object, std::make_integer_sequence<int, 64>());
     add_all_within(*object);
   }
 }

@@ -96,6 +96,8 @@ struct Variable {
   std::optional<std::vector<std::string>> dependencies;  ///< of an output: nothing = unknown = all
   std::optional<double> deadband;   ///< of a Float64 input, see <stride/idle.h>
   std::optional<double> tolerance;  ///< of a Float64 output, likewise
+  bool is_verdict = false;          ///< of a Boolean output: it is the unit's verdict on the run
+  bool is_verdict_text = false;     ///< of a String output: it explains the verdict
 };
 
 /// What input(), output(), parameter() and local() return, to say more about the row. Units are
@@ -174,6 +176,14 @@ class VariableBuilder {
   /// How far this Float64 output may be from its tangent at the promise while it holds, in its
   /// unit, > 0, unless the importer says another. Without one it stays exactly what it is.
   VariableBuilder& tolerance(double width) { return row_.tolerance = width, *this; }
+
+  // For a unit that judges the run; one output each.
+
+  /// What this Boolean output is at the end of a run is the unit's verdict: false, and the run has
+  /// failed, however well it went.
+  VariableBuilder& verdict() { return row_.is_verdict = true, *this; }
+  /// This String output says, for people, why the verdict is what it is.
+  VariableBuilder& verdict_text() { return row_.is_verdict_text = true, *this; }
 
  private:
   VariableBuilder& timed(IntervalVariability variability) {

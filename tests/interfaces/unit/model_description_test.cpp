@@ -57,6 +57,23 @@ TEST_CASE("whether the unit may reject a step is annotated at the end") {
   CHECK_THAT(describe(Sample(true)), Contains(R"(mayReject="true")"));
 }
 
+TEST_CASE("the verdict and its text are annotated by their names") {
+  class Judge : public Unit {
+   public:
+    Judge() {
+      output("why", why_).verdict_text();
+      output("good", good_).verdict();
+    }
+    void step(Step&) override {}
+
+   private:
+    bool good_ = false;
+    std::string why_;
+  };
+  CHECK_THAT(describe(Judge()), Contains(R"( verdictText="why" verdict="good"/>)"));
+  CHECK_THAT(describe(Sample()), !Contains("verdict"));
+}
+
 TEST_CASE("that steps may be split is annotated where it is so") {
   CHECK_THAT(describe(Sample()), !Contains("splitInvariant"));
   CHECK_THAT(describe(Sample(false, true)),

@@ -31,6 +31,7 @@ class Rows : public Unit {
   std::int64_t integer = 0;
   std::uint64_t large = 0;
   bool flag = false;
+  bool other_flag = false;
   std::string text;
   Binary bytes;
   Clock clock;
@@ -110,6 +111,33 @@ TEST_CASE("only a continuous input changes within a step") {
                     Contains(reason));
   CHECK_THROWS_WITH(check([](Rows& unit) { unit.output("real", unit.real).intermediate(); }),
                     Contains(reason));
+}
+
+TEST_CASE("a verdict is one Boolean output, its text one String output") {
+  CHECK_NOTHROW(check([](Rows& unit) { unit.output("good", unit.flag).verdict(); }));
+  CHECK_NOTHROW(check([](Rows& unit) {
+    unit.output("why", unit.text).verdict_text();
+    unit.output("good", unit.flag).verdict();
+  }));
+  CHECK_THROWS_WITH(
+      check([](Rows& unit) { unit.input("good", unit.flag).verdict(); }),
+      "variable 'good': only a scalar Boolean output without a clock can be a verdict()");
+  CHECK_THROWS(check([](Rows& unit) { unit.output("good", unit.natural).verdict(); }));
+  CHECK_THROWS(check([](Rows& unit) {
+    unit.output("clock", unit.clock);
+    unit.output("good", unit.flag).clocked_by(unit.clock).verdict();
+  }));
+  CHECK_THROWS(check([](Rows& unit) { unit.output("good", unit.flag).dimensions({1}).verdict(); }));
+  CHECK_THROWS_WITH(
+      check([](Rows& unit) { unit.output("why", unit.flag).verdict_text(); }),
+      "variable 'why': only a scalar String output without a clock can be a verdict_text()");
+  CHECK_THROWS_WITH(check([](Rows& unit) { unit.output("why", unit.text).verdict_text(); }),
+                    Contains("variable 'why': there is no verdict to explain"));
+  CHECK_THROWS_WITH(check([](Rows& unit) {
+                      unit.output("good", unit.flag).verdict();
+                      unit.output("better", unit.other_flag).verdict();
+                    }),
+                    "variable 'better': 'good' is that already; a unit has one");
 }
 
 TEST_CASE("a deadband is of a Float64 input, a tolerance of a Float64 output") {

@@ -6,6 +6,7 @@
 
 using namespace stride::core;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 
 namespace {
 
@@ -210,6 +211,43 @@ TEST_CASE("declared connectors must agree with the unit") {
   CHECK_THAT(with({"u", ValueType::Int32, {}, "", {}}),
              Contains("says Int32, the unit says Float64"));
   CHECK_THAT(with({"u", {}, {}, "s", {}}), Contains("the connector is in 's'"));
+}
+
+TEST_CASE("a unit that does not fit is explained connector by connector, each of them once") {
+  auto system = declaration();
+  system.components[1].connectors = {
+      {"u", ValueType::Int32, {}, {}, {"s.ssd", 5}},
+      {"lamp", ValueType::Boolean, Causality::Output, {}, {"s.ssd", 6}},
+      {"height", {}, Causality::Input, {"mm", kMillimetre}, {"s.ssd", 7}}};
+  system.connections = {wire("y", "u", 10),
+                        wire("y", "height", 11),
+                        wire("y", "speed", 12),
+                        wire("t", "n", 13),
+                        {"beta", "lamp", "alpha", "n", false, {"s.ssd", 14}}};
+  CHECK_THAT(
+      reason(system),
+      StartsWith(
+          "there are 5 mistakes:\n"
+          "  s.ssd:5: unit 'beta', variable 'u': the connector says Int32, the unit says Float64\n"
+          "  s.ssd:6: unit 'beta', variable 'lamp': its model 'model' has no such variable; "
+          "expected an output Boolean for 'alpha.n'\n"
+          "  s.ssd:7: unit 'beta', variable 'height': its model 'model' has no such variable; "
+          "expected an input Float64 in mm, fed by 'alpha.y'\n"
+          "  s.ssd:12: unit 'beta', variable 'speed': its model 'model' has no such variable; "
+          "expected an input Float64 in mm, fed by 'alpha.y'\n"
+          "  s.ssd:13: cannot connect 'alpha.t' to 'beta.n': Float64 and Int32 are different "
+          "types"));
+}
+
+TEST_CASE("wrong start values are told of together") {
+  auto system = declaration();
+  system.start_values = {{"alpha", "gain", "high", {}, {"s.ssd", 5}},
+                         {"alpha", "ranged", "3", {}, {"s.ssd", 6}},
+                         {"beta", "y", "1", {}, {"s.ssd", 7}}};
+  CHECK_THAT(reason(system), Contains("3 mistakes") &&
+                                 Contains("s.ssd:5: unit 'alpha', variable 'gain'") &&
+                                 Contains("s.ssd:6: unit 'alpha', variable 'ranged'") &&
+                                 Contains("s.ssd:7: unit 'beta', variable 'y'"));
 }
 
 TEST_CASE("start values are converted, parsed and refused where they cannot be set") {

@@ -295,6 +295,36 @@ TEST_CASE("whether the unit's steps may be split") {
   CHECK_FALSE(annotated("org.another", unit + " splitInvariant=\"true\"/>").split_invariant);
 }
 
+TEST_CASE("which outputs are the unit's verdict and its text") {
+  const auto judge = [](const std::string& attributes) {
+    const std::string outputs =
+        "<Boolean name=\"good\" valueReference=\"20\" causality=\"output\"/>"
+        "<String name=\"why\" valueReference=\"21\" causality=\"output\"/>"
+        "<Boolean name=\"seen\" valueReference=\"22\" causality=\"output\" clocks=\"5\"/>";
+    std::string text = kComplete;
+    text.insert(text.find("  </ModelVariables>"), outputs);
+    text.insert(text.find("</fmiModelDescription>"),
+                "<Annotations><Annotation type=\"org.stride.unit\">"
+                "<s:Unit xmlns:s=\"urn:org.stride:unit:1\" " +
+                    attributes + "/></Annotation></Annotations>");
+    return fmi::parse_model_description(text, "unit.xml");
+  };
+  const core::UnitDescription both = judge("verdictText=\"why\" verdict=\"good\"");
+  CHECK(both.verdict == both.find("good"));
+  CHECK(both.verdict_text == both.find("why"));
+  CHECK_FALSE(judge("mayReject=\"false\"").verdict);
+  CHECK_FALSE(judge("verdict=\"good\"").verdict_text);
+  CHECK_THAT(input_error([&] { judge("verdict=\"god\""); }),
+             Contains("unit.xml:") && Contains("verdict=\"god\" of <s:Unit> is no variable; "
+                                               "expected a scalar Boolean output without a clock"));
+  for (const std::string other : {"why", "on", "seen"}) {
+    CHECK_THAT(input_error([&] { judge("verdict=\"" + other + "\""); }),
+               Contains("is another variable"));
+  }
+  CHECK_THAT(input_error([&] { judge("verdict=\"good\" verdictText=\"good\""); }),
+             Contains("expected a scalar String output"));
+}
+
 TEST_CASE("start values and clocks") {
   const auto unit = fmi::parse_model_description(kComplete, "unit.xml");
   CHECK(variable(unit, "temperature").start == "20");

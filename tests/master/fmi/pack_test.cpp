@@ -80,6 +80,27 @@ TEST_CASE("a unit finds the shared library that it is packed with") {
   CHECK(answer.numbers<std::int32_t>()[0] == 42);
 }
 
+TEST_CASE("a .fmu is packed again with other resources") {
+  const Scratch scratch;
+  auto first = stateless(scratch, "first.fmu");
+  first.bundled = {raw_library("raw")};
+  fmi::pack(first);
+  scratch.write("other/note.txt", "another note");
+  fmi::pack({scratch / "first.fmu", scratch / "other", {}, scratch / "second.fmu"});
+
+  const fmi::UnpackedFmu unpacked(scratch / "second.fmu");
+  const auto binaries = unpacked.folder() / "binaries" / fmi::platform();
+  CHECK(read(binaries / "stateless.so") == read(STRIDE_STATELESS_LIBRARY));
+  CHECK(read(binaries / "raw.so") == read(raw_library("raw")));
+  CHECK(read(unpacked.folder() / "resources/note.txt") == "another note");
+  CHECK_FALSE(fs::exists(unpacked.folder() / "resources/deep"));
+
+  CHECK_THAT(input_error([&] {
+               fmi::pack({scratch / "first.fmu", {}, {}, scratch / "x.fmu"});
+             }),
+             Contains("is packed already") && Contains("--resources"));
+}
+
 TEST_CASE("the same input gives the same bytes, at any time and in any time zone") {
   const Scratch scratch;
   fmi::pack(stateless(scratch, "a.fmu"));

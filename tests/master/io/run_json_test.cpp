@@ -42,7 +42,9 @@ TEST_CASE("run.json tells what was run and how far it came") {
        milliseconds(0),
        milliseconds(0)},
   };
-  write_run_json(folder / "run.json", "scenarios/x.ssd", sample_system(), options, statistics);
+  const std::vector<core::Verdict> verdicts = {{1, false, "too \"late\""}};
+  write_run_json(folder / "run.json", "scenarios/x.ssd", sample_system(), options, statistics,
+                 verdicts);
   CHECK(content(folder / "run.json") == R"({
   "scenario": "scenarios/x.ssd",
   "system": "sample",
@@ -56,6 +58,13 @@ TEST_CASE("run.json tells what was run and how far it came") {
     "extrapolation": "hold"
   },
   "outcome": "completed",
+  "verdicts": [
+    {
+      "component": "b, c",
+      "passed": false,
+      "text": "too \"late\""
+    }
+  ],
   "reached": 14.2,
   "communication_steps": 14200,
   "undone_steps": 0,
@@ -121,7 +130,7 @@ TEST_CASE("run.json tells what was run and how far it came") {
 
 TEST_CASE("An error is told, also when the run never began") {
   const TemporaryFolder folder;
-  write_run_json(folder / "run.json", "x.ssd", sample_system(), {}, {},
+  write_run_json(folder / "run.json", "x.ssd", sample_system(), {}, {}, {},
                  "unit 'a': it said \"no\"\xff");
   const std::string text = content(folder / "run.json");
   CHECK_THAT(text,

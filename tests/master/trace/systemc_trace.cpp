@@ -3,7 +3,7 @@
 #include <string>
 #include <systemc>
 
-#include "units/systemc/device.h"
+#include <stride/systemc/device.h>
 
 namespace stride::trace {
 namespace {

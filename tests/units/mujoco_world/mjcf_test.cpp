@@ -15,6 +15,9 @@ TEST_CASE("the scene is scene.xml or the only .xml", "[mujoco_world]") {
   const worlds::Folder folder;
   CHECK_THROWS_WITH(find_scene(folder.path() / "missing"), Catch::Contains("missing"));
   CHECK_THROWS_WITH(find_scene(folder.path()), Catch::Contains("no MJCF"));
+  folder.write("arm.urdf", "");
+  CHECK_THROWS_WITH(find_scene(folder.path()),
+                    Catch::Contains("no MJCF") && Catch::Contains("stride-robot convert"));
   folder.write("readme.txt", "");
   folder.write("arm.xml", "");
   CHECK(find_scene(folder.path()) == folder.path() / "arm.xml");
@@ -37,6 +40,17 @@ TEST_CASE("a broken MJCF is an error with the file and MuJoCo's message", "[mujo
   fails_with("<mujoco><worldbody><body><joint/></body></worldbody></mujoco>", "mass");
   fails_with("<mujoco><actuator><motor joint='elbow'/></actuator></mujoco>", "elbow");
   CHECK_THROWS_WITH(load_model(folder.path() / "other.xml"), Catch::Contains("other.xml"));
+}
+
+TEST_CASE("a file that is missing is named", "[mujoco_world]") {
+  const worlds::Folder folder;
+  const auto misses = [&](const std::string& mjcf, const std::string& file) {
+    folder.write("scene.xml", "<mujoco>" + mjcf + "</mujoco>");
+    CHECK_THROWS_WITH(load_model(folder.path() / "scene.xml"), Catch::Contains(file));
+  };
+  misses("<include file='parts/arm.xml'/>", "parts/arm.xml");
+  misses("<compiler meshdir='meshes'/><asset><mesh name='a' file='arm.stl'/></asset>",
+         "meshes/arm.stl");
 }
 
 TEST_CASE("a world without a site that it requires says so, and which it has", "[mujoco_world]") {

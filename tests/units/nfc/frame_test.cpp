@@ -1,9 +1,9 @@
-#include "units/nfc/frame.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
+
+#include <stride/nfc/frame.h>
 
 using nfc::Bytes;
 using nfc::Frame;

@@ -1,11 +1,10 @@
-#include "units/nfc/iso14443a.h"
-
 #include <cstdint>
 #include <optional>
 
 #include <catch2/catch.hpp>
 
-#include "units/nfc/commands.h"
+#include <stride/nfc/commands.h>
+#include <stride/nfc/iso14443a.h>
 
 using nfc::Bits;
 using nfc::Bytes;

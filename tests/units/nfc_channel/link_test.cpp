@@ -80,13 +80,6 @@ TEST_CASE("The sidebands fall with the twelfth power of the distance: there and 
   CHECK(power(0.0) == 0.0);
 }
 
-TEST_CASE("Decibels stay finite") {
-  CHECK(decibels(100.0) == Approx(20.0));
-  CHECK(decibels(0.5) == Approx(-3.0103));
-  CHECK(decibels(0.0) == -200.0);
-  CHECK(decibels(std::numeric_limits<double>::infinity()) == 200.0);
-}
-
 TEST_CASE("The bit error probability falls from one half") {
   for (const bool coherent : {false, true}) {
     CHECK(bit_error_probability(0.0, coherent) == 0.5);

@@ -10,9 +10,12 @@
 
 #include <catch2/catch.hpp>
 
-#include "units/nfc/iso14443a.h"
+#include <stride/nfc/iso14443a.h>
+
+#include "units/channel/decibels.h"
 
 using namespace nfc_channel;
+using channel::decibels;
 using stride::Duration;
 using stride::Time;
 
@@ -73,8 +76,8 @@ std::string refusal(const Parameters& parameters) {
 Parameters two_tags() {
   Parameters parameters;
   parameters.tags.resize(2);
-  parameters.tags[0].name = "door";
-  parameters.tags[1].name = "window";
+  parameters.tags[0].name.name = "door";
+  parameters.tags[1].name.name = "window";
   return parameters;
 }
 

@@ -10,9 +10,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <stride/nfc/frame.h>
+#include <stride/nfc/iso14443a.h>
+
 #include "tests/interfaces/unit/importer.h"
-#include "units/nfc/frame.h"
-#include "units/nfc/iso14443a.h"
 
 using namespace stride::tests;
 

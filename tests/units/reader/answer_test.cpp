@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "units/nfc/iso14443a.h"
+#include <stride/nfc/iso14443a.h>
 
 using nfc::Command;
 using nfc::Status;

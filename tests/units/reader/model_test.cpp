@@ -1,8 +1,11 @@
 #include "units/reader/model.h"
 
+#include <chrono>
+#include <vector>
+
 #include <catch2/catch.hpp>
 
-#include "units/nfc/iso14443a.h"
+#include <stride/nfc/iso14443a.h>
 
 using namespace reader;
 using stride::Duration;
@@ -77,6 +80,64 @@ TEST_CASE("An answer counts when its frame ends") {
   CHECK(reader.state().temperature == Approx(21.5));
   CHECK(last_outcome(reader) == Outcome::kAnswered);
   CHECK(reader.state().records[0].settled_at == end);
+}
+
+TEST_CASE("A temperature is a new measurement, also if it is the same as before") {
+  Reader reader = reader_with(R"(<command at="2" name="read_temperature"/>
+                                 <command at="3" name="read_temperature"/>)");
+  for (const double second : {2.0, 3.0}) {
+    reader.transmit(at(second));
+    const auto frame = answer(at(second + 0.001), kWarm);
+    reader.receive(frame);
+    CHECK_FALSE(reader.has_measurement());
+    reader.advance(at(second + 0.1));
+    REQUIRE(reader.has_measurement());
+    const Measurement measurement = reader.take_measurement();
+    CHECK(measurement.received == frame.start + nfc::air_time(frame));
+    CHECK(measurement.temperature == 21.5);
+    CHECK(measurement.age == Duration{});
+    CHECK(measurement.age_resolution == Duration{});
+    CHECK_FALSE(reader.has_measurement());
+  }
+}
+
+TEST_CASE("Each sample of a log is a measurement, with the age that the log says") {
+  Reader reader = reader_with(R"(<command at="2" name="read_log"/>)");
+  reader.transmit(at(2));
+  reader.receive(answer(at(2.001), {0x00, 0xFF, 0xFF, 0x08, 0x66,  // 65535 s or more: 21.5 degC
+                                    0x01, 0x02, 0xFF, 0x9C,        // 258 s: -1 degC
+                                    0x00, 0x00, 0x08, 0x67}));     // 0 s: 21.51 degC
+  reader.advance(at(2.1));
+  std::vector<Measurement> measurements;
+  while (reader.has_measurement()) measurements.push_back(reader.take_measurement());
+  REQUIRE(measurements.size() == 3);
+  CHECK(measurements[0].temperature == 21.5);
+  CHECK(measurements[0].age == std::chrono::seconds(65535));
+  CHECK(measurements[0].age_resolution == stride::duration_from_seconds(stride::kMaxSeconds));
+  CHECK(measurements[1].temperature == -1);
+  CHECK(measurements[1].age == std::chrono::seconds(258));
+  CHECK(measurements[1].age_resolution == std::chrono::seconds(1));
+  CHECK(measurements[2].temperature == 21.51);
+  CHECK(measurements[2].age == Duration{});
+}
+
+TEST_CASE("What is no temperature, refused or damaged is no measurement") {
+  Reader reader = reader_with(R"(<command at="2" name="identify"/>
+                                 <command at="3" name="read_temperature"/>
+                                 <command at="4" name="read_temperature"/>)");
+  reader.transmit(at(2));
+  reader.receive(answer(at(2.001), {0x00, 1, 2, 3, 4}));
+  reader.advance(at(3));
+  reader.transmit(at(3));
+  reader.receive(answer(at(3.001), {0x01}));
+  reader.advance(at(4));
+  reader.transmit(at(4));
+  auto damaged = answer(at(4.001), kWarm);
+  damaged.bits[3] = !damaged.bits[3];
+  reader.receive(damaged);
+  reader.advance(at(5));
+  CHECK(reader.state().counts.answered == 2);
+  CHECK_FALSE(reader.has_measurement());
 }
 
 TEST_CASE("On a coarse grid the record still has the instant at which the answer ended") {

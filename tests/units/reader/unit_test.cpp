@@ -8,9 +8,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <stride/nfc/frame.h>
+#include <stride/nfc/iso14443a.h>
+
 #include "tests/interfaces/unit/importer.h"
-#include "units/nfc/frame.h"
-#include "units/nfc/iso14443a.h"
 #include "units/reader/variation.h"
 
 using namespace stride::tests;
@@ -198,6 +199,36 @@ TEST_CASE("Reports of one instant come one after the other") {
   CHECK_THAT(reports[1], Catch::Contains("identify") && Catch::Contains("antenna was off"));
   CHECK_THAT(reports[2], Catch::Contains("sleep"));
   CHECK(count(reader, "unexpected") == 3);
+}
+
+TEST_CASE("Measurements are told one after the other, and are older where they are told late") {
+  const Resources resources(R"(<reader-program version="1">
+      <antenna on="1" off="9" power="0.5"/><command at="2" name="read_log"/>
+    </reader-program>)");
+  const UnitLibrary library(STRIDE_READER_LIBRARY);
+  UnitInstance reader(library, choices(resources));
+  REQUIRE(reader.start_steps() == fmi3OK);
+  CHECK(reports_at(reader, 2).empty());
+  const nfc::Frame answer{stride::time_from_seconds(2.001), 106,
+                          nfc::to_bits(nfc::with_crc({0x00, 0, 7, 0x08, 0x66, 0, 5, 0x08, 0x67}))};
+  const double end = stride::to_seconds(answer.start + nfc::air_time(answer));
+  REQUIRE(reader.step(2, 0.01) == fmi3OK);
+  REQUIRE(library.EnterEventMode(reader.handle) == fmi3OK);
+  REQUIRE(reader.set_clock("receive.clock", true) == fmi3OK);
+  REQUIRE(reader.set_binary("receive.frame", nfc::encode(answer)) == fmi3OK);
+  std::vector<double> temperatures;
+  std::vector<double> ages;
+  do {
+    REQUIRE(reader.update() == fmi3OK);
+    if (!reader.clock("measurement.clock")) continue;
+    temperatures.push_back(reader.real("measurement.temperature"));
+    ages.push_back(reader.real("measurement.age"));
+    CHECK(reader.real("measurement.age_resolution") == 1);
+  } while (reader.iterate);
+  CHECK(temperatures == std::vector<double>{21.5, 21.51});
+  REQUIRE(ages.size() == 2);
+  CHECK(ages[0] == Approx(7 + 2.01 - end).epsilon(1e-12));
+  CHECK(ages[1] == Approx(5 + 2.01 - end).epsilon(1e-12));
 }
 
 TEST_CASE("A request is sent again, cut, at the instant at which the antenna goes off") {

@@ -17,6 +17,17 @@ TEST_CASE("the ADC's codes span its range and saturate") {
   CHECK(to_code(adc, 42.5) == 2048);  // 2047.5, rounded away from zero
 }
 
+TEST_CASE("an offset error shifts the result by as much") {
+  AdcParameters adc;
+  const double step = (adc.maximum - adc.minimum) / 4095;
+  adc.offset_error = 10 * step;
+  const AdcParameters calibrated;
+  CHECK(to_code(adc, 21.5) == to_code(calibrated, 21.5) + 10);
+  CHECK(to_code(adc, 125.0) == 4095);
+  adc.offset_error = -10 * step;
+  CHECK(to_code(adc, 21.5) == to_code(calibrated, 21.5) - 10);
+}
+
 TEST_CASE("the calibrated result is within half a code of the temperature") {
   const AdcParameters adc;
   const double half_code = (adc.maximum - adc.minimum) / 4095 / 2;

@@ -5,9 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "units/nfc/iso14443a.h"
+#include <stride/nfc/iso14443a.h>
+#include <stride/systemc/device.h>
+
 #include "units/sensor/sensor.h"
-#include "units/systemc/device.h"
 
 namespace sensor {
 

@@ -8,9 +8,10 @@
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
+#include <stride/systemc/idle.h>
+#include <stride/systemc/trace.h>
+
 #include "tests/units/sensor/bench.h"
-#include "units/systemc/idle.h"
-#include "units/systemc/trace.h"
 
 using stride::Duration;
 using stride::Time;

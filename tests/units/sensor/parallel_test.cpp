@@ -5,11 +5,12 @@
 
 #include <catch2/catch.hpp>
 
+#include <stride/nfc/commands.h>
+#include <stride/nfc/frame.h>
+#include <stride/nfc/iso14443a.h>
+
 #include "master/fmi/fmu.h"
 #include "tests/master/core/scripted_system.h"
-#include "units/nfc/commands.h"
-#include "units/nfc/frame.h"
-#include "units/nfc/iso14443a.h"
 
 using namespace stride;
 using namespace stride::core;

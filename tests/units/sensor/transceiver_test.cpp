@@ -296,6 +296,18 @@ TEST_CASE("an answer whose bits are all out is not cut off any more") {
   CHECK(bench.frames().cut == 0);
 }
 
+TEST_CASE("with a carrier of its own it answers without a field") {
+  SensorParameters parameters = sensor::charged();
+  parameters.transceiver.carrier_threshold = 0;
+  Bench bench(parameters);
+  bench.field(0);
+  bench.send(kIdentify, ms(5));
+  bench.run(ms(10));
+  REQUIRE(bench.answers.size() == 1);
+  CHECK(data_of(bench.answers[0]) == kIdentity);
+  CHECK(bench.frames().dropped == 0);
+}
+
 TEST_CASE("without a carrier an answer is not started") {
   Bench bench;
   bench.send(kIdentify, ms(5));

@@ -1,11 +1,11 @@
-#include "units/systemc/device.h"
-
 #include <memory>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
+
+#include <stride/systemc/device.h>
 
 #include "tests/units/systemc/blinker.h"
 
@@ -52,6 +52,39 @@ TEST_CASE("devices can be made and destroyed hundreds of times") {
     bystander.advance(at((i + 1) * kMicrosecond));
   }
   CHECK(edges(bystander) == 10'001);
+}
+
+TEST_CASE("a device whose processes have a reset port can be destroyed") {
+  struct Counter : sc_core::sc_module {
+    sc_core::sc_clock clock{"clock", 10, sc_core::SC_NS};
+    sc_core::sc_signal<bool> reset{"reset"};
+    sc_core::sc_in<bool> clock_port{"clock_port"}, reset_port{"reset_port"};
+    sc_core::sc_signal<int> count{"count"};
+    explicit Counter(sc_core::sc_module_name name) : sc_module(name) {
+      clock_port(clock);
+      reset_port(reset);
+      SC_HAS_PROCESS(Counter);
+      SC_CTHREAD(run, clock_port.pos());
+      reset_signal_is(reset_port, true);
+      SC_THREAD(fail);
+    }
+    void run() {
+      count.write(0);
+      for (wait();; wait()) count.write(count.read() + 1);
+    }
+    void fail() {
+      wait(reset.posedge_event());
+      SC_REPORT_ERROR("counter", "reset");
+    }
+  };
+  for (int i = 0; i < 3; ++i) {
+    Device<Counter> device({}, "counter");
+    device.advance(at(kMicrosecond));
+    CHECK(device.within([](Counter& counter) { return counter.count.read(); }) == 100);
+    if (i < 2) continue;
+    device.within([](Counter& counter) { counter.reset.write(true); });
+    CHECK_THROWS(device.advance(at(2 * kMicrosecond)));
+  }
 }
 
 TEST_CASE("what lives on a thread's stack is destroyed with the device") {

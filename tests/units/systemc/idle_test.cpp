@@ -1,5 +1,3 @@
-#include "units/systemc/idle.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -10,12 +8,13 @@
 
 #include <catch2/catch.hpp>
 
+#include <stride/systemc/device.h>
+#include <stride/systemc/idle.h>
+#include <stride/systemc/time.h>
+#include <stride/systemc/timer.h>
 #include <stride/tangent.h>
 
 #include "tests/units/systemc/meter.h"
-#include "units/systemc/device.h"
-#include "units/systemc/time.h"
-#include "units/systemc/timer.h"
 
 using meter::kPeriod;
 using meter::Meter;

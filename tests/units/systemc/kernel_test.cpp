@@ -1,5 +1,3 @@
-#include "units/systemc/kernel.h"
-
 #include <cstdio>
 #include <stdexcept>
 #include <string>
@@ -8,8 +6,10 @@
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
+#include <stride/systemc/device.h>
+#include <stride/systemc/kernel.h>
+
 #include "tests/units/systemc/blinker.h"
-#include "units/systemc/device.h"
 
 using blinker::Actor;
 using blinker::Blinker;
@@ -127,6 +127,26 @@ TEST_CASE("a device that fails gives an error that says what, where and when") {
              Contains("motor: on fire"));
   CHECK_THAT(error_of([] { throw std::runtime_error("lost"); }, in_thread), Contains("lost"));
   CHECK_THAT(error_of([] { sc_core::sc_stop(); }, in_thread), Contains("called sc_stop at 1 us"));
+  CHECK_THAT(error_of([] { sc_core::sc_start(); }, in_thread),
+             Contains("sc_start") && Contains("actor.act") && Contains("1 us"));
+}
+
+TEST_CASE("a device that runs or ends the simulation in its constructor gives an error") {
+  struct Driver : sc_core::sc_module {
+    Driver(sc_core::sc_module_name name, void (*action)()) : sc_module(name) { action(); }
+  };
+  const auto error_of = [](void (*action)()) -> std::string {
+    try {
+      Device<Driver> device({}, "driver", action);
+    } catch (const DeviceError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  CHECK_THAT(error_of([] { sc_core::sc_start(sc_core::sc_time(1, sc_core::SC_US)); }),
+             Contains("sc_start"));
+  CHECK_THAT(error_of([] { sc_core::sc_stop(); }), Contains("called sc_stop"));
+  CHECK_THAT(error_of([] { SC_REPORT_FATAL("driver", "no licence"); }), Contains("no licence"));
 }
 
 TEST_CASE("elaboration errors name the port") {

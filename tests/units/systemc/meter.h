@@ -6,9 +6,8 @@
 #include <systemc>
 #include <vector>
 
+#include <stride/systemc/time.h>
 #include <stride/time.h>
-
-#include "units/systemc/time.h"
 
 namespace meter {
 

@@ -5,8 +5,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <stride/systemc/device.h>
+
 #include "tests/units/systemc/blinker.h"
-#include "units/systemc/device.h"
 
 using blinker::Blinker;
 using stride::Duration;

@@ -1,12 +1,11 @@
-#include "units/systemc/timer.h"
-
 #include <algorithm>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
-#include "units/systemc/device.h"
-#include "units/systemc/time.h"
+#include <stride/systemc/device.h>
+#include <stride/systemc/time.h>
+#include <stride/systemc/timer.h>
 
 using Catch::Matchers::Contains;
 using stride::Duration;

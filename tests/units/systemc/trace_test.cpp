@@ -1,5 +1,3 @@
-#include "units/systemc/trace.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -10,9 +8,11 @@
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
+#include <stride/systemc/device.h>
+#include <stride/systemc/trace.h>
+
 #include "tests/units/systemc/meter.h"
 #include "tests/units/systemc/vcd.h"
-#include "units/systemc/device.h"
 
 using Catch::Matchers::Contains;
 using meter::kPeriod;

@@ -1,6 +1,4 @@
 // A device as a unit: its idle times, its promises and its traces.
-#include "units/systemc/unit.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +10,8 @@
 
 #include <catch2/catch.hpp>
 #include <unistd.h>
+
+#include <stride/systemc/unit.h>
 
 #include "tests/units/systemc/meter.h"
 #include "tests/units/systemc/unit_driver.h"

@@ -1,0 +1,88 @@
+#include "master/core/verdict.h"
+
+#include <catch2/catch.hpp>
+
+#include "scripted_system.h"
+
+using namespace stride;
+using namespace stride::core;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// The outputs 0 and 1 are the verdict and its text.
+std::shared_ptr<const UnitDescription> judge(bool has_text = true) {
+  const auto described = Describe("judge")
+                             .add("good", ValueType::Boolean, Causality::Output)
+                             .add("why", ValueType::String, Causality::Output)
+                             .done();
+  auto description = std::make_shared<UnitDescription>(*described);
+  description->verdict = 0;
+  if (has_text) description->verdict_text = 1;
+  return description;
+}
+
+/// Good from the first step that ends at `time` or later.
+void make_good_at(ScriptedUnit& unit, Time time) {
+  unit.on_step = [time](ScriptedUnit& self, Time, Time to) {
+    self.block(0).numbers<bool>()[0] = to >= time;
+    self.block(1).strings()[0] = to >= time ? "it came" : "it did not come";
+    return reached(to);
+  };
+}
+
+}  // namespace
+
+TEST_CASE("verdicts are what the units say at the end of the run, in their order") {
+  ScriptedSystem fixture;
+  make_good_at(fixture.add("late", judge()), Time(20ms));
+  fixture.add("silent", Describe("silent").output("y").done());
+  make_good_at(fixture.add("early", judge()), Time(10ms));
+  make_good_at(fixture.add("terse", judge(false)), Time(1ms));
+  Simulation& simulation = fixture.build(0.015, 1ms);
+  CHECK(simulation.verdicts().empty());
+  simulation.run();
+  const auto verdicts = simulation.verdicts();
+  REQUIRE(verdicts.size() == 3);
+  CHECK((verdicts[0].component == 0 && !verdicts[0].passed));
+  CHECK(verdicts[0].text == "it did not come");
+  CHECK((verdicts[1].component == 2 && verdicts[1].passed && verdicts[1].text == "it came"));
+  CHECK((verdicts[2].component == 3 && verdicts[2].passed && verdicts[2].text.empty()));
+}
+
+TEST_CASE("they are asked for before the units are terminated, and only once") {
+  ScriptedSystem fixture;
+  ScriptedUnit& unit = fixture.add("judge", judge());
+  make_good_at(unit, Time(1ms));
+  Simulation& simulation = fixture.build(0.01, 1ms);
+  simulation.run();
+  CHECK(unit.gets == 2);
+  CHECK(unit.calls.back() == "terminate");
+}
+
+TEST_CASE("a run that has failed has no verdicts") {
+  ScriptedSystem fixture;
+  make_good_at(fixture.add("judge", judge()), Time(1ms));
+  fixture.add("failing", Describe("failing").done()).on_step = [](ScriptedUnit&, Time,
+                                                                  Time to) -> StepResult {
+    if (to > Time(5ms)) fail_run({}, "enough");
+    return reached(to);
+  };
+  Simulation& simulation = fixture.build(0.01, 1ms);
+  CHECK_THROWS_AS(simulation.run(), Error);
+  CHECK(simulation.verdicts().empty());
+}
+
+TEST_CASE("a run that a unit ends is judged there") {
+  ScriptedSystem fixture;
+  make_good_at(fixture.add("judge", judge()), Time(5ms));
+  fixture.add("ending", Describe("ending").done()).on_step = [](ScriptedUnit&, Time, Time to) {
+    StepResult result = reached(to);
+    result.terminate = to == Time(4ms);
+    return result;
+  };
+  Simulation& simulation = fixture.build(0.01, 1ms);
+  simulation.run();
+  REQUIRE(simulation.verdicts().size() == 1);
+  CHECK_FALSE(simulation.verdicts()[0].passed);
+}

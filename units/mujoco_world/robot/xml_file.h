@@ -1,0 +1,44 @@
+// XML files, read and written, and their elements, visited.
+#ifndef STRIDE_UNITS_MUJOCO_WORLD_ROBOT_XML_FILE_H
+#define STRIDE_UNITS_MUJOCO_WORLD_ROBOT_XML_FILE_H
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+#include <tinyxml2.h>
+
+namespace mujoco_world {
+
+/// Throws std::runtime_error with the file and what is wrong with it, also if it has no element.
+inline tinyxml2::XMLElement& read_xml(tinyxml2::XMLDocument& document,
+                                      const std::filesystem::path& file) {
+  if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS || !document.RootElement()) {
+    throw std::runtime_error("cannot read '" + file.string() + "': " + document.ErrorStr());
+  }
+  return *document.RootElement();
+}
+
+inline void write_xml(tinyxml2::XMLDocument& document, const std::filesystem::path& file) {
+  if (document.SaveFile(file.c_str()) != tinyxml2::XML_SUCCESS) {
+    throw std::runtime_error("cannot write '" + file.string() + "': " + document.ErrorStr());
+  }
+}
+
+/// Calls visit(element) for each element below, in the order of the file, parents first.
+template <typename Visit>
+void for_each_below(tinyxml2::XMLElement& parent, const Visit& visit) {
+  for (auto* child = parent.FirstChildElement(); child; child = child->NextSiblingElement()) {
+    visit(*child);
+    for_each_below(*child, visit);
+  }
+}
+
+inline std::string attribute(const tinyxml2::XMLElement& element, const char* name) {
+  const char* const value = element.Attribute(name);
+  return value ? value : "";
+}
+
+}  // namespace mujoco_world
+
+#endif

@@ -1,0 +1,161 @@
+// One SystemC simulation among others in the same process.
+#ifndef STRIDE_SYSTEMC_KERNEL_H
+#define STRIDE_SYSTEMC_KERNEL_H
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <systemc>
+#include <utility>
+#include <vector>
+
+#include <stride/systemc/scope.h>
+#include <stride/time.h>
+
+namespace stride::systemc {
+
+class Timer;
+
+/// A device reported an error, threw, or called sc_stop. The message names the process and the
+/// simulated time. The simulation cannot go on.
+class DeviceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A simulation context of its own, with its own time, objects and processes. Any number may live
+/// side by side and be advanced in any order and from any thread; the kernel is locked meanwhile.
+///
+/// All instants here are true time, which is SystemC's time and what has been skipped; see skip().
+///
+/// Call order: construct; make the modules inside within(); initialize(); advance() as often as
+/// wanted; destroy the modules inside within(). Device does the first two and the last of these.
+class Kernel {
+ public:
+  /// Receives what the device reports as info or warning. Nothing is printed.
+  using Log = std::function<void(sc_core::sc_severity, const std::string&)>;
+
+  explicit Kernel(Log log = {});
+  ~Kernel();
+
+  Kernel(const Kernel&) = delete;
+  Kernel& operator=(const Kernel&) = delete;
+
+  /// Calls f in this context; whatever touches modules, ports, events or signals belongs in there.
+  /// Throws DeviceError for a report of an error; other exceptions pass.
+  template <class Function>
+  decltype(auto) within(Function&& f) {
+    const Entry entry(*this);
+    try {
+      return std::forward<Function>(f)();
+    } catch (const sc_core::sc_report& report) {
+      fail(describe(report));
+    }
+  }
+
+  /// Keeps a channel that ports of the modules are bound to; it is destroyed with the kernel. To be
+  /// made within().
+  void own(std::shared_ptr<void> channel) { owned_.push_back(std::move(channel)); }
+
+  /// Ends elaboration and runs the processes until they rest at time 0.
+  void initialize();
+
+  /// Runs all that happens up to and including the instant `to`, and returns it. If the device
+  /// calls sc_pause and `may_stop_early` is set, time stops there and that instant is returned; all
+  /// that happens at it has happened.
+  Time advance(Time to, bool may_stop_early = false);
+
+  /// The same, but leaves what is due at `to` itself for the next call, so that a pause there is
+  /// not overlooked: an instant before `to` is returned for a pause only.
+  Time approach(Time to, bool may_stop_early = false);
+
+  /// The time reached, rounded down to a picosecond.
+  Time now() const;
+
+  /// Nothing is left to be done at the time reached.
+  bool at_rest() const;
+
+  /// When the device does something by itself next, if nothing comes from outside.
+  std::optional<Time> next_event();
+  /// When a Timer is due next, after now().
+  std::optional<Time> next_timer() const;
+  /// The true time at which SystemC notifies something next, timers not counted: the edge of a
+  /// clock, a wait(time), an event notified with a delay.
+  std::optional<Time> next_notification();
+
+  /// Lets time pass in which nothing is simulated: now() moves, SystemC's time stands still. Timers
+  /// keep their true instants, all other notifications come later by `duration`. To be called at
+  /// rest; throws std::logic_error otherwise, or if a timer is due up to the instant reached.
+  void skip(Duration duration);
+  /// All that has been skipped.
+  Duration skipped() const { return to_picoseconds(advance_time_); }
+  /// The same in units of the device's time resolution, to be traced.
+  const sc_dt::uint64& advance_time() const { return advance_time_; }
+  /// How many units of the device's time resolution make one picosecond.
+  std::uint64_t ticks_per_picosecond() const { return ticks_; }
+
+  /// The kernel in whose context the caller is; none outside of within().
+  static Kernel* current() { return active_; }
+
+  /// Writes what has changed at the present instant to SystemC's trace files, which it does by
+  /// itself where time goes on from there. No process runs. SystemC's time is one unit of its
+  /// resolution further then.
+  void write_traces() noexcept;
+
+  /// Ends all threads of the device, so that what lives on their stacks is destroyed. To be called
+  /// before the modules are destroyed. The kernel cannot be advanced afterwards.
+  void end_threads() noexcept;
+
+ private:
+  /// A scope that also makes this kernel the one whose log is written.
+  class Entry {
+   public:
+    explicit Entry(Kernel& kernel);
+    ~Entry();
+
+   private:
+    Scope scope_;
+    Kernel* previous_;
+  };
+
+  friend class Timer;
+
+  static void handle(const sc_core::sc_report& report, const sc_core::sc_actions& actions);
+  std::string describe(const sc_core::sc_report& report) const;
+  std::string true_time(const sc_core::sc_time& kernel_time) const;
+  [[noreturn]] void fail(const std::string& message);
+  void require_usable() const;
+  void require_not_before_now(Time to) const;
+  void settle();
+  void require_not_stopped();
+
+  void make_alarm();
+  void ring();
+  void set_alarm();
+  void withdraw_alarm();
+
+  Duration to_picoseconds(sc_dt::uint64 ticks) const {
+    return Duration(static_cast<std::int64_t>(ticks / ticks_));
+  }
+  sc_core::sc_time to_kernel_time(Time time) const;
+
+  static Kernel* active_;  ///< the one in whose Entry the kernel is; guarded by the kernel's lock
+
+  Log log_;
+  std::unique_ptr<sc_core::sc_simcontext> context_;
+  std::uint64_t ticks_ = 1;
+  std::vector<std::shared_ptr<void>> owned_;
+  bool initialized_ = false;
+  std::string failure_;
+  sc_dt::uint64 advance_time_ = 0;
+  std::vector<Timer*> timers_;                ///< in the order of their construction
+  std::unique_ptr<sc_core::sc_event> alarm_;  ///< wakes the timers that are due
+  Time horizon_{};                            ///< the alarm is set for timers up to here
+};
+
+}  // namespace stride::systemc
+
+#endif

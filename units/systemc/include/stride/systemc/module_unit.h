@@ -1,0 +1,355 @@
+// An sc_module with ordinary ports as a unit: say which variable stands for which port.
+//
+//   class Thermometer : public stride::systemc::ModuleUnit<ThermometerModule> {
+//    public:
+//     Thermometer() : ModuleUnit("thermometer", "A thermometer with a serial interface") {
+//       clock(&ThermometerModule::clk, 100ns);
+//       reset(&ThermometerModule::rst_n, 1us, false);
+//       input("temperature", &ThermometerModule::temperature).unit("degC");
+//       output("ready", &ThermometerModule::ready);
+//       output("adc.code", inner<sc_dt::sc_uint<12>>("adc.code"));
+//     }
+//   };
+//   STRIDE_UNIT(Thermometer)
+#ifndef STRIDE_SYSTEMC_MODULE_UNIT_H
+#define STRIDE_SYSTEMC_MODULE_UNIT_H
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <stride/systemc/message.h>
+#include <stride/systemc/row.h>
+#include <stride/systemc/unit.h>
+
+namespace stride::systemc {
+
+/// A DeviceUnit that is said row by row, in the constructor. A row's target is where its value
+/// stands in the module:
+///
+///   &Module::port                            a port, a signal, or another member of the module
+///   [](Module& m) -> auto& { return m.a.b; } the same of a submodule
+///   inner<T>("adc.code")                     by its SystemC name, also if it is private
+///   [](Module& m) { return m.current(); }    what a function gives; for outputs only
+///
+/// The variable's type follows from the value's, see Conversion. Each port of the module has one
+/// row: of an input, an output, a message, a clock, a reset, or it is tied.
+///
+/// All functions of DeviceUnit can still be overridden; one that moves values calls the function
+/// that it overrides, too.
+template <class Module>
+class ModuleUnit : public DeviceUnit<Module> {
+  template <class Target>
+  using ValueOf = typename detail::ValueAt<Target, Module>::Type;
+  template <class Target>
+  using FmiOf = typename Conversion<ValueOf<Target>>::Fmi;
+  template <class Target>
+  static constexpr bool kIsTarget =
+      std::is_invocable_v<const Target&, Module&> || detail::LeadsToPlace<Target, Module>::value;
+
+ protected:
+  using typename DeviceUnit<Module>::Device;
+  using typename DeviceUnit<Module>::Log;
+  using DeviceUnit<Module>::input;
+  using DeviceUnit<Module>::output;
+  using DeviceUnit<Module>::local;
+
+  /// `name`: of the module in SystemC, and so of the scope in traces.
+  ModuleUnit(std::string name, std::string description)
+      : DeviceUnit<Module>(std::move(description)), name_(std::move(name)) {}
+
+  // The module.
+
+  /// The arguments that follow the name in the module's constructor. They are looked at where the
+  /// module is made, so parameters in members of the unit have their values by then.
+  template <class... Arguments>
+  void construct(Arguments&&... arguments) {
+    static_assert(std::is_constructible_v<Module, const char*, const std::decay_t<Arguments>&...>,
+                  "the module has no constructor that takes its name and these arguments");
+    // members by reference, temporaries by value
+    make_ = [values = std::tuple<Arguments...>(arguments...)](const char* name) {
+      return std::apply(
+          [name](const auto&... value) { return std::make_unique<Module>(name, value...); },
+          values);
+    };
+  }
+  /// Makes the module, where its constructor needs more than that.
+  void construct_by(std::function<std::unique_ptr<Module>(const char* name)> make) {
+    make_ = std::move(make);
+  }
+
+  // Values.
+
+  /// A port that the unit writes, or a signal that nothing else writes.
+  template <class Target, std::enable_if_t<kIsTarget<Target>, int> = 0>
+  VariableBuilder input(std::string name, Target target, FmiOf<Target> start = {}) {
+    static_assert(detail::LeadsToPlace<Target, Module>::value,
+                  "an input needs an sc_in, an sc_inout or an sc_signal");
+    auto row = std::make_unique<detail::InputRow<ValueOf<Target>>>(name, find(std::move(target)));
+    row->value = std::move(start);
+    return add(row, this->Unit::input(std::move(name), row->value));
+  }
+  /// A port, a signal, or the value of a member or a function.
+  template <class Target, std::enable_if_t<kIsTarget<Target>, int> = 0>
+  VariableBuilder output(std::string name, Target target) {
+    auto row = make_output(name, std::move(target));
+    return add(row, this->Unit::output(std::move(name), row->value));
+  }
+  /// The same, for what no other unit is concerned with.
+  template <class Target, std::enable_if_t<kIsTarget<Target>, int> = 0>
+  VariableBuilder local(std::string name, Target target) {
+    auto row = make_output(name, std::move(target));
+    return add(row, this->Unit::local(std::move(name), row->value));
+  }
+  /// A port without a variable: an input that always has this value, an output that leads nowhere.
+  template <class Target>
+  void tie(Target target, ValueOf<Target> value = {}) {
+    rows_.push_back(std::make_unique<detail::TiedRow<ValueOf<Target>>>(
+        "tie()", find(std::move(target)), std::move(value)));
+  }
+
+  // Clocks and resets.
+
+  /// The unit drives the port, an sc_in<bool>: rising edges at 0 s and after each period, falling
+  /// ones in the middle.
+  template <class Target>
+  void clock(Target target, Duration period) {
+    add_clock(std::move(target), [period] { return period; });
+  }
+  /// With the frequency that this member, a parameter, has at the start [Hz].
+  template <class Target>
+  void clock(Target target, double& frequency) {
+    add_clock(std::move(target), [&frequency] {
+      if (frequency > 0) return duration_from_seconds(1 / frequency);
+      throw std::invalid_argument("a clock's frequency is " + std::to_string(frequency) +
+                                  " Hz; it must be more than 0");
+    });
+  }
+  /// The port, an sc_in<bool>, has this level for the first `length` of the run, and the other one
+  /// ever after.
+  template <class Target>
+  void reset(Target target, Duration length, bool level) {
+    rows_.push_back(
+        std::make_unique<detail::ResetRow>(find_bool(std::move(target)), length, level));
+  }
+
+  // Messages: a Binary variable NAME, and its clock, which has `clock` in the place of what stands
+  // behind the last dot of the name.
+
+  /// The target is an sc_fifo_in<T>, which gets the elements of the message (see Message); elements
+  /// that find it full are lost, which the log says. Or a function (Module&, const Binary&), which
+  /// is called outside of all processes, so that it must not wait.
+  template <class Target>
+  VariableBuilder message_input(std::string name, Target target, int depth = 16) {
+    std::unique_ptr<detail::MessageRow> row;
+    if constexpr (std::is_invocable_v<const Target&, Module&, const Binary&>) {
+      row = std::make_unique<detail::FunctionInputRow>(
+          name, [target](sc_core::sc_module& module, const Binary& message) {
+            std::invoke(target, static_cast<Module&>(module), message);
+          });
+    } else {
+      row = fifo_input(name, std::move(target), depth);
+    }
+    this->Unit::input(row->clock_name(), row->clock);
+    VariableBuilder builder = this->Unit::input(std::move(name), row->value);
+    return add_message(std::move(row), builder);
+  }
+  /// The target is an sc_fifo_out<T>, of which each element is a message (see Message). Or a
+  /// function (Module&, Sender), which is called once when the module has been made, and gives it
+  /// the Sender to call.
+  template <class Target>
+  VariableBuilder message_output(std::string name, Target target) {
+    auto row = std::make_unique<detail::MessageOutputRow>(name, sender_to(std::move(target)));
+    this->Unit::output(row->clock_name(), row->clock);
+    VariableBuilder builder = this->Unit::output(std::move(name), row->value);
+    return add_message(std::move(row), builder);
+  }
+
+  // Idle time.
+
+  /// What idle() asks; calls may_idle(). While the module is idle its ports and signals stay what
+  /// they are, so the unit promises that it need not be called. Where outputs are functions or
+  /// plain members, which may move, it promises nothing, unless tangents_hold_for() is overridden.
+  void idle_when(std::function<bool(const Module&)> idle) {
+    this->may_idle();
+    idle_ = std::move(idle);
+  }
+
+  std::unique_ptr<Device> make_device(Log log) override {
+    try {
+      return std::make_unique<Device>(std::move(log),
+                                      [this](Kernel& kernel) { return make_module(kernel); });
+    } catch (const DeviceError& error) {
+      const std::string text = error.what();
+      if (text.find("not bound") == std::string::npos) throw;
+      throw DeviceError(text +
+                        "; each port needs an input(), output(), message_input(), "
+                        "message_output(), clock(), reset() or tie()");
+    }
+  }
+  void write_inputs(Module& /*module*/) override {
+    for (const auto& row : rows_) row->write();
+  }
+  void read_outputs(Module& /*module*/) override {
+    for (const auto& row : rows_) row->read();
+  }
+  void receive(Module& /*module*/) override {
+    for (const auto& row : messages_) {
+      const std::size_t lost = row->receive();
+      if (lost == 0) continue;
+      this->log(Severity::Warning, row->name() + ": the FIFO is full, " + std::to_string(lost) +
+                                       " elements of a message are lost");
+    }
+  }
+  void publish() override {
+    for (const auto& row : messages_) row->publish();
+  }
+  bool has_message() const override {
+    for (const auto& row : messages_) {
+      if (row->has_message()) return true;
+    }
+    return false;
+  }
+  void list_signals(const Module& module, SignalList& signals) const override {
+    DeviceUnit<Module>::list_signals(module, signals);
+    for (const auto& row : rows_) row->list_signals(signals);
+  }
+  bool idle(const Module& module) const override { return idle_ && idle_(module); }
+  /// Of the unit's clocks. A module with a clock of its own inside overrides it.
+  Duration clock_period(const Module& /*module*/) const override {
+    std::int64_t period = 0;
+    for (const detail::ClockRow* clock : clocks_) {
+      const std::int64_t other = clock->period().count();
+      period = period == 0 ? other : std::lcm(period, other);
+    }
+    return Duration(period);
+  }
+  Duration tangents_hold_for(const Module& /*module*/) const override {
+    return idle_ && !has_functions_ ? Duration::max() : Duration{};
+  }
+
+ private:
+  template <class Target>
+  auto find(Target target) {
+    return [target = std::move(target)](sc_core::sc_module& module) {
+      return detail::find_place(target, static_cast<Module&>(module));
+    };
+  }
+  template <class Target>
+  auto find_bool(Target target) {
+    static_assert(std::is_same_v<ValueOf<Target>, bool>, "this needs an sc_in<bool>");
+    return find(std::move(target));
+  }
+
+  template <class Row>
+  VariableBuilder add(std::unique_ptr<Row>& row, VariableBuilder builder) {
+    using Value = typename Row::Value;
+    Conversion<Value>::describe(builder);
+    rows_.push_back(std::move(row));
+    return builder;
+  }
+  template <class Target>
+  auto make_output(const std::string& name, Target target) {
+    if constexpr (detail::LeadsToPlace<Target, Module>::value) {
+      return std::make_unique<detail::OutputRow<ValueOf<Target>>>(name, find(std::move(target)));
+    } else {
+      using T = std::decay_t<detail::Reached<Target, Module>>;
+      has_functions_ = true;
+      return std::make_unique<detail::ValueRow<T>>(
+          name, [target = std::move(target)](sc_core::sc_module& module) -> T {
+            return std::invoke(target, static_cast<Module&>(module));
+          });
+    }
+  }
+  template <class Target>
+  void add_clock(Target target, std::function<Duration()> period) {
+    auto row = std::make_unique<detail::ClockRow>(find_bool(std::move(target)), std::move(period));
+    clocks_.push_back(row.get());
+    rows_.push_back(std::move(row));
+  }
+
+  template <class Target>
+  std::unique_ptr<detail::MessageRow> fifo_input(std::string name, Target target, int depth) {
+    using Fifo = detail::FifoAt<Target, Module>;
+    static_assert(Fifo::kDirection == detail::Direction::In,
+                  "a message input needs an sc_fifo_in, or a function (Module&, const Binary&)");
+    using T = typename Fifo::Element;
+    return std::make_unique<detail::FifoInputRow<T>>(
+        std::move(name),
+        [target](sc_core::sc_module& module) -> detail::FifoIn<T>& {
+          return std::invoke(target, static_cast<Module&>(module));
+        },
+        depth);
+  }
+  template <class Target>
+  detail::MessageOutputRow::Connect sender_to(Target target) {
+    if constexpr (std::is_invocable_v<const Target&, Module&, const Sender&>) {
+      return [target](Kernel&, sc_core::sc_module& module, const Sender& send) {
+        std::invoke(target, static_cast<Module&>(module), send);
+        return nullptr;
+      };
+    } else {
+      using Fifo = detail::FifoAt<Target, Module>;
+      static_assert(Fifo::kDirection == detail::Direction::Out,
+                    "a message output needs an sc_fifo_out, or a function (Module&, Sender)");
+      using T = typename Fifo::Element;
+      return [target](Kernel& kernel, sc_core::sc_module& module, const Sender& send) {
+        auto outlet = std::make_unique<detail::Outlet<T>>(send);
+        auto& port = std::invoke(target, static_cast<Module&>(module));
+        port.bind(*outlet);
+        kernel.own(std::move(outlet));
+        return &port;
+      };
+    }
+  }
+  VariableBuilder add_message(std::unique_ptr<detail::MessageRow> row, VariableBuilder builder) {
+    builder.clocked_by(row->clock).mime_type("application/octet-stream");
+    messages_.push_back(std::move(row));
+    return builder;
+  }
+
+  std::unique_ptr<Module> make_module(Kernel& kernel) {
+    if (!make_) {
+      if constexpr (std::is_constructible_v<Module, const char*>) {
+        make_ = [](const char* name) { return std::make_unique<Module>(name); };
+      } else {
+        throw std::logic_error(
+            "the module's constructor takes more than its name: say construct()");
+      }
+    }
+    auto module = make_(name_.c_str());
+    std::map<const sc_core::sc_object*, std::string> bound;
+    for (const auto& row : rows_) connect(*row, kernel, *module, bound);
+    for (const auto& row : messages_) connect(*row, kernel, *module, bound);
+    return module;
+  }
+  template <class Row>
+  void connect(Row& row, Kernel& kernel, Module& module,
+               std::map<const sc_core::sc_object*, std::string>& bound) {
+    const sc_core::sc_object* const port = row.connect(kernel, module);
+    if (port == nullptr) return;
+    const auto [other, is_new] = bound.emplace(port, row.name());
+    if (is_new) return;
+    throw std::invalid_argument(std::string("the port ") + port->name() + " has two rows, " +
+                                other->second + " and " + row.name() + "; it takes one");
+  }
+
+  std::string name_;
+  std::function<std::unique_ptr<Module>(const char*)> make_;
+  std::vector<std::unique_ptr<detail::Row>> rows_;
+  std::vector<std::unique_ptr<detail::MessageRow>> messages_;
+  std::vector<const detail::ClockRow*> clocks_;
+  std::function<bool(const Module&)> idle_;
+  bool has_functions_ = false;  ///< among the outputs
+};
+
+}  // namespace stride::systemc
+
+#endif
