@@ -204,3 +204,46 @@ TEST_CASE("stimuli are packed with nothing else, and played to what they fit onl
   const Outcome inspected = workspace.stride({"inspect", "player.fmu"});
   CHECK_THAT(inspected.out, Contains("Plays to 'minimal' what 'second' received in 'test'"));
 }
+
+TEST_CASE("points that the original did not have are told, once") {
+  const Workspace workspace(two_filters());
+  REQUIRE(workspace.run({"--quiet", "--capture", "second=stimuli.csv"}).exit_code == 0);
+  const Outcome outcome =
+      replay(workspace, "second", "minimal.fmu", {"u"}, {"--step", "0.0003", "--no-idle-skip"});
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err ==
+        "warning: unit 'player': there is a communication point at 0.0003 s where the captured "
+        "unit had none, so steps are cut otherwise than they were; let the step policy be "
+        "event-driven\n");
+}
+
+TEST_CASE("where another unit does not stop, stimuli are late or make it stop") {
+  const Workspace workspace(
+      Parts{component("filter", "minimal.fmu") + component("device", "early.fmu"),
+            connection("filter.y", "device.u")});
+  REQUIRE(workspace
+              .run({"--quiet", "--step", "0.25", "--set", "device.instants=0.3 0.6 2 2 2 2 2 2",
+                    "--set", "filter.u=1", "--capture", "device=stimuli.csv"})
+              .exit_code == 0);
+  CHECK_THAT(read(workspace / "stimuli.csv"), Contains("\n0.25,step,,0.5\n0.3,0,u,"));
+  const Outcome late = replay(workspace, "other", "minimal.fmu", {"u"}, {});
+  CHECK(late.exit_code == 0);
+  CHECK_THAT(late.err, Contains("received at 0.3 s") && Contains("comes late"));
+  CHECK_THAT(read(workspace / "replayed/signals.csv"), !Contains("\n0.3,"));
+  const Outcome stopped =
+      replay(workspace, "other", "minimal.fmu", {"u"}, {"--set", "player.stop_at_stimuli=true"});
+  CHECK(stopped.err == "");
+  CHECK_THAT(read(workspace / "replayed/signals.csv"), Contains("\n0.3,"));
+}
+
+TEST_CASE("a run that begins behind the stimuli's beginning says so") {
+  const Workspace workspace(two_filters());
+  REQUIRE(workspace.run({"--quiet", "--capture", "second=stimuli.csv"}).exit_code == 0);
+  REQUIRE(workspace.stride({"pack", "stimuli.csv", "-o", "player.fmu"}).exit_code == 0);
+  workspace.scratch().write(
+      "late.ssd", scenario_text({component("player", "player.fmu"), "", "",
+                                 "<ssd:DefaultExperiment startTime=\"0.5\" stopTime=\"2\"/>"}));
+  const Outcome outcome = workspace.stride({"run", "late.ssd", "--quiet"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("the stimuli begin at 0 s, the run at 0.5 s"));
+}

@@ -1,9 +1,13 @@
 // The player as an FMU. Its variable table comes from the stimuli in its resources.
-#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include <stride/unit.h>
@@ -70,10 +74,9 @@ class PlayerUnit : public stride::Unit {
   void initialize(stride::Time start) override {
     show_start_values();
     playback_.begin(start, [this](const player::Entry& entry) { play(entry); });
-    if (start <= stimuli_.start() || std::exchange(told_start_, true)) return;
-    log(stride::Severity::Warning, "the stimuli begin at " + text(stimuli_.start()) +
-                                       " s, the run at " + text(start) +
-                                       " s, so what was received before is not played");
+    if (start <= stimuli_.start()) return;
+    warn_once(told_start_, "the stimuli begin at " + text(stimuli_.start()) + " s, the run at " +
+                               text(start) + " s, so what ticked before is not played");
   }
 
   void step(stride::Step& step) override {
@@ -93,7 +96,12 @@ class PlayerUnit : public stride::Unit {
   }
 
  private:
-  static std::string text(stride::Time time) { return std::to_string(stride::to_seconds(time)); }
+  static std::string text(stride::Time time) {
+    char digits[32];
+    const double seconds = stride::to_seconds(time);
+    const auto fixed = std::chars_format::fixed;
+    return {digits, std::to_chars(digits, digits + sizeof digits, seconds, fixed).ptr};
+  }
 
   void list_clock(std::size_t i) {
     const player::Input& input = stimuli_.inputs[i];
@@ -160,21 +168,23 @@ class PlayerUnit : public stride::Unit {
   /// From event() only, because a step may be taken back.
   void report() {
     player::Playback::Position& position = playback_.position();
-    if (position.late >= 0 && !std::exchange(told_late_, true)) {
+    if (position.late >= 0) {
       const auto& entry = stimuli_.entries[static_cast<std::size_t>(position.late)];
-      log(stride::Severity::Warning,
-          "what the captured unit received at " + text(entry.time) +
-              " s comes late, because the unit that it is played to does not stop there as the "
-              "captured one did (see stop_at_stimuli)");
+      warn_once(told_late_, "what the captured unit received at " + text(entry.time) +
+                                " s, where it stopped by itself, comes late: the unit that it is "
+                                "played to does not stop there (see stop_at_stimuli)");
     }
-    if (position.beside >= 0 && !std::exchange(told_beside_, true)) {
-      log(stride::Severity::Warning, "there is a communication point at " +
-                                         text(stride::Time(stride::Duration(position.beside))) +
-                                         " s, which the captured unit did not have, so steps are "
-                                         "cut otherwise than they were; "
-                                         "a step as long as the run adds none");
+    if (position.beside >= 0) {
+      const stride::Time beside{stride::Duration(position.beside)};
+      warn_once(told_beside_, "there is a communication point at " + text(beside) +
+                                  " s where the captured unit had none, so steps are cut otherwise "
+                                  "than they were; let the step policy be event-driven");
     }
     position.late = position.beside = -1;
+  }
+
+  void warn_once(bool& told, const std::string& message) const {
+    if (!std::exchange(told, true)) log(stride::Severity::Warning, message);
   }
 
   player::Stimuli stimuli_;
