@@ -26,8 +26,10 @@ class OtherChannel {
     fs::create_directory(folder_ / scenario);
     std::ofstream(folder_ / scenario / "other.ssd") << text;
     fs::create_directory(folder_ / "nfc_approach");
-    fs::copy_file(scenario_folder("nfc_approach") / "sensor.ssv",
-                  folder_ / "nfc_approach" / "sensor.ssv");
+    for (const auto& entry : fs::directory_iterator(scenario_folder("nfc_approach"))) {
+      if (entry.path().extension() != ".ssv") continue;
+      fs::copy_file(entry.path(), folder_ / "nfc_approach" / entry.path().filename());
+    }
     file_ = (folder_ / scenario / "other.ssd").string();
   }
   ~OtherChannel() { fs::remove_all(folder_); }
