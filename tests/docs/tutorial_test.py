@@ -27,6 +27,8 @@ class Shell:
 
     def run(self, command):
         """What the command prints, and its exit code."""
+        if command.endswith("\\"):
+            raise blocks.Mistake(f"a command has to stand in one line:\n$ {command}")
         self.process.stdin.write(f"{command}\necho '{END}' $?\n")
         self.process.stdin.flush()
         printed = []

@@ -26,9 +26,9 @@ class OtherChannel {
     fs::create_directory(folder_ / scenario);
     std::ofstream(folder_ / scenario / "other.ssd") << text;
     fs::create_directory(folder_ / "nfc_approach");
-    for (const auto& entry : fs::directory_iterator(scenario_folder("nfc_approach"))) {
-      if (entry.path().extension() != ".ssv") continue;
-      fs::copy_file(entry.path(), folder_ / "nfc_approach" / entry.path().filename());
+    for (const char* parameters : {"sensor.ssv", "ground_truth.ssv"}) {
+      fs::copy_file(scenario_folder("nfc_approach") / parameters,
+                    folder_ / "nfc_approach" / parameters);
     }
     file_ = (folder_ / scenario / "other.ssd").string();
   }

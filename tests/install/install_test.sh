@@ -57,7 +57,9 @@ awk -F, '
 step "The installed scenarios run with the installed units"
 for scenario in "$work"/stride/share/stride/scenarios/*/*.ssd; do
   [ -e "${scenario%/*}/make_world.sh" ] && continue  # its world has to be fetched first
-  "$stride" run "$scenario" --out "$work/out" --stop 0.5 --quiet
+  # too short for what its judge wants to see, maybe
+  "$stride" run "$scenario" --out "$work/out" --stop 0.5 --quiet || [ $? -eq 1 ]
+  grep -q '"outcome": "completed"' "$work/out/run.json" || fail "$scenario was not completed"
 done
 for unit in "$work"/stride/lib/stride/units/*.fmu; do
   "$stride" inspect "$unit" > /dev/null

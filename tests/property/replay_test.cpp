@@ -43,7 +43,7 @@ Assembly alone(const Assembly& system, const std::string& component,
   const auto declared = std::find_if(whole.components.begin(), whole.components.end(),
                                      [&](const auto& c) { return c.name == component; });
   Assembly assembly;
-  assembly.add("player", std::move(player)).add(component, declared->description->model_name);
+  assembly.add("player", std::move(player)).add(component, declared->description->model_identifier);
   for (const auto& value : whole.start_values) {
     if (value.component == component) assembly.set(component + "." + value.variable, value.value);
   }
@@ -180,4 +180,23 @@ TEST_CASE("so it is where the component was left alone while it was idle") {
   CHECK(result.original.units.at("tank").messages_sent > 3);
   CHECK(event_times(result.stimuli).size() > 20);
   check_same(result, "tank", true);
+}
+
+TEST_CASE("so it is for what is sampled by clocks of the time, and for units of FMI 2.0") {
+  const std::string component = GENERATE("controller", "periodic", "relaxation");
+  Assembly system;
+  system.add("wheel", "ticker", {{"period", "0.004"}, {"announces", "1"}});
+  system.add("plant", "linear", {{"damping", "20"}, {"frequency", "30"}});
+  system.add("controller", "sampled_controller", {{"period", "0.0033"}, {"shift", "0.0011"}});
+  system.add("periodic", "periodic_controller");
+  system.add("turner", "fmi2_turner", {{"turn", "0.0305"}});  // where it discards a step
+  system.add("relaxation", "fmi2_relaxation", {{"k", "40"}});
+  system.wire("controller.u", "plant.u").wire("plant.x", "controller.y");
+  system.wire("wheel.level", "controller.r").wire("turner.y", "periodic.r");
+  system.wire("plant.y", "periodic.y").wire("plant.x", "relaxation.u");
+  INFO(component);
+  const Replay result = replay(system, component, fixed_steps(kStep, kStop));
+  CHECK(result.original.units.at("turner").rejections > 0);
+  CHECK(result.stimuli.find("0.0305,step,") != std::string::npos);
+  check_same(result, component);
 }

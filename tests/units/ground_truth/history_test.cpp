@@ -109,7 +109,7 @@ TEST_CASE("a fast course takes as much memory as its time in grains") {
 }
 
 TEST_CASE("bounds hold what was told, and are too wide by the grain at most") {
-  for (unsigned seed = 0; seed < 300; ++seed) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
     CAPTURE(seed);
     std::mt19937_64 random(seed);
     const auto uniform = [&](double low, double high) {
@@ -128,7 +128,7 @@ TEST_CASE("bounds hold what was told, and are too wide by the grain at most") {
       if (uniform(0, 1) < 0.05) value += uniform(-10, 10);
     }
     told.note(history, now, value);
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < 50; ++i) {
       const Time to = at(uniform(1, stride::to_seconds(now)));
       const Time from = at(uniform(1, stride::to_seconds(to)));
       const auto bounds = history.between(from, to);

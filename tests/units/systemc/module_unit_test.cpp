@@ -9,11 +9,13 @@
 #include <stride/systemc/module_unit.h>
 
 #include "tests/units/systemc/gadget.h"
+#include "tests/units/systemc/gadget_unit.h"
 #include "tests/units/systemc/unit_driver.h"
 #include "tests/units/systemc/vcd.h"
 
 using Catch::Matchers::Contains;
 using gadget::Gadget;
+using gadget::GadgetUnit;
 using stride::Binary;
 using stride::Clock;
 using stride::Duration;
@@ -32,38 +34,6 @@ constexpr Duration kMicrosecond{1'000'000};
 constexpr Duration kPeriod = 100 * kNanosecond;
 
 Time at(Duration duration) { return Time(duration); }
-
-class GadgetUnit : public ModuleUnit<Gadget> {
- public:
-  GadgetUnit() : ModuleUnit("gadget", "A gadget") {
-    parameter("scale", scale_);
-    construct(scale_);
-    clock(&Gadget::clk, kPeriod);
-    reset(&Gadget::rst_n, 1050 * kNanosecond, false);
-    input("step", &Gadget::step, 1);
-    input("offset", &Gadget::offset);
-    input("level", &Gadget::level, Logic::kZ);
-    input("bus", &Gadget::bus);
-    input(
-        "converter.temperature", [](Gadget & g) -> auto& { return g.converter.temperature; })
-        .unit("degC");
-    output("count", &Gadget::count);
-    output("wide", &Gadget::wide);
-    output("level_out", &Gadget::level_out);
-    output("bus_out", &Gadget::bus_out);
-    output("code", inner<sc_dt::sc_uint<12>>("code"));
-    output(
-        "converter.code", [](Gadget & g) -> auto& { return g.converter.code; });
-    output("charge", &Gadget::charge).unit("C");
-    output("current", &Gadget::current).unit("A");
-    output("doubled", [](const Gadget& g) { return 2 * g.charge; });
-    message_input("rx.data", &Gadget::rx, 4);
-    message_output("tx.data", &Gadget::tx);
-  }
-
- private:
-  int scale_ = 1;
-};
 
 struct GadgetDriver : UnitDriver {
   GadgetDriver() : UnitDriver(std::make_unique<GadgetUnit>()) {}
@@ -349,8 +319,7 @@ TEST_CASE("skipping the idle time of a module with a clock changes no value") {
       rows.tie(&Gadget::offset);
       rows.tie(&Gadget::level);
       rows.tie(&Gadget::bus);
-      rows.input(
-          "t", [](Gadget & g) -> auto& { return g.converter.temperature; });
+      rows.input("t", inner<double>("converter.temperature"));
       rows.output("count", &Gadget::count);
       rows.output("code", inner<sc_dt::sc_uint<12>>("code"));
       rows.tie(&Gadget::wide);
@@ -378,6 +347,31 @@ TEST_CASE("skipping the idle time of a module with a clock changes no value") {
   CHECK(skipping.value<std::uint16_t>("code") == full.value<std::uint16_t>("code"));
   REQUIRE(skipping.log.size() == 1);
   CHECK_THAT(skipping.log[0].second, Contains("16 skips"));
+}
+
+TEST_CASE("a module that is idle need not be called, if its outputs are ports and signals") {
+  const auto make = [](bool with_function) {
+    return driver_of<Gate>([with_function](Rows<Gate>& rows) {
+      rows.input("a", &Gate::a);
+      rows.tie(&Gate::b, true);
+      rows.output("y", &Gate::y);
+      rows.idle_when([](const Gate& gate) { return !gate.a.read(); });
+      if (with_function) rows.output("changed", [](const Gate& g) { return g.changes.read() > 1; });
+    });
+  };
+  UnitDriver unit = make(false);
+  unit.enable_skipping();
+  unit.initialize();
+  unit.step(at(kMicrosecond));
+  CHECK(unit.idle_until() == Time::max());
+  unit.value<bool>("a") = true;
+  CHECK(unit.idle_until() == unit.now());
+
+  UnitDriver computing = make(true);
+  computing.enable_skipping();
+  computing.initialize();
+  computing.step(at(kMicrosecond));
+  CHECK(computing.idle_until() == computing.now());
 }
 
 TEST_CASE("ports and inner signals can be traced under their names") {

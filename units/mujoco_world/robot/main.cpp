@@ -188,8 +188,11 @@ int main(int argc, char** argv) {
       std::cerr << "stride-robot: warning: " << warning << "\n";
     }
     return 0;
+  } catch (const CLI::Success& request) {  // --help
+    return app.exit(request);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    std::cerr << "stride-robot: error: " << error.what() << "\n  hint: see stride-robot --help\n";
+    return 2;
   } catch (const std::exception& error) {
     std::cerr << "stride-robot: error: " << error.what() << "\n";
     return 2;

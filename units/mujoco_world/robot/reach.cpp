@@ -135,38 +135,51 @@ Reach::Miss Reach::miss(double distance) const {
   return {mju_norm3(left.data()), mju_norm3(left.data() + 3)};
 }
 
-/// From `angles` to the nearest pose that is no worse in any direction.
-void Reach::improve(double distance, std::vector<double>& angles) {
+/// What the site does, place over turn, per unit of each servo's joint: 6 rows. A turn about its
+/// own axis does not count.
+std::vector<double> Reach::jacobian() const {
   const auto nv = static_cast<std::size_t>(model_->nv);
-  std::vector<double> by_position(3 * nv), by_rotation(3 * nv), rows(6 * servos_.size());
+  std::vector<double> place(3 * nv), turn(3 * nv), rows(6 * servos_.size());
+  mj_jacSite(model_.get(), data_.get(), place.data(), turn.data(), site_);
+  const auto normal = z_axis(*data_, site_);
+  for (std::size_t i = 0; i < servos_.size(); ++i) {
+    const auto column = static_cast<std::size_t>(servos_[i].velocity);
+    double about = 0;
+    for (std::size_t k = 0; k < 3; ++k) about += normal[k] * turn[k * nv + column];
+    for (std::size_t k = 0; k < 3; ++k) {
+      rows[k * servos_.size() + i] = place[k * nv + column];
+      rows[(3 + k) * servos_.size() + i] = turn[k * nv + column] - about * normal[k];
+    }
+  }
+  return rows;
+}
+
+/// The damped least-squares step: J' (J J' + damping)^-1 left.
+std::vector<double> Reach::step(const std::array<double, 6>& left) const {
+  const std::vector<double> rows = jacobian();
+  const int count = static_cast<int>(servos_.size());
+  std::array<double, 36> square{};
+  mju_mulMatMatT(square.data(), rows.data(), rows.data(), 6, count, 6);
+  for (std::size_t k = 0; k < 6; ++k) square[7 * k] += kDamping;
+  mju_cholFactor(square.data(), 6, 0);
+  std::array<double, 6> weights{};
+  mju_cholSolve(weights.data(), square.data(), left.data(), 6);
+  std::vector<double> step(servos_.size());
+  mju_mulMatTVec(step.data(), rows.data(), weights.data(), 6, count);
+  return step;
+}
+
+/// From `angles` to a pose from which no step leads nearer, or for as long as is worth it.
+void Reach::improve(double distance, std::vector<double>& angles) {
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     put(angles);
     const auto left = residual(distance);
     if (mju_norm3(left.data()) < kPlaceError / 10 && mju_norm3(left.data() + 3) < kTurnError / 10) {
       return;
     }
-    mj_jacSite(model_.get(), data_.get(), by_position.data(), by_rotation.data(), site_);
-    const auto normal = z_axis(*data_, site_);
+    const std::vector<double> moves = step(left);
     for (std::size_t i = 0; i < servos_.size(); ++i) {
-      const auto column = static_cast<std::size_t>(servos_[i].velocity);
-      double about = 0;  // the site's own axis, which is free
-      for (std::size_t k = 0; k < 3; ++k) about += normal[k] * by_rotation[k * nv + column];
-      for (std::size_t k = 0; k < 3; ++k) {
-        rows[k * servos_.size() + i] = by_position[k * nv + column];
-        rows[(3 + k) * servos_.size() + i] = by_rotation[k * nv + column] - about * normal[k];
-      }
-    }
-    const int count = static_cast<int>(servos_.size());
-    std::array<double, 36> square{};
-    mju_mulMatMatT(square.data(), rows.data(), rows.data(), 6, count, 6);
-    for (std::size_t k = 0; k < 6; ++k) square[7 * k] += kDamping;
-    mju_cholFactor(square.data(), 6, 0);
-    std::array<double, 6> weights{};
-    mju_cholSolve(weights.data(), square.data(), left.data(), 6);
-    std::vector<double> step(servos_.size());
-    mju_mulMatTVec(step.data(), rows.data(), weights.data(), 6, count);
-    for (std::size_t i = 0; i < servos_.size(); ++i) {
-      angles[i] = std::clamp(angles[i] + std::clamp(step[i], -kLongestStep, kLongestStep),
+      angles[i] = std::clamp(angles[i] + std::clamp(moves[i], -kLongestStep, kLongestStep),
                              servos_[i].low, servos_[i].high);
     }
   }
@@ -204,7 +217,8 @@ void Reach::note_miss(double distance, const Miss& miss, std::size_t reached) {
   nearest_ = "a distance of " + std::to_string(distance) +
              " m is out of reach: the nearest pose misses it by " + std::to_string(miss.place) +
              " m and " + std::to_string(miss.turn) +
-             " rad; move the target, or widen the joints' ranges";
+             " rad; move the target, turn a site whose z axis points away, or widen the joints' "
+             "ranges";
 }
 
 std::vector<Pose> Reach::solve(const std::vector<double>& distances) {

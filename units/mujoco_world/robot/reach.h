@@ -66,6 +66,8 @@ class Reach {
   void put(const std::vector<double>& angles);
   std::array<double, 6> residual(double distance) const;
   Miss miss(double distance) const;
+  std::vector<double> jacobian() const;
+  std::vector<double> step(const std::array<double, 6>& left) const;
   void improve(double distance, std::vector<double>& angles);
   bool follow(const std::vector<double>& distances, std::vector<double> angles, Way& way);
   void note_miss(double distance, const Miss& miss, std::size_t reached);

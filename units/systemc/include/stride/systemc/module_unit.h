@@ -174,7 +174,9 @@ class ModuleUnit : public DeviceUnit<Module> {
 
   // Idle time.
 
-  /// What idle() asks; calls may_idle().
+  /// What idle() asks; calls may_idle(). While the module is idle its ports and signals stay what
+  /// they are, so the unit promises that it need not be called. Where outputs are functions or
+  /// plain members, which may move, it promises nothing, unless tangents_hold_for() is overridden.
   void idle_when(std::function<bool(const Module&)> idle) {
     this->may_idle();
     idle_ = std::move(idle);
@@ -229,6 +231,9 @@ class ModuleUnit : public DeviceUnit<Module> {
     }
     return Duration(period);
   }
+  Duration tangents_hold_for(const Module& /*module*/) const override {
+    return idle_ && !has_functions_ ? Duration::max() : Duration{};
+  }
 
  private:
   template <class Target>
@@ -256,6 +261,7 @@ class ModuleUnit : public DeviceUnit<Module> {
       return std::make_unique<detail::OutputRow<ValueOf<Target>>>(name, find(std::move(target)));
     } else {
       using T = std::decay_t<detail::Reached<Target, Module>>;
+      has_functions_ = true;
       return std::make_unique<detail::ValueRow<T>>(
           name, [target = std::move(target)](sc_core::sc_module& module) -> T {
             return std::invoke(target, static_cast<Module&>(module));
@@ -341,6 +347,7 @@ class ModuleUnit : public DeviceUnit<Module> {
   std::vector<std::unique_ptr<detail::MessageRow>> messages_;
   std::vector<const detail::ClockRow*> clocks_;
   std::function<bool(const Module&)> idle_;
+  bool has_functions_ = false;  ///< among the outputs
 };
 
 }  // namespace stride::systemc

@@ -58,7 +58,7 @@ class PlaceRow : public Row {
  public:
   using Value = T;
   using Find = std::function<Place<T>(sc_core::sc_module&)>;
-  using Signal = sc_core::sc_signal<T, sc_core::SC_MANY_WRITERS>;
+  using Signal = sc_core::sc_signal<T>;
 
   PlaceRow(std::string name, Find find) : Row(std::move(name)), find_(std::move(find)) {}
 
