@@ -10,10 +10,11 @@ namespace gadget {
 /// One row of each kind.
 class GadgetUnit : public stride::systemc::ModuleUnit<Gadget> {
  public:
-  GadgetUnit() : ModuleUnit("gadget", "A gadget") {
+  explicit GadgetUnit(stride::Duration period = stride::Duration(100'000))
+      : ModuleUnit("gadget", "A gadget") {
     parameter("scale", scale_);
     construct(scale_);
-    clock(&Gadget::clk, stride::Duration(100'000));
+    clock(&Gadget::clk, period);
     reset(&Gadget::rst_n, stride::Duration(1'050'000), false);
     input("step", &Gadget::step, 1);
     input("offset", &Gadget::offset);

@@ -290,6 +290,29 @@ TEST_CASE("rows that do not fit the module are errors at initialization") {
   }
 }
 
+TEST_CASE("an input for a port that is bound within the module is an error") {
+  struct Board : sc_core::sc_module {
+    Gate gate{"gate"};
+    sc_core::sc_signal<bool> a{"a"}, b{"b"}, y{"y"};
+    explicit Board(sc_core::sc_module_name name) : sc_module(name) {
+      gate.a(a);
+      gate.b(b);
+      gate.y(y);
+    }
+  };
+  UnitDriver wrong = driver_of<Board>([](Rows<Board>& r) { r.input("a", inner<bool>("gate.a")); });
+  CHECK_THROWS_WITH(wrong.initialize(), Contains("device.gate.a"));
+
+  UnitDriver right = driver_of<Board>([](Rows<Board>& rows) {
+    rows.input("a", &Board::a);
+    rows.input("b", &Board::b, true);
+    rows.output("y", inner<bool>("gate.y"));
+  });
+  right.value<bool>("a") = true;
+  right.initialize();
+  CHECK(right.value<bool>("y"));
+}
+
 TEST_CASE("a module that needs more than its name") {
   struct Picky : sc_core::sc_module {
     sc_core::sc_time delay;

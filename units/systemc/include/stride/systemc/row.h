@@ -105,30 +105,30 @@ class InputRow final : public PlaceRow<T> {
 
   const sc_core::sc_object* connect(Kernel& kernel, sc_core::sc_module& module) override {
     this->find(module);
+    writer_ = nullptr;
     const T start = converted();
     if (this->place().is_port()) {
       this->bind(kernel, start);
       return this->place().object;
     }
-    if (dynamic_cast<sc_core::sc_signal_inout_if<T>*>(this->place().signal) == nullptr) {
+    if (as_writer(*this->place().signal) == nullptr) {
       throw std::invalid_argument(this->name() + ": this signal cannot be written from outside");
     }
     return nullptr;
   }
   void write() override {
-    if (writer_of_ != &this->channel()) {
-      writer_of_ = &this->channel();
-      writer_ = dynamic_cast<sc_core::sc_signal_inout_if<T>*>(writer_of_);
-    }
+    if (writer_ == nullptr) writer_ = as_writer(this->channel());
     writer_->write(converted());
   }
 
  private:
+  static sc_core::sc_signal_inout_if<T>* as_writer(sc_core::sc_signal_in_if<T>& channel) {
+    return dynamic_cast<sc_core::sc_signal_inout_if<T>*>(&channel);
+  }
   T converted() const {
     return named(*this, [this]() -> T { return Conversion<T>::from_fmi(value); });
   }
 
-  sc_core::sc_signal_in_if<T>* writer_of_ = nullptr;
   sc_core::sc_signal_inout_if<T>* writer_ = nullptr;
 };
 
