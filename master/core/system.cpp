@@ -51,6 +51,7 @@ void check_range(const Variable& variable, const ValueBlock& value, const Contex
 }
 
 void convert_start(ValueBlock& value, const LinearConversion& conversion) {
+  if (conversion.is_identity()) return;  // which keeps the sign of -0
   visit(value, [&](auto elements) {
     using T = typename decltype(elements)::value_type;
     if constexpr (std::is_floating_point_v<T>) {

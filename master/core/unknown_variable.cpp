@@ -75,13 +75,20 @@ class Wanted {
 /// The component is in the context; a swapped one is another model than its name lets expect.
 void fail_unknown_variable(const Context& context, const UnitDescription& description,
                            const SystemDeclaration* system) {
-  std::vector<std::string> names;
-  for (const Variable& variable : description.variables) names.push_back(variable.name);
+  std::vector<std::string> names, connectors;
+  for (const Variable& variable : description.variables) {
+    names.push_back(variable.name);
+    const bool is_connector =
+        variable.causality == Causality::Input || variable.causality == Causality::Output;
+    if (is_connector) connectors.push_back(variable.name);
+  }
+  const bool is_near = !nearest(context.variable, names).empty();
   std::string message = fmt::format("its model '{}' has no such variable", description.model_name);
   if (system != nullptr) {
     message += "; expected " + Wanted(*system, context.unit, context.variable).text();
   }
-  fail_input(context, message, suggestion(context.variable, names));
+  fail_input(context, message,
+             suggestion(context.variable, system != nullptr && !is_near ? connectors : names));
 }
 
 }  // namespace stride::core
