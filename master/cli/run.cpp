@@ -57,12 +57,23 @@ struct Recorders {
   }
 };
 
-void print_results(const std::filesystem::path& folder, const io::ResultFiles& files) {
-  fmt::print("\nResults in {}:", folder.string());
-  for (const std::string& file : {files.signals, files.events, files.trace, files.statistics}) {
-    if (!file.empty()) fmt::print(" {}", file);
-  }
-  fmt::print("\n");
+std::filesystem::path make_folder(const Request& request, const io::Scenario& scenario) {
+  std::filesystem::path folder =
+      request.out.empty() ? std::filesystem::path("results") / scenario.stem() : request.out;
+  io::make_results_folder(folder);
+  return folder;
+}
+
+io::ResultFiles chosen_files(const Request& request, const io::Scenario& scenario) {
+  io::ResultFiles files = scenario.annotation.results;
+  if (request.no_trace) files.trace.clear();
+  return files;
+}
+
+core::RunOptions run_options(const Request& request, const LoadedScenario& loaded) {
+  core::RunOptions options = loaded.options();
+  options.threads.count = request.threads;
+  return options;
 }
 
 std::vector<capture::Request> captures(const Request& request) {
@@ -75,62 +86,90 @@ std::vector<capture::Request> captures(const Request& request) {
   return captures;
 }
 
-void run(const Request& request) {
-  const LoadedScenario loaded(request.scenario);
-  const io::Scenario& scenario = loaded.scenario();
-  io::ResultFiles files = scenario.annotation.results;
-  if (request.no_trace) files.trace.clear();
-  const std::filesystem::path folder =
-      request.out.empty() ? std::filesystem::path("results") / scenario.stem() : request.out;
-  io::make_results_folder(folder);
+/// A simulation with all that watches it.
+class RecordedRun {
+ public:
+  explicit RecordedRun(const Request& request)
+      : request_(request),
+        loaded_(request.scenario),
+        files_(chosen_files(request, loaded_.scenario())),
+        folder_(make_folder(request, loaded_.scenario())),
+        options_(run_options(request, loaded_)),
+        capture_(loaded_.system(), loaded_.scenario().name, options_, captures(request)),
+        simulation_(loaded_.system(), captured_units(), options_),
+        recorders_(loaded_.system(), files_, folder_),
+        summary_(loaded_.system()),
+        progress_(options_.start, options_.stop) {
+    capture_.follow(simulation_);
+    recorders_.add_to(simulation_);
+    if (!capture_.is_empty()) simulation_.add_observer(capture_);
+    if (!request.quiet) {
+      simulation_.add_observer(summary_);
+      simulation_.add_observer(progress_);
+    }
+    simulation_.add_observer(interruption_);
+  }
 
-  core::RunOptions options = loaded.options();
-  options.threads.count = request.threads;
-  capture::Capture capture(loaded.system(), scenario.name, options, captures(request));
-  auto units = loaded.instantiate();
-  capture.wrap(units);
-  core::Simulation simulation(loaded.system(), std::move(units), options);
-  capture.follow(simulation);
-  Recorders recorders(loaded.system(), files, folder);
-  recorders.add_to(simulation);
-  if (!capture.is_empty()) simulation.add_observer(capture);
-  Summary summary(loaded.system());
-  Progress progress(options.start, options.stop);
-  if (!request.quiet) {
-    simulation.add_observer(summary);
-    simulation.add_observer(progress);
+  /// Throws core::Error (Run) if it fails, and also if a unit's verdict on it is bad.
+  void run() {
+    try {
+      simulation_.run();
+    } catch (const std::exception& failure) {
+      // the first failure is the one to tell
+      warn_of_failure([&] { capture_.end(fmt::format("failed: {}", failure.what())); });
+      warn_of_failure([&] { write_statistics(failure.what()); });
+      throw;
+    }
+    capture_.end(simulation_.statistics().terminated_by_unit ? "ended by a unit" : "completed");
+    write_statistics(std::nullopt);
+    if (!request_.quiet) print();
+    require_passed(loaded_.system(), simulation_.verdicts());
   }
-  Interruption interruption;
-  simulation.add_observer(interruption);
 
-  const auto write_statistics = [&](const std::optional<std::string>& error) {
-    if (files.statistics.empty()) return;
-    io::write_run_json(folder / files.statistics, scenario.path, loaded.system(), options,
-                       simulation.statistics(), simulation.verdicts(), error);
-  };
-  try {
-    simulation.run();
-  } catch (const std::exception& failure) {
-    const auto attempt = [](auto&& work) {
-      try {
-        work();
-      } catch (const std::exception& second) {  // the first one is the one to tell
-        spdlog::warn("{}", second.what());
-      }
-    };
-    attempt([&] { capture.end(fmt::format("failed: {}", failure.what())); });
-    attempt([&] { write_statistics(failure.what()); });
-    throw;
+ private:
+  std::vector<std::unique_ptr<core::Unit>> captured_units() {
+    auto units = loaded_.instantiate();
+    capture_.wrap(units);
+    return units;
   }
-  capture.end(simulation.statistics().terminated_by_unit ? "ended by a unit" : "completed");
-  write_statistics(std::nullopt);
-  if (!request.quiet) {
-    fmt::print("\n{}{}", summary.text(simulation.statistics()),
-               verdict_table(loaded.system(), simulation.verdicts()));
-    print_results(folder, files);
+
+  template <class Work>
+  static void warn_of_failure(Work&& work) {
+    try {
+      work();
+    } catch (const std::exception& failure) {
+      spdlog::warn("{}", failure.what());
+    }
   }
-  require_passed(loaded.system(), simulation.verdicts());
-}
+
+  void write_statistics(const std::optional<std::string>& error) const {
+    if (files_.statistics.empty()) return;
+    io::write_run_json(folder_ / files_.statistics, loaded_.scenario().path, loaded_.system(),
+                       options_, simulation_.statistics(), simulation_.verdicts(), error);
+  }
+
+  void print() const {
+    fmt::print("\n{}{}\nResults in {}:", summary_.text(simulation_.statistics()),
+               verdict_table(loaded_.system(), simulation_.verdicts()), folder_.string());
+    for (const std::string& file :
+         {files_.signals, files_.events, files_.trace, files_.statistics}) {
+      if (!file.empty()) fmt::print(" {}", file);
+    }
+    fmt::print("\n");
+  }
+
+  const Request& request_;
+  LoadedScenario loaded_;
+  io::ResultFiles files_;
+  std::filesystem::path folder_;
+  core::RunOptions options_;
+  capture::Capture capture_;
+  core::Simulation simulation_;
+  Recorders recorders_;
+  Summary summary_;
+  Progress progress_;
+  Interruption interruption_;
+};
 
 }  // namespace
 
@@ -155,7 +194,7 @@ void add_run(CLI::App& app) {
       ->allow_extra_args(false);
   command->add_flag("--no-trace", request->no_trace, "Write no signals.vcd");
   command->add_flag("--quiet,-q", request->quiet, "Print nothing but errors");
-  command->callback([request] { run(*request); });
+  command->callback([request] { RecordedRun(*request).run(); });
 }
 
 }  // namespace stride::cli
