@@ -56,11 +56,8 @@ double greatest_difference(const Csv& skipping, const Csv& full, const std::stri
 
 ScenarioRun run(const std::string& scenario, const Arguments& further) {
   Arguments arguments{"--no-trace"};
-  arguments.insert(arguments.end(), kStop.begin(), kStop.end());
-  arguments.insert(arguments.end(), further.begin(), further.end());
-  if (scenario == "nfc_approach" || scenario == "nfc_brownout") {
-    // in a short run there may be nothing to judge
-    arguments.insert(arguments.end(), {"--set", "ground_truth.minimum_measurements=0"});
+  for (const Arguments& some : {kStop, further, without_judge(scenario)}) {
+    arguments.insert(arguments.end(), some.begin(), some.end());
   }
   return ScenarioRun(scenario, arguments);
 }

@@ -19,6 +19,9 @@ struct Extremes {
   double least, most;
 };
 
+/// The options for a run of the scenario that is too short for its judge, where it has one.
+Arguments without_judge(const std::string& scenario);
+
 /// The results are in a folder that goes with the object.
 class ScenarioRun {
  public:

@@ -49,10 +49,8 @@ TEST_CASE("another channel by --swap and by an edited attribute gives the same b
   const std::string unit = GENERATE("rf_channel", "ideal_channel");
   const std::string scenario = GENERATE("nfc_approach", "nfc_far");
   INFO(unit << " in " << scenario);
-  Arguments further{"--no-trace", "--stop", "9"};
-  if (scenario == "nfc_approach") {  // no temperature is read by then
-    further.insert(further.end(), {"--set", "ground_truth.minimum_measurements=0"});
-  }
+  Arguments further = without_judge(scenario);
+  further.insert(further.end(), {"--no-trace", "--stop", "9"});
   Arguments swapping = further;
   swapping.insert(swapping.end(), {"--swap", "channel=" + unit + ".fmu"});
   const ScenarioRun swapped(scenario, swapping);
