@@ -181,9 +181,10 @@ def picture(program):
     return "\n".join(parts + ["</svg>"])
 
 
-def main():
+def main(doc, table, picture):
+    """What this script and its like do: the picture, or the table, on the standard output."""
     root = Path(__file__).resolve().parent.parent
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", default=str(root / "build/release/bin/stride"))
     parser.add_argument("--table", action="store_true")
     arguments = parser.parse_args()
@@ -191,4 +192,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    main(__doc__, table, picture)

@@ -8,11 +8,9 @@ the unit itself.
 --program names the program stride, build/release/bin/stride unless given. Needs nothing but Python.
 """
 
-import argparse
 import math
-from pathlib import Path
 
-from plot_channel import Panel, curves, run, text_of_rate
+from plot_channel import Panel, curves, main, run, text_of_rate
 
 POWER = 1e-3  # W
 TABLE = [0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500]
@@ -99,14 +97,5 @@ def picture(program):
     return "\n".join(parts + ["</svg>"])
 
 
-def main():
-    root = Path(__file__).resolve().parent.parent
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", default=str(root / "build/release/bin/stride"))
-    parser.add_argument("--table", action="store_true")
-    arguments = parser.parse_args()
-    print("\n".join(table(arguments.program)) if arguments.table else picture(arguments.program))
-
-
 if __name__ == "__main__":
-    main()
+    main(__doc__, table, picture)

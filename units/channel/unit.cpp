@@ -65,7 +65,7 @@ void ChannelUnit::Port::send(const nfc::Frame& heard) {
 }
 
 ChannelUnit::ChannelUnit(std::vector<TagName> tags)
-    : names_(std::move(tags)), ports_(names_.size()) {
+    : names_(std::move(tags)), ports_(names_.size()), outputs_(names_.size()) {
   inputs_.tag_coils.resize(names_.size());
 }
 
@@ -92,7 +92,8 @@ void ChannelUnit::event(stride::Event& event) {
 }
 
 void ChannelUnit::update_outputs() {
-  show(inputs_);
+  move(inputs_);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = outputs(i);
   shown_ = inputs_;
 }
 
@@ -149,6 +150,12 @@ void ChannelUnit::list_reader_pose(const std::string& place, const std::string& 
   list_pose("reader_coil", inputs_.reader_coil, place, axis);
 }
 
+void ChannelUnit::describe_channel(const std::string& description) {
+  auto& info = describe(description);
+  info.promises_idle = true;
+  info.split_invariant = true;
+}
+
 void ChannelUnit::list_tag_pose(std::size_t tag, const std::string& place,
                                 const std::string& axis) {
   list_pose(names_[tag].coil(), inputs_.tag_coils[tag], place, axis);
@@ -172,8 +179,13 @@ std::vector<std::string> ChannelUnit::poses_of(std::size_t tag) const {
   return names;
 }
 
-void ChannelUnit::list_outputs(std::size_t tag, Outputs& outputs, const Meanings& meanings) {
+void ChannelUnit::list_outputs(const Meanings& meanings) {
+  for (std::size_t i = 0; i < names_.size(); ++i) list_outputs(i, meanings);
+}
+
+void ChannelUnit::list_outputs(std::size_t tag, const Meanings& meanings) {
   const TagName& name = names_[tag];
+  Outputs& outputs = outputs_[tag];
   const std::vector<std::string> poses = poses_of(tag);
   std::vector<std::string> all = poses;
   all.emplace_back("carrier_power");

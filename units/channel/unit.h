@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <stride/unit.h>
@@ -71,15 +72,19 @@ class ChannelUnit : public stride::Unit {
   virtual void make() = 0;
   virtual Air& air() = 0;
   virtual const Air& air() const = 0;
-  /// Brings model and outputs to these inputs.
-  virtual void show(const Inputs& inputs) = 0;
+  /// Brings the model to these inputs.
+  virtual void move(const Inputs& inputs) = 0;
+  /// Of the model where it is.
+  virtual Outputs outputs(std::size_t tag) const = 0;
 
   const std::vector<TagName>& tags() const { return names_; }
 
+  void describe_channel(const std::string& description);
   void list_reader_pose(const std::string& place, const std::string& axis);
   void list_tag_pose(std::size_t tag, const std::string& place, const std::string& axis);
   void list_carrier_power(const std::string& description);
-  void list_outputs(std::size_t tag, Outputs& outputs, const Meanings& meanings);
+  /// Of all tags.
+  void list_outputs(const Meanings& meanings);
   /// All clocks and frames.
   void list_frames();
 
@@ -95,6 +100,7 @@ class ChannelUnit : public stride::Unit {
     Port from, to;
   };
 
+  void list_outputs(std::size_t tag, const Meanings& meanings);
   void list_pose(const std::string& name, Pose& pose, const std::string& place,
                  const std::string& axis);
   std::vector<std::string> poses_of(std::size_t tag) const;
@@ -108,7 +114,40 @@ class ChannelUnit : public stride::Unit {
   Port from_reader_;
   Port to_reader_;
   std::vector<TagPorts> ports_;
+  std::vector<Outputs> outputs_;
   std::optional<Inputs> shown_;  ///< that the outputs are of
+};
+
+/// The channel of a technology: its model, which is made from its parameters. Parameters
+/// has a list `tags`, of names or of structs with a `name`.
+template <class Model, class Parameters>
+class ModelUnit : public ChannelUnit {
+ protected:
+  explicit ModelUnit(std::vector<TagName> tags)
+      : ChannelUnit(std::move(tags)), p_(parameters_of(this->tags())), channel_(p_) {}
+
+  void make() override { channel_ = Model(p_); }
+  Air& air() override { return channel_; }
+  const Air& air() const override { return channel_; }
+  void move(const Inputs& inputs) override {
+    channel_.move(inputs.reader_coil, inputs.tag_coils, inputs.carrier_power);
+  }
+
+  Parameters p_;
+  Model channel_;
+
+ private:
+  static Parameters parameters_of(const std::vector<TagName>& tags) {
+    Parameters parameters;
+    parameters.tags.resize(tags.size());
+    for (std::size_t i = 0; i < tags.size(); ++i) name_of(parameters.tags[i]) = tags[i];
+    return parameters;
+  }
+  static TagName& name_of(TagName& tag) { return tag; }
+  template <class Tag>
+  static TagName& name_of(Tag& tag) {
+    return tag.name;
+  }
 };
 
 }  // namespace channel

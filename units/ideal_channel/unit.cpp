@@ -10,15 +10,11 @@
 
 using ideal_channel::Channel;
 
-class IdealChannel : public channel::ChannelUnit {
+class IdealChannel : public channel::ModelUnit<Channel, ideal_channel::Parameters> {
  public:
   explicit IdealChannel(const stride::Setup& setup)
-      : ChannelUnit(channel::tag_names(setup, "ideal-channel")) {
-    p_.tags = tags();
-    channel_ = Channel(p_);
-    auto& info = describe("Channel for debugging: every frame arrives, and power without end");
-    info.promises_idle = true;
-    info.split_invariant = true;
+      : ModelUnit(channel::tag_names(setup, "ideal-channel")) {
+    describe_channel("Channel for debugging: every frame arrives, and power without end");
     const std::string axis = "of any length but zero; it does not matter";
     list_reader_pose("the reader's antenna", axis);
     for (std::size_t i = 0; i < tags().size(); ++i) {
@@ -32,8 +28,7 @@ class IdealChannel : public channel::ChannelUnit {
                             "delivered_power in range, while the carrier is on",
                             "200 dB in range, -200 dB out of it,",
                             ""};
-    shown_.resize(tags().size());
-    for (std::size_t i = 0; i < tags().size(); ++i) list_outputs(i, shown_[i], meanings);
+    list_outputs(meanings);
     list_frames();
     parameter("delivered_power", p_.delivered_power)
         .unit("W")
@@ -47,25 +42,14 @@ class IdealChannel : public channel::ChannelUnit {
   }
 
  private:
-  void make() override { channel_ = Channel(p_); }
-  channel::Air& air() override { return channel_; }
-  const channel::Air& air() const override { return channel_; }
-
-  void show(const Inputs& inputs) override {
-    channel_.move(inputs.reader_coil, inputs.tag_coils, inputs.carrier_power);
-    for (std::size_t i = 0; i < shown_.size(); ++i) {
-      const ideal_channel::Link& link = channel_.link(i);
-      const double snr = link.in_range ? 200.0 : -200.0;
-      const double error_rate = link.in_range ? 0.0 : 0.5;
-      shown_[i] = {
-          link.distance, link.in_range ? 1.0 : 0.0, 0.0, 0.0, link.tag_power, snr, snr, error_rate,
-          error_rate};
-    }
+  Outputs outputs(std::size_t tag) const override {
+    const ideal_channel::Link& link = channel_.link(tag);
+    const double snr = link.in_range ? 200.0 : -200.0;
+    const double error_rate = link.in_range ? 0.0 : 0.5;
+    return {
+        link.distance, link.in_range ? 1.0 : 0.0, 0.0, 0.0, link.tag_power, snr, snr, error_rate,
+        error_rate};
   }
-
-  ideal_channel::Parameters p_;
-  Channel channel_;
-  std::vector<Outputs> shown_;
 };
 
 STRIDE_UNIT(IdealChannel)

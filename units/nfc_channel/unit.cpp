@@ -17,14 +17,11 @@ using nfc_channel::TagParameters;
 
 }  // namespace
 
-class NfcChannel : public channel::ChannelUnit {
+class NfcChannel : public channel::ModelUnit<Channel, nfc_channel::Parameters> {
  public:
   explicit NfcChannel(const stride::Setup& setup)
-      : ChannelUnit(channel::tag_names(setup, "nfc-channel")), p_(parameters()), channel_(p_) {
-    auto& info =
-        describe("Near-field channel between a reader's antenna and tags: power and frames");
-    info.promises_idle = true;
-    info.split_invariant = true;
+      : ModelUnit(channel::tag_names(setup, "nfc-channel")) {
+    describe_channel("Near-field channel between a reader's antenna and tags: power and frames");
     list_reader_pose("centre of the reader's coil",
                      "normal of the reader's coil, of any length but zero");
     list_coil("reader_coil", p_.reader.coil);
@@ -36,7 +33,6 @@ class NfcChannel : public channel::ChannelUnit {
     }
     list_carrier_power(
         "what the reader's transmitter can bring into its antenna, 0 while it is off");
-    shown_.resize(tags().size());
     const Meanings meanings{
         "distance between the coils' centres",
         "coupling factor k",
@@ -45,7 +41,7 @@ class NfcChannel : public channel::ChannelUnit {
         "power that the tag's antenna delivers",
         "Eb/N0",
         ", at bit_rate"};
-    for (std::size_t i = 0; i < tags().size(); ++i) list_outputs(i, shown_[i], meanings);
+    list_outputs(meanings);
     list_frames();
     for (TagParameters& tag : p_.tags) list_tag_parameters(tag);
     list_reader_parameters();
@@ -53,31 +49,17 @@ class NfcChannel : public channel::ChannelUnit {
   }
 
  private:
-  nfc_channel::Parameters parameters() const {
-    nfc_channel::Parameters parameters;
-    parameters.tags.resize(tags().size());
-    for (std::size_t i = 0; i < tags().size(); ++i) parameters.tags[i].name = tags()[i];
-    return parameters;
-  }
-
-  void make() override { channel_ = Channel(p_); }
-  channel::Air& air() override { return channel_; }
-  const channel::Air& air() const override { return channel_; }
-
-  void show(const Inputs& inputs) override {
-    channel_.move(inputs.reader_coil, inputs.tag_coils, inputs.carrier_power);
-    for (std::size_t i = 0; i < shown_.size(); ++i) {
-      const nfc_channel::Link& link = channel_.link(i);
-      shown_[i] = {link.distance,
-                   link.coupling,
-                   link.field_strength,
-                   link.tag_voltage,
-                   link.tag_power,
-                   channel::decibels(link.snr_down),
-                   channel::decibels(link.snr_up),
-                   link.bit_error_rate_down,
-                   link.bit_error_rate_up};
-    }
+  Outputs outputs(std::size_t tag) const override {
+    const nfc_channel::Link& link = channel_.link(tag);
+    return {link.distance,
+            link.coupling,
+            link.field_strength,
+            link.tag_voltage,
+            link.tag_power,
+            channel::decibels(link.snr_down),
+            channel::decibels(link.snr_up),
+            link.bit_error_rate_down,
+            link.bit_error_rate_up};
   }
 
   void list_coil(const std::string& name, nfc_channel::Coil& coil) {
@@ -129,10 +111,6 @@ class NfcChannel : public channel::ChannelUnit {
     parameter("bit_rate", p_.bit_rate)
         .description("for which signal-to-noise ratios and error rates are put out [kbit/s]");
   }
-
-  nfc_channel::Parameters p_;
-  Channel channel_;
-  std::vector<Outputs> shown_;
 };
 
 STRIDE_UNIT(NfcChannel)

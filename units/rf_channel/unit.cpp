@@ -13,13 +13,11 @@
 using rf_channel::Channel;
 using rf_channel::TagParameters;
 
-class RfChannel : public channel::ChannelUnit {
+class RfChannel : public channel::ModelUnit<Channel, rf_channel::Parameters> {
  public:
   explicit RfChannel(const stride::Setup& setup)
-      : ChannelUnit(channel::tag_names(setup, "rf-channel")), p_(parameters()), channel_(p_) {
-    auto& info = describe("Packet radio between a reader and tags over a ground: frames, no power");
-    info.promises_idle = true;
-    info.split_invariant = true;
+      : ModelUnit(channel::tag_names(setup, "rf-channel")) {
+    describe_channel("Packet radio between a reader and tags over a ground: frames, no power");
     const std::string axis = "direction of the dipole, of any length but zero";
     list_reader_pose("the reader's antenna", axis);
     for (std::size_t i = 0; i < tags().size(); ++i) {
@@ -33,8 +31,7 @@ class RfChannel : public channel::ChannelUnit {
                             "power to live on that the tag's antenna delivers: none",
                             "signal to noise and interference",
                             ""};
-    shown_.resize(tags().size());
-    for (std::size_t i = 0; i < tags().size(); ++i) list_outputs(i, shown_[i], meanings);
+    list_outputs(meanings);
     list_frames();
     for (TagParameters& tag : p_.tags) list_tag_parameters(tag);
     list_radio("reader", p_.reader);
@@ -43,31 +40,17 @@ class RfChannel : public channel::ChannelUnit {
   }
 
  private:
-  rf_channel::Parameters parameters() const {
-    rf_channel::Parameters parameters;
-    parameters.tags.resize(tags().size());
-    for (std::size_t i = 0; i < tags().size(); ++i) parameters.tags[i].name = tags()[i];
-    return parameters;
-  }
-
-  void make() override { channel_ = Channel(p_); }
-  channel::Air& air() override { return channel_; }
-  const channel::Air& air() const override { return channel_; }
-
-  void show(const Inputs& inputs) override {
-    channel_.move(inputs.reader_coil, inputs.tag_coils, inputs.carrier_power);
-    for (std::size_t i = 0; i < shown_.size(); ++i) {
-      const rf_channel::Link& link = channel_.link(i);
-      shown_[i] = {link.distance,
-                   std::sqrt(link.gain),
-                   link.field_strength,
-                   link.tag_voltage,
-                   0.0,
-                   channel::decibels(link.snr_down),
-                   channel::decibels(link.snr_up),
-                   link.bit_error_rate_down,
-                   link.bit_error_rate_up};
-    }
+  Outputs outputs(std::size_t tag) const override {
+    const rf_channel::Link& link = channel_.link(tag);
+    return {link.distance,
+            std::sqrt(link.gain),
+            link.field_strength,
+            link.tag_voltage,
+            0.0,
+            channel::decibels(link.snr_down),
+            channel::decibels(link.snr_up),
+            link.bit_error_rate_down,
+            link.bit_error_rate_up};
   }
 
   void list_radio(const std::string& name, rf_channel::Radio& radio) {
@@ -117,10 +100,6 @@ class RfChannel : public channel::ChannelUnit {
         .description("of the ground");
     parameter("seed", p_.seed).description("seed of the bit errors");
   }
-
-  rf_channel::Parameters p_;
-  Channel channel_;
-  std::vector<Outputs> shown_;
 };
 
 STRIDE_UNIT(RfChannel)
