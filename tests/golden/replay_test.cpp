@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/golden/scenario_run.h"
+#include "tests/scratch_folder.h"
 #include "units/player/stimuli.h"
 
 using namespace stride::tests;
@@ -26,22 +27,6 @@ constexpr std::size_t kLeastRows = 2;
 constexpr std::size_t kLeastRows = 11;
 constexpr const char* kStop = "";  // the scenario's
 #endif
-
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "stride-replay-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 /// All in scenarios/ that have golden results, so that nothing is to be fetched for them, and a
 /// sensor; with the names of these.
@@ -163,7 +148,7 @@ std::vector<std::string> sent_by(const Csv& events, const std::string& component
 
 void check_replay(const ScenarioRun& original, const std::string& scenario,
                   const std::string& component, const fs::path& captured, bool skips) {
-  const Folder folder;
+  const ScratchFolder folder;
   const std::string text = text_of(captured);
   const player::Stimuli stimuli = player::parse_stimuli(text, captured.string());
   REQUIRE(
@@ -228,7 +213,7 @@ TEST_CASE("each sensor of each scenario does the same when it is alone with its 
   const bool skips = GENERATE(false, true);
   for (const auto& [scenario, sensors] : scenarios_with_sensors()) {
     if (scenario == "replay_sensor") continue;  // where nobody is idle, by its annotation
-    const Folder folder;
+    const ScratchFolder folder;
     Arguments arguments = without_judge(scenario);
     arguments.push_back("--no-trace");
     if (!skips) arguments.push_back("--no-idle-skip");
@@ -255,7 +240,7 @@ TEST_CASE("replay_sensor: the device does what it did in nfc_approach") {
 
 TEST_CASE("replay_sensor: its stimuli are those that nfc_approach gives") {
   const fs::path kept = scenario_folder("replay_sensor") / "player" / "stimuli.csv";
-  const Folder folder;
+  const ScratchFolder folder;
   const ScenarioRun original("nfc_approach",
                              {"--step", "0.02", "--no-idle-skip", "--no-trace", "--capture",
                               "sensor=" + (folder / "new.csv").string()});

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/golden/scenario_run.h"
+#include "tests/scratch_folder.h"
 
 using namespace stride::tests;
 
@@ -15,9 +16,6 @@ namespace fs = std::filesystem;
 class OtherChannel {
  public:
   OtherChannel(const std::string& scenario, const std::string& unit) {
-    std::string name = (fs::temp_directory_path() / "stride-swap-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
     std::string text = text_of(scenario_folder(scenario) / (scenario + ".ssd"));
     const std::string before = "source=\"nfc_channel.fmu\"";
     const std::size_t at = text.find(before);
@@ -32,14 +30,11 @@ class OtherChannel {
     }
     file_ = (folder_ / scenario / "other.ssd").string();
   }
-  ~OtherChannel() { fs::remove_all(folder_); }
-  OtherChannel(const OtherChannel&) = delete;
-  OtherChannel& operator=(const OtherChannel&) = delete;
 
   const std::string& file() const { return file_; }
 
  private:
-  fs::path folder_;
+  ScratchFolder folder_;
   std::string file_;
 };
 

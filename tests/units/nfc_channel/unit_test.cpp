@@ -1,8 +1,5 @@
 // The channel seen by an importer: the variables of its tags, when it wants events, what it hands
 // over.
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -14,27 +11,14 @@
 #include <stride/nfc/iso14443a.h>
 
 #include "tests/interfaces/unit/importer.h"
+#include "tests/units/resource_folder.h"
 
 using namespace stride::tests;
 
 namespace {
 
-class Resources {
- public:
-  explicit Resources(const std::string& channel) {
-    std::string name = (std::filesystem::temp_directory_path() / "stride-test-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-    if (!channel.empty()) std::ofstream(path_ / "channel.xml") << channel;
-  }
-  ~Resources() { std::filesystem::remove_all(path_); }
-  Resources(const Resources&) = delete;
-  Resources& operator=(const Resources&) = delete;
-
-  std::string path() const { return path_.string() + "/"; }
-
- private:
-  std::filesystem::path path_;
+struct Resources : ResourceFolder {
+  explicit Resources(const std::string& text) : ResourceFolder("channel.xml", text) {}
 };
 
 constexpr const char* kTwoTags =

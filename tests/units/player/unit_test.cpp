@@ -1,7 +1,4 @@
 // The player seen by an importer.
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 
@@ -9,28 +6,15 @@
 
 #include "tests/interfaces/unit/importer.h"
 #include "tests/units/player/example.h"
+#include "tests/units/resource_folder.h"
 
 using namespace stride::tests;
 using Catch::Contains;
 
 namespace {
 
-class Resources {
- public:
-  explicit Resources(const std::string& stimuli) {
-    std::string name = (std::filesystem::temp_directory_path() / "stride-test-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-    if (!stimuli.empty()) std::ofstream(path_ / "stimuli.csv") << stimuli;
-  }
-  ~Resources() { std::filesystem::remove_all(path_); }
-  Resources(const Resources&) = delete;
-  Resources& operator=(const Resources&) = delete;
-
-  std::string path() const { return path_.string() + "/"; }
-
- private:
-  std::filesystem::path path_;
+struct Resources : ResourceFolder {
+  explicit Resources(const std::string& text) : ResourceFolder("stimuli.csv", text) {}
 };
 
 }  // namespace

@@ -1,7 +1,4 @@
 // The reader seen by an importer: which communication points it asks for, and what it sends there.
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -12,6 +9,7 @@
 #include <stride/nfc/iso14443a.h>
 
 #include "tests/interfaces/unit/importer.h"
+#include "tests/units/resource_folder.h"
 #include "units/reader/variation.h"
 
 using namespace stride::tests;
@@ -25,22 +23,9 @@ constexpr const char* kTwoCommands = R"(<reader-program version="1">
       <command at="2.006" name="identify"/>
     </reader-program>)";
 
-class Resources {
- public:
-  explicit Resources(const std::string& program = kTwoCommands) {
-    std::string name = (std::filesystem::temp_directory_path() / "stride-test-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-    std::ofstream(path_ / "program.xml") << program;
-  }
-  ~Resources() { std::filesystem::remove_all(path_); }
-  Resources(const Resources&) = delete;
-  Resources& operator=(const Resources&) = delete;
-
-  std::string path() const { return path_.string() + "/"; }
-
- private:
-  std::filesystem::path path_;
+struct Resources : ResourceFolder {
+  explicit Resources(const std::string& text = kTwoCommands)
+      : ResourceFolder("program.xml", text) {}
 };
 
 InstanceChoices choices(const Resources& resources) {

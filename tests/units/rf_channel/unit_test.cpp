@@ -1,9 +1,6 @@
 // The channel seen by an importer: its parameters, its packets at the instants it announces, its
 // state, its tags.
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <string>
 #include <vector>
@@ -14,29 +11,14 @@
 #include <stride/nfc/iso14443a.h>
 
 #include "tests/interfaces/unit/importer.h"
+#include "tests/units/resource_folder.h"
 
 using namespace stride::tests;
 
 namespace {
 
-namespace fs = std::filesystem;
-
-class Resources {
- public:
-  explicit Resources(const std::string& channel) {
-    std::string name = (fs::temp_directory_path() / "stride-test-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-    std::ofstream(path_ / "channel.xml") << channel;
-  }
-  ~Resources() { fs::remove_all(path_); }
-  Resources(const Resources&) = delete;
-  Resources& operator=(const Resources&) = delete;
-
-  std::string path() const { return path_.string() + "/"; }
-
- private:
-  fs::path path_;
+struct Resources : ResourceFolder {
+  explicit Resources(const std::string& text) : ResourceFolder("channel.xml", text) {}
 };
 
 nfc::Frame request(double start) {
