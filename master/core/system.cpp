@@ -165,12 +165,13 @@ std::size_t System::find_component(const std::string& name, const Location& wher
   fail_input({where}, fmt::format("there is no component '{}'", name), suggestion(name, names));
 }
 
+/// If it is not there, the declaration says what is expected, in the error.
 VariableId System::find_variable(const std::string& component, const std::string& variable,
-                                 const Location& where) const {
+                                 const Location& where, const SystemDeclaration* expecting) const {
   const std::size_t index = find_component(component, where);
   const UnitDescription& description = *components_[index].description;
   if (const auto found = description.find(variable)) return {index, *found};
-  fail_unknown_variable({where, component, variable, {}}, description);
+  fail_unknown_variable({where, component, variable, {}}, description, expecting);
 }
 
 /// In the unit that the variable has, or else in the one that its connector declares.
@@ -184,9 +185,8 @@ Waypoint System::waypoint(VariableId id) const {
           end.items, false};
 }
 
-Connection System::connect(const ConnectionDeclaration& wanted) const {
-  const VariableId from = find_variable(wanted.from_component, wanted.from_connector, wanted.where);
-  const VariableId to = find_variable(wanted.to_component, wanted.to_connector, wanted.where);
+Connection System::connect(const ConnectionDeclaration& wanted, const Ends& ends) const {
+  const auto [from, to] = ends;
   check_ends(wanted, from, to);
   Way way(waypoint(from));
   way.go(wanted, waypoint(to));

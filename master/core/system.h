@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "master/core/conversion.h"
@@ -151,7 +152,8 @@ class System {
               std::size_t size);
   std::size_t find_component(const std::string& name, const Location& where) const;
   VariableId find_variable(const std::string& component, const std::string& variable,
-                           const Location& where) const;
+                           const Location& where,
+                           const SystemDeclaration* expecting = nullptr) const;
   void check_connector(const SystemDeclaration& declaration, const ComponentDeclaration& component,
                        const ConnectorDeclaration& connector);
   void check_clocks(const ComponentDeclaration& component) const;
@@ -159,11 +161,12 @@ class System {
                      VariableId to) const;
   void check_event_mode(const ConnectionDeclaration& declaration, VariableId id) const;
   void check_message(const ConnectionDeclaration& declaration, const Connection& connection) const;
-  bool has_ends(const SystemDeclaration& declaration, const ConnectionDeclaration& wanted,
-                Mistakes& mistakes) const;
+  using Ends = std::pair<VariableId, VariableId>;
+  std::optional<Ends> find_ends(const SystemDeclaration& declaration,
+                                const ConnectionDeclaration& wanted, Mistakes& mistakes) const;
   static void check_only(const ConnectionDeclaration& declaration,
                          const ConnectionDeclaration* first);
-  Connection connect(const ConnectionDeclaration& declaration) const;
+  Connection connect(const ConnectionDeclaration& declaration, const Ends& ends) const;
   void check_ends(const ConnectionDeclaration& declaration, VariableId from, VariableId to) const;
   Waypoint waypoint(VariableId id) const;
   void note_missing(const StartDeclaration& declaration);

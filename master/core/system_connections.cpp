@@ -39,9 +39,10 @@ std::vector<VariableId> clocks_of(const System& system, VariableId id) {
 void System::add_connections(const SystemDeclaration& declaration, Mistakes& mistakes) {
   std::map<VariableId, const ConnectionDeclaration*> sources;
   for (const ConnectionDeclaration& wanted : declaration.connections) {
-    if (!has_ends(declaration, wanted, mistakes)) continue;
+    const std::optional<Ends> ends = find_ends(declaration, wanted, mistakes);
+    if (!ends) continue;
     mistakes.attempt([&] {
-      const Connection connection = connect(wanted);
+      const Connection connection = connect(wanted, *ends);
       check_only(wanted, sources.emplace(connection.to, &wanted).first->second);
       connections_.push_back(connection);
     });
@@ -54,20 +55,21 @@ void System::add_connections(const SystemDeclaration& declaration, Mistakes& mis
   }
 }
 
-/// Whether both ends are there, and nothing is wrong with them so far.
-bool System::has_ends(const SystemDeclaration& declaration, const ConnectionDeclaration& wanted,
-                      Mistakes& mistakes) const {
-  const auto has_end = [&](const std::string& component, const std::string& connector) {
-    if (mistakes.tell_of(component, connector)) return false;
-    return mistakes.attempt([&] {
-      const std::size_t index = find_component(component, wanted.where);
-      const UnitDescription& description = *components_[index].description;
-      if (description.find(connector)) return;
-      fail_unknown_variable({wanted.where, component, connector, {}}, description, &declaration);
-    });
+/// Both, if they are there and nothing is wrong with them so far.
+std::optional<System::Ends> System::find_ends(const SystemDeclaration& declaration,
+                                              const ConnectionDeclaration& wanted,
+                                              Mistakes& mistakes) const {
+  const auto find = [&](const std::string& component, const std::string& connector) {
+    std::optional<VariableId> end;
+    if (mistakes.tell_of(component, connector)) return end;
+    mistakes.attempt(
+        [&] { end = find_variable(component, connector, wanted.where, &declaration); });
+    return end;
   };
-  const bool has_start = has_end(wanted.from_component, wanted.from_connector);
-  return has_end(wanted.to_component, wanted.to_connector) && has_start;
+  const auto from = find(wanted.from_component, wanted.from_connector);
+  const auto to = find(wanted.to_component, wanted.to_connector);
+  if (!from || !to) return std::nullopt;
+  return Ends{*from, *to};
 }
 
 void System::check_only(const ConnectionDeclaration& wanted, const ConnectionDeclaration* first) {
