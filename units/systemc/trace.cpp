@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <set>
@@ -14,6 +15,8 @@
 namespace stride::systemc {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr const char* kExtension = ".vcd";
 constexpr const char* kAdvanceTime = "advanceTime";
 
@@ -23,9 +26,15 @@ std::set<std::string>& files_in_use() {
   return paths;
 }
 
+/// Where the run's other results are, if the importer has told; else where the program was started.
+fs::path results_folder() {
+  const char* const told = std::getenv("STRIDE_RESULTS");
+  return told != nullptr ? told : fs::current_path();
+}
+
 /// Absolute, and the same however a file is named.
 std::string without_extension(const std::string& path) {
-  std::filesystem::path file = std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  fs::path file = fs::weakly_canonical(results_folder() / path);
   if (file.extension() == kExtension) file.replace_extension();
   return file.string();
 }

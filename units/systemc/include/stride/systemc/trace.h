@@ -66,7 +66,9 @@ class SignalList {
 };
 
 struct TraceOptions {
-  std::string file;           ///< its path; `.vcd` is added where it is missing
+  /// Its path, relative to the folder $STRIDE_RESULTS or, without that, to the working folder;
+  /// `.vcd` is added where it is missing.
+  std::string file;
   std::string signals = "*";  ///< patterns of fnmatch(3), separated by spaces
 };
 
