@@ -81,7 +81,7 @@ struct TraceOptions {
 class Trace {
  public:
   /// Throws std::invalid_argument for a file that cannot be written or is being written by another
-  /// device of this process, and for a pattern that matches no signal.
+  /// device, of this process or another one, and for a pattern that matches no signal.
   Trace(Kernel& kernel, const TraceOptions& options, const SignalList& signals);
   ~Trace();
 
@@ -93,6 +93,7 @@ class Trace {
 
   Kernel& kernel_;
   std::string path_;  ///< without `.vcd`
+  int lock_ = -1;     ///< the file's descriptor, by which it is locked
   sc_core::sc_trace_file* file_ = nullptr;
 };
 
