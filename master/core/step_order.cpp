@@ -17,7 +17,7 @@ bool may_stop(const Component& component) {
 
 StepRole role_of(const Component& component, StepPolicy policy) {
   const bool may_go_back = may_stop(component) || policy == StepPolicy::ErrorControlled;
-  if (component.description->can_save_state && may_go_back) return StepRole::CanRollBack;
+  if (component.can_save_state() && may_go_back) return StepRole::CanRollBack;
   return component.may_return_early() ? StepRole::MayStopEarly : StepRole::DoesAsTold;
 }
 
@@ -32,7 +32,7 @@ std::string reason(const Component& component, StepRole role, bool saves_state) 
       break;
   }
   const UnitDescription& unit = *component.description;
-  if (unit.can_save_state) return "never stops: follows the others, so nothing is saved";
+  if (component.can_save_state()) return "never stops: follows the others, so nothing is saved";
   std::string text = "cannot be rolled back; ";
   if (unit.may_return_early) text += "is not allowed to return early; ";
   return text + (unit.may_reject ? "does not return early, but might reject a step"

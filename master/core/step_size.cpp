@@ -61,7 +61,7 @@ void StepSize::check_units(const System& system) const {
   std::vector<std::string> final;
   for (const Component& component : system.components()) {
     if (!component.description->can_vary_step) rigid.push_back(component.name);
-    if (!component.description->can_save_state) final.push_back(component.name);
+    if (!component.can_save_state()) final.push_back(component.name);
   }
   if (varies && !rigid.empty()) {
     fail_input({},

@@ -87,6 +87,14 @@ TEST_CASE("a state is saved only where another unit may stop") {
   CHECK(saves({rollback().may_return_early(), rollback().may_return_early()}) == "ss");
 }
 
+TEST_CASE("a snapshot is as good as a state") {
+  CHECK_FALSE(system_of({early()}).components()[0].can_save_state());
+  CHECK(system_of({rollback()}).components()[0].can_save_state());
+  SystemDeclaration declaration;
+  declaration.components.push_back({"a", early().done(), {}, {}, true, true});
+  CHECK(System(declaration).components()[0].can_save_state());
+}
+
 TEST_CASE("two units that stop early and cannot go back are refused by name") {
   try {
     step_order(system_of({early(), rollback(), early()}), StepPolicy::Fixed, Coupling::Jacobi);
