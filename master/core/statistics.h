@@ -19,8 +19,8 @@ struct HostStatistics {
   std::size_t most_snapshots = 0;          ///< kept at the same time
   std::uint64_t most_snapshot_memory = 0;  ///< that those kept had to themselves, at most [byte]
   std::uint64_t most_memory = 0;           ///< resident, of the process that serves [byte]
-  std::vector<std::string> protections;    ///< in force
-  std::vector<std::string> missing_protections;  ///< wanted, and not to be had from this kernel
+  std::vector<std::string> protections{};  ///< in force
+  std::vector<std::string> missing_protections{};  ///< wanted, and not to be had from this kernel
 };
 
 struct UnitStatistics {
