@@ -113,6 +113,7 @@ void read_host(const xml::Element& element, HostChoice& choice) {
   element.allow_children({});
   HostSettings settings;
   settings.process = element.flag("process", true);
+  settings.where = element.where();
   for (const char* attribute : {"timeout", "memoryLimit", "sandbox"}) {
     if (*settings.process || !element.attribute(attribute)) continue;
     element.fail(fmt::format("{} is for a unit with a process of its own", attribute),

@@ -21,6 +21,7 @@ void take(std::optional<T>& mine, const std::optional<T>& other) {
 }  // namespace
 
 void HostSettings::override_with(const HostSettings& other) {
+  if (other.process) where = other.where;
   take(process, other.process);
   take(call_limit, other.call_limit);
   take(memory_limit, other.memory_limit);

@@ -10,16 +10,18 @@
 #include <string_view>
 #include <vector>
 
+#include "master/core/error.h"
 #include "master/io/component_selection.h"
 
 namespace stride::io {
 
 /// What is said of one component; nothing where nothing is said.
 struct HostSettings {
-  std::optional<bool> process;  ///< whether it has a process of its own
-  std::optional<std::chrono::milliseconds> call_limit;
-  std::optional<std::uint64_t> memory_limit;  ///< [byte]
-  std::optional<bool> sandbox;
+  std::optional<bool> process{};  ///< whether it has a process of its own
+  core::Location where{};         ///< what says so
+  std::optional<std::chrono::milliseconds> call_limit{};
+  std::optional<std::uint64_t> memory_limit{};  ///< [byte]
+  std::optional<bool> sandbox{};
 
   /// What the other one says goes before what is said here.
   void override_with(const HostSettings& other);

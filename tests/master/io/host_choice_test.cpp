@@ -16,7 +16,7 @@ HostRule rule(const char* pattern, const HostSettings& settings) {
   return {{pattern, {"x.ssd", 7}}, settings};
 }
 
-HostSettings hosted() { return {true, {}, {}, {}}; }
+HostSettings hosted() { return {.process = true}; }
 
 }  // namespace
 
@@ -31,15 +31,18 @@ TEST_CASE("without a word nothing is said of any component") {
 
 TEST_CASE("what a later rule says goes before, what it does not say stays") {
   HostChoice choice;
-  choice.rules = {rule("*", {true, 5s, 1024, true}), rule("arm.*", {false, {}, {}, {}}),
-                  rule("sensor", {true, 1s, {}, false})};
+  choice.rules = {rule("*", {true, {"x.ssd", 7}, 5s, 1024, true}),
+                  rule("arm.*", {.process = false, .where = {"x.ssd", 8}}),
+                  rule("sensor", {.call_limit = 1s, .sandbox = false})};
   const auto settings = choice.settings(kNames);
   REQUIRE(settings.size() == 2);
   CHECK(settings[0].process == true);
+  CHECK(settings[0].where.line == 7);
   CHECK(settings[0].call_limit == 1s);
   CHECK(settings[0].memory_limit == 1024);
   CHECK(settings[0].sandbox == false);
   CHECK(settings[1].process == false);
+  CHECK(settings[1].where.line == 8);
   CHECK(settings[1].call_limit == 5s);
 }
 
