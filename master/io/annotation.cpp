@@ -109,12 +109,13 @@ void read_early_return(const xml::Element& element, ScenarioAnnotation& annotati
 }
 
 void read_host(const xml::Element& element, HostChoice& choice) {
-  element.allow_attributes({"components", "process", "timeout", "memoryLimit", "sandbox"});
+  element.allow_attributes(
+      {"components", "process", "timeout", "memoryLimit", "sandbox", "snapshots"});
   element.allow_children({});
   HostSettings settings;
   settings.process = element.flag("process", true);
   settings.where = element.where();
-  for (const char* attribute : {"timeout", "memoryLimit", "sandbox"}) {
+  for (const char* attribute : {"timeout", "memoryLimit", "sandbox", "snapshots"}) {
     if (*settings.process || !element.attribute(attribute)) continue;
     element.fail(fmt::format("{} is for a unit with a process of its own", attribute),
                  "leave it out, or process=\"false\"");
@@ -126,6 +127,7 @@ void read_host(const xml::Element& element, HostChoice& choice) {
     settings.memory_limit = parse_attribute(element, "memoryLimit", parse_memory_limit);
   }
   if (element.attribute("sandbox")) settings.sandbox = element.flag("sandbox");
+  if (element.attribute("snapshots")) settings.snapshots = element.flag("snapshots");
   for (auto& pattern : read_components(element)) choice.rules.push_back({pattern, settings});
 }
 

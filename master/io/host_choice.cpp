@@ -26,6 +26,7 @@ void HostSettings::override_with(const HostSettings& other) {
   take(call_limit, other.call_limit);
   take(memory_limit, other.memory_limit);
   take(sandbox, other.sandbox);
+  take(snapshots, other.snapshots);
 }
 
 std::vector<HostSettings> HostChoice::settings(std::span<const std::string> components) const {

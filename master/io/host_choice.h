@@ -22,6 +22,7 @@ struct HostSettings {
   std::optional<std::chrono::milliseconds> call_limit{};
   std::optional<std::uint64_t> memory_limit{};  ///< [byte]
   std::optional<bool> sandbox{};
+  std::optional<bool> snapshots{};  ///< whether these may roll it back, if it has no state
 
   /// What the other one says goes before what is said here.
   void override_with(const HostSettings& other);

@@ -50,7 +50,7 @@ TEST_CASE("Everything that the annotation can say") {
                                         "<stride:EarlyReturn components='a' allowed='true'/>"
                                         "<stride:Host components='a x.*' timeout='0.5'/>\n"
                                         "<stride:Host components='b' process='true' "
-                                        "memoryLimit='512' sandbox='false'/>"
+                                        "memoryLimit='512' sandbox='false' snapshots='false'/>"
                                         "<stride:Host components='c' process='false'/>"
                                         "<stride:IdleSkip maxSkip='2'/>"
                                         "<stride:IdleSkip components='a b' enabled='false'/>"
@@ -81,6 +81,7 @@ TEST_CASE("Everything that the annotation can say") {
   CHECK(annotation.hosts.rules[2].components.where.line == 6);
   CHECK(annotation.hosts.rules[2].settings.memory_limit == 512U << 20);
   CHECK(annotation.hosts.rules[2].settings.sandbox == false);
+  CHECK(annotation.hosts.rules[2].settings.snapshots == false);
   CHECK(annotation.hosts.rules[3].settings.process == false);
   REQUIRE(annotation.idle.rules.size() == 3);
   CHECK(annotation.idle.rules[0].components.text == "*");
@@ -153,7 +154,8 @@ TEST_CASE("A mistake in the annotation is named with its line") {
                  Contains("allowed=\"no\" of <stride:EarlyReturn>: expected true or false"));
   CHECK_THAT(error("<stride:Host process='true'/>"), Contains("'components'"));
   CHECK_THAT(error("<stride:Host components='a' memory='1'/>"),
-             Contains("known are: components, process, timeout, memoryLimit, sandbox"));
+             Contains("known are: components, process, timeout, memoryLimit, sandbox, "
+                      "snapshots"));
   CHECK_THAT(error("<stride:Host components='a' process='yes'/>"),
              Contains("process=\"yes\" of <stride:Host>: expected true or false"));
   CHECK_THAT(error("<stride:Host components='a' timeout='0'/>"),

@@ -26,13 +26,14 @@ TEST_CASE("without a word nothing is said of any component") {
     CHECK_FALSE(settings.call_limit);
     CHECK_FALSE(settings.memory_limit);
     CHECK_FALSE(settings.sandbox);
+    CHECK_FALSE(settings.snapshots);
   }
 }
 
 TEST_CASE("what a later rule says goes before, what it does not say stays") {
   HostChoice choice;
   choice.rules = {rule("*", {true, {"x.ssd", 7}, 5s, 1024, true}),
-                  rule("arm.*", {.process = false, .where = {"x.ssd", 8}}),
+                  rule("arm.*", {.process = false, .where = {"x.ssd", 8}, .snapshots = false}),
                   rule("sensor", {.call_limit = 1s, .sandbox = false})};
   const auto settings = choice.settings(kNames);
   REQUIRE(settings.size() == 2);
@@ -44,6 +45,7 @@ TEST_CASE("what a later rule says goes before, what it does not say stays") {
   CHECK(settings[1].process == false);
   CHECK(settings[1].where.line == 8);
   CHECK(settings[1].call_limit == 5s);
+  CHECK(settings[1].snapshots == false);
 }
 
 TEST_CASE("a rule for no component is refused with its place") {
