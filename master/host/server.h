@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <sys/types.h>
@@ -66,6 +67,7 @@ class Server {
 
   Request requested() const;
   core::Context context() const;
+  std::string origin() const;
 
   Channel& channel_;
   ChannelMemory& memory_;
@@ -74,6 +76,7 @@ class Server {
   process::Waiter waiter_;
   std::unique_ptr<core::Unit> unit_;
   std::array<ServedPlan, ToldPlans::kMost> plans_;
+  std::optional<Time> time_;  ///< where the unit stands
   bool is_over_ = false;
 };
 
