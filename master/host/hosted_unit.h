@@ -15,6 +15,9 @@
 
 namespace stride::host {
 
+/// The category of log messages that are lines of a unit's standard output or error.
+inline constexpr const char* kPrinted = "printed";
+
 struct HostOptions {
   std::optional<std::chrono::milliseconds> call_limit{};  ///< of each call; nothing = no limit
   std::optional<std::uint64_t> memory_limit{};            ///< of the unit's data [byte]

@@ -5,14 +5,12 @@
 #include <exception>
 #include <utility>
 
-#include <fcntl.h>
 #include <poll.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "master/process/descriptor.h"
+#include "master/process/surroundings.h"
 
 namespace stride::process {
 namespace {
@@ -31,17 +29,9 @@ constexpr char kException = 'E';
 /// The child's surroundings: a library may have the habits of a program of its own.
 void settle(pid_t parent, int output) {
   ::setpgid(0, 0);
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM, SIGPIPE}) {
-    ::signal(signal, SIG_DFL);
-  }
-  const rlimit none{0, 0};
-  ::setrlimit(RLIMIT_CORE, &none);
-  const Descriptor empty(::open("/dev/null", O_RDONLY | O_CLOEXEC));
-  ::dup2(empty.number(), STDIN_FILENO);
-  ::dup2(output, STDOUT_FILENO);
-  ::dup2(output, STDERR_FILENO);
+  die_with(parent);
+  forget_signal_handlers();
+  redirect_standard_files(output);
 }
 
 [[noreturn]] void be_child(const std::function<std::string()>& work, int answer) {

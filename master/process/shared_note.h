@@ -4,18 +4,14 @@
 #include <cstdint>
 #include <string>
 
+#include "master/process/shared_memory.h"
+
 namespace stride::process {
 
 /// Text in memory that a process shares with the children that it makes afterwards, so that it
-/// outlives them: what they were at.
+/// outlives them: what they were at. Throws std::system_error if there is no memory for it.
 class SharedNote {
  public:
-  /// Throws std::system_error if there is no memory.
-  SharedNote();
-  ~SharedNote();
-  SharedNote(const SharedNote&) = delete;
-  SharedNote& operator=(const SharedNote&) = delete;
-
   /// `what` is cut off after some 100 characters. `picoseconds`: the simulated time.
   void write(const char* what, std::int64_t picoseconds);
   void clear() { write("", 0); }
@@ -28,7 +24,7 @@ class SharedNote {
     std::int64_t picoseconds;
     char what[120];
   };
-  Memory* memory_;
+  Shared<Memory> memory_;
 };
 
 }  // namespace stride::process
