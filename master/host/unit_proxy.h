@@ -55,6 +55,7 @@ class UnitProxy final : public core::Unit {
   void get_derivatives(References outputs, std::span<double> derivatives) override;
   void terminate() override;
   std::uint64_t calls() const override { return conversation_->calls(); }
+  std::optional<core::HostStatistics> host_statistics() const override;
 
  private:
   /// Sends put(MessageWriter&) and takes the answer with take(MessageReader&).
