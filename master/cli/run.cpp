@@ -131,7 +131,7 @@ class RecordedRun {
 
  private:
   std::vector<std::unique_ptr<core::Unit>> captured_units() {
-    auto units = loaded_.instantiate();
+    auto units = loaded_.instantiate(folder_);
     capture_.wrap(units);
     return units;
   }

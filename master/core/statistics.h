@@ -40,7 +40,7 @@ struct UnitStatistics {
       initialization_time{};             ///< wall-clock time within the unit's own functions
   std::chrono::nanoseconds step_time{};  ///< likewise, its state saved and restored included
   std::chrono::nanoseconds event_time{};
-  std::optional<HostStatistics> host;  ///< of a unit in a process of its own
+  std::optional<HostStatistics> host{};  ///< of a unit in a process of its own
 };
 
 /// Wall-clock time of a whole run.

@@ -48,11 +48,12 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"units/environment", {"stride"}},
     {"units/ground_truth", {"stride", "units/xml"}},
     {"units/player", {"stride"}},
+    {"units/process", {"stride", "units/xml"}},
 };
 
 /// The libraries among the units are installed, and included as a user sees them.
 std::string without_installed_name(const std::string& header) {
-  for (const std::string library : {"nfc/", "systemc/"}) {
+  for (const std::string library : {"nfc/", "process/", "systemc/"}) {
     if (header.rfind("stride/" + library, 0) == 0) return "units/" + header.substr(7);
   }
   return header;
