@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "master/host/sandbox_hint.h"
 #include "master/process/process_memory.h"
 
 namespace stride::host {
@@ -124,8 +125,8 @@ void Conversation::take_lines() {
 
 void Conversation::fail(const std::string& what, std::optional<Time> time) {
   failure_ = what;
-  std::string hint;
-  if (recipe_.host.memory_limit) {
+  std::string hint = sandbox_hint(last_words_.text(), recipe_.name, recipe_.host);
+  if (hint.empty() && recipe_.host.memory_limit) {
     hint = fmt::format("its memory is limited to {} MiB (memoryLimit); it may need more",
                        *recipe_.host.memory_limit >> 20);
   }

@@ -9,6 +9,7 @@
 
 #include <sys/types.h>
 
+#include "master/archive/temporary_folder.h"
 #include "master/core/unit.h"
 #include "master/fmi/fmu.h"
 #include "master/host/channel.h"
@@ -18,6 +19,7 @@
 #include "master/host/snapshots.h"
 #include "master/host/step_plan.h"
 #include "master/process/bell.h"
+#include "master/process/sandbox.h"
 
 namespace stride::host {
 
@@ -27,6 +29,8 @@ struct Recipe {
   std::string name;
   fmi::InstanceOptions options;
   HostOptions host;
+  /// For a unit in a sandbox: $TMPDIR, since that of others is closed to it.
+  std::unique_ptr<archive::TemporaryFolder> temporary{};
 
   /// Whether its states are snapshots of its process.
   bool has_snapshots() const { return host.takes_snapshots && !fmu->description()->can_save_state; }
@@ -42,7 +46,7 @@ class Server {
 
  private:
   /// All that has to be so before code of the unit runs in this process.
-  void prepare();
+  process::Protections prepare();
 
   void await_request();
   /// Does what the present request wants, and replies.
@@ -50,7 +54,7 @@ class Server {
   void handle(Request request, MessageReader& in, MessageWriter& out);
   void reply(Reply what, const MessageWriter& message);
 
-  void instantiate();
+  void instantiate(MessageWriter& out);
   void free();
   void get(MessageReader& in, MessageWriter& out);
   void set(MessageReader& in);

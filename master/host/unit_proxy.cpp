@@ -12,13 +12,18 @@ namespace stride::host {
 // ---- Life and death ----
 
 UnitProxy::UnitProxy(Recipe recipe) : recipe_(std::move(recipe)) {
+  if (recipe_.host.is_sandboxed) {
+    recipe_.temporary = std::make_unique<archive::TemporaryFolder>();
+  }
   try {
     conversation_ = std::make_unique<Conversation>(recipe_);
   } catch (const std::system_error& failure) {
     core::fail_run({.where = recipe_.options.where, .unit = recipe_.name},
                    fmt::format("there can be no process for it: {}", failure.what()));
   }
-  call(Request::Instantiate);
+  call(
+      Request::Instantiate, [](MessageWriter&) {},
+      [&](MessageReader& from) { protections_ = take_protections(from); });
 }
 
 UnitProxy::~UnitProxy() {
@@ -39,6 +44,8 @@ void UnitProxy::terminate() {
 
 std::optional<core::HostStatistics> UnitProxy::host_statistics() const {
   core::HostStatistics statistics = conversation_->statistics();
+  statistics.protections = protections_.in_force;
+  statistics.missing_protections = protections_.missing;
   return statistics;
 }
 

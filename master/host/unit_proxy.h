@@ -72,6 +72,7 @@ class UnitProxy final : public core::Unit {
 
   Recipe recipe_;
   std::unique_ptr<Conversation> conversation_;
+  process::Protections protections_;
   std::optional<Time> time_;
   ToldPlans plans_;
   core::InputUpdate input_update_;
