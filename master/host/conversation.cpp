@@ -77,9 +77,8 @@ void Conversation::await_reply(std::optional<Time> time) {
 }
 
 void Conversation::complain_of_waiting() {
-  if (std::exchange(has_complained_, true) || !recipe_.options.log) return;
-  recipe_.options.log(
-      recipe_.name, fmi::Status::Warning, "stride",
+  if (std::exchange(has_complained_, true)) return;
+  log(fmi::Status::Warning, "stride",
       fmt::format("it has taken more than {} s{}, and there is no limit (--unit-timeout)",
                   seconds(recipe_.options.patience), present_call()));
 }
@@ -107,18 +106,25 @@ void Conversation::finish() {
 // ---- What is said besides ----
 
 void Conversation::take_lines() {
-  const auto& sink = recipe_.options.log;
   log_.read([&](LogMessage&& message) {
     last_words_.add_logged(message.text);
-    if (sink) sink(recipe_.name, message.status, message.category, message.text);
+    log(message.status, message.category, message.text);
   });
   const auto print = [&](std::string_view line) {
     last_words_.add_printed(line);
-    if (sink) sink(recipe_.name, fmi::Status::Ok, kPrinted, std::string(line));
+    log(fmi::Status::Ok, kPrinted, std::string(line));
   };
   channel_.memory->printed.read(printed_.bytes());
   printed_.take(print);
   if (process_.has_ended()) printed_.take_rest(print);
+}
+
+void Conversation::log(fmi::Status status, const std::string& category,
+                       const std::string& text) const noexcept {
+  try {
+    if (recipe_.options.log) recipe_.options.log(recipe_.name, status, category, text);
+  } catch (...) {  // as in the unit's own process, where nothing may cross its C code
+  }
 }
 
 // ---- Failures ----

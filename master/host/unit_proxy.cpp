@@ -30,10 +30,8 @@ UnitProxy::~UnitProxy() {
   try {
     if (!conversation_->has_failed()) call(Request::Free);
   } catch (const std::exception& failure) {
-    if (recipe_.options.log) {
-      recipe_.options.log(recipe_.name, fmi::Status::Warning, "stride",
-                          fmt::format("its end failed: {}", failure.what()));
-    }
+    conversation_->log(fmi::Status::Warning, "stride",
+                       fmt::format("its end failed: {}", failure.what()));
   }
   conversation_->finish();
 }
