@@ -30,6 +30,8 @@ class Conversation {
   /// What was said, until the next message is written.
   MessageReader read();
 
+  /// Tells the log something about the unit.
+  void log(fmi::Status status, const std::string& category, const std::string& text) const noexcept;
   /// Ends the process, and lets the log have what it still has to say.
   void finish();
 

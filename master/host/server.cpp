@@ -11,6 +11,7 @@
 
 #include "master/host/codec.h"
 #include "master/host/memory_limit.h"
+#include "master/host/sandbox_hint.h"
 #include "master/process/surroundings.h"
 
 namespace stride::host {
@@ -27,6 +28,18 @@ struct CallbackFailure {};
 void on_exit_called(int status, void*) {
   std::fflush(nullptr);
   ::_exit(status);
+}
+
+std::vector<process::WritableFolder> writable_folders(const Recipe& recipe) {
+  std::vector<process::WritableFolder> folders;
+  for (const std::filesystem::path& folder : recipe.host.writable) {
+    folders.push_back({folder, folder.string()});
+  }
+  if (std::filesystem::is_directory(recipe.fmu->resources())) {
+    folders.push_back({recipe.fmu->resources(), "its resources"});
+  }
+  folders.push_back({recipe.temporary->path(), "a temporary folder"});
+  return folders;
 }
 
 }  // namespace
@@ -50,8 +63,11 @@ void Server::run() {
   }
 }
 
-void Server::prepare() {
+process::Protections Server::prepare() {
   if (recipe_.host.memory_limit) limit_memory(*recipe_.host.memory_limit);
+  if (!recipe_.host.is_sandboxed) return {};
+  ::setenv("TMPDIR", recipe_.temporary->path().c_str(), 1);
+  return process::enter_sandbox(writable_folders(recipe_));
 }
 
 // ---- Requests and replies ----
@@ -75,7 +91,7 @@ void Server::serve() {
   const auto fail = [&](const std::exception& error) {
     what = Reply::Failed;
     out.clear();
-    put_error(out, error, context());
+    put_error(out, error, context(), sandbox_hint(error.what(), recipe_.name, recipe_.host));
   };
   try {
     handle(requested(), in, out);
@@ -102,7 +118,7 @@ void Server::reply(Reply what, const MessageWriter& message) {
 void Server::handle(Request request, MessageReader& in, MessageWriter& out) {
   switch (request) {
     case Request::Instantiate:
-      return instantiate();
+      return instantiate(out);
     case Request::EnterConfigurationMode:
       return unit_->enter_configuration_mode();
     case Request::ExitConfigurationMode:
@@ -176,8 +192,8 @@ core::Context Server::context() const {
 
 // ---- Life and death ----
 
-void Server::instantiate() {
-  prepare();
+void Server::instantiate(MessageWriter& out) {
+  put_protections(out, prepare());
   fmi::InstanceOptions options = recipe_.options;
   options.call_note = &memory_.call_note;
   options.log = [this](const std::string&, fmi::Status status, const std::string& category,

@@ -7,6 +7,7 @@
 
 #include <sys/types.h>
 
+#include "master/archive/temporary_folder.h"
 #include "master/core/unit.h"
 #include "master/fmi/fmu.h"
 #include "master/host/channel.h"
@@ -15,6 +16,7 @@
 #include "master/host/message.h"
 #include "master/host/step_plan.h"
 #include "master/process/bell.h"
+#include "master/process/sandbox.h"
 
 namespace stride::host {
 
@@ -24,6 +26,8 @@ struct Recipe {
   std::string name;
   fmi::InstanceOptions options;
   HostOptions host;
+  /// For a unit in a sandbox: $TMPDIR, since that of others is closed to it.
+  std::unique_ptr<archive::TemporaryFolder> temporary{};
 };
 
 /// The process in which a unit lives: does what the master asks for, one request after the other.
@@ -36,7 +40,7 @@ class Server {
 
  private:
   /// All that has to be so before code of the unit runs in this process.
-  void prepare();
+  process::Protections prepare();
 
   void await_request();
   /// Does what the present request wants, and replies.
@@ -44,7 +48,7 @@ class Server {
   void handle(Request request, MessageReader& in, MessageWriter& out);
   void reply(Reply what, const MessageWriter& message);
 
-  void instantiate();
+  void instantiate(MessageWriter& out);
   void free();
   void get(MessageReader& in, MessageWriter& out);
   void set(MessageReader& in);
