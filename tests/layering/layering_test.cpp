@@ -20,16 +20,20 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"master/core", {"stride/time.h", "fmt", "Eigen"}},
     {"master/xml", {"master/core", "fmt", "tinyxml2.h"}},
     {"master/archive", {"master/core", "fmt", "archive.h", "archive_entry.h"}},
+    {"master/process", {"linux", "seccomp.h"}},
     {"master/fmi", {"stride", "master/core", "master/xml", "master/archive", "fmt"}},
+    {"master/host",
+     {"stride/time.h", "master/core", "master/archive", "master/fmi", "master/process", "fmt"}},
     {"master/io",
      {"stride/time.h", "master/core", "master/xml", "master/archive", "fmt", "nlohmann"}},
     {"master/capture", {"stride/time.h", "master/core", "master/io", "fmt"}},
     {"master/trace", {"stride/time.h", "master/core", "master/io", "fmt"}},
     {"master/verify",
-     {"stride/time.h", "master/core", "master/fmi", "fmt", "nlohmann", "malloc.h"}},
+     {"stride/time.h", "master/core", "master/fmi", "master/process", "fmt", "nlohmann",
+      "malloc.h"}},
     {"master/cli",
-     {"stride", "master/core", "master/archive", "master/capture", "master/fmi", "master/io",
-      "master/trace", "master/verify", "fmt", "spdlog", "CLI"}},
+     {"stride", "master/core", "master/archive", "master/capture", "master/fmi", "master/host",
+      "master/io", "master/trace", "master/verify", "fmt", "spdlog", "CLI"}},
     {"units/minimal", {"stride"}},
     {"units/nfc", {"stride/time.h"}},
     {"units/xml", {"stride/time.h", "tinyxml2.h"}},
@@ -77,7 +81,7 @@ bool is_system(const std::string& header) {
                                                "stdbool.h", "stddef.h", "stdint.h"};
   const bool standard = header.find_first_of("./") == std::string::npos;
   return (standard && header != "systemc") || kPosix.count(header) != 0 ||
-         begins_with(header, "sys");
+         begins_with(header, "sys") || begins_with(header, "linux");
 }
 
 bool is_source(const fs::path& path) {
