@@ -35,8 +35,8 @@ std::vector<Value> start_values(const process::Declaration& declaration) {
 class ProcessUnit : public stride::Unit {
  public:
   explicit ProcessUnit(const stride::Setup& setup)
-      : resources_(std::filesystem::absolute(setup.resources)),
-        declaration_(process::load_declaration(setup.resources)),
+      : declaration_(process::load_declaration(setup.resources)),
+        resources_(std::filesystem::absolute(setup.resources)),
         values_(start_values(declaration_)),
         clocks_(values_.size()) {
     opening_.instance_name = setup.instance_name;
@@ -223,8 +223,8 @@ class ProcessUnit : public stride::Unit {
     }
   }
 
-  std::filesystem::path resources_;
   process::Declaration declaration_;
+  std::filesystem::path resources_;
   std::vector<Value> values_;                           ///< whose alternatives stay what they are
   std::vector<std::unique_ptr<stride::Clock>> clocks_;  ///< of messages
   process::Opening opening_{"", "", "", "*"};
