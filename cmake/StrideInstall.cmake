@@ -7,7 +7,7 @@ install(TARGETS stride_cli EXPORT stride RUNTIME DESTINATION ${CMAKE_INSTALL_BIN
 if(TARGET stride_robot)
   install(TARGETS stride_robot RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
-install(TARGETS stride_interfaces stride_unit stride_unit_process EXPORT stride
+install(TARGETS stride_interfaces stride_unit stride_program EXPORT stride
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY interfaces/stride DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY units/process/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")

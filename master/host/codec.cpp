@@ -105,10 +105,11 @@ core::EventResult take_events(MessageReader& from) {
 
 // ---- Errors ----
 
-void put_error(MessageWriter& to, const std::exception& error, const core::Context& context) {
+void put_error(MessageWriter& to, const std::exception& error, const core::Context& context,
+               const std::string& hint) {
   const auto* const own = dynamic_cast<const core::Error*>(&error);
   if (own == nullptr) {
-    return put_error(to, core::Error(core::Error::Kind::Run, context, error.what()), context);
+    return put_error(to, core::Error(core::Error::Kind::Run, context, error.what(), hint), context);
   }
   to.put(own->kind());
   to.put(dynamic_cast<const core::ConsequentError*>(own) != nullptr);
@@ -118,7 +119,7 @@ void put_error(MessageWriter& to, const std::exception& error, const core::Conte
   to.put(own->context().variable);
   put_time(to, own->context().time);
   to.put(own->message());
-  to.put(own->hint());
+  to.put(own->hint().empty() ? hint : own->hint());
 }
 
 void throw_error(MessageReader& from) {
@@ -134,6 +135,35 @@ void throw_error(MessageReader& from) {
   const std::string hint = from.take_text();
   if (is_consequent) throw core::ConsequentError(kind, std::move(context), message, hint);
   throw core::Error(kind, std::move(context), message, hint);
+}
+
+// ---- Protections ----
+
+namespace {
+
+void put_lines(MessageWriter& to, const std::vector<std::string>& lines) {
+  to.put(lines.size());
+  for (const std::string& line : lines) to.put(line);
+}
+
+std::vector<std::string> take_lines(MessageReader& from) {
+  std::vector<std::string> lines(from.take_count(sizeof(std::size_t)));
+  for (std::string& line : lines) line = from.take_text();
+  return lines;
+}
+
+}  // namespace
+
+void put_protections(MessageWriter& to, const process::Protections& protections) {
+  put_lines(to, protections.in_force);
+  put_lines(to, protections.missing);
+}
+
+process::Protections take_protections(MessageReader& from) {
+  process::Protections protections;
+  protections.in_force = take_lines(from);
+  protections.missing = take_lines(from);
+  return protections;
 }
 
 }  // namespace stride::host

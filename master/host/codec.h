@@ -8,6 +8,7 @@
 #include "master/core/unit.h"
 #include "master/core/values.h"
 #include "master/host/message.h"
+#include "master/process/sandbox.h"
 
 namespace stride::host {
 
@@ -28,10 +29,15 @@ core::EventResult take_events(MessageReader& from);
 void put_time(MessageWriter& to, std::optional<Time> time);
 std::optional<Time> take_time(MessageReader& from);
 
-/// With all its parts; what is no core::Error becomes one of this unit.
-void put_error(MessageWriter& to, const std::exception& error, const core::Context& context);
+/// With all its parts; what is no core::Error becomes one of this unit. `hint` is for an error that
+/// has none.
+void put_error(MessageWriter& to, const std::exception& error, const core::Context& context,
+               const std::string& hint = "");
 /// Throws it.
 [[noreturn]] void throw_error(MessageReader& from);
+
+void put_protections(MessageWriter& to, const process::Protections& protections);
+process::Protections take_protections(MessageReader& from);
 
 }  // namespace stride::host
 

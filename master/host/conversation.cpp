@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "master/host/sandbox_hint.h"
+#include "master/process/process_memory.h"
+
 namespace stride::host {
 namespace {
 
@@ -21,7 +24,7 @@ double seconds(std::chrono::milliseconds time) {
 
 Conversation::Conversation(const Recipe& recipe)
     : recipe_(recipe),
-      process_(channel_, [&](pid_t) { serve(channel_, recipe); }),
+      process_(channel_, [&](pid_t keeper) { serve(channel_, recipe, keeper); }),
       log_(*channel_.memory) {}
 
 // ---- To and fro ----
@@ -74,11 +77,25 @@ void Conversation::await_reply(std::optional<Time> time) {
 }
 
 void Conversation::complain_of_waiting() {
-  if (std::exchange(has_complained_, true) || !recipe_.options.log) return;
-  recipe_.options.log(
-      recipe_.name, fmi::Status::Warning, "stride",
+  if (std::exchange(has_complained_, true)) return;
+  log(fmi::Status::Warning, "stride",
       fmt::format("it has taken more than {} s{}, and there is no limit (--unit-timeout)",
                   seconds(recipe_.options.patience), present_call()));
+}
+
+core::HostStatistics Conversation::statistics() const {
+  const SnapshotBoard& snapshots = channel_.memory->snapshots;
+  core::HostStatistics statistics;
+  statistics.snapshots = snapshots.snapshots;
+  statistics.restores = snapshots.restores;
+  statistics.most_snapshots = snapshots.most_kept;
+  statistics.most_snapshot_memory = snapshots.most_memory;
+  statistics.most_memory = channel_.memory->most_memory;
+  if (!process_.has_ended()) {
+    statistics.most_memory =
+        std::max(statistics.most_memory, process::most_memory(channel_.memory->active));
+  }
+  return statistics;
 }
 
 void Conversation::finish() {
@@ -89,26 +106,33 @@ void Conversation::finish() {
 // ---- What is said besides ----
 
 void Conversation::take_lines() {
-  const auto& sink = recipe_.options.log;
   log_.read([&](LogMessage&& message) {
     last_words_.add_logged(message.text);
-    if (sink) sink(recipe_.name, message.status, message.category, message.text);
+    log(message.status, message.category, message.text);
   });
   const auto print = [&](std::string_view line) {
     last_words_.add_printed(line);
-    if (sink) sink(recipe_.name, fmi::Status::Ok, kPrinted, std::string(line));
+    log(fmi::Status::Ok, kPrinted, std::string(line));
   };
   channel_.memory->printed.read(printed_.bytes());
   printed_.take(print);
   if (process_.has_ended()) printed_.take_rest(print);
 }
 
+void Conversation::log(fmi::Status status, const std::string& category,
+                       const std::string& text) const noexcept {
+  try {
+    if (recipe_.options.log) recipe_.options.log(recipe_.name, status, category, text);
+  } catch (...) {  // as in the unit's own process, where nothing may cross its C code
+  }
+}
+
 // ---- Failures ----
 
 void Conversation::fail(const std::string& what, std::optional<Time> time) {
   failure_ = what;
-  std::string hint;
-  if (recipe_.host.memory_limit) {
+  std::string hint = sandbox_hint(last_words_.text(), recipe_.name, recipe_.host);
+  if (hint.empty() && recipe_.host.memory_limit) {
     hint = fmt::format("its memory is limited to {} MiB (memoryLimit); it may need more",
                        *recipe_.host.memory_limit >> 20);
   }

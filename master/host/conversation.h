@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "master/core/statistics.h"
 #include "master/host/channel.h"
 #include "master/host/host_process.h"
 #include "master/host/last_words.h"
@@ -30,12 +31,16 @@ class Conversation {
   /// What was said, until the next message is written.
   MessageReader read();
 
+  /// Tells the log something about the unit.
+  void log(fmi::Status status, const std::string& category, const std::string& text) const noexcept;
   /// Ends the process, and lets the log have what it still has to say.
   void finish();
 
   /// The process has ended, or talks nonsense: nothing can be sent any longer.
   bool has_failed() const { return !failure_.empty(); }
   [[noreturn]] void fail_nonsense(std::optional<Time> time);
+  /// Of snapshots and memory; also after a failure.
+  core::HostStatistics statistics() const;
   std::uint64_t calls() const { return channel_.memory->calls.load(std::memory_order_relaxed); }
 
  private:

@@ -12,29 +12,39 @@ namespace stride::host {
 // ---- Life and death ----
 
 UnitProxy::UnitProxy(Recipe recipe) : recipe_(std::move(recipe)) {
+  if (recipe_.host.is_sandboxed) {
+    recipe_.temporary = std::make_unique<archive::TemporaryFolder>();
+  }
   try {
     conversation_ = std::make_unique<Conversation>(recipe_);
   } catch (const std::system_error& failure) {
     core::fail_run({.where = recipe_.options.where, .unit = recipe_.name},
                    fmt::format("there can be no process for it: {}", failure.what()));
   }
-  call(Request::Instantiate);
+  call(
+      Request::Instantiate, [](MessageWriter&) {},
+      [&](MessageReader& from) { protections_ = take_protections(from); });
 }
 
 UnitProxy::~UnitProxy() {
   try {
     if (!conversation_->has_failed()) call(Request::Free);
   } catch (const std::exception& failure) {
-    if (recipe_.options.log) {
-      recipe_.options.log(recipe_.name, fmi::Status::Warning, "stride",
-                          fmt::format("its end failed: {}", failure.what()));
-    }
+    conversation_->log(fmi::Status::Warning, "stride",
+                       fmt::format("its end failed: {}", failure.what()));
   }
   conversation_->finish();
 }
 
 void UnitProxy::terminate() {
   if (!conversation_->has_failed()) call(Request::Terminate);
+}
+
+std::optional<core::HostStatistics> UnitProxy::host_statistics() const {
+  core::HostStatistics statistics = conversation_->statistics();
+  statistics.protections = protections_.in_force;
+  statistics.missing_protections = protections_.missing;
+  return statistics;
 }
 
 // ---- Requests ----
@@ -205,9 +215,15 @@ void UnitProxy::set_input_update(core::InputUpdate update) {
 
 // ---- States ----
 
-void UnitProxy::save_state() { call(Request::SaveState); }
+void UnitProxy::save_state() {
+  call(Request::SaveState, [&](MessageWriter& to) { put_time(to, time_); });
+}
 
-void UnitProxy::restore_state() { call(Request::RestoreState); }
+/// A process that is taken back knows the plans of its time only.
+void UnitProxy::restore_state() {
+  if (recipe_.has_snapshots()) plans_.forget();
+  call(Request::RestoreState, [&](MessageWriter& to) { put_time(to, time_); });
+}
 
 void UnitProxy::select_state(std::size_t slot) {
   call(Request::SelectState, [&](MessageWriter& to) { to.put(slot); });

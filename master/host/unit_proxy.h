@@ -55,6 +55,7 @@ class UnitProxy final : public core::Unit {
   void get_derivatives(References outputs, std::span<double> derivatives) override;
   void terminate() override;
   std::uint64_t calls() const override { return conversation_->calls(); }
+  std::optional<core::HostStatistics> host_statistics() const override;
 
  private:
   /// Sends put(MessageWriter&) and takes the answer with take(MessageReader&).
@@ -71,6 +72,7 @@ class UnitProxy final : public core::Unit {
 
   Recipe recipe_;
   std::unique_ptr<Conversation> conversation_;
+  process::Protections protections_;
   std::optional<Time> time_;
   ToldPlans plans_;
   core::InputUpdate input_update_;

@@ -18,8 +18,6 @@
 namespace stride::process {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr rlim_t kOpenFiles = 4096;
 
 constexpr std::uint32_t kFileCapabilities = 1U << CAP_CHOWN | 1U << CAP_DAC_OVERRIDE |
@@ -58,19 +56,19 @@ void lower_limits() {
   lower_limit(RLIMIT_NOFILE, kOpenFiles);
 }
 
-std::vector<Descriptor> open_all(std::span<const fs::path> paths) {
+std::vector<Descriptor> open_all(std::span<const WritableFolder> folders) {
   std::vector<Descriptor> opened;
-  for (const fs::path& path : paths) {
-    opened.emplace_back(::open(path.c_str(), O_PATH | O_CLOEXEC));
-    if (!opened.back().is_open()) fail(("cannot open '" + path.string() + "'").c_str());
+  for (const WritableFolder& folder : folders) {
+    opened.emplace_back(::open(folder.path.c_str(), O_PATH | O_CLOEXEC));
+    if (!opened.back().is_open()) fail(("cannot open '" + folder.path.string() + "'").c_str());
   }
   return opened;
 }
 
-std::string read_only_files(std::span<const fs::path> writable) {
-  std::string folders;
-  for (const fs::path& path : writable) folders += (folders.empty() ? "" : ", ") + path.string();
-  return folders.empty() ? "read-only files" : "read-only files, but for " + folders;
+std::string read_only_files(std::span<const WritableFolder> writable) {
+  std::string names;
+  for (const WritableFolder& folder : writable) names += (names.empty() ? "" : ", ") + folder.name;
+  return names.empty() ? "read-only files" : "read-only files, but for " + names;
 }
 
 /// Puts a protection on, or notes why it cannot be had.
@@ -86,7 +84,7 @@ bool put_on(Protections& protections, const std::string& what, Work&& work) {
   return true;
 }
 
-void guard_files(Protections& protections, std::span<const fs::path> writable) {
+void guard_files(Protections& protections, std::span<const WritableFolder> writable) {
   const std::vector<Descriptor> opened = open_all(writable);
   int version = 0;
   const bool is_guarded = put_on(protections, read_only_files(writable), [&] {
@@ -109,7 +107,7 @@ void guard_files(Protections& protections, std::span<const fs::path> writable) {
 
 }  // namespace
 
-Protections enter_sandbox(std::span<const fs::path> writable) {
+Protections enter_sandbox(std::span<const WritableFolder> writable) {
   Protections protections;
   put_on(protections, "no new privileges", forbid_new_privileges);
   put_on(protections, "no capabilities, but those for files", drop_capabilities);

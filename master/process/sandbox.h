@@ -15,6 +15,12 @@ struct Protections {
   std::vector<std::string> missing;   ///< what this kernel or container does not offer, and why
 };
 
+/// Where files may still be changed.
+struct WritableFolder {
+  std::filesystem::path path;
+  std::string name;  ///< what the protections call it
+};
+
 /// Takes from this process, and from all that it will ever start, what a unit has no need of. No
 /// root is needed, and nothing is ended: what is denied fails with EACCES (or EPERM, a signal).
 ///
@@ -31,7 +37,7 @@ struct Protections {
 ///
 /// What the kernel lacks stands in the answer, and the rest is put on. To be called while this
 /// process has one thread. Throws std::system_error if a folder cannot be opened.
-Protections enter_sandbox(std::span<const std::filesystem::path> writable);
+Protections enter_sandbox(std::span<const WritableFolder> writable);
 
 }  // namespace stride::process
 

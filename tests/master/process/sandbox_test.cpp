@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 namespace {
 
 /// What the work says in a sandbox.
-std::string say(const std::vector<fs::path>& writable, const std::function<std::string()>& work) {
+std::string say(const std::vector<WritableFolder>& writable,
+                const std::function<std::string()>& work) {
   return in_child([&] {
     enter_sandbox(writable);
     return work();
@@ -57,7 +58,8 @@ bool is_root() { return ::geteuid() == 0; }
 TEST_CASE("it says what is in force, and what is missing") {
   const ScratchFolder scratch;
   const std::string said = in_child([&] {
-    const Protections protections = enter_sandbox(std::vector{scratch / "."});
+    const Protections protections =
+        enter_sandbox(std::vector{WritableFolder{scratch / ".", "its notes"}});
     return joined(protections.in_force) + "missing:\n" + joined(protections.missing);
   });
   INFO(said);
@@ -65,7 +67,7 @@ TEST_CASE("it says what is in force, and what is missing") {
   CHECK_THAT(said, Contains("no core dump, at most 4096 open files\n"));
   if (lacks_landlock()) return;
   const int version = landlock_version();
-  CHECK_THAT(said, Contains("read-only files, but for " + (scratch / ".").string() + ": Landlock " +
+  CHECK_THAT(said, Contains("read-only files, but for its notes: Landlock " +
                             std::to_string(version) + "\n"));
   CHECK_THAT(said, Contains("no network: seccomp\nmissing:\n"));
   CHECK((said.find("missing:\n") + 9 == said.size()) == (version >= kLandlockSignals));
@@ -86,7 +88,7 @@ TEST_CASE("what the kernel does not have is told, and the rest is put on") {
 
 TEST_CASE("a folder that is not there is an error") {
   const ChildOutcome outcome = run_in_child([] {
-    enter_sandbox(std::vector<fs::path>{"/nowhere/at/all"});
+    enter_sandbox(std::vector<WritableFolder>{{"/nowhere/at/all", "nowhere"}});
     return std::string();
   });
   CHECK(outcome.end == ChildOutcome::End::Threw);
@@ -99,7 +101,7 @@ TEST_CASE("files are written in the folders that are named, also by the programs
   const ScratchFolder closed;
   const auto write_in = [&](const ScratchFolder& folder) {
     const std::string file = (folder / "file").string();
-    return say({open / "."}, [&] { return output_of("echo text 2>&1 >" + file); });
+    return say({{open / ".", "open"}}, [&] { return output_of("echo text 2>&1 >" + file); });
   };
   CHECK(write_in(open).empty());
   CHECK(content(open / "file") == "text\n");
@@ -183,7 +185,7 @@ TEST_CASE("of root's privileges those for files are left") {
   const fs::path foreign = write_file(scratch / "file", "text");
   ::chown(foreign.c_str(), 65534, 65534);
   ::chmod(foreign.c_str(), 0600);
-  CHECK(say({scratch / "."}, [&] { return open_file(foreign, O_RDWR); }) ==
+  CHECK(say({{scratch / ".", "scratch"}}, [&] { return open_file(foreign, O_RDWR); }) ==
         in_child([&] { return open_file(foreign, O_RDWR); }));
 }
 
