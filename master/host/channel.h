@@ -10,6 +10,7 @@
 
 #include "master/fmi/call_note.h"
 #include "master/host/byte_ring.h"
+#include "master/host/snapshot_board.h"
 #include "master/process/bell.h"
 #include "master/process/shared_memory.h"
 
@@ -83,6 +84,9 @@ struct ChannelMemory {
   std::atomic<pid_t> active = 0;
   std::atomic<End> end = End::None;  ///< of that one; written by the keeper
   std::atomic<int> end_code = 0;     ///< the error of the start, the exit code, or the signal
+
+  std::atomic<std::uint64_t> most_memory = 0;  ///< resident, of those that have ended [byte]
+  SnapshotBoard snapshots;
 
   fmi::CallNote call_note;  ///< which function of the unit is being called
   ByteRing logged;          ///< messages of the unit, see log_message.h; written by its process

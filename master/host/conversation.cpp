@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "master/host/sandbox_hint.h"
+#include "master/process/process_memory.h"
 
 namespace stride::host {
 namespace {
@@ -25,7 +26,7 @@ double seconds(std::chrono::milliseconds time) {
 
 Conversation::Conversation(const Recipe& recipe)
     : recipe_(recipe),
-      process_(channel_, [&](pid_t) { serve(channel_, recipe); }),
+      process_(channel_, [&](pid_t keeper) { serve(channel_, recipe, keeper); }),
       log_(*channel_.memory) {}
 
 // ---- To and fro ----
@@ -82,6 +83,21 @@ void Conversation::complain_of_waiting() {
   log(fmi::Status::Warning, "stride",
       fmt::format("it has taken more than {} s{}, and there is no limit (--unit-timeout)",
                   seconds(recipe_.options.patience), present_call()));
+}
+
+core::HostStatistics Conversation::statistics() const {
+  const SnapshotBoard& snapshots = channel_.memory->snapshots;
+  core::HostStatistics statistics;
+  statistics.snapshots = snapshots.snapshots;
+  statistics.restores = snapshots.restores;
+  statistics.most_snapshots = snapshots.most_kept;
+  statistics.most_snapshot_memory = snapshots.most_memory;
+  statistics.most_memory = channel_.memory->most_memory;
+  if (!process_.has_ended()) {
+    statistics.most_memory =
+        std::max(statistics.most_memory, process::most_memory(channel_.memory->active));
+  }
+  return statistics;
 }
 
 void Conversation::finish() {

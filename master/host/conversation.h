@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "master/core/statistics.h"
 #include "master/host/channel.h"
 #include "master/host/host_process.h"
 #include "master/host/last_words.h"
@@ -38,6 +39,8 @@ class Conversation {
   /// The process has ended, or talks nonsense: nothing can be sent any longer.
   bool has_failed() const { return !failure_.empty(); }
   [[noreturn]] void fail_nonsense(std::optional<Time> time);
+  /// Of snapshots and memory; also after a failure.
+  core::HostStatistics statistics() const;
   std::uint64_t calls() const { return channel_.memory->calls.load(std::memory_order_relaxed); }
 
  private:

@@ -13,6 +13,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/signalfd.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -39,10 +40,10 @@ process::Descriptor watch_children() {
 }
 
 /// Those that are its own, and those whose parents have ended.
-std::vector<pid_t> children(pid_t active) {
+std::vector<pid_t> children() {
   const std::string self = std::to_string(::getpid());
   std::ifstream file("/proc/self/task/" + self + "/children");
-  if (!file) return active > 0 ? std::vector{active} : std::vector<pid_t>{};
+  if (!file) ::kill(0, SIGKILL);  // without /proc: the whole group, this one with it
   std::vector<pid_t> found;
   for (pid_t child = 0; file >> child;) found.push_back(child);
   return found;
@@ -74,15 +75,15 @@ class Keeper {
   /// Those of them that have children of their own leave these to this process.
   void kill_children() {
     for (;;) {
-      const std::vector<pid_t> found =
-          children(channel_.end == End::None ? channel_.active.load() : 0);
+      const std::vector<pid_t> found = children();
       if (found.empty()) return;
       for (const pid_t child : found) {
         ::kill(child, SIGKILL);
         int status = 0;
-        while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+        rusage usage{};
+        while (::wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {
         }
-        note_end(child, status);
+        note_end(child, status, usage);
       }
     }
   }
@@ -109,10 +110,15 @@ class Keeper {
     while (::read(ends_.number(), &ignored, sizeof ignored) > 0) {
     }
     int status = 0;
-    for (pid_t child = 0; (child = ::waitpid(-1, &status, WNOHANG)) > 0;) note_end(child, status);
+    rusage usage{};
+    for (pid_t child = 0; (child = ::wait4(-1, &status, WNOHANG, &usage)) > 0;) {
+      note_end(child, status, usage);
+    }
   }
 
-  void note_end(pid_t child, int status) {
+  void note_end(pid_t child, int status, const rusage& usage) {
+    raise_to(channel_.most_memory, static_cast<std::uint64_t>(usage.ru_maxrss) * 1024);
+    channel_.snapshots.note_end(child);
     if (child != channel_.active || channel_.end != End::None) return;
     for (auto patience = 100ms; patience > 0ms; patience -= 1ms) {  // what it has said comes first
       pass_on();
@@ -152,12 +158,14 @@ void keep(Channel& channel, process::Descriptor line, pid_t master,
   const pid_t server = ::fork();
   if (server == 0) {
     process::die_with(self);
+    channel.memory->active = ::getpid();  // which may be another one when this is seen below
     process::redirect_standard_files(output.write.number());
     process::close_other_files({messages});
     serve(self);
     ::_exit(0);
   }
-  channel.memory->active = server;
+  pid_t nobody = 0;
+  channel.memory->active.compare_exchange_strong(nobody, server);
   output.write.close();
   if (server < 0) {
     channel.memory->end_code = errno;

@@ -44,17 +44,22 @@ std::vector<process::WritableFolder> writable_folders(const Recipe& recipe) {
 
 }  // namespace
 
-void serve(Channel& channel, const Recipe& recipe) noexcept {
+void serve(Channel& channel, const Recipe& recipe, pid_t keeper) noexcept {
   process::forget_signal_handlers();
   ::prctl(PR_SET_NAME, recipe.name.c_str());
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a crash loses no line
   ::on_exit(&on_exit_called, nullptr);
-  Server(channel, recipe).run();
+  Server(channel, recipe, keeper).run();
   ::_exit(0);
 }
 
-Server::Server(Channel& channel, const Recipe& recipe)
-    : channel_(channel), memory_(*channel.memory), recipe_(recipe), log_(*channel.memory) {}
+Server::Server(Channel& channel, const Recipe& recipe, pid_t keeper)
+    : channel_(channel), memory_(*channel.memory), recipe_(recipe), log_(*channel.memory) {
+  if (!recipe.has_snapshots()) return;
+  snapshots_.emplace(
+      memory_.snapshots, memory_.active, keeper,
+      SnapshotOptions{context(), {channel.messages.file().number()}, recipe.host.memory_limit});
+}
 
 void Server::run() {
   while (!is_over_) {
@@ -110,7 +115,7 @@ void Server::serve() {
 
 void Server::reply(Reply what, const MessageWriter& message) {
   memory_.call_note.clear();
-  if (unit_) memory_.calls.store(unit_->calls(), std::memory_order_relaxed);
+  if (unit_) memory_.calls.store(undone_calls_ + unit_->calls(), std::memory_order_relaxed);
   memory_.reply.what.store(static_cast<std::uint32_t>(what), std::memory_order_relaxed);
   memory_.reply.size.store(message.size(), std::memory_order_relaxed);
   memory_.reply.number.store(memory_.request.number.load(std::memory_order_relaxed),
@@ -141,9 +146,9 @@ void Server::handle(Request request, MessageReader& in, MessageWriter& out) {
     case Request::Step:
       return step(in, out);
     case Request::SaveState:
-      return save_state();
+      return save_state(in);
     case Request::RestoreState:
-      return restore_state();
+      return restore_state(in);
     case Request::SelectState:
       return select_state(in.take<std::size_t>());
     case Request::SerializeState:
@@ -289,6 +294,27 @@ void Server::ask_inputs(double seconds_into_step) {
     serve();
   }
   memory_.call_note = asking;
+}
+
+// ---- States ----
+
+/// With snapshots it returns once more for each restored state, in the process that goes on then,
+/// and the request is one to restore.
+void Server::save_state(MessageReader& in) {
+  if (!snapshots_) return unit_->save_state();
+  memory_.call_note.write("the snapshot of its process");
+  if (snapshots_->save(slot_, take_time(in))) undone_calls_ = memory_.calls - unit_->calls();
+}
+
+void Server::restore_state(MessageReader& in) {
+  if (!snapshots_) return unit_->restore_state();
+  memory_.call_note.write("the return to a snapshot of its process");
+  snapshots_->restore(slot_, take_time(in));
+}
+
+void Server::select_state(std::size_t slot) {
+  if (!snapshots_) return unit_->select_state(slot);
+  slot_ = slot;
 }
 
 // ---- Idle time ----

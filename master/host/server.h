@@ -2,6 +2,7 @@
 #define STRIDE_MASTER_HOST_SERVER_H
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 #include "master/host/hosted_unit.h"
 #include "master/host/log_message.h"
 #include "master/host/message.h"
+#include "master/host/snapshots.h"
 #include "master/host/step_plan.h"
 #include "master/process/bell.h"
 #include "master/process/sandbox.h"
@@ -29,12 +31,15 @@ struct Recipe {
   HostOptions host;
   /// For a unit in a sandbox: $TMPDIR, since that of others is closed to it.
   std::unique_ptr<archive::TemporaryFolder> temporary{};
+
+  /// Whether its states are snapshots of its process.
+  bool has_snapshots() const { return host.takes_snapshots && !fmu->description()->can_save_state; }
 };
 
 /// The process in which a unit lives: does what the master asks for, one request after the other.
 class Server {
  public:
-  Server(Channel& channel, const Recipe& recipe);
+  Server(Channel& channel, const Recipe& recipe, pid_t keeper);
 
   /// Returns when the unit was destroyed, because the master wanted it.
   void run();
@@ -55,9 +60,9 @@ class Server {
   void set(MessageReader& in);
   void make_plan(MessageReader& in);
   void step(MessageReader& in, MessageWriter& out);
-  void save_state() { unit_->save_state(); }
-  void restore_state() { unit_->restore_state(); }
-  void select_state(std::size_t slot) { unit_->select_state(slot); }
+  void save_state(MessageReader& in);
+  void restore_state(MessageReader& in);
+  void select_state(std::size_t slot);
   void get_directional_derivative(MessageReader& in, MessageWriter& out);
   void set_input_update(bool is_set);
   void ask_inputs(double seconds_into_step);
@@ -74,6 +79,9 @@ class Server {
   const Recipe& recipe_;
   LogWriter log_;
   process::Waiter waiter_;
+  std::optional<Snapshots> snapshots_;  ///< in place of the unit's own states
+  std::size_t slot_ = 0;                ///< of them
+  std::uint64_t undone_calls_ = 0;      ///< of functions of the unit, by processes taken back
   std::unique_ptr<core::Unit> unit_;
   std::array<ServedPlan, ToldPlans::kMost> plans_;
   std::optional<Time> time_;  ///< where the unit stands
@@ -81,7 +89,7 @@ class Server {
 };
 
 /// Runs a server in a fresh fork: its surroundings first.
-void serve(Channel& channel, const Recipe& recipe) noexcept;
+void serve(Channel& channel, const Recipe& recipe, pid_t keeper) noexcept;
 
 }  // namespace stride::host
 

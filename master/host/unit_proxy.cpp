@@ -41,7 +41,7 @@ void UnitProxy::terminate() {
 }
 
 std::optional<core::HostStatistics> UnitProxy::host_statistics() const {
-  core::HostStatistics statistics;
+  core::HostStatistics statistics = conversation_->statistics();
   statistics.protections = protections_.in_force;
   statistics.missing_protections = protections_.missing;
   return statistics;
@@ -215,9 +215,15 @@ void UnitProxy::set_input_update(core::InputUpdate update) {
 
 // ---- States ----
 
-void UnitProxy::save_state() { call(Request::SaveState); }
+void UnitProxy::save_state() {
+  call(Request::SaveState, [&](MessageWriter& to) { put_time(to, time_); });
+}
 
-void UnitProxy::restore_state() { call(Request::RestoreState); }
+/// A process that is taken back knows the plans of its time only.
+void UnitProxy::restore_state() {
+  if (recipe_.has_snapshots()) plans_.forget();
+  call(Request::RestoreState, [&](MessageWriter& to) { put_time(to, time_); });
+}
 
 void UnitProxy::select_state(std::size_t slot) {
   call(Request::SelectState, [&](MessageWriter& to) { to.put(slot); });

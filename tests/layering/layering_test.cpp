@@ -20,7 +20,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"master/core", {"stride/time.h", "fmt", "Eigen"}},
     {"master/xml", {"master/core", "fmt", "tinyxml2.h"}},
     {"master/archive", {"master/core", "fmt", "archive.h", "archive_entry.h"}},
-    {"master/process", {"linux", "seccomp.h"}},
+    {"master/process", {"dirent.h", "linux", "sched.h", "seccomp.h"}},
     {"master/fmi", {"stride", "master/core", "master/xml", "master/archive", "fmt"}},
     {"master/host",
      {"stride/time.h", "master/core", "master/archive", "master/fmi", "master/process", "fmt"}},
@@ -48,11 +48,12 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"units/environment", {"stride"}},
     {"units/ground_truth", {"stride", "units/xml"}},
     {"units/player", {"stride"}},
+    {"units/process", {"stride", "units/xml"}},
 };
 
 /// The libraries among the units are installed, and included as a user sees them.
 std::string without_installed_name(const std::string& header) {
-  for (const std::string library : {"nfc/", "systemc/"}) {
+  for (const std::string library : {"nfc/", "process/", "systemc/"}) {
     if (header.rfind("stride/" + library, 0) == 0) return "units/" + header.substr(7);
   }
   return header;
@@ -75,9 +76,9 @@ bool begins_with(const std::string& header, const std::string& allowed) {
 
 /// Standard headers have no dot and no slash; the system's are those of POSIX and Linux.
 bool is_system(const std::string& header) {
-  static const std::set<std::string> kPosix = {"dlfcn.h",   "unistd.h", "fcntl.h",
-                                               "fnmatch.h", "poll.h",   "pthread.h",
-                                               "stdbool.h", "stddef.h", "stdint.h"};
+  static const std::set<std::string> kPosix = {"dlfcn.h",  "unistd.h",  "fcntl.h", "fnmatch.h",
+                                               "poll.h",   "pthread.h", "sched.h", "stdbool.h",
+                                               "stddef.h", "stdint.h"};
   const bool standard = header.find_first_of("./") == std::string::npos;
   return (standard && header != "systemc") || kPosix.count(header) != 0 ||
          begins_with(header, "sys") || begins_with(header, "linux");
