@@ -1,5 +1,6 @@
 // Units that harm their processes, or those around them: exit code 1, an error that says what
 // happened, complete results up to there, and nothing left behind.
+#include <algorithm>
 #include <csignal>
 #include <functional>
 #include <utility>
@@ -14,12 +15,19 @@ using Catch::Matchers::Contains;
 
 namespace {
 
+constexpr const char* kAllHosted = "<stride:Host components=\"*\"/>\n";
+
 /// Two units, each in a process of its own; 1 s in steps of 1 ms.
+Parts parts_beside_a_filter(const std::string& faulty = "faulty",
+                            const std::string& source = "faulty.fmu",
+                            const std::string& hosts = kAllHosted) {
+  return {component("filter", "minimal.fmu") + component(faulty, source), "", hosts};
+}
+
 Workspace beside_a_filter(const std::string& faulty = "faulty",
                           const std::string& source = "faulty.fmu",
-                          const std::string& hosts = "<stride:Host components=\"*\"/>\n") {
-  return Workspace(
-      Parts{component("filter", "minimal.fmu") + component(faulty, source), "", hosts});
+                          const std::string& hosts = kAllHosted) {
+  return Workspace(parts_beside_a_filter(faulty, source, hosts));
 }
 
 Arguments does(const std::string& fault, Arguments further = {}) {
@@ -188,14 +196,22 @@ TEST_CASE("a unit that kills its parent kills itself") {
 
 namespace {
 
+/// Two units that may stop early and have no state: one of them is saved before each step.
+Parts two_that_stop() {
+  return {component("a", "early_without_state.fmu") + component("b", "early_without_state.fmu")};
+}
+
 /// A run that takes hours, and those who come from it.
 struct LongRun {
   Leftovers leftovers;
-  Workspace workspace = beside_a_filter();
+  Workspace workspace;
   Process process{stride_command(Workspace::run_arguments({"--stop", "1e6", "--no-trace"})),
                   workspace.scratch().path()};
 
-  LongRun() { await_first_results(process, workspace); }
+  LongRun() : LongRun(parts_beside_a_filter()) {}
+  explicit LongRun(const Parts& parts) : workspace(parts) {
+    await_first_results(process, workspace);
+  }
 
   void kill_one_of(const std::string& name) const {
     const std::vector<pid_t> found = leftovers.processes(name);
@@ -225,6 +241,19 @@ TEST_CASE("a keeper that is killed from outside") {
 TEST_CASE("nothing stays of a run that is killed") {
   LongRun run;
   CHECK(run.leftovers.processes().size() == 5);
+  run.process.send(SIGKILL);
+  CHECK(run.process.wait().exit_code == -SIGKILL);
+  CHECK(run.leftovers.after_a_while() == std::vector<std::string>{});
+  CHECK(run.workspace.left_behind().empty());
+}
+
+TEST_CASE("nor of one with snapshots") {
+  LongRun run(two_that_stop());
+  CHECK(run.leftovers.processes("stride-keeper").size() == 1);
+  std::size_t most = 0;  // one snapshot goes when another one has come
+  for (int i = 0; i < 1000 && most < 4; ++i)
+    most = std::max(most, run.leftovers.processes().size());
+  CHECK(most >= 4);
   run.process.send(SIGKILL);
   CHECK(run.process.wait().exit_code == -SIGKILL);
   CHECK(run.leftovers.after_a_while() == std::vector<std::string>{});

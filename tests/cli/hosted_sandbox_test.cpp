@@ -79,6 +79,15 @@ TEST_CASE("a unit writes among the run's results") {
   CHECK(workspace.result("notes.txt") == "written\n");
 }
 
+TEST_CASE("a unit has a temporary folder, which goes with it") {
+  const Workspace workspace = with_a_filter();
+  const Outcome outcome =
+      workspace.run(isolated({"--quiet", "--set", "faulty.fault=write temporary"}));
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK(workspace.left_behind().empty());
+}
+
 TEST_CASE("elsewhere it cannot write, and the error says how to find out") {
   if (lacks_landlock()) return;
   const Workspace workspace = with_a_filter();

@@ -106,6 +106,13 @@ void overwrite_shared_memory() {
   }
 }
 
+void write_temporary() {
+  std::string name = std::string(std::getenv("TMPDIR")) + "/notes-XXXXXX";
+  const int file = ::mkstemp(name.data());
+  if (file < 0) fail("cannot make " + name);
+  ::close(file);
+}
+
 void connect() {
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
   if (socket < 0) fail("cannot make a socket");
@@ -130,6 +137,7 @@ const std::map<std::string, std::function<void()>> kFaults{
     {"daemon", start_daemon},
     {"overwrite", overwrite_shared_memory},
     {"connect", connect},
+    {"write temporary", write_temporary},
 };
 
 class Faulty : public stride::Unit {
