@@ -56,9 +56,10 @@ spdlog::level::level_enum level(fmi::Status status) {
   }
 }
 
-void log_message(const std::string& unit, fmi::Status status, const std::string&,
+void log_message(const std::string& unit, fmi::Status status, const std::string& category,
                  const std::string& message) {
-  spdlog::log(level(status), "unit '{}': {}", unit, message);
+  spdlog::log(level(status), "unit '{}'{}: {}", unit, category == host::kPrinted ? " printed" : "",
+              message);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
-// What the way to a unit costs: nanoseconds per step of a unit with one input and one output, in
-// this process, in a process of its own, and there with a snapshot before each step; and what such
-// a snapshot costs beside a bare fork of a process of the same size. All in turn within each
-// iteration, so that a machine that changes its speed changes it for all. What counts are the
-// ratios and the differences.
+// What the way to a unit costs: nanoseconds per step of an integrator with one input and one
+// output, in this process, in a process of its own, there with a snapshot before each step, and
+// through the pipe of the unit `process`; and what a snapshot costs beside a bare fork of a process
+// of the same size. All in turn within each iteration, so that a machine that changes its speed
+// changes it for all. What counts are the ratios and the differences.
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
@@ -78,7 +78,14 @@ std::shared_ptr<fmi::Fmu> integrator() {
   return fmu;
 }
 
-Stepped in_process() { return {*integrator()->description(), integrator()->instantiate("unit")}; }
+Stepped in_process(const std::shared_ptr<fmi::Fmu>& fmu) {
+  return {*fmu->description(), fmu->instantiate("unit")};
+}
+
+Stepped piped() {
+  static const auto fmu = fmi::Fmu::load(STRIDE_TEST_FMU_DIR "/integrator.fmu");
+  return in_process(fmu);
+}
 
 Stepped hosted() {
   host::HostOptions options;
@@ -88,27 +95,31 @@ Stepped hosted() {
 
 void transport(benchmark::State& state) {
   const int steps = static_cast<int>(state.range(0));
-  const int snapshots = std::max(1, steps / 100);
+  const int snapshots = std::max(1, steps / 100);  // and steps through the pipe
   Stepped other = hosted();  // before this process has loaded the unit's library
   Stepped snapshotted = hosted();
-  Stepped near = in_process();
-  double near_seconds = 0, other_seconds = 0, snapshot_seconds = 0;
+  Stepped near = in_process(integrator());
+  Stepped pipe = piped();
+  double near_seconds = 0, other_seconds = 0, snapshot_seconds = 0, pipe_seconds = 0;
   for (auto _ : state) {
     near_seconds += near.steps(steps);
     const double mine = other.steps(steps);
     other_seconds += mine;
     snapshot_seconds += snapshotted.steps(snapshots, true);
+    pipe_seconds += pipe.steps(snapshots);
     state.SetIterationTime(mine);
   }
   const double all = static_cast<double>(state.iterations()) * steps;
+  const double few = static_cast<double>(state.iterations()) * snapshots;
   const double near_ns = 1e9 * near_seconds / all;
   const double hosted_ns = 1e9 * other_seconds / all;
   state.counters["in_process_ns"] = near_ns;
   state.counters["hosted_ns"] = hosted_ns;
   state.counters["hosted_more_ns"] = hosted_ns - near_ns;
   state.counters["hosted_ratio"] = hosted_ns / near_ns;
-  state.counters["snapshot_ns"] =
-      1e9 * snapshot_seconds / (static_cast<double>(state.iterations()) * snapshots);
+  state.counters["snapshot_ns"] = 1e9 * snapshot_seconds / few;
+  state.counters["pipe_ns"] = 1e9 * pipe_seconds / few;
+  state.counters["pipe_ratio"] = 1e9 * pipe_seconds / few / near_ns;
 }
 
 /// Seconds from the fork to the end of a child that does nothing.
