@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr unsigned kSystems = kSanitized ? 4 : 40;
+constexpr unsigned kSystems = kSanitized ? 4 : 20;
 constexpr Duration kStep = 1ms;
 constexpr Time kStop{kSanitized ? 20ms : 50ms};
 
@@ -53,21 +53,25 @@ std::set<std::string> some_of(const Assembly& system, unsigned seed) {
   return chosen;
 }
 
-/// The same system of units that do the same, and all have a state, or have none where there is
-/// such a variant; and one more that may return early and has none in either case. That one needs
-/// no snapshot, so all others stand in the same places of the step order whether they have states
-/// or snapshots, and agree on the same instants.
-Assembly of_units(const Assembly& system, bool with_states) {
-  static const std::string kWithoutState = "_without_state";
-  static const std::set<std::string> kVaried = {"early", "rejecter"};
+/// Units that there are with a state and without.
+bool is_varied(const core::ComponentDeclaration& component, const std::string& unit) {
+  const std::string& name = component.description->model_identifier;
+  return name == unit || name == unit + "_without_state";
+}
+
+/// The same system, of which these components have no state, as far as there is such a unit, and
+/// the others have one.
+template <class IsStateless>
+Assembly with_states(const Assembly& system, IsStateless&& is_stateless) {
   Assembly other;
   for (const auto& component : system.declaration().components) {
     std::string unit = component.description->model_identifier;
-    if (const auto end = unit.find(kWithoutState); end != std::string::npos) unit.erase(end);
-    if (!with_states && kVaried.count(unit) > 0) unit += kWithoutState;
+    for (const std::string varied : {"early", "rejecter"}) {
+      if (!is_varied(component, varied)) continue;
+      unit = is_stateless(component.name) ? varied + "_without_state" : varied;
+    }
     other.add(component.name, unit);
   }
-  other.add("last", "early" + kWithoutState, {{"instants", "0.0012 0.0171 0.017 1 1 1 1 1"}});
   for (const auto& wire : system.declaration().connections) {
     other.wire(wire.from_component + "." + wire.from_connector,
                wire.to_component + "." + wire.to_connector);
@@ -76,6 +80,20 @@ Assembly of_units(const Assembly& system, bool with_states) {
     other.set(start.component + "." + start.variable, start.value);
   }
   return other;
+}
+
+Assembly without_states(const Assembly& system) {
+  return with_states(system, [](const std::string&) { return true; });
+}
+
+/// Of the units without a state, the one that needs no snapshots: see core::step_order().
+std::string final_unit(const Assembly& system) {
+  for (const std::string unit : {"early", "rejecter"}) {
+    for (const auto& component : system.declaration().components) {
+      if (is_varied(component, unit)) return component.name;
+    }
+  }
+  return "";
 }
 
 std::set<std::string> without_state_in(const Assembly& system) {
@@ -132,24 +150,25 @@ TEST_CASE("snapshots are as good as states") {
   std::uint64_t snapshots = 0, restores = 0;
   for (unsigned seed = 0, compared = 0; compared < kSystems / 4; ++seed) {
     const Assembly system = random_system(seed, Wiring::Continuous);
-    const Assembly varied = of_units(system, false);
-    std::set<std::string> names = without_state_in(varied);
-    names.erase("last");
-    if (names.size() < 2 || names.size() > 4) continue;
+    const Assembly varied = without_states(system);
+    const std::set<std::string> names = without_state_in(varied);
+    if (names.size() < 2) continue;
     ++compared;
     INFO("seed " << seed << "\n" << varied.text());
     const Results results = run(varied.hosted(names, true), kStep, kStop);
-    check_same_bytes(results, run(of_units(system, true), kStep, kStop));
+    const auto is_final = [final = final_unit(system)](const std::string& name) {
+      return name == final;
+    };
+    check_same_bytes(results, run(with_states(system, is_final), kStep, kStop));
     for (const std::string& name : names) {
       const auto& host = results.units.at(name).host;
       REQUIRE(host);
       CHECK(host->snapshots == results.units.at(name).saves);
-      CHECK(host->most_snapshots == 1);
       snapshots += host->snapshots;
       restores += host->restores;
     }
   }
-  CHECK(snapshots > 50 * kSystems);
+  CHECK(snapshots > 20 * kSystems);
   CHECK(restores > 5 * kSystems);
 }
 
@@ -158,13 +177,14 @@ TEST_CASE("an error controls the steps of units that have no state") {
   std::uint64_t undone = 0;
   for (unsigned seed = 0, compared = 0; compared < kSystems / 10 + 1; ++seed) {
     const Assembly system = random_system(seed, Wiring::Continuous);
-    const Assembly varied = of_units(system, false);
+    if (!without_state_in(system).empty()) continue;
+    const Assembly varied = without_states(system);
     const std::set<std::string> names = without_state_in(varied);
-    if (names.size() < 2 || names.size() > 4) continue;
+    if (names.empty()) continue;
     ++compared;
     INFO("seed " << seed << "\n" << varied.text());
     const Results results = run(varied.hosted(names, true), options);
-    check_same_bytes(results, run(of_units(system, true).hosted({"last"}, true), options));
+    check_same_bytes(results, run(system, options));
     undone += results.statistics.undone_steps;
   }
   CHECK(undone > 0);
