@@ -18,15 +18,23 @@ constexpr std::size_t kAnswers = 1;
 #endif
 
 Arguments options() {
-  Arguments arguments = without_judge("nfc_pipe");
+  Arguments arguments = {"--set", "sensor.trace.file=sensor.vcd", "--set",
+                         "sensor.trace.signals=recData DataUCToTrm Charge awake"};
+  for (const std::string& word : without_judge("nfc_pipe")) arguments.push_back(word);
   for (const char* word : {"--stop", kStop, "--no-trace", "--no-idle-skip"})
     arguments.push_back(word);
   return arguments;
 }
 
+/// The file without its head, in which is the date.
+std::string changes(const ScenarioRun& run) {
+  const std::string text = text_of(run.file("sensor.vcd"));
+  return text.substr(text.find("$enddefinitions"));
+}
+
 }  // namespace
 
-TEST_CASE("nfc_pipe: the same frames at the same instants, and the same values") {
+TEST_CASE("nfc_pipe: the same frames at the same instants, the same values, and the same trace") {
   const ScenarioRun piped("nfc_pipe", options());
   const ScenarioRun in_process("nfc_approach", options());
   const auto sent = piped.payloads("sensor", "transmit.frame", "sent");
@@ -39,4 +47,6 @@ TEST_CASE("nfc_pipe: the same frames at the same instants, and the same values")
       text_of(piped.file("signals.csv")) == text_of(in_process.file("signals.csv"));
   CHECK(same_events);
   CHECK(same_signals);
+  const bool same_traces = changes(piped) == changes(in_process);
+  CHECK(same_traces);
 }

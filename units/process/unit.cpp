@@ -1,6 +1,7 @@
 // A program as an FMU. Its variable table comes from the declaration in its resources.
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -22,6 +23,12 @@ using process::Variable;
 
 bool is_message(const Variable& variable) {
   return variable.role == Role::MessageInput || variable.role == Role::MessageOutput;
+}
+
+/// Among the run's other results, if the importer has told where they are.
+std::filesystem::path result_file(const std::string& name) {
+  const char* const folder = std::getenv("STRIDE_RESULTS");
+  return (folder != nullptr ? folder : std::filesystem::current_path()) / name;
 }
 
 std::vector<Value> start_values(const process::Declaration& declaration) {
@@ -64,7 +71,9 @@ class ProcessUnit : public stride::Unit {
         [this](bool is_warning, const std::string& text) {
           log(is_warning ? stride::Severity::Warning : stride::Severity::Info, text);
         });
-    sync_ = session_->start(opening_, start);
+    process::Opening opening = opening_;
+    if (!opening.trace_file.empty()) opening.trace_file = result_file(opening.trace_file).string();
+    sync_ = session_->start(opening, start);
     beginning_ = beginning;
   }
 
@@ -168,7 +177,8 @@ class ProcessUnit : public stride::Unit {
     parameter("process.answer_limit", answer_limit_)
         .description("how many bytes it may write until it has answered");
     if (!declaration_.has_trace) return;
-    parameter("trace.file", opening_.trace_file).description("file of a trace; none if empty");
+    parameter("trace.file", opening_.trace_file)
+        .description("file of a trace, in the results folder; none if empty");
     parameter("trace.signals", opening_.trace_signals)
         .description("which signals: patterns with * and ?, separated by spaces");
   }
