@@ -40,10 +40,10 @@ process::Descriptor watch_children() {
 }
 
 /// Those that are its own, and those whose parents have ended.
-std::vector<pid_t> children(pid_t active) {
+std::vector<pid_t> children() {
   const std::string self = std::to_string(::getpid());
   std::ifstream file("/proc/self/task/" + self + "/children");
-  if (!file) return active > 0 ? std::vector{active} : std::vector<pid_t>{};
+  if (!file) ::kill(0, SIGKILL);  // without /proc: the whole group, this one with it
   std::vector<pid_t> found;
   for (pid_t child = 0; file >> child;) found.push_back(child);
   return found;
@@ -75,8 +75,7 @@ class Keeper {
   /// Those of them that have children of their own leave these to this process.
   void kill_children() {
     for (;;) {
-      const std::vector<pid_t> found =
-          children(channel_.end == End::None ? channel_.active.load() : 0);
+      const std::vector<pid_t> found = children();
       if (found.empty()) return;
       for (const pid_t child : found) {
         ::kill(child, SIGKILL);

@@ -1,8 +1,8 @@
 #include "master/process/shared_memory.h"
 
-#include <algorithm>
-#include <bit>
 #include <cerrno>
+#include <fstream>
+#include <string>
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -18,6 +18,24 @@ void* map_shared(int file, std::size_t size) {
   if (data == MAP_FAILED) fail("mmap");
   return data;
 }
+
+/// [byte]
+std::size_t available_memory() {
+  std::ifstream file("/proc/meminfo");
+  for (std::string name; file >> name;) {
+    std::size_t kibibytes = 0;
+    if (name == "MemAvailable:" && file >> kibibytes) return kibibytes * 1024;
+  }
+  return static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES) / 4 * ::sysconf(_SC_PAGESIZE));
+}
+
+[[noreturn]] void fail_with(int error) {
+  errno = error;
+  fail("no shared memory");
+}
+
+/// What is grown by.
+constexpr std::size_t kPiece = std::size_t{1} << 16;
 
 }  // namespace
 
@@ -40,16 +58,15 @@ GrowingMemory::~GrowingMemory() {
 
 void GrowingMemory::grow(std::size_t size) {
   if (size <= size_) return;
-  const std::size_t more = std::bit_ceil(size);
+  // the kernel would go on until it has killed everybody else
+  if (size - size_ > available_memory()) fail_with(ENOMEM);
+  const std::size_t more = (size + kPiece - 1) / kPiece * kPiece;
   // not ftruncate: memory that is lacking is an error here, and not a SIGBUS later
   int error = 0;
   do {
     error = ::posix_fallocate(file_.number(), 0, static_cast<off_t>(more));
   } while (error == EINTR);
-  if (error != 0) {
-    errno = error;
-    fail("no shared memory");
-  }
+  if (error != 0) fail_with(error);
   map(more);
 }
 

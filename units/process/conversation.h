@@ -81,7 +81,7 @@ class Conversation {
   std::string_view line_;
   std::uint64_t line_number_ = 0;
   std::uint64_t answered_ = 0;  ///< [byte] of this answer
-  Clock::time_point heard_{};
+  Clock::time_point heard_ = Clock::now();
 
   std::string error_line_;
   std::deque<std::string> last_errors_;

@@ -1,6 +1,7 @@
 // A program as an FMU. Its variable table comes from the declaration in its resources.
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -24,6 +25,12 @@ bool is_message(const Variable& variable) {
   return variable.role == Role::MessageInput || variable.role == Role::MessageOutput;
 }
 
+/// Among the run's other results, if the importer has told where they are.
+std::filesystem::path result_file(const std::string& name) {
+  const char* const folder = std::getenv("STRIDE_RESULTS");
+  return (folder != nullptr ? folder : std::filesystem::current_path()) / name;
+}
+
 std::vector<Value> start_values(const process::Declaration& declaration) {
   std::vector<Value> values;
   for (const Variable& variable : declaration.variables) values.push_back(variable.start);
@@ -35,8 +42,8 @@ std::vector<Value> start_values(const process::Declaration& declaration) {
 class ProcessUnit : public stride::Unit {
  public:
   explicit ProcessUnit(const stride::Setup& setup)
-      : resources_(std::filesystem::absolute(setup.resources)),
-        declaration_(process::load_declaration(setup.resources)),
+      : declaration_(process::load_declaration(setup.resources)),
+        resources_(std::filesystem::absolute(setup.resources)),
         values_(start_values(declaration_)),
         clocks_(values_.size()) {
     opening_.instance_name = setup.instance_name;
@@ -64,7 +71,9 @@ class ProcessUnit : public stride::Unit {
         [this](bool is_warning, const std::string& text) {
           log(is_warning ? stride::Severity::Warning : stride::Severity::Info, text);
         });
-    sync_ = session_->start(opening_, start);
+    process::Opening opening = opening_;
+    if (!opening.trace_file.empty()) opening.trace_file = result_file(opening.trace_file).string();
+    sync_ = session_->start(opening, start);
     beginning_ = beginning;
   }
 
@@ -168,7 +177,8 @@ class ProcessUnit : public stride::Unit {
     parameter("process.answer_limit", answer_limit_)
         .description("how many bytes it may write until it has answered");
     if (!declaration_.has_trace) return;
-    parameter("trace.file", opening_.trace_file).description("file of a trace; none if empty");
+    parameter("trace.file", opening_.trace_file)
+        .description("file of a trace, in the results folder; none if empty");
     parameter("trace.signals", opening_.trace_signals)
         .description("which signals: patterns with * and ?, separated by spaces");
   }
@@ -223,8 +233,8 @@ class ProcessUnit : public stride::Unit {
     }
   }
 
-  std::filesystem::path resources_;
   process::Declaration declaration_;
+  std::filesystem::path resources_;
   std::vector<Value> values_;                           ///< whose alternatives stay what they are
   std::vector<std::unique_ptr<stride::Clock>> clocks_;  ///< of messages
   process::Opening opening_{"", "", "", "*"};
