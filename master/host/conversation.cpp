@@ -99,7 +99,7 @@ core::HostStatistics Conversation::statistics() const {
 }
 
 void Conversation::finish() {
-  process_.finish();
+  process_.finish([&] { take_lines(); });
   take_lines();
 }
 

@@ -102,10 +102,13 @@ void Server::serve() {
     handle(requested(), in, out);
   } catch (const CallbackFailure&) {
     what = Reply::CallbackFailed;
-  } catch (const std::exception& error) {
+  } catch (const core::Error& error) {
     fail(error);
+  } catch (const std::exception& error) {
+    fail(core::Error(core::Error::Kind::Run, context(), origin() + error.what()));
   } catch (...) {
-    fail(std::runtime_error("something was thrown that is no std::exception"));
+    fail(core::Error(core::Error::Kind::Run, context(),
+                     origin() + "something was thrown that is no std::exception"));
   }
   reply(what, out);
 }
@@ -129,8 +132,8 @@ void Server::handle(Request request, MessageReader& in, MessageWriter& out) {
     case Request::ExitConfigurationMode:
       return unit_->exit_configuration_mode();
     case Request::EnterInitialization: {
-      const Time start = take_time(in).value();
-      return unit_->enter_initialization(start, take_time(in));
+      time_ = take_time(in).value();
+      return unit_->enter_initialization(*time_, take_time(in));
     }
     case Request::ExitInitialization:
       return unit_->exit_initialization();
@@ -192,7 +195,13 @@ void Server::handle(Request request, MessageReader& in, MessageWriter& out) {
 }
 
 core::Context Server::context() const {
-  return {.where = recipe_.options.where, .unit = recipe_.name};
+  return {.where = recipe_.options.where, .unit = recipe_.name, .variable = {}, .time = time_};
+}
+
+/// Of an exception that has crossed the unit's interface, which none may; nothing otherwise.
+std::string Server::origin() const {
+  const std::string function = memory_.call_note.read();
+  return function.empty() ? "" : function + " let an exception out: ";
 }
 
 // ---- Life and death ----
@@ -257,7 +266,9 @@ void Server::step(MessageReader& in, MessageWriter& out) {
   ServedPlan& plan = plans_.at(in.take<std::uint32_t>());
   const auto interval = in.take<core::StepInterval>();
   plan.take_inputs(in);
+  time_ = interval.from;
   const core::StepResult result = unit_->step(interval, plan.values());
+  if (!result.rejected) time_ = result.reached;
   put_step(out, result);
   if (result.rejected) {
     out.put(unit_->rejection_reason());

@@ -72,6 +72,7 @@ class Server {
 
   Request requested() const;
   core::Context context() const;
+  std::string origin() const;
 
   Channel& channel_;
   ChannelMemory& memory_;
@@ -83,6 +84,7 @@ class Server {
   std::uint64_t undone_calls_ = 0;      ///< of functions of the unit, by processes taken back
   std::unique_ptr<core::Unit> unit_;
   std::array<ServedPlan, ToldPlans::kMost> plans_;
+  std::optional<Time> time_;  ///< where the unit stands
   bool is_over_ = false;
 };
 

@@ -11,7 +11,8 @@ namespace {
 /// Of the components in run.json, those with processes of their own.
 std::vector<std::string> hosted(const Workspace& workspace) {
   std::vector<std::string> names;
-  for (const auto& unit : nlohmann::json::parse(workspace.result("run.json"))["units"]) {
+  const auto run = nlohmann::json::parse(workspace.result("run.json"));
+  for (const auto& unit : run["units"]) {
     if (unit.contains("host")) names.push_back(unit["name"]);
   }
   return names;
@@ -195,7 +196,7 @@ TEST_CASE("what a unit logs looks the same from there") {
 TEST_CASE("a unit that fails says the same from there") {
   const Workspace workspace(
       Parts{component("filter", "minimal.fmu") + component("fuse", "thrower.fmu")});
-  const Arguments options{"--set", "fuse.throw_at=0.5"};
+  const Arguments options{"--quiet", "--set", "fuse.throw_at=0.5"};
   const Outcome near = workspace.run(options);
   CHECK(near.exit_code == 1);
   CHECK_THAT(near.err, Contains("the fuse has blown"));

@@ -46,7 +46,8 @@ Arguments with(Arguments arguments, const Arguments& further) {
 
 std::size_t hosted_units(const ScenarioRun& run) {
   std::size_t count = 0;
-  for (const auto& unit : nlohmann::json::parse(text_of(run.file("run.json")))["units"]) {
+  const auto json = nlohmann::json::parse(text_of(run.file("run.json")));
+  for (const auto& unit : json["units"]) {
     count += unit.contains("host");
   }
   return count;

@@ -101,9 +101,16 @@ void overwrite_shared_memory() {
     unsigned long begin = 0, end = 0;
     char mode[5] = "";
     if (std::sscanf(line.c_str(), "%lx-%lx %4s", &begin, &end, mode) != 3) continue;
-    if (std::string(mode) != "rw-s" || line.find("memfd:") == std::string::npos) continue;
+    if (std::string(mode) != "rw-s") continue;
     std::memset(reinterpret_cast<void*>(begin), 0xee, end - begin);
   }
+}
+
+void write_temporary() {
+  std::string name = std::string(std::getenv("TMPDIR")) + "/notes-XXXXXX";
+  const int file = ::mkstemp(name.data());
+  if (file < 0) fail("cannot make " + name);
+  ::close(file);
 }
 
 void connect() {
@@ -126,10 +133,15 @@ const std::map<std::string, std::function<void()>> kFaults{
     {"kill parent", kill_parent},
     {"allocate", allocate},
     {"print", print},
+    {"print for ever",
+     [] {
+       for (;;) print();
+     }},
     {"close files", close_all_files},
     {"daemon", start_daemon},
     {"overwrite", overwrite_shared_memory},
     {"connect", connect},
+    {"write temporary", write_temporary},
 };
 
 class Faulty : public stride::Unit {
@@ -142,11 +154,14 @@ class Faulty : public stride::Unit {
     parameter("call", call_).description("in which call: initialize, step, event or terminate");
     parameter("at", at_).unit("s").description("the first end of a step at which it does so");
     parameter("file", file_).description("a file that it writes instead");
-    state();
+    state(has_acted_);
     if (setup.instance_name == "dies_at_birth") std::abort();
   }
 
-  void initialize(stride::Time) override { act("initialize", stride::Time::max()); }
+  void initialize(stride::Time) override {
+    has_acted_ = false;
+    act("initialize", stride::Time::max());
+  }
   void step(stride::Step& step) override {
     y_ += u_ * stride::to_seconds(step.size());
     act("step", step.to());
@@ -161,8 +176,9 @@ class Faulty : public stride::Unit {
     return names;
   }
 
-  void act(const std::string& call, stride::Time now) const {
-    if (call != call_ || now < stride::time_from_seconds(at_)) return;
+  void act(const std::string& call, stride::Time now) {
+    if (call != call_ || now < stride::time_from_seconds(at_) || has_acted_) return;
+    has_acted_ = true;
     if (!file_.empty()) write_file();
     if (fault_.empty()) return;
     std::fprintf(stderr, "now comes: %s\n", fault_.c_str());
@@ -182,6 +198,7 @@ class Faulty : public stride::Unit {
   std::string call_ = "step";
   double at_ = 0;
   std::string file_;
+  bool has_acted_ = false;
 };
 
 }  // namespace
