@@ -64,8 +64,8 @@ class ProcessUnit : public stride::Unit {
     beginning_.reset();
     announced_.reset();
     has_told_late_ = false;
-    const process::Limits limits{std::chrono::milliseconds(std::llround(time_limit_ * 1e3)),
-                                 answer_limit_};
+    const process::Limits limits{
+        std::chrono::milliseconds(std::llround(std::ceil(time_limit_ * 1e3))), answer_limit_};
     session_ = std::make_unique<process::Session>(
         declaration_, values_, process::command_line(declaration_, resources_, program_), limits,
         [this](bool is_warning, const std::string& text) {
