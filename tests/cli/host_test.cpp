@@ -217,6 +217,15 @@ TEST_CASE("what a unit receives there is captured all the same") {
   CHECK(read(workspace / "stimuli.csv") == stimuli);
 }
 
+TEST_CASE("a unit of which there can be one per process has several") {
+  const Workspace workspace(Parts{component("a", "single.fmu") + component("b", "single.fmu")});
+  CHECK_THAT(input_error_of(workspace.run()),
+             Contains("can be instantiated only once per process") &&
+                 Contains("<stride:Host components=\"b\"/>"));
+  CHECK(hosted(workspace, {"--isolate=b", "--stop", "0.01"}) == Names{"b"});
+  CHECK(hosted(workspace, {"--isolate", "--stop", "0.01"}) == Names{"a", "b"});
+}
+
 TEST_CASE("a unit that cannot be instantiated is named from there, too") {
   const Workspace workspace(Parts{component("unit", "raw_without_do_step")});
   make_raw_fmu(workspace.scratch(), "raw_without_do_step");
