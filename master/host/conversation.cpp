@@ -15,8 +15,6 @@ using namespace std::chrono_literals;
 
 /// How often is looked whether the keeper is still there.
 constexpr std::chrono::milliseconds kLook{50};
-/// For a process whose unit is destroyed.
-constexpr std::chrono::seconds kPatienceAtEnd{2};
 
 double seconds(std::chrono::milliseconds time) {
   return std::chrono::duration<double>(time).count();
@@ -101,15 +99,7 @@ core::HostStatistics Conversation::statistics() const {
 }
 
 void Conversation::finish() {
-  process::Bell& bell = channel_.memory->reply.bell;
-  const auto enough = Clock::now() + kPatienceAtEnd;
-  while (Clock::now() < enough) {  // what it has printed comes before its end
-    const std::uint32_t rings = bell.rings();
-    take_lines();
-    if (process_.look_for_end()) break;
-    bell.sleep(rings, kLook);
-  }
-  process_.finish();
+  process_.finish([&] { take_lines(); });
   take_lines();
 }
 

@@ -65,12 +65,8 @@ HostProcess::HostProcess(Channel& channel, const std::function<void(pid_t)>& ser
 
 bool HostProcess::look_for_end() {
   if (has_ended()) return true;
-  siginfo_t info{};
-  const bool is_lost =
-      ::waitid(P_PID, static_cast<id_t>(keeper_), &info, WEXITED | WNOWAIT | WNOHANG) == 0 &&
-      info.si_pid == keeper_;
-  if (!is_lost) return false;
-  ::kill(-keeper_, SIGKILL);  // the group has its number while nobody has waited for it
+  if (!is_keeper_gone()) return false;
+  ::kill(-keeper_, SIGKILL);
   is_keeper_lost_ = true;
   channel_.end = End::Killed;
   channel_.end_code = SIGKILL;
@@ -84,19 +80,27 @@ void HostProcess::kill() {
   }
 }
 
-void HostProcess::finish() {
+void HostProcess::finish(const std::function<void()>& meanwhile) {
   if (keeper_ <= 0) return;
   tell(Command::Finish);
   line_.close();
-  siginfo_t info{};
-  while (::waitid(P_PID, static_cast<id_t>(keeper_), &info, WEXITED | WNOWAIT) < 0 &&
-         errno == EINTR) {
+  while (!is_keeper_gone()) {
+    const std::uint32_t rings = channel_.reply.bell.rings();
+    meanwhile();
+    channel_.reply.bell.sleep(rings, 1ms);
   }
   ::kill(-keeper_, SIGKILL);  // in vain, unless something has ended the keeper
   int status = 0;
   while (::waitpid(keeper_, &status, 0) < 0 && errno == EINTR) {
   }
   keeper_ = 0;
+}
+
+/// Nobody has waited for it yet, so its group has its number.
+bool HostProcess::is_keeper_gone() const {
+  siginfo_t info{};
+  const int options = WEXITED | WNOWAIT | WNOHANG;
+  return ::waitid(P_PID, static_cast<id_t>(keeper_), &info, options) == 0 && info.si_pid == keeper_;
 }
 
 void HostProcess::tell(Command command) const {

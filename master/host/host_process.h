@@ -19,7 +19,9 @@ class HostProcess {
   /// Forks. `serve` is called in the unit's process, with the process id of its parent; that
   /// process ends when it returns. Throws std::system_error if there can be no process.
   HostProcess(Channel& channel, const std::function<void(pid_t)>& serve);
-  ~HostProcess() { finish(); }
+  ~HostProcess() {
+    finish([] {});
+  }
   HostProcess(const HostProcess&) = delete;
   HostProcess& operator=(const HostProcess&) = delete;
 
@@ -29,14 +31,16 @@ class HostProcess {
   bool look_for_end();
   /// Ends the unit's process.
   void kill();
-  /// Ends everything and waits for it.
-  void finish();
+  /// Ends everything and waits for it; calls `meanwhile` again and again, which may read what is
+  /// printed.
+  void finish(const std::function<void()>& meanwhile);
 
   /// "its process was killed by SIGSEGV (signal 11)"
   std::string how_it_ended() const;
 
  private:
   void tell(Command command) const;
+  bool is_keeper_gone() const;
 
   ChannelMemory& channel_;
   process::Descriptor line_;

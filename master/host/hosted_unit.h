@@ -28,13 +28,16 @@ struct HostOptions {
   bool takes_snapshots = false;
 };
 
-/// Makes an instance in a process of its own: its library is loaded there and nowhere else. It
-/// behaves as one of fmu->instantiate(), with the same errors; beyond those, a call of a unit whose
-/// process ends, or which takes longer than its limit, throws core::Error of the kind Run with the
-/// call, the simulated time, how the process ended and what the unit said last, and so does each
-/// call after it but terminate(), which does nothing then. `options.patience` is also how long a
-/// call may take before the log says so. Nothing of the process stays when the unit is destroyed,
-/// or when this process ends, however it does.
+/// Makes an instance in a process of its own: its library is loaded there and nowhere else, but for
+/// a bare one, which is asked for its description here (fmi::Fmu). To be called while this process
+/// has one thread.
+///
+/// The instance behaves as one of fmu->instantiate(), with the same errors. Beyond those, a call of
+/// a unit whose process ends, or which takes longer than its limit, throws core::Error of the kind
+/// Run with the call, the simulated time, how the process ended and what the unit said last, and so
+/// does each call after it but terminate(), which does nothing then. `options.patience` is also how
+/// long a call may take before the log says so. Nothing of the process stays when the unit is
+/// destroyed, or when this process ends, however it does.
 std::unique_ptr<core::Unit> instantiate(std::shared_ptr<fmi::Fmu> fmu, const std::string& name,
                                         fmi::InstanceOptions options, HostOptions host);
 

@@ -72,13 +72,22 @@ class Keeper {
     }
   }
 
+  /// What has been printed so far, if the master makes room for it in time.
+  void pass_on_all(std::chrono::milliseconds patience) {
+    while (pass_on() && patience > 0ms) {
+      if (pending_.empty()) continue;
+      std::this_thread::sleep_for(1ms);
+      patience -= 1ms;
+    }
+  }
+
   /// Those of them that have children of their own leave these to this process.
   void kill_children() {
     for (;;) {
       const std::vector<pid_t> found = children();
       if (found.empty()) return;
+      for (const pid_t child : found) ::kill(child, SIGKILL);
       for (const pid_t child : found) {
-        ::kill(child, SIGKILL);
         int status = 0;
         rusage usage{};
         while (::wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {
@@ -97,12 +106,12 @@ class Keeper {
     ::poll(files.data(), files.size(), has_room ? -1 : kNoRoomPause);
   }
 
-  /// What the unit has printed.
-  void pass_on() {
-    if (pending_.empty()) process::drain(output_, pending_);
-    if (pending_.empty()) return;
+  /// What the unit has printed, a piece of it; returns whether there was something.
+  bool pass_on() {
+    if (pending_.empty() && !process::read_some(output_, pending_)) return false;
     pending_.erase(0, channel_.printed.write(pending_));
     channel_.reply.bell.ring();
+    return true;
   }
 
   void bury() {
@@ -120,11 +129,7 @@ class Keeper {
     raise_to(channel_.most_memory, static_cast<std::uint64_t>(usage.ru_maxrss) * 1024);
     channel_.snapshots.note_end(child);
     if (child != channel_.active || channel_.end != End::None) return;
-    for (auto patience = 100ms; patience > 0ms; patience -= 1ms) {  // what it has said comes first
-      pass_on();
-      if (pending_.empty()) break;
-      std::this_thread::sleep_for(1ms);
-    }
+    pass_on_all(100ms);  // what it has said comes first
     channel_.end_code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
     channel_.end = WIFSIGNALED(status) ? End::Killed : End::Exited;
     channel_.reply.bell.ring();
@@ -175,7 +180,11 @@ void keep(Channel& channel, process::Descriptor line, pid_t master,
   Keeper keeper(*channel.memory, std::move(line), std::move(output.read));
   const bool is_wanted = keeper.run();
   keeper.kill_children();
-  if (!is_wanted) clean_up_after(master);
+  if (is_wanted) {
+    keeper.pass_on_all(1000ms);
+  } else {
+    clean_up_after(master);
+  }
   ::_exit(0);
 }
 

@@ -81,6 +81,7 @@ void UnitProxy::call(Request request) {
 Reply UnitProxy::answer_questions(Reply reply) {
   while (reply == Reply::AskInputs) {
     const Request answer = update_inputs(conversation_->read().take<double>());
+    if (conversation_->has_failed()) return Reply::CallbackFailed;
     reply = conversation_->send(answer, conversation_->write(), time_);
   }
   return reply;

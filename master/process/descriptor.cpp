@@ -33,14 +33,24 @@ void write_all(int file, const char* data, std::size_t size) {
   }
 }
 
-void drain(Descriptor& file, std::string& text) {
+bool read_some(Descriptor& file, std::string& text) {
+  if (!file.is_open()) return false;
   std::array<char, 65536> buffer;
-  while (file.is_open()) {
-    const ssize_t size = ::read(file.number(), buffer.data(), buffer.size());
-    if (size < 0 && errno == EINTR) continue;
-    if (size < 0 && errno == EAGAIN) return;
-    if (size <= 0) return file.close();
-    text.append(buffer.data(), static_cast<std::size_t>(size));
+  ssize_t size = 0;
+  do {
+    size = ::read(file.number(), buffer.data(), buffer.size());
+  } while (size < 0 && errno == EINTR);
+  if (size < 0 && errno == EAGAIN) return false;
+  if (size <= 0) {
+    file.close();
+    return false;
+  }
+  text.append(buffer.data(), static_cast<std::size_t>(size));
+  return true;
+}
+
+void drain(Descriptor& file, std::string& text) {
+  while (read_some(file, text)) {
   }
 }
 

@@ -39,7 +39,10 @@ struct Pipe {
 /// Writes everything, or as much as somebody reads.
 void write_all(int file, const char* data, std::size_t size);
 
-/// Appends what there is to read now; closes the file at its end.
+/// Appends what there is to read now, 64 KiB at most; closes the file at its end. Returns whether
+/// there was something.
+bool read_some(Descriptor& file, std::string& text);
+/// Likewise without a limit; not for one who may write without end.
 void drain(Descriptor& file, std::string& text);
 
 }  // namespace stride::process

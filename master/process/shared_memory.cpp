@@ -85,8 +85,12 @@ void GrowingMemory::map(std::size_t size) {
   data_ = static_cast<std::byte*>(map_shared(file_.number(), size));
   if (before != nullptr) ::munmap(before, size_);
   size_ = size;
+  if (is_hidden_) hide_from_children();
 }
 
-void GrowingMemory::hide_from_children() { ::madvise(data_, size_, MADV_DONTFORK); }
+void GrowingMemory::hide_from_children() {
+  is_hidden_ = true;
+  ::madvise(data_, size_, MADV_DONTFORK);
+}
 
 }  // namespace stride::process

@@ -64,6 +64,7 @@ class GrowingMemory {
   void grow(std::size_t size);
   /// Sees at least `size` bytes, if another process has made room for them; false if none has.
   bool follow(std::size_t size);
+  /// Processes that this one forks from now on do not see it.
   void hide_from_children();
 
  private:
@@ -72,6 +73,7 @@ class GrowingMemory {
   Descriptor file_;
   std::size_t size_ = 0;
   std::byte* data_ = nullptr;
+  bool is_hidden_ = false;
 };
 
 }  // namespace stride::process

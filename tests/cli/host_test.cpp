@@ -11,7 +11,8 @@ namespace {
 /// Of the components in run.json, those with processes of their own.
 std::vector<std::string> hosted(const Workspace& workspace) {
   std::vector<std::string> names;
-  for (const auto& unit : nlohmann::json::parse(workspace.result("run.json"))["units"]) {
+  const auto run = nlohmann::json::parse(workspace.result("run.json"));
+  for (const auto& unit : run["units"]) {
     if (unit.contains("host")) names.push_back(unit["name"]);
   }
   return names;
@@ -195,7 +196,7 @@ TEST_CASE("what a unit logs looks the same from there") {
 TEST_CASE("a unit that fails says the same from there") {
   const Workspace workspace(
       Parts{component("filter", "minimal.fmu") + component("fuse", "thrower.fmu")});
-  const Arguments options{"--set", "fuse.throw_at=0.5"};
+  const Arguments options{"--quiet", "--set", "fuse.throw_at=0.5"};
   const Outcome near = workspace.run(options);
   CHECK(near.exit_code == 1);
   CHECK_THAT(near.err, Contains("the fuse has blown"));
@@ -214,6 +215,15 @@ TEST_CASE("what a unit receives there is captured all the same") {
   const std::string stimuli = read(workspace / "stimuli.csv");
   CHECK(hosted(workspace, options + Arguments{"--isolate"}) == Names{"first", "second"});
   CHECK(read(workspace / "stimuli.csv") == stimuli);
+}
+
+TEST_CASE("a unit of which there can be one per process has several") {
+  const Workspace workspace(Parts{component("a", "single.fmu") + component("b", "single.fmu")});
+  CHECK_THAT(input_error_of(workspace.run()),
+             Contains("can be instantiated only once per process") &&
+                 Contains("<stride:Host components=\"b\"/>"));
+  CHECK(hosted(workspace, {"--isolate=b", "--stop", "0.01"}) == Names{"b"});
+  CHECK(hosted(workspace, {"--isolate", "--stop", "0.01"}) == Names{"a", "b"});
 }
 
 TEST_CASE("a unit that cannot be instantiated is named from there, too") {

@@ -1,7 +1,11 @@
 // nfc_pipe: the sensor in a program of its own, behind tags on a pipe, does what the sensor does in
 // process, bit by bit.
+#include <algorithm>
+#include <filesystem>
+
 #include <catch2/catch.hpp>
 
+#include "master/fmi/fmu.h"
 #include "tests/golden/scenario_run.h"
 
 using namespace stride::tests;
@@ -33,6 +37,31 @@ std::string changes(const ScenarioRun& run) {
 }
 
 }  // namespace
+
+TEST_CASE("what is declared of the program is what the unit sensor has") {
+  const std::filesystem::path units = STRIDE_FMU_DIR;
+  const auto piped = stride::fmi::Fmu::load(units / "nfc_pipe_sensor.fmu")->description();
+  const auto sensor = stride::fmi::Fmu::load(units / "sensor.fmu")->description();
+  std::size_t count = 0;
+  for (const stride::core::Variable& variable : piped->variables) {
+    const bool is_own = variable.name.rfind("process.", 0) == 0 || variable.name == "trace.file";
+    if (is_own) continue;
+    INFO(variable.name);
+    const auto& all = sensor->variables;
+    const auto same = std::find_if(all.begin(), all.end(),
+                                   [&](const auto& other) { return other.name == variable.name; });
+    REQUIRE(same != all.end());
+    CHECK(same->type == variable.type);
+    CHECK(same->causality == variable.causality);
+    CHECK(same->variability == variable.variability);
+    CHECK(same->unit == variable.unit);
+    CHECK(same->start == variable.start);
+    CHECK(same->min == variable.min);
+    CHECK(same->max == variable.max);
+    ++count;
+  }
+  CHECK(count > 50);
+}
 
 TEST_CASE("nfc_pipe: the same frames at the same instants, the same values, and the same trace") {
   const ScenarioRun piped("nfc_pipe", options());

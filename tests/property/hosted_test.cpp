@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr unsigned kSystems = kSanitized ? 4 : 40;
+constexpr unsigned kSystems = kSanitized ? 4 : 20;
 constexpr Duration kStep = 1ms;
 constexpr Time kStop{kSanitized ? 20ms : 50ms};
 
@@ -53,13 +53,23 @@ std::set<std::string> some_of(const Assembly& system, unsigned seed) {
   return chosen;
 }
 
-/// The same system, of units that do the same and have no state.
-Assembly without_states(const Assembly& system) {
-  static const std::set<std::string> kVaried = {"early", "rejecter"};
+/// Units that there are with a state and without.
+bool is_varied(const core::ComponentDeclaration& component, const std::string& unit) {
+  const std::string& name = component.description->model_identifier;
+  return name == unit || name == unit + "_without_state";
+}
+
+/// The same system, of which these components have no state, as far as there is such a unit, and
+/// the others have one.
+template <class IsStateless>
+Assembly with_states(const Assembly& system, IsStateless&& is_stateless) {
   Assembly other;
   for (const auto& component : system.declaration().components) {
     std::string unit = component.description->model_identifier;
-    if (kVaried.count(unit) > 0) unit += "_without_state";
+    for (const std::string varied : {"early", "rejecter"}) {
+      if (!is_varied(component, varied)) continue;
+      unit = is_stateless(component.name) ? varied + "_without_state" : varied;
+    }
     other.add(component.name, unit);
   }
   for (const auto& wire : system.declaration().connections) {
@@ -70,6 +80,20 @@ Assembly without_states(const Assembly& system) {
     other.set(start.component + "." + start.variable, start.value);
   }
   return other;
+}
+
+Assembly without_states(const Assembly& system) {
+  return with_states(system, [](const std::string&) { return true; });
+}
+
+/// Of the units without a state, the one that needs no snapshots: see core::step_order().
+std::string final_unit(const Assembly& system) {
+  for (const std::string unit : {"early", "rejecter"}) {
+    for (const auto& component : system.declaration().components) {
+      if (is_varied(component, unit)) return component.name;
+    }
+  }
+  return "";
 }
 
 std::set<std::string> without_state_in(const Assembly& system) {
@@ -124,7 +148,7 @@ TEST_CASE("nor where inputs change within steps, or an error controls these") {
 
 TEST_CASE("snapshots are as good as states") {
   std::uint64_t snapshots = 0, restores = 0;
-  for (unsigned seed = 0, compared = 0; compared < kSystems / 2; ++seed) {
+  for (unsigned seed = 0, compared = 0; compared < kSystems / 4; ++seed) {
     const Assembly system = random_system(seed, Wiring::Continuous);
     const Assembly varied = without_states(system);
     const std::set<std::string> names = without_state_in(varied);
@@ -132,8 +156,10 @@ TEST_CASE("snapshots are as good as states") {
     ++compared;
     INFO("seed " << seed << "\n" << varied.text());
     const Results results = run(varied.hosted(names, true), kStep, kStop);
-    // whatever was without a state before has one here, too
-    check_same_bytes(results, run(system, kStep, kStop));
+    const auto is_final = [final = final_unit(system)](const std::string& name) {
+      return name == final;
+    };
+    check_same_bytes(results, run(with_states(system, is_final), kStep, kStop));
     for (const std::string& name : names) {
       const auto& host = results.units.at(name).host;
       REQUIRE(host);

@@ -11,6 +11,8 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <stride/process/value.h>
+
 namespace process {
 namespace {
 
@@ -38,9 +40,21 @@ ssize_t write_without_signal(int descriptor, const char* data, std::size_t size)
   return written;
 }
 
+/// What a program writes may be anything; what is told of it is text.
+std::string printable(std::string_view text) {
+  std::string result;
+  while (true) {
+    const std::size_t unfit = std::min(stride::process::first_unfit(text), text.size());
+    result.append(text.substr(0, unfit));
+    if (unfit == text.size()) return result;
+    result += "\uFFFD";
+    text.remove_prefix(unfit + 1);
+  }
+}
+
 std::string cited(std::string_view text) {
   const bool is_long = text.size() > kQuoted;
-  return "'" + std::string(text.substr(0, kQuoted)) + (is_long ? "…'" : "'");
+  return "'" + printable(text.substr(0, kQuoted)) + (is_long ? "…'" : "'");
 }
 
 std::string_view without_blanks(std::string_view text) {
@@ -191,7 +205,9 @@ bool Conversation::read_error() {
 void Conversation::hear(std::string_view text) {
   for (const char c : text) {
     if (c != '\n') error_line_ += c;
-    if (c == '\n' || error_line_.size() == kErrorLine) note_error(std::exchange(error_line_, {}));
+    if (c == '\n' || error_line_.size() == kErrorLine) {
+      note_error(printable(std::exchange(error_line_, {})));
+    }
   }
 }
 
@@ -251,7 +267,7 @@ void Conversation::fail_line(const std::string& message) const {
 void Conversation::fail(const std::string& message) const {
   std::string text = "the program '" + name_ + "' " + message;
   std::deque<std::string> lines = last_errors_;
-  if (!error_line_.empty()) lines.push_back(error_line_);
+  if (!error_line_.empty()) lines.push_back(printable(error_line_));
   if (!lines.empty()) text += "\n  its last lines on standard error:";
   for (const std::string& line : lines) text += "\n    " + line;
   throw std::runtime_error(text);

@@ -123,6 +123,7 @@ TEST_CASE("when the master is killed nothing of it is left") {
   process::SharedNote note;
   process::run_in_child([&] {
     Fixture unit("faulty");
+    const Fixture other("faulty");  // whose processes do not keep those of the first
     unit.start({{"fault", "daemon"}});
     unit.step(0, 1);
     note.write("", (std::int64_t{Fixture::keeper()} << 32) + Fixture::server());
@@ -163,6 +164,11 @@ TEST_CASE("a unit that overwrites what it shares with others harms itself only")
     CHECK(other.number("y") == 1);
   }
   CHECK(Belongings() == before);
+}
+
+TEST_CASE("a unit that prints without end is ended as any other that does not come to an end") {
+  Fixture unit("faulty", true, {.call_limit = 300ms});
+  CHECK_THAT(error_of_fault(unit, "print for ever"), Contains("it took longer than 0.3 s"));
 }
 
 #ifndef __SANITIZE_ADDRESS__  // which needs memory of its own without end

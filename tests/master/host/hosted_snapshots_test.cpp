@@ -1,100 +1,50 @@
 // Units that have no state, saved and restored as those that have one.
+#include <algorithm>
 #include <csignal>
-#include <fstream>
-#include <iterator>
-#include <sstream>
 
 #include <catch2/catch.hpp>
 
-#include "master/core/error.h"
-#include "master/fmi/fmu.h"
-#include "master/host/hosted_unit.h"
-#include "tests/master/fmi/support.h"
+#include "tests/master/host/support.h"
 
 using namespace stride;
 using namespace stride::tests;
-using namespace std::chrono_literals;
 using Catch::Contains;
 using core::ValueType;
 
 namespace {
 
-/// An instance in a process of its own, with snapshots if it has no state.
-class Hosted {
+/// In a process of its own, with snapshots if it has no state.
+class Hosted : public Fixture {
  public:
   explicit Hosted(const std::string& unit, const fs::path& writable = {})
-      : fmu_(fmi::Fmu::load(test_fmu(unit))) {
+      : Fixture(unit, true, options(writable)) {}
+
+  core::HostStatistics statistics() { return (*this)->host_statistics().value(); }
+  std::uint64_t steps() { return get("steps").numbers<std::uint64_t>()[0]; }
+
+ private:
+  static host::HostOptions options(const fs::path& writable) {
     host::HostOptions options;
     options.takes_snapshots = true;
     if (!writable.empty()) options.writable.push_back(writable);
-    unit_ = host::instantiate(fmu_, "u", {.early_return_allowed = true}, options);
+    return options;
   }
-
-  core::Unit* operator->() { return unit_.get(); }
-  core::HostStatistics statistics() const { return unit_->host_statistics().value(); }
-
-  Hosted& start() {
-    unit_->enter_initialization({}, std::nullopt);
-    unit_->exit_initialization();
-    if (fmu_->description()->has_event_mode) {
-      unit_->update_discrete_states();
-      unit_->enter_step_mode();
-    }
-    return *this;
-  }
-  core::StepResult step(Time from, Time to) { return unit_->step({from, to}); }
-
-  template <class T>
-  T get(const std::string& name) {
-    core::ValueBlock block(type_of(name), 1);
-    unit_->get({&reference(name), 1}, block);
-    return block.numbers<T>()[0];
-  }
-  template <class T>
-  void set(const std::string& name, T value) {
-    core::ValueBlock block(type_of(name), 1);
-    if constexpr (std::is_same_v<T, std::string>) {
-      block.strings()[0] = value;
-    } else {
-      block.numbers<T>()[0] = value;
-    }
-    unit_->set({&reference(name), 1}, block);
-  }
-  const core::ValueReference& reference(const std::string& name) const {
-    return variable(name).reference;
-  }
-
- private:
-  const core::Variable& variable(const std::string& name) const {
-    const auto& description = *fmu_->description();
-    return description.variables.at(description.find(name).value());
-  }
-  ValueType type_of(const std::string& name) const { return variable(name).type; }
-
-  std::shared_ptr<fmi::Fmu> fmu_;
-  std::unique_ptr<core::Unit> unit_;
 };
-
-Time at(double seconds) { return time_from_seconds(seconds); }
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 }  // namespace
 
 TEST_CASE("a unit without a state is what it was at its snapshot, any number of times") {
   Hosted unit("rejecter_without_state");
-  unit.start().set("u", 2.0);
-  unit.step(at(0), at(0.5));
+  unit.start();
+  unit.set("u", "2");
+  unit.step(0, 0.5);
   unit->save_state();
   for (int i = 1; i <= 100; ++i) {
-    unit.step(at(0.5), at(0.5 + 0.005 * i));
-    CHECK(unit.get<double>("y") == Approx(1 + 0.01 * i));
+    unit.step(0.5, 0.5 + 0.005 * i);
+    CHECK(unit.number("y") == Approx(1 + 0.01 * i));
     unit->restore_state();
-    CHECK(unit.get<double>("y") == 1);
-    CHECK(unit.get<std::uint64_t>("steps") == 1);
+    CHECK(unit.number("y") == 1);
+    CHECK(unit.steps() == 1);
   }
   CHECK(unit.statistics().snapshots == 1);
   CHECK(unit.statistics().restores == 100);
@@ -108,11 +58,11 @@ TEST_CASE("each slot keeps a snapshot of its own, and a later one takes its plac
   const auto steps_in = [&](std::size_t slot) {
     unit->select_state(slot);
     unit->restore_state();
-    return unit.get<std::uint64_t>("steps");
+    return unit.steps();
   };
   for (const std::size_t slot : {0, 5, 2}) {
-    const auto steps = static_cast<double>(unit.get<std::uint64_t>("steps"));
-    unit.step(at(steps), at(steps + 1));
+    const auto steps = static_cast<double>(unit.steps());
+    unit.step(steps, steps + 1);
     unit->select_state(slot);
     unit->save_state();
   }
@@ -120,8 +70,8 @@ TEST_CASE("each slot keeps a snapshot of its own, and a later one takes its plac
   CHECK(steps_in(2) == 3);
   CHECK(steps_in(5) == 2);
   CHECK(steps_in(0) == 1);
-  unit.step(at(1), at(2));
-  unit.step(at(2), at(3));
+  unit.step(1, 2);
+  unit.step(2, 3);
   unit->save_state();
   CHECK(steps_in(2) == 3);
   CHECK(steps_in(0) == 3);
@@ -132,12 +82,13 @@ TEST_CASE("steps with values go on behind a snapshot as before it") {
   Hosted unit("rejecter_without_state");
   unit.start();
   core::ValueBlock u(ValueType::Float64, 1), y(ValueType::Float64, 1);
-  const core::BoundValues input({&unit.reference("u"), 1}, u), output({&unit.reference("y"), 1}, y);
+  const core::BoundValues input({&unit.variable("u").reference, 1}, u),
+      output({&unit.variable("y").reference, 1}, y);
   const core::StepValues values{{&input, 1}, {&output, 1}};
   unit->save_state();
   for (double value : {1.0, 2.0, 3.0}) {
     u.numbers<double>()[0] = value;
-    unit->step({at(0), at(0.5)}, values);
+    unit->step({Time(), time_from_seconds(0.5)}, values);
     CHECK(y.numbers<double>()[0] == value / 2);
     unit->restore_state();
   }
@@ -147,9 +98,9 @@ TEST_CASE("a unit that has a state needs no snapshot") {
   Hosted unit("rejecter");
   unit.start();
   unit->save_state();
-  unit.step(at(0), at(0.1));
+  unit.step(0, 0.1);
   unit->restore_state();
-  CHECK(unit.get<std::uint64_t>("steps") == 0);
+  CHECK(unit.steps() == 0);
   CHECK(unit.statistics().snapshots == 0);
 }
 
@@ -159,29 +110,26 @@ TEST_CASE("a trace has each step once, whatever was taken back") {
   const fs::path file = scratch / "trace";
   {
     Hosted unit("tracer", file.parent_path());
-    unit.set("file", file.string());
-    unit.set("flushes", flushes);
-    unit.start();
+    unit.start({{"file", file.string()}, {"flushes", flushes ? "1" : "0"}});
     for (int i = 0; i < 20; ++i) {
       unit->save_state();
-      unit.step(at(i), at(i + 0.75));
+      unit.step(i, i + 0.75);
       unit->restore_state();
-      unit.step(at(i), at(i + 0.5));
+      unit.step(i, i + 0.5);
       unit->restore_state();
-      unit.step(at(i), at(i + 1));
+      unit.step(i, i + 1);
     }
     unit->terminate();
   }
   std::string expected;
   for (int i = 1; i <= 20; ++i) expected += std::to_string(i) + " 0\n";
-  CHECK(text_of(file) == expected);
+  CHECK(read(file) == expected);
 }
 
 TEST_CASE("a unit with threads is refused, with its name, the time and what to do") {
   Hosted unit("threader");
-  unit.set("has_thread", true);
-  unit.start();
-  unit.step(at(0), at(0.25));
+  unit.start({{"has_thread", "1"}});
+  unit.step(0, 0.25);
   CHECK_THROWS_WITH(unit->save_state(),
                     Contains("unit 'u', at 0.25 s: the unit runs 2 threads, and a snapshot of its "
                              "process holds one only") &&
@@ -198,8 +146,8 @@ TEST_CASE("what was not saved cannot be restored, and more than a few are not ke
   CHECK_THROWS_WITH(unit->restore_state(), Contains("unit 'u'") && Contains("nothing was saved"));
   unit->select_state(100);
   CHECK_THROWS_WITH(unit->save_state(), Contains("101 states"));
-  unit.step(at(0), at(0.1));
-  CHECK(unit.get<std::uint64_t>("steps") == 1);
+  unit.step(0, 0.1);
+  CHECK(unit.steps() == 1);
 }
 
 TEST_CASE("functions are counted also where their effects were taken back") {
@@ -208,7 +156,7 @@ TEST_CASE("functions are counted also where their effects were taken back") {
   unit->save_state();
   std::uint64_t before = unit->calls();
   for (int i = 0; i < 10; ++i) {
-    unit.step(at(0), at(0.1));
+    unit.step(0, 0.1);
     unit->restore_state();
     CHECK(unit->calls() > before);
     before = unit->calls();
@@ -222,7 +170,7 @@ TEST_CASE("a unit that was restored fails as any other") {
   unit->restore_state();
   CHECK_THROWS_WITH(
       [&] {
-        for (int i = 0; i < 1000; ++i) unit.step(Time(i * 1ms), Time((i + 1) * 1ms));
+        for (int i = 0; i < 1000; ++i) unit.step(0.001 * i, 0.001 * (i + 1));
       }(),
       Contains("unit 'u'") && Contains("ended its process with exit code"));
 }
@@ -232,9 +180,66 @@ TEST_CASE("memory is told: the unit's, and what a snapshot keeps") {
   unit.start();
   for (int i = 0; i < 5; ++i) {
     unit->save_state();
-    unit.step(at(i), at(i + 1));
+    unit.step(i, i + 1);
   }
   CHECK(unit.statistics().most_memory > 1000000);
   CHECK(unit.statistics().most_snapshot_memory > 0);
   CHECK(unit.statistics().most_snapshot_memory < unit.statistics().most_memory);
+}
+
+TEST_CASE("a unit of FMI 2.0 without a state is taken back, too") {
+  Hosted unit("fmi2_relaxation_without_state");
+  unit.start();
+  unit.set("u", "3");
+  unit.step(0, 0.1);
+  unit->save_state();
+  const double before = unit.number("x");
+  for (int i = 0; i < 3; ++i) {
+    unit.step(0.1, 0.2);
+    CHECK(unit.number("x") > before);
+    unit->restore_state();
+    CHECK(unit.number("x") == before);
+  }
+  CHECK(unit.statistics().restores == 3);
+}
+
+TEST_CASE("snapshots end with the unit, and nothing of them stays") {
+  const Belongings before;
+  {
+    Hosted unit("rejecter_without_state");
+    unit.start();
+    for (const std::size_t slot : {0, 1, 2}) {
+      unit->select_state(slot);
+      unit->save_state();
+      unit->save_state();
+    }
+    unit->restore_state();
+  }
+  CHECK(before == Belongings());
+}
+
+TEST_CASE("snapshots end with the keeper") {
+  Hosted unit("rejecter_without_state");
+  unit.start();
+  unit->save_state();
+  unit->restore_state();
+  const std::vector<pid_t> processes = children(Hosted::keeper());
+  CHECK(processes.size() >= 2);
+  ::kill(Hosted::keeper(), SIGKILL);
+  CHECK(std::all_of(processes.begin(), processes.end(), has_ended));
+  CHECK_THROWS_WITH(unit.step(0, 0.1), Contains("unit 'u'") && Contains("ended its keeper"));
+}
+
+TEST_CASE("a unit that was restored and is killed is an error that tells how") {
+  Hosted unit("rejecter_without_state");
+  unit.start();
+  unit->save_state();
+  unit->restore_state();
+  // the snapshot is not in charge, so it is not missed before it is needed
+  for (const pid_t process : children(Hosted::keeper())) ::kill(process, SIGKILL);
+  CHECK_THROWS_WITH(
+      [&] {
+        for (int i = 0; i < 1000; ++i) unit.step(0.001 * i, 0.001 * (i + 1));
+      }(),
+      Contains("unit 'u'") && Contains("SIGKILL"));
 }

@@ -133,6 +133,10 @@ const std::map<std::string, std::function<void()>> kFaults{
     {"kill parent", kill_parent},
     {"allocate", allocate},
     {"print", print},
+    {"print for ever",
+     [] {
+       for (;;) print();
+     }},
     {"close files", close_all_files},
     {"daemon", start_daemon},
     {"overwrite", overwrite_shared_memory},

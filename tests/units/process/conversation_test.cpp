@@ -117,6 +117,17 @@ TEST_CASE("a line with a mistake is named and quoted") {
                     Contains("the program 'sh -c' wrote as line 3 '<three>': expected four"));
 }
 
+TEST_CASE("what is no text is told as far as it is") {
+  Heard heard;
+  Conversation program(
+      shell("printf 'a\\377\\033[1mb\\n' >&2; sleep 0.05; printf '\\342\\202<\\n'"), {},
+      heard.listener());
+  program.send("start");
+  program.next_line();
+  CHECK_THROWS_WITH(program.fail_line("no"), Contains("'\uFFFD\uFFFD<': no"));
+  CHECK(heard.lines == std::vector<std::string>{"a\uFFFD\uFFFD[1mb"});
+}
+
 TEST_CASE("the end is waited for, and has to be a good one") {
   Conversation good(shell("cat > /dev/null; echo late >&2; sleep 0.05"), {}, {});
   good.commands() = "<end/>\n";

@@ -168,6 +168,8 @@ TEST_CASE("what goes wrong is told, and the exit code is 1") {
       {"<open protocol=\"2\" instance=\"\" resources=\"\"/>",
        "the program speaks protocol 1, not 2"},
       {"<run/>", "unknown command &lt;run>"},
+      {"<time-unit picoseconds=\"0\"/>", "expected at least one picosecond"},
+      {"<start time=\"-1\"/>", "time: expected from 0 to 9223372036854775807"},
       {"step", "column 1: expected '&lt;'"},
       {"<input name=\"v\" value=\"1\"/>",
        "the program has no input 'v', which its declaration has"},

@@ -179,7 +179,11 @@ class Program {
 
   Time time_of(std::string_view attribute) const { return Time(duration_of(attribute)); }
   Duration duration_of(std::string_view attribute) const {
-    return Duration(tag_.value<std::int64_t>(attribute) * unit_);
+    const auto number = tag_.value<std::int64_t>(attribute);
+    const std::int64_t most = Duration::max().count() / unit_;
+    if (number >= 0 && number <= most) return Duration(number * unit_);
+    throw std::invalid_argument(std::string(attribute) + ": expected from 0 to " +
+                                std::to_string(most));
   }
   /// Makes the unit of time a picosecond if the instant is no multiple of it.
   void fit_unit_to(Time time) {
@@ -266,6 +270,7 @@ inline bool Program::obey(std::string_view line) {
     read(messages_, "message input");
   } else if (command == "time-unit") {
     unit_ = tag_.value<std::int64_t>("picoseconds");
+    if (unit_ < 1) throw std::invalid_argument("expected at least one picosecond");
   } else if (command == "parameter") {
     read(parameters_, "parameter");
   } else if (command == "open") {
@@ -305,7 +310,7 @@ inline void Program::read(const Readers& readers, const char* what) {
 }
 
 inline void Program::make_step() {
-  const Time to = now_ + duration_of("size");
+  const Time to = later(now_, duration_of("size"));
   const bool may_stop = tag_.value<bool>("may-stop");
   const Time reached = step(to, may_stop);
   if (reached < now_ || reached > to || (reached != to && !may_stop)) {
