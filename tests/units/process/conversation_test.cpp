@@ -86,13 +86,11 @@ TEST_CASE("a program that closes its output, or its input") {
 }
 
 TEST_CASE("a program that falls silent is ended") {
-  Conversation silent(shell("echo '<thinking/>'; echo 'so be it' >&2; exec sleep 1000"),
-                      {50ms, 1000}, {});
+  Conversation silent(shell("exec sleep 1000"), {50ms, 1000}, {});
   silent.send("make a step");
-  CHECK(silent.next_line() == "<thinking/>");
   CHECK_THROWS_WITH(silent.next_line(),
                     Contains("has said nothing for 50 ms while it was to make a step") &&
-                        Contains("process.time_limit") && Contains("so be it"));
+                        Contains("process.time_limit"));
 }
 
 TEST_CASE("a program that writes without end is ended") {
