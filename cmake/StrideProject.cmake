@@ -6,7 +6,10 @@ endif()
 find_program(STRIDE_CCACHE ccache)
 if(STRIDE_CCACHE)
   # what two builds of one source tree compile alike, such as those for two versions of MuJoCo, is compiled once
-  set(launcher ${CMAKE_COMMAND} -E env CCACHE_NOHASHDIR=1 ${STRIDE_CCACHE})
+  set(launcher ${CMAKE_COMMAND} -E env
+    CCACHE_NOHASHDIR=1
+    CCACHE_SLOPPINESS=pch_defines,time_macros  # without which nothing that uses a precompiled header is kept
+    ${STRIDE_CCACHE})
   set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
   set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
 endif()

@@ -8,6 +8,14 @@ add_library(stride_catch_main STATIC ${CMAKE_CURRENT_SOURCE_DIR}/catch_main.cpp)
 target_link_libraries(stride_catch_main PUBLIC Catch2::Catch2)
 target_compile_options(stride_catch_main PRIVATE -w)  # GCC 12 warns of Catch2 itself under sanitizers
 
+set(stride_test_flags -O0)  # checks are long to optimise, and run once
+if(STRIDE_SANITIZE MATCHES undefined)
+  # in a test's own code, where these are a fifth of the compile time; the libraries under test keep them
+  list(APPEND stride_test_flags -fno-sanitize=null,alignment,vptr,object-size)
+endif()
+
+include(StrideTestHeaders)
+
 function(stride_add_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES;FMUS")
   add_executable(${name} ${arg_SOURCES})
@@ -16,11 +24,8 @@ function(stride_add_test name)
     STRIDE_FMU_DIR="${CMAKE_BINARY_DIR}/units"
     STRIDE_TEST_FMU_DIR="${CMAKE_BINARY_DIR}/tests/units"
     STRIDE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  target_compile_options(${name} PRIVATE -O0)  # checks are long to optimise, and run once
-  if(STRIDE_SANITIZE MATCHES undefined)
-    # in a test's own code, where these are a fifth of the compile time; the libraries under test keep them
-    target_compile_options(${name} PRIVATE -fno-sanitize=null,alignment,vptr,object-size)
-  endif()
+  target_compile_options(${name} PRIVATE ${stride_test_flags})
+  stride_use_test_headers(${name})
   foreach(unit IN LISTS arg_FMUS)
     add_dependencies(${name} ${unit}_fmu)
   endforeach()

@@ -176,7 +176,7 @@ TEST_CASE("mutated declarations are read, or refused with file and line") {
   Mutator mutator(10, "<>/=\"'& .-0");
   int accepted = 0;
   int refused = 0;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     std::ofstream(folder / "process.xml") << mutator.mutate(text);
     try {
       process::load_declaration(folder / "");
@@ -186,6 +186,6 @@ TEST_CASE("mutated declarations are read, or refused with file and line") {
       REQUIRE(std::string(error.what()).find("process.xml:") != std::string::npos);
     }
   }
-  CHECK(accepted > 10);
-  CHECK(refused > 1000);
+  CHECK(accepted > 0);
+  CHECK(refused > 500);
 }

@@ -37,7 +37,8 @@ class Variant {
   /// With the inner signals of both sensors in trace().
   ScenarioRun traced_run() const {
     Arguments arguments = kStop;
-    arguments.push_back("--no-sandbox");  // the traces are beside the scenario
+    // the traces are beside the scenario, and steps can be long where what happens in them is exact
+    arguments.insert(arguments.end(), {"--no-sandbox", "--step", "0.01"});
     for (const std::string& sensor : kSensors) {
       arguments.push_back("--set");
       arguments.push_back(sensor + ".trace.file=" + trace(sensor).string());

@@ -62,18 +62,7 @@ class ProcessUnit : public stride::Unit {
     if (session_ && beginning_ && is_same(beginning, *beginning_)) return;
     session_.reset();
     beginning_.reset();
-    announced_.reset();
-    has_told_late_ = false;
-    const process::Limits limits{
-        std::chrono::milliseconds(std::llround(std::ceil(time_limit_ * 1e3))), answer_limit_};
-    session_ = std::make_unique<process::Session>(
-        declaration_, values_, process::command_line(declaration_, resources_, program_), limits,
-        [this](bool is_warning, const std::string& text) {
-          log(is_warning ? stride::Severity::Warning : stride::Severity::Info, text);
-        });
-    process::Opening opening = opening_;
-    if (!opening.trace_file.empty()) opening.trace_file = result_file(opening.trace_file).string();
-    sync_ = session_->start(opening, start);
+    begin(start);
     beginning_ = beginning;
   }
 
@@ -119,6 +108,21 @@ class ProcessUnit : public stride::Unit {
     double time_limit;
     std::uint64_t answer_limit;
   };
+
+  void begin(stride::Time start) {
+    announced_.reset();
+    has_told_late_ = false;
+    const process::Limits limits{
+        std::chrono::milliseconds(std::llround(std::ceil(time_limit_ * 1e3))), answer_limit_};
+    session_ = std::make_unique<process::Session>(
+        declaration_, values_, process::command_line(declaration_, resources_, program_), limits,
+        [this](bool is_warning, const std::string& text) {
+          log(is_warning ? stride::Severity::Warning : stride::Severity::Info, text);
+        });
+    process::Opening opening = opening_;
+    if (!opening.trace_file.empty()) opening.trace_file = result_file(opening.trace_file).string();
+    sync_ = in_session([&](process::Session& session) { return session.start(opening, start); });
+  }
 
   bool is_same(const Beginning& one, const Beginning& other) const {
     for (std::size_t i = 0; i < values_.size(); ++i) {
