@@ -7,8 +7,10 @@ install(TARGETS stride_cli EXPORT stride RUNTIME DESTINATION ${CMAKE_INSTALL_BIN
 if(TARGET stride_robot)
   install(TARGETS stride_robot RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
-install(TARGETS stride_interfaces stride_unit EXPORT stride ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS stride_interfaces stride_unit stride_program EXPORT stride
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY interfaces/stride DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY units/process/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(FILES interfaces/schemas/org.stride.idle.xsd DESTINATION ${CMAKE_INSTALL_DATADIR}/stride/schemas)
 install(EXPORT stride NAMESPACE stride:: FILE strideTargets.cmake DESTINATION ${package_dir})
 

@@ -11,6 +11,10 @@
 # stride_pack_unit(NAME UNIT unit RESOURCES folder)
 #
 # Packs the library of an existing unit with other resources, as NAME.fmu.
+#
+# stride_pack_program(NAME DECLARATION file.xml [DEPENDS target or file...])
+#
+# Packs the program that the file declares, with the files that it names, as NAME.fmu (docs/process-protocol.md).
 
 function(stride_add_unit name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "RESOURCES" "SOURCES;LIBRARIES;BUNDLE")
@@ -56,11 +60,6 @@ function(stride_pack_unit name)
   if(NOT arg_UNIT)
     message(FATAL_ERROR "stride_pack_unit(${name}): UNIT is missing")
   endif()
-  set(folder "${CMAKE_BINARY_DIR}/units")
-  if(STRIDE_UNIT_DIR)
-    set(folder "${STRIDE_UNIT_DIR}")
-  endif()
-  set(fmu "${folder}/${name}.fmu")
   set(options "")
   set(inputs "")
   if(arg_RESOURCES)
@@ -72,10 +71,33 @@ function(stride_pack_unit name)
   foreach(library IN LISTS bundle)
     list(APPEND options --bundle "${library}")
   endforeach()
+  stride_run_pack(${name} "$<TARGET_FILE:${arg_UNIT}>" OPTIONS ${options} DEPENDS ${arg_UNIT} ${inputs})
+endfunction()
+
+function(stride_pack_program name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "DECLARATION" "DEPENDS")
+  if(NOT arg_DECLARATION)
+    message(FATAL_ERROR "stride_pack_program(${name}): DECLARATION is missing")
+  endif()
+  cmake_path(ABSOLUTE_PATH arg_DECLARATION BASE_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}" NORMALIZE)
+  if(TARGET process_fmu)
+    list(APPEND arg_DEPENDS process_fmu)
+  endif()
+  stride_run_pack(${name} "${arg_DECLARATION}" DEPENDS "${arg_DECLARATION}" ${arg_DEPENDS})
+endfunction()
+
+# `stride pack FILE`, as a target NAME_fmu.
+function(stride_run_pack name file)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "OPTIONS;DEPENDS")
+  set(folder "${CMAKE_BINARY_DIR}/units")
+  if(STRIDE_UNIT_DIR)
+    set(folder "${STRIDE_UNIT_DIR}")
+  endif()
+  set(fmu "${folder}/${name}.fmu")
   add_custom_command(OUTPUT "${fmu}"
     COMMAND ${CMAKE_COMMAND} -E make_directory "${folder}"
-    COMMAND stride::stride pack "$<TARGET_FILE:${arg_UNIT}>" --output "${fmu}" ${options}
-    DEPENDS ${arg_UNIT} stride::stride ${inputs}
+    COMMAND stride::stride pack "${file}" --output "${fmu}" ${arg_OPTIONS}
+    DEPENDS stride::stride ${arg_DEPENDS}
     COMMENT "Packing ${name}.fmu"
     VERBATIM)
   add_custom_target(${name}_fmu ALL DEPENDS "${fmu}")

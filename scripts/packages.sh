@@ -3,7 +3,7 @@
 
 packages_build=(
   ca-certificates ccache cmake g++ git ninja-build pkg-config
-  libarchive-dev libcli11-dev libeigen3-dev libfmt-dev libmujoco-dev libspdlog-dev
+  libarchive-dev libcli11-dev libeigen3-dev libfmt-dev libmujoco-dev libseccomp-dev libspdlog-dev
   libsystemc-dev libtinyxml2-dev nlohmann-json3-dev
 )
 packages_test=(

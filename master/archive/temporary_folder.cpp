@@ -97,6 +97,17 @@ TemporaryFolder::TemporaryFolder() : owner_(::getpid()) {
   lock_ = lock_file(name + kLockSuffix, 0);
 }
 
+void TemporaryFolder::sweep_abandoned() noexcept {
+  try {
+    const fs::path parent_folder = parent();
+    if (!fs::exists(parent_folder)) return;
+    make_private(parent_folder);
+    const ParentLock parent_lock(parent_folder);
+    sweep(parent_folder);
+  } catch (const std::exception&) {  // the next run will try it again
+  }
+}
+
 TemporaryFolder::~TemporaryFolder() {
   if (owner_ == ::getpid()) {
     std::error_code ignored;

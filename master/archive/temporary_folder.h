@@ -25,6 +25,9 @@ class TemporaryFolder {
   /// Where the folders of this user stand now; it need not exist.
   static std::filesystem::path parent();
 
+  /// Removes what crashed runs of this user have left; what cannot be removed stays.
+  static void sweep_abandoned() noexcept;
+
  private:
   std::filesystem::path path_;
   int lock_ = -1;

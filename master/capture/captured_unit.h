@@ -92,6 +92,9 @@ class CapturedUnit final : public core::Unit {
   }
   void terminate() override;
   std::uint64_t calls() const override { return unit_->calls(); }
+  std::optional<core::HostStatistics> host_statistics() const override {
+    return unit_->host_statistics();
+  }
 
  private:
   enum class Mode { Start, Initialization, Event, Step };

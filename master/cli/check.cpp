@@ -15,6 +15,8 @@
 namespace stride::cli {
 namespace {
 
+std::string seconds(Duration duration) { return core::to_text(Time(duration)); }
+
 std::string unit_table(const LoadedScenario& loaded) {
   Table table({{"component"}, {"unit"}, {"FMI"}, {"variables", Table::Align::Right}, {"file"}});
   for (std::size_t i = 0; i < loaded.fmus().size(); ++i) {
@@ -23,6 +25,25 @@ std::string unit_table(const LoadedScenario& loaded) {
                std::to_string(unit.variables.size()), loaded.fmus()[i]->path().string()});
   }
   return table.text();
+}
+
+/// Nothing where all units are in this process.
+std::string host_table(const LoadedScenario& loaded) {
+  Table table({{"component"},
+               {"call limit [s]", Table::Align::Right},
+               {"memory limit [MiB]", Table::Align::Right},
+               {"sandbox"},
+               {"why"}});
+  for (std::size_t i = 0; i < loaded.hostings().size(); ++i) {
+    const std::optional<Hosting>& hosting = loaded.hostings()[i];
+    if (!hosting) continue;
+    const host::HostOptions& options = hosting->options;
+    table.add({loaded.system().components()[i].name,
+               options.call_limit ? seconds(*options.call_limit) : "none",
+               options.memory_limit ? std::to_string(*options.memory_limit >> 20) : "none",
+               options.is_sandboxed ? "yes" : "no", hosting->reason});
+  }
+  return table.size() == 0 ? "" : "\nProcesses of their own\n" + table.text();
 }
 
 std::string conversion(const core::Conversion& conversion) {
@@ -50,12 +71,11 @@ std::string connection_table(const core::System& system) {
 }
 
 std::string steps(const core::RunOptions& options) {
-  const auto text = [](Duration duration) { return core::to_text(Time(duration)); };
   const core::StepOptions& step = options.step;
   std::string steps;
   switch (step.policy) {
     case core::StepPolicy::Fixed:
-      steps = fmt::format("in steps of {} s", text(step.size));
+      steps = fmt::format("in steps of {} s", seconds(step.size));
       break;
     case core::StepPolicy::EventDriven:
       steps = "from event to event";
@@ -65,7 +85,7 @@ std::string steps(const core::RunOptions& options) {
                           step.absolute_tolerance, step.relative_tolerance);
       break;
   }
-  if (step.maximum) steps += fmt::format(", of {} s at most", text(*step.maximum));
+  if (step.maximum) steps += fmt::format(", of {} s at most", seconds(*step.maximum));
   return fmt::format("{}\ncoupling {}, inputs {}", steps, name(options.coupling),
                      options.extrapolation == core::Extrapolation::Hold
                          ? "held"
@@ -94,7 +114,8 @@ void check(const ScenarioRequest& request) {
              system.components().size(), system.connections().size(), options.recorded.size());
   fmt::print("from {} s to {} s, {}\n", core::to_text(options.start), core::to_text(options.stop),
              steps(options));
-  fmt::print("\nUnits\n{}\nConnections\n{}", unit_table(loaded), connection_table(system));
+  fmt::print("\nUnits\n{}{}\nConnections\n{}", unit_table(loaded), host_table(loaded),
+             connection_table(system));
   fmt::print("\nStep order\n{}", order_table(loaded));
   fmt::print("\nOrder of the initial values\n{}", initial_order_text(system));
   fmt::print("\nAlgebraic loops\n{}", loops_text(system));

@@ -56,9 +56,10 @@ spdlog::level::level_enum level(fmi::Status status) {
   }
 }
 
-void log_message(const std::string& unit, fmi::Status status, const std::string&,
+void log_message(const std::string& unit, fmi::Status status, const std::string& category,
                  const std::string& message) {
-  spdlog::log(level(status), "unit '{}': {}", unit, message);
+  spdlog::log(level(status), "unit '{}'{}: {}", unit, category == host::kPrinted ? " printed" : "",
+              message);
 }
 
 }  // namespace
@@ -98,6 +99,8 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   }
   choose_times(request);
   choose_steps(request.step);
+  choose_hosts(request.hosts);
+  check_steps();
   choose_idle_skips(request);
   std::vector<io::SignalPattern> patterns = scenario_.annotation.record;
   if (!request.signals.empty()) {
@@ -190,8 +193,26 @@ void LoadedScenario::choose_steps(const io::StepChoice& request) {
     core::fail_input({}, "both tolerances are 0, so no step is good enough",
                      "give a relative or an absolute tolerance above 0");
   }
+}
+
+/// A component that is given snapshots can do more, and so its system is another one.
+void LoadedScenario::choose_hosts(const HostRequest& request) {
+  auto& components = scenario_.system.components;
+  hostings_ =
+      choose_hostings(components, options_.step.policy,
+                      host_settings(component_names(), scenario_.annotation.hosts, request));
+  check_unit_timeout(request, hostings_);
+  bool is_changed = false;
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    components[i].has_snapshots = hostings_[i] && hostings_[i]->options.takes_snapshots;
+    is_changed |= components[i].has_snapshots;
+  }
+  if (is_changed) system_.emplace(scenario_.system);
+}
+
+void LoadedScenario::check_steps() const {
   core::StepSize(*system_, options_);  // throws where a unit cannot do what the policy needs
-  if (step.policy != core::StepPolicy::Fixed) return;
+  if (options_.step.policy != core::StepPolicy::Fixed) return;
   check_fixed_steps();
   warn_of_internal_steps();
 }
@@ -241,18 +262,31 @@ void LoadedScenario::warn_of_internal_steps() const {
   }
 }
 
-std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate() const {
-  std::vector<std::unique_ptr<core::Unit>> units;
-  for (std::size_t i = 0; i < fmus_.size(); ++i) {
-    const auto& component = scenario_.system.components[i];
-    fmi::InstanceOptions options;
-    options.log = log_message;
-    options.debug_logging = true;  // the log's level decides what is shown
-    options.early_return_allowed = component.early_return_allowed;
-    options.intermediate_update = options_.sets_inputs_in_steps();
-    options.where = component.where;
-    options.description = system_->components()[i].description;
-    units.push_back(fmus_[i]->instantiate(component.name, options));
+fmi::InstanceOptions LoadedScenario::instance_options(std::size_t component) const {
+  const core::ComponentDeclaration& declared = scenario_.system.components[component];
+  fmi::InstanceOptions options;
+  options.log = log_message;
+  options.debug_logging = true;  // the log's level decides what is shown
+  options.early_return_allowed = declared.early_return_allowed;
+  options.intermediate_update = options_.sets_inputs_in_steps();
+  options.where = declared.where;
+  options.description = system_->components()[component].description;
+  return options;
+}
+
+std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate(
+    const std::filesystem::path& results) const {
+  const auto& components = system_->components();
+  std::vector<std::unique_ptr<core::Unit>> units(components.size());
+  // processes first: they begin as copies of this one, which has no unit's library yet
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    if (!hostings_[i]) continue;
+    host::HostOptions host = hostings_[i]->options;
+    if (!results.empty()) host.writable.push_back(std::filesystem::absolute(results));
+    units[i] = host::instantiate(fmus_[i], components[i].name, instance_options(i), host);
+  }
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    if (!units[i]) units[i] = fmus_[i]->instantiate(components[i].name, instance_options(i));
   }
   return units;
 }

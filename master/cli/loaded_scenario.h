@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "master/cli/hosting.h"
 #include "master/core/simulation.h"
 #include "master/core/system.h"
 #include "master/fmi/fmu.h"
@@ -26,6 +27,7 @@ struct ScenarioRequest {
   io::StepChoice step;               ///< replaces what the scenario says
   bool no_idle_skip = false;
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
+  HostRequest hosts;
 };
 
 /// The scenario with each component's FMU, and the system built from them. Throws core::Error
@@ -38,10 +40,14 @@ class LoadedScenario {
   const core::System& system() const { return *system_; }
   /// In the order of system().components().
   const std::vector<std::shared_ptr<fmi::Fmu>>& fmus() const { return fmus_; }
+  /// Likewise; nothing for a component that has no process of its own.
+  const std::vector<std::optional<Hosting>>& hostings() const { return hostings_; }
   const core::RunOptions& options() const { return options_; }
 
-  /// Fresh instances in the order of system().components(); what they log goes to the log.
-  std::vector<std::unique_ptr<core::Unit>> instantiate() const;
+  /// Fresh instances in the order of system().components(); what they log goes to the log. Those
+  /// with processes of their own may write to the folder `results`, if it is not empty.
+  std::vector<std::unique_ptr<core::Unit>> instantiate(
+      const std::filesystem::path& results = {}) const;
 
  private:
   void swap(const std::string& text);
@@ -49,14 +55,18 @@ class LoadedScenario {
   void choose_early_returns();
   void choose_times(const ScenarioRequest& request);
   void choose_steps(const io::StepChoice& request);
+  void choose_hosts(const HostRequest& request);
+  void check_steps() const;
   void choose_idle_skips(const ScenarioRequest& request);
   void check_fixed_steps() const;
   void warn_of_internal_steps() const;
   std::vector<std::string> component_names() const;
+  fmi::InstanceOptions instance_options(std::size_t component) const;
 
   io::Scenario scenario_;
   std::vector<std::shared_ptr<fmi::Fmu>> fmus_;
   std::optional<core::System> system_;
+  std::vector<std::optional<Hosting>> hostings_;
   core::RunOptions options_;
 };
 

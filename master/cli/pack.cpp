@@ -1,8 +1,7 @@
-// stride pack: a library made with the unit kit, another .fmu or captured stimuli become a .fmu, a
-// scenario a .ssp.
+// stride pack: a library made with the unit kit, another .fmu, captured stimuli or the declaration
+// of a program become a .fmu, a scenario a .ssp.
 #include "master/fmi/pack.h"
 
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <string>
@@ -13,9 +12,8 @@
 #include "master/archive/temporary_folder.h"
 #include "master/archive/zip.h"
 #include "master/cli/commands.h"
+#include "master/cli/file_units.h"
 #include "master/cli/unit_path.h"
-#include "master/fmi/binaries.h"
-#include "master/fmi/unpacked_fmu.h"
 #include "master/io/package.h"
 #include "master/io/scenario.h"
 
@@ -69,54 +67,20 @@ void pack_scenario(const fmi::PackRequest& request) {
                                           *scenario.files, std::ref(fmus)));
 }
 
-bool is_stimuli(const fs::path& path) {
-  constexpr const char* kBegin = "stride stimuli,";
-  std::string line;
-  std::getline(std::ifstream(path), line);
-  return path.extension() == ".csv" || line.rfind(kBegin, 0) == 0;
-}
-
-/// What the player says of the file that it was given, with the file as the user knows it.
-std::string shown(std::string text, const fs::path& file, const fs::path& shown_as) {
-  const std::size_t at = text.find(file.string());
-  if (at == std::string::npos) return text;
-  return text.replace(0, at + file.string().size(), shown_as.string());
-}
-
-/// The unit player with this file in its resources.
-void pack_stimuli(const fmi::PackRequest& request) {
-  if (!request.resources.empty() || !request.bundled.empty()) {
-    core::fail_input({}, "--resources and --bundle are for the library of a unit",
-                     "stimuli are packed with the unit player");
-  }
-  const fmi::UnpackedFmu player(find_unit("player.fmu", {}));
-  const archive::TemporaryFolder resources;
-  const fs::path copy = resources.path() / "stimuli.csv";
-  fs::copy_file(request.library, copy);
-  try {
-    fmi::pack({fmi::find_library(player.folder(), "3.0", "player"),
-               resources.path(),
-               {},
-               request.output});
-  } catch (const core::Error& failure) {
-    core::fail_input({}, shown(failure.what(), copy, request.library));
-  }
-}
-
 }  // namespace
 
 void add_pack(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "pack",
       "Make a .fmu from a library of the unit kit, or from another .fmu, and a resources folder, "
-      "or "
-      "from stimuli that --capture wrote; or a .ssp from a scenario and all that it names");
+      "from stimuli that --capture wrote, or from the declaration of a program; or a .ssp from a "
+      "scenario and all that it names");
   const auto request = std::make_shared<fmi::PackRequest>();
   command
       ->add_option(
           "FILE", request->library,
-          "The unit's shared library (.so) or .fmu, captured stimuli (.csv), or a scenario "
-          "(.ssd)")
+          "The unit's shared library (.so) or .fmu, captured stimuli (.csv), the declaration of a "
+          "program (.xml), or a scenario (.ssd)")
       ->required()
       ->type_name("");
   command->add_option("--output,-o", request->output, "The .fmu or .ssp to write")
@@ -134,6 +98,7 @@ void add_pack(CLI::App& app) {
     request->library = find_unit(request->library, {});
     if (is_scenario(request->library)) return pack_scenario(*request);
     if (is_stimuli(request->library)) return pack_stimuli(*request);
+    if (is_program(request->library)) return pack_program(*request);
     fmi::pack(*request);
   });
 }

@@ -1,4 +1,5 @@
 // stride run: a scenario from its start to its end.
+#include <cstdlib>
 #include <exception>
 #include <memory>
 #include <optional>
@@ -61,6 +62,8 @@ std::filesystem::path make_folder(const Request& request, const io::Scenario& sc
   std::filesystem::path folder =
       request.out.empty() ? std::filesystem::path("results") / scenario.stem() : request.out;
   io::make_results_folder(folder);
+  // where units put the files that they write themselves
+  ::setenv("STRIDE_RESULTS", std::filesystem::absolute(folder).c_str(), 1);
   return folder;
 }
 
@@ -128,7 +131,7 @@ class RecordedRun {
 
  private:
   std::vector<std::unique_ptr<core::Unit>> captured_units() {
-    auto units = loaded_.instantiate();
+    auto units = loaded_.instantiate(folder_);
     capture_.wrap(units);
     return units;
   }

@@ -52,6 +52,21 @@ void add_step_options(CLI::App& command, io::StepChoice& choice) {
       ->type_name("DEGREE");
 }
 
+void add_host_options(CLI::App& command, HostRequest& request) {
+  // a flag, so that what follows a blank is the scenario; without a value it is "true"
+  command
+      .add_flag("--isolate", request.isolated,
+                "A process of its own for each unit, or as --isolate=COMPONENT, with a glob, for "
+                "some; may be given several times")
+      ->transform([](const std::string& value) { return value == "true" ? "*" : value; });
+  command
+      .add_option("--unit-timeout", request.unit_timeout,
+                  "How long a call of a unit with a process of its own may take")
+      ->type_name("SECONDS");
+  command.add_flag("--no-sandbox", request.no_sandbox,
+                   "Let units with processes of their own do whatever you may");
+}
+
 }  // namespace
 
 void add_scenario_options(CLI::App& command, ScenarioRequest& request) {
@@ -69,6 +84,7 @@ void add_scenario_options(CLI::App& command, ScenarioRequest& request) {
       .add_option("--max-skip", request.max_skip,
                   "For how long an idle unit is left alone at most; 1 by default")
       ->type_name("SECONDS");
+  add_host_options(command, request.hosts);
   command
       .add_option("--set", request.sets,
                   "Start value of a parameter or input; may be given several times")

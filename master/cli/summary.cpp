@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "master/cli/table.h"
 #include "master/core/error.h"
@@ -14,6 +16,7 @@ namespace {
 
 constexpr std::size_t kMostMessages = 40;
 constexpr std::size_t kMostSignals = 30;
+constexpr std::size_t kMostHosts = 6;
 
 std::size_t payload_size(const core::Message& message) {
   if (message.block == nullptr) return 0;
@@ -76,7 +79,7 @@ std::string Summary::text(const core::RunStatistics& statistics) const {
       "{}: {:.6g} s simulated in {:.3g} s ({:.3g} times real time), {} communication steps{}\n",
       system_.name(), simulated, wall, wall > 0 ? simulated / wall : 0.0,
       statistics.communication_steps, statistics.terminated_by_unit ? ", ended by a unit" : "");
-  text += idle_line(statistics);
+  text += idle_line(statistics) + host_line(statistics);
   if (!messages_.empty()) text += "\nMessages\n" + message_table();
   if (!ranges_.empty()) text += "\nSignals\n" + signal_table();
   text += "\nUnits\n" + unit_table(statistics);
@@ -138,6 +141,26 @@ std::string Summary::idle_line(const core::RunStatistics& statistics) const {
       "Idle units were left alone for {:.3g} % of their time; the longest time was {:.6g} s ({})\n",
       all > 0 ? 100 * to_seconds(skipped) / all : 0.0, to_seconds(longest->longest_rest),
       system_.components()[who].name);
+}
+
+/// Nothing where all units were in this process.
+std::string Summary::host_line(const core::RunStatistics& statistics) const {
+  std::vector<std::string> hosted;
+  for (std::size_t i = 0; i < statistics.units.size(); ++i) {
+    const std::optional<core::HostStatistics>& host = statistics.units[i].host;
+    if (!host) continue;
+    std::string& text = hosted.emplace_back(system_.components()[i].name);
+    if (host->snapshots == 0) continue;
+    text += fmt::format(" ({} snapshots, {} restored)", host->snapshots, host->restores);
+  }
+  if (hosted.empty()) return "";
+  std::string text = "Processes of their own: ";
+  if (hosted.size() > kMostHosts) {
+    text += fmt::format("{} of {} units: ", hosted.size(), statistics.units.size());
+    hosted.resize(kMostHosts);
+    hosted.push_back("…");
+  }
+  return fmt::format("{}{}\n", text, fmt::join(hosted, ", "));
 }
 
 std::string Summary::unit_table(const core::RunStatistics& statistics) const {

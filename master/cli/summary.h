@@ -39,6 +39,7 @@ class Summary : public core::Observer {
   std::string message_table() const;
   std::string signal_table() const;
   std::string idle_line(const core::RunStatistics& statistics) const;
+  std::string host_line(const core::RunStatistics& statistics) const;
   std::string unit_table(const core::RunStatistics& statistics) const;
 
   const core::System& system_;

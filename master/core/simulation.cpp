@@ -70,6 +70,7 @@ class Simulation::Run {
     statistics_.wall_time = WallClock::Source::now() - began;
     for (std::size_t i = 0; i < count(); ++i) {
       statistics_.units[i].calls = units_[i]->calls();
+      statistics_.units[i].host = units_[i]->host_statistics();
       statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].rests;
     }
     finish_observers(failure);

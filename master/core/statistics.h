@@ -2,12 +2,26 @@
 #define STRIDE_MASTER_CORE_STATISTICS_H
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <stride/time.h>
 
 namespace stride::core {
+
+/// Of a unit in a process of its own.
+struct HostStatistics {
+  std::uint64_t snapshots = 0;             ///< of its process that were made
+  std::uint64_t restores = 0;              ///< times that one of them took over
+  std::size_t most_snapshots = 0;          ///< kept at the same time
+  std::uint64_t most_snapshot_memory = 0;  ///< that those kept had to themselves, at most [byte]
+  std::uint64_t most_memory = 0;           ///< resident, of the process that serves [byte]
+  std::vector<std::string> protections{};  ///< in force
+  std::vector<std::string> missing_protections{};  ///< wanted, and not to be had from this kernel
+};
 
 struct UnitStatistics {
   std::uint64_t calls = 0;          ///< of functions of its interface, where they are counted
@@ -26,6 +40,7 @@ struct UnitStatistics {
       initialization_time{};             ///< wall-clock time within the unit's own functions
   std::chrono::nanoseconds step_time{};  ///< likewise, its state saved and restored included
   std::chrono::nanoseconds event_time{};
+  std::optional<HostStatistics> host{};  ///< of a unit in a process of its own
 };
 
 /// Wall-clock time of a whole run.

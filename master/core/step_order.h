@@ -3,6 +3,8 @@
 #ifndef STRIDE_MASTER_CORE_STEP_ORDER_H
 #define STRIDE_MASTER_CORE_STEP_ORDER_H
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,7 +16,7 @@ namespace stride::core {
 /// What a unit can do when a step turns out to be too long.
 enum class StepRole {
   CanRollBack,   ///< it may stop, or have to go back, and its state can be saved and restored
-  MayStopEarly,  ///< it may return early and cannot be rolled back
+  MayStopEarly,  ///< it may return early, and is not rolled back: what it reaches is final
   DoesAsTold,    ///< it does not stop on its own, or, without rollback, only by rejecting a step
 };
 
@@ -38,12 +40,23 @@ struct StepPlace {
 /// changes no result; with Gauss-Seidel a unit stands behind those that feed it, as far as they do
 /// not feed each other in a ring, which is cut at the unit that comes first in the file.
 ///
-/// A state is saved only where another unit may stop, and with an error-controlled step always.
+/// A state is saved only where another unit may stop, and with an error-controlled step always. A
+/// snapshot of a process, dearer than a unit's own state, is taken only where somebody else has the
+/// one place that needs none: among the units that may stop and have no state of their own, the
+/// first of those that may return early, or if none may, of those that may reject a step. Who has
+/// no snapshots goes before who has, there.
 /// Throws Error (Input) where two units may stop early and neither can be rolled back.
 ///
 /// A unit that cannot be rolled back begins a new stage where the stage before it has a unit that
 /// may stop: it must not go further than that one does.
 std::vector<StepPlace> step_order(const System& system, StepPolicy policy, Coupling coupling);
+
+/// Those that have to be given snapshots, in the order of the file: of the units that may return
+/// early and have neither a state nor snapshots all but one; with error-controlled steps all that
+/// have neither. `may_have`: by component, whether it may be given them; who may not is not among
+/// those returned, and is the one that can do without, if there is one.
+std::vector<std::size_t> missing_snapshots(std::span<const ComponentDeclaration> components,
+                                           StepPolicy policy, const std::vector<bool>& may_have);
 
 }  // namespace stride::core
 

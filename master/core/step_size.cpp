@@ -61,7 +61,7 @@ void StepSize::check_units(const System& system) const {
   std::vector<std::string> final;
   for (const Component& component : system.components()) {
     if (!component.description->can_vary_step) rigid.push_back(component.name);
-    if (!component.description->can_save_state) final.push_back(component.name);
+    if (!component.can_save_state()) final.push_back(component.name);
   }
   if (varies && !rigid.empty()) {
     fail_input({},
@@ -75,7 +75,9 @@ void StepSize::check_units(const System& system) const {
                fmt::format("these units cannot be rolled back: {}; the policy '{}' has to undo "
                            "steps that were too long",
                            quoted(final), name(options_.policy)),
-               "use units that can save their state (canGetAndSetFMUState), or another policy");
+               "let them have processes of their own, whose snapshots take them back, <stride:Host "
+               "components=\"…\" process=\"true\"/>, or use units that can save their state "
+               "(canGetAndSetFMUState), or another policy");
   }
 }
 

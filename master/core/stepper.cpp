@@ -340,12 +340,23 @@ void Stepper::fail_size(const Lane& lane, const StepInterval& interval) const {
            hint);
 }
 
+/// In a process of its own it would be asked before what it reaches can be too late.
+std::string Stepper::hint_for_final(const Lane& stopped) const {
+  const std::string others =
+      "use a unit that can save its state in place of one of the two, or a smaller step";
+  if (stopped.place->role == StepRole::CanRollBack) return others;
+  return fmt::format(
+      "let '{0}' have a process of its own, whose snapshots take it back, <stride:Host "
+      "components=\"{0}\" process=\"true\"/>, or {1}",
+      name(stopped), others);
+}
+
 void Stepper::fail_final(const Lane& ahead) const {
   fail_run({{}, name(*cut_.by), {}, cut_.at},
            fmt::format("the unit {}, but '{}' is at {} s already and cannot be rolled back{}",
                        cut_.is_rejection ? "rejected a step from here" : "stopped here",
                        name(ahead), to_text(ahead.result.reached), reason(cut_)),
-           "use a unit that can save its state in place of one of the two, or a smaller step");
+           hint_for_final(*cut_.by));
 }
 
 }  // namespace stride::core

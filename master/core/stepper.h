@@ -126,6 +126,7 @@ class Stepper {
   void check_minimum(const StepInterval& interval, Time reached) const;
   std::string reason(const Cut& cut) const;
   [[noreturn]] void fail_size(const Lane& lane, const StepInterval& interval) const;
+  std::string hint_for_final(const Lane& stopped) const;
   [[noreturn]] void fail_final(const Lane& ahead) const;
   WorkSplit::Plan plan(const RunOptions& options);
   ThreadPool& pool();

@@ -112,7 +112,8 @@ void System::add_components(const SystemDeclaration& declaration, Mistakes& mist
       mistakes.attempt([&] { check_connector(declaration, component, connector); });
     }
     check_clocks(component);
-    components_.push_back({component.name, component.description, component.early_return_allowed});
+    components_.push_back({component.name, component.description, component.early_return_allowed,
+                           component.has_snapshots});
   }
 }
 

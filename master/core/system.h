@@ -33,6 +33,7 @@ struct ComponentDeclaration {
   std::vector<ConnectorDeclaration> connectors;  ///< may be empty: resolved against the description
   Location where{};
   bool early_return_allowed = true;
+  bool has_snapshots = false;
 };
 /// A connector of a system that a value comes through, and what is done to it on the way there.
 struct ViaDeclaration {
@@ -80,8 +81,11 @@ struct Component {
   std::shared_ptr<const UnitDescription> description;
   /// Whether its unit is instantiated with earlyReturnAllowed.
   bool early_return_allowed = true;
+  /// Whether its process can be saved, in place of a state that the unit does not have.
+  bool has_snapshots = false;
 
   bool may_return_early() const { return early_return_allowed && description->may_return_early; }
+  bool can_save_state() const { return description->can_save_state || has_snapshots; }
 };
 struct Connection {
   VariableId from;

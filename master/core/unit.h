@@ -13,6 +13,7 @@
 #include <stride/time.h>
 
 #include "master/core/description.h"
+#include "master/core/statistics.h"
 #include "master/core/values.h"
 
 namespace stride::core {
@@ -187,6 +188,10 @@ class Unit {
 
   /// How many functions of the unit's interface were called so far, where they are counted.
   virtual std::uint64_t calls() const { return 0; }
+
+  /// Of the process that the unit has to itself; nothing if it has none. At any time, also after a
+  /// failure.
+  virtual std::optional<HostStatistics> host_statistics() const { return std::nullopt; }
 };
 
 }  // namespace stride::core

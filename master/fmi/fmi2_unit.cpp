@@ -25,7 +25,7 @@ Fmi2Unit::Fmi2Unit(std::string name, std::shared_ptr<const Fmi2Library> library,
   const bool may_be_pending = attributes_->can_run_asynchronously;
   callbacks_ = {&on_log, &std::calloc, &std::free, may_be_pending ? &on_step_finished : nullptr,
                 this};
-  ++calls_;
+  note_call("fmi2Instantiate");
   instance_ =
       fmi_.Instantiate(name_.c_str(), fmi2CoSimulation,
                        parts_.description->instantiation_token.c_str(), parts_.resources.c_str(),
@@ -39,6 +39,7 @@ Fmi2Unit::~Fmi2Unit() {
   if (instance_ == nullptr) return;
   free_state(before_step_);
   for (SavedState& saved : states_) free_state(saved);
+  note_call("fmi2FreeInstance");
   if (!is_condemned_) fmi_.FreeInstance(instance_);
 }
 

@@ -46,7 +46,7 @@ Status Fmi2Unit::wait_for_step() {
 /// The unit's messages are those of the step, so the call is not looked into.
 Status Fmi2Unit::poll_step() {
   if (fmi_.GetStatus == nullptr) return Status::Pending;
-  ++calls_;
+  note_call("fmi2GetStatus");
   fmi2Status of_step = fmi2Pending;
   const auto answer = static_cast<Status>(fmi_.GetStatus(instance_, fmi2DoStepStatus, &of_step));
   if (answer == Status::Error || answer == Status::Fatal) fail_call("fmi2GetStatus", answer);
@@ -59,7 +59,7 @@ Status Fmi2Unit::poll_step() {
 /// What the unit says of a step that is not finished.
 std::string Fmi2Unit::pending_text() {
   if (fmi_.GetStringStatus == nullptr) return "";
-  ++calls_;
+  note_call("fmi2GetStringStatus");
   fmi2String text = nullptr;
   const fmi2Status answer = fmi_.GetStringStatus(instance_, fmi2PendingStatus, &text);
   return answer == fmi2OK && text != nullptr ? fmt::format("; it says: {}", text) : "";

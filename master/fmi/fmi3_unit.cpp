@@ -49,7 +49,7 @@ Fmi3Unit::Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library,
   const bool has_resources = !parts_.resources.empty();
   std::vector<core::ValueReference> intermediate;
   if (options_.intermediate_update) intermediate = intermediate_inputs(description);
-  ++calls_;
+  note_call("fmi3InstantiateCoSimulation");
   instance_ = fmi_.InstantiateCoSimulation(
       name_.c_str(), description.instantiation_token.c_str(),
       has_resources ? parts_.resources.c_str() : nullptr, fmi3False, options_.debug_logging,
@@ -64,6 +64,7 @@ Fmi3Unit::Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library,
 Fmi3Unit::~Fmi3Unit() {
   if (instance_ == nullptr || is_condemned_) return;
   for (SavedState& saved : states_) free_state(saved);
+  note_call("fmi3FreeInstance");
   if (!is_condemned_) fmi_.FreeInstance(instance_);
 }
 

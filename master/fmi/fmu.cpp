@@ -51,7 +51,9 @@ class Tenancy {
                        fmt::format("'{}' can be instantiated only once per process, and an "
                                    "instance of it is there already",
                                    fmu_->path().string()),
-                       "use it for one component only");
+                       fmt::format("give this one a process of its own, <stride:Host "
+                                   "components=\"{}\"/>, or use it for one component only",
+                                   name));
     }
     token_ = description.instantiation_token;
   }

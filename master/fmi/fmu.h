@@ -38,6 +38,9 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
     return unpacked_ ? unpacked_->folder() : std::filesystem::path();
   }
 
+  /// Where its resources are, if it has any: the folder need not exist.
+  const std::filesystem::path& resources() const { return resources_; }
+
   /// Loads the library, if that has not happened yet. Throws core::Error of the kind Input.
   std::shared_ptr<const SharedLibrary> load_library();
   /// Likewise of a unit of this version; null if it is of the other.

@@ -26,7 +26,8 @@ double time_tolerance(const core::StepInterval& interval) {
 
 FmuInstance::FmuInstance(const char* prefix, std::shared_ptr<const SharedLibrary> library,
                          std::string name, UnitParts parts, InstanceOptions options)
-    : is_condemned_(library->is_condemned()),
+    : call_note_(options.call_note),
+      is_condemned_(library->is_condemned()),
       name_(std::move(name)),
       parts_(std::move(parts)),
       options_(std::move(options)),

@@ -17,6 +17,7 @@
 
 #include "master/core/error.h"
 #include "master/core/unit.h"
+#include "master/fmi/call_note.h"
 #include "master/fmi/shared_library.h"
 #include "master/fmi/status.h"
 
@@ -36,6 +37,8 @@ struct InstanceOptions {
   core::Location where{};  ///< the component's place in the scenario, for errors
   /// With the array sizes that its structural parameters give; nothing = as the FMU says.
   std::shared_ptr<const core::UnitDescription> description{};
+  /// Where the name of each function is noted before it is called; null = nowhere.
+  CallNote* call_note = nullptr;
 };
 
 /// What an instance is made of, beside its library.
@@ -77,6 +80,12 @@ class FmuInstance : public core::Unit {
   template <class Function, class... Arguments>
   Status call_discardable(const char* name, Function* function, Arguments... arguments);
 
+  /// To be said before each call.
+  void note_call(const char* name) {
+    ++calls_;
+    if (call_note_ != nullptr) [[unlikely]]
+      call_note_->write(name);
+  }
   void check_callable(const char* name) const {
     if (failed_in_ != nullptr || is_condemned_.load(std::memory_order_relaxed)) [[unlikely]]
       fail_not_callable(name);
@@ -131,6 +140,7 @@ class FmuInstance : public core::Unit {
   void* instance_ = nullptr;         ///< as the unit calls it
   const char* failed_in_ = nullptr;  ///< the function after whose status nothing goes on
   std::uint64_t calls_ = 0;
+  CallNote* const call_note_;
   std::optional<Time> time_;
   const std::atomic<bool>& is_condemned_;  ///< the library
   std::atomic<bool> has_messages_ = false;
@@ -157,7 +167,7 @@ template <class Function, class... Arguments>
                                                                    Function* function,
                                                                    Arguments... arguments) {
   check_callable(name);
-  ++calls_;
+  note_call(name);
   const auto status = static_cast<Status>(function(instance_, arguments...));
   const bool is_quiet = !has_messages_.load(std::memory_order_relaxed);
   if (status == Status::Ok && is_quiet) [[likely]]

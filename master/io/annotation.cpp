@@ -108,6 +108,29 @@ void read_early_return(const xml::Element& element, ScenarioAnnotation& annotati
   }
 }
 
+void read_host(const xml::Element& element, HostChoice& choice) {
+  element.allow_attributes(
+      {"components", "process", "timeout", "memoryLimit", "sandbox", "snapshots"});
+  element.allow_children({});
+  HostSettings settings;
+  settings.process = element.flag("process", true);
+  settings.where = element.where();
+  for (const char* attribute : {"timeout", "memoryLimit", "sandbox", "snapshots"}) {
+    if (*settings.process || !element.attribute(attribute)) continue;
+    element.fail(fmt::format("{} is for a unit with a process of its own", attribute),
+                 "leave it out, or process=\"false\"");
+  }
+  if (element.attribute("timeout")) {
+    settings.call_limit = parse_attribute(element, "timeout", parse_call_limit);
+  }
+  if (element.attribute("memoryLimit")) {
+    settings.memory_limit = parse_attribute(element, "memoryLimit", parse_memory_limit);
+  }
+  if (element.attribute("sandbox")) settings.sandbox = element.flag("sandbox");
+  if (element.attribute("snapshots")) settings.snapshots = element.flag("snapshots");
+  for (auto& pattern : read_components(element)) choice.rules.push_back({pattern, settings});
+}
+
 void read_idle_skip(const xml::Element& element, IdleChoice& choice) {
   element.allow_attributes({"components", "enabled", "maxSkip"});
   element.allow_children({});
@@ -165,6 +188,7 @@ ScenarioAnnotation read_scenario_element(const xml::Element& scenario) {
                            {kStrideScenario, "Results"},
                            {kStrideScenario, "MainThread"},
                            {kStrideScenario, "EarlyReturn"},
+                           {kStrideScenario, "Host"},
                            {kStrideScenario, "IdleSkip"},
                            {kStrideScenario, "Deadband"},
                            {kStrideScenario, "Tolerance"}});
@@ -182,6 +206,9 @@ ScenarioAnnotation read_scenario_element(const xml::Element& scenario) {
   }
   for (const xml::Element& element : scenario.children({kStrideScenario, "EarlyReturn"})) {
     read_early_return(element, annotation);
+  }
+  for (const xml::Element& element : scenario.children({kStrideScenario, "Host"})) {
+    read_host(element, annotation.hosts);
   }
   for (const xml::Element& element : scenario.children({kStrideScenario, "IdleSkip"})) {
     read_idle_skip(element, annotation.idle);

@@ -9,6 +9,7 @@
 
 #include "master/core/error.h"
 #include "master/io/component_selection.h"
+#include "master/io/host_choice.h"
 #include "master/io/idle_choice.h"
 #include "master/io/step_choice.h"
 #include "master/xml/element.h"
@@ -42,6 +43,7 @@ struct ScenarioAnnotation {
   ResultFiles results;
   std::vector<ComponentPattern> main_thread;  ///< who steps on the simulation's own thread only
   std::vector<EarlyReturnRule> early_return;  ///< without one: allowed
+  HostChoice hosts;
   IdleChoice idle;
 };
 

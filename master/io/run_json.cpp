@@ -19,6 +19,19 @@ Json unit_entry(const core::Component& component) {
           {"fmi_version", component.description->fmi_version}};
 }
 
+Json host_entry(const core::HostStatistics& host) {
+  Json entry = {{"memory", host.most_memory}};
+  if (host.snapshots > 0) {
+    entry["snapshots"] = {{"made", host.snapshots},
+                          {"restored", host.restores},
+                          {"most_kept", host.most_snapshots},
+                          {"memory", host.most_snapshot_memory}};
+  }
+  entry["protections"] = host.protections;
+  entry["missing_protections"] = host.missing_protections;
+  return entry;
+}
+
 void add(Json& entry, const core::UnitStatistics& unit) {
   entry["calls"] = unit.calls;
   entry["steps"] = unit.steps;
@@ -37,6 +50,7 @@ void add(Json& entry, const core::UnitStatistics& unit) {
   entry["wall_time"] = {{"initialization", seconds(unit.initialization_time)},
                         {"steps", seconds(unit.step_time)},
                         {"events", seconds(unit.event_time)}};
+  if (unit.host) entry["host"] = host_entry(*unit.host);
 }
 
 Json step_entry(const core::RunOptions& options) {

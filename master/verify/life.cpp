@@ -48,7 +48,7 @@ std::string text_of(const ValueBlock& block, std::size_t first, std::size_t size
 
 }  // namespace
 
-Life::Life(const Subject& subject, SharedNote& note, LifeOptions options)
+Life::Life(const Subject& subject, process::SharedNote& note, LifeOptions options)
     : subject_(subject),
       options_(std::move(options)),
       stimulus_(subject, options_.seed != 0 ? options_.seed : subject.request().seed),

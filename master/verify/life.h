@@ -29,7 +29,7 @@ struct LifeOptions {
 /// where the unit does what no unit may, core::Error where it fails.
 class Life {
  public:
-  Life(const Subject& subject, SharedNote& note, LifeOptions options = {});
+  Life(const Subject& subject, process::SharedNote& note, LifeOptions options = {});
 
   core::Unit& unit() { return *units_.front(); }
   Time now() const { return position_.now; }

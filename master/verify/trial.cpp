@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include "master/core/error.h"
+#include "master/process/signal_name.h"
 #include "master/verify/finding.h"
 
 namespace stride::verify {
 namespace {
 
-using End = ChildOutcome::End;
+using End = process::ChildOutcome::End;
 
 /// The last line that is not empty, without what no table can show.
 std::string last_line(const std::string& printed) {
@@ -28,14 +29,15 @@ std::string last_line(const std::string& printed) {
 
 }  // namespace
 
-std::string explain(const ChildOutcome& outcome, const SharedNote& note) {
+std::string explain(const process::ChildOutcome& outcome, const process::SharedNote& note) {
   std::string text;
   switch (outcome.end) {
     case End::Answered:
     case End::Threw:
       return outcome.text;
     case End::Killed:
-      text = fmt::format("it crashed with signal {} ({})", outcome.code, signal_name(outcome.code));
+      text = fmt::format("it crashed with signal {} ({})", outcome.code,
+                         process::signal_name(outcome.code));
       break;
     case End::Exited:
       text = fmt::format("it ended the process with exit code {}", outcome.code);
@@ -59,7 +61,7 @@ std::string explain(const ChildOutcome& outcome, const SharedNote& note) {
 
 std::string Trial::in_child(const std::function<std::string()>& work) const {
   note.clear();
-  ChildOutcome outcome = run_in_child(work);
+  process::ChildOutcome outcome = process::run_in_child(work);
   if (outcome.end == End::Answered) return std::move(outcome.text);
   throw Failure(explain(outcome, note));
 }

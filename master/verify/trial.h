@@ -4,7 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "master/verify/child.h"
+#include "master/process/child.h"
+#include "master/process/shared_note.h"
 #include "master/verify/life.h"
 #include "master/verify/subject.h"
 
@@ -14,7 +15,7 @@ namespace stride::verify {
 /// loaded before.
 struct Trial {
   const Subject& subject;
-  SharedNote& note;
+  process::SharedNote& note;
 
   /// A life in this process.
   Life live(LifeOptions options = {}) const { return Life(subject, note, std::move(options)); }
@@ -34,7 +35,7 @@ struct Trial {
 
 /// "it crashed with signal 11 (SIGSEGV) in fmi3Reset at 0.1 s", for what ended otherwise than by an
 /// answer or an exception.
-std::string explain(const ChildOutcome& outcome, const SharedNote& note);
+std::string explain(const process::ChildOutcome& outcome, const process::SharedNote& note);
 
 }  // namespace stride::verify
 

@@ -9,14 +9,15 @@
 
 #include "master/core/error.h"
 #include "master/core/suggest.h"
+#include "master/process/child.h"
+#include "master/process/shared_note.h"
 #include "master/verify/checks.h"
-#include "master/verify/child.h"
 
 namespace stride::verify {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using End = ChildOutcome::End;
+using End = process::ChildOutcome::End;
 
 std::string dump(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
@@ -47,7 +48,7 @@ bool is_wanted(const Check& check, const std::vector<std::string>& wanted) {
 }
 
 Finding run_isolated(const Check& check, const Subject& subject, const Hooks& hooks) {
-  SharedNote note;
+  process::SharedNote note;
   const auto work = [&] {
     const Trial trial{subject, note};
     try {
@@ -58,8 +59,8 @@ Finding run_isolated(const Check& check, const Subject& subject, const Hooks& ho
       return to_text(failed(error.what()));
     }
   };
-  const ChildOutcome outcome =
-      run_in_child(work, {.limit = subject.request().limit, .interrupted = hooks.interrupted});
+  const process::ChildOutcome outcome = process::run_in_child(
+      work, {.limit = subject.request().limit, .interrupted = hooks.interrupted});
   if (outcome.end == End::Interrupted) {
     core::fail_run({}, fmt::format("interrupted during the check '{}'", check.name));
   }

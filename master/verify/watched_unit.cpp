@@ -26,13 +26,13 @@ decltype(auto) WatchedUnit::watched(const char* function, Work&& work) {
   std::snprintf(name, sizeof name, "%s%s", is_fmi2_ ? "fmi2" : "fmi3", function);
   note_.write(name, now_.time_since_epoch().count());
   struct End {
-    SharedNote& note;
+    process::SharedNote& note;
     ~End() { note.clear(); }
   } end{note_};
   return work();
 }
 
-WatchedUnit::WatchedUnit(const Subject& subject, SharedNote& note, const std::string& name,
+WatchedUnit::WatchedUnit(const Subject& subject, process::SharedNote& note, const std::string& name,
                          fmi::InstanceOptions options)
     : subject_(subject), note_(note), is_fmi2_(subject.description().fmi_version.starts_with("2")) {
   note_.write("the loading of its library", 0);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "master/core/unit.h"
-#include "master/verify/child.h"
+#include "master/process/shared_note.h"
 #include "master/verify/subject.h"
 
 namespace stride::verify {
@@ -16,7 +16,7 @@ namespace stride::verify {
 class WatchedUnit final : public core::Unit {
  public:
   /// Makes the unit itself, and notes that, too. All three must outlive this object.
-  WatchedUnit(const Subject& subject, SharedNote& note, const std::string& name,
+  WatchedUnit(const Subject& subject, process::SharedNote& note, const std::string& name,
               fmi::InstanceOptions options);
   ~WatchedUnit() override;
 
@@ -49,7 +49,7 @@ class WatchedUnit final : public core::Unit {
   decltype(auto) watched(const char* function, Work&& work);
 
   const Subject& subject_;
-  SharedNote& note_;
+  process::SharedNote& note_;
   bool is_fmi2_;
   Time now_{};
   std::unique_ptr<core::Unit> unit_;

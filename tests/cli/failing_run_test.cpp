@@ -2,11 +2,8 @@
 // there.
 #include <csignal>
 #include <cstdlib>
-#include <thread>
 
-#include <nlohmann/json.hpp>
-
-#include "tests/cli/scenarios.h"
+#include "tests/cli/failures.h"
 
 using namespace stride::tests;
 using Catch::Matchers::Contains;
@@ -15,48 +12,10 @@ namespace {
 
 const std::vector<std::string> kFiles{"signals.csv", "events.csv", "signals.vcd", "run.json"};
 
-nlohmann::json run_json(const Workspace& workspace) {
-  return nlohmann::json::parse(workspace.result("run.json"));
-}
-
-std::string last_time(const Workspace& workspace) {
-  const Csv signals = workspace.signals();
-  return signals.row(signals.size() - 1).front();
-}
-
-/// The message is on the standard error stream and in run.json, the results end at `last`.
-std::string failure_of(const Workspace& workspace, const Arguments& options,
-                       const std::string& last) {
-  Arguments arguments{"--quiet"};
-  arguments.insert(arguments.end(), options.begin(), options.end());
-  const Outcome outcome = workspace.run(arguments);
-  CHECK(outcome.exit_code == 1);
-  CHECK(outcome.out == "");
-  CHECK(last_time(workspace) == last);
-  const nlohmann::json run = run_json(workspace);
-  CHECK(run["outcome"] == "failed");
-  CHECK(run["reached"] == std::stod(last));
-  CHECK_THAT(outcome.err, Contains("stride: error: " + run["error"].get<std::string>()));
-  CHECK(workspace.left_behind().empty());
-  return run["error"];
-}
-
 Workspace beside_a_filter(const std::string& name, const std::string& source,
                           const std::string& connections = "") {
   return Workspace(
       Parts{component("filter", "minimal.fmu") + component(name, source), connections});
-}
-
-/// A run that takes hours, once its first results are on the disk.
-void start(Process& process, const Workspace& workspace) {
-  using namespace std::chrono_literals;
-  std::error_code none;
-  while (process.is_running()) {
-    const auto size = fs::file_size(workspace / "out/signals.csv", none);
-    if (!none && size > 0) return;
-    std::this_thread::sleep_for(1ms);
-  }
-  FAIL("the run ended by itself: " << process.wait().err);
 }
 
 }  // namespace
@@ -128,7 +87,7 @@ TEST_CASE("an interrupted run keeps what it has recorded") {
   const int signal = GENERATE(SIGINT, SIGTERM);
   Process process(stride_command(Workspace::run_arguments({"--stop", "1e6", "--no-trace"})),
                   workspace.scratch().path());
-  start(process, workspace);
+  await_first_results(process, workspace);
   process.send(signal);
   const Outcome outcome = process.wait();
   CHECK(outcome.exit_code == 1);
@@ -146,7 +105,7 @@ TEST_CASE("what a killed run leaves goes with the next one") {
   {
     Process process(stride_command(Workspace::run_arguments({"--stop", "1e6", "--no-trace"})),
                     workspace.scratch().path());
-    start(process, workspace);
+    await_first_results(process, workspace);
     process.send(SIGKILL);
     CHECK(process.wait().exit_code == -SIGKILL);
   }

@@ -125,8 +125,9 @@ TEST_CASE("check prints how it would step") {
 }
 
 TEST_CASE("what a policy cannot do is said before the run") {
-  const Workspace workspace(
-      Parts{component("filter", "minimal.fmu") + component("s", "stateless.fmu")});
+  Parts parts{component("filter", "minimal.fmu") + component("s", "stateless.fmu")};
+  parts.annotation = "<stride:Host components='s' process='false'/>";
+  const Workspace workspace(parts);
   const Outcome refused = workspace.run({"--policy", "error-controlled"});
   CHECK_THAT(input_error_of(refused), Contains("cannot be rolled back: 's'"));
   CHECK_FALSE(fs::exists(workspace / "out"));

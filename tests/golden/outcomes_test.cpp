@@ -157,16 +157,6 @@ TEST_CASE("nfc_two_tags: who may return early changes when frames are handed ove
         until_then(two_tags().payloads("reader", "report.text", "sent"), 7));
 }
 
-TEST_CASE("nfc_two_tags: two units that may both return early are refused, with what to write") {
-  const OtherEarlyReturn other("");
-  const Outcome outcome = run_program({"check", other.file()});
-  CHECK(outcome.exit_code == 2);
-  CHECK_THAT(
-      outcome.err,
-      Catch::Contains("'sensor_left' and 'sensor_right' may both return early") &&
-          Catch::Contains("<stride:EarlyReturn components=\"sensor_right\" allowed=\"false\"/>"));
-}
-
 TEST_CASE("rf_approach: nearer is not better where two rays cancel, and the retries outlast it") {
   const ScenarioRun run("rf_approach", {"--no-trace", "--no-idle-skip"});
   CHECK(golden_differences("rf_approach", run) == "");

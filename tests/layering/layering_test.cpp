@@ -20,16 +20,20 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"master/core", {"stride/time.h", "fmt", "Eigen"}},
     {"master/xml", {"master/core", "fmt", "tinyxml2.h"}},
     {"master/archive", {"master/core", "fmt", "archive.h", "archive_entry.h"}},
+    {"master/process", {"dirent.h", "linux", "sched.h", "seccomp.h"}},
     {"master/fmi", {"stride", "master/core", "master/xml", "master/archive", "fmt"}},
+    {"master/host",
+     {"stride/time.h", "master/core", "master/archive", "master/fmi", "master/process", "fmt"}},
     {"master/io",
      {"stride/time.h", "master/core", "master/xml", "master/archive", "fmt", "nlohmann"}},
     {"master/capture", {"stride/time.h", "master/core", "master/io", "fmt"}},
     {"master/trace", {"stride/time.h", "master/core", "master/io", "fmt"}},
     {"master/verify",
-     {"stride/time.h", "master/core", "master/fmi", "fmt", "nlohmann", "malloc.h"}},
+     {"stride/time.h", "master/core", "master/fmi", "master/process", "fmt", "nlohmann",
+      "malloc.h"}},
     {"master/cli",
-     {"stride", "master/core", "master/archive", "master/capture", "master/fmi", "master/io",
-      "master/trace", "master/verify", "fmt", "spdlog", "CLI"}},
+     {"stride", "master/core", "master/archive", "master/capture", "master/fmi", "master/host",
+      "master/io", "master/trace", "master/verify", "fmt", "spdlog", "CLI"}},
     {"units/minimal", {"stride"}},
     {"units/nfc", {"stride/time.h"}},
     {"units/xml", {"stride/time.h", "tinyxml2.h"}},
@@ -44,11 +48,12 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"units/environment", {"stride"}},
     {"units/ground_truth", {"stride", "units/xml"}},
     {"units/player", {"stride"}},
+    {"units/process", {"stride", "units/xml"}},
 };
 
 /// The libraries among the units are installed, and included as a user sees them.
 std::string without_installed_name(const std::string& header) {
-  for (const std::string library : {"nfc/", "systemc/"}) {
+  for (const std::string library : {"nfc/", "process/", "systemc/"}) {
     if (header.rfind("stride/" + library, 0) == 0) return "units/" + header.substr(7);
   }
   return header;
@@ -71,12 +76,12 @@ bool begins_with(const std::string& header, const std::string& allowed) {
 
 /// Standard headers have no dot and no slash; the system's are those of POSIX and Linux.
 bool is_system(const std::string& header) {
-  static const std::set<std::string> kPosix = {"dlfcn.h",   "unistd.h", "fcntl.h",
-                                               "fnmatch.h", "poll.h",   "pthread.h",
-                                               "stdbool.h", "stddef.h", "stdint.h"};
+  static const std::set<std::string> kPosix = {"dlfcn.h",  "unistd.h",  "fcntl.h", "fnmatch.h",
+                                               "poll.h",   "pthread.h", "sched.h", "stdbool.h",
+                                               "stddef.h", "stdint.h"};
   const bool standard = header.find_first_of("./") == std::string::npos;
   return (standard && header != "systemc") || kPosix.count(header) != 0 ||
-         begins_with(header, "sys");
+         begins_with(header, "sys") || begins_with(header, "linux");
 }
 
 bool is_source(const fs::path& path) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "master/host/hosted_unit.h"
 #include "master/io/csv_recorder.h"
 #include "master/io/event_recorder.h"
 #include "tests/master/fmi/support.h"
@@ -109,6 +110,24 @@ Assembly& Assembly::set(const std::string& variable, const std::string& value) {
   return *this;
 }
 
+Assembly Assembly::hosted(std::set<std::string> components, bool snapshots) const {
+  Assembly other = *this;
+  for (core::ComponentDeclaration& component : other.declaration_.components) {
+    component.has_snapshots =
+        snapshots && components.count(component.name) > 0 && !component.description->can_save_state;
+  }
+  other.hosted_ = std::move(components);
+  return other;
+}
+
+Assembly Assembly::hosted() const {
+  std::set<std::string> all;
+  for (const core::ComponentDeclaration& component : declaration_.components) {
+    all.insert(component.name);
+  }
+  return hosted(std::move(all));
+}
+
 Assembly Assembly::shuffled(unsigned seed) const {
   Assembly other = *this;
   std::mt19937 random(seed);
@@ -119,11 +138,17 @@ Assembly Assembly::shuffled(unsigned seed) const {
 }
 
 std::vector<std::unique_ptr<core::Unit>> Assembly::instantiate() const {
+  const fmi::InstanceOptions options{.early_return_allowed = true, .intermediate_update = true};
   std::vector<std::unique_ptr<core::Unit>> units;
   for (const core::ComponentDeclaration& component : declaration_.components) {
-    units.push_back(units_.at(component.name)
-                        ->instantiate(component.name,
-                                      {.early_return_allowed = true, .intermediate_update = true}));
+    const std::shared_ptr<fmi::Fmu>& fmu = units_.at(component.name);
+    if (hosted_.count(component.name) == 0) {
+      units.push_back(fmu->instantiate(component.name, options));
+    } else {
+      host::HostOptions host;
+      host.takes_snapshots = component.has_snapshots;
+      units.push_back(host::instantiate(fmu, component.name, options, host));
+    }
   }
   return units;
 }
@@ -131,7 +156,8 @@ std::vector<std::unique_ptr<core::Unit>> Assembly::instantiate() const {
 std::string Assembly::text() const {
   std::string text;
   for (const auto& component : declaration_.components) {
-    text += component.name + ": " + component.description->model_name + "\n";
+    text += component.name + ": " + component.description->model_name +
+            (hosted_.count(component.name) > 0 ? " in a process of its own\n" : "\n");
   }
   for (const auto& wire : declaration_.connections) {
     text += wire.from_component + "." + wire.from_connector + " -> " + wire.to_component + "." +

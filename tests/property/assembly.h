@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,6 +37,11 @@ class Assembly {
   /// The three connections of a numbered message: "ticker.tick", "listener.message".
   Assembly& wire_message(const std::string& from, const std::string& to);
   Assembly& set(const std::string& variable, const std::string& value);
+  /// The same system, of which these components have processes of their own. With `snapshots`
+  /// these stand in for states that units do not have.
+  Assembly hosted(std::set<std::string> components, bool snapshots = false) const;
+  /// Likewise, all of its components.
+  Assembly hosted() const;
   /// The same system with its components and connections in another order.
   Assembly shuffled(unsigned seed) const;
 
@@ -47,6 +53,7 @@ class Assembly {
  private:
   core::SystemDeclaration declaration_;
   std::map<std::string, std::shared_ptr<fmi::Fmu>> units_;  ///< by component
+  std::set<std::string> hosted_;                            ///< components
 };
 
 struct Results {

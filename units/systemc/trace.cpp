@@ -1,41 +1,57 @@
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 
+#include <fcntl.h>
 #include <fnmatch.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <stride/systemc/trace.h>
 
 namespace stride::systemc {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr const char* kExtension = ".vcd";
 constexpr const char* kAdvanceTime = "advanceTime";
 
-/// Of all devices of this process; guarded by the kernel's lock.
-std::set<std::string>& files_in_use() {
-  static std::set<std::string> paths;
-  return paths;
+/// Where the run's other results are, if the importer has told; else where the program was started.
+fs::path results_folder() {
+  const char* const told = std::getenv("STRIDE_RESULTS");
+  return told != nullptr ? told : fs::current_path();
 }
 
 /// Absolute, and the same however a file is named.
 std::string without_extension(const std::string& path) {
-  std::filesystem::path file = std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  fs::path file = fs::weakly_canonical(results_folder() / path);
   if (file.extension() == kExtension) file.replace_extension();
   return file.string();
 }
 
-void require_writable(const std::string& path) {
-  std::FILE* const file = std::fopen(path.c_str(), "w");
-  if (file == nullptr) {
+/// Opens the file and keeps all others from it who do the same, in whichever process, until it is
+/// unlocked. Returns its descriptor.
+int lock_file(const std::string& path) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (file < 0) {
     throw std::invalid_argument("trace.file: cannot write " + path + ": " + std::strerror(errno));
   }
-  std::fclose(file);
+  if (::flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return file;
+  ::close(file);
+  throw std::invalid_argument("trace.file: another device writes " + path +
+                              "; each needs a file of its own");
+}
+
+/// By name, for a fork of this process may have the descriptor, too.
+void unlock_file(int file) {
+  ::flock(file, LOCK_UN);
+  ::close(file);
 }
 
 std::string names_of(const SignalList& list) {
@@ -102,15 +118,14 @@ void SignalList::add_all_within(const sc_core::sc_object& module) {
 Trace::Trace(Kernel& kernel, const TraceOptions& options, const SignalList& signals)
     : kernel_(kernel) {
   const std::vector<const SignalList::Signal*> chosen = choose(signals, options.signals);
-  const auto lock = lock_kernel();
   path_ = without_extension(options.file);
-  if (files_in_use().count(path_) != 0) {
-    throw std::invalid_argument("trace.file: another device writes " + path_ + kExtension +
-                                "; each needs a file of its own");
+  lock_ = lock_file(path_ + kExtension);
+  try {
+    kernel_.within([&] { open(chosen); });
+  } catch (...) {
+    unlock_file(lock_);
+    throw;
   }
-  require_writable(path_ + kExtension);
-  kernel_.within([&] { open(chosen); });
-  files_in_use().insert(path_);
 }
 
 void Trace::open(const std::vector<const SignalList::Signal*>& chosen) {
@@ -127,8 +142,7 @@ Trace::~Trace() {
     kernel_.within([this] { sc_core::sc_close_vcd_trace_file(file_); });
   } catch (const DeviceError&) {  // a report about a file that is closed by now
   }
-  const auto lock = lock_kernel();
-  files_in_use().erase(path_);
+  unlock_file(lock_);
 }
 
 }  // namespace stride::systemc

@@ -166,6 +166,7 @@ class ScriptedUnit : public Unit {
   std::optional<Duration> max_skip;  ///< as it was enabled
   /// Keeps or brings back what the script holds beside the values.
   std::function<void(bool save)> on_state = [](bool) {};
+  std::optional<HostStatistics> host;  ///< what it says of its process
   Calls calls;
   int gets = 0;
 
@@ -263,6 +264,7 @@ class ScriptedUnit : public Unit {
     }
   }
   void terminate() override { calls.push_back("terminate"); }
+  std::optional<HostStatistics> host_statistics() const override { return host; }
 
  private:
   template <class Block, class Move>

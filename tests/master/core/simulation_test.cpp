@@ -440,6 +440,23 @@ TEST_CASE("a unit can end the simulation") {
   CHECK(a.calls.back() == "terminate");
 }
 
+TEST_CASE("what a unit says of its process is in the statistics, also where the run fails") {
+  const bool fails = GENERATE(false, true);
+  Fixture f;
+  f.add("in_process", one_in_one_out());
+  f.add("hosted", one_in_one_out()).on_step = [&](ScriptedUnit& unit, Time, Time to) {
+    unit.host =
+        HostStatistics{.most_memory = 7 * static_cast<std::uint64_t>(to_seconds(to) * 1000)};
+    if (fails && to == time_from_seconds(0.002)) fail_run({}, "the process ended");
+    return reached(to);
+  };
+  f.build(0.003, 1ms);
+  CHECK_THAT(failure(*f.simulation), Contains(fails ? "the process ended" : "none"));
+  const auto& units = f.simulation->statistics().units;
+  CHECK_FALSE(units[0].host);
+  CHECK(units[1].host.value().most_memory == (fails ? 14 : 21));
+}
+
 TEST_CASE("an input is recorded as its source left it") {
   Fixture f;
   auto& a = f.add("a", one_in_one_out());

@@ -87,14 +87,144 @@ TEST_CASE("a state is saved only where another unit may stop") {
   CHECK(saves({rollback().may_return_early(), rollback().may_return_early()}) == "ss");
 }
 
+TEST_CASE("a snapshot is as good as a state") {
+  CHECK_FALSE(system_of({early()}).components()[0].can_save_state());
+  CHECK(system_of({rollback()}).components()[0].can_save_state());
+  SystemDeclaration declaration;
+  declaration.components.push_back({"a", early().done(), {}, {}, true, true});
+  CHECK(System(declaration).components()[0].can_save_state());
+}
+
+namespace {
+
+/// A unit, and whether its process can be saved.
+struct Hosted {
+  Describe unit;
+  bool has_snapshots = false;
+};
+
+SystemDeclaration declare(const std::vector<Hosted>& units) {
+  SystemDeclaration declaration;
+  for (const Hosted& hosted : units) {
+    const std::string name(1, static_cast<char>('a' + declaration.components.size()));
+    declaration.components.push_back(
+        {name, hosted.unit.done(), {}, {}, true, hosted.has_snapshots});
+  }
+  return declaration;
+}
+
+/// The step order, with a star behind each name whose state is saved, and a bar between stages.
+std::string order_of(const std::vector<Hosted>& units, StepPolicy policy = StepPolicy::Fixed) {
+  const System system(declare(units));
+  std::string text;
+  std::size_t stage = 0;
+  for (const StepPlace& place : step_order(system, policy, Coupling::Jacobi)) {
+    if (place.stage != stage) text += '|';
+    stage = place.stage;
+    text += system.components()[place.component].name + (place.saves_state ? "*" : "");
+  }
+  return text;
+}
+
+std::string reason_of(const std::vector<Hosted>& units, std::size_t component) {
+  for (const StepPlace& place :
+       step_order(System(declare(units)), StepPolicy::Fixed, Coupling::Jacobi)) {
+    if (place.component == component) return place.reason;
+  }
+  return "";
+}
+
+constexpr bool kSnapshots = true;
+
+}  // namespace
+
+TEST_CASE("of those that may return early and have snapshots at most, one needs none") {
+  CHECK(order_of({{early(), kSnapshots}, {obedient()}}) == "a|b");
+  CHECK(order_of({{early(), kSnapshots}, {rollback()}}) == "b*|a");
+  CHECK(order_of({{early(), kSnapshots}, {early(), kSnapshots}}) == "b*|a");
+  CHECK(order_of({{early(), kSnapshots}, {early()}, {early(), kSnapshots}}) == "a*c*|b");
+  CHECK(order_of({{obedient(), kSnapshots}, {early(), kSnapshots}, {early(), kSnapshots}}) ==
+        "c*|b|a");
+}
+
+TEST_CASE("who may only reject a step is saved where another may stop") {
+  CHECK(order_of({{unknown(), kSnapshots}, {obedient()}}) == "a|b");
+  CHECK(order_of({{unknown(), kSnapshots}, {unknown(), kSnapshots}}) == "b*|a");
+  CHECK(order_of({{unknown(), kSnapshots}, {unknown()}}) == "a*|b");
+  CHECK(order_of({{unknown(), kSnapshots}, {early()}}) == "a*|b");
+  CHECK(order_of({{unknown(), kSnapshots}, {early(), kSnapshots}}) == "a*|b");
+  CHECK(order_of({{unknown()}, {early(), kSnapshots}}) == "b|a");
+  CHECK(order_of({{unknown(), kSnapshots}, {rollback()}}) == "b*|a");
+}
+
+TEST_CASE("with error-controlled steps everybody is saved") {
+  CHECK(order_of({{early(), kSnapshots}, {obedient(), kSnapshots}, {follower()}},
+                 StepPolicy::ErrorControlled) == "a*b*c*");
+}
+
+TEST_CASE("a state of its own goes before snapshots") {
+  CHECK(order_of({{rollback().may_return_early(), kSnapshots}, {early()}}) == "a*|b");
+  CHECK_THAT(reason_of({{rollback(), kSnapshots}, {early()}}, 0), Contains("its state is saved"));
+}
+
+TEST_CASE("the reason says who needs a snapshot, and who does not") {
+  const std::vector<Hosted> pair = {{early(), kSnapshots}, {early(), kSnapshots}};
+  CHECK_THAT(reason_of(pair, 0), Contains("may return early") && Contains("needs no snapshot"));
+  CHECK_THAT(reason_of(pair, 1), Contains("a snapshot of its process is taken before each step"));
+  CHECK_THAT(reason_of({{unknown(), kSnapshots}, {obedient(), kSnapshots}}, 0),
+             Contains("might reject a step") && Contains("needs no snapshot"));
+  CHECK_THAT(reason_of({{unknown(), kSnapshots}, {obedient(), kSnapshots}}, 1),
+             Contains("nothing is saved"));
+}
+
+TEST_CASE("who has to be given snapshots") {
+  const auto missing = [](const std::vector<Hosted>& units, std::vector<bool> may_have,
+                          StepPolicy policy = StepPolicy::Fixed) {
+    std::string text;
+    for (const std::size_t i : missing_snapshots(declare(units).components, policy, may_have)) {
+      text += static_cast<char>('a' + i);
+    }
+    return text;
+  };
+  const std::vector<bool> all(3, true);
+  CHECK(missing({{early()}, {rollback()}, {unknown()}}, all) == "");
+  CHECK(missing({{early()}, {early()}, {unknown()}}, all) == "b");
+  CHECK(missing({{early()}, {early()}, {early()}}, all) == "bc");
+  CHECK(missing({{early()}, {early(), kSnapshots}, {early()}}, all) == "c");
+  CHECK(missing({{early()}, {rollback().may_return_early()}, {early()}}, all) == "c");
+  CHECK(missing({{early()}, {early()}, {obedient()}}, {true, false, true}) == "a");
+  CHECK(missing({{early()}, {early()}, {early()}}, {true, false, false}) == "a");
+  CHECK(missing({{early()}, {obedient()}, {follower()}}, all, StepPolicy::ErrorControlled) == "ab");
+  CHECK(missing({{early()}, {obedient(), kSnapshots}, {unknown()}}, {true, true, false},
+                StepPolicy::ErrorControlled) == "a");
+}
+
+TEST_CASE("who is given the snapshots that are missing can step") {
+  std::vector<Hosted> units = {{early()}, {unknown()}, {early()}, {early()}, {obedient()}};
+  const std::vector<bool> may_have = {true, true, false, true, true};
+  CHECK_THROWS_AS(order_of(units), Error);
+  for (const std::size_t i :
+       missing_snapshots(declare(units).components, StepPolicy::Fixed, may_have)) {
+    units[i].has_snapshots = true;
+  }
+  CHECK(order_of(units) == "a*d*|c|b|e");
+}
+
+TEST_CASE("who is not allowed to return early needs no snapshots") {
+  SystemDeclaration declaration = declare({{early()}, {early()}});
+  declaration.components[1].early_return_allowed = false;
+  CHECK(missing_snapshots(declaration.components, StepPolicy::Fixed, {true, true}).empty());
+}
+
 TEST_CASE("two units that stop early and cannot go back are refused by name") {
   try {
-    step_order(system_of({early(), rollback(), early()}), StepPolicy::Fixed, Coupling::Jacobi);
+    order_of({{early()}, {rollback()}, {early()}, {early(), kSnapshots}});
     FAIL("accepted");
   } catch (const Error& error) {
     CHECK(error.kind() == Error::Kind::Input);
     CHECK_THAT(error.what(), Contains("'a' and 'c'"));
     CHECK_THAT(error.what(), Contains("<stride:EarlyReturn components=\"c\" allowed=\"false\"/>") &&
+                                 Contains("<stride:Host components=\"c\" process=\"true\"/>") &&
                                  Contains("canGetAndSetFMUState"));
   }
 }

@@ -72,6 +72,24 @@ TEST_CASE("a unit that stops early makes a communication point for all") {
   CHECK(statistics.units[2].steps == 5);
 }
 
+TEST_CASE("two that stop on their own agree where one of them has snapshots") {
+  ScriptedSystem f;
+  const auto stopper = integrator().may_return_early().done();
+  auto& a = f.add("a", stopper);
+  auto& b = f.add("b", stopper);
+  f.declaration.components[0].has_snapshots = f.declaration.components[1].has_snapshots = true;
+  a.on_step = stopping_at({at(0.0013), at(0.0024)});
+  b.on_step = stopping_at({at(0.0017), at(0.0021)});
+  const auto times = points(f, 0.003, 1ms);
+  CHECK(times == std::vector<Time>{at(0), at(0.001), at(0.0013), at(0.0017), at(0.002), at(0.0021),
+                                   at(0.0024), at(0.003)});
+  for (ScriptedUnit* unit : {&a, &b}) CHECK(unit->number(1) == Approx(0.003).epsilon(1e-12));
+  const auto& units = f.simulation->statistics().units;
+  CHECK(units[0].saves == 0);
+  CHECK(units[1].saves == 7);
+  CHECK(units[1].rollbacks == 2);
+}
+
 TEST_CASE("a unit that never stops goes where the others have got, and is not saved") {
   ScriptedSystem f;
   auto& a = f.add("a", integrator().can_save_state().done());

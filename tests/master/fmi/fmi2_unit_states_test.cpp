@@ -14,7 +14,7 @@ namespace {
 class Relaxation {
  public:
   Relaxation()
-      : fmu_(fmi::Fmu::load(test_fmu("fmi2_relaxation"))), unit_(fmu_->instantiate("unit")) {}
+      : fmu_(fmi::Fmu::load(test_fmu("fmi2_relaxation"))), unit_(make_unit(fmu_, "unit")) {}
 
   core::Unit* operator->() { return unit_.get(); }
   void start() {

@@ -36,7 +36,7 @@ class Fixture {
         lines.push_back({unit, category, message, status});
       };
     }
-    unit_ = fmu_->instantiate("u1", std::move(options));
+    unit_ = make_unit(fmu_, "u1", std::move(options));
   }
 
   core::Unit& operator*() { return *unit_; }
@@ -103,7 +103,7 @@ Time at(double seconds) { return time_from_seconds(seconds); }
 
 // ---- Life ----
 
-TEST_CASE("an FMI 2.0 unit lives from its instantiation to its end") {
+TEST_CASE("an FMI 2.0 unit lives from its instantiation to its end", "[here]") {
   Fixture unit("fmi2_relaxation");
   CHECK(unit.global<int>("fmi2_living_units") == 1);
   unit.set("k", 3);
@@ -121,7 +121,7 @@ TEST_CASE("an FMI 2.0 unit lives from its instantiation to its end") {
   CHECK_NOTHROW(unit->terminate());
 }
 
-TEST_CASE("instances and states are freed") {
+TEST_CASE("instances and states are freed", "[here]") {
   const auto fmu = fmi::Fmu::load(test_fmu("fmi2_relaxation"));
   Fixture keeper(fmu);
   {
@@ -158,7 +158,7 @@ TEST_CASE("an FMI 2.0 unit that cannot be instantiated says why") {
   scratch.write("unit/modelDescription.xml", text);
   const auto fmu = fmi::Fmu::load(scratch / "unit");
   CHECK_THAT(run_error([&] {
-               fmu->instantiate("u1", {.where = {"system.ssd", 7}});
+               make_unit(fmu, "u1", {.where = {"system.ssd", 7}});
              }),
              Contains("system.ssd:7: unit 'u1': fmi2Instantiate failed: the GUID is {another}"));
 }
@@ -179,7 +179,7 @@ TEST_CASE("there is no Event Mode") {
   CHECK_THAT(run_error([&] { unit->enter_step_mode(); }), Contains("has no Event Mode"));
 }
 
-TEST_CASE("an FMI 2.0 unit that allows one instance gets one") {
+TEST_CASE("an FMI 2.0 unit that allows one instance gets one", "[here]") {
   Fixture first("fmi2_grumbler");
   CHECK_THAT(input_error([] { Fixture second("fmi2_grumbler"); }),
              Contains("can be instantiated only once per process"));
@@ -291,7 +291,7 @@ TEST_CASE("the inputs of a step that is undone stay set") {
   CHECK(unit.get("y") == 0);
 }
 
-TEST_CASE("a state that was just saved for core is not saved again") {
+TEST_CASE("a state that was just saved for core is not saved again", "[here]") {
   Fixture unit("fmi2_turner");
   unit.start();
   const int before = unit.global<int>("fmi2_saved_states");
@@ -413,7 +413,7 @@ TEST_CASE("the status of a pending step is that of the step") {
              Contains("fmi2DoStep returned fmi2Error: the night was short"));
 }
 
-TEST_CASE("a step that takes long is told once, with what the unit says of it") {
+TEST_CASE("a step that takes long is told once, with what the unit says of it", "[here]") {
   std::vector<std::string> told;
   std::function<void()> release;
   Fixture unit("fmi2_sleeper", {.patience = 0ms,
@@ -508,7 +508,7 @@ TEST_CASE("a call that the unit does not allow is a failure") {
 }
 
 // Last, since nothing of this library can be called after it.
-TEST_CASE("after fmi2Fatal nothing of the library is called") {
+TEST_CASE("after fmi2Fatal nothing of the library is called", "[here]") {
   const auto fmu = fmi::Fmu::load(test_fmu("fmi2_grumbler"));
   Fixture unit(fmu);
   unit.set_number("mood", 4);

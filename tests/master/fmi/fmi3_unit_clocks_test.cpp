@@ -18,7 +18,7 @@ namespace {
 
 struct Fixture {
   explicit Fixture(const std::string& name, fmi::InstanceOptions options = {})
-      : fmu(fmi::Fmu::load(test_fmu(name))), unit(fmu->instantiate("unit", std::move(options))) {}
+      : fmu(fmi::Fmu::load(test_fmu(name))), unit(make_unit(fmu, "unit", std::move(options))) {}
 
   const core::Variable& variable(const std::string& name) const {
     return fmu->description()->variables[fmu->description()->find(name).value()];
@@ -58,7 +58,7 @@ struct RawClock {
     scratch.write("raw_extended/modelDescription.xml",
                   description_text("raw_extended", "hasEventMode=\"true\"", clock));
     fmu = fmi::Fmu::load(folder);
-    unit = fmu->instantiate(behaviour);
+    unit = make_unit(fmu, behaviour);
     unit->enter_initialization(Time(2s), std::nullopt);
   }
   const core::Variable& tick() const { return fmu->description()->variables[0]; }

@@ -19,7 +19,7 @@ namespace {
 
 struct Idler {
   explicit Idler(const std::string& name = "idler") : fmu(fmi::Fmu::load(test_fmu(name))) {
-    unit = fmu->instantiate("tank", {.early_return_allowed = true});
+    unit = make_unit(fmu, "tank", {.early_return_allowed = true});
   }
 
   core::ValueReference reference(const std::string& name) const {
@@ -125,7 +125,7 @@ TEST_CASE("an output whose manifest gives it no derivative has the derivative 0"
   text.replace(text.find(word), word.size(), "hasDerivative=\"false\"");
   std::ofstream(manifest) << text;
   const auto fmu = fmi::Fmu::load(unpacked.folder());
-  const auto unit = fmu->instantiate("tank");
+  const auto unit = make_unit(fmu, "tank");
   unit->enter_initialization({}, std::nullopt);
   unit->exit_initialization();
   unit->enter_step_mode();
@@ -215,7 +215,7 @@ TEST_CASE("what another tool's unit promises is checked") {
                 "hasDerivative=\"true\"/></fmiLayeredStandardManifest>");
   const auto fmu = fmi::Fmu::load(folder);
   const auto promise = [&](const char* behaviour) {
-    const auto unit = fmu->instantiate(behaviour);
+    const auto unit = make_unit(fmu, behaviour);
     unit->enable_idle_skipping(1s);
     return unit->idle_until();
   };
@@ -226,7 +226,7 @@ TEST_CASE("what another tool's unit promises is checked") {
   CHECK_THAT(run_error([&] { promise("shy"); }),
              Contains("strideGetIdlePromise returned fmi3Error: I do not know"));
 
-  const auto unit = fmu->instantiate("plain");
+  const auto unit = make_unit(fmu, "plain");
   const core::ValueReference y = 1;
   double slope = 0;
   CHECK_THAT(run_error([&] { unit->get_derivatives(std::span(&y, 1), std::span(&slope, 1)); }),

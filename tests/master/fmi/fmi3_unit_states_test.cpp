@@ -14,7 +14,7 @@ namespace {
 class Stepper {
  public:
   explicit Stepper(const std::string& fmu = "stepper")
-      : fmu_(fmi::Fmu::load(test_fmu(fmu))), unit_(fmu_->instantiate("unit")) {}
+      : fmu_(fmi::Fmu::load(test_fmu(fmu))), unit_(make_unit(fmu_, "unit")) {}
 
   core::Unit* operator->() { return unit_.get(); }
   void start() {

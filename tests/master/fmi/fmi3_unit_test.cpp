@@ -23,8 +23,7 @@ Time at(double seconds) { return time_from_seconds(seconds); }
 class Fixture {
  public:
   explicit Fixture(const std::string& unit, fmi::InstanceOptions options = {})
-      : fmu_(fmi::Fmu::load(test_fmu(unit))),
-        unit_(fmu_->instantiate("unit", std::move(options))) {}
+      : fmu_(fmi::Fmu::load(test_fmu(unit))), unit_(make_unit(fmu_, "unit", std::move(options))) {}
 
   core::Unit& operator*() { return *unit_; }
   core::Unit* operator->() { return unit_.get(); }
@@ -70,7 +69,7 @@ struct Raw {
                const std::string& library = "raw",
                const std::string& flags = "hasEventMode=\"true\"")
       : fmu(fmi::Fmu::load(make_raw_fmu(scratch, library, flags))),
-        unit(fmu->instantiate(name, std::move(options))) {
+        unit(make_unit(fmu, name, std::move(options))) {
     unit->enter_initialization({}, Time(1s));
     unit->exit_initialization();
     unit->enter_step_mode();
@@ -226,7 +225,7 @@ TEST_CASE("the loop of values, steps and events does not allocate after its firs
   CHECK(before > 0);
 }
 
-TEST_CASE("steps from exact time meet the doubles of the next communication point") {
+TEST_CASE("steps from exact time meet the doubles of the next communication point", "[here]") {
   Raw raw("unit");
   Time time{};
   for (int i = 0; i < 1000; ++i) {
@@ -241,7 +240,7 @@ TEST_CASE("steps from exact time meet the doubles of the next communication poin
   }
 }
 
-TEST_CASE("no state from before the current communication point is restored") {
+TEST_CASE("no state from before the current communication point is restored", "[here]") {
   Raw raw("unit");
   raw.unit->step({{}, Time(1ms)});
   CHECK(raw.global<bool>("raw_no_restore"));
@@ -272,7 +271,7 @@ TEST_CASE("what a unit says when it rejects a step is kept until it rejects anot
   CHECK(coarse.unit->rejection_reason() == "the mesh is too coarse");
 }
 
-TEST_CASE("fmi3Discard is an error for every function but fmi3DoStep") {
+TEST_CASE("fmi3Discard is an error for every function but fmi3DoStep", "[here]") {
   Raw raw("sets", {}, "raw_extended");
   const core::ValueReference any = 1;
   const ValueBlock value(ValueType::Float64, 1);
@@ -396,7 +395,8 @@ TEST_CASE("a silent error is an error") {
              Contains("fmi3DoStep returned fmi3Error: the unit gives no reason"));
 }
 
-TEST_CASE("after fmi3Error the instance is freed, after fmi3Fatal it is not touched again") {
+TEST_CASE("after fmi3Error the instance is freed, after fmi3Fatal it is not touched again",
+          "[here]") {
   Raw error("error");
   CHECK_THROWS_AS(error.unit->step({{}, Time(1ms)}), core::Error);
   CHECK(error.global<int>("raw_living") == 1);
@@ -413,14 +413,15 @@ TEST_CASE("after fmi3Error the instance is freed, after fmi3Fatal it is not touc
   CHECK(fatal.global<int>("raw_living") == 1);
 }
 
-TEST_CASE("after fmi3Fatal no other instance of the FMU is touched, and its library stays") {
+TEST_CASE("after fmi3Fatal no other instance of the FMU is touched, and its library stays",
+          "[here]") {
   Scratch scratch;
   auto fmu = fmi::Fmu::load(make_raw_fmu(scratch, "raw"));
   const std::string path = fmu->load_library()->path();
   const auto again = fmi::Fmu::load(scratch / "raw");  // the same library by another object
-  auto fatal = fmu->instantiate("fatal");
-  auto same = fmu->instantiate("same");
-  auto other = again->instantiate("other");
+  auto fatal = make_unit(fmu, "fatal");
+  auto same = make_unit(fmu, "same");
+  auto other = make_unit(again, "other");
   CHECK_THROWS_AS(fatal->step({{}, Time(1ms)}), core::Error);
   for (core::Unit* unit : {same.get(), other.get()}) {
     CHECK_THAT(run_error([&] {
@@ -431,7 +432,7 @@ TEST_CASE("after fmi3Fatal no other instance of the FMU is touched, and its libr
     CHECK_THROWS_AS(unit->step({{}, Time(1ms)}), core::ConsequentError);
     CHECK_NOTHROW(unit->terminate());
   }
-  CHECK_THAT(run_error([&] { fmu->instantiate("another"); }),
+  CHECK_THAT(run_error([&] { make_unit(fmu, "another"); }),
              Contains("unit 'another': fmi3InstantiateCoSimulation cannot be called"));
   fatal.reset();
   same.reset();
@@ -443,11 +444,11 @@ TEST_CASE("after fmi3Fatal no other instance of the FMU is touched, and its libr
   dlclose(handle);
 }
 
-TEST_CASE("a library whose instances do well is unloaded with the last of them") {
+TEST_CASE("a library whose instances do well is unloaded with the last of them", "[here]") {
   Scratch scratch;
   auto fmu = fmi::Fmu::load(make_raw_fmu(scratch, "raw"));
   const std::string path = fmu->load_library()->path();
-  auto unit = fmu->instantiate("unit");
+  auto unit = make_unit(fmu, "unit");
   fmu.reset();
   unit.reset();
   CHECK(dlopen(path.c_str(), RTLD_NOW | RTLD_NOLOAD) == nullptr);
@@ -487,7 +488,7 @@ TEST_CASE("after a restore errors speak of the restored time") {
              Contains("unit 'sets', at 1 s: "));
 }
 
-TEST_CASE("the memory of a state is used again, and freed with the instance") {
+TEST_CASE("the memory of a state is used again, and freed with the instance", "[here]") {
   Raw raw("unit", {}, "raw_extended");
   for (int i = 0; i < 5; ++i) raw.unit->save_state();
   CHECK(raw.global<int>("raw_states_made") == 1);
@@ -564,7 +565,7 @@ TEST_CASE("a unit without resources gets none") {
   CHECK(path.strings()[0] == "NULL");
 
   fs::create_directory(raw.scratch / "raw/resources");
-  const auto unit = fmi::Fmu::load(raw.scratch / "raw")->instantiate("unit");
+  const auto unit = make_unit(fmi::Fmu::load(raw.scratch / "raw"), "unit");
   unit->get(std::span(&any, 1), path);
   CHECK(path.strings()[0] == (raw.scratch / "raw/resources").string() + "/");
 }
@@ -602,7 +603,7 @@ TEST_CASE("Event Mode is not wanted by who has none") {
 
 TEST_CASE("structural parameters are set in Configuration Mode, before all others") {
   const auto fmu = fmi::Fmu::load(test_fmu("resizable"));
-  const auto unit = fmu->instantiate("unit");
+  const auto unit = make_unit(fmu, "unit");
   const auto reference = [&](const char* name) {
     return fmu->description()->variables[*fmu->description()->find(name)].reference;
   };
@@ -630,7 +631,7 @@ TEST_CASE("structural parameters are set in Configuration Mode, before all other
 TEST_CASE("what a library does not export for structure and derivatives is named") {
   const Scratch scratch;
   const auto fmu = fmi::Fmu::load(make_raw_fmu(scratch, "raw"));
-  const auto unit = fmu->instantiate("unit");
+  const auto unit = make_unit(fmu, "unit");
   CHECK_THAT(run_error([&] { unit->enter_configuration_mode(); }),
              Contains("does not export fmi3EnterConfigurationMode"));
   CHECK_THAT(run_error([&] { unit->get_directional_derivative({}, {}, {}, {}); }),

@@ -2,10 +2,15 @@
 #ifndef STRIDE_TESTS_MASTER_FMI_SUPPORT_H
 #define STRIDE_TESTS_MASTER_FMI_SUPPORT_H
 
+#include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "master/fmi/binaries.h"
+#include "master/fmi/fmu.h"
+#include "master/host/hosted_unit.h"
 #include "tests/master/archive/support.h"
 
 namespace stride::tests {
@@ -15,6 +20,17 @@ inline fs::path test_fmu(const std::string& name) {
 }
 inline fs::path raw_library(const std::string& name) {
   return fs::path(STRIDE_TEST_FMU_DIR) / "raw" / (name + ".so");
+}
+
+/// Whether units are to live in processes of their own: the tests of instances run in both ways,
+/// but for those that look into the memory of a unit's library, which have the tag [here].
+inline bool is_hosted() { return std::getenv("STRIDE_TEST_HOSTED") != nullptr; }
+
+inline std::unique_ptr<core::Unit> make_unit(const std::shared_ptr<fmi::Fmu>& fmu,
+                                             const std::string& name,
+                                             fmi::InstanceOptions options = {}) {
+  if (is_hosted()) return host::instantiate(fmu, name, std::move(options), {});
+  return fmu->instantiate(name, std::move(options));
 }
 
 /// A model description around these attributes of <CoSimulation> and these variables.

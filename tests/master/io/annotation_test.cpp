@@ -48,6 +48,10 @@ TEST_CASE("Everything that the annotation can say") {
                                         "<stride:MainThread components='plant legacy.*'/>"
                                         "<stride:EarlyReturn components='* x' allowed='false'/>"
                                         "<stride:EarlyReturn components='a' allowed='true'/>"
+                                        "<stride:Host components='a x.*' timeout='0.5'/>\n"
+                                        "<stride:Host components='b' process='true' "
+                                        "memoryLimit='512' sandbox='false' snapshots='false'/>"
+                                        "<stride:Host components='c' process='false'/>"
                                         "<stride:IdleSkip maxSkip='2'/>"
                                         "<stride:IdleSkip components='a b' enabled='false'/>"
                                         "<stride:Deadband variable='a.u' value='0'/>"
@@ -67,6 +71,18 @@ TEST_CASE("Everything that the annotation can say") {
   CHECK(annotation.early_return[0].components.text == "*");
   CHECK_FALSE(annotation.early_return[1].allowed);
   CHECK(annotation.early_return[2].components.text == "a");
+  REQUIRE(annotation.hosts.rules.size() == 4);
+  CHECK(annotation.hosts.rules[1].components.text == "x.*");
+  CHECK(annotation.hosts.rules[1].components.where.line == 5);
+  CHECK(annotation.hosts.rules[1].settings.process == true);
+  CHECK(annotation.hosts.rules[1].settings.call_limit == std::chrono::milliseconds(500));
+  CHECK(annotation.hosts.rules[1].settings.memory_limit == std::nullopt);
+  CHECK(annotation.hosts.rules[1].settings.sandbox == std::nullopt);
+  CHECK(annotation.hosts.rules[2].components.where.line == 6);
+  CHECK(annotation.hosts.rules[2].settings.memory_limit == 512U << 20);
+  CHECK(annotation.hosts.rules[2].settings.sandbox == false);
+  CHECK(annotation.hosts.rules[2].settings.snapshots == false);
+  CHECK(annotation.hosts.rules[3].settings.process == false);
   REQUIRE(annotation.idle.rules.size() == 3);
   CHECK(annotation.idle.rules[0].components.text == "*");
   CHECK(annotation.idle.rules[0].max_skip == Duration(2'000'000'000'000));
@@ -115,9 +131,9 @@ TEST_CASE("A mistake in the annotation is named with its line") {
   CHECK_THAT(error("<stride:Stpe size='1'/>"),
              Contains("x.ssd:4: <stride:Stpe> is not known in <stride:Scenario>") &&
                  Contains("did you mean 'Step'?"));
-  CHECK_THAT(error("<stride:Policy/>"), Contains("known are: Step, Exchange, Record, Results, "
-                                                 "MainThread, EarlyReturn, IdleSkip, Deadband, "
-                                                 "Tolerance"));
+  CHECK_THAT(error("<stride:Policy/>"),
+             Contains("known are: Step, Exchange, Record, Results, "
+                      "MainThread, EarlyReturn, Host, IdleSkip, Deadband"));
   CHECK_THAT(error("<stride:Step siez='1'/>"), Contains("did you mean 'size'?"));
   CHECK_THAT(error("<stride:Step size=''/>"),
              Contains("the attribute 'size' of <stride:Step> is empty"));
@@ -136,6 +152,18 @@ TEST_CASE("A mistake in the annotation is named with its line") {
   CHECK_THAT(error("<stride:EarlyReturn components='a' allowed='no'/>"),
              Contains("x.ssd:4: ") &&
                  Contains("allowed=\"no\" of <stride:EarlyReturn>: expected true or false"));
+  CHECK_THAT(error("<stride:Host process='true'/>"), Contains("'components'"));
+  CHECK_THAT(error("<stride:Host components='a' memory='1'/>"),
+             Contains("known are: components, process, timeout, memoryLimit, sandbox, "
+                      "snapshots"));
+  CHECK_THAT(error("<stride:Host components='a' process='yes'/>"),
+             Contains("process=\"yes\" of <stride:Host>: expected true or false"));
+  CHECK_THAT(error("<stride:Host components='a' timeout='0'/>"),
+             Contains("x.ssd:4: ") && Contains("timeout: a time limit must be above 0 s"));
+  CHECK_THAT(error("<stride:Host components='a' memoryLimit='1.5'/>"),
+             Contains("memoryLimit: '1.5' is no whole number of MiB; expected at least 1"));
+  CHECK_THAT(error("<stride:Host components='a' process='false' timeout='5'/>"),
+             Contains("x.ssd:4: ") && Contains("timeout is for a unit with a process of its own"));
   CHECK_THAT(error("<stride:IdleSkip maxSkip='0'/>"),
              Contains("x.ssd:4: ") && Contains("maxSkip: a skip must be above 0 s"));
   CHECK_THAT(error("<stride:Deadband variable='a.u' value='-1'/>"), Contains("of at least 0"));

@@ -42,6 +42,10 @@ TEST_CASE("run.json tells what was run and how far it came") {
        milliseconds(0),
        milliseconds(0)},
   };
+  core::HostStatistics& host = statistics.units[1].host.emplace();
+  host.most_memory = 4096;
+  host.protections = {"no network", "seccomp"};
+  host.missing_protections = {"landlock"};
   const std::vector<core::Verdict> verdicts = {{1, false, "too \"late\""}};
   write_run_json(folder / "run.json", "scenarios/x.ssd", sample_system(), options, statistics,
                  verdicts);
@@ -121,6 +125,16 @@ TEST_CASE("run.json tells what was run and how far it came") {
         "initialization": 0.0,
         "steps": 0.0,
         "events": 0.0
+      },
+      "host": {
+        "memory": 4096,
+        "protections": [
+          "no network",
+          "seccomp"
+        ],
+        "missing_protections": [
+          "landlock"
+        ]
       }
     }
   ]
@@ -136,6 +150,25 @@ TEST_CASE("An error is told, also when the run never began") {
   CHECK_THAT(text,
              Contains("\"outcome\": \"failed\",\n  \"error\": \"unit 'a': it said \\\"no\\\""));
   CHECK_THAT(text, Contains("\"name\": \"b, c\"") && !Contains("messages_sent"));
+}
+
+TEST_CASE("The snapshots of a process are told where there were some") {
+  const TemporaryFolder folder;
+  core::RunStatistics statistics;
+  statistics.units.resize(2);
+  core::HostStatistics& host = statistics.units[0].host.emplace();
+  host.snapshots = 14;
+  host.restores = 3;
+  host.most_snapshots = 2;
+  host.most_snapshot_memory = 8192;
+  write_run_json(folder / "run.json", "x.ssd", sample_system(), {}, statistics);
+  CHECK_THAT(content(folder / "run.json"), Contains(R"(
+        "snapshots": {
+          "made": 14,
+          "restored": 3,
+          "most_kept": 2,
+          "memory": 8192
+        },)"));
 }
 
 TEST_CASE("A unit may end the run") {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/lsan_interface.h>
 #endif
@@ -21,7 +22,8 @@ enum Lie {
   ForgetsOnRestore,   ///< a variable of its state is not saved
   DependsOnSplit,     ///< an explicit Euler step, though it declares split_invariant
   Leaks,              ///< memory, with each instance
-  LeaksFiles,         ///< likewise
+  LeaksPages,         ///< likewise, which it did not get from malloc()
+  LeaksFiles,         ///< files, likewise
   GrowsInSteps,       ///< memory, with each step
   SharesState,        ///< with all instances of its process
   CrashesInReset,     ///< when it is made again in its process
@@ -53,6 +55,12 @@ void leak() {
 #endif
 }
 
+void leak_pages() {
+  constexpr std::size_t kBytes = 8192;
+  lost = ::mmap(nullptr, kBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_POPULATE,
+                -1, 0);
+}
+
 class Lying : public stride::Unit {
  public:
   Lying() {
@@ -72,6 +80,7 @@ class Lying : public stride::Unit {
     if (kLie == ForgetsInReset && was_initialized) count_ = shared_count;
     if (kLie == KeepsInputInReset) u_ = shared_input;
     if (kLie == Leaks) leak();
+    if (kLie == LeaksPages) leak_pages();
     if (kLie == LeaksFiles) ::open("/dev/null", O_RDONLY);
   }
 

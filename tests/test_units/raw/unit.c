@@ -41,6 +41,9 @@ extern void stride_test_nobody_has_this(void);
 #ifdef WITH_MISSING_LIBRARY
 extern int stride_test_absent(void);
 #endif
+#ifdef WITH_THROW
+extern void stride_test_throw(void);
+#endif
 
 static bool is(const Instance* instance, const char* name) {
   return strcmp(instance->name, name) == 0;
@@ -121,6 +124,9 @@ fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 point, fmi3Float64 size,
   raw_no_restore = no_restore;
   if (is(instance, "insists") && !is_next_step(instance, point, size)) return fmi3Discard;
   ++instance->steps;
+#ifdef WITH_THROW
+  stride_test_throw();
+#endif
   *terminate = false;
   *event = is(instance, "needs");
   *early = is(instance, "early") || is(instance, "arrives");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <stride/systemc/device.h>
@@ -172,6 +173,29 @@ TEST_CASE("several devices have several files, and one file has one device") {
   CHECK(read_vcd(folder / "first.vcd").of("meter.busy").size() == 1);
   CHECK(read_vcd(folder / "second.vcd").of("meter.busy").size() == 2);
   CHECK_NOTHROW(third("first.vcd"));  // it is free again
+}
+
+TEST_CASE("one file has one device, whichever process it is in") {
+  const TemporaryFolder folder;
+  TracedMeter meter({folder / "meter.vcd", "busy"});
+  const auto attempt = [&] {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      std::string message = "traced";
+      try {
+        TracedMeter other({folder / "meter.vcd", "busy"});
+      } catch (const std::exception& error) {
+        message = error.what();
+      }
+      ::_exit(message.find("another device") == std::string::npos ? 0 : 1);
+    }
+    int status = -1;
+    ::waitpid(child, &status, 0);
+    return WEXITSTATUS(status);
+  };
+  CHECK(attempt() == 1);
+  meter.trace.reset();
+  CHECK(attempt() == 0);
 }
 
 TEST_CASE("a file that cannot be written, and a pattern that chooses nothing, are errors") {

@@ -1,5 +1,6 @@
 // A device as a unit: its idle times, its promises and its traces.
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -217,6 +218,16 @@ TEST_CASE("a trace that cannot be made is an error at initialization") {
   CHECK_THROWS_WITH(unit.initialize(), Contains("trace.signals") && Contains("measurements"));
   unit.value<std::string>("trace.signals") = "*";
   CHECK_NOTHROW(unit.initialize());
+}
+
+TEST_CASE("a trace is among the run's results, where the importer says which folder that is") {
+  const TemporaryFolder folder;
+  ::setenv("STRIDE_RESULTS", folder.path.c_str(), 1);
+  MeterDriver unit;
+  unit.value<std::string>("trace.file") = "meter";
+  unit.initialize();
+  ::unsetenv("STRIDE_RESULTS");
+  CHECK(fs::exists(folder.path / "meter.vcd"));
 }
 
 TEST_CASE("a trace is off unless a file is named, and closed with the unit") {

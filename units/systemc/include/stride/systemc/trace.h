@@ -66,7 +66,9 @@ class SignalList {
 };
 
 struct TraceOptions {
-  std::string file;           ///< its path; `.vcd` is added where it is missing
+  /// Its path, relative to the folder $STRIDE_RESULTS or, without that, to the working folder;
+  /// `.vcd` is added where it is missing.
+  std::string file;
   std::string signals = "*";  ///< patterns of fnmatch(3), separated by spaces
 };
 
@@ -79,7 +81,7 @@ struct TraceOptions {
 class Trace {
  public:
   /// Throws std::invalid_argument for a file that cannot be written or is being written by another
-  /// device of this process, and for a pattern that matches no signal.
+  /// device, of this process or another one, and for a pattern that matches no signal.
   Trace(Kernel& kernel, const TraceOptions& options, const SignalList& signals);
   ~Trace();
 
@@ -91,6 +93,7 @@ class Trace {
 
   Kernel& kernel_;
   std::string path_;  ///< without `.vcd`
+  int lock_ = -1;     ///< the file's descriptor, by which it is locked
   sc_core::sc_trace_file* file_ = nullptr;
 };
 

@@ -42,7 +42,8 @@ namespace stride::systemc {
 /// what idle means has its idle time skipped where the importer enables it, and can be left alone
 /// while its outputs keep their tangents; see <stride/idle.h> and idle.h.
 ///
-/// SystemC cannot save its state, so a device unit cannot be rolled back by itself.
+/// SystemC cannot save its state, so a device unit cannot be rolled back by itself; in a process of
+/// its own `stride` takes it back by snapshots of that.
 template <class Module>
 class DeviceUnit : public Unit {
  public:

@@ -1,4 +1,4 @@
-#include "master/verify/child.h"
+#include "master/process/child.h"
 
 #include <csignal>
 #include <cstdio>
@@ -10,7 +10,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-using namespace stride::verify;
+#include "master/process/shared_note.h"
+#include "master/process/signal_name.h"
+
+using namespace stride::process;
 using namespace std::chrono_literals;
 using End = ChildOutcome::End;
 
@@ -137,17 +140,4 @@ TEST_CASE("a child may have children of its own") {
     return signal_name(inner.code);
   });
   CHECK(outcome.text == "SIGFPE");
-}
-
-TEST_CASE("a note outlives who wrote it, and is cut off where it is too long") {
-  SharedNote note;
-  run_in_child([&] {
-    note.write(std::string(1000, 'x').c_str(), -7);
-    std::raise(SIGKILL);
-    return std::string();
-  });
-  CHECK(note.what() == std::string(119, 'x'));
-  CHECK(note.picoseconds() == -7);
-  note.clear();
-  CHECK(note.what().empty());
 }

@@ -1,22 +1,18 @@
-#include "master/verify/child.h"
+#include "master/process/child.h"
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <exception>
-#include <system_error>
 #include <utility>
 
-#include <fcntl.h>
 #include <poll.h>
-#include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace stride::verify {
+#include "master/process/descriptor.h"
+#include "master/process/surroundings.h"
+
+namespace stride::process {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -30,64 +26,12 @@ constexpr std::chrono::milliseconds kGlance{20};
 constexpr char kAnswer = 'A';
 constexpr char kException = 'E';
 
-[[noreturn]] void fail(const char* what) {
-  throw std::system_error(errno, std::generic_category(), what);
-}
-
-class File {
- public:
-  explicit File(int number = -1) : number_(number) {}
-  ~File() { close(); }
-  File(File&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  File& operator=(File&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
-  int number() const { return number_; }
-  bool is_open() const { return number_ >= 0; }
-  void close() {
-    if (is_open()) ::close(std::exchange(number_, -1));
-  }
-
- private:
-  int number_;
-};
-
-struct Pipe {
-  File read, write;
-  Pipe() {
-    int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0) fail("pipe2");
-    read = File(ends[0]);
-    write = File(ends[1]);
-    ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
-  }
-};
-
-void write_all(int file, const char* data, std::size_t size) {
-  while (size > 0) {
-    const ssize_t written = ::write(file, data, size);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return;  // nobody reads any longer
-    data += written;
-    size -= static_cast<std::size_t>(written);
-  }
-}
-
 /// The child's surroundings: a library may have the habits of a program of its own.
 void settle(pid_t parent, int output) {
   ::setpgid(0, 0);
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM, SIGPIPE}) {
-    ::signal(signal, SIG_DFL);
-  }
-  const rlimit none{0, 0};
-  ::setrlimit(RLIMIT_CORE, &none);
-  const File empty(::open("/dev/null", O_RDONLY | O_CLOEXEC));
-  ::dup2(empty.number(), STDIN_FILENO);
-  ::dup2(output, STDOUT_FILENO);
-  ::dup2(output, STDERR_FILENO);
+  die_with(parent);
+  forget_signal_handlers();
+  redirect_standard_files(output);
 }
 
 [[noreturn]] void be_child(const std::function<std::string()>& work, int answer) {
@@ -105,18 +49,6 @@ void settle(pid_t parent, int output) {
   write_all(answer, &kind, 1);
   write_all(answer, text.data(), text.size());
   ::_exit(0);
-}
-
-/// Reads what there is; at the end of the file it closes it.
-void drain(File& file, std::string& text) {
-  std::array<char, 65536> buffer;
-  while (file.is_open()) {
-    const ssize_t size = ::read(file.number(), buffer.data(), buffer.size());
-    if (size < 0 && errno == EINTR) continue;
-    if (size < 0 && errno == EAGAIN) return;
-    if (size <= 0) return file.close();
-    text.append(buffer.data(), static_cast<std::size_t>(size));
-  }
 }
 
 bool has_ended(pid_t child) {
@@ -137,7 +69,7 @@ int reap(pid_t child) {
 
 class Watch {
  public:
-  Watch(pid_t child, File answer, File output, const ChildOptions& options)
+  Watch(pid_t child, Descriptor answer, Descriptor output, const ChildOptions& options)
       : child_(child),
         answer_(std::move(answer)),
         output_(std::move(output)),
@@ -188,7 +120,7 @@ class Watch {
   }
 
   pid_t child_;
-  File answer_, output_;
+  Descriptor answer_, output_;
   const ChildOptions& options_;
   Clock::time_point begin_;
   std::string text_, printed_;
@@ -212,29 +144,4 @@ ChildOutcome run_in_child(const std::function<std::string()>& work, const ChildO
   return Watch(child, std::move(answer.read), std::move(output.read), options).run();
 }
 
-std::string signal_name(int signal) {
-  const char* const name = ::sigabbrev_np(signal);
-  return name != nullptr ? std::string("SIG") + name : "an unknown signal";
-}
-
-SharedNote::SharedNote() {
-  void* const memory =
-      ::mmap(nullptr, sizeof(Memory), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) fail("mmap");
-  memory_ = static_cast<Memory*>(memory);
-}
-
-SharedNote::~SharedNote() { ::munmap(memory_, sizeof(Memory)); }
-
-void SharedNote::write(const char* what, std::int64_t picoseconds) {
-  memory_->picoseconds = picoseconds;
-  const std::size_t size = std::min(std::strlen(what), sizeof memory_->what - 1);
-  std::memcpy(memory_->what, what, size);
-  memory_->what[size] = '\0';
-}
-
-std::string SharedNote::what() const {
-  return {memory_->what, ::strnlen(memory_->what, sizeof memory_->what)};
-}
-
-}  // namespace stride::verify
+}  // namespace stride::process

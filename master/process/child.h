@@ -1,6 +1,6 @@
 // Work in a process of its own: what goes wrong there, goes wrong there only.
-#ifndef STRIDE_MASTER_VERIFY_CHILD_H
-#define STRIDE_MASTER_VERIFY_CHILD_H
+#ifndef STRIDE_MASTER_PROCESS_CHILD_H
+#define STRIDE_MASTER_PROCESS_CHILD_H
 
 #include <chrono>
 #include <csignal>
@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace stride::verify {
+namespace stride::process {
 
 /// How a child ended.
 struct ChildOutcome {
@@ -40,33 +40,6 @@ struct ChildOptions {
 ChildOutcome run_in_child(const std::function<std::string()>& work,
                           const ChildOptions& options = {});
 
-/// "SIGSEGV"
-std::string signal_name(int signal);
-
-/// Text in memory that a process shares with the children that it makes afterwards, so that it
-/// outlives them: what they were at.
-class SharedNote {
- public:
-  SharedNote();
-  ~SharedNote();
-  SharedNote(const SharedNote&) = delete;
-  SharedNote& operator=(const SharedNote&) = delete;
-
-  /// `what` is cut off after some 100 characters. `picoseconds`: the simulated time.
-  void write(const char* what, std::int64_t picoseconds);
-  void clear() { write("", 0); }
-
-  std::string what() const;
-  std::int64_t picoseconds() const { return memory_->picoseconds; }
-
- private:
-  struct Memory {
-    std::int64_t picoseconds;
-    char what[120];
-  };
-  Memory* memory_;
-};
-
-}  // namespace stride::verify
+}  // namespace stride::process
 
 #endif

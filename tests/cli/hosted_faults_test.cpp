@@ -1,0 +1,267 @@
+// Units that harm their processes, or those around them: exit code 1, an error that says what
+// happened, complete results up to there, and nothing left behind.
+#include <algorithm>
+#include <csignal>
+#include <functional>
+#include <utility>
+
+#include <catch2/catch.hpp>
+
+#include "tests/cli/failures.h"
+#include "tests/cli/leftovers.h"
+
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr const char* kAllHosted = "<stride:Host components=\"*\"/>\n";
+
+/// Two units, each in a process of its own; 1 s in steps of 1 ms.
+Parts parts_beside_a_filter(const std::string& faulty = "faulty",
+                            const std::string& source = "faulty.fmu",
+                            const std::string& hosts = kAllHosted) {
+  return {component("filter", "minimal.fmu") + component(faulty, source), "", hosts};
+}
+
+Workspace beside_a_filter(const std::string& faulty = "faulty",
+                          const std::string& source = "faulty.fmu",
+                          const std::string& hosts = kAllHosted) {
+  return Workspace(parts_beside_a_filter(faulty, source, hosts));
+}
+
+Arguments does(const std::string& fault, Arguments further = {}) {
+  further.insert(further.end(), {"--set", "faulty.fault=" + fault, "--set", "faulty.at=0.5"});
+  return further;
+}
+
+/// The error of a run that has to end at 0.5 s, with nothing left.
+std::string error_of(const Workspace& workspace, const Arguments& options,
+                     const std::string& last = "0.499") {
+  const Leftovers leftovers;
+  const std::string error = failure_of(workspace, options, last);
+  CHECK(leftovers.all() == std::vector<std::string>{});
+  return error;
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+/// The error of a run that has failed somewhere, up to where its results are complete.
+std::string error_of(const Workspace& workspace, const Outcome& outcome,
+                     const Leftovers& leftovers) {
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 1);
+  CHECK(leftovers.all() == std::vector<std::string>{});
+  CHECK(workspace.left_behind().empty());
+  const nlohmann::json run = run_json(workspace);
+  CHECK(run["outcome"] == "failed");
+  const Csv signals = workspace.signals();  // throws for a row that is cut
+  CHECK(signals.number(signals.size() - 1, 0) == run["reached"]);
+  return run["error"];
+}
+
+/// What a run that has to go well says, with nothing left.
+std::string said_by(const Workspace& workspace, const Arguments& options, Arguments before = {}) {
+  const Leftovers leftovers;
+  for (const std::string& argument : Workspace::run_arguments(options)) before.push_back(argument);
+  const Outcome outcome = workspace.stride(before);
+  INFO(outcome.err.substr(0, 2000));
+  CHECK(outcome.exit_code == 0);
+  CHECK(last_time(workspace) == "1");
+  CHECK(leftovers.all() == std::vector<std::string>{});
+  CHECK(workspace.left_behind().empty());
+  return outcome.err;
+}
+
+}  // namespace
+
+TEST_CASE("a unit that ends its process is an error with the call, the time and the signal") {
+  const Workspace workspace = beside_a_filter();
+  const auto [fault, end, words] = GENERATE(table<std::string, std::string, std::string>({
+      {"segfault", "SIGSEGV", ""},
+      {"stack overflow", "SIGSEGV", ""},
+      {"abort", "SIGABRT", "the model is inconsistent"},
+      {"throw in a thread", "SIGABRT", "nobody catches this"},
+      {"kill", "SIGKILL", ""},
+      {"exit", "exit code 3", ""},
+      {"_exit", "exit code 4", ""},
+      {"exit in a thread", "exit code 5", ""},
+  }));
+  INFO(fault);
+  CHECK_THAT(error_of(workspace, does(fault)),
+             Contains(workspace.at("faulty.fmu") + "unit 'faulty', at 0.499 s: ") &&
+                 Contains(end) && Contains("in fmi3DoStep") &&
+                 Contains("it printed: now comes: " + fault) && Contains(words));
+}
+
+TEST_CASE("likewise in whichever call it ends") {
+  const Workspace workspace = beside_a_filter();
+  const auto [call, function, last] = GENERATE(table<std::string, std::string, std::string>({
+      {"initialize", "fmi3ExitInitializationMode", ""},
+      {"event", "fmi3UpdateDiscreteStates", ""},
+      {"terminate", "fmi3Terminate", "1"},
+  }));
+  INFO(call);
+  const Leftovers leftovers;
+  const Outcome outcome =
+      workspace.run({"--quiet", "--set", "faulty.fault=segfault", "--set", "faulty.call=" + call});
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("unit 'faulty'") && Contains("SIGSEGV") && Contains(function));
+  CHECK(leftovers.all() == std::vector<std::string>{});
+  CHECK(workspace.left_behind().empty());
+  if (!last.empty()) CHECK(last_time(workspace) == last);
+}
+
+TEST_CASE("a unit that crashes when it is made") {
+  const Workspace workspace = beside_a_filter("dies_at_birth");
+  const Leftovers leftovers;
+  const Outcome outcome = workspace.run({"--quiet"});
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains(workspace.at("faulty.fmu") + "unit 'dies_at_birth'") &&
+                              Contains("SIGABRT") && Contains("fmi3InstantiateCoSimulation"));
+  CHECK(leftovers.all() == std::vector<std::string>{});
+  CHECK(workspace.left_behind().empty());
+}
+
+TEST_CASE("an exception that leaves a unit's function") {
+  const Workspace workspace = beside_a_filter("throws", "raw_throwing");
+  make_raw_fmu(workspace.scratch(), "raw_throwing");
+  CHECK_THAT(error_of(workspace, {}, "0"), Contains("unit 'throws', at 0 s: ") &&
+                                               Contains("fmi3DoStep") &&
+                                               Contains("thrown across the C interface"));
+}
+
+TEST_CASE("a unit that takes too long is ended") {
+  const Workspace workspace = beside_a_filter();
+  const std::string fault = GENERATE("loop", "stop");
+  CHECK_THAT(error_of(workspace, does(fault, {"--unit-timeout", "0.3"})),
+             Contains("unit 'faulty', at 0.499 s: it took longer than 0.3 s in fmi3DoStep") &&
+                 Contains("it printed: now comes: " + fault));
+}
+
+#ifndef __SANITIZE_ADDRESS__
+TEST_CASE("a unit that wants all the memory gets what it may have") {
+  const Workspace workspace = beside_a_filter(
+      "faulty", "faulty.fmu", "<stride:Host components=\"*\" memoryLimit=\"64\"/>\n");
+  CHECK_THAT(error_of(workspace, does("allocate")),
+             Contains("unit 'faulty', at 0.499 s: ") && Contains("std::bad_alloc"));
+}
+#endif
+
+TEST_CASE("what a unit prints is in the log, and holds nothing up") {
+  const Workspace workspace = beside_a_filter();
+  const std::string said = said_by(workspace, does("print"), {"--verbose"});
+  CHECK(count(said, ": line ") == 16384);
+  CHECK(count(said, "line 16383: .") == 1);
+}
+
+TEST_CASE("a unit that closes all files goes on without them") {
+  const Workspace workspace = beside_a_filter();
+  said_by(workspace, does("close files"));
+}
+
+TEST_CASE("what a unit has started goes with it, however far away it has gone") {
+  const Workspace workspace = beside_a_filter();
+  said_by(workspace, does("daemon"));
+}
+
+TEST_CASE("a unit that overwrites the shared memory harms itself only") {
+  const Workspace workspace = beside_a_filter();
+  CHECK_THAT(error_of(workspace, does("overwrite", {"--unit-timeout", "5"})),
+             Contains("unit 'faulty', at 0.499 s: "));
+}
+
+TEST_CASE("a unit in a sandbox cannot kill its parent") {
+  const Workspace workspace = beside_a_filter();
+  CHECK_THAT(error_of(workspace, does("kill parent")),
+             Contains("unit 'faulty', at 0.499 s: ") &&
+                 Contains("cannot kill the parent: Operation not permitted"));
+}
+
+TEST_CASE("a unit that kills its parent kills itself") {
+  const Workspace workspace = beside_a_filter();
+  const Leftovers leftovers;
+  const Outcome outcome = workspace.run(does("kill parent", {"--no-sandbox", "--stop", "1e6"}));
+  CHECK_THAT(error_of(workspace, outcome, leftovers),
+             Contains("unit 'faulty', at ") && Contains("keeper"));
+}
+
+// ---- Killed from outside ----
+
+namespace {
+
+/// Two units that may stop early and have no state: one of them is saved before each step.
+Parts two_that_stop() {
+  return {component("a", "early_without_state.fmu") + component("b", "early_without_state.fmu")};
+}
+
+/// A run that takes hours, and those who come from it.
+struct LongRun {
+  Leftovers leftovers;
+  Workspace workspace;
+  Process process{stride_command(Workspace::run_arguments({"--stop", "1e6", "--no-trace"})),
+                  workspace.scratch().path()};
+
+  LongRun() : LongRun(parts_beside_a_filter()) {}
+  explicit LongRun(const Parts& parts) : workspace(parts) {
+    await_first_results(process, workspace);
+  }
+
+  void kill_one_of(const std::string& name) const {
+    const std::vector<pid_t> found = leftovers.processes(name);
+    REQUIRE_FALSE(found.empty());
+    ::kill(found.back(), SIGKILL);
+  }
+
+  /// The error of the run, which has ended by itself.
+  std::string error() { return error_of(workspace, process.wait(), leftovers); }
+};
+
+}  // namespace
+
+TEST_CASE("a unit's process that is killed from outside") {
+  LongRun run;
+  run.kill_one_of("faulty");
+  CHECK_THAT(run.error(), Contains("unit 'faulty', at ") && Contains("SIGKILL"));
+}
+
+TEST_CASE("a keeper that is killed from outside") {
+  LongRun run;
+  CHECK(run.leftovers.processes("stride-keeper").size() == 2);
+  run.kill_one_of("stride-keeper");
+  CHECK_THAT(run.error(), Contains("unit '") && Contains("keeper"));
+}
+
+TEST_CASE("nothing stays of a run that is killed") {
+  LongRun run;
+  CHECK(run.leftovers.processes().size() == 5);
+  run.process.send(SIGKILL);
+  CHECK(run.process.wait().exit_code == -SIGKILL);
+  CHECK(run.leftovers.after_a_while() == std::vector<std::string>{});
+  CHECK(run.workspace.left_behind().empty());
+}
+
+TEST_CASE("nor of one with snapshots") {
+  LongRun run(two_that_stop());
+  CHECK(run.leftovers.processes("stride-keeper").size() == 1);
+  std::size_t most = 0;  // one snapshot goes when another one has come
+  for (int i = 0; i < 1000 && most < 4; ++i)
+    most = std::max(most, run.leftovers.processes().size());
+  CHECK(most >= 4);
+  run.process.send(SIGKILL);
+  CHECK(run.process.wait().exit_code == -SIGKILL);
+  CHECK(run.leftovers.after_a_while() == std::vector<std::string>{});
+  CHECK(run.workspace.left_behind().empty());
+}
+
+TEST_CASE("a run with hosts can be interrupted") {
+  LongRun run;
+  run.process.send(SIGINT);
+  CHECK_THAT(run.error(), Contains("interrupted"));
+}

@@ -1,0 +1,85 @@
+// Every scenario with each of its units in a process of its own: the same bytes as in one process,
+// and the golden results.
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/golden/scenario_run.h"
+
+using namespace stride::tests;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+const Arguments kStop{"--stop", "0.5"};
+const Arguments kEarlyStop = kStop;
+#else
+const Arguments kStop{};  // the scenario's own
+const Arguments kEarlyStop{"--stop", "2"};
+#endif
+
+/// All in scenarios/ that have golden results, so that nothing is to be fetched for them.
+std::set<std::string> scenarios() {
+  std::set<std::string> found;
+  for (const auto& entry : fs::directory_iterator(fs::path(STRIDE_SOURCE_DIR) / "scenarios")) {
+    if (fs::exists(entry.path() / "golden")) found.insert(entry.path().filename().string());
+  }
+  return found;
+}
+
+Arguments operator+(Arguments arguments, const Arguments& further) {
+  arguments.insert(arguments.end(), further.begin(), further.end());
+  return arguments;
+}
+
+std::size_t hosted_units(const ScenarioRun& run) {
+  std::size_t count = 0;
+  const auto json = nlohmann::json::parse(text_of(run.file("run.json")));
+  for (const auto& unit : json["units"]) {
+    count += unit.contains("host");
+  }
+  return count;
+}
+
+void check_same(const std::string& scenario, const Arguments& stop, const Arguments& options,
+                const Arguments& hosting) {
+  INFO(scenario);
+  const Arguments all = Arguments{"--no-trace"} + stop + options +
+                        (stop.empty() ? Arguments{} : without_judge(scenario));
+  const ScenarioRun in_process(scenario, all);
+  const ScenarioRun hosted(scenario, all + hosting);
+  CHECK(hosted_units(in_process) == 0);
+  CHECK(hosted_units(hosted) >= 2);
+  for (const char* file : {"signals.csv", "events.csv"}) {
+    INFO(file);
+    const bool is_same = text_of(hosted.file(file)) == text_of(in_process.file(file));
+    CHECK(is_same);
+  }
+  if (stop.empty()) CHECK(golden_differences(scenario, hosted) == "");
+}
+
+}  // namespace
+
+TEST_CASE("processes for all units change no byte of any scenario's results") {
+  REQUIRE(scenarios().size() >= 7);
+  for (const std::string& scenario : scenarios()) {
+    check_same(scenario, kStop, {"--no-idle-skip"}, {"--isolate"});
+  }
+}
+
+TEST_CASE("nor where idle units are skipped") {
+  for (const std::string& scenario : scenarios()) {
+    check_same(scenario, kEarlyStop, {}, {"--isolate"});
+  }
+}
+
+TEST_CASE("nor on two threads, nor where some of the units are in one process") {
+  const Arguments stop{"--stop", "0.5"};
+  check_same("nfc_two_tags", stop, {"--threads", "2"}, {"--isolate"});
+  check_same("nfc_two_tags", stop, {}, {"--isolate=sensor*", "--isolate=channel"});
+}

@@ -1,0 +1,52 @@
+// The variables of a program, whose types are known when its declaration is read.
+#ifndef STRIDE_UNITS_PROCESS_VARIABLE_H
+#define STRIDE_UNITS_PROCESS_VARIABLE_H
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <stride/process/tag.h>
+#include <stride/process/value.h>
+
+namespace process {
+
+using stride::process::Binary;
+
+using Value = std::variant<float, double, std::int8_t, std::uint8_t, std::int16_t, std::uint16_t,
+                           std::int32_t, std::uint32_t, std::int64_t, std::uint64_t, bool,
+                           std::string, Binary>;
+
+/// The zero, false or empty value of the type with this name ("Float64"); throws
+/// std::invalid_argument that lists them all.
+Value value_of_type(std::string_view type);
+const char* type_of(const Value& value);
+
+/// Reads a value of the type that is there. Throws std::invalid_argument as parse_value() does.
+void parse(std::string_view text, Value& value);
+/// Adds an attribute to a tag, as text.
+void write(stride::process::TagWriter& tag, std::string_view attribute, const Value& value);
+bool is_same(const Value& one, const Value& other);
+
+enum class Role : std::uint8_t { Parameter, Input, Output, MessageInput, MessageOutput };
+
+struct Variable {
+  std::string name;
+  Role role = Role::Input;
+  Value start;
+  std::string description;
+  std::string unit;
+  std::string mime_type;
+  std::string clock;  ///< the name of the clock of a message
+  bool is_discrete = false;
+  std::optional<double> min;
+  std::optional<double> max;
+  std::optional<std::vector<std::string>> depends_on;  ///< of an output: nothing = all inputs
+};
+
+}  // namespace process
+
+#endif
