@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::chrono::nanoseconds kLeastSpin = std::chrono::microseconds(1);
 constexpr std::uint32_t kRetry = 100;
+constexpr std::chrono::microseconds kLongYield{500};
+constexpr std::uint32_t kRetryYield = 100'000;
 
 /// Without FUTEX_PRIVATE_FLAG: the other one is another process.
 long futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value,
@@ -43,6 +45,18 @@ void Bell::sleep(std::uint32_t rings, std::chrono::nanoseconds most) {
 void Bell::wake() { futex(rings_, FUTEX_WAKE, 1, nullptr); }
 
 Waiter::Waiter() : most_(has_several_cores() ? kMostSpin : kMostSpin.zero()), spin_(most_) {}
+
+/// Where there are more units' processes than cores, the one that is waited for may need this core.
+/// But one that has other work to do keeps it for milliseconds.
+void Waiter::yield() {
+  if (keeps_core_ > 0) {
+    --keeps_core_;
+    return;
+  }
+  const auto begin = Clock::now();
+  ::sched_yield();
+  if (Clock::now() - begin > kLongYield) keeps_core_ = kRetryYield;
+}
 
 void Waiter::note_vain() {
   const bool retries = ++in_vain_ % kRetry == 0;

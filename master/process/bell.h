@@ -39,9 +39,10 @@ class Bell {
   static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
 };
 
-/// How one side waits: it spins for a while, since a sleeping core takes tens of microseconds to
-/// wake up, then it sleeps. It spins less where that was in vain, but for one time in a hundred, to
-/// find out whether it still is; and never where there is one core only.
+/// How one side waits: it spins for a while, letting others onto its core, since a sleeping core
+/// takes tens of microseconds to wake up, then it sleeps. It spins less where that was in vain, but
+/// for one time in a hundred, to find out whether it still is; and never where there is one core
+/// only.
 class Waiter {
  public:
   /// What is waited for would have to take this long for a sleep to cost less.
@@ -67,13 +68,14 @@ class Waiter {
     if (most_ == most_.zero()) return false;
     const auto enough = Clock::now() + spin_;
     do {
-      for (int i = 0; i < 64; ++i) {
+      for (int i = 0; i < kGlances; ++i) {
         pause();
         if (is_there()) {
           spin_ = spin_ * 2 < most_ ? spin_ * 2 : most_;
           return true;
         }
       }
+      yield();
     } while (Clock::now() < enough);
     note_vain();
     return false;
@@ -82,10 +84,15 @@ class Waiter {
  private:
   using Clock = std::chrono::steady_clock;
 
+  /// So often it looks before anybody else is let onto the core.
+  static constexpr int kGlances = 8;
+
+  void yield();
   void note_vain();
 
   std::chrono::nanoseconds most_, spin_;
   std::uint32_t in_vain_ = 0;
+  std::uint32_t keeps_core_ = 0;  ///< for so many further times
 };
 
 }  // namespace stride::process

@@ -4,6 +4,7 @@
 // of the same size. All in turn within each iteration, so that a machine that changes its speed
 // changes it for all. What counts are the ratios and the differences.
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <stdexcept>
@@ -122,6 +123,29 @@ void transport(benchmark::State& state) {
   state.counters["pipe_ratio"] = 1e9 * pipe_seconds / few / near_ns;
 }
 
+/// Several units in processes of their own, stepped in turn as a communication step does it. With
+/// more of them than cores those that wait must not keep the others from working.
+void hosts(benchmark::State& state) {
+  const int steps = static_cast<int>(state.range(1));
+  std::vector<Stepped> others;
+  others.reserve(static_cast<std::size_t>(state.range(0)));
+  for (std::int64_t i = 0; i < state.range(0); ++i) others.push_back(hosted());
+  Stepped near = in_process(integrator());
+  double near_seconds = 0, seconds = 0;
+  for (auto _ : state) {
+    near_seconds += near.steps(steps);
+    double mine = 0;
+    for (int i = 0; i < steps; ++i) {
+      for (Stepped& other : others) mine += other.steps(1);
+    }
+    seconds += mine;
+    state.SetIterationTime(mine);
+  }
+  const double all = static_cast<double>(state.iterations()) * steps;
+  const double each = 1e9 * seconds / (all * static_cast<double>(others.size()));
+  state.counters["hosted_more_ns"] = each - 1e9 * near_seconds / all;
+}
+
 /// Seconds from the fork to the end of a child that does nothing.
 double bare_fork() {
   const auto began = Wall::now();
@@ -156,6 +180,13 @@ void snapshot(benchmark::State& state) {
 }
 
 BENCHMARK(transport)->Arg(100)->Arg(20'000)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(hosts)
+    ->Args({1, 100})
+    ->Args({1, 20'000})
+    ->Args({2, 20'000})
+    ->Args({6, 20'000})
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(snapshot)
     ->Args({0, 100})
     ->Args({20, 100})
