@@ -44,6 +44,9 @@ class Stepped {
     unit_->enter_step_mode();
   }
 
+  Stepped(const Stepped&) = delete;
+  Stepped& operator=(const Stepped&) = delete;
+
   /// Returns the seconds that they took.
   double steps(int count, bool saves = false) {
     const auto began = Wall::now();
@@ -127,16 +130,15 @@ void transport(benchmark::State& state) {
 /// more of them than cores those that wait must not keep the others from working.
 void hosts(benchmark::State& state) {
   const int steps = static_cast<int>(state.range(1));
-  std::vector<Stepped> others;
-  others.reserve(static_cast<std::size_t>(state.range(0)));
-  for (std::int64_t i = 0; i < state.range(0); ++i) others.push_back(hosted());
+  std::vector<std::unique_ptr<Stepped>> others;
+  for (std::int64_t i = 0; i < state.range(0); ++i) others.emplace_back(new Stepped(hosted()));
   Stepped near = in_process(integrator());
   double near_seconds = 0, seconds = 0;
   for (auto _ : state) {
     near_seconds += near.steps(steps);
     double mine = 0;
     for (int i = 0; i < steps; ++i) {
-      for (Stepped& other : others) mine += other.steps(1);
+      for (const auto& other : others) mine += other->steps(1);
     }
     seconds += mine;
     state.SetIterationTime(mine);
