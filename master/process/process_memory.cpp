@@ -30,4 +30,8 @@ std::uint64_t private_memory(pid_t process) {
   return sum_of({"Private_Clean:", "Private_Dirty:"}, process, "smaps_rollup");
 }
 
+std::uint64_t data_memory(pid_t process) {
+  return sum_of({"VmData:", "VmStk:"}, process, "status");
+}
+
 }  // namespace stride::process

@@ -15,6 +15,9 @@ std::uint64_t most_memory(pid_t process);
 /// of the process.
 std::uint64_t private_memory(pid_t process);
 
+/// What it has allocated, and may write to alone, resident or not [byte]; 0 if it is not said.
+std::uint64_t data_memory(pid_t process);
+
 }  // namespace stride::process
 
 #endif

@@ -1,8 +1,8 @@
 // A program as an FMU. Its variable table comes from the declaration in its resources.
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <deque>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include <stride/results.h>
 #include <stride/unit.h>
 
 #include "units/process/model.h"
@@ -23,12 +24,6 @@ using process::Variable;
 
 bool is_message(const Variable& variable) {
   return variable.role == Role::MessageInput || variable.role == Role::MessageOutput;
-}
-
-/// Among the run's other results, if the importer has told where they are.
-std::filesystem::path result_file(const std::string& name) {
-  const char* const folder = std::getenv("STRIDE_RESULTS");
-  return (folder != nullptr ? folder : std::filesystem::current_path()) / name;
 }
 
 std::vector<Value> start_values(const process::Declaration& declaration) {
@@ -120,7 +115,8 @@ class ProcessUnit : public stride::Unit {
           log(is_warning ? stride::Severity::Warning : stride::Severity::Info, text);
         });
     process::Opening opening = opening_;
-    if (!opening.trace_file.empty()) opening.trace_file = result_file(opening.trace_file).string();
+    if (!opening.trace_file.empty())
+      opening.trace_file = (stride::results_folder() / opening.trace_file).string();
     sync_ = in_session([&](process::Session& session) { return session.start(opening, start); });
   }
 

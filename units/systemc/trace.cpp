@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <set>
@@ -12,6 +11,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <stride/results.h>
 #include <stride/systemc/trace.h>
 
 namespace stride::systemc {
@@ -21,12 +21,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExtension = ".vcd";
 constexpr const char* kAdvanceTime = "advanceTime";
-
-/// Where the run's other results are, if the importer has told; else where the program was started.
-fs::path results_folder() {
-  const char* const told = std::getenv("STRIDE_RESULTS");
-  return told != nullptr ? told : fs::current_path();
-}
 
 /// Absolute, and the same however a file is named.
 std::string without_extension(const std::string& path) {

@@ -32,7 +32,20 @@ TEST_CASE("memory that was used counts, also when it is no longer there") {
   CHECK(outcome.text == "1111");
 }
 
+TEST_CASE("memory that was allocated counts, also if it was never used") {
+  constexpr std::size_t kSize = std::size_t{64} << 20;
+  const ChildOutcome outcome = run_in_child([&] {
+    const std::uint64_t before = data_memory(::getpid());
+    ::mmap(nullptr, kSize, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    ::mmap(nullptr, kSize, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    const std::uint64_t more = data_memory(::getpid()) - before;
+    return std::string(before > 0 && more >= kSize && more < 2 * kSize ? "counted" : "not");
+  });
+  CHECK(outcome.text == "counted");
+}
+
 TEST_CASE("of a process that is not there nothing is said") {
   CHECK(most_memory(-1) == 0);
   CHECK(private_memory(-1) == 0);
+  CHECK(data_memory(-1) == 0);
 }
