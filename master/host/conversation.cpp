@@ -101,6 +101,7 @@ core::HostStatistics Conversation::statistics() const {
 void Conversation::finish() {
   process_.finish([&] { take_lines(); });
   take_lines();
+  take_last_line();
 }
 
 // ---- What is said besides ----
@@ -110,13 +111,18 @@ void Conversation::take_lines() {
     last_words_.add_logged(message.text);
     log(message.status, message.category, message.text);
   });
-  const auto print = [&](std::string_view line) {
-    last_words_.add_printed(line);
-    log(fmi::Status::Ok, kPrinted, std::string(line));
-  };
   channel_.memory->printed.read(printed_.bytes());
-  printed_.take(print);
-  if (process_.has_ended()) printed_.take_rest(print);
+  printed_.take([&](std::string_view line) { tell_printed(line); });
+}
+
+void Conversation::tell_printed(std::string_view line) {
+  last_words_.add_printed(line);
+  log(fmi::Status::Ok, kPrinted, std::string(line));
+}
+
+/// A line without an end, when nothing comes behind it.
+void Conversation::take_last_line() {
+  printed_.take_rest([&](std::string_view line) { tell_printed(line); });
 }
 
 void Conversation::log(fmi::Status status, const std::string& category,
@@ -131,6 +137,7 @@ void Conversation::log(fmi::Status status, const std::string& category,
 
 void Conversation::fail(const std::string& what, std::optional<Time> time) {
   failure_ = what;
+  if (process_.has_ended()) take_last_line();
   std::string hint = sandbox_hint(last_words_.text(), recipe_.name, recipe_.host);
   if (hint.empty() && recipe_.host.memory_limit) {
     hint = fmt::format("its memory is limited to {} MiB (memoryLimit); it may need more",

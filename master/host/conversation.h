@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "master/core/statistics.h"
 #include "master/host/channel.h"
@@ -49,6 +50,8 @@ class Conversation {
   }
   void await_reply(std::optional<Time> time);
   void take_lines();
+  void take_last_line();
+  void tell_printed(std::string_view line);
   void complain_of_waiting();
   [[noreturn]] void fail(const std::string& what, std::optional<Time> time);
   std::string present_call() const;
