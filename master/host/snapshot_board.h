@@ -21,7 +21,7 @@ inline void raise_to(std::atomic<std::uint64_t>& most, std::uint64_t value) {
 /// whoever is in charge of the unit has to know it, however far it was taken back.
 struct SnapshotBoard {
   static constexpr std::size_t kSlots = 16;
-  /// Those that have been told to end have theirs for a while.
+  /// Those that have been told to end have theirs until the keeper has seen that they did.
   static constexpr std::size_t kPlaces = 2 * kSlots;
 
   enum class State : std::uint32_t {

@@ -95,10 +95,7 @@ bool Snapshots::freeze(Place& place) {
   process::die_with(keeper_);
   place.process = ::getpid();
   for (;;) {
-    if (wait_while_frozen(place) == State::Ends) {
-      place.state = State::Free;
-      ::_exit(0);
-    }
+    if (wait_while_frozen(place) == State::Ends) ::_exit(0);
     place.state = State::Frozen;
     pid_t process = 0;
     try {
@@ -158,7 +155,7 @@ void Snapshots::refuse_company() const {
   }
 }
 
-/// Snapshots that have been told to end do so at once, so one is found soon.
+/// Snapshots that have been told to end do so at once, and the keeper sees it, so one is found soon.
 std::uint32_t Snapshots::find_free_place() {
   for (;;) {
     for (std::uint32_t i = 0; i < board_.places.size(); ++i) {

@@ -135,19 +135,21 @@ TEST_CASE("a slot holds what was saved in it last, whoever is in charge") {
 }
 
 TEST_CASE("of many snapshots in a slot the last one stays") {
+  constexpr int kPasses = 10;
   SharedWorld world;
   const auto error = run(world, [](World& w, Snapshots& snapshots) {
     for (int i = 0; i < 300; ++i) {
       snapshots.save(0);
       w.seen[0] = i;
     }
-    if (++w.passes < 10) snapshots.restore(0);
+    if (++w.passes < kPasses) snapshots.restore(0);
   });
   CHECK(error == "");
   CHECK(world->seen[0] == 299);
   CHECK(world->board.snapshots == 300);
   CHECK(world->board.most_kept == 1);
-  CHECK(world->most_processes <= static_cast<int>(SnapshotBoard::kPlaces) + 1);
+  // Those that were in charge before a restore may not have been waited for yet.
+  CHECK(world->most_processes <= static_cast<int>(SnapshotBoard::kPlaces) + kPasses);
 }
 
 TEST_CASE("more states than there can be are refused, and so is what was never kept") {
