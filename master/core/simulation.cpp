@@ -60,9 +60,9 @@ class Simulation::Run {
     std::exception_ptr failure;
     try {
       clock_.timed(statistics_.phases.initialization, [&] { initialize(); });
-      while (time_ < options_.stop && !statistics_.terminated_by_unit) communication_step();
+      while (goes_on()) communication_step();
       if (ledger_) ledger_->settle(time_);
-      verdicts_ = read_verdicts(system_, units_);
+      if (statistics_.end != RunEnd::Interrupted) verdicts_ = read_verdicts(system_, units_);
       for (auto& unit : units_) unit->terminate();
     } catch (...) {
       failure = std::current_exception();
@@ -168,6 +168,14 @@ class Simulation::Run {
     }
   }
 
+  bool goes_on() {
+    if (time_ >= options_.stop || statistics_.end == RunEnd::EndedByUnit) return false;
+    if (options_.interrupted == nullptr || *options_.interrupted == 0) [[likely]]
+      return true;
+    statistics_.end = RunEnd::Interrupted;
+    return false;
+  }
+
   void communication_step() {
     const Time reached = clock_.timed(statistics_.phases.steps, [&] { return advance(); });
     if (reached == time_) {
@@ -187,7 +195,7 @@ class Simulation::Run {
   void take_requests() {
     for (std::size_t i = 0; i < count(); ++i) {
       const StepResult& result = stepper_.result(i);
-      statistics_.terminated_by_unit |= result.terminate;
+      if (result.terminate) statistics_.end = RunEnd::EndedByUnit;
       if (result.event_needed) instant_.request_event(i);
     }
   }

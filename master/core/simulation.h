@@ -27,12 +27,13 @@ class Simulation {
 
   void add_observer(Observer& observer);
 
-  /// From initialisation to the stop time, or until a unit ends the simulation. Throws Error; the
-  /// observers' on_finish() has been called then, and the statistics tell how far it came.
+  /// From initialisation to the stop time, or until a unit ends the simulation or it is
+  /// interrupted. Throws Error; the observers' on_finish() has been called then, and the statistics
+  /// tell how far it came.
   void run();
 
   const RunStatistics& statistics() const;
-  /// What the units say of the run, where it ended; none where it failed.
+  /// What the units say of the run, where it ended; none where it failed or was interrupted.
   std::span<const Verdict> verdicts() const;
 
  private:

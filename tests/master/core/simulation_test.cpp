@@ -436,7 +436,7 @@ TEST_CASE("a unit can end the simulation") {
   };
   f.build(1, 1ms).run();
   CHECK(f.simulation->statistics().reached == time_from_seconds(0.003));
-  CHECK(f.simulation->statistics().terminated_by_unit);
+  CHECK(f.simulation->statistics().end == RunEnd::EndedByUnit);
   CHECK(a.calls.back() == "terminate");
 }
 
@@ -538,7 +538,7 @@ TEST_CASE("who ends the simulation in an event has no further event iteration") 
   };
   f.build(1, 1ms).run();
   CHECK(f.events.size() == 3);
-  CHECK(f.simulation->statistics().terminated_by_unit);
+  CHECK(f.simulation->statistics().end == RunEnd::EndedByUnit);
 }
 
 TEST_CASE("NaN in a message is an error") {
