@@ -25,6 +25,15 @@ namespace {
 /// Steps in a row that end where they began, after which a unit is taken to be stuck.
 constexpr std::uint32_t kStallLimit = 1000;
 
+/// All that observers may see, each once.
+std::vector<VariableId> observed(const RunOptions& options) {
+  std::vector<VariableId> ids = options.recorded;
+  ids.insert(ids.end(), options.watched.begin(), options.watched.end());
+  std::ranges::sort(ids);
+  ids.erase(std::ranges::unique(ids).begin(), ids.end());
+  return ids;
+}
+
 }  // namespace
 
 class Simulation::Run {
@@ -34,7 +43,8 @@ class Simulation::Run {
         units_(std::move(units)),
         options_(std::move(options)),
         step_size_(system, options_),
-        outputs_(system, options_.recorded),
+        observed_(observed(options_)),
+        outputs_(system, observed_),
         exchange_(system, outputs_.sources()),
         inputs_(make_inputs()),
         statistics_{.units = std::vector<UnitStatistics>(units_.size())},
@@ -50,7 +60,15 @@ class Simulation::Run {
     if (options_.sets_inputs_in_steps()) lead_inputs_within_steps();
   }
 
-  void add_observer(Observer& observer) { observers_.push_back(&observer); }
+  void add_observer(Observer& observer) { add_observer(observer, options_.recorded); }
+  void add_observer(Observer& observer, std::vector<VariableId> signals) {
+    const auto is_read = [&](VariableId id) { return std::ranges::binary_search(observed_, id); };
+    if (!std::ranges::all_of(signals, is_read)) {
+      throw std::logic_error("an observer wants a signal that is not read");
+    }
+    observers_.push_back(&observer);
+    wanted_.push_back(std::move(signals));
+  }
   const RunStatistics& statistics() const { return statistics_; }
   std::span<const Verdict> verdicts() const { return verdicts_; }
 
@@ -141,9 +159,11 @@ class Simulation::Run {
   }
 
   void start_observers() {
-    std::vector<Signal> signals;
-    for (const VariableId id : options_.recorded) signals.push_back(outputs_.signal(id, exchange_));
-    for (Observer* observer : observers_) observer->on_start(signals);
+    for (std::size_t i = 0; i < observers_.size(); ++i) {
+      std::vector<Signal> signals;
+      for (const VariableId id : wanted_[i]) signals.push_back(outputs_.signal(id, exchange_));
+      observers_[i]->on_start(signals);
+    }
   }
 
   /// Nothing where nobody would use it.
@@ -241,10 +261,12 @@ class Simulation::Run {
   std::vector<std::unique_ptr<Unit>> units_;
   RunOptions options_;
   StepSize step_size_;
+  std::vector<VariableId> observed_;  ///< sorted
   SystemOutputs outputs_;
   Exchange exchange_;
   std::optional<StepInputs> inputs_;
   std::vector<Observer*> observers_;
+  std::vector<std::vector<VariableId>> wanted_;  ///< the signals of each of them
   RunStatistics statistics_;
   std::vector<Verdict> verdicts_;
   std::optional<IdleLedger> ledger_;  ///< nothing where nobody may rest
@@ -264,6 +286,10 @@ Simulation::Simulation(const System& system, std::vector<std::unique_ptr<Unit>> 
 Simulation::~Simulation() = default;
 
 void Simulation::add_observer(Observer& observer) { run_->add_observer(observer); }
+
+void Simulation::add_observer(Observer& observer, std::vector<VariableId> signals) {
+  run_->add_observer(observer, std::move(signals));
+}
 
 void Simulation::run() { run_->run(); }
 

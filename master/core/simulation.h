@@ -26,6 +26,9 @@ class Simulation {
   ~Simulation();
 
   void add_observer(Observer& observer);
+  /// It sees these signals, in this order, in place of the recorded ones. Each is one of
+  /// RunOptions::recorded or RunOptions::watched.
+  void add_observer(Observer& observer, std::vector<VariableId> signals);
 
   /// From initialisation to the stop time, or until a unit ends the simulation or it is
   /// interrupted. Throws Error; the observers' on_finish() has been called then, and the statistics
