@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "master/core/activities.h"
 #include "master/core/exchange.h"
 #include "master/core/idle_ledger.h"
 #include "master/core/initial_values.h"
@@ -40,9 +41,9 @@ class Simulation::Run {
         statistics_{.units = std::vector<UnitStatistics>(units_.size())},
         ledger_(make_ledger()),
         clock_(options_.measure_time),
-        instant_(system, units_, exchange_, observers_, statistics_, clock_,
+        instant_(system, units_, exchange_, observers_, activities_, statistics_, clock_,
                  ledger_ ? &*ledger_ : nullptr),
-        stepper_(system, units_, exchange_, statistics_.units, clock_, options_,
+        stepper_(system, units_, exchange_, statistics_.units, activities_, clock_, options_,
                  options_.sets_inputs_in_steps() ? &*inputs_ : nullptr,
                  ledger_ ? &*ledger_ : nullptr) {
     statistics_.start = statistics_.reached = options_.start;
@@ -50,8 +51,12 @@ class Simulation::Run {
     if (options_.sets_inputs_in_steps()) lead_inputs_within_steps();
   }
 
-  void add_observer(Observer& observer) { observers_.push_back(&observer); }
+  void add_observer(Observer& observer) {
+    observers_.push_back(&observer);
+    activities_.add(observer);
+  }
   const RunStatistics& statistics() const { return statistics_; }
+  Duration rested() const { return ledger_ ? ledger_->rested(time_) : Duration{}; }
   std::span<const Verdict> verdicts() const { return verdicts_; }
 
   void run() {
@@ -73,6 +78,7 @@ class Simulation::Run {
       statistics_.units[i].host = units_[i]->host_statistics();
       statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].rests;
     }
+    finish_rests(failure);
     finish_observers(failure);
     if (!failure) return;
     verdicts_.clear();
@@ -81,6 +87,14 @@ class Simulation::Run {
 
  private:
   std::size_t count() const { return units_.size(); }
+
+  void finish_rests(std::exception_ptr& failure) {
+    if (!ledger_ || !failure) return;
+    try {
+      ledger_->tell_unfinished_rests(time_);
+    } catch (...) {  // the first failure is kept
+    }
+  }
 
   /// All are told, also where one of them fails; the first failure is kept.
   void finish_observers(std::exception_ptr& failure) {
@@ -155,7 +169,7 @@ class Simulation::Run {
   std::optional<IdleLedger> make_ledger() {
     if (!options_.may_skip_idle_time()) return std::nullopt;
     std::optional<IdleLedger> ledger(std::in_place, system_, units_, exchange_, statistics_.units,
-                                     options_.idle);
+                                     activities_, options_.idle);
     if (ledger->is_trivial()) ledger.reset();
     return ledger;
   }
@@ -237,6 +251,7 @@ class Simulation::Run {
   Exchange exchange_;
   std::optional<StepInputs> inputs_;
   std::vector<Observer*> observers_;
+  Activities activities_;
   RunStatistics statistics_;
   std::vector<Verdict> verdicts_;
   std::optional<IdleLedger> ledger_;  ///< nothing where nobody may rest
@@ -258,6 +273,8 @@ Simulation::~Simulation() = default;
 void Simulation::add_observer(Observer& observer) { run_->add_observer(observer); }
 
 void Simulation::run() { run_->run(); }
+
+Duration Simulation::rested() const { return run_->rested(); }
 
 const RunStatistics& Simulation::statistics() const { return run_->statistics(); }
 

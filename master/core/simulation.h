@@ -32,6 +32,11 @@ class Simulation {
   void run();
 
   const RunStatistics& statistics() const;
+  /// The simulated time for which units have been left alone because they promised to be idle, all
+  /// of them together and up to where the run stands: unlike the statistics' `rested`, with the
+  /// rests that still last. For observers, at a communication point; one look at each unit that may
+  /// rest.
+  Duration rested() const;
   /// What the units say of the run, where it ended; none where it failed.
   std::span<const Verdict> verdicts() const;
 
