@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "master/core/activities.h"
 #include "master/core/exchange.h"
 #include "master/core/idle_ledger.h"
 #include "master/core/initial_values.h"
@@ -50,9 +51,9 @@ class Simulation::Run {
         statistics_{.units = std::vector<UnitStatistics>(units_.size())},
         ledger_(make_ledger()),
         clock_(options_.measure_time),
-        instant_(system, units_, exchange_, observers_, statistics_, clock_,
+        instant_(system, units_, exchange_, observers_, activities_, statistics_, clock_,
                  ledger_ ? &*ledger_ : nullptr),
-        stepper_(system, units_, exchange_, statistics_.units, clock_, options_,
+        stepper_(system, units_, exchange_, statistics_.units, activities_, clock_, options_,
                  options_.sets_inputs_in_steps() ? &*inputs_ : nullptr,
                  ledger_ ? &*ledger_ : nullptr) {
     statistics_.start = statistics_.reached = options_.start;
@@ -68,8 +69,10 @@ class Simulation::Run {
     }
     observers_.push_back(&observer);
     wanted_.push_back(std::move(signals));
+    activities_.add(observer);
   }
   const RunStatistics& statistics() const { return statistics_; }
+  Duration rested() const { return ledger_ ? ledger_->rested(time_) : Duration{}; }
   std::span<const Verdict> verdicts() const { return verdicts_; }
 
   void run() {
@@ -91,6 +94,7 @@ class Simulation::Run {
       statistics_.units[i].host = units_[i]->host_statistics();
       statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].rests;
     }
+    finish_rests(failure);
     finish_observers(failure);
     if (!failure) return;
     verdicts_.clear();
@@ -99,6 +103,14 @@ class Simulation::Run {
 
  private:
   std::size_t count() const { return units_.size(); }
+
+  void finish_rests(std::exception_ptr& failure) {
+    if (!ledger_ || !failure) return;
+    try {
+      ledger_->tell_unfinished_rests(time_);
+    } catch (...) {  // the first failure is kept
+    }
+  }
 
   /// All are told, also where one of them fails; the first failure is kept.
   void finish_observers(std::exception_ptr& failure) {
@@ -175,7 +187,7 @@ class Simulation::Run {
   std::optional<IdleLedger> make_ledger() {
     if (!options_.may_skip_idle_time()) return std::nullopt;
     std::optional<IdleLedger> ledger(std::in_place, system_, units_, exchange_, statistics_.units,
-                                     options_.idle);
+                                     activities_, options_.idle);
     if (ledger->is_trivial()) ledger.reset();
     return ledger;
   }
@@ -267,6 +279,7 @@ class Simulation::Run {
   std::optional<StepInputs> inputs_;
   std::vector<Observer*> observers_;
   std::vector<std::vector<VariableId>> wanted_;  ///< the signals of each of them
+  Activities activities_;
   RunStatistics statistics_;
   std::vector<Verdict> verdicts_;
   std::optional<IdleLedger> ledger_;  ///< nothing where nobody may rest
@@ -292,6 +305,8 @@ void Simulation::add_observer(Observer& observer, std::vector<VariableId> signal
 }
 
 void Simulation::run() { run_->run(); }
+
+Duration Simulation::rested() const { return run_->rested(); }
 
 const RunStatistics& Simulation::statistics() const { return run_->statistics(); }
 
