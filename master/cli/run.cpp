@@ -35,6 +35,7 @@ struct Request {
   std::filesystem::path out;
   std::vector<std::string> captures;  ///< "component=FILE"
   std::size_t threads = 1;
+  std::optional<ProgressStyle> progress;
   bool no_trace = false;
   bool quiet = false;
 };
@@ -81,6 +82,10 @@ core::RunOptions run_options(const Request& request, const LoadedScenario& loade
   return options;
 }
 
+ProgressStyle progress_style(const Request& request) {
+  return request.progress.value_or(request.quiet ? ProgressStyle::None : ProgressStyle::Auto);
+}
+
 std::vector<capture::Request> captures(const Request& request) {
   std::vector<capture::Request> captures;
   for (const std::string& text : request.captures) {
@@ -104,14 +109,12 @@ class RecordedRun {
         simulation_(loaded_.system(), captured_units(), options_),
         recorders_(loaded_.system(), files_, folder_),
         summary_(loaded_.system()),
-        progress_(options_.start, options_.stop) {
+        progress_(progress_style(request), options_.start, options_.stop, simulation_) {
     capture_.follow(simulation_);
     recorders_.add_to(simulation_);
     if (!capture_.is_empty()) simulation_.add_observer(capture_);
-    if (!request.quiet) {
-      simulation_.add_observer(summary_);
-      simulation_.add_observer(progress_);
-    }
+    if (!request.quiet) simulation_.add_observer(summary_);
+    simulation_.add_observer(progress_);
   }
 
   /// Throws core::Error (Run) if it fails or is interrupted, and also if a unit's verdict on it is
@@ -120,11 +123,13 @@ class RecordedRun {
     try {
       simulation_.run();
     } catch (const std::exception& failure) {
+      progress_.end("failed");
       // the first failure is the one to tell
       warn_of_failure([&] { capture_.end(fmt::format("failed: {}", failure.what())); });
       warn_of_failure([&] { write_statistics(failure.what()); });
       throw;
     }
+    progress_.end(name(simulation_.statistics().end));
     capture_.end(name(simulation_.statistics().end));
     write_statistics(std::nullopt);
     if (!request_.quiet) print();
@@ -206,6 +211,14 @@ void add_run(CLI::App& app) {
       ->type_name("COMPONENT=FILE")
       ->allow_extra_args(false);
   command->add_flag("--no-trace", request->no_trace, "Write no signals.vcd");
+  command
+      ->add_option_function<std::string>(
+          "--progress",
+          [request](const std::string& text) { request->progress = read_progress_style(text); },
+          "How to show how far the run is: auto (on a terminal a line that is rewritten, elsewhere "
+          "a "
+          "line now and then), plain, json (an object a line, for programs) or none")
+      ->type_name("STYLE");
   command->add_flag("--quiet,-q", request->quiet, "Print nothing but errors");
   command->callback([request] { RecordedRun(*request).run(); });
 }
