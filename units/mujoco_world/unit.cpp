@@ -55,8 +55,7 @@ class MujocoWorld : public stride::Unit {
   void initialize(stride::Time start) override {
     allow_rest();
     world_.reset(start);
-    film_.reset();
-    begin_film();
+    set_film();
     show();
   }
 
@@ -89,18 +88,22 @@ class MujocoWorld : public stride::Unit {
     block_.resize(world_.state_size());
     reader.read_bytes(block_.data(), block_.size() * sizeof(double));
     world_.restore(block_.data());
-    if (film_) {
-      film_->go_on();
-    } else {
-      begin_film();
-    }
+    set_film();
     show();
   }
 
  private:
-  void begin_film() {
-    if (film_interval_ == 0) return;
-    film_.emplace(world_, stride::duration_from_seconds(film_interval_), view_, film_folder());
+  /// The world was set to another state: there is a film as the parameters want it, up to now.
+  void set_film() {
+    const mujoco_world::film::FilmSettings wanted{stride::duration_from_seconds(film_interval_),
+                                                  view_};
+    if (wanted.interval == stride::Duration{}) {
+      film_.reset();
+    } else if (film_ && film_->settings() == wanted) {
+      film_->go_on();
+    } else {
+      film_.emplace(world_, wanted, film_folder());
+    }
   }
 
   std::filesystem::path film_folder() const {

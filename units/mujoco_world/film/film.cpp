@@ -8,9 +8,9 @@ namespace {
 using stride::Duration;
 using stride::Time;
 
-Duration positive(Duration interval) {
-  if (interval > Duration{}) return interval;
-  throw std::invalid_argument("film.interval is below a picosecond: expected more, or 0 for none");
+FilmSettings checked(const FilmSettings& settings) {
+  if (settings.interval > Duration{}) return settings;
+  throw std::invalid_argument("the interval of a film is not above 0");
 }
 
 Time first_at_or_after(Time time, Duration interval) {
@@ -21,11 +21,10 @@ Time first_at_or_after(Time time, Duration interval) {
 
 }  // namespace
 
-Film::Film(const World& world, Duration interval, const View& view,
-           const std::filesystem::path& folder)
+Film::Film(const World& world, const FilmSettings& settings, const std::filesystem::path& folder)
     : world_(world),
-      interval_(positive(interval)),
-      renderer_(world.model(), view),
+      settings_(checked(settings)),
+      renderer_(world.model(), settings.view),
       frames_(folder) {
   go_on();
 }
@@ -40,10 +39,10 @@ void Film::advance(World& world, Time to) {
 
 void Film::go_on() {
   frames_.remove_after(world_.now());
-  next_ = first_at_or_after(world_.now(), interval_);
+  next_ = first_at_or_after(world_.now(), settings_.interval);
   if (next_ > world_.now()) return;
   if (frames_.ends_at(next_)) {
-    next_ = stride::later(next_, interval_);
+    next_ = stride::later(next_, settings_.interval);
   } else {
     take();
   }
@@ -51,7 +50,7 @@ void Film::go_on() {
 
 void Film::take() {
   frames_.add(next_, to_jpeg(renderer_.draw(world_.model(), world_.drawn())));
-  next_ = stride::later(next_, interval_);
+  next_ = stride::later(next_, settings_.interval);
 }
 
 }  // namespace mujoco_world::film

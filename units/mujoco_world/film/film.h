@@ -12,6 +12,15 @@
 
 namespace mujoco_world::film {
 
+struct FilmSettings {
+  stride::Duration interval{};  ///< 0: no film
+  View view;
+
+  friend bool operator==(const FilmSettings& a, const FilmSettings& b) {
+    return a.interval == b.interval && a.view == b.view;
+  }
+};
+
 /// Its frames are of the instants k * interval, k whole, from its beginning on, so they do not
 /// depend on the steps that the world is moved by.
 class Film {
@@ -19,8 +28,9 @@ class Film {
   /// Takes the picture of the world's present, if it is one of the instants. `world` must outlive
   /// it. Throws std::invalid_argument for an interval that is not positive, and as Renderer and
   /// Frames do.
-  Film(const World& world, stride::Duration interval, const View& view,
-       const std::filesystem::path& folder);
+  Film(const World& world, const FilmSettings& settings, const std::filesystem::path& folder);
+
+  const FilmSettings& settings() const { return settings_; }
 
   /// Moves the world to `to`, and takes the pictures on the way. Throws as World::advance() and
   /// Renderer and Frames do.
@@ -34,7 +44,7 @@ class Film {
   void take();
 
   const World& world_;
-  stride::Duration interval_;
+  FilmSettings settings_;
   Renderer renderer_;
   Frames frames_;
   stride::Time next_;

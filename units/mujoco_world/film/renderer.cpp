@@ -10,6 +10,8 @@
 namespace mujoco_world::film {
 namespace {
 
+// finer shadows take most of the time, in software, and are not seen
+constexpr int kShadowPerPixel = 3;
 constexpr const char* kFilmCamera = "film";
 constexpr int kMostDecorations = 10000;  // beside the model's geoms: sites, tendons, lights
 
@@ -56,6 +58,8 @@ void Renderer::make(const mjModel& model) {
   mjModel sized = model;  // its arrays are the model's own
   sized.vis.global.offwidth = frame_.width;
   sized.vis.global.offheight = frame_.height;
+  int& shadow = sized.vis.quality.shadowsize;
+  shadow = std::min(shadow, kShadowPerPixel * std::max(frame_.width, frame_.height));
   mjr_makeContext(&sized, &context_, mjFONTSCALE_100);
   mjr_setBuffer(mjFB_OFFSCREEN, &context_);
   if (context_.currentBuffer != mjFB_OFFSCREEN) {
