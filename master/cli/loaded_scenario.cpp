@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "master/cli/film.h"
 #include "master/cli/unit_path.h"
 #include "master/core/step_size.h"
 #include "master/core/suggest.h"
@@ -92,6 +93,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
     : scenario_(io::read_scenario(request.scenario, {find_unit, set_values(request.sets)})) {
   for (const std::string& text : request.swaps) swap(text);
   load_units();
+  if (!request.film.empty()) switch_film_on(scenario_.system, request.film);
   choose_early_returns();
   system_.emplace(scenario_.system);
   for (const auto& warnings : {scenario_.warnings, system_->warnings()}) {

@@ -28,6 +28,7 @@ struct ScenarioRequest {
   bool no_idle_skip = false;
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
   HostRequest hosts;
+  std::string film;  ///< seconds between its pictures, or kFilmAsItIs; empty = none
 };
 
 /// The scenario with each component's FMU, and the system built from them. Throws core::Error

@@ -13,6 +13,7 @@
 
 #include "master/capture/capture.h"
 #include "master/cli/commands.h"
+#include "master/cli/film.h"
 #include "master/cli/interruption.h"
 #include "master/cli/loaded_scenario.h"
 #include "master/cli/progress.h"
@@ -210,6 +211,12 @@ void add_run(CLI::App& app) {
                    "be given several times")
       ->type_name("COMPONENT=FILE")
       ->allow_extra_args(false);
+  // a flag, so that what follows a blank is the scenario; without a value it is "true"
+  command
+      ->add_flag("--film", request->scenario.film,
+                 "Pictures of the world in film/, each 0.1 s or as in --film=SECONDS of simulated "
+                 "time")
+      ->transform([](const std::string& value) { return value == "true" ? kFilmAsItIs : value; });
   command->add_flag("--no-trace", request->no_trace, "Write no signals.vcd");
   command
       ->add_option_function<std::string>(
