@@ -5,16 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "master/core/error.h"
-
 namespace stride::cli {
-namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
-
-void note_interruption(int) { interrupted = 1; }
-
-}  // namespace
 
 Progress::Progress(Time start, Time stop)
     : start_(start), stop_(stop), terminal_(isatty(STDERR_FILENO) != 0) {}
@@ -56,30 +47,6 @@ void Progress::show(Time time, Clock::time_point now) const {
     fmt::print(stderr, "{}\n", line);
   }
   std::fflush(stderr);
-}
-
-Interruption::Interruption() {
-  interrupted = 0;
-  for (Handled& handled : handled_) {
-    struct sigaction action {};
-    action.sa_handler = note_interruption;
-    action.sa_flags =
-        SA_RESETHAND;  // a second signal ends what does not come to a communication point
-    sigaction(handled.signal, nullptr, &handled.before);
-    if (handled.before.sa_handler != SIG_IGN) sigaction(handled.signal, &action, nullptr);
-  }
-}
-
-Interruption::~Interruption() {
-  for (const Handled& handled : handled_) sigaction(handled.signal, &handled.before, nullptr);
-}
-
-const volatile std::sig_atomic_t& Interruption::flag() { return interrupted; }
-
-void Interruption::on_communication_point(Time time) {
-  if (interrupted == 0) [[likely]]
-    return;
-  core::fail_run({{}, {}, {}, time}, "interrupted; what was recorded so far is complete");
 }
 
 }  // namespace stride::cli

@@ -1,9 +1,7 @@
 #ifndef STRIDE_MASTER_CLI_PROGRESS_H
 #define STRIDE_MASTER_CLI_PROGRESS_H
 
-#include <array>
 #include <chrono>
-#include <csignal>
 
 #include "master/core/observer.h"
 
@@ -32,25 +30,6 @@ class Progress : public core::Observer {
   Clock::time_point next_redraw_{};
   Time next_line_{};
   Time last_{};
-};
-
-/// Ends a run at the next communication point after SIGINT or SIGTERM, so that what was recorded is
-/// kept.
-class Interruption : public core::Observer {
- public:
-  Interruption();
-  ~Interruption() override;
-  void on_communication_point(Time time) override;
-
-  /// Not 0 after a signal, for what has no communication points.
-  static const volatile std::sig_atomic_t& flag();
-
- private:
-  struct Handled {
-    int signal;
-    struct sigaction before;
-  };
-  std::array<Handled, 2> handled_{{{SIGINT, {}}, {SIGTERM, {}}}};
 };
 
 }  // namespace stride::cli

@@ -13,6 +13,7 @@
 
 #include "master/capture/capture.h"
 #include "master/cli/commands.h"
+#include "master/cli/interruption.h"
 #include "master/cli/loaded_scenario.h"
 #include "master/cli/progress.h"
 #include "master/cli/scenario_options.h"
@@ -76,6 +77,7 @@ io::ResultFiles chosen_files(const Request& request, const io::Scenario& scenari
 core::RunOptions run_options(const Request& request, const LoadedScenario& loaded) {
   core::RunOptions options = loaded.options();
   options.threads.count = request.threads;
+  options.interrupted = &Interruption::flag();
   return options;
 }
 
@@ -110,10 +112,10 @@ class RecordedRun {
       simulation_.add_observer(summary_);
       simulation_.add_observer(progress_);
     }
-    simulation_.add_observer(interruption_);
   }
 
-  /// Throws core::Error (Run) if it fails, and also if a unit's verdict on it is bad.
+  /// Throws core::Error (Run) if it fails or is interrupted, and also if a unit's verdict on it is
+  /// bad.
   void run() {
     try {
       simulation_.run();
@@ -123,9 +125,10 @@ class RecordedRun {
       warn_of_failure([&] { write_statistics(failure.what()); });
       throw;
     }
-    capture_.end(simulation_.statistics().terminated_by_unit ? "ended by a unit" : "completed");
+    capture_.end(name(simulation_.statistics().end));
     write_statistics(std::nullopt);
     if (!request_.quiet) print();
+    require_end();
     require_passed(loaded_.system(), simulation_.verdicts());
   }
 
@@ -151,6 +154,13 @@ class RecordedRun {
                        options_, simulation_.statistics(), simulation_.verdicts(), error);
   }
 
+  void require_end() const {
+    const core::RunStatistics& statistics = simulation_.statistics();
+    if (statistics.end != core::RunEnd::Interrupted) return;
+    core::fail_run({{}, {}, {}, statistics.reached},
+                   "the run was interrupted; its results up to there are complete");
+  }
+
   void print() const {
     fmt::print("\n{}{}\nResults in {}:", summary_.text(simulation_.statistics()),
                verdict_table(loaded_.system(), simulation_.verdicts()), folder_.string());
@@ -161,6 +171,7 @@ class RecordedRun {
     fmt::print("\n");
   }
 
+  Interruption interruption_;
   const Request& request_;
   LoadedScenario loaded_;
   io::ResultFiles files_;
@@ -171,7 +182,6 @@ class RecordedRun {
   Recorders recorders_;
   Summary summary_;
   Progress progress_;
-  Interruption interruption_;
 };
 
 }  // namespace

@@ -160,7 +160,7 @@ bool Instant::event_iteration() {
     has_active_ |= static_cast<bool>(active_[i]);
     clocks_.update(i, time_);
   }
-  statistics_.terminated_by_unit |= terminates;
+  if (terminates) statistics_.end = RunEnd::EndedByUnit;
   return terminates;
 }
 

@@ -18,7 +18,7 @@ struct VariableId {
   auto operator<=>(const VariableId&) const = default;
 };
 
-/// Where a recorded variable's present value stands: `variable.size` elements of the block from
+/// Where an observed variable's present value stands: `variable.size` elements of the block from
 /// `first` on. Valid and kept up to date for the whole run.
 struct Signal {
   VariableId id;
@@ -59,8 +59,8 @@ class Observer {
  public:
   virtual ~Observer() = default;
 
-  /// Before the first communication point. The signals are those asked for in RunOptions::recorded,
-  /// in that order.
+  /// Before the first communication point. The signals are those that the observer was added with
+  /// (Simulation::add_observer), or else RunOptions::recorded, in that order.
   virtual void on_start(std::span<const Signal> /*signals*/) {}
   virtual void on_message(const Message& /*message*/) {}
   /// Asked once, before the run: whether it wants to hear of activities.

@@ -26,6 +26,15 @@ namespace {
 /// Steps in a row that end where they began, after which a unit is taken to be stuck.
 constexpr std::uint32_t kStallLimit = 1000;
 
+/// All that observers may see, each once.
+std::vector<VariableId> observed(const RunOptions& options) {
+  std::vector<VariableId> ids = options.recorded;
+  ids.insert(ids.end(), options.watched.begin(), options.watched.end());
+  std::ranges::sort(ids);
+  ids.erase(std::ranges::unique(ids).begin(), ids.end());
+  return ids;
+}
+
 }  // namespace
 
 class Simulation::Run {
@@ -35,7 +44,8 @@ class Simulation::Run {
         units_(std::move(units)),
         options_(std::move(options)),
         step_size_(system, options_),
-        outputs_(system, options_.recorded),
+        observed_(observed(options_)),
+        outputs_(system, observed_),
         exchange_(system, outputs_.sources()),
         inputs_(make_inputs()),
         statistics_{.units = std::vector<UnitStatistics>(units_.size())},
@@ -51,8 +61,14 @@ class Simulation::Run {
     if (options_.sets_inputs_in_steps()) lead_inputs_within_steps();
   }
 
-  void add_observer(Observer& observer) {
+  void add_observer(Observer& observer) { add_observer(observer, options_.recorded); }
+  void add_observer(Observer& observer, std::vector<VariableId> signals) {
+    const auto is_read = [&](VariableId id) { return std::ranges::binary_search(observed_, id); };
+    if (!std::ranges::all_of(signals, is_read)) {
+      throw std::logic_error("an observer wants a signal that is not read");
+    }
     observers_.push_back(&observer);
+    wanted_.push_back(std::move(signals));
     activities_.add(observer);
   }
   const RunStatistics& statistics() const { return statistics_; }
@@ -65,9 +81,9 @@ class Simulation::Run {
     std::exception_ptr failure;
     try {
       clock_.timed(statistics_.phases.initialization, [&] { initialize(); });
-      while (time_ < options_.stop && !statistics_.terminated_by_unit) communication_step();
+      while (goes_on()) communication_step();
       if (ledger_) ledger_->settle(time_);
-      verdicts_ = read_verdicts(system_, units_);
+      if (statistics_.end != RunEnd::Interrupted) verdicts_ = read_verdicts(system_, units_);
       for (auto& unit : units_) unit->terminate();
     } catch (...) {
       failure = std::current_exception();
@@ -155,9 +171,11 @@ class Simulation::Run {
   }
 
   void start_observers() {
-    std::vector<Signal> signals;
-    for (const VariableId id : options_.recorded) signals.push_back(outputs_.signal(id, exchange_));
-    for (Observer* observer : observers_) observer->on_start(signals);
+    for (std::size_t i = 0; i < observers_.size(); ++i) {
+      std::vector<Signal> signals;
+      for (const VariableId id : wanted_[i]) signals.push_back(outputs_.signal(id, exchange_));
+      observers_[i]->on_start(signals);
+    }
   }
 
   /// Nothing where nobody would use it.
@@ -182,6 +200,14 @@ class Simulation::Run {
     }
   }
 
+  bool goes_on() {
+    if (time_ >= options_.stop || statistics_.end == RunEnd::EndedByUnit) return false;
+    if (options_.interrupted == nullptr || *options_.interrupted == 0) [[likely]]
+      return true;
+    statistics_.end = RunEnd::Interrupted;
+    return false;
+  }
+
   void communication_step() {
     const Time reached = clock_.timed(statistics_.phases.steps, [&] { return advance(); });
     if (reached == time_) {
@@ -201,7 +227,7 @@ class Simulation::Run {
   void take_requests() {
     for (std::size_t i = 0; i < count(); ++i) {
       const StepResult& result = stepper_.result(i);
-      statistics_.terminated_by_unit |= result.terminate;
+      if (result.terminate) statistics_.end = RunEnd::EndedByUnit;
       if (result.event_needed) instant_.request_event(i);
     }
   }
@@ -247,10 +273,12 @@ class Simulation::Run {
   std::vector<std::unique_ptr<Unit>> units_;
   RunOptions options_;
   StepSize step_size_;
+  std::vector<VariableId> observed_;  ///< sorted
   SystemOutputs outputs_;
   Exchange exchange_;
   std::optional<StepInputs> inputs_;
   std::vector<Observer*> observers_;
+  std::vector<std::vector<VariableId>> wanted_;  ///< the signals of each of them
   Activities activities_;
   RunStatistics statistics_;
   std::vector<Verdict> verdicts_;
@@ -271,6 +299,10 @@ Simulation::Simulation(const System& system, std::vector<std::unique_ptr<Unit>> 
 Simulation::~Simulation() = default;
 
 void Simulation::add_observer(Observer& observer) { run_->add_observer(observer); }
+
+void Simulation::add_observer(Observer& observer, std::vector<VariableId> signals) {
+  run_->add_observer(observer, std::move(signals));
+}
 
 void Simulation::run() { run_->run(); }
 

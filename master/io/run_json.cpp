@@ -67,11 +67,6 @@ Json step_entry(const core::RunOptions& options) {
   return entry;
 }
 
-const char* outcome(const core::RunStatistics& statistics, bool has_failed) {
-  if (has_failed) return "failed";
-  return statistics.terminated_by_unit ? "ended by a unit" : "completed";
-}
-
 }  // namespace
 
 void write_run_json(const std::filesystem::path& file, const std::filesystem::path& scenario,
@@ -81,7 +76,7 @@ void write_run_json(const std::filesystem::path& file, const std::filesystem::pa
   Json run = {
       {"scenario", scenario.string()},      {"system", system.name()},
       {"start", to_seconds(options.start)}, {"stop", to_seconds(options.stop)},
-      {"step", step_entry(options)},        {"outcome", outcome(statistics, error.has_value())}};
+      {"step", step_entry(options)},        {"outcome", error ? "failed" : name(statistics.end)}};
   if (error) run["error"] = *error;
   run["verdicts"] = Json::array();
   for (const core::Verdict& verdict : verdicts) {

@@ -174,7 +174,7 @@ TEST_CASE("The snapshots of a process are told where there were some") {
 TEST_CASE("A unit may end the run") {
   const TemporaryFolder folder;
   core::RunStatistics statistics;
-  statistics.terminated_by_unit = true;
+  statistics.end = core::RunEnd::EndedByUnit;
   write_run_json(folder / "run.json", "x.ssd", sample_system(), {}, statistics);
   CHECK_THAT(content(folder / "run.json"), Contains("\"outcome\": \"ended by a unit\""));
 }
