@@ -104,12 +104,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   choose_hosts(request.hosts);
   check_steps();
   choose_idle_skips(request);
-  std::vector<io::SignalPattern> patterns = scenario_.annotation.record;
-  if (!request.signals.empty()) {
-    patterns.clear();
-    for (const std::string& text : request.signals) patterns.push_back({text, {"--signals", 0}});
-  }
-  options_.recorded = io::select_signals(*system_, patterns);
+  choose_signals(request);
   options_.threads.main_only =
       io::select_components(component_names(), scenario_.annotation.main_thread);
 }
@@ -234,6 +229,19 @@ void LoadedScenario::choose_idle_skips(const ScenarioRequest& request) {
     choice.rules.insert(choice.rules.begin(), {{"*"}, true, skip, {"--max-skip", 0}});
   }
   options_.idle = choice.options(*system_, options_.step);
+}
+
+void LoadedScenario::choose_signals(const ScenarioRequest& request) {
+  const io::ScenarioAnnotation& chosen = scenario_.annotation;
+  if (request.signals.empty()) {
+    options_.recorded = io::select_signals(*system_, chosen.record);
+    plots_ = io::select_plots(*system_, options_.recorded, chosen.plots);
+    return;
+  }
+  std::vector<io::SignalPattern> patterns;
+  for (const std::string& text : request.signals) patterns.push_back({text, {"--signals", 0}});
+  options_.recorded = io::select_signals(*system_, patterns);
+  plots_ = io::remaining_plots(*system_, options_.recorded, chosen.plots);
 }
 
 void LoadedScenario::check_fixed_steps() const {

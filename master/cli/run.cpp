@@ -20,6 +20,7 @@
 #include "master/cli/scenario_options.h"
 #include "master/cli/summary.h"
 #include "master/cli/verdicts.h"
+#include "master/io/activity_recorder.h"
 #include "master/io/csv_recorder.h"
 #include "master/io/event_recorder.h"
 #include "master/io/results_folder.h"
@@ -46,18 +47,21 @@ struct Recorders {
   std::optional<io::CsvRecorder> signals;
   std::optional<io::EventRecorder> events;
   std::optional<io::VcdRecorder> trace;
+  std::optional<io::ActivityRecorder> activity;
 
   Recorders(const core::System& system, const io::ResultFiles& files,
             const std::filesystem::path& folder) {
     if (!files.signals.empty()) signals.emplace(system, folder / files.signals);
     if (!files.events.empty()) events.emplace(system, folder / files.events);
     if (!files.trace.empty()) trace.emplace(system, folder / files.trace);
+    if (!files.activity.empty()) activity.emplace(system, folder / files.activity);
   }
 
   void add_to(core::Simulation& simulation) {
     if (signals) simulation.add_observer(*signals);
     if (events) simulation.add_observer(*events);
     if (trace) simulation.add_observer(*trace);
+    if (activity) simulation.add_observer(*activity);
   }
 };
 
@@ -73,6 +77,7 @@ std::filesystem::path make_folder(const Request& request, const io::Scenario& sc
 io::ResultFiles chosen_files(const Request& request, const io::Scenario& scenario) {
   io::ResultFiles files = scenario.annotation.results;
   if (request.no_trace) files.trace.clear();
+  files.report.clear();
   return files;
 }
 
@@ -156,8 +161,14 @@ class RecordedRun {
 
   void write_statistics(const std::optional<std::string>& error) const {
     if (files_.statistics.empty()) return;
-    io::write_run_json(folder_ / files_.statistics, loaded_.scenario().path, loaded_.system(),
-                       options_, simulation_.statistics(), simulation_.verdicts(), error);
+    io::write_run_json(folder_ / files_.statistics, {.scenario = loaded_.scenario().path,
+                                                     .system = loaded_.system(),
+                                                     .options = options_,
+                                                     .statistics = simulation_.statistics(),
+                                                     .verdicts = simulation_.verdicts(),
+                                                     .error = error,
+                                                     .files = files_,
+                                                     .plots = loaded_.plots()});
   }
 
   void require_end() const {
@@ -170,9 +181,8 @@ class RecordedRun {
   void print() const {
     fmt::print("\n{}{}\nResults in {}:", summary_.text(simulation_.statistics()),
                verdict_table(loaded_.system(), simulation_.verdicts()), folder_.string());
-    for (const std::string& file :
-         {files_.signals, files_.events, files_.trace, files_.statistics}) {
-      if (!file.empty()) fmt::print(" {}", file);
+    for (const auto& [what, member] : io::kResultFiles) {
+      if (!(files_.*member).empty()) fmt::print(" {}", files_.*member);
     }
     fmt::print("\n");
   }
