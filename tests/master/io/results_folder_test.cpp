@@ -33,7 +33,7 @@ TEST_CASE("A film of an earlier run goes, and nothing else") {
     std::filesystem::create_directories((folder / file).parent_path());
     folder.write(file, "");
   }
-  make_results_folder(folder.path());
+  make_results_folder(folder / "");
   CHECK_FALSE(std::filesystem::exists(folder / "film/world"));
   CHECK_FALSE(std::filesystem::exists(folder / "film/arm/frames.csv"));
   CHECK_FALSE(std::filesystem::exists(folder / "film/arm/00000.jpg"));
@@ -43,5 +43,5 @@ TEST_CASE("A film of an earlier run goes, and nothing else") {
   std::filesystem::remove_all(folder / "film/arm");
   std::filesystem::remove_all(folder / "film/mine");
   folder.write("film/x", "");
-  CHECK_NOTHROW(make_results_folder(folder.path()));
+  CHECK_NOTHROW(make_results_folder(folder / ""));
 }
