@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <stdexcept>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -51,6 +52,13 @@ void read_entries(RunFile& run) {
   }
 }
 
+/// What is nested any deeper was not written by stride, and would take its stack.
+bool refuse_depth(int depth, Json::parse_event_t, Json&) {
+  constexpr int kDeepest = 64;
+  if (depth > kDeepest) throw std::length_error("it is nested too deeply");
+  return true;
+}
+
 std::string content(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
@@ -76,7 +84,7 @@ RunFile read_run_file(const std::filesystem::path& file) {
   const std::string text = content(file);
   const char* const hint = "let `stride run` write it anew";
   try {
-    RunFile run{Json::parse(text)};
+    RunFile run{Json::parse(text, refuse_depth)};
     if (!run.json.is_object()) {
       core::fail_input({.where = {file.string(), 0}}, "this is no JSON object", hint);
     }
@@ -88,6 +96,9 @@ RunFile read_run_file(const std::filesystem::path& file) {
         1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
     core::fail_input({.where = {file.string(), static_cast<int>(line)}},
                      fmt::format("this is no JSON: {}", error.what()), hint);
+  } catch (const std::length_error& error) {
+    core::fail_input({.where = {file.string(), 0}},
+                     fmt::format("this is not what `stride run` writes: {}", error.what()), hint);
   } catch (const Json::exception& error) {
     core::fail_input({.where = {file.string(), 0}},
                      fmt::format("this is not what `stride run` writes: {}", error.what()), hint);
