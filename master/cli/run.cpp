@@ -60,10 +60,12 @@ struct Recorders {
   }
 };
 
-std::filesystem::path make_folder(const Request& request, const io::Scenario& scenario) {
-  std::filesystem::path folder =
-      request.out.empty() ? std::filesystem::path("results") / scenario.stem() : request.out;
+std::filesystem::path make_folder(const Request& request, const LoadedScenario& loaded) {
+  std::filesystem::path folder = request.out.empty()
+                                     ? std::filesystem::path("results") / loaded.scenario().stem()
+                                     : request.out;
   io::make_results_folder(folder);
+  forget_films(loaded.system(), folder);
   // where units put the files that they write themselves
   ::setenv("STRIDE_RESULTS", std::filesystem::absolute(folder).c_str(), 1);
   return folder;
@@ -99,7 +101,7 @@ class RecordedRun {
       : request_(request),
         loaded_(request.scenario),
         files_(chosen_files(request, loaded_.scenario())),
-        folder_(make_folder(request, loaded_.scenario())),
+        folder_(make_folder(request, loaded_)),
         options_(run_options(request, loaded_)),
         capture_(loaded_.system(), loaded_.scenario().name, options_, captures(request)),
         simulation_(loaded_.system(), captured_units(), options_),
