@@ -211,8 +211,8 @@ void add_run(CLI::App& app) {
   // a flag, so that what follows a blank is the scenario; without a value it is "true"
   command
       ->add_flag("--film", request->scenario.film,
-                 "Pictures of the world in film/, each 0.1 s or as in --film=SECONDS of simulated "
-                 "time")
+                 "Pictures of the MuJoCo worlds in film/, 0.1 s of simulated time from one to the "
+                 "next, or as in --film=SECONDS")
       ->transform([](const std::string& value) { return value == "true" ? kFilmAsItIs : value; });
   command->add_flag("--no-trace", request->no_trace, "Write no signals.vcd");
   command->add_flag("--quiet,-q", request->quiet, "Print nothing but errors");
