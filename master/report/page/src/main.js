@@ -18,7 +18,6 @@ import { groupIntoPanes } from "./plot/grouping.js";
 import { Legend } from "./plot/legend.js";
 import { Pane } from "./plot/pane.js";
 import { Ruler } from "./plot/ruler.js";
-import { suitsLogarithm } from "./plot/scale.js";
 import { StatesPane } from "./plot/states.js";
 import { Stack } from "./stack.js";
 import { View } from "./view.js";
@@ -42,26 +41,23 @@ function actionsOf(context, theme, help) {
 
 const row = (box, side) => h("div.row", {}, h("div.plot", {}, box), h("div.side", {}, side));
 
-function addFilms(context, stack) {
-  for (const film of context.report.films.filter(({ frames }) => frames.length > 0)) {
-    const strip = new FilmStrip(context, film);
-    stack.add({ element: row(strip.box, strip.picture), draw: (width) => strip.draw(width) });
-    context.view.addEventListener("cursor", () => strip.update());
-    context.view.addEventListener("view", () => strip.update());
+/** Films and messages stand in one row, for the picture beside them is high. */
+function addFilmsAndMessages(context, stack) {
+  const { report, view } = context;
+  const strips = report.films.filter(({ frames }) => frames.length > 0).map((film) => new FilmStrip(context, film));
+  for (const name of ["cursor", "view"]) {
+    view.addEventListener(name, () => strips.forEach((strip) => strip.update()));
   }
-}
-
-function addMessages(context, stack) {
-  if (context.report.messages.length === 0) return stack.body.append(note("No messages were sent."));
   const lanes = new MessageLanes(context);
-  const legend = h("div.legend", {}, h("h3", {}, "Messages"), note("▲ sent, △ received. n and p go from one to the next."));
-  stack.add({ element: row(lanes.box, legend), draw: (width) => lanes.draw(width) });
+  const words = lanes.isEmpty ? "No messages were sent." : "Messages: ▲ sent, △ received. n: next, p: previous";
+  const element = row(h("div", {}, ...strips.map((strip) => strip.box), lanes.box), note(words));
+  element.lastChild.prepend(...strips.map((strip) => strip.picture));
+  stack.add({ element, draw: (width) => [...strips, lanes].forEach((part) => part.draw(width)) });
 }
 
 function makePane(context, group) {
   if (group.isStates) return new StatesPane(context, group.columns);
-  const isLogarithmic = group.scale ? group.scale === "logarithmic" : suitsLogarithm(group.columns);
-  return new Pane(context, group.columns, isLogarithmic);
+  return new Pane(context, group.columns);
 }
 
 function addPanes(context, stack) {
@@ -99,13 +95,11 @@ function timeStack(context, actions) {
   const ruler = new Ruler(context);
   const rulerRow = row(ruler.box, null);
   const head = h("div.timebar", {}, toolbar.box, rulerRow);
-  const stack = new Stack(context.view, head);
-  stack.measure = rulerRow.firstChild;
+  const stack = new Stack(context.view, head, rulerRow.firstChild);
   stack.add({ element: rulerRow, draw: (width) => ruler.draw(width) }, head);
   for (const name of ["view", "cursor"]) context.view.addEventListener(name, () => toolbar.update());
   toolbar.update();
-  addFilms(context, stack);
-  addMessages(context, stack);
+  addFilmsAndMessages(context, stack);
   addPanes(context, stack);
   addActivity(context, stack);
   return stack;

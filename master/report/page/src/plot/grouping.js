@@ -8,13 +8,13 @@ export function groupIntoPanes(report) {
   return report.plots.flatMap((plot) => panesOf(plot, report.columns));
 }
 
-function panesOf({ title, signals, scale }, columns) {
+function panesOf({ title, signals }, columns) {
   const panes = new Map();
   for (const name of signals) {
     const column = columns.get(name);
     if (!column) continue;
     const key = column.isState ? "states" : `unit ${column.unit}`;
-    if (!panes.has(key)) panes.set(key, { title, scale, unit: column.unit, isStates: column.isState, columns: [] });
+    if (!panes.has(key)) panes.set(key, { title, unit: column.unit, isStates: column.isState, columns: [] });
     panes.get(key).columns.push(column);
   }
   return [...panes.values()];

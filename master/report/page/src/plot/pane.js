@@ -4,29 +4,31 @@ import uPlot from "uplot";
 import { color, curveColor, curveDash } from "./colors.js";
 import { kGutter } from "./layout.js";
 import { timeTicks } from "./ruler.js";
-import { finiteExtremes, intoRange, linearRange, logarithmicRange } from "./scale.js";
+import { finiteExtremes, hasNothingNegative, intoRange, isMostlySmall, linearRange, logarithmicRange } from "./scale.js";
 import { shadeIntervals } from "./shade.js";
 import { groupTimes, groupValues, rowGroups } from "./thin.js";
 import { commonExponent, powerText, ticks, valueTickTexts } from "./ticks.js";
 
 const kHeight = 132;
 const kFont = "11px system-ui, sans-serif";
-/** Pixels between the numbers of the vertical axis, at least. */
-const kTickDistance = 24;
+/** As many numbers stand along the vertical axis at most. */
+const kMostTicks = 6;
 
 export class Pane {
   /**
    * @param {object} context report and view
    * @param {import("../data/report.js").Column[]} columns of one unit of measure
-   * @param {boolean} isLogarithmic
    */
-  constructor({ report, view }, columns, isLogarithmic) {
+  constructor({ report, view }, columns) {
     this.report = report;
     this.view = view;
     this.columns = columns;
     this.hidden = new Set();
     this.highlighted = null;
-    this.isLogarithmic = isLogarithmic;
+    /** Whether all values are whole numbers. */
+    this.isWhole = columns.every(({ type }) => !type.startsWith("Float"));
+    this.canBeLogarithmic = !this.isWhole && columns.every(hasNothingNegative);
+    this.isLogarithmic = this.canBeLogarithmic && columns.some(isMostlySmall);
     this.range = [0, 1];
     this.exponent = 0;
     this.box = document.createElement("div");
@@ -113,7 +115,7 @@ export class Pane {
       stroke: () => color("--quiet-text"),
       ticks: { show: false },
       grid: { stroke: () => color("--grid"), width: 1 },
-      splits: () => (this.isLogarithmic ? decades(this.range) : ticks(...this.range, kHeight / kTickDistance - 1).values),
+      splits: () => (this.isLogarithmic ? decades(this.range) : ticks(...this.range, kMostTicks, this.isWhole ? 1 : 0).values),
       filter: (plot, splits) => splits,
       values: (plot, splits) =>
         this.isLogarithmic
@@ -130,6 +132,7 @@ export class Pane {
       stroke: () => color(curveColor(index)) + (isFaint() ? "40" : ""),
       dash: curveDash(index),
       points: { show: false },
+      pxAlign: 0,
       paths: column.stepped ? uPlot.paths.stepped({ align: 1 }) : uPlot.paths.linear(),
     };
   }
@@ -153,7 +156,7 @@ export class Pane {
 function decades([bottom, top]) {
   const first = Math.round(Math.log10(bottom));
   const last = Math.round(Math.log10(top));
-  const step = Math.max(1, Math.ceil((last - first) / (kHeight / kTickDistance - 1)));
+  const step = Math.max(1, Math.ceil((last - first) / kMostTicks));
   const found = [];
   for (let exponent = first; exponent <= last; exponent += step) found.push(10 ** exponent);
   return found;
