@@ -7,10 +7,17 @@ import { timeTicks } from "./ruler.js";
 import { finiteExtremes, hasNothingNegative, intoRange, isMostlySmall, linearRange, logarithmicRange } from "./scale.js";
 import { shadeIntervals } from "./shade.js";
 import { groupTimes, groupValues, rowGroups } from "./thin.js";
+import { trace, Tracer } from "./trace.js";
 import { commonExponent, powerText, ticks, valueTickTexts } from "./ticks.js";
 
 const kHeight = 132;
 const kFont = "11px system-ui, sans-serif";
+/** Width of curves [px]. */
+const kLine = 1.5;
+/** Samples have dots where there is this much room between them [px]. */
+const kDotDistance = 14;
+/** uPlot draws no data of its own. */
+const kNothing = [null, null];
 /** As many numbers stand along the vertical axis at most. */
 const kMostTicks = 6;
 
@@ -31,6 +38,9 @@ export class Pane {
     this.isLogarithmic = this.canBeLogarithmic && columns.some(isMostlySmall);
     this.range = [0, 1];
     this.exponent = 0;
+    /** What is drawn of each curve: its points, and the bars that these have become. */
+    this.drawn = columns.map(() => ({ groups: [], times: [], values: [] }));
+    this.bars = [];
     this.box = document.createElement("div");
     this.box.className = "pane-canvas";
   }
@@ -46,9 +56,9 @@ export class Pane {
     this.#fit(drawn);
     this.pointCount = groups.length === 0 ? 0 : Math.max(0, ...drawn.map((values) => values.length));
     const times = groupTimes(seconds, groups);
-    const curves = drawn.map((values) => (values.length > 0 ? intoRange(values, this.range) : times.map(() => null)));
+    this.drawn = drawn.map((values) => ({ groups, times, values: intoRange(values, this.range) }));
     this.plot.batch(() => {
-      this.plot.setData([times, ...curves], false);
+      this.plot.setData([[this.view.from, this.view.until], ...drawn.map(() => kNothing)], false);
       this.plot.setScale("x", { min: this.view.from, max: this.view.until });
       this.plot.setScale("y", { min: this.range[0], max: this.range[1] });
     });
@@ -91,8 +101,12 @@ export class Pane {
         y: { auto: false, distr: this.isLogarithmic ? 3 : 1 },
       },
       axes: [this.#timeAxis(), this.#valueAxis()],
-      series: [{}, ...this.columns.map((column, index) => this.#series(column, index))],
-      hooks: { drawClear: [(plot) => this.#shadeIdleTime(plot)], draw: [(plot) => this.#nameAxis(plot)] },
+      series: [{}, ...this.columns.map((column, index) => this.#series(index))],
+      hooks: {
+        drawClear: [(plot) => this.#shadeIdleTime(plot)],
+        drawSeries: [(plot, series) => this.#fillBars(plot, series - 1)],
+        draw: [(plot) => this.#nameAxis(plot)],
+      },
     };
     this.plot = new uPlot(options, [[], ...this.columns.map(() => [])], this.box);
   }
@@ -124,17 +138,48 @@ export class Pane {
     };
   }
 
-  #series(column, index) {
-    const isFaint = () => this.highlighted !== null && this.highlighted !== column;
+  #series(index) {
     return {
       scale: "y",
-      width: 1.5,
-      stroke: () => color(curveColor(index)) + (isFaint() ? "40" : ""),
+      width: kLine,
+      stroke: () => this.#curveColor(index),
       dash: curveDash(index),
       points: { show: false },
-      pxAlign: 0,
-      paths: column.stepped ? uPlot.paths.stepped({ align: 1 }) : uPlot.paths.linear(),
+      paths: (plot) => this.#paths(plot, index),
     };
+  }
+
+  /** uPlot gives places, scales and axes; what is drawn of so many rows is ours. */
+  #paths({ bbox, scales }, index) {
+    const ratio = window.devicePixelRatio || 1;
+    const points = this.drawn[index];
+    const line = new Path2D();
+    const bars = (this.bars[index] = []);
+    const sink = {
+      moveTo: (x, y) => line.moveTo(x, y),
+      lineTo: (x, y) => line.lineTo(x, y),
+      rect: (...box) => bars.push(box.map(Math.round)),
+    };
+    const hasDots = points.groups.length / 2 < bbox.width / (kDotDistance * ratio);
+    const tracer = new Tracer(sink, { isStepped: this.columns[index].stepped, hasDots, width: kLine * ratio });
+    if (points.values.length > 0) trace(tracer, points, places(bbox, scales, this.isLogarithmic));
+    return { stroke: line, fill: null, clip: null, band: null, gaps: null, flags: 0 };
+  }
+
+  /** One by one, for a browser takes much longer to fill them all as one path. */
+  #fillBars({ ctx, bbox }, index) {
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+    ctx.clip();
+    ctx.fillStyle = this.#curveColor(index);
+    for (const box of this.bars[index] ?? []) ctx.fillRect(...box);
+    ctx.restore();
+  }
+
+  #curveColor(index) {
+    const isFaint = this.highlighted !== null && this.highlighted !== this.columns[index];
+    return color(curveColor(index)) + (isFaint ? "40" : "");
   }
 
   #shadeIdleTime({ ctx, bbox }) {
@@ -151,6 +196,16 @@ export class Pane {
     ctx.fillText(this.axisLabel, 2 * ratio, bbox.top - 4 * ratio);
     ctx.restore();
   }
+}
+
+/** Where times and values are in the picture [px of the screen]. */
+function places(bbox, { x, y }, isLogarithmic) {
+  const measure = isLogarithmic ? Math.log10 : (value) => value;
+  const [bottom, top] = [measure(y.min), measure(y.max)];
+  return {
+    x: (time) => bbox.left + ((time - x.min) / (x.max - x.min)) * bbox.width,
+    y: (value) => bbox.top + (1 - (measure(value) - bottom) / (top - bottom)) * bbox.height,
+  };
 }
 
 function decades([bottom, top]) {
