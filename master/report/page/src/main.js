@@ -14,7 +14,7 @@ import { MessageTable } from "./parts/message_table.js";
 import { Theme } from "./parts/theme.js";
 import { Tip } from "./parts/tip.js";
 import { Toolbar } from "./parts/toolbar.js";
-import { groupIntoPanes } from "./plot/grouping.js";
+import { groupIntoPanes, groupOthers } from "./plot/grouping.js";
 import { Legend } from "./plot/legend.js";
 import { Pane } from "./plot/pane.js";
 import { Ruler } from "./plot/ruler.js";
@@ -55,26 +55,35 @@ function addFilmsAndMessages(context, stack) {
   stack.add({ element, draw: (width) => [...strips, lanes].forEach((part) => part.draw(width)) });
 }
 
-function makePane(context, group) {
-  if (group.isStates) return new StatesPane(context, group.columns);
-  return new Pane(context, group.columns);
+/** One pane with its legend. */
+function addPane(context, stack, group, firstColor, parent) {
+  const Kind = group.isStates ? StatesPane : Pane;
+  const pane = new Kind(context, group.columns, firstColor);
+  const entry = { pane, draw: (width) => pane.draw(width) };
+  const legend = new Legend(group, pane, () => stack.redrawRow(entry));
+  entry.element = row(pane.box, legend.box);
+  entry.element.classList.add("pane");
+  stack.add(entry, parent);
+  const update = () => legend.update(rowAtCursor(context));
+  context.view.addEventListener("cursor", update);
+  update();
 }
 
 function addPanes(context, stack) {
-  const groups = groupIntoPanes(context.report);
-  if (groups.length === 0) stack.body.append(note("No signals were recorded."));
-  const legends = groups.map((group) => {
-    const pane = makePane(context, group);
-    const entry = { pane, draw: (width) => pane.draw(width) };
-    const legend = new Legend(group, pane, () => stack.redrawRow(entry));
-    entry.element = row(pane.box, legend.box);
-    entry.element.classList.add("pane");
-    stack.add(entry);
-    return legend;
-  });
-  const update = () => legends.forEach((legend) => legend.update(rowAtCursor(context)));
-  context.view.addEventListener("cursor", update);
-  update();
+  const { report } = context;
+  if (report.columns.size === 0) return stack.body.append(note("No signals were recorded."));
+  let colors = 0;
+  const add = (group, parent) => {
+    addPane(context, stack, group, colors, parent);
+    colors += group.isStates ? 1 : group.columns.length;
+  };
+  groupIntoPanes(report).forEach((group) => add(group));
+  const others = groupOthers(report);
+  if (others.length === 0) return;
+  const count = others.reduce((sum, { columns }) => sum + columns.length, 0);
+  const box = h("details.others", {}, h("summary", {}, `${count} more recorded ${count === 1 ? "signal" : "signals"}`));
+  stack.body.append(box);
+  others.forEach((group) => add(group, box));
 }
 
 function addActivity(context, stack) {

@@ -45,7 +45,7 @@ export class Legend {
         onmouseenter: () => this.pane.highlight(column),
         onmouseleave: () => this.pane.highlight(null),
       },
-      isStates ? null : h("span.swatch", { style: swatch(index) }),
+      isStates ? null : h("span.swatch", { style: swatch(this.pane.firstColor, index) }),
       h("span.signal-name", {}, breakable(column.name)),
     );
     return { column, value, element: h("li", {}, button, value) };
@@ -77,8 +77,8 @@ export class Legend {
   }
 }
 
-const swatch = (index) => ({
-  borderTopColor: `var(${curveColor(index)})`,
+const swatch = (firstColor, index) => ({
+  borderTopColor: `var(${curveColor(firstColor + index)})`,
   borderTopStyle: curveDash(index).length > 0 ? "dashed" : "solid",
 });
 

@@ -25,11 +25,13 @@ export class Pane {
   /**
    * @param {object} context report and view
    * @param {import("../data/report.js").Column[]} columns of one unit of measure
+   * @param {number} firstColor of its curves; the panes above have those before
    */
-  constructor({ report, view }, columns) {
+  constructor({ report, view }, columns, firstColor) {
     this.report = report;
     this.view = view;
     this.columns = columns;
+    this.firstColor = firstColor;
     this.hidden = new Set();
     this.highlighted = null;
     /** Whether all values are whole numbers. */
@@ -179,7 +181,7 @@ export class Pane {
 
   #curveColor(index) {
     const isFaint = this.highlighted !== null && this.highlighted !== this.columns[index];
-    return color(curveColor(index)) + (isFaint ? "40" : "");
+    return color(curveColor(this.firstColor + index)) + (isFaint ? "40" : "");
   }
 
   #shadeIdleTime({ ctx, bbox }) {
