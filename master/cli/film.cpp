@@ -43,9 +43,9 @@ void switch_film_on(core::SystemDeclaration& system, const std::string& interval
     value.where = {"--film", 0};
   }
   if (values.empty()) {
-    core::fail_input({}, "--film: no component makes pictures",
-                     fmt::format("a unit that does, such as mujoco_world, has the parameter {}",
-                                 kFilmInterval));
+    core::fail_input(
+        {}, "--film: no component makes pictures",
+        fmt::format("a unit that does, such as mujoco_world, has the parameter {}", kFilmInterval));
   }
   // a later value replaces an earlier one
   auto& all = system.start_values;

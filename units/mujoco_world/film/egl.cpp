@@ -25,15 +25,14 @@ constexpr unsigned kPlatformDevice = 0x313F;       // EGL_PLATFORM_DEVICE_EXT
 constexpr Int kDraw = 0x3059;
 constexpr Int kRead = 0x305A;
 constexpr Int kNone = 0x3038;
-constexpr std::array<Int, 15> kWanted = {
-    0x3024, 8,   // EGL_RED_SIZE
-    0x3023, 8,   // EGL_GREEN_SIZE
-    0x3022, 8,   // EGL_BLUE_SIZE
-    0x3025, 24,  // EGL_DEPTH_SIZE
-    0x3026, 8,   // EGL_STENCIL_SIZE
-    0x3033, 1,   // EGL_SURFACE_TYPE: EGL_PBUFFER_BIT
-    0x3040, 8,   // EGL_RENDERABLE_TYPE: EGL_OPENGL_BIT
-    kNone};
+constexpr std::array<Int, 15> kWanted = {0x3024, 8,   // EGL_RED_SIZE
+                                         0x3023, 8,   // EGL_GREEN_SIZE
+                                         0x3022, 8,   // EGL_BLUE_SIZE
+                                         0x3025, 24,  // EGL_DEPTH_SIZE
+                                         0x3026, 8,   // EGL_STENCIL_SIZE
+                                         0x3033, 1,   // EGL_SURFACE_TYPE: EGL_PBUFFER_BIT
+                                         0x3040, 8,   // EGL_RENDERABLE_TYPE: EGL_OPENGL_BIT
+                                         kNone};
 
 struct Functions {
   void (*(*address)(const char* name))();
@@ -96,7 +95,7 @@ class KeepCurrent {
 
 std::vector<Display> displays(const Functions& egl) {
   std::vector<Display> displays{egl.platform_display(kPlatformSurfaceless, nullptr, nullptr)};
-  const auto query = reinterpret_cast<unsigned (*)(Int most, Device*, Int* count)>(
+  const auto query = reinterpret_cast<unsigned (*)(Int most, Device*, Int * count)>(
       egl.address("eglQueryDevicesEXT"));
   std::array<Device, 16> devices{};
   Int count = 0;
@@ -126,7 +125,8 @@ Place make_place(const Functions& egl) {
     const Context context = egl.create_context(display, config, nullptr, nullptr);
     if (context != nullptr) return {display, context};
   }
-  throw std::runtime_error("no display gives a context, EGL's error " + std::to_string(egl.error()));
+  throw std::runtime_error("no display gives a context, EGL's error " +
+                           std::to_string(egl.error()));
 }
 
 class Egl : public OffScreen {

@@ -41,7 +41,8 @@ std::unique_ptr<OffScreen> find(const Kind*& found) {
       found = &kind;
       return screen;
     } catch (const std::runtime_error& error) {
-      reasons += (reasons.empty() ? "" : ", ") + std::string(kind.title) + " (" + error.what() + ")";
+      reasons +=
+          (reasons.empty() ? "" : ", ") + std::string(kind.title) + " (" + error.what() + ")";
     }
   }
   if (reasons.empty()) {

@@ -10,9 +10,9 @@ namespace {
 
 using Context = struct osmesa_context*;
 
-constexpr unsigned kRgba = 0x1908;         // OSMESA_RGBA
+constexpr unsigned kRgba = 0x1908;          // OSMESA_RGBA
 constexpr unsigned kUnsignedByte = 0x1401;  // GL_UNSIGNED_BYTE
-constexpr int kType = 0x23;                // OSMESA_TYPE
+constexpr int kType = 0x23;                 // OSMESA_TYPE
 
 struct Functions {
   Context (*create)(unsigned format, int depth_bits, int stencil_bits, int accum_bits,

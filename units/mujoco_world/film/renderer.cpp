@@ -26,8 +26,7 @@ std::string cameras_of(const mjModel& model) {
 mjvCamera choose_camera(const mjModel& model, const std::string& wanted) {
   mjvCamera camera;
   mjv_defaultFreeCamera(&model, &camera);
-  const int id =
-      mj_name2id(&model, mjOBJ_CAMERA, wanted.empty() ? kFilmCamera : wanted.c_str());
+  const int id = mj_name2id(&model, mjOBJ_CAMERA, wanted.empty() ? kFilmCamera : wanted.c_str());
   if (id < 0 && !wanted.empty()) {
     throw std::runtime_error("film.camera: the world has no camera '" + wanted +
                              "'; its cameras are: " + cameras_of(model));

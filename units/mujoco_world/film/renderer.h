@@ -35,8 +35,8 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// `data` has the poses of all that is to be seen (World::drawn()); the picture is valid until the
-  /// next call. Throws std::runtime_error if OpenGL fails.
+  /// `data` has the poses of all that is to be seen (World::drawn()); the picture is valid until
+  /// the next call. Throws std::runtime_error if OpenGL fails.
   const Picture& draw(const mjModel& model, mjData& data);
 
  private:
