@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "master/checks/definition.h"
 #include "master/cli/hosting.h"
 #include "master/core/simulation.h"
 #include "master/core/system.h"
@@ -43,6 +44,8 @@ class LoadedScenario {
   /// Likewise; nothing for a component that has no process of its own.
   const std::vector<std::optional<Hosting>>& hostings() const { return hostings_; }
   const core::RunOptions& options() const { return options_; }
+  /// What the scenario demands of the run; options() let them be watched.
+  const std::vector<checks::Definition>& checks() const { return checks_; }
 
   /// Fresh instances in the order of system().components(); what they log goes to the log. Those
   /// with processes of their own may write to the folder `results`, if it is not empty.
@@ -55,6 +58,7 @@ class LoadedScenario {
   void choose_early_returns();
   void choose_times(const ScenarioRequest& request);
   void choose_steps(const io::StepChoice& request);
+  void choose_checks(const ScenarioRequest& request);
   void choose_hosts(const HostRequest& request);
   void check_steps() const;
   void choose_idle_skips(const ScenarioRequest& request);
@@ -68,6 +72,7 @@ class LoadedScenario {
   std::optional<core::System> system_;
   std::vector<std::optional<Hosting>> hostings_;
   core::RunOptions options_;
+  std::vector<checks::Definition> checks_;
 };
 
 /// The two sides of "LEFT=RIGHT", which an option was given. Throws core::Error (Input) that says

@@ -185,6 +185,7 @@ ScenarioAnnotation read_scenario_element(const xml::Element& scenario) {
   scenario.allow_children({{kStrideScenario, "Step"},
                            {kStrideScenario, "Exchange"},
                            {kStrideScenario, "Record"},
+                           {kStrideScenario, "Checks"},
                            {kStrideScenario, "Results"},
                            {kStrideScenario, "MainThread"},
                            {kStrideScenario, "EarlyReturn"},
@@ -200,6 +201,9 @@ ScenarioAnnotation read_scenario_element(const xml::Element& scenario) {
   }
   for (const xml::Element& record : scenario.children({kStrideScenario, "Record"})) {
     read_record(record, annotation);
+  }
+  if (const auto checks = scenario.child({kStrideScenario, "Checks"})) {
+    annotation.checks = read_checks(*checks);
   }
   for (const xml::Element& element : scenario.children({kStrideScenario, "MainThread"})) {
     read_main_thread(element, annotation);

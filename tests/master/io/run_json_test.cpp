@@ -46,7 +46,7 @@ TEST_CASE("run.json tells what was run and how far it came") {
   host.most_memory = 4096;
   host.protections = {"no network", "seccomp"};
   host.missing_protections = {"landlock"};
-  const std::vector<core::Verdict> verdicts = {{1, false, "too \"late\""}};
+  const std::vector<core::Verdict> verdicts = {{"b, c", false, "too \"late\""}};
   write_run_json(folder / "run.json", "scenarios/x.ssd", sample_system(), options, statistics,
                  verdicts);
   CHECK(content(folder / "run.json") == R"({
@@ -69,6 +69,7 @@ TEST_CASE("run.json tells what was run and how far it came") {
       "text": "too \"late\""
     }
   ],
+  "checks": [],
   "reached": 14.2,
   "communication_steps": 14200,
   "undone_steps": 0,
