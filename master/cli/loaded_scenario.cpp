@@ -198,11 +198,10 @@ void LoadedScenario::choose_steps(const io::StepChoice& request) {
   }
 }
 
-/// An interval behind the stop time is a mistake, unless --stop has put it there.
+/// Their intervals are those of the scenario, whatever --stop says.
 void LoadedScenario::choose_checks(const ScenarioRequest& request) {
-  const std::optional<Time> stop =
-      request.stop.empty() ? options_.stop
-                           : std::max(options_.stop, scenario_.stop.value_or(options_.stop));
+  if (request.no_checks) return;
+  const std::optional<Time> stop = request.stop.empty() ? options_.stop : scenario_.stop;
   checks_ = io::select_checks(*system_, scenario_.annotation.checks, {options_.start, stop});
   options_.watched = checks::Checks(checks_).signals();
 }

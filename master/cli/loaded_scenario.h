@@ -28,6 +28,7 @@ struct ScenarioRequest {
   io::StepChoice step;               ///< replaces what the scenario says
   bool no_idle_skip = false;
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
+  bool no_checks = false;
   HostRequest hosts;
 };
 

@@ -136,7 +136,8 @@ class RecordedRun {
     }
     const core::RunEnd end = simulation_.statistics().end;
     capture_.end(name(end));
-    take_verdicts(end != core::RunEnd::Interrupted);
+    take_verdicts(end == core::RunEnd::EndedByUnit ||
+                  (end == core::RunEnd::Completed && !is_cut_short()));
     write_statistics(std::nullopt);
     if (!request_.quiet) print();
     require_end();
@@ -158,6 +159,9 @@ class RecordedRun {
       spdlog::warn("{}", failure.what());
     }
   }
+
+  /// By --stop, before what the scenario demands of all of it.
+  bool is_cut_short() const { return options_.stop < loaded_.scenario().stop.value_or(Time{}); }
 
   void take_verdicts(bool is_complete) {
     const auto of_units = simulation_.verdicts();
