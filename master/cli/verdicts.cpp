@@ -21,7 +21,7 @@ std::string verdict_table(std::span<const core::Verdict> verdicts) {
   if (verdicts.empty()) return "";
   const bool has_times = std::ranges::any_of(
       verdicts, [](const core::Verdict& verdict) { return verdict.time.has_value(); });
-  std::vector<Table::Column> columns{{"of"}, {"verdict"}};
+  std::vector<Table::Column> columns{{"by"}, {"verdict"}};
   if (has_times) columns.push_back({"first failure [s]", Table::Align::Right});
   columns.push_back({"because"});
   Table table(columns);
