@@ -68,9 +68,10 @@ struct Recorders {
   }
 };
 
-std::filesystem::path make_folder(const Request& request, const io::Scenario& scenario) {
-  std::filesystem::path folder =
-      request.out.empty() ? std::filesystem::path("results") / scenario.stem() : request.out;
+std::filesystem::path make_folder(const Request& request, const LoadedScenario& loaded) {
+  std::filesystem::path folder = request.out.empty()
+                                     ? std::filesystem::path("results") / loaded.scenario().stem()
+                                     : request.out;
   io::make_results_folder(folder);
   // where units put the files that they write themselves
   ::setenv("STRIDE_RESULTS", std::filesystem::absolute(folder).c_str(), 1);
@@ -116,7 +117,7 @@ class RecordedRun {
       : request_(request),
         loaded_(request.scenario),
         files_(chosen_files(request, loaded_.scenario())),
-        folder_(make_folder(request, loaded_.scenario())),
+        folder_(make_folder(request, loaded_)),
         options_(run_options(request, loaded_)),
         capture_(loaded_.system(), loaded_.scenario().name, options_, captures(request)),
         simulation_(loaded_.system(), captured_units(), options_),
@@ -239,8 +240,8 @@ void add_run(CLI::App& app) {
   // a flag, so that what follows a blank is the scenario; without a value it is "true"
   command
       ->add_flag("--film", request->scenario.film,
-                 "Pictures of the world in film/, each 0.1 s or as in --film=SECONDS of simulated "
-                 "time")
+                 "Pictures of the MuJoCo worlds in film/, 0.1 s of simulated time from one to the "
+                 "next, or as in --film=SECONDS")
       ->transform([](const std::string& value) { return value == "true" ? kFilmAsItIs : value; });
   command->add_flag("--no-trace", request->no_trace, "Write no signals.vcd");
   command
