@@ -95,11 +95,19 @@ Json signal_entries(const core::System& system, std::span<const core::VariableId
   return entries;
 }
 
+/// What goes along it.
+const char* kind(const core::System& system, const core::Connection& connection) {
+  const core::Variable& variable = system.variable(connection.from);
+  if (variable.type == core::ValueType::Clock) return "clock";
+  return variable.is_clocked() && !system.is_sampled(connection.from) ? "message" : "value";
+}
+
 Json connection_entries(const core::System& system) {
   Json entries = Json::array();
   for (const core::Connection& connection : system.connections()) {
-    entries.push_back(
-        {{"from", system.full_name(connection.from)}, {"to", system.full_name(connection.to)}});
+    entries.push_back({{"from", system.full_name(connection.from)},
+                       {"to", system.full_name(connection.to)},
+                       {"kind", kind(system, connection)}});
   }
   return entries;
 }

@@ -179,7 +179,8 @@ TEST_CASE("run.json tells what was run and how far it came") {
   "connections": [
     {
       "from": "a.warmth",
-      "to": "b, c.temperature"
+      "to": "b, c.temperature",
+      "kind": "value"
     }
   ],
   "files": {
