@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include <stride/time.h>
 
@@ -35,7 +36,13 @@ struct Message {
   bool received = false;
   const ValueBlock* block = nullptr;  ///< null for a bare clock
   std::size_t first = 0;
+  /// What a Binary value says, in the words of its component (Unit::describe_message()) or else of
+  /// one that it is wired to, in one line of kLongestContent characters at most. Empty where none
+  /// says anything, and where no observer wants to know. Valid during the call.
+  std::string_view content{};
 };
+
+inline constexpr std::size_t kLongestContent = 200;
 
 /// Called from the thread that runs the simulation, in simulated order. An observer may throw
 /// core::Error to end the run.
@@ -46,6 +53,8 @@ class Observer {
   /// Before the first communication point. The signals are those asked for in RunOptions::recorded,
   /// in that order.
   virtual void on_start(std::span<const Signal> /*signals*/) {}
+  /// Whether messages are to come with their content, for which units have to be asked.
+  virtual bool wants_content() const { return false; }
   virtual void on_message(const Message& /*message*/) {}
   /// The initial instant, and each communication point once all values and events are exchanged.
   virtual void on_communication_point(Time /*time*/) {}
