@@ -11,6 +11,9 @@ packages_test=(
   python3-pip unzip zip
 )
 
+# Node.js of another origin brings an npm of its own, beside which Debian's cannot be installed.
+command -v npm >/dev/null || packages_build+=(npm)
+
 # install_packages NAME...
 install_packages() {
   local missing=() name

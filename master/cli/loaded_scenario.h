@@ -13,6 +13,7 @@
 #include "master/core/simulation.h"
 #include "master/core/system.h"
 #include "master/fmi/fmu.h"
+#include "master/io/plot_selection.h"
 #include "master/io/scenario.h"
 
 namespace stride::cli {
@@ -28,6 +29,7 @@ struct ScenarioRequest {
   bool no_idle_skip = false;
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
   HostRequest hosts;
+  std::string film;  ///< seconds between its pictures, or kFilmAsItIs; empty = none
 };
 
 /// The scenario with each component's FMU, and the system built from them. Throws core::Error
@@ -43,6 +45,8 @@ class LoadedScenario {
   /// Likewise; nothing for a component that has no process of its own.
   const std::vector<std::optional<Hosting>>& hostings() const { return hostings_; }
   const core::RunOptions& options() const { return options_; }
+  /// As the scenario has them, of what is recorded.
+  const std::vector<io::Plot>& plots() const { return plots_; }
 
   /// Fresh instances in the order of system().components(); what they log goes to the log. Those
   /// with processes of their own may write to the folder `results`, if it is not empty.
@@ -58,6 +62,7 @@ class LoadedScenario {
   void choose_hosts(const HostRequest& request);
   void check_steps() const;
   void choose_idle_skips(const ScenarioRequest& request);
+  void choose_signals(const ScenarioRequest& request);
   void check_fixed_steps() const;
   void warn_of_internal_steps() const;
   std::vector<std::string> component_names() const;
@@ -68,6 +73,7 @@ class LoadedScenario {
   std::optional<core::System> system_;
   std::vector<std::optional<Hosting>> hostings_;
   core::RunOptions options_;
+  std::vector<io::Plot> plots_;
 };
 
 /// The two sides of "LEFT=RIGHT", which an option was given. Throws core::Error (Input) that says

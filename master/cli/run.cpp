@@ -13,11 +13,14 @@
 
 #include "master/capture/capture.h"
 #include "master/cli/commands.h"
+#include "master/cli/film.h"
+#include "master/cli/interruption.h"
 #include "master/cli/loaded_scenario.h"
 #include "master/cli/progress.h"
 #include "master/cli/scenario_options.h"
 #include "master/cli/summary.h"
 #include "master/cli/verdicts.h"
+#include "master/io/activity_recorder.h"
 #include "master/io/csv_recorder.h"
 #include "master/io/event_recorder.h"
 #include "master/io/results_folder.h"
@@ -34,6 +37,7 @@ struct Request {
   std::filesystem::path out;
   std::vector<std::string> captures;  ///< "component=FILE"
   std::size_t threads = 1;
+  std::optional<ProgressStyle> progress;
   bool no_trace = false;
   bool quiet = false;
 };
@@ -43,18 +47,21 @@ struct Recorders {
   std::optional<io::CsvRecorder> signals;
   std::optional<io::EventRecorder> events;
   std::optional<io::VcdRecorder> trace;
+  std::optional<io::ActivityRecorder> activity;
 
   Recorders(const core::System& system, const io::ResultFiles& files,
             const std::filesystem::path& folder) {
     if (!files.signals.empty()) signals.emplace(system, folder / files.signals);
     if (!files.events.empty()) events.emplace(system, folder / files.events);
     if (!files.trace.empty()) trace.emplace(system, folder / files.trace);
+    if (!files.activity.empty()) activity.emplace(system, folder / files.activity);
   }
 
   void add_to(core::Simulation& simulation) {
     if (signals) simulation.add_observer(*signals);
     if (events) simulation.add_observer(*events);
     if (trace) simulation.add_observer(*trace);
+    if (activity) simulation.add_observer(*activity);
   }
 };
 
@@ -70,13 +77,19 @@ std::filesystem::path make_folder(const Request& request, const io::Scenario& sc
 io::ResultFiles chosen_files(const Request& request, const io::Scenario& scenario) {
   io::ResultFiles files = scenario.annotation.results;
   if (request.no_trace) files.trace.clear();
+  files.report.clear();
   return files;
 }
 
 core::RunOptions run_options(const Request& request, const LoadedScenario& loaded) {
   core::RunOptions options = loaded.options();
   options.threads.count = request.threads;
+  options.interrupted = &Interruption::flag();
   return options;
+}
+
+ProgressStyle progress_style(const Request& request) {
+  return request.progress.value_or(request.quiet ? ProgressStyle::None : ProgressStyle::Auto);
 }
 
 std::vector<capture::Request> captures(const Request& request) {
@@ -102,30 +115,31 @@ class RecordedRun {
         simulation_(loaded_.system(), captured_units(), options_),
         recorders_(loaded_.system(), files_, folder_),
         summary_(loaded_.system()),
-        progress_(options_.start, options_.stop) {
+        progress_(progress_style(request), options_.start, options_.stop, simulation_) {
     capture_.follow(simulation_);
     recorders_.add_to(simulation_);
     if (!capture_.is_empty()) simulation_.add_observer(capture_);
-    if (!request.quiet) {
-      simulation_.add_observer(summary_);
-      simulation_.add_observer(progress_);
-    }
-    simulation_.add_observer(interruption_);
+    if (!request.quiet) simulation_.add_observer(summary_);
+    simulation_.add_observer(progress_);
   }
 
-  /// Throws core::Error (Run) if it fails, and also if a unit's verdict on it is bad.
+  /// Throws core::Error (Run) if it fails or is interrupted, and also if a unit's verdict on it is
+  /// bad.
   void run() {
     try {
       simulation_.run();
     } catch (const std::exception& failure) {
+      progress_.end("failed");
       // the first failure is the one to tell
       warn_of_failure([&] { capture_.end(fmt::format("failed: {}", failure.what())); });
       warn_of_failure([&] { write_statistics(failure.what()); });
       throw;
     }
-    capture_.end(simulation_.statistics().terminated_by_unit ? "ended by a unit" : "completed");
+    progress_.end(name(simulation_.statistics().end));
+    capture_.end(name(simulation_.statistics().end));
     write_statistics(std::nullopt);
     if (!request_.quiet) print();
+    require_end();
     require_passed(loaded_.system(), simulation_.verdicts());
   }
 
@@ -147,20 +161,33 @@ class RecordedRun {
 
   void write_statistics(const std::optional<std::string>& error) const {
     if (files_.statistics.empty()) return;
-    io::write_run_json(folder_ / files_.statistics, loaded_.scenario().path, loaded_.system(),
-                       options_, simulation_.statistics(), simulation_.verdicts(), error);
+    io::write_run_json(folder_ / files_.statistics, {.scenario = loaded_.scenario().path,
+                                                     .system = loaded_.system(),
+                                                     .options = options_,
+                                                     .statistics = simulation_.statistics(),
+                                                     .verdicts = simulation_.verdicts(),
+                                                     .error = error,
+                                                     .files = files_,
+                                                     .plots = loaded_.plots()});
+  }
+
+  void require_end() const {
+    const core::RunStatistics& statistics = simulation_.statistics();
+    if (statistics.end != core::RunEnd::Interrupted) return;
+    core::fail_run({{}, {}, {}, statistics.reached},
+                   "the run was interrupted; its results up to there are complete");
   }
 
   void print() const {
     fmt::print("\n{}{}\nResults in {}:", summary_.text(simulation_.statistics()),
                verdict_table(loaded_.system(), simulation_.verdicts()), folder_.string());
-    for (const std::string& file :
-         {files_.signals, files_.events, files_.trace, files_.statistics}) {
-      if (!file.empty()) fmt::print(" {}", file);
+    for (const auto& [what, member] : io::kResultFiles) {
+      if (!(files_.*member).empty()) fmt::print(" {}", files_.*member);
     }
     fmt::print("\n");
   }
 
+  Interruption interruption_;
   const Request& request_;
   LoadedScenario loaded_;
   io::ResultFiles files_;
@@ -171,7 +198,6 @@ class RecordedRun {
   Recorders recorders_;
   Summary summary_;
   Progress progress_;
-  Interruption interruption_;
 };
 
 }  // namespace
@@ -195,7 +221,21 @@ void add_run(CLI::App& app) {
                    "be given several times")
       ->type_name("COMPONENT=FILE")
       ->allow_extra_args(false);
+  // a flag, so that what follows a blank is the scenario; without a value it is "true"
+  command
+      ->add_flag("--film", request->scenario.film,
+                 "Pictures of the world in film/, each 0.1 s or as in --film=SECONDS of simulated "
+                 "time")
+      ->transform([](const std::string& value) { return value == "true" ? kFilmAsItIs : value; });
   command->add_flag("--no-trace", request->no_trace, "Write no signals.vcd");
+  command
+      ->add_option_function<std::string>(
+          "--progress",
+          [request](const std::string& text) { request->progress = read_progress_style(text); },
+          "How to show how far the run is: auto (on a terminal a line that is rewritten, elsewhere "
+          "a "
+          "line now and then), plain, json (an object a line, for programs) or none")
+      ->type_name("STYLE");
   command->add_flag("--quiet,-q", request->quiet, "Print nothing but errors");
   command->callback([request] { RecordedRun(*request).run(); });
 }

@@ -24,6 +24,11 @@ std::string seconds(std::chrono::nanoseconds time) {
   return fmt::format("{:.3f}", std::chrono::duration<double>(time).count());
 }
 
+std::string end_text(const core::RunStatistics& statistics) {
+  if (statistics.end == core::RunEnd::Completed) return "";
+  return fmt::format(", {}", name(statistics.end));
+}
+
 }  // namespace
 
 void Summary::on_start(std::span<const core::Signal> signals) {
@@ -70,7 +75,7 @@ std::string Summary::text(const core::RunStatistics& statistics) const {
   std::string text = fmt::format(
       "{}: {:.6g} s simulated in {:.3g} s ({:.3g} times real time), {} communication steps{}\n",
       system_.name(), simulated, wall, wall > 0 ? simulated / wall : 0.0,
-      statistics.communication_steps, statistics.terminated_by_unit ? ", ended by a unit" : "");
+      statistics.communication_steps, end_text(statistics));
   text += idle_line(statistics) + host_line(statistics);
   if (!messages_.empty()) text += "\nMessages\n" + message_table();
   if (!ranges_.empty()) text += "\nSignals\n" + signal_table();

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "master/cli/commands.h"
-#include "master/cli/progress.h"
+#include "master/cli/interruption.h"
 #include "master/cli/table.h"
 #include "master/cli/unit_path.h"
 #include "master/core/error.h"

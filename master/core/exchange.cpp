@@ -75,7 +75,7 @@ void copy_mapped(void* to, const void* from, const Conversion& conversion) {
 
 }  // namespace
 
-Exchange::Exchange(const System& system, std::span<const VariableId> recorded)
+Exchange::Exchange(const System& system, std::span<const VariableId> observed)
     : system_(system), is_delivered_(system.components().size()) {
   std::set<VariableId> outputs;
   std::set<VariableId> inputs;
@@ -86,7 +86,7 @@ Exchange::Exchange(const System& system, std::span<const VariableId> recorded)
     inputs.insert(connection.to);
     if (system.is_sampled(connection.from)) jumps.insert(connection.to);
   }
-  for (const VariableId id : recorded) {
+  for (const VariableId id : observed) {
     if (!inputs.contains(id)) outputs.insert(id);
   }
   plan(outputs_, sampled_outputs_, system, outputs, {});

@@ -50,10 +50,10 @@ struct ContinuousLink {
 /// construction, except where a String or a Binary grows.
 class Exchange {
  public:
-  /// `recorded`: variables that are read although nobody is connected to them.
-  Exchange(const System& system, std::span<const VariableId> recorded);
+  /// `observed`: variables that are read although nobody is connected to them.
+  Exchange(const System& system, std::span<const VariableId> observed);
 
-  /// Reads a unit's outputs and recorded variables.
+  /// Reads a unit's outputs and observed variables.
   void fetch(std::size_t component, Unit& unit);
   /// Copies the outputs of all units to the inputs of all units. Throws Error (Run) where a
   /// connected output is NaN, or an integer becomes no item of an Enumeration.

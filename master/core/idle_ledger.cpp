@@ -11,11 +11,12 @@ namespace stride::core {
 
 IdleLedger::IdleLedger(const System& system, std::span<const std::unique_ptr<Unit>> units,
                        Exchange& exchange, std::vector<UnitStatistics>& statistics,
-                       const IdleOptions& options)
+                       const Activities& activities, const IdleOptions& options)
     : system_(system),
       units_(units),
       exchange_(exchange),
       statistics_(statistics),
+      activities_(activities),
       options_(options),
       accounts_(units.size()) {
   for (std::size_t i = 0; i < std::min(units.size(), options.max_skip.size()); ++i) {
@@ -66,11 +67,22 @@ std::optional<Time> IdleLedger::all_rest_until() const {
   return earliest;
 }
 
+Duration IdleLedger::rested(Time time) const {
+  Duration sum{};
+  for (const std::size_t i : candidates_) {
+    sum += statistics_[i].rested;
+    if (accounts_[i].rests) sum += time - accounts_[i].since;
+  }
+  return sum;
+}
+
 bool IdleLedger::wake(std::size_t component, Time time) {
   Account& account = accounts_[component];
   account.rests = false;
   const Duration debt = time - account.since;
   if (debt == Duration{}) return false;
+  account.has_ended_rest = true;
+  account.ended = time;
   const StepResult result = units_[component]->step({account.since, time});
   check_promise(component, time, result);
   exchange_.fetch(component, *units_[component]);
@@ -79,6 +91,29 @@ bool IdleLedger::wake(std::size_t component, Time time) {
   statistics.rested += debt;
   statistics.longest_rest = std::max(statistics.longest_rest, debt);
   return result.event_needed;
+}
+
+void IdleLedger::tell_rest(std::size_t component) {
+  Account& account = accounts_[component];
+  if (!std::exchange(account.has_ended_rest, false)) return;
+  activities_.tell({component, Activity::Kind::Idle, account.since, account.ended});
+}
+
+bool IdleLedger::wake_and_tell(std::size_t component, Time time) {
+  const bool has_event = wake(component, time);
+  tell_rest(component);
+  return has_event;
+}
+
+void IdleLedger::tell_unfinished_rests(Time time) {
+  for (const std::size_t i : candidates_) {
+    Account& account = accounts_[i];
+    if (std::exchange(account.rests, false) && account.since < time) {
+      account.has_ended_rest = true;
+      account.ended = time;
+    }
+    tell_rest(i);
+  }
 }
 
 void IdleLedger::check_promise(std::size_t component, Time time, const StepResult& result) const {
@@ -105,7 +140,7 @@ std::span<const std::size_t> IdleLedger::come_to(Time time) {
     Account& account = accounts_[i];
     if (!account.rests) continue;
     if (account.end <= time) {
-      if (wake(i, time)) events_.push_back(i);
+      if (wake_and_tell(i, time)) events_.push_back(i);
       continue;
     }
     const double elapsed = to_seconds(time - account.since);
@@ -128,7 +163,7 @@ bool IdleLedger::wake_disturbed(Time time) {
     if (!accounts_[i].rests) continue;
     if (!exchange_.has_discrete_change(i) && !is_disturbed(accounts_[i])) continue;
     any |= accounts_[i].since < time;
-    wake(i, time);
+    wake_and_tell(i, time);
   }
   return any;
 }
@@ -165,7 +200,7 @@ void IdleLedger::begin_rest(std::size_t component, Time time, Time until, Time e
 
 void IdleLedger::settle(Time time) {
   for (const std::size_t i : candidates_) {
-    if (accounts_[i].rests) wake(i, time);
+    if (accounts_[i].rests) wake_and_tell(i, time);
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include <stride/time.h>
 
+#include "master/core/activities.h"
 #include "master/core/exchange.h"
 #include "master/core/run_options.h"
 #include "master/core/statistics.h"
@@ -27,9 +28,11 @@ namespace stride::core {
 /// for different components.
 class IdleLedger {
  public:
-  /// `units` in the order of system.components(). All must outlive this object.
+  /// `units` in the order of system.components(). `activities`: who hears of rests. All must
+  /// outlive this object.
   IdleLedger(const System& system, std::span<const std::unique_ptr<Unit>> units, Exchange& exchange,
-             std::vector<UnitStatistics>& statistics, const IdleOptions& options);
+             std::vector<UnitStatistics>& statistics, const Activities& activities,
+             const IdleOptions& options);
 
   /// Whether no unit of the system is ever to rest.
   bool is_trivial() const { return candidates_.empty(); }
@@ -44,10 +47,15 @@ class IdleLedger {
   /// How far the run may go without calling anybody; nothing where a unit does not rest.
   std::optional<Time> all_rest_until() const;
 
+  /// The simulated time of all rests up to `time`, where the run stands, those that last included.
+  Duration rested(Time time) const;
+
   /// The unit, which rests, is brought to `time`, and its outputs are fetched. Throws Error (Run)
   /// that names unit, time and promise where the unit does not keep it. Returns whether it has an
   /// event there, as it may where its promise ends.
   bool wake(std::size_t component, Time time);
+  /// On the thread of the simulation, some time after wake(): tells of the rest that ended.
+  void tell_rest(std::size_t component);
 
   /// All units stand at or owe up to `time`: the outputs of those that rest are what their tangents
   /// say, and those whose rests end here are woken. Returns those of them that have an event.
@@ -60,6 +68,8 @@ class IdleLedger {
   void rest(Time time);
   /// The run ends: all debts are paid.
   void settle(Time time);
+  /// Tells of the rests that have not been told: a failure has ended them at `time`.
+  void tell_unfinished_rests(Time time);
 
  private:
   struct WatchedInput {
@@ -75,9 +85,11 @@ class IdleLedger {
   struct Account {
     bool is_candidate = false;
     bool rests = false;
-    Time since{};  ///< where the unit stands
-    Time until{};  ///< its promise
-    Time end{};    ///< of the rest, at most
+    bool has_ended_rest = false;  ///< of which is still to be told
+    Time since{};                 ///< where the unit stands
+    Time until{};                 ///< its promise
+    Time end{};                   ///< of the rest, at most
+    Time ended{};                 ///< where it did, if that is still to be told
     Duration max_skip{};
     std::vector<WatchedInput> inputs;
     std::vector<Tangent> tangents;
@@ -87,6 +99,7 @@ class IdleLedger {
 
   void open(std::size_t component, Duration max_skip);
   void begin_rest(std::size_t component, Time time, Time until, Time end);
+  bool wake_and_tell(std::size_t component, Time time);
   bool is_disturbed(const Account& account) const;
   void check_promise(std::size_t component, Time time, const StepResult& result) const;
 
@@ -94,6 +107,7 @@ class IdleLedger {
   std::span<const std::unique_ptr<Unit>> units_;
   Exchange& exchange_;
   std::vector<UnitStatistics>& statistics_;
+  const Activities& activities_;
   IdleOptions options_;
   std::vector<Account> accounts_;  ///< by component
   std::vector<std::size_t> candidates_;

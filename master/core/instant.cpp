@@ -16,14 +16,16 @@ constexpr std::uint32_t kEventLimit = 1000;
 }  // namespace
 
 Instant::Instant(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                 Exchange& exchange, std::vector<Observer*>& observers, RunStatistics& statistics,
-                 WallClock clock, IdleLedger* ledger)
+                 Exchange& exchange, std::vector<Observer*>& observers,
+                 const Activities& activities, RunStatistics& statistics, WallClock clock,
+                 IdleLedger* ledger)
     : system_(system),
       units_(units),
       exchange_(exchange),
       messages_(system, units),
       clocks_(system, units),
       observers_(observers),
+      activities_(activities),
       statistics_(statistics),
       clock_(clock),
       ledger_(ledger),
@@ -99,6 +101,7 @@ void Instant::leave_event_mode() {
     if (!in_event_mode_[i]) continue;
     units_[i]->enter_step_mode();
     in_event_mode_[i] = false;
+    activities_.tell({i, Activity::Kind::Event, time_, time_});
   }
   has_event_ = false;
   had_any_event_ = true;
@@ -130,7 +133,10 @@ bool Instant::prepare_events() {
 
 void Instant::enter_event_mode(std::size_t i) {
   if (in_event_mode_[i]) return;
-  if (ledger_ != nullptr && ledger_->rests(i)) ledger_->wake(i, time_);
+  if (ledger_ != nullptr && ledger_->rests(i)) {
+    ledger_->wake(i, time_);
+    ledger_->tell_rest(i);
+  }
   units_[i]->enter_event_mode();
   in_event_mode_[i] = has_event_ = true;
   exchange_.deliver(i, *units_[i]);
@@ -156,7 +162,7 @@ bool Instant::event_iteration() {
     has_active_ |= static_cast<bool>(active_[i]);
     clocks_.update(i, time_);
   }
-  statistics_.terminated_by_unit |= terminates;
+  if (terminates) statistics_.end = RunEnd::EndedByUnit;
   return terminates;
 }
 

@@ -11,6 +11,7 @@
 
 #include <stride/time.h>
 
+#include "master/core/activities.h"
 #include "master/core/clocks.h"
 #include "master/core/evaluation.h"
 #include "master/core/exchange.h"
@@ -27,11 +28,12 @@ namespace stride::core {
 /// What the units do between two communication steps, and who has an event when.
 class Instant : private Evaluation::Participants {
  public:
-  /// `units` in the order of system.components(); `observers` hear of the messages. All of them
-  /// must outlive this object. `ledger`: who rests; null if nobody does.
+  /// `units` in the order of system.components(); `observers` hear of the messages, and
+  /// `activities` tells of the events. All of them must outlive this object. `ledger`: who rests;
+  /// null if nobody does.
   Instant(const System& system, std::span<const std::unique_ptr<Unit>> units, Exchange& exchange,
-          std::vector<Observer*>& observers, RunStatistics& statistics, WallClock clock,
-          IdleLedger* ledger = nullptr);
+          std::vector<Observer*>& observers, const Activities& activities,
+          RunStatistics& statistics, WallClock clock, IdleLedger* ledger = nullptr);
 
   /// Before the end of Initialization Mode: asks for the first ticks of the time-based clocks.
   void begin_clocks(Time start) { clocks_.begin(start); }
@@ -93,6 +95,7 @@ class Instant : private Evaluation::Participants {
   Clocks clocks_;
   std::optional<Evaluation> evaluation_;  ///< where outputs follow inputs at once
   std::vector<Observer*>& observers_;
+  const Activities& activities_;
   RunStatistics& statistics_;
   WallClock clock_;
   IdleLedger* ledger_;

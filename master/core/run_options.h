@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -99,8 +100,11 @@ struct RunOptions {
   Extrapolation extrapolation = Extrapolation::Hold;
   ThreadOptions threads{};  ///< not with Gauss-Seidel, where units step one after another
   IdleOptions idle{};       ///< as far as may_skip_idle_time()
-  std::vector<VariableId> recorded{};  ///< what the observers see, in this order
+  std::vector<VariableId> recorded{};  ///< what observers see that ask for nothing else, in order
+  std::vector<VariableId> watched{};   ///< what observers may ask for beside that
   bool measure_time = true;  ///< wall-clock time per unit; costs two clock readings a unit step
+  /// Where this is no longer 0 the run ends at its next communication point.
+  const volatile std::sig_atomic_t* interrupted = nullptr;
 };
 
 }  // namespace stride::core

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "master/core/activities.h"
 #include "master/core/exchange.h"
 #include "master/core/idle_ledger.h"
 #include "master/core/initial_values.h"
@@ -25,6 +26,15 @@ namespace {
 /// Steps in a row that end where they began, after which a unit is taken to be stuck.
 constexpr std::uint32_t kStallLimit = 1000;
 
+/// All that observers may see, each once.
+std::vector<VariableId> observed(const RunOptions& options) {
+  std::vector<VariableId> ids = options.recorded;
+  ids.insert(ids.end(), options.watched.begin(), options.watched.end());
+  std::ranges::sort(ids);
+  ids.erase(std::ranges::unique(ids).begin(), ids.end());
+  return ids;
+}
+
 }  // namespace
 
 class Simulation::Run {
@@ -34,15 +44,16 @@ class Simulation::Run {
         units_(std::move(units)),
         options_(std::move(options)),
         step_size_(system, options_),
-        outputs_(system, options_.recorded),
+        observed_(observed(options_)),
+        outputs_(system, observed_),
         exchange_(system, outputs_.sources()),
         inputs_(make_inputs()),
         statistics_{.units = std::vector<UnitStatistics>(units_.size())},
         ledger_(make_ledger()),
         clock_(options_.measure_time),
-        instant_(system, units_, exchange_, observers_, statistics_, clock_,
+        instant_(system, units_, exchange_, observers_, activities_, statistics_, clock_,
                  ledger_ ? &*ledger_ : nullptr),
-        stepper_(system, units_, exchange_, statistics_.units, clock_, options_,
+        stepper_(system, units_, exchange_, statistics_.units, activities_, clock_, options_,
                  options_.sets_inputs_in_steps() ? &*inputs_ : nullptr,
                  ledger_ ? &*ledger_ : nullptr) {
     statistics_.start = statistics_.reached = options_.start;
@@ -50,8 +61,18 @@ class Simulation::Run {
     if (options_.sets_inputs_in_steps()) lead_inputs_within_steps();
   }
 
-  void add_observer(Observer& observer) { observers_.push_back(&observer); }
+  void add_observer(Observer& observer) { add_observer(observer, options_.recorded); }
+  void add_observer(Observer& observer, std::vector<VariableId> signals) {
+    const auto is_read = [&](VariableId id) { return std::ranges::binary_search(observed_, id); };
+    if (!std::ranges::all_of(signals, is_read)) {
+      throw std::logic_error("an observer wants a signal that is not read");
+    }
+    observers_.push_back(&observer);
+    wanted_.push_back(std::move(signals));
+    activities_.add(observer);
+  }
   const RunStatistics& statistics() const { return statistics_; }
+  Duration rested() const { return ledger_ ? ledger_->rested(time_) : Duration{}; }
   std::span<const Verdict> verdicts() const { return verdicts_; }
 
   void run() {
@@ -60,9 +81,9 @@ class Simulation::Run {
     std::exception_ptr failure;
     try {
       clock_.timed(statistics_.phases.initialization, [&] { initialize(); });
-      while (time_ < options_.stop && !statistics_.terminated_by_unit) communication_step();
+      while (goes_on()) communication_step();
       if (ledger_) ledger_->settle(time_);
-      verdicts_ = read_verdicts(system_, units_);
+      if (statistics_.end != RunEnd::Interrupted) verdicts_ = read_verdicts(system_, units_);
       for (auto& unit : units_) unit->terminate();
     } catch (...) {
       failure = std::current_exception();
@@ -73,6 +94,7 @@ class Simulation::Run {
       statistics_.units[i].host = units_[i]->host_statistics();
       statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].rests;
     }
+    finish_rests(failure);
     finish_observers(failure);
     if (!failure) return;
     verdicts_.clear();
@@ -81,6 +103,14 @@ class Simulation::Run {
 
  private:
   std::size_t count() const { return units_.size(); }
+
+  void finish_rests(std::exception_ptr& failure) {
+    if (!ledger_ || !failure) return;
+    try {
+      ledger_->tell_unfinished_rests(time_);
+    } catch (...) {  // the first failure is kept
+    }
+  }
 
   /// All are told, also where one of them fails; the first failure is kept.
   void finish_observers(std::exception_ptr& failure) {
@@ -141,9 +171,11 @@ class Simulation::Run {
   }
 
   void start_observers() {
-    std::vector<Signal> signals;
-    for (const VariableId id : options_.recorded) signals.push_back(outputs_.signal(id, exchange_));
-    for (Observer* observer : observers_) observer->on_start(signals);
+    for (std::size_t i = 0; i < observers_.size(); ++i) {
+      std::vector<Signal> signals;
+      for (const VariableId id : wanted_[i]) signals.push_back(outputs_.signal(id, exchange_));
+      observers_[i]->on_start(signals);
+    }
   }
 
   /// Nothing where nobody would use it.
@@ -155,7 +187,7 @@ class Simulation::Run {
   std::optional<IdleLedger> make_ledger() {
     if (!options_.may_skip_idle_time()) return std::nullopt;
     std::optional<IdleLedger> ledger(std::in_place, system_, units_, exchange_, statistics_.units,
-                                     options_.idle);
+                                     activities_, options_.idle);
     if (ledger->is_trivial()) ledger.reset();
     return ledger;
   }
@@ -166,6 +198,14 @@ class Simulation::Run {
       unit.set_input_update(
           [this, i, &unit](double seconds) { inputs_->within_step(i, unit, seconds); });
     }
+  }
+
+  bool goes_on() {
+    if (time_ >= options_.stop || statistics_.end == RunEnd::EndedByUnit) return false;
+    if (options_.interrupted == nullptr || *options_.interrupted == 0) [[likely]]
+      return true;
+    statistics_.end = RunEnd::Interrupted;
+    return false;
   }
 
   void communication_step() {
@@ -187,7 +227,7 @@ class Simulation::Run {
   void take_requests() {
     for (std::size_t i = 0; i < count(); ++i) {
       const StepResult& result = stepper_.result(i);
-      statistics_.terminated_by_unit |= result.terminate;
+      if (result.terminate) statistics_.end = RunEnd::EndedByUnit;
       if (result.event_needed) instant_.request_event(i);
     }
   }
@@ -233,10 +273,13 @@ class Simulation::Run {
   std::vector<std::unique_ptr<Unit>> units_;
   RunOptions options_;
   StepSize step_size_;
+  std::vector<VariableId> observed_;  ///< sorted
   SystemOutputs outputs_;
   Exchange exchange_;
   std::optional<StepInputs> inputs_;
   std::vector<Observer*> observers_;
+  std::vector<std::vector<VariableId>> wanted_;  ///< the signals of each of them
+  Activities activities_;
   RunStatistics statistics_;
   std::vector<Verdict> verdicts_;
   std::optional<IdleLedger> ledger_;  ///< nothing where nobody may rest
@@ -257,7 +300,13 @@ Simulation::~Simulation() = default;
 
 void Simulation::add_observer(Observer& observer) { run_->add_observer(observer); }
 
+void Simulation::add_observer(Observer& observer, std::vector<VariableId> signals) {
+  run_->add_observer(observer, std::move(signals));
+}
+
 void Simulation::run() { run_->run(); }
+
+Duration Simulation::rested() const { return run_->rested(); }
 
 const RunStatistics& Simulation::statistics() const { return run_->statistics(); }
 

@@ -26,13 +26,22 @@ class Simulation {
   ~Simulation();
 
   void add_observer(Observer& observer);
+  /// It sees these signals, in this order, in place of the recorded ones. Each is one of
+  /// RunOptions::recorded or RunOptions::watched.
+  void add_observer(Observer& observer, std::vector<VariableId> signals);
 
-  /// From initialisation to the stop time, or until a unit ends the simulation. Throws Error; the
-  /// observers' on_finish() has been called then, and the statistics tell how far it came.
+  /// From initialisation to the stop time, or until a unit ends the simulation or it is
+  /// interrupted. Throws Error; the observers' on_finish() has been called then, and the statistics
+  /// tell how far it came.
   void run();
 
   const RunStatistics& statistics() const;
-  /// What the units say of the run, where it ended; none where it failed.
+  /// The simulated time for which units have been left alone because they promised to be idle, all
+  /// of them together and up to where the run stands: unlike the statistics' `rested`, with the
+  /// rests that still last. For observers, at a communication point; one look at each unit that may
+  /// rest.
+  Duration rested() const;
+  /// What the units say of the run, where it ended; none where it failed or was interrupted.
   std::span<const Verdict> verdicts() const;
 
  private:

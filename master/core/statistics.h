@@ -51,6 +51,12 @@ struct PhaseTimes {
   std::chrono::nanoseconds observers{};
 };
 
+/// How a run that did not fail came to its end.
+enum class RunEnd : std::uint8_t { Completed, EndedByUnit, Interrupted };
+
+/// As run.json has it: "ended by a unit".
+const char* name(RunEnd end);
+
 struct RunStatistics {
   Time start{};
   Time reached{};  ///< the last accepted instant
@@ -60,7 +66,7 @@ struct RunStatistics {
   std::uint64_t parallel_steps = 0;  ///< communication steps that were made on several threads
   std::chrono::nanoseconds wall_time{};
   PhaseTimes phases{};
-  bool terminated_by_unit = false;
+  RunEnd end = RunEnd::Completed;
   std::vector<UnitStatistics> units;  ///< in the order of System::components()
 };
 

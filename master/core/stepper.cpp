@@ -22,12 +22,14 @@ Stepper::Lane::Lane(Unit& stepped, const StepPlace& its_place)
       can_vary_step(its_place.can_vary_step) {}
 
 Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                 Exchange& exchange, std::vector<UnitStatistics>& statistics, WallClock clock,
-                 const RunOptions& options, StepInputs* inputs, IdleLedger* ledger)
+                 Exchange& exchange, std::vector<UnitStatistics>& statistics,
+                 const Activities& activities, WallClock clock, const RunOptions& options,
+                 StepInputs* inputs, IdleLedger* ledger)
     : system_(system),
       unit_count_(units.size()),
       exchange_(exchange),
       statistics_(statistics),
+      activities_(activities),
       clock_(clock),
       step_clock_(clock),
       inputs_(inputs),
@@ -98,6 +100,7 @@ Time Stepper::make_timed_passes(Time from, Time target) {
 
 void Stepper::undo(Time from) {
   for (Lane& lane : lanes_) {
+    tell(lane, Activity::Kind::Undone, from, lane.result.reached);
     restore(lane, from);
     ++statistics_[lane.component].rollbacks;
   }
@@ -236,6 +239,7 @@ void Stepper::save(Lane& lane) {
 }
 
 void Stepper::go_back(Lane& lane, const StepInterval& interval) {
+  lane.undone = lane.result.reached;
   restore(lane, interval.from);
   lane.rolled_back = true;
   if (interval.from == interval.to) exchange_.fetch(lane.component, *lane.unit);
@@ -249,10 +253,12 @@ void Stepper::restore(Lane& lane, Time from) {
 
 /// Counts what the unit did, and returns how far it lets the others go.
 inline Time Stepper::take_down(Lane& lane, const StepInterval& interval) {
+  if (lane.may_rest) ledger_->tell_rest(lane.component);
   if (lane.saves_state) {
     UnitStatistics& statistics = statistics_[lane.component];
     statistics.saves += lane.saved;
     statistics.rollbacks += lane.rolled_back;
+    if (lane.rolled_back) tell(lane, Activity::Kind::Undone, interval.from, lane.undone);
   }
   if (step_clock_.measures()) take_down_time(lane);
   switch (lane.outcome) {
@@ -260,11 +266,15 @@ inline Time Stepper::take_down(Lane& lane, const StepInterval& interval) {
       return interval.to;
     case Outcome::Stepped:
       has_requests_ |= lane.result.event_needed || lane.result.terminate;
-      if (lane.result.reached != interval.to) ++statistics_[lane.component].early_returns;
+      if (lane.result.reached != interval.to) {
+        ++statistics_[lane.component].early_returns;
+        tell(lane, Activity::Kind::EarlyReturn, interval.from, lane.result.reached);
+      }
       return lane.result.reached;
     case Outcome::Rejected:
       ++statistics_[lane.component].rejections;
       ++lane.rejections;
+      tell(lane, Activity::Kind::Rejection, interval.from, interval.to);
       return retry_target(lane, interval);
     case Outcome::TooFar:
       fail_final(lane);

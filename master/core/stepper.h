@@ -12,6 +12,7 @@
 
 #include <stride/time.h>
 
+#include "master/core/activities.h"
 #include "master/core/exchange.h"
 #include "master/core/idle_ledger.h"
 #include "master/core/run_options.h"
@@ -36,12 +37,13 @@ namespace stride::core {
 /// fail, the first one's error is thrown, when all threads have come to rest.
 class Stepper {
  public:
-  /// `units` in the order of system.components(). `inputs`: who sets them before each step; null
+  /// `units` in the order of system.components(). `activities`: who hears of steps that are not
+  /// ordinary. `inputs`: who sets them before each step; null
   /// if they stay what they are. `ledger`: who rests; null if nobody does. Throws Error as
   /// step_order() does.
   Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units, Exchange& exchange,
-          std::vector<UnitStatistics>& statistics, WallClock clock, const RunOptions& options,
-          StepInputs* inputs = nullptr, IdleLedger* ledger = nullptr);
+          std::vector<UnitStatistics>& statistics, const Activities& activities, WallClock clock,
+          const RunOptions& options, StepInputs* inputs = nullptr, IdleLedger* ledger = nullptr);
 
   const std::vector<StepPlace>& order() const { return order_; }
 
@@ -89,6 +91,7 @@ class Stepper {
     Outcome outcome = Outcome::Stood;  ///< of the present pass, as the flags behind it
     bool saved = false;
     bool rolled_back = false;
+    Time undone{};                 ///< where it stood before that
     std::uint32_t rejections = 0;  ///< in the present communication step
   };
   /// Who cut the present communication step short, last.
@@ -116,6 +119,9 @@ class Stepper {
   void go_back(Lane& lane, const StepInterval& interval);
   void restore(Lane& lane, Time from);
   Time take_down(Lane& lane, const StepInterval& interval);
+  void tell(const Lane& lane, Activity::Kind kind, Time from, Time until) const {
+    activities_.tell({lane.component, kind, from, until});
+  }
   void take_down_time(const Lane& lane);
   std::size_t index(const Lane& lane) const {
     return static_cast<std::size_t>(&lane - lanes_.data());
@@ -135,6 +141,7 @@ class Stepper {
   std::size_t unit_count_;
   Exchange& exchange_;
   std::vector<UnitStatistics>& statistics_;
+  const Activities& activities_;
   WallClock clock_;
   WallClock step_clock_;  ///< measures where the work is to be split, too
   StepInputs* inputs_;

@@ -4,9 +4,9 @@
 
 namespace stride::core {
 
-SystemOutputs::SystemOutputs(const System& system, std::span<const VariableId> recorded)
+SystemOutputs::SystemOutputs(const System& system, std::span<const VariableId> observed)
     : system_(system) {
-  for (const VariableId id : recorded) {
+  for (const VariableId id : observed) {
     if (!system.is_output(id)) {
       sources_.push_back(id);
       continue;

@@ -10,19 +10,19 @@
 
 namespace stride::core {
 
-/// Those of System::outputs() that are recorded. They have places of their own, since they are
+/// Those of System::outputs() that are observed. They have places of their own, since they are
 /// converted on their way out.
 class SystemOutputs {
  public:
-  SystemOutputs(const System& system, std::span<const VariableId> recorded);
+  SystemOutputs(const System& system, std::span<const VariableId> observed);
 
-  /// What an Exchange has to record for all that is recorded.
+  /// What an Exchange has to read for all that is observed.
   const std::vector<VariableId>& sources() const { return sources_; }
   /// Where the values come from; the exchange must outlive this object.
   void connect(Exchange& exchange);
   /// Takes what stands in the exchange.
   void update();
-  /// Of a recorded variable, whether it is an output of the system or not.
+  /// Of an observed variable, whether it is an output of the system or not.
   Signal signal(VariableId id, Exchange& exchange) const;
 
  private:

@@ -155,7 +155,8 @@ void Snapshots::refuse_company() const {
   }
 }
 
-/// Snapshots that have been told to end do so at once, and the keeper sees it, so one is found soon.
+/// Snapshots that have been told to end do so at once, and the keeper sees it, so one is found
+/// soon.
 std::uint32_t Snapshots::find_free_place() {
   for (;;) {
     for (std::uint32_t i = 0; i < board_.places.size(); ++i) {

@@ -54,18 +54,6 @@ std::vector<Candidate> candidates(const core::System& system) {
                    core::suggestion(pattern.text, names));
 }
 
-/// A variable is asked for by its name or by an alias of it.
-bool matches(const core::System& system, const Candidate& candidate, const std::string& pattern) {
-  const auto is_matched = [&](const std::string& name) {
-    return name == pattern || matches_glob(pattern, name);
-  };
-  if (is_matched(candidate.name)) return true;
-  const std::vector<std::string>& aliases = system.variable(candidate.id).aliases;
-  return std::any_of(aliases.begin(), aliases.end(), [&](const std::string& alias) {
-    return is_matched(system.prefix(candidate.id) + alias);
-  });
-}
-
 std::vector<core::VariableId> all_outputs(const core::System& system) {
   std::vector<core::VariableId> outputs;
   for (const Candidate& candidate : candidates(system)) {
@@ -77,6 +65,17 @@ std::vector<core::VariableId> all_outputs(const core::System& system) {
 
 }  // namespace
 
+bool matches_signal(const core::System& system, core::VariableId id, const std::string& pattern) {
+  const auto is_matched = [&](const std::string& name) {
+    return name == pattern || matches_glob(pattern, name);
+  };
+  if (is_matched(system.full_name(id))) return true;
+  const std::vector<std::string>& aliases = system.variable(id).aliases;
+  return std::any_of(aliases.begin(), aliases.end(), [&](const std::string& alias) {
+    return is_matched(system.prefix(id) + alias);
+  });
+}
+
 std::vector<core::VariableId> select_signals(const core::System& system,
                                              std::span<const SignalPattern> patterns) {
   if (patterns.empty()) return all_outputs(system);
@@ -87,7 +86,7 @@ std::vector<core::VariableId> select_signals(const core::System& system,
     const Candidate* message = nullptr;
     bool has_match = false;
     for (const Candidate& candidate : all) {
-      if (!matches(system, candidate, pattern.text)) continue;
+      if (!matches_signal(system, candidate.id, pattern.text)) continue;
       if (candidate.is_message) {
         message = &candidate;
         continue;

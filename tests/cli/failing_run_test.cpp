@@ -10,7 +10,8 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const std::vector<std::string> kFiles{"signals.csv", "events.csv", "signals.vcd", "run.json"};
+const std::vector<std::string> kFiles{"signals.csv", "events.csv", "signals.vcd", "activity.csv",
+                                      "run.json"};
 
 Workspace beside_a_filter(const std::string& name, const std::string& source,
                           const std::string& connections = "") {
@@ -91,9 +92,12 @@ TEST_CASE("an interrupted run keeps what it has recorded") {
   process.send(signal);
   const Outcome outcome = process.wait();
   CHECK(outcome.exit_code == 1);
-  CHECK_THAT(outcome.err, Contains("interrupted"));
+  CHECK_THAT(outcome.err,
+             Contains("the run was interrupted; its results up to there are complete"));
+  CHECK_THAT(outcome.out, Contains(", interrupted\n") && Contains("Results in out"));
   const nlohmann::json run = run_json(workspace);
-  CHECK(run["outcome"] == "failed");
+  CHECK(run["outcome"] == "interrupted");
+  CHECK_FALSE(run.contains("error"));
   const Csv signals = workspace.signals();  // throws for a row that is cut
   CHECK(signals.number(signals.size() - 1, 0) == run["reached"]);
   CHECK(signals.size() == run["communication_steps"].get<std::size_t>() + 1);

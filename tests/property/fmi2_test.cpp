@@ -162,7 +162,7 @@ TEST_CASE("a unit that ends the simulation within a step ends it for all, there"
       .add("turner", has_state ? "fmi2_turner" : "fmi2_turner_without_state",
            {{"turn", "0.123"}, {"ends", "true"}});
   const Results results = run(system, 50ms, Time(400ms));
-  CHECK(results.statistics.terminated_by_unit);
+  CHECK(results.statistics.end == core::RunEnd::EndedByUnit);
   CHECK(results.statistics.reached == Time(123ms));
   CHECK(results.value(Time(123ms), "turner.y") == Approx(0.123));
 }

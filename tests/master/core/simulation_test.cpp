@@ -44,8 +44,10 @@ struct Seen : Observer {
   std::vector<Time> points;
   std::vector<double> values;
   Signal signal{};
+  std::size_t count = 0;
   int finished = 0;
   void on_start(std::span<const Signal> signals) override {
+    count = signals.size();
     if (!signals.empty()) signal = signals[0];
   }
   void on_message(const Message& message) override {
@@ -436,7 +438,7 @@ TEST_CASE("a unit can end the simulation") {
   };
   f.build(1, 1ms).run();
   CHECK(f.simulation->statistics().reached == time_from_seconds(0.003));
-  CHECK(f.simulation->statistics().terminated_by_unit);
+  CHECK(f.simulation->statistics().end == RunEnd::EndedByUnit);
   CHECK(a.calls.back() == "terminate");
 }
 
@@ -472,6 +474,27 @@ TEST_CASE("an input is recorded as its source left it") {
   f.build(0.002, 1ms, {{1, 0}}).add_observer(seen);
   f.simulation->run();
   CHECK(seen.values == std::vector<double>{0, 0.001, 0.002});
+}
+
+TEST_CASE("an observer sees the signals that it asks for, and nobody else does") {
+  Fixture f;
+  auto& a = f.add("a", one_in_one_out());
+  a.on_step = [](ScriptedUnit& unit, Time, Time to) {
+    unit.number(0) = 7;
+    unit.number(1) = to_seconds(to);
+    return reached(to);
+  };
+  f.options.watched = {{0, 0}, {0, 1}};
+  Seen recorder;
+  Seen other;
+  f.build(0.002, 1ms, {{0, 1}}).add_observer(recorder);
+  f.simulation->add_observer(other, {{0, 0}});
+  CHECK_THROWS_WITH(f.simulation->add_observer(other, {{0, 2}}), Contains("not read"));
+  f.simulation->run();
+  CHECK(recorder.count == 1);
+  CHECK(recorder.values == std::vector<double>{0, 0.001, 0.002});
+  CHECK(other.count == 1);
+  CHECK(other.values == std::vector<double>{0, 7, 7});
 }
 
 TEST_CASE("every observer is finished although one of them fails") {
@@ -538,7 +561,7 @@ TEST_CASE("who ends the simulation in an event has no further event iteration") 
   };
   f.build(1, 1ms).run();
   CHECK(f.events.size() == 3);
-  CHECK(f.simulation->statistics().terminated_by_unit);
+  CHECK(f.simulation->statistics().end == RunEnd::EndedByUnit);
 }
 
 TEST_CASE("NaN in a message is an error") {

@@ -1,5 +1,7 @@
 #include "master/core/verdict.h"
 
+#include <csignal>
+
 #include <catch2/catch.hpp>
 
 #include "scripted_system.h"
@@ -71,6 +73,23 @@ TEST_CASE("a run that has failed has no verdicts") {
   Simulation& simulation = fixture.build(0.01, 1ms);
   CHECK_THROWS_AS(simulation.run(), Error);
   CHECK(simulation.verdicts().empty());
+}
+
+TEST_CASE("an interrupted run ends well at its next communication point, and is not judged") {
+  ScriptedSystem fixture;
+  ScriptedUnit& unit = fixture.add("judge", judge());
+  volatile std::sig_atomic_t interrupted = 0;
+  unit.on_step = [&](ScriptedUnit&, Time, Time to) {
+    interrupted = to == Time(4ms) ? 1 : 0;
+    return reached(to);
+  };
+  fixture.options.interrupted = &interrupted;
+  Simulation& simulation = fixture.build(0.01, 1ms);
+  simulation.run();
+  CHECK(simulation.statistics().reached == Time(4ms));
+  CHECK(simulation.statistics().end == RunEnd::Interrupted);
+  CHECK(simulation.verdicts().empty());
+  CHECK(unit.calls.back() == "terminate");
 }
 
 TEST_CASE("a run that a unit ends is judged there") {

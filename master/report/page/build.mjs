@@ -1,0 +1,102 @@
+// node build.mjs NODE_MODULES OUTPUT_FOLDER: bundles the page into one html text, report_page.html, and makes a C++ source
+// of it, page.cpp. NODE_MODULES is where `npm ci` put the packages of package-lock.json.
+import { mkdir, readFile, writeFile } from "node:fs/promises";
+import { createRequire } from "node:module";
+import path from "node:path";
+import process from "node:process";
+import { fileURLToPath } from "node:url";
+
+const here = path.dirname(fileURLToPath(import.meta.url));
+const [nodeModules, output] = process.argv.slice(2).map((folder) => path.resolve(folder));
+const { build } = createRequire(path.join(nodeModules, "any.js"))("esbuild");
+
+/** The bundled text of one entry, and the files that went into it. */
+async function bundle(entry) {
+  const result = await build({
+    entryPoints: [path.join(here, entry)],
+    nodePaths: [nodeModules],
+    bundle: true,
+    minify: true,
+    charset: "utf8",
+    format: "iife",
+    target: "es2022",
+    legalComments: "inline",
+    write: false,
+    metafile: true,
+    absWorkingDir: here,
+    logLevel: "error",
+  });
+  return { text: result.outputFiles[0].text, inputs: Object.keys(result.metafile.inputs) };
+}
+
+/** The package that a bundled file belongs to, or nothing for our own: "uplot", "@dagrejs/dagre". */
+function packageOf(input) {
+  const inside = path.relative(nodeModules, path.resolve(here, input)).split(path.sep);
+  if (inside[0] === "..") return undefined;
+  return inside.slice(0, inside[0].startsWith("@") ? 2 : 1).join("/");
+}
+
+/** The packages, and what they were made of themselves. */
+async function withDependencies(packages) {
+  const found = new Set(packages);
+  for (const name of found) {
+    const description = JSON.parse(await readFile(path.join(nodeModules, name, "package.json"), "utf8"));
+    for (const dependency of Object.keys(description.dependencies ?? {})) found.add(dependency);
+  }
+  return [...found].sort();
+}
+
+/** The licences of all that is bundled, as their authors want them passed on. */
+async function licences(inputs) {
+  const packages = await withDependencies(inputs.map(packageOf).filter(Boolean));
+  const texts = packages.map(async (name) => {
+    const text = await readFile(path.join(nodeModules, name, "LICENSE"), "utf8");
+    return `${name}\n\n${text.trim()}`;
+  });
+  return (await Promise.all(texts)).join("\n\n\n");
+}
+
+const escapeHtml = (text) => text.replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c]);
+
+/** A string literal may not be too long for every compiler, so it is one of many pieces. */
+function cppSource(html) {
+  const pieces = html.match(/[^]{1,12000}/gu).map((piece) => `R"page(${piece})page"`);
+  return [
+    "// Made from master/report/page by build.mjs.",
+    '#include "master/report/page.h"',
+    "",
+    "namespace stride::report {",
+    "",
+    "std::string_view page() {",
+    "  static constexpr char kPage[] =",
+    pieces.join("\n"),
+    ";",
+    "  return {kPage, sizeof kPage - 1};",
+    "}",
+    "",
+    "}  // namespace stride::report",
+    "",
+  ].join("\n");
+}
+
+const [script, style, template] = await Promise.all([
+  bundle("src/main.js"),
+  bundle("src/style.css"),
+  readFile(path.join(here, "src/page.html"), "utf8"),
+]);
+const parts = {
+  "<!-- stride:style -->": style.text,
+  "<!-- stride:script -->": script.text.replaceAll("</script", "<\\/script"),
+  "<!-- stride:licences -->": escapeHtml(await licences([...script.inputs, ...style.inputs])),
+};
+let html = template;
+for (const [mark, text] of Object.entries(parts)) {
+  if (html.split(mark).length !== 2) throw new Error(`src/page.html: expected "${mark}" once`);
+  html = html.replace(mark, () => text);
+}
+if (html.split("\n<!-- stride:data -->\n").length !== 2) {
+  throw new Error('src/page.html: expected the line "<!-- stride:data -->" once');
+}
+await mkdir(output, { recursive: true });
+await writeFile(path.join(output, "report_page.html"), html);
+await writeFile(path.join(output, "page.cpp"), cppSource(html));

@@ -1,0 +1,35 @@
+// What the program takes for granted of the page: where the data goes, and that it needs nothing
+// from elsewhere.
+#include "master/report/page.h"
+
+#include <regex>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+namespace report = stride::report;
+
+TEST_CASE("the mark for the data stands in the page once, on its own line, before the script") {
+  const std::string page(report::page());
+  const std::string line = "\n" + std::string(report::kDataMark) + "\n";
+  const std::size_t mark = page.find(line);
+  REQUIRE(mark != std::string::npos);
+  CHECK(page.find(report::kDataMark, mark + line.size()) == std::string::npos);
+  CHECK(page.find("<script>", mark) != std::string::npos);
+}
+
+TEST_CASE("the page loads nothing and allows nothing to be loaded") {
+  const std::string page(report::page());
+  CHECK(page.find("default-src 'none'") != std::string::npos);
+  const std::regex loads(R"re((src|href)=["']?(https?:)?//)re");
+  CHECK_FALSE(std::regex_search(page, loads));
+}
+
+TEST_CASE("the page carries the licences of what is bundled") {
+  const std::string page(report::page());
+  for (const char* name : {"uplot", "@dagrejs/dagre", "@dagrejs/graphlib"}) {
+    INFO(name);
+    CHECK(page.find(std::string("\n") + name + "\n") != std::string::npos);
+  }
+  CHECK(page.find("Permission is hereby granted") != std::string::npos);
+}
