@@ -17,6 +17,7 @@
 #include "master/cli/interruption.h"
 #include "master/cli/loaded_scenario.h"
 #include "master/cli/progress.h"
+#include "master/cli/report_page.h"
 #include "master/cli/scenario_options.h"
 #include "master/cli/summary.h"
 #include "master/cli/verdicts.h"
@@ -39,6 +40,8 @@ struct Request {
   std::size_t threads = 1;
   std::optional<ProgressStyle> progress;
   bool no_trace = false;
+  bool no_report = false;
+  bool open = false;  ///< the report
   bool quiet = false;
 };
 
@@ -65,9 +68,10 @@ struct Recorders {
   }
 };
 
-std::filesystem::path make_folder(const Request& request, const io::Scenario& scenario) {
-  std::filesystem::path folder =
-      request.out.empty() ? std::filesystem::path("results") / scenario.stem() : request.out;
+std::filesystem::path make_folder(const Request& request, const LoadedScenario& loaded) {
+  std::filesystem::path folder = request.out.empty()
+                                     ? std::filesystem::path("results") / loaded.scenario().stem()
+                                     : request.out;
   io::make_results_folder(folder);
   // where units put the files that they write themselves
   ::setenv("STRIDE_RESULTS", std::filesystem::absolute(folder).c_str(), 1);
@@ -77,7 +81,11 @@ std::filesystem::path make_folder(const Request& request, const io::Scenario& sc
 io::ResultFiles chosen_files(const Request& request, const io::Scenario& scenario) {
   io::ResultFiles files = scenario.annotation.results;
   if (request.no_trace) files.trace.clear();
-  files.report.clear();
+  if (request.no_report || !has_reports()) files.report.clear();
+  if (request.open && files.report.empty()) {
+    core::fail_input({}, "--open: this run writes no report",
+                     "leave --open out, or let the run write its report");
+  }
   return files;
 }
 
@@ -109,7 +117,7 @@ class RecordedRun {
       : request_(request),
         loaded_(request.scenario),
         files_(chosen_files(request, loaded_.scenario())),
-        folder_(make_folder(request, loaded_.scenario())),
+        folder_(make_folder(request, loaded_)),
         options_(run_options(request, loaded_)),
         capture_(loaded_.system(), loaded_.scenario().name, options_, captures(request)),
         simulation_(loaded_.system(), captured_units(), options_),
@@ -133,11 +141,13 @@ class RecordedRun {
       // the first failure is the one to tell
       warn_of_failure([&] { capture_.end(fmt::format("failed: {}", failure.what())); });
       warn_of_failure([&] { write_statistics(failure.what()); });
+      warn_of_failure([&] { report(); });
       throw;
     }
     progress_.end(name(simulation_.statistics().end));
     capture_.end(name(simulation_.statistics().end));
     write_statistics(std::nullopt);
+    report();
     if (!request_.quiet) print();
     require_end();
     require_passed(loaded_.system(), simulation_.verdicts());
@@ -169,6 +179,12 @@ class RecordedRun {
                                                      .error = error,
                                                      .files = files_,
                                                      .plots = loaded_.plots()});
+  }
+
+  void report() const {
+    if (files_.report.empty()) return;
+    write_report(folder_, files_, folder_ / files_.report);
+    if (request_.open) warn_of_failure([&] { open_in_browser(folder_ / files_.report); });
   }
 
   void require_end() const {
@@ -224,8 +240,8 @@ void add_run(CLI::App& app) {
   // a flag, so that what follows a blank is the scenario; without a value it is "true"
   command
       ->add_flag("--film", request->scenario.film,
-                 "Pictures of the world in film/, each 0.1 s or as in --film=SECONDS of simulated "
-                 "time")
+                 "Pictures of the MuJoCo worlds in film/, 0.1 s of simulated time from one to the "
+                 "next, or as in --film=SECONDS")
       ->transform([](const std::string& value) { return value == "true" ? kFilmAsItIs : value; });
   command->add_flag("--no-trace", request->no_trace, "Write no signals.vcd");
   command
@@ -236,6 +252,8 @@ void add_run(CLI::App& app) {
           "a "
           "line now and then), plain, json (an object a line, for programs) or none")
       ->type_name("STYLE");
+  command->add_flag("--no-report", request->no_report, "Write no report.html");
+  command->add_flag("--open", request->open, "Open the report in a browser when the run is over");
   command->add_flag("--quiet,-q", request->quiet, "Print nothing but errors");
   command->callback([request] { RecordedRun(*request).run(); });
 }

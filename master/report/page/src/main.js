@@ -14,11 +14,10 @@ import { MessageTable } from "./parts/message_table.js";
 import { Theme } from "./parts/theme.js";
 import { Tip } from "./parts/tip.js";
 import { Toolbar } from "./parts/toolbar.js";
-import { groupIntoPanes } from "./plot/grouping.js";
+import { groupIntoPanes, groupOthers } from "./plot/grouping.js";
 import { Legend } from "./plot/legend.js";
 import { Pane } from "./plot/pane.js";
 import { Ruler } from "./plot/ruler.js";
-import { suitsLogarithm } from "./plot/scale.js";
 import { StatesPane } from "./plot/states.js";
 import { Stack } from "./stack.js";
 import { View } from "./view.js";
@@ -42,43 +41,49 @@ function actionsOf(context, theme, help) {
 
 const row = (box, side) => h("div.row", {}, h("div.plot", {}, box), h("div.side", {}, side));
 
-function addFilms(context, stack) {
-  for (const film of context.report.films.filter(({ frames }) => frames.length > 0)) {
-    const strip = new FilmStrip(context, film);
-    stack.add({ element: row(strip.box, strip.picture), draw: (width) => strip.draw(width) });
-    context.view.addEventListener("cursor", () => strip.update());
-    context.view.addEventListener("view", () => strip.update());
+/** Films and messages stand in one row, for the picture beside them is high. */
+function addFilmsAndMessages(context, stack) {
+  const { report, view } = context;
+  const strips = report.films.filter(({ frames }) => frames.length > 0).map((film) => new FilmStrip(context, film));
+  for (const name of ["cursor", "view"]) {
+    view.addEventListener(name, () => strips.forEach((strip) => strip.update()));
   }
-}
-
-function addMessages(context, stack) {
-  if (context.report.messages.length === 0) return stack.body.append(note("No messages were sent."));
   const lanes = new MessageLanes(context);
-  const legend = h("div.legend", {}, h("h3", {}, "Messages"), note("▲ sent, △ received. n and p go from one to the next."));
-  stack.add({ element: row(lanes.box, legend), draw: (width) => lanes.draw(width) });
+  const words = lanes.isEmpty ? "No messages were sent." : "Messages: ▲ sent, △ received. n: next, p: previous";
+  const element = row(h("div", {}, ...strips.map((strip) => strip.box), lanes.box), note(words));
+  element.lastChild.prepend(...strips.map((strip) => strip.picture));
+  stack.add({ element, draw: (width) => [...strips, lanes].forEach((part) => part.draw(width)) });
 }
 
-function makePane(context, group) {
-  if (group.isStates) return new StatesPane(context, group.columns);
-  const isLogarithmic = group.scale ? group.scale === "logarithmic" : suitsLogarithm(group.columns);
-  return new Pane(context, group.columns, isLogarithmic);
+/** One pane with its legend. */
+function addPane(context, stack, group, firstColor, parent) {
+  const Kind = group.isStates ? StatesPane : Pane;
+  const pane = new Kind(context, group.columns, firstColor);
+  const entry = { pane, draw: (width) => pane.draw(width) };
+  const legend = new Legend(group, pane, () => stack.redrawRow(entry));
+  entry.element = row(pane.box, legend.box);
+  entry.element.classList.add("pane");
+  stack.add(entry, parent);
+  const update = () => legend.update(rowAtCursor(context));
+  context.view.addEventListener("cursor", update);
+  update();
 }
 
 function addPanes(context, stack) {
-  const groups = groupIntoPanes(context.report);
-  if (groups.length === 0) stack.body.append(note("No signals were recorded."));
-  const legends = groups.map((group) => {
-    const pane = makePane(context, group);
-    const entry = { pane, draw: (width) => pane.draw(width) };
-    const legend = new Legend(group, pane, () => stack.redrawRow(entry));
-    entry.element = row(pane.box, legend.box);
-    entry.element.classList.add("pane");
-    stack.add(entry);
-    return legend;
-  });
-  const update = () => legends.forEach((legend) => legend.update(rowAtCursor(context)));
-  context.view.addEventListener("cursor", update);
-  update();
+  const { report } = context;
+  if (report.columns.size === 0) return stack.body.append(note("No signals were recorded."));
+  let colors = 0;
+  const add = (group, parent) => {
+    addPane(context, stack, group, colors, parent);
+    colors += group.isStates ? 1 : group.columns.length;
+  };
+  groupIntoPanes(report).forEach((group) => add(group));
+  const others = groupOthers(report);
+  if (others.length === 0) return;
+  const count = others.reduce((sum, { columns }) => sum + columns.length, 0);
+  const box = h("details.others", {}, h("summary", {}, `${count} more recorded ${count === 1 ? "signal" : "signals"}`));
+  stack.body.append(box);
+  others.forEach((group) => add(group, box));
 }
 
 function addActivity(context, stack) {
@@ -99,13 +104,11 @@ function timeStack(context, actions) {
   const ruler = new Ruler(context);
   const rulerRow = row(ruler.box, null);
   const head = h("div.timebar", {}, toolbar.box, rulerRow);
-  const stack = new Stack(context.view, head);
-  stack.measure = rulerRow.firstChild;
+  const stack = new Stack(context.view, head, rulerRow.firstChild);
   stack.add({ element: rulerRow, draw: (width) => ruler.draw(width) }, head);
   for (const name of ["view", "cursor"]) context.view.addEventListener(name, () => toolbar.update());
   toolbar.update();
-  addFilms(context, stack);
-  addMessages(context, stack);
+  addFilmsAndMessages(context, stack);
   addPanes(context, stack);
   addActivity(context, stack);
   return stack;

@@ -19,13 +19,21 @@ export class Stack {
   #visible = new Set();
   #rows = new Map();
 
-  constructor(view, head) {
+  /**
+   * @param {import("./view.js").View} view
+   * @param {HTMLElement} head stays at the top while the rows scroll
+   * @param {HTMLElement} measure as wide as the drawings; a mark at the cursor is put into it
+   */
+  constructor(view, head, measure) {
     this.view = view;
+    this.measure = measure;
     this.line = h("div.cursor-line", { "aria-hidden": "true", hidden: true });
     this.selection = h("div.selection", { "aria-hidden": "true", hidden: true });
     this.body = h("div.stack-body");
     this.clip = h("div.stack-overlay", { "aria-hidden": "true" }, this.line, this.selection);
     this.element = h("div.stack", {}, head, this.body, this.clip);
+    this.mark = h("div.cursor-line", { "aria-hidden": "true", hidden: true });
+    measure.append(this.mark);
     this.observer = new IntersectionObserver((entries) => this.#onSight(entries), { rootMargin: "300px" });
     new ResizeObserver(() => this.redraw()).observe(this.body);
     view.addEventListener("view", () => this.redraw());
@@ -43,7 +51,7 @@ export class Stack {
 
   /** Width of the drawings [px]. */
   get width() {
-    return this.measure ? this.measure.clientWidth : 0;
+    return this.measure.clientWidth;
   }
 
   /** Draws all that is in sight; the rest when it comes into sight. */
@@ -85,9 +93,11 @@ export class Stack {
   #placeLine() {
     const { cursor, isHeld } = this.view;
     const share = cursor === null ? -1 : this.view.shareOf(cursor);
-    this.line.hidden = !(share >= 0 && share <= 1);
-    this.line.classList.toggle("held", isHeld);
-    this.line.style.transform = `translateX(${kGutter + share * (this.width - kGutter)}px)`;
+    for (const line of [this.line, this.mark]) {
+      line.hidden = !(share >= 0 && share <= 1);
+      line.classList.toggle("held", isHeld);
+      line.style.transform = `translateX(${kGutter + share * (this.width - kGutter)}px)`;
+    }
     this.clip.style.width = `${this.width}px`;
   }
 

@@ -26,11 +26,19 @@ function shortest(magnitude, parts) {
   return short.length <= long.length ? short : long;
 }
 
+/** With so many digits behind the first one; in the middle between two numbers the one with an even last digit. */
+function rounded(magnitude, count) {
+  const { digits, exponent } = scientific(magnitude.toExponential(60));
+  const isInTheMiddle = /^50*$/.test(digits.slice(count + 1));
+  if (isInTheMiddle && Number(digits[count]) % 2 === 0) return { digits: digits.slice(0, count + 1), exponent };
+  return scientific(magnitude.toExponential(count));
+}
+
 /** The shortest text of a single-precision number has fewer digits than that of the double with its value. */
 function singleParts(magnitude) {
-  for (let digits = 0; digits < 9; ++digits) {
-    const text = magnitude.toExponential(digits);
-    if (Math.fround(Number(text)) === magnitude) return scientific(text.replace(/\.?0*e/, "e"));
+  for (let count = 0; count < 9; ++count) {
+    const parts = rounded(magnitude, count);
+    if (Math.fround(Number(withExponent(parts))) === magnitude) return parts;
   }
   return scientific(magnitude.toExponential());
 }

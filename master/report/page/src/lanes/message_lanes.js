@@ -20,6 +20,10 @@ export class MessageLanes {
     );
   }
 
+  get isEmpty() {
+    return this.lanes.length === 0;
+  }
+
   draw(width) {
     for (const lane of this.lanes) {
       const marks = layOut(lane.messages, this.view, width - kGutter);

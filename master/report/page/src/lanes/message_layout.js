@@ -6,6 +6,14 @@ export const kMarkWidth = 12;
 const kTextRoom = 28;
 /** Between a text and the next mark [px]. */
 const kGap = 6;
+/** A character of "+12" [px]. */
+const kDigit = 7;
+
+/** How far the next mark must be from this one [px]: behind "+12", where that stands there. */
+function widthOf(mark) {
+  const others = mark.messages.length - 1;
+  return kMarkWidth + (others > 0 ? kGap + kDigit * (1 + String(others).length) : 0);
+}
 
 /**
  * @typedef {object} Mark
@@ -30,7 +38,7 @@ export function layOut(messages, view, width) {
     if (message.seconds < view.from || message.seconds > view.until) continue;
     const x = (message.seconds - view.from) * scale;
     const last = marks.at(-1);
-    if (last && x - last.x < kMarkWidth) last.messages.push(message);
+    if (last && x - last.x < widthOf(last)) last.messages.push(message);
     else marks.push({ x, messages: [message], text: "", more: "", room: 0 });
   }
   marks.forEach((mark, index) => label(mark, marks[index + 1]?.x ?? width + kMarkWidth));
@@ -40,7 +48,7 @@ export function layOut(messages, view, width) {
 function label(mark, next) {
   const others = mark.messages.length - 1;
   mark.more = others > 0 ? `+${others}` : "";
-  mark.room = Math.max(0, next - mark.x - kMarkWidth - kGap);
+  mark.room = Math.max(0, next - mark.x - widthOf(mark) - kGap);
   if (mark.room >= kTextRoom) mark.text = shortText(mark.messages[0]);
 }
 

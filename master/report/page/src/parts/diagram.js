@@ -23,14 +23,14 @@ function laidOut(diagram, edges) {
   return graph;
 }
 
-/** A smooth line through the points. */
-function curve([first, ...points]) {
-  if (points.length < 2) return `M${first.x},${first.y} L${points[0]?.x ?? first.x},${points[0]?.y ?? first.y}`;
-  let path = `M${first.x},${first.y}`;
-  for (let i = 0; i < points.length - 1; ++i) {
-    const isLast = i === points.length - 2;
-    const end = isLast ? points[i + 1] : { x: (points[i].x + points[i + 1].x) / 2, y: (points[i].y + points[i + 1].y) / 2 };
-    path += ` Q${points[i].x},${points[i].y} ${end.x},${end.y}`;
+/** A smooth line through the points (Catmull and Rom's, as Bézier curves). */
+export function curve(points) {
+  let path = `M${points[0].x},${points[0].y}`;
+  for (let i = 0; i + 1 < points.length; ++i) {
+    const [before, from, to, behind] = [points[i - 1] ?? points[i], points[i], points[i + 1], points[i + 2] ?? points[i + 1]];
+    const first = { x: from.x + (to.x - before.x) / 6, y: from.y + (to.y - before.y) / 6 };
+    const second = { x: to.x - (behind.x - from.x) / 6, y: to.y - (behind.y - from.y) / 6 };
+    path += ` C${first.x},${first.y} ${second.x},${second.y} ${to.x},${to.y}`;
   }
   return path;
 }

@@ -20,7 +20,7 @@ export function header({ report, view }) {
   return h(
     "header",
     {},
-    h("h1", {}, run.system ?? "A run", h("span.outcome", {}, outcomeText(run))),
+    h("h1", {}, run.system ?? "A run", " ", h("span.outcome", {}, outcomeText(run))),
     h("p.origin", {}, run.scenario ?? "", report.version ? ` · stride ${report.version}` : ""),
     banner(summary(run), view),
     run.error ? h("pre.error", {}, run.error) : null,

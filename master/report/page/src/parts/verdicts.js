@@ -73,7 +73,8 @@ function row({ name, passed, text, time, values, line }, view) {
 export function verdictTable(run, view) {
   const all = judgements(run);
   if (all.length === 0) return null;
-  const heads = ["", "verdict of", "because", "first failed at"].map((text) => h("th", { scope: "col" }, text));
+  const isTimed = all.some(({ time }) => time !== null);
+  const heads = ["", "verdict of", "because", isTimed ? "first failed at" : ""].map((text) => h("th", { scope: "col" }, text));
   const rows = all.map((judgement) => row(judgement, view));
   return h("table.verdicts", {}, h("thead", {}, h("tr", {}, ...heads)), h("tbody", {}, ...rows));
 }

@@ -6,6 +6,8 @@ export const kColors = 6;
 /** The value of a custom property of the page: color("--curve-1"). */
 export const color = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-/** How the n-th curve of a pane is drawn. */
+/** The n-th colour of curves. */
 export const curveColor = (index) => `--curve-${(index % kColors) + 1}`;
+
+/** How the n-th curve of a pane is dashed. */
 export const curveDash = (index) => [[], [7, 3], [2, 2]][Math.floor(index / kColors) % 3];

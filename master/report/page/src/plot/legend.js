@@ -11,7 +11,7 @@ export class Legend {
   constructor(group, pane, changed) {
     this.pane = pane;
     this.entries = group.columns.map((column, index) => this.#entry(column, index, group.isStates, changed));
-    const scale = group.isStates ? null : this.#scaleButton(changed);
+    const scale = pane.canBeLogarithmic ? this.#scaleButton(changed) : null;
     this.box = h(
       "div.legend",
       {},
@@ -31,8 +31,6 @@ export class Legend {
 
   #entry(column, index, isStates, changed) {
     const value = h("output.value", { "aria-label": `value of ${column.name}` });
-    const line = isStates ? curveColor(0) : curveColor(index);
-    const isDashed = !isStates && curveDash(index).length > 0;
     const button = h(
       "button.signal",
       {
@@ -47,7 +45,7 @@ export class Legend {
         onmouseenter: () => this.pane.highlight(column),
         onmouseleave: () => this.pane.highlight(null),
       },
-      h("span.swatch", { style: { borderTopColor: `var(${line})`, borderTopStyle: isDashed ? "dashed" : "solid" } }),
+      isStates ? null : h("span.swatch", { style: swatch(this.pane.firstColor, index) }),
       h("span.signal-name", {}, breakable(column.name)),
     );
     return { column, value, element: h("li", {}, button, value) };
@@ -78,6 +76,11 @@ export class Legend {
     return button;
   }
 }
+
+const swatch = (firstColor, index) => ({
+  borderTopColor: `var(${curveColor(firstColor + index)})`,
+  borderTopStyle: curveDash(index).length > 0 ? "dashed" : "solid",
+});
 
 /** A name may go on in the next line behind each point. */
 const breakable = (name) => name.replaceAll(".", ".\u200b");

@@ -4,31 +4,45 @@ import uPlot from "uplot";
 import { color, curveColor, curveDash } from "./colors.js";
 import { kGutter } from "./layout.js";
 import { timeTicks } from "./ruler.js";
-import { finiteExtremes, intoRange, linearRange, logarithmicRange } from "./scale.js";
+import { finiteExtremes, hasNothingNegative, intoRange, isMostlySmall, linearRange, logarithmicRange } from "./scale.js";
 import { shadeIntervals } from "./shade.js";
 import { groupTimes, groupValues, rowGroups } from "./thin.js";
+import { trace, Tracer } from "./trace.js";
 import { commonExponent, powerText, ticks, valueTickTexts } from "./ticks.js";
 
 const kHeight = 132;
 const kFont = "11px system-ui, sans-serif";
-/** Pixels between the numbers of the vertical axis, at least. */
-const kTickDistance = 24;
+/** Width of curves [px]. */
+const kLine = 1.5;
+/** Samples have dots where there is this much room between them [px]. */
+const kDotDistance = 14;
+/** uPlot draws no data of its own. */
+const kNothing = [null, null];
+/** As many numbers stand along the vertical axis at most. */
+const kMostTicks = 6;
 
 export class Pane {
   /**
    * @param {object} context report and view
    * @param {import("../data/report.js").Column[]} columns of one unit of measure
-   * @param {boolean} isLogarithmic
+   * @param {number} firstColor of its curves; the panes above have those before
    */
-  constructor({ report, view }, columns, isLogarithmic) {
+  constructor({ report, view }, columns, firstColor) {
     this.report = report;
     this.view = view;
     this.columns = columns;
+    this.firstColor = firstColor;
     this.hidden = new Set();
     this.highlighted = null;
-    this.isLogarithmic = isLogarithmic;
+    /** Whether all values are whole numbers. */
+    this.isWhole = columns.every(({ type }) => !type.startsWith("Float"));
+    this.canBeLogarithmic = !this.isWhole && columns.every(hasNothingNegative);
+    this.isLogarithmic = this.canBeLogarithmic && columns.some(isMostlySmall);
     this.range = [0, 1];
     this.exponent = 0;
+    /** What is drawn of each curve: its points, and the bars that these have become. */
+    this.drawn = columns.map(() => ({ groups: [], times: [], values: [] }));
+    this.bars = [];
     this.box = document.createElement("div");
     this.box.className = "pane-canvas";
   }
@@ -44,9 +58,9 @@ export class Pane {
     this.#fit(drawn);
     this.pointCount = groups.length === 0 ? 0 : Math.max(0, ...drawn.map((values) => values.length));
     const times = groupTimes(seconds, groups);
-    const curves = drawn.map((values) => (values.length > 0 ? intoRange(values, this.range) : times.map(() => null)));
+    this.drawn = drawn.map((values) => ({ groups, times, values: intoRange(values, this.range) }));
     this.plot.batch(() => {
-      this.plot.setData([times, ...curves], false);
+      this.plot.setData([[this.view.from, this.view.until], ...drawn.map(() => kNothing)], false);
       this.plot.setScale("x", { min: this.view.from, max: this.view.until });
       this.plot.setScale("y", { min: this.range[0], max: this.range[1] });
     });
@@ -89,8 +103,12 @@ export class Pane {
         y: { auto: false, distr: this.isLogarithmic ? 3 : 1 },
       },
       axes: [this.#timeAxis(), this.#valueAxis()],
-      series: [{}, ...this.columns.map((column, index) => this.#series(column, index))],
-      hooks: { drawClear: [(plot) => this.#shadeIdleTime(plot)], draw: [(plot) => this.#nameAxis(plot)] },
+      series: [{}, ...this.columns.map((column, index) => this.#series(index))],
+      hooks: {
+        drawClear: [(plot) => this.#shadeIdleTime(plot)],
+        drawSeries: [(plot, series) => this.#fillBars(plot, series - 1)],
+        draw: [(plot) => this.#nameAxis(plot)],
+      },
     };
     this.plot = new uPlot(options, [[], ...this.columns.map(() => [])], this.box);
   }
@@ -113,7 +131,7 @@ export class Pane {
       stroke: () => color("--quiet-text"),
       ticks: { show: false },
       grid: { stroke: () => color("--grid"), width: 1 },
-      splits: () => (this.isLogarithmic ? decades(this.range) : ticks(...this.range, kHeight / kTickDistance - 1).values),
+      splits: () => (this.isLogarithmic ? decades(this.range) : ticks(...this.range, kMostTicks, this.isWhole ? 1 : 0).values),
       filter: (plot, splits) => splits,
       values: (plot, splits) =>
         this.isLogarithmic
@@ -122,16 +140,48 @@ export class Pane {
     };
   }
 
-  #series(column, index) {
-    const isFaint = () => this.highlighted !== null && this.highlighted !== column;
+  #series(index) {
     return {
       scale: "y",
-      width: 1.5,
-      stroke: () => color(curveColor(index)) + (isFaint() ? "40" : ""),
+      width: kLine,
+      stroke: () => this.#curveColor(index),
       dash: curveDash(index),
       points: { show: false },
-      paths: column.stepped ? uPlot.paths.stepped({ align: 1 }) : uPlot.paths.linear(),
+      paths: (plot) => this.#paths(plot, index),
     };
+  }
+
+  /** uPlot gives places, scales and axes; what is drawn of so many rows is ours. */
+  #paths({ bbox, scales }, index) {
+    const ratio = window.devicePixelRatio || 1;
+    const points = this.drawn[index];
+    const line = new Path2D();
+    const bars = (this.bars[index] = []);
+    const sink = {
+      moveTo: (x, y) => line.moveTo(x, y),
+      lineTo: (x, y) => line.lineTo(x, y),
+      rect: (...box) => bars.push(box.map(Math.round)),
+    };
+    const hasDots = points.groups.length / 2 < bbox.width / (kDotDistance * ratio);
+    const tracer = new Tracer(sink, { isStepped: this.columns[index].stepped, hasDots, width: kLine * ratio });
+    if (points.values.length > 0) trace(tracer, points, places(bbox, scales, this.isLogarithmic));
+    return { stroke: line, fill: null, clip: null, band: null, gaps: null, flags: 0 };
+  }
+
+  /** One by one, for a browser takes much longer to fill them all as one path. */
+  #fillBars({ ctx, bbox }, index) {
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+    ctx.clip();
+    ctx.fillStyle = this.#curveColor(index);
+    for (const box of this.bars[index] ?? []) ctx.fillRect(...box);
+    ctx.restore();
+  }
+
+  #curveColor(index) {
+    const isFaint = this.highlighted !== null && this.highlighted !== this.columns[index];
+    return color(curveColor(this.firstColor + index)) + (isFaint ? "40" : "");
   }
 
   #shadeIdleTime({ ctx, bbox }) {
@@ -150,10 +200,20 @@ export class Pane {
   }
 }
 
+/** Where times and values are in the picture [px of the screen]. */
+function places(bbox, { x, y }, isLogarithmic) {
+  const measure = isLogarithmic ? Math.log10 : (value) => value;
+  const [bottom, top] = [measure(y.min), measure(y.max)];
+  return {
+    x: (time) => bbox.left + ((time - x.min) / (x.max - x.min)) * bbox.width,
+    y: (value) => bbox.top + (1 - (measure(value) - bottom) / (top - bottom)) * bbox.height,
+  };
+}
+
 function decades([bottom, top]) {
   const first = Math.round(Math.log10(bottom));
   const last = Math.round(Math.log10(top));
-  const step = Math.max(1, Math.ceil((last - first) / (kHeight / kTickDistance - 1)));
+  const step = Math.max(1, Math.ceil((last - first) / kMostTicks));
   const found = [];
   for (let exponent = first; exponent <= last; exponent += step) found.push(10 ** exponent);
   return found;

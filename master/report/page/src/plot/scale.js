@@ -42,14 +42,6 @@ export function logarithmicRange({ most, leastPositive }) {
 export const intoRange = (values, [bottom, top]) =>
   values.map((value) => (value === null ? null : Math.min(top, Math.max(bottom, value))));
 
-/**
- * Whether a pane is easier to read on a logarithmic axis: nothing is negative, and what is usual would lie at the bottom.
- * @param {{values: ArrayLike<number>}[]} columns
- */
-export function suitsLogarithm(columns) {
-  return columns.some(isMostlySmall) && columns.every(hasNothingNegative);
-}
-
 function samples({ values }) {
   const step = Math.max(1, Math.floor(values.length / 2000));
   const found = [];
@@ -57,9 +49,11 @@ function samples({ values }) {
   return found;
 }
 
-const hasNothingNegative = ({ pyramid, values }) => !(pyramid.extremes(0, values.length).least < 0);
+/** Without NaN, that is. */
+export const hasNothingNegative = ({ pyramid, values }) => !(pyramid.extremes(0, values.length).least < 0);
 
-function isMostlySmall(column) {
+/** Whether what is usual would lie at the bottom of a linear axis, so that a logarithmic one shows more. */
+export function isMostlySmall(column) {
   const { most } = column.pyramid.extremes(0, column.values.length);
   const positive = samples(column)
     .filter((value) => value > 0)

@@ -11,11 +11,12 @@ const kFont = "11px system-ui, sans-serif";
 const kTextRoom = 24;
 
 export class StatesPane {
-  /** @param {import("../data/report.js").Column[]} columns Booleans and texts */
-  constructor({ report, view }, columns) {
+  /** @param {import("../data/report.js").Column[]} columns Booleans and texts @param {number} firstColor of the bars */
+  constructor({ report, view }, columns, firstColor) {
     this.report = report;
     this.view = view;
     this.columns = columns;
+    this.firstColor = firstColor;
     this.hidden = new Set();
     this.box = document.createElement("canvas");
     this.box.className = "states-canvas";
@@ -41,7 +42,7 @@ export class StatesPane {
     for (const state of states(column, this.report.seconds, groups)) {
       const box = { ...middle, left: place(state.from), right: place(state.until ?? this.view.whole.until) };
       if (column.texts) drawText(context, box, state, column);
-      else drawBoolean(context, box, state);
+      else drawBoolean(context, box, state, curveColor(this.firstColor));
     }
   }
 
@@ -79,9 +80,9 @@ function append(found, state) {
   found.push(state);
 }
 
-function drawBoolean(context, { left, right, top, height }, { value, isMixed }) {
+function drawBoolean(context, { left, right, top, height }, { value, isMixed }, colorName) {
   if (!isMixed && !value) return;
-  context.fillStyle = color(isMixed ? "--quiet-text" : curveColor(0));
+  context.fillStyle = color(isMixed ? "--quiet-text" : colorName);
   context.fillRect(left, top, Math.max(1, right - left), height);
 }
 

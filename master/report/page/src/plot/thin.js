@@ -1,9 +1,6 @@
-// What of the rows is drawn: all, where there are few; else of each pixel the first, the least, the most and the last, by which
-// a line through the points looks like one through all rows, and no spike is lost.
+// What of the rows is drawn: each, where it has a pixel of its own; else of each pixel the first, the least, the most and the
+// last, by which the picture is that of all rows, and no spike is lost.
 import { lastAtOrBefore } from "../data/exact_time.js";
-
-/** As many rows of a pixel are taken as they are. */
-const kPlain = 4;
 
 /** The first row at or after `from` whose time is at or after `time`. The step grows, since it is mostly near. */
 function rowAtOrAfter(times, time, from) {
@@ -57,7 +54,7 @@ export function groupTimes(times, groups) {
   for (let g = 0; g < groups.length; g += 2) {
     const begin = groups[g];
     const end = groups[g + 1];
-    if (end - begin <= kPlain) for (let row = begin; row < end; ++row) points.push(times[row]);
+    if (end - begin === 1) points.push(times[begin]);
     else points.push(times[begin], times[begin], times[end - 1], times[end - 1]);
   }
   return points;
@@ -74,8 +71,8 @@ export function groupValues(pyramid, groups) {
   for (let g = 0; g < groups.length; g += 2) {
     const begin = groups[g];
     const end = groups[g + 1];
-    if (end - begin <= kPlain) {
-      for (let row = begin; row < end; ++row) points.push(orGap(values[row]));
+    if (end - begin === 1) {
+      points.push(orGap(values[begin]));
       continue;
     }
     const { least, most } = pyramid.extremes(begin, end);

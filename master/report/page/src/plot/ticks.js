@@ -10,9 +10,9 @@ export function roundStep(span, most) {
   return step * power;
 }
 
-/** The multiples of a round step in [from, until]. */
-export function ticks(from, until, most) {
-  const step = roundStep(until - from, most);
+/** The multiples of a round step, which is no less than `least`, in [from, until]. */
+export function ticks(from, until, most, least = 0) {
+  const step = Math.max(least, roundStep(until - from, most));
   const first = Math.ceil(from / step - 1e-9);
   const last = Math.floor(until / step + 1e-9);
   const found = [];
