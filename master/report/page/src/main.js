@@ -140,6 +140,7 @@ function build(report) {
   document.title = `${report.run.system ?? "run"} – stride report`;
   const parts = [
     header(context),
+    ...report.notes.map((text) => h("p.warning", {}, text)),
     report.thinned ? h("p.warning", {}, thinnedText(report.thinned)) : null,
     stack.element,
     report.messages.length > 0 ? new MessageTable(context).box : null,

@@ -73,8 +73,7 @@ function marker(id) {
 export function diagramSection({ report, tip }) {
   const { diagram } = report;
   if (diagram.components.length === 0) return null;
-  const variables = new Set(report.messages.map(({ component, variable }) => `${component}.${variable}`));
-  const edges = bundles(diagram, variables);
+  const edges = bundles(diagram);
   const graph = laidOut(diagram, edges);
   const { width, height } = graph.graph();
   const drawing = svg(

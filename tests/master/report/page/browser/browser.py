@@ -46,14 +46,17 @@ class Browser:
 
     def open(self, path, dark=False, width=1400, height=1000):
         self.set_dark(dark)
-        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
-            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
+        self.resize(width, height)
         for kind in ("browser", "performance"):
             self.driver.get_log(kind)  # what was before is not of this page
         self.driver.get(path.resolve().as_uri())
         self.wait_for("return document.getElementById('report').getAttribute('aria-busy') === 'false'"
                       " || document.querySelector('[role=alert]') !== null")
         return self
+
+    def resize(self, width, height):
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
 
     def set_dark(self, dark):
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {

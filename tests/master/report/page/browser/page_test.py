@@ -61,8 +61,9 @@ class Run:
                       page_data.activity("pump", "idle", [(SECOND, 3 * SECOND)]),
                       page_data.activity("tank", "rejection", [(8 * SECOND, 9 * SECOND)])],
             diagram={"components": [{"name": unit["name"], "model": unit["model"]} for unit in self.units],
-                     "connections": [{"from": "tank.level", "to": "pump.level"}, {"from": "tank.limit", "to": "pump.limit"},
-                                     {"from": "pump.transmit.frame", "to": "tank.receive.frame"}]})
+                     "connections": [{"from": "tank.level", "to": "pump.level", "kind": "value"},
+                                     {"from": "tank.limit", "to": "pump.limit", "kind": "value"},
+                                     {"from": "pump.transmit.frame", "to": "tank.receive.frame", "kind": "message"}]})
 
     def row_at(self, seconds):
         return bisect.bisect_right([time / SECOND for time in self.times], seconds) - 1
