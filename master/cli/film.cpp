@@ -52,12 +52,4 @@ void switch_film_on(core::SystemDeclaration& system, const std::string& interval
   all.insert(is_default ? all.begin() : all.end(), values.begin(), values.end());
 }
 
-void forget_films(const core::System& system, const std::filesystem::path& results) {
-  for (const core::Component& component : system.components()) {
-    if (!makes_films(*component.description)) continue;
-    std::error_code none_there;
-    std::filesystem::remove(results / "film" / component.name / "frames.csv", none_there);
-  }
-}
-
 }  // namespace stride::cli

@@ -2,7 +2,6 @@
 #ifndef STRIDE_MASTER_CLI_FILM_H
 #define STRIDE_MASTER_CLI_FILM_H
 
-#include <filesystem>
 #include <string>
 
 #include "master/core/system.h"
@@ -19,10 +18,6 @@ inline constexpr const char* kFilmAsItIs = "as it is";
 /// have their descriptions. Throws core::Error (Input) for an interval that is not a positive
 /// number, and if no component has the parameter.
 void switch_film_on(core::SystemDeclaration& system, const std::string& interval);
-
-/// Takes the lists of pictures of an earlier run out of a results folder, so that none is taken for
-/// one of this run: of each component that has the parameter.
-void forget_films(const core::System& system, const std::filesystem::path& results);
 
 }  // namespace stride::cli
 

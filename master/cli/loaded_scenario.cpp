@@ -7,10 +7,12 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "master/checks/checks.h"
 #include "master/cli/film.h"
 #include "master/cli/unit_path.h"
 #include "master/core/step_size.h"
 #include "master/core/suggest.h"
+#include "master/io/check_selection.h"
 #include "master/io/component_selection.h"
 #include "master/io/signal_selection.h"
 #include "master/io/time_text.h"
@@ -104,14 +106,10 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   choose_hosts(request.hosts);
   check_steps();
   choose_idle_skips(request);
-  std::vector<io::SignalPattern> patterns = scenario_.annotation.record;
-  if (!request.signals.empty()) {
-    patterns.clear();
-    for (const std::string& text : request.signals) patterns.push_back({text, {"--signals", 0}});
-  }
-  options_.recorded = io::select_signals(*system_, patterns);
+  choose_signals(request);
   options_.threads.main_only =
       io::select_components(component_names(), scenario_.annotation.main_thread);
+  choose_checks(request);
 }
 
 std::vector<std::string> LoadedScenario::component_names() const {
@@ -197,6 +195,14 @@ void LoadedScenario::choose_steps(const io::StepChoice& request) {
   }
 }
 
+/// Their intervals are those of the scenario, whatever --stop says.
+void LoadedScenario::choose_checks(const ScenarioRequest& request) {
+  if (request.no_checks) return;
+  const std::optional<Time> stop = request.stop.empty() ? options_.stop : scenario_.stop;
+  checks_ = io::select_checks(*system_, scenario_.annotation.checks, {options_.start, stop});
+  options_.watched = checks::Checks(checks_).signals();
+}
+
 /// A component that is given snapshots can do more, and so its system is another one.
 void LoadedScenario::choose_hosts(const HostRequest& request) {
   auto& components = scenario_.system.components;
@@ -234,6 +240,19 @@ void LoadedScenario::choose_idle_skips(const ScenarioRequest& request) {
     choice.rules.insert(choice.rules.begin(), {{"*"}, true, skip, {"--max-skip", 0}});
   }
   options_.idle = choice.options(*system_, options_.step);
+}
+
+void LoadedScenario::choose_signals(const ScenarioRequest& request) {
+  const io::ScenarioAnnotation& chosen = scenario_.annotation;
+  if (request.signals.empty()) {
+    options_.recorded = io::select_signals(*system_, chosen.record);
+    plots_ = io::select_plots(*system_, options_.recorded, chosen.plots);
+    return;
+  }
+  std::vector<io::SignalPattern> patterns;
+  for (const std::string& text : request.signals) patterns.push_back({text, {"--signals", 0}});
+  options_.recorded = io::select_signals(*system_, patterns);
+  plots_ = io::remaining_plots(*system_, options_.recorded, chosen.plots);
 }
 
 void LoadedScenario::check_fixed_steps() const {

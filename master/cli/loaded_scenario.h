@@ -9,10 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "master/checks/definition.h"
 #include "master/cli/hosting.h"
 #include "master/core/simulation.h"
 #include "master/core/system.h"
 #include "master/fmi/fmu.h"
+#include "master/io/plot_selection.h"
 #include "master/io/scenario.h"
 
 namespace stride::cli {
@@ -27,6 +29,7 @@ struct ScenarioRequest {
   io::StepChoice step;               ///< replaces what the scenario says
   bool no_idle_skip = false;
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
+  bool no_checks = false;
   HostRequest hosts;
   std::string film;  ///< seconds between its pictures, or kFilmAsItIs; empty = none
 };
@@ -44,6 +47,10 @@ class LoadedScenario {
   /// Likewise; nothing for a component that has no process of its own.
   const std::vector<std::optional<Hosting>>& hostings() const { return hostings_; }
   const core::RunOptions& options() const { return options_; }
+  /// As the scenario has them, of what is recorded.
+  const std::vector<io::Plot>& plots() const { return plots_; }
+  /// What the scenario demands of the run; options() let them be watched.
+  const std::vector<checks::Definition>& checks() const { return checks_; }
 
   /// Fresh instances in the order of system().components(); what they log goes to the log. Those
   /// with processes of their own may write to the folder `results`, if it is not empty.
@@ -56,9 +63,11 @@ class LoadedScenario {
   void choose_early_returns();
   void choose_times(const ScenarioRequest& request);
   void choose_steps(const io::StepChoice& request);
+  void choose_checks(const ScenarioRequest& request);
   void choose_hosts(const HostRequest& request);
   void check_steps() const;
   void choose_idle_skips(const ScenarioRequest& request);
+  void choose_signals(const ScenarioRequest& request);
   void check_fixed_steps() const;
   void warn_of_internal_steps() const;
   std::vector<std::string> component_names() const;
@@ -69,6 +78,8 @@ class LoadedScenario {
   std::optional<core::System> system_;
   std::vector<std::optional<Hosting>> hostings_;
   core::RunOptions options_;
+  std::vector<io::Plot> plots_;
+  std::vector<checks::Definition> checks_;
 };
 
 /// The two sides of "LEFT=RIGHT", which an option was given. Throws core::Error (Input) that says

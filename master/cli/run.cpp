@@ -12,14 +12,18 @@
 #include <spdlog/spdlog.h>
 
 #include "master/capture/capture.h"
+#include "master/checks/checks.h"
 #include "master/cli/commands.h"
 #include "master/cli/film.h"
 #include "master/cli/interruption.h"
 #include "master/cli/loaded_scenario.h"
 #include "master/cli/progress.h"
+#include "master/cli/report_page.h"
 #include "master/cli/scenario_options.h"
 #include "master/cli/summary.h"
+#include "master/cli/test_report.h"
 #include "master/cli/verdicts.h"
+#include "master/io/activity_recorder.h"
 #include "master/io/csv_recorder.h"
 #include "master/io/event_recorder.h"
 #include "master/io/results_folder.h"
@@ -35,8 +39,12 @@ struct Request {
   ScenarioRequest scenario;
   std::filesystem::path out;
   std::vector<std::string> captures;  ///< "component=FILE"
+  std::filesystem::path junit;        ///< empty: none
   std::size_t threads = 1;
+  std::optional<ProgressStyle> progress;
   bool no_trace = false;
+  bool no_report = false;
+  bool open = false;  ///< the report
   bool quiet = false;
 };
 
@@ -45,27 +53,29 @@ struct Recorders {
   std::optional<io::CsvRecorder> signals;
   std::optional<io::EventRecorder> events;
   std::optional<io::VcdRecorder> trace;
+  std::optional<io::ActivityRecorder> activity;
 
   Recorders(const core::System& system, const io::ResultFiles& files,
             const std::filesystem::path& folder) {
     if (!files.signals.empty()) signals.emplace(system, folder / files.signals);
     if (!files.events.empty()) events.emplace(system, folder / files.events);
     if (!files.trace.empty()) trace.emplace(system, folder / files.trace);
+    if (!files.activity.empty()) activity.emplace(system, folder / files.activity);
   }
 
   void add_to(core::Simulation& simulation) {
     if (signals) simulation.add_observer(*signals);
     if (events) simulation.add_observer(*events);
     if (trace) simulation.add_observer(*trace);
+    if (activity) simulation.add_observer(*activity);
   }
 };
 
-std::filesystem::path make_folder(const Request& request, const LoadedScenario& loaded) {
+std::filesystem::path make_folder(const Request& request, const io::Scenario& scenario) {
   std::filesystem::path folder = request.out.empty()
-                                     ? std::filesystem::path("results") / loaded.scenario().stem()
+                                     ? std::filesystem::path("results") / io::stem(scenario.path)
                                      : request.out;
   io::make_results_folder(folder);
-  forget_films(loaded.system(), folder);
   // where units put the files that they write themselves
   ::setenv("STRIDE_RESULTS", std::filesystem::absolute(folder).c_str(), 1);
   return folder;
@@ -74,6 +84,11 @@ std::filesystem::path make_folder(const Request& request, const LoadedScenario& 
 io::ResultFiles chosen_files(const Request& request, const io::Scenario& scenario) {
   io::ResultFiles files = scenario.annotation.results;
   if (request.no_trace) files.trace.clear();
+  if (request.no_report || !has_reports()) files.report.clear();
+  if (request.open && files.report.empty()) {
+    core::fail_input({}, "--open: this run writes no report",
+                     "leave --open out, or let the run write its report");
+  }
   return files;
 }
 
@@ -82,6 +97,10 @@ core::RunOptions run_options(const Request& request, const LoadedScenario& loade
   options.threads.count = request.threads;
   options.interrupted = &Interruption::flag();
   return options;
+}
+
+ProgressStyle progress_style(const Request& request) {
+  return request.progress.value_or(request.quiet ? ProgressStyle::None : ProgressStyle::Auto);
 }
 
 std::vector<capture::Request> captures(const Request& request) {
@@ -97,42 +116,52 @@ std::vector<capture::Request> captures(const Request& request) {
 /// A simulation with all that watches it.
 class RecordedRun {
  public:
-  explicit RecordedRun(const Request& request)
+  /// Both must outlive it.
+  RecordedRun(const Request& request, TestReport& report)
       : request_(request),
+        report_(report),
         loaded_(request.scenario),
         files_(chosen_files(request, loaded_.scenario())),
-        folder_(make_folder(request, loaded_)),
+        folder_(make_folder(request, loaded_.scenario())),
         options_(run_options(request, loaded_)),
         capture_(loaded_.system(), loaded_.scenario().name, options_, captures(request)),
         simulation_(loaded_.system(), captured_units(), options_),
         recorders_(loaded_.system(), files_, folder_),
+        checks_(loaded_.checks()),
         summary_(loaded_.system()),
-        progress_(options_.start, options_.stop) {
+        progress_(progress_style(request), options_.start, options_.stop, simulation_) {
     capture_.follow(simulation_);
     recorders_.add_to(simulation_);
+    if (!checks_.is_empty()) simulation_.add_observer(checks_, checks_.signals());
     if (!capture_.is_empty()) simulation_.add_observer(capture_);
-    if (!request.quiet) {
-      simulation_.add_observer(summary_);
-      simulation_.add_observer(progress_);
-    }
+    if (!request.quiet) simulation_.add_observer(summary_);
+    simulation_.add_observer(progress_);
   }
 
-  /// Throws core::Error (Run) if it fails or is interrupted, and also if a unit's verdict on it is
-  /// bad.
+  /// Throws core::Error (Run) if it fails or is interrupted, and also if a verdict on it is bad.
   void run() {
     try {
       simulation_.run();
     } catch (const std::exception& failure) {
+      progress_.end("failed");
       // the first failure is the one to tell
       warn_of_failure([&] { capture_.end(fmt::format("failed: {}", failure.what())); });
+      take_verdicts(false);
       warn_of_failure([&] { write_statistics(failure.what()); });
+      warn_of_failure([&] { report(); });
+      warn_of_verdicts();
       throw;
     }
-    capture_.end(name(simulation_.statistics().end));
+    const core::RunEnd end = simulation_.statistics().end;
+    progress_.end(name(end));
+    capture_.end(name(end));
+    take_verdicts(end == core::RunEnd::EndedByUnit ||
+                  (end == core::RunEnd::Completed && !is_cut_short()));
     write_statistics(std::nullopt);
+    report();
     if (!request_.quiet) print();
     require_end();
-    require_passed(loaded_.system(), simulation_.verdicts());
+    require_passed(verdicts_);
   }
 
  private:
@@ -151,31 +180,64 @@ class RecordedRun {
     }
   }
 
-  void write_statistics(const std::optional<std::string>& error) const {
+  /// By --stop, before what the scenario demands of all of it.
+  bool is_cut_short() const { return options_.stop < loaded_.scenario().stop.value_or(Time{}); }
+
+  void take_verdicts(bool is_complete) {
+    const auto of_units = simulation_.verdicts();
+    verdicts_.assign(of_units.begin(), of_units.end());
+    for (core::Verdict& verdict :
+         checks_.verdicts({simulation_.statistics().reached, is_complete})) {
+      verdicts_.push_back(std::move(verdict));
+    }
+  }
+
+  /// In a run that has not come to its end, which is told of first.
+  void warn_of_verdicts() const {
+    const std::string failures = failures_text(verdicts_);
+    if (!failures.empty())
+      spdlog::warn("checks have failed before the end of the run:{}", failures);
+  }
+
+  void write_statistics(const std::optional<std::string>& error) {
+    report_.write(options_, simulation_.statistics(), verdicts_, error);
     if (files_.statistics.empty()) return;
-    io::write_run_json(folder_ / files_.statistics, loaded_.scenario().path, loaded_.system(),
-                       options_, simulation_.statistics(), simulation_.verdicts(), error);
+    io::write_run_json(folder_ / files_.statistics, {.scenario = loaded_.scenario().path,
+                                                     .system = loaded_.system(),
+                                                     .options = options_,
+                                                     .statistics = simulation_.statistics(),
+                                                     .verdicts = verdicts_,
+                                                     .error = error,
+                                                     .files = files_,
+                                                     .plots = loaded_.plots()});
+  }
+
+  void report() const {
+    if (files_.report.empty()) return;
+    write_report(folder_, files_, folder_ / files_.report);
+    if (request_.open) warn_of_failure([&] { open_in_browser(folder_ / files_.report); });
   }
 
   void require_end() const {
     const core::RunStatistics& statistics = simulation_.statistics();
     if (statistics.end != core::RunEnd::Interrupted) return;
+    warn_of_verdicts();
     core::fail_run({{}, {}, {}, statistics.reached},
                    "the run was interrupted; its results up to there are complete");
   }
 
   void print() const {
     fmt::print("\n{}{}\nResults in {}:", summary_.text(simulation_.statistics()),
-               verdict_table(loaded_.system(), simulation_.verdicts()), folder_.string());
-    for (const std::string& file :
-         {files_.signals, files_.events, files_.trace, files_.statistics}) {
-      if (!file.empty()) fmt::print(" {}", file);
+               verdict_table(verdicts_), folder_.string());
+    for (const auto& [what, member] : io::kResultFiles) {
+      if (!(files_.*member).empty()) fmt::print(" {}", files_.*member);
     }
     fmt::print("\n");
   }
 
   Interruption interruption_;
   const Request& request_;
+  TestReport& report_;
   LoadedScenario loaded_;
   io::ResultFiles files_;
   std::filesystem::path folder_;
@@ -183,9 +245,21 @@ class RecordedRun {
   capture::Capture capture_;
   core::Simulation simulation_;
   Recorders recorders_;
+  checks::Checks checks_;
+  std::vector<core::Verdict> verdicts_;
   Summary summary_;
   Progress progress_;
 };
+
+void run(const Request& request) {
+  TestReport report(request.junit, request.scenario.scenario);
+  try {
+    RecordedRun(request, report).run();
+  } catch (const std::exception& failure) {
+    if (!report.is_written()) report.write(failure.what());
+    throw;
+  }
+}
 
 }  // namespace
 
@@ -214,9 +288,24 @@ void add_run(CLI::App& app) {
                  "Pictures of the MuJoCo worlds in film/, 0.1 s of simulated time from one to the "
                  "next, or as in --film=SECONDS")
       ->transform([](const std::string& value) { return value == "true" ? kFilmAsItIs : value; });
+  command
+      ->add_option("--junit", request->junit,
+                   "Write a test report in the XML of JUnit, with a test case for the run, each "
+                   "check and each unit's verdict")
+      ->type_name("FILE");
   command->add_flag("--no-trace", request->no_trace, "Write no signals.vcd");
+  command
+      ->add_option_function<std::string>(
+          "--progress",
+          [request](const std::string& text) { request->progress = read_progress_style(text); },
+          "How to show how far the run is: auto (on a terminal a line that is rewritten, elsewhere "
+          "a "
+          "line now and then), plain, json (an object a line, for programs) or none")
+      ->type_name("STYLE");
+  command->add_flag("--no-report", request->no_report, "Write no report.html");
+  command->add_flag("--open", request->open, "Open the report in a browser when the run is over");
   command->add_flag("--quiet,-q", request->quiet, "Print nothing but errors");
-  command->callback([request] { RecordedRun(*request).run(); });
+  command->callback([request] { run(*request); });
 }
 
 }  // namespace stride::cli

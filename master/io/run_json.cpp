@@ -1,8 +1,12 @@
 #include "master/io/run_json.h"
 
+#include <cmath>
+#include <type_traits>
+
 #include <nlohmann/json.hpp>
 
 #include "master/io/output_file.h"
+#include "master/io/signal_text.h"
 
 namespace stride::io {
 namespace {
@@ -67,23 +71,128 @@ Json step_entry(const core::RunOptions& options) {
   return entry;
 }
 
+/// Those that were written.
+Json file_entries(const ResultFiles& files) {
+  Json entries = Json::object();
+  for (const auto& [what, member] : kResultFiles) {
+    if (!(files.*member).empty()) entries[what] = files.*member;
+  }
+  return entries;
+}
+
+/// Of the columns of signals.csv, but for the time.
+Json signal_entries(const core::System& system, std::span<const core::VariableId> recorded) {
+  Json entries = Json::array();
+  for (const core::VariableId id : recorded) {
+    const core::Variable& variable = system.variable(id);
+    for (std::size_t i = 0; i < variable.size; ++i) {
+      entries.push_back({{"name", column_name(system, id, i)},
+                         {"unit", variable.unit},
+                         {"type", name(variable.type)},
+                         {"variability", name(variable.variability)}});
+    }
+  }
+  return entries;
+}
+
+/// What goes along it.
+const char* kind(const core::System& system, const core::Connection& connection) {
+  const core::Variable& variable = system.variable(connection.from);
+  if (variable.type == core::ValueType::Clock) return "clock";
+  return variable.is_clocked() && !system.is_sampled(connection.from) ? "message" : "value";
+}
+
+Json connection_entries(const core::System& system) {
+  Json entries = Json::array();
+  for (const core::Connection& connection : system.connections()) {
+    entries.push_back({{"from", system.full_name(connection.from)},
+                       {"to", system.full_name(connection.to)},
+                       {"kind", kind(system, connection)}});
+  }
+  return entries;
+}
+
+Json plot_entries(std::span<const Plot> plots) {
+  Json entries = Json::array();
+  for (const Plot& plot : plots) {
+    entries.push_back({{"title", plot.title}, {"signals", plot.signals}});
+  }
+  return entries;
+}
+
+Json unit_entries(const core::System& system, const core::RunStatistics& statistics) {
+  Json entries = Json::array();
+  for (std::size_t i = 0; i < system.components().size(); ++i) {
+    Json& entry = entries.emplace_back(unit_entry(system.components()[i]));
+    // there is none where a run failed before it began
+    if (i < statistics.units.size()) add(entry, statistics.units[i]);
+  }
+  return entries;
+}
+
+Json phase_entry(const core::PhaseTimes& phases) {
+  return {{"initialization", seconds(phases.initialization)},
+          {"steps", seconds(phases.steps)},
+          {"instants", seconds(phases.instants)},
+          {"observers", seconds(phases.observers)}};
+}
+
+Json value_entry(const core::ValueBlock& value) {
+  return core::visit(value, [&](auto values) -> Json {
+    using T = typename decltype(values)::value_type;
+    if constexpr (std::is_floating_point_v<T>) {
+      if (!std::isfinite(values[0])) return core::element_text(value, 0);
+    }
+    if constexpr (std::is_same_v<T, core::Binary>) {
+      return core::to_hex(values[0]);
+    } else {
+      return values[0];
+    }
+  });
+}
+
+Json passed_entry(std::optional<bool> passed) { return passed ? Json(*passed) : Json(); }
+
+Json check_entry(const core::Verdict& check) {
+  Json entry = {{"name", check.name},
+                {"kind", check.kind},
+                {"passed", passed_entry(check.passed)},
+                {"text", check.text},
+                {"time", check.time ? Json(to_seconds(*check.time)) : Json()},
+                {"line", check.where.line},
+                {"values", Json::array()}};
+  for (const core::Witness& witness : check.values) {
+    entry["values"].push_back({{"signal", witness.signal},
+                               {"value", value_entry(witness.value)},
+                               {"unit", witness.unit}});
+  }
+  return entry;
+}
+
+void add_verdicts(Json& run, std::span<const core::Verdict> verdicts) {
+  run["verdicts"] = Json::array();
+  run["checks"] = Json::array();
+  for (const core::Verdict& verdict : verdicts) {
+    if (!verdict.kind.empty()) {
+      run["checks"].push_back(check_entry(verdict));
+      continue;
+    }
+    run["verdicts"].push_back({{"component", verdict.name},
+                               {"passed", passed_entry(verdict.passed)},
+                               {"text", verdict.text}});
+  }
+}
+
 }  // namespace
 
-void write_run_json(const std::filesystem::path& file, const std::filesystem::path& scenario,
-                    const core::System& system, const core::RunOptions& options,
-                    const core::RunStatistics& statistics, std::span<const core::Verdict> verdicts,
-                    const std::optional<std::string>& error) {
+void write_run_json(const std::filesystem::path& file, const RunRecord& record) {
+  const auto& [scenario, system, options, statistics, verdicts, error, files, plots] = record;
   Json run = {
       {"scenario", scenario.string()},      {"system", system.name()},
       {"start", to_seconds(options.start)}, {"stop", to_seconds(options.stop)},
       {"step", step_entry(options)},        {"outcome", error ? "failed" : name(statistics.end)}};
   if (error) run["error"] = *error;
-  run["verdicts"] = Json::array();
-  for (const core::Verdict& verdict : verdicts) {
-    run["verdicts"].push_back({{"component", system.components()[verdict.component].name},
-                               {"passed", verdict.passed},
-                               {"text", verdict.text}});
-  }
+  add_verdicts(run, verdicts);
   run["reached"] = to_seconds(statistics.reached);
   run["communication_steps"] = statistics.communication_steps;
   run["undone_steps"] = statistics.undone_steps;
@@ -92,17 +201,12 @@ void write_run_json(const std::filesystem::path& file, const std::filesystem::pa
   run["parallel_steps"] = statistics.parallel_steps;
   run["recorded_signals"] = options.recorded.size();
   run["wall_time"] = seconds(statistics.wall_time);
-  run["phases"] = {{"initialization", seconds(statistics.phases.initialization)},
-                   {"steps", seconds(statistics.phases.steps)},
-                   {"instants", seconds(statistics.phases.instants)},
-                   {"observers", seconds(statistics.phases.observers)}};
-  run["units"] = Json::array();
-  for (std::size_t i = 0; i < system.components().size(); ++i) {
-    Json entry = unit_entry(system.components()[i]);
-    // there is none where a run failed before it began
-    if (i < statistics.units.size()) add(entry, statistics.units[i]);
-    run["units"].push_back(std::move(entry));
-  }
+  run["phases"] = phase_entry(statistics.phases);
+  run["units"] = unit_entries(system, statistics);
+  run["connections"] = connection_entries(system);
+  run["files"] = file_entries(files);
+  run["signals"] = signal_entries(system, options.recorded);
+  run["plots"] = plot_entries(plots);
   OutputFile output(file);
   output.write(run.dump(2, ' ', false, Json::error_handler_t::replace));
   output.write('\n');
