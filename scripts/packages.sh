@@ -3,11 +3,11 @@
 
 packages_build=(
   ca-certificates ccache cmake g++ git ninja-build pkg-config
-  libarchive-dev libcli11-dev libeigen3-dev libfmt-dev libmujoco-dev libseccomp-dev libspdlog-dev
-  libsystemc-dev libtinyxml2-dev nlohmann-json3-dev
+  libarchive-dev libcli11-dev libeigen3-dev libfmt-dev libjpeg62-turbo-dev libmujoco-dev libosmesa6 libseccomp-dev
+  libspdlog-dev libsystemc-dev libtinyxml2-dev nlohmann-json3-dev zlib1g-dev
 )
 packages_test=(
-  binutils catch2 clang-format-14 gtkwave libbenchmark-dev libpython3.11 libxml2-utils python3 python3-venv
+  binutils catch2 chromium chromium-driver clang-format-14 gtkwave libbenchmark-dev libpython3.11 libxml2-utils python3 python3-venv
   python3-pip unzip zip
 )
 

@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include "master/checks/checks.h"
+#include "master/cli/film.h"
 #include "master/cli/unit_path.h"
 #include "master/core/step_size.h"
 #include "master/core/suggest.h"
@@ -94,6 +95,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
     : scenario_(io::read_scenario(request.scenario, {find_unit, set_values(request.sets)})) {
   for (const std::string& text : request.swaps) swap(text);
   load_units();
+  if (!request.film.empty()) switch_film_on(scenario_.system, request.film);
   choose_early_returns();
   system_.emplace(scenario_.system);
   for (const auto& warnings : {scenario_.warnings, system_->warnings()}) {
@@ -104,12 +106,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   choose_hosts(request.hosts);
   check_steps();
   choose_idle_skips(request);
-  std::vector<io::SignalPattern> patterns = scenario_.annotation.record;
-  if (!request.signals.empty()) {
-    patterns.clear();
-    for (const std::string& text : request.signals) patterns.push_back({text, {"--signals", 0}});
-  }
-  options_.recorded = io::select_signals(*system_, patterns);
+  choose_signals(request);
   options_.threads.main_only =
       io::select_components(component_names(), scenario_.annotation.main_thread);
   choose_checks(request);
@@ -243,6 +240,19 @@ void LoadedScenario::choose_idle_skips(const ScenarioRequest& request) {
     choice.rules.insert(choice.rules.begin(), {{"*"}, true, skip, {"--max-skip", 0}});
   }
   options_.idle = choice.options(*system_, options_.step);
+}
+
+void LoadedScenario::choose_signals(const ScenarioRequest& request) {
+  const io::ScenarioAnnotation& chosen = scenario_.annotation;
+  if (request.signals.empty()) {
+    options_.recorded = io::select_signals(*system_, chosen.record);
+    plots_ = io::select_plots(*system_, options_.recorded, chosen.plots);
+    return;
+  }
+  std::vector<io::SignalPattern> patterns;
+  for (const std::string& text : request.signals) patterns.push_back({text, {"--signals", 0}});
+  options_.recorded = io::select_signals(*system_, patterns);
+  plots_ = io::remaining_plots(*system_, options_.recorded, chosen.plots);
 }
 
 void LoadedScenario::check_fixed_steps() const {

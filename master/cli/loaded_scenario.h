@@ -14,6 +14,7 @@
 #include "master/core/simulation.h"
 #include "master/core/system.h"
 #include "master/fmi/fmu.h"
+#include "master/io/plot_selection.h"
 #include "master/io/scenario.h"
 
 namespace stride::cli {
@@ -30,6 +31,7 @@ struct ScenarioRequest {
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
   bool no_checks = false;
   HostRequest hosts;
+  std::string film;  ///< seconds between its pictures, or kFilmAsItIs; empty = none
 };
 
 /// The scenario with each component's FMU, and the system built from them. Throws core::Error
@@ -45,6 +47,8 @@ class LoadedScenario {
   /// Likewise; nothing for a component that has no process of its own.
   const std::vector<std::optional<Hosting>>& hostings() const { return hostings_; }
   const core::RunOptions& options() const { return options_; }
+  /// As the scenario has them, of what is recorded.
+  const std::vector<io::Plot>& plots() const { return plots_; }
   /// What the scenario demands of the run; options() let them be watched.
   const std::vector<checks::Definition>& checks() const { return checks_; }
 
@@ -63,6 +67,7 @@ class LoadedScenario {
   void choose_hosts(const HostRequest& request);
   void check_steps() const;
   void choose_idle_skips(const ScenarioRequest& request);
+  void choose_signals(const ScenarioRequest& request);
   void check_fixed_steps() const;
   void warn_of_internal_steps() const;
   std::vector<std::string> component_names() const;
@@ -73,6 +78,7 @@ class LoadedScenario {
   std::optional<core::System> system_;
   std::vector<std::optional<Hosting>> hostings_;
   core::RunOptions options_;
+  std::vector<io::Plot> plots_;
   std::vector<checks::Definition> checks_;
 };
 

@@ -85,6 +85,7 @@ int main(int argc, char** argv) {
       "--verbose", [] { spdlog::set_level(spdlog::level::info); },
       "Show everything that units log, not only warnings and errors");
   stride::cli::add_run(app);
+  stride::cli::add_report(app);
   stride::cli::add_check(app);
   stride::cli::add_inspect(app);
   stride::cli::add_verify(app);

@@ -3,49 +3,126 @@
 #include <cstdio>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
-namespace stride::cli {
+#include "master/core/error.h"
 
-Progress::Progress(Time start, Time stop)
-    : start_(start), stop_(stop), terminal_(isatty(STDERR_FILENO) != 0) {}
+namespace stride::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Between two views of a run, where it is watched as it goes.
+constexpr auto kRefresh = 100ms;
+/// Lines in a log come at each tenth of a run, but neither closer to each other nor further apart.
+constexpr auto kLeastPause = 1s;
+constexpr auto kMostPause = 30s;
+
+std::string duration_text(double seconds) {
+  if (seconds < 99.5) return fmt::format("{:.0f} s", seconds);
+  const auto whole = static_cast<long long>(seconds + 0.5);
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
+}  // namespace
+
+ProgressStyle read_progress_style(const std::string& text) {
+  if (text == "auto") return ProgressStyle::Auto;
+  if (text == "plain") return ProgressStyle::Plain;
+  if (text == "json") return ProgressStyle::Json;
+  if (text == "none") return ProgressStyle::None;
+  core::fail_input({}, fmt::format("--progress {}: there is no such style", text),
+                   "it is auto, plain, json or none");
+}
+
+Progress::Progress(ProgressStyle style, Time start, Time stop, const core::Simulation& simulation)
+    : form_(form_of(style)), start_(start), stop_(stop), simulation_(simulation), time_(start) {}
+
+Progress::Form Progress::form_of(ProgressStyle style) {
+  switch (style) {
+    case ProgressStyle::Auto:
+      return isatty(STDERR_FILENO) != 0 ? Form::Rewritten : Form::Lines;
+    case ProgressStyle::Plain:
+      return Form::Lines;
+    case ProgressStyle::Json:
+      return Form::Json;
+    case ProgressStyle::None:
+      break;
+  }
+  return Form::Nothing;
+}
 
 void Progress::on_start(std::span<const core::Signal>) {
-  began_ = next_redraw_ = Clock::now();
-  next_line_ = start_ + (stop_ - start_) / 10;
+  began_ = now_ = shown_ = Clock::now();
+  pace_.emplace(began_, start_);
+  next_tenth_ = start_ + (stop_ - start_) / 10;
 }
 
 void Progress::on_communication_point(Time time) {
-  last_ = time;
-  if (!terminal_ && time < next_line_) return;
-  const auto now = Clock::now();
-  if (terminal_ && now < next_redraw_) return;
-  show(time, now);
-  shown_ = true;
-  next_redraw_ = now + std::chrono::milliseconds(100);
+  if (form_ == Form::Nothing) return;
+  time_ = time;
+  now_ = Clock::now();
+  pace_->note(now_, time);
+  if (!is_due(time, now_)) return;
+  show(state());
+  shown_ = now_;
   const Duration tenth = std::max((stop_ - start_) / 10, Duration(1));
-  next_line_ = time + (tenth - (time - start_) % tenth);
+  next_tenth_ = time + (tenth - (time - start_) % tenth);
 }
 
-void Progress::on_finish() {
-  if (!shown_ || !terminal_) return;
-  show(last_, Clock::now());
-  fmt::print(stderr, "\n");
+bool Progress::is_due(Time time, Clock::time_point now) const {
+  const auto pause = now - shown_;
+  if (form_ != Form::Lines) return pause >= kRefresh || time == start_;
+  return pause >= kMostPause || (pause >= kLeastPause && time >= next_tenth_);
 }
 
-void Progress::show(Time time, Clock::time_point now) const {
-  const double done = to_seconds(time - start_);
+void Progress::end(const std::string& outcome) {
+  if (form_ == Form::Nothing || !pace_) return;
+  State last = state();
+  last.left.reset();
+  last.wall = std::chrono::duration<double>(Clock::now() - began_).count();
+  last.speed = last.wall > 0 ? to_seconds(time_ - start_) / last.wall : 0;  // of all of it
+  if (form_ == Form::Json) return show_json(last, &outcome);
+  show(last);
+  if (form_ == Form::Rewritten) fmt::print(stderr, "\n");
+}
+
+Progress::State Progress::state() const {
+  const double done = to_seconds(time_ - start_);
   const double whole = to_seconds(stop_ - start_);
-  const double wall = std::chrono::duration<double>(now - began_).count();
-  const double share = whole > 0 ? done / whole : 1;
-  std::string line = fmt::format("{:5.1f} % of {:.6g} s simulated", 100 * share, whole);
-  if (wall > 0.05) line += fmt::format(", {:.3g} times real time", done / wall);
-  if (share > 0 && share < 1) line += fmt::format(", {:.0f} s left", wall * (1 - share) / share);
-  if (terminal_) {
+  const double units = static_cast<double>(simulation_.statistics().units.size());
+  State state{whole > 0 ? done / whole : 1, std::chrono::duration<double>(now_ - began_).count(),
+              pace_->speed(), done > 0 ? to_seconds(simulation_.rested()) / (done * units) : 0.0,
+              std::nullopt};
+  if (state.speed > 0 && time_ < stop_) state.left = to_seconds(stop_ - time_) / state.speed;
+  return state;
+}
+
+void Progress::show(const State& state) const {
+  if (form_ == Form::Json) return show_json(state, nullptr);
+  std::string line =
+      fmt::format("{:5.1f} % of {:.6g} s simulated", 100 * state.share, to_seconds(stop_ - start_));
+  if (state.speed > 0) line += fmt::format(", {:.3g} times real time", state.speed);
+  if (state.skipped > 0) line += fmt::format(", {:.1f} % skipped", 100 * state.skipped);
+  if (state.left) line += fmt::format(", {} left", duration_text(*state.left));
+  if (form_ == Form::Rewritten) {
     fmt::print(stderr, "\r{}\033[K", line);
   } else {
     fmt::print(stderr, "{}\n", line);
   }
+  std::fflush(stderr);
+}
+
+void Progress::show_json(const State& state, const std::string* outcome) const {
+  nlohmann::ordered_json object = {{"time", to_seconds(time_)}, {"start", to_seconds(start_)},
+                                   {"stop", to_seconds(stop_)}, {"share", state.share},
+                                   {"wall_time", state.wall},   {"speed", state.speed},
+                                   {"skipped", state.skipped},  {"left", nullptr}};
+  if (state.left) object["left"] = *state.left;
+  if (outcome != nullptr) object["outcome"] = *outcome;
+  fmt::print(stderr, "{}\n", object.dump());
   std::fflush(stderr);
 }
 

@@ -2,34 +2,62 @@
 #define STRIDE_MASTER_CLI_PROGRESS_H
 
 #include <chrono>
+#include <optional>
+#include <string>
 
+#include "master/cli/pace.h"
 #include "master/core/observer.h"
+#include "master/core/simulation.h"
 
 namespace stride::cli {
 
-/// Shows how far a run is, on the standard error stream: one line that is rewritten on a terminal,
-/// a plain line for each tenth elsewhere.
+/// Where and how a run shows how far it is, on the standard error stream.
+enum class ProgressStyle {
+  Auto,   ///< a line that is rewritten on a terminal, Plain elsewhere
+  Plain,  ///< a line now and then, as for a log
+  Json,   ///< an object a line, for programs
+  None,
+};
+
+/// From "auto", "plain", "json" or "none". Throws core::Error (Input) for anything else.
+ProgressStyle read_progress_style(const std::string& text);
+
+/// Shows how far a run is: the share that is simulated, the speed against real time, the time that
+/// is left at this speed, and the share of the units' time in which they were left alone.
 class Progress : public core::Observer {
  public:
-  Progress(Time start, Time stop);
+  /// The simulation must outlive this object.
+  Progress(ProgressStyle style, Time start, Time stop, const core::Simulation& simulation);
 
   void on_start(std::span<const core::Signal> signals) override;
   void on_communication_point(Time time) override;
-  void on_finish() override;
+  /// The run is over; says how it ended where a program listens.
+  void end(const std::string& outcome);
 
  private:
-  using Clock = std::chrono::steady_clock;
+  using Clock = Pace::Clock;
+  enum class Form { Nothing, Rewritten, Lines, Json };
 
-  void show(Time time, Clock::time_point now) const;
+  struct State {
+    double share;                ///< of the run that is simulated, 0 to 1
+    double wall;                 ///< time that has passed [s]
+    double speed;                ///< simulated seconds in a second
+    double skipped;              ///< share of the units' time that was skipped, 0 to 1
+    std::optional<double> left;  ///< [s]
+  };
 
-  Time start_;
-  Time stop_;
-  bool terminal_;
-  bool shown_ = false;
-  Clock::time_point began_{};
-  Clock::time_point next_redraw_{};
-  Time next_line_{};
-  Time last_{};
+  static Form form_of(ProgressStyle style);
+  bool is_due(Time time, Clock::time_point now) const;
+  State state() const;
+  void show(const State& state) const;
+  void show_json(const State& state, const std::string* outcome) const;
+
+  Form form_;
+  Time start_, stop_;
+  const core::Simulation& simulation_;
+  std::optional<Pace> pace_;  ///< since the run has begun
+  Clock::time_point began_{}, now_{}, shown_{};
+  Time time_{}, next_tenth_{};
 };
 
 }  // namespace stride::cli

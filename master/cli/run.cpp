@@ -14,13 +14,16 @@
 #include "master/capture/capture.h"
 #include "master/checks/checks.h"
 #include "master/cli/commands.h"
+#include "master/cli/film.h"
 #include "master/cli/interruption.h"
 #include "master/cli/loaded_scenario.h"
 #include "master/cli/progress.h"
+#include "master/cli/report_page.h"
 #include "master/cli/scenario_options.h"
 #include "master/cli/summary.h"
 #include "master/cli/test_report.h"
 #include "master/cli/verdicts.h"
+#include "master/io/activity_recorder.h"
 #include "master/io/csv_recorder.h"
 #include "master/io/event_recorder.h"
 #include "master/io/results_folder.h"
@@ -38,7 +41,10 @@ struct Request {
   std::vector<std::string> captures;  ///< "component=FILE"
   std::filesystem::path junit;        ///< empty: none
   std::size_t threads = 1;
+  std::optional<ProgressStyle> progress;
   bool no_trace = false;
+  bool no_report = false;
+  bool open = false;  ///< the report
   bool quiet = false;
 };
 
@@ -47,18 +53,21 @@ struct Recorders {
   std::optional<io::CsvRecorder> signals;
   std::optional<io::EventRecorder> events;
   std::optional<io::VcdRecorder> trace;
+  std::optional<io::ActivityRecorder> activity;
 
   Recorders(const core::System& system, const io::ResultFiles& files,
             const std::filesystem::path& folder) {
     if (!files.signals.empty()) signals.emplace(system, folder / files.signals);
     if (!files.events.empty()) events.emplace(system, folder / files.events);
     if (!files.trace.empty()) trace.emplace(system, folder / files.trace);
+    if (!files.activity.empty()) activity.emplace(system, folder / files.activity);
   }
 
   void add_to(core::Simulation& simulation) {
     if (signals) simulation.add_observer(*signals);
     if (events) simulation.add_observer(*events);
     if (trace) simulation.add_observer(*trace);
+    if (activity) simulation.add_observer(*activity);
   }
 };
 
@@ -75,6 +84,11 @@ std::filesystem::path make_folder(const Request& request, const io::Scenario& sc
 io::ResultFiles chosen_files(const Request& request, const io::Scenario& scenario) {
   io::ResultFiles files = scenario.annotation.results;
   if (request.no_trace) files.trace.clear();
+  if (request.no_report || !has_reports()) files.report.clear();
+  if (request.open && files.report.empty()) {
+    core::fail_input({}, "--open: this run writes no report",
+                     "leave --open out, or let the run write its report");
+  }
   return files;
 }
 
@@ -83,6 +97,10 @@ core::RunOptions run_options(const Request& request, const LoadedScenario& loade
   options.threads.count = request.threads;
   options.interrupted = &Interruption::flag();
   return options;
+}
+
+ProgressStyle progress_style(const Request& request) {
+  return request.progress.value_or(request.quiet ? ProgressStyle::None : ProgressStyle::Auto);
 }
 
 std::vector<capture::Request> captures(const Request& request) {
@@ -111,15 +129,13 @@ class RecordedRun {
         recorders_(loaded_.system(), files_, folder_),
         checks_(loaded_.checks()),
         summary_(loaded_.system()),
-        progress_(options_.start, options_.stop) {
+        progress_(progress_style(request), options_.start, options_.stop, simulation_) {
     capture_.follow(simulation_);
     recorders_.add_to(simulation_);
     if (!checks_.is_empty()) simulation_.add_observer(checks_, checks_.signals());
     if (!capture_.is_empty()) simulation_.add_observer(capture_);
-    if (!request.quiet) {
-      simulation_.add_observer(summary_);
-      simulation_.add_observer(progress_);
-    }
+    if (!request.quiet) simulation_.add_observer(summary_);
+    simulation_.add_observer(progress_);
   }
 
   /// Throws core::Error (Run) if it fails or is interrupted, and also if a verdict on it is bad.
@@ -127,18 +143,22 @@ class RecordedRun {
     try {
       simulation_.run();
     } catch (const std::exception& failure) {
+      progress_.end("failed");
       // the first failure is the one to tell
       warn_of_failure([&] { capture_.end(fmt::format("failed: {}", failure.what())); });
       take_verdicts(false);
       warn_of_failure([&] { write_statistics(failure.what()); });
+      warn_of_failure([&] { report(); });
       warn_of_verdicts();
       throw;
     }
     const core::RunEnd end = simulation_.statistics().end;
+    progress_.end(name(end));
     capture_.end(name(end));
     take_verdicts(end == core::RunEnd::EndedByUnit ||
                   (end == core::RunEnd::Completed && !is_cut_short()));
     write_statistics(std::nullopt);
+    report();
     if (!request_.quiet) print();
     require_end();
     require_passed(verdicts_);
@@ -182,8 +202,20 @@ class RecordedRun {
   void write_statistics(const std::optional<std::string>& error) {
     report_.write(options_, simulation_.statistics(), verdicts_, error);
     if (files_.statistics.empty()) return;
-    io::write_run_json(folder_ / files_.statistics, loaded_.scenario().path, loaded_.system(),
-                       options_, simulation_.statistics(), verdicts_, error);
+    io::write_run_json(folder_ / files_.statistics, {.scenario = loaded_.scenario().path,
+                                                     .system = loaded_.system(),
+                                                     .options = options_,
+                                                     .statistics = simulation_.statistics(),
+                                                     .verdicts = verdicts_,
+                                                     .error = error,
+                                                     .files = files_,
+                                                     .plots = loaded_.plots()});
+  }
+
+  void report() const {
+    if (files_.report.empty()) return;
+    write_report(folder_, files_, folder_ / files_.report);
+    if (request_.open) warn_of_failure([&] { open_in_browser(folder_ / files_.report); });
   }
 
   void require_end() const {
@@ -197,9 +229,8 @@ class RecordedRun {
   void print() const {
     fmt::print("\n{}{}\nResults in {}:", summary_.text(simulation_.statistics()),
                verdict_table(verdicts_), folder_.string());
-    for (const std::string& file :
-         {files_.signals, files_.events, files_.trace, files_.statistics}) {
-      if (!file.empty()) fmt::print(" {}", file);
+    for (const auto& [what, member] : io::kResultFiles) {
+      if (!(files_.*member).empty()) fmt::print(" {}", files_.*member);
     }
     fmt::print("\n");
   }
@@ -251,12 +282,28 @@ void add_run(CLI::App& app) {
                    "be given several times")
       ->type_name("COMPONENT=FILE")
       ->allow_extra_args(false);
+  // a flag, so that what follows a blank is the scenario; without a value it is "true"
+  command
+      ->add_flag("--film", request->scenario.film,
+                 "Pictures of the MuJoCo worlds in film/, 0.1 s of simulated time from one to the "
+                 "next, or as in --film=SECONDS")
+      ->transform([](const std::string& value) { return value == "true" ? kFilmAsItIs : value; });
   command
       ->add_option("--junit", request->junit,
                    "Write a test report in the XML of JUnit, with a test case for the run, each "
                    "check and each unit's verdict")
       ->type_name("FILE");
   command->add_flag("--no-trace", request->no_trace, "Write no signals.vcd");
+  command
+      ->add_option_function<std::string>(
+          "--progress",
+          [request](const std::string& text) { request->progress = read_progress_style(text); },
+          "How to show how far the run is: auto (on a terminal a line that is rewritten, elsewhere "
+          "a "
+          "line now and then), plain, json (an object a line, for programs) or none")
+      ->type_name("STYLE");
+  command->add_flag("--no-report", request->no_report, "Write no report.html");
+  command->add_flag("--open", request->open, "Open the report in a browser when the run is over");
   command->add_flag("--quiet,-q", request->quiet, "Print nothing but errors");
   command->callback([request] { run(*request); });
 }

@@ -36,13 +36,12 @@ class Simulation {
   void run();
 
   const RunStatistics& statistics() const;
-  /// What the units say of the run, where it ended; none where it failed or was interrupted.
   /// The simulated time for which units have been left alone because they promised to be idle, all
   /// of them together and up to where the run stands: unlike the statistics' `rested`, with the
   /// rests that still last. For observers, at a communication point; one look at each unit that may
   /// rest.
   Duration rested() const;
-  /// What the units say of the run, where it ended; none where it failed.
+  /// What the units say of the run, where it ended; none where it failed or was interrupted.
   std::span<const Verdict> verdicts() const;
 
  private:

@@ -1,7 +1,6 @@
 #include "master/io/annotation.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -78,11 +77,26 @@ void read_exchange(const xml::Element& element, StepChoice& choice) {
       {{"coupling", &StepChoice::set_coupling}, {"extrapolation", &StepChoice::set_extrapolation}});
 }
 
+/// What the attribute `signals` lists.
+std::vector<SignalPattern> read_signals(const xml::Element& element) {
+  std::vector<SignalPattern> patterns;
+  std::istringstream words(element.required("signals"));
+  for (std::string word; words >> word;) patterns.push_back({word, element.where()});
+  return patterns;
+}
+
 void read_record(const xml::Element& element, ScenarioAnnotation& annotation) {
   element.allow_attributes({"signals"});
   element.allow_children({});
-  std::istringstream words(element.required("signals"));
-  for (std::string word; words >> word;) annotation.record.push_back({word, element.where()});
+  for (auto& pattern : read_signals(element)) annotation.record.push_back(std::move(pattern));
+}
+
+void read_plot(const xml::Element& element, ScenarioAnnotation& annotation) {
+  element.allow_attributes({"title", "signals"});
+  element.allow_children({});
+  PlotPattern plot{element.required("title"), read_signals(element)};
+  if (plot.signals.empty()) element.fail("the plot shows nothing", "name its signals");
+  annotation.plots.push_back(std::move(plot));
 }
 
 std::vector<ComponentPattern> read_components(const xml::Element& element) {
@@ -161,21 +175,16 @@ void check_file_name(const xml::Element& element, const char* attribute, const s
 }
 
 void read_results(const xml::Element& element, ScenarioAnnotation& annotation) {
-  element.allow_attributes({"signals", "events", "trace", "statistics"});
+  element.allow_attributes({"signals", "events", "trace", "activity", "statistics", "report"});
   element.allow_children({});
-  ResultFiles& files = annotation.results;
-  const std::array<std::pair<const char*, std::string*>, 4> targets{
-      {{"signals", &files.signals},
-       {"events", &files.events},
-       {"trace", &files.trace},
-       {"statistics", &files.statistics}}};
   std::set<std::string> taken;
-  for (const auto& [attribute, target] : targets) {
-    if (element.attribute(attribute)) *target = element.required(attribute);
-    if (*target == "none") target->clear();
-    check_file_name(element, attribute, *target);
-    if (target->empty() || taken.insert(*target).second) continue;
-    element.fail(fmt::format("two results have the file name '{}'", *target),
+  for (const auto& [attribute, member] : kResultFiles) {
+    std::string& file = annotation.results.*member;
+    if (element.attribute(attribute)) file = element.required(attribute);
+    if (file == "none") file.clear();
+    check_file_name(element, attribute, file);
+    if (file.empty() || taken.insert(file).second) continue;
+    element.fail(fmt::format("two results have the file name '{}'", file),
                  "give each a name of its own, or write \"none\" to leave it out");
   }
 }
@@ -187,6 +196,7 @@ ScenarioAnnotation read_scenario_element(const xml::Element& scenario) {
                            {kStrideScenario, "Record"},
                            {kStrideScenario, "Checks"},
                            {kStrideScenario, "Results"},
+                           {kStrideScenario, "Plot"},
                            {kStrideScenario, "MainThread"},
                            {kStrideScenario, "EarlyReturn"},
                            {kStrideScenario, "Host"},
@@ -201,6 +211,9 @@ ScenarioAnnotation read_scenario_element(const xml::Element& scenario) {
   }
   for (const xml::Element& record : scenario.children({kStrideScenario, "Record"})) {
     read_record(record, annotation);
+  }
+  for (const xml::Element& element : scenario.children({kStrideScenario, "Plot"})) {
+    read_plot(element, annotation);
   }
   if (const auto checks = scenario.child({kStrideScenario, "Checks"})) {
     annotation.checks = read_checks(*checks);

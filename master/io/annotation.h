@@ -2,7 +2,9 @@
 #ifndef STRIDE_MASTER_IO_ANNOTATION_H
 #define STRIDE_MASTER_IO_ANNOTATION_H
 
+#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <stride/time.h>
@@ -23,13 +25,30 @@ struct SignalPattern {
   core::Location where{};
 };
 
+/// Signals that are to share a diagram.
+struct PlotPattern {
+  std::string title;
+  std::vector<SignalPattern> signals;
+};
+
 /// File names inside the results folder; empty = not written.
 struct ResultFiles {
   std::string signals = "signals.csv";
   std::string events = "events.csv";
   std::string trace = "signals.vcd";
+  std::string activity = "activity.csv";
   std::string statistics = "run.json";
+  std::string report = "report.html";
 };
+
+/// Each of them, with the attribute that names it.
+inline constexpr std::array<std::pair<const char*, std::string ResultFiles::*>, 6> kResultFiles{
+    {{"signals", &ResultFiles::signals},
+     {"events", &ResultFiles::events},
+     {"trace", &ResultFiles::trace},
+     {"activity", &ResultFiles::activity},
+     {"statistics", &ResultFiles::statistics},
+     {"report", &ResultFiles::report}}};
 
 /// Whether components may return early from their steps; a later rule goes before an earlier one.
 struct EarlyReturnRule {
@@ -41,6 +60,7 @@ struct EarlyReturnRule {
 struct ScenarioAnnotation {
   StepChoice step;
   std::vector<SignalPattern> record;  ///< none: every output
+  std::vector<PlotPattern> plots;
   std::vector<CheckDeclaration> checks;
   ResultFiles results;
   std::vector<ComponentPattern> main_thread;  ///< who steps on the simulation's own thread only

@@ -88,7 +88,7 @@ void Selection::check_window(const CheckDeclaration& check) const {
   }
   const char* const what = wants_message ? "message" : "signal";
   for (const NamedVariable& other : variables_) {
-    if (!is_meant(system_, other, pattern) || is_glob(pattern)) continue;
+    if (!is_meant(system_, other.id, pattern) || is_glob(pattern)) continue;
     if (!wants_message) {
       core::fail_input(
           {.where = check.where},
@@ -140,7 +140,7 @@ std::vector<Element> Selection::find_elements(const CheckDeclaration& check) con
   for (const NamedVariable& variable : variables_) {
     if (variable.is_message) continue;
     const core::Variable& described = system_.variable(variable.id);
-    const bool is_whole = is_meant(system_, variable, pattern);
+    const bool is_whole = is_meant(system_, variable.id, pattern);
     for (std::size_t i = 0; i < described.size; ++i) {
       std::string name = system_.prefix(variable.id) + element_name(described, i);
       const bool is_one = name == pattern || matches_glob(pattern, name);
@@ -156,7 +156,7 @@ std::vector<core::VariableId> Selection::find_messages(const CheckDeclaration& c
   std::vector<core::VariableId> found;
   for (const NamedVariable& variable : variables_) {
     if (!variable.is_message || !is_told(variable)) continue;
-    if (is_meant(system_, variable, pattern)) found.push_back(variable.id);
+    if (is_meant(system_, variable.id, pattern)) found.push_back(variable.id);
   }
   if (found.empty()) fail_unknown(check, pattern, true);
   return found;

@@ -19,7 +19,7 @@ void CsvRecorder::on_start(std::span<const core::Signal> signals) {
     for (std::size_t i = 0; i < variable.size; ++i) {
       columns_.push_back({signal.block, signal.first + i});
       file_.write(',');
-      file_.write(csv_field(system_.prefix(signal.id) + element_name(variable, i) + unit));
+      file_.write(csv_field(column_name(system_, signal.id, i) + unit));
     }
   }
   file_.write('\n');

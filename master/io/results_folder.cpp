@@ -1,7 +1,9 @@
 #include "master/io/results_folder.h"
 
 #include <cerrno>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -9,8 +11,34 @@
 #include "master/core/error.h"
 
 namespace stride::io {
+namespace {
 
-void make_results_folder(const std::filesystem::path& folder) {
+namespace fs = std::filesystem;
+
+bool is_picture(const fs::path& file) {
+  const std::string number = file.stem().string();
+  return file.extension() == ".jpg" && number.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// Nothing but what a film consists of: the folder may be a user's own.
+void remove_films(const fs::path& folder) {
+  std::error_code ignored;  // what cannot be removed fails where it is to be replaced
+  std::vector<fs::path> goes;
+  for (const auto& film : fs::directory_iterator(folder / "film", ignored)) {
+    if (!fs::exists(film.path() / "frames.csv", ignored)) continue;
+    for (const auto& file : fs::directory_iterator(film.path(), ignored)) {
+      if (is_picture(file.path())) goes.push_back(file.path());
+    }
+    goes.push_back(film.path() / "frames.csv");
+    goes.push_back(film.path());
+  }
+  if (!goes.empty()) goes.push_back(folder / "film");
+  for (const fs::path& path : goes) fs::remove(path, ignored);
+}
+
+}  // namespace
+
+void make_results_folder(const fs::path& folder) {
   const auto fail = [&](const std::string& reason) {
     core::fail_input({.where = {folder.string(), 0}},
                      fmt::format("cannot write results into this folder: {}", reason),
@@ -18,13 +46,14 @@ void make_results_folder(const std::filesystem::path& folder) {
   };
   if (folder.empty()) fail("its name is empty");
   std::error_code error;
-  const auto status = std::filesystem::status(folder, error);
-  if (std::filesystem::exists(status) && !std::filesystem::is_directory(status)) {
+  const auto status = fs::status(folder, error);
+  if (fs::exists(status) && !fs::is_directory(status)) {
     fail("it is a file");
   }
-  std::filesystem::create_directories(folder, error);
+  fs::create_directories(folder, error);
   if (error) fail(error.message());
   if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(std::generic_category().message(errno));
+  remove_films(folder);
 }
 
 }  // namespace stride::io

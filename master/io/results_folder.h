@@ -6,7 +6,8 @@
 namespace stride::io {
 
 /// Makes the folder, and those above it, where they do not exist. Throws core::Error (Input) if
-/// that is not possible, or if it is no folder in which files can be written.
+/// that is not possible, or if it is no folder in which files can be written. A film that an
+/// earlier run has left there goes, since it would be taken for one of the next run.
 void make_results_folder(const std::filesystem::path& folder);
 
 }  // namespace stride::io

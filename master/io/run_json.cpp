@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "master/io/output_file.h"
+#include "master/io/signal_text.h"
 
 namespace stride::io {
 namespace {
@@ -70,6 +71,72 @@ Json step_entry(const core::RunOptions& options) {
   return entry;
 }
 
+/// Those that were written.
+Json file_entries(const ResultFiles& files) {
+  Json entries = Json::object();
+  for (const auto& [what, member] : kResultFiles) {
+    if (!(files.*member).empty()) entries[what] = files.*member;
+  }
+  return entries;
+}
+
+/// Of the columns of signals.csv, but for the time.
+Json signal_entries(const core::System& system, std::span<const core::VariableId> recorded) {
+  Json entries = Json::array();
+  for (const core::VariableId id : recorded) {
+    const core::Variable& variable = system.variable(id);
+    for (std::size_t i = 0; i < variable.size; ++i) {
+      entries.push_back({{"name", column_name(system, id, i)},
+                         {"unit", variable.unit},
+                         {"type", name(variable.type)},
+                         {"variability", name(variable.variability)}});
+    }
+  }
+  return entries;
+}
+
+/// What goes along it.
+const char* kind(const core::System& system, const core::Connection& connection) {
+  const core::Variable& variable = system.variable(connection.from);
+  if (variable.type == core::ValueType::Clock) return "clock";
+  return variable.is_clocked() && !system.is_sampled(connection.from) ? "message" : "value";
+}
+
+Json connection_entries(const core::System& system) {
+  Json entries = Json::array();
+  for (const core::Connection& connection : system.connections()) {
+    entries.push_back({{"from", system.full_name(connection.from)},
+                       {"to", system.full_name(connection.to)},
+                       {"kind", kind(system, connection)}});
+  }
+  return entries;
+}
+
+Json plot_entries(std::span<const Plot> plots) {
+  Json entries = Json::array();
+  for (const Plot& plot : plots) {
+    entries.push_back({{"title", plot.title}, {"signals", plot.signals}});
+  }
+  return entries;
+}
+
+Json unit_entries(const core::System& system, const core::RunStatistics& statistics) {
+  Json entries = Json::array();
+  for (std::size_t i = 0; i < system.components().size(); ++i) {
+    Json& entry = entries.emplace_back(unit_entry(system.components()[i]));
+    // there is none where a run failed before it began
+    if (i < statistics.units.size()) add(entry, statistics.units[i]);
+  }
+  return entries;
+}
+
+Json phase_entry(const core::PhaseTimes& phases) {
+  return {{"initialization", seconds(phases.initialization)},
+          {"steps", seconds(phases.steps)},
+          {"instants", seconds(phases.instants)},
+          {"observers", seconds(phases.observers)}};
+}
+
 Json value_entry(const core::ValueBlock& value) {
   return core::visit(value, [&](auto values) -> Json {
     using T = typename decltype(values)::value_type;
@@ -118,10 +185,8 @@ void add_verdicts(Json& run, std::span<const core::Verdict> verdicts) {
 
 }  // namespace
 
-void write_run_json(const std::filesystem::path& file, const std::filesystem::path& scenario,
-                    const core::System& system, const core::RunOptions& options,
-                    const core::RunStatistics& statistics, std::span<const core::Verdict> verdicts,
-                    const std::optional<std::string>& error) {
+void write_run_json(const std::filesystem::path& file, const RunRecord& record) {
+  const auto& [scenario, system, options, statistics, verdicts, error, files, plots] = record;
   Json run = {
       {"scenario", scenario.string()},      {"system", system.name()},
       {"start", to_seconds(options.start)}, {"stop", to_seconds(options.stop)},
@@ -136,17 +201,12 @@ void write_run_json(const std::filesystem::path& file, const std::filesystem::pa
   run["parallel_steps"] = statistics.parallel_steps;
   run["recorded_signals"] = options.recorded.size();
   run["wall_time"] = seconds(statistics.wall_time);
-  run["phases"] = {{"initialization", seconds(statistics.phases.initialization)},
-                   {"steps", seconds(statistics.phases.steps)},
-                   {"instants", seconds(statistics.phases.instants)},
-                   {"observers", seconds(statistics.phases.observers)}};
-  run["units"] = Json::array();
-  for (std::size_t i = 0; i < system.components().size(); ++i) {
-    Json entry = unit_entry(system.components()[i]);
-    // there is none where a run failed before it began
-    if (i < statistics.units.size()) add(entry, statistics.units[i]);
-    run["units"].push_back(std::move(entry));
-  }
+  run["phases"] = phase_entry(statistics.phases);
+  run["units"] = unit_entries(system, statistics);
+  run["connections"] = connection_entries(system);
+  run["files"] = file_entries(files);
+  run["signals"] = signal_entries(system, options.recorded);
+  run["plots"] = plot_entries(plots);
   OutputFile output(file);
   output.write(run.dump(2, ' ', false, Json::error_handler_t::replace));
   output.write('\n');

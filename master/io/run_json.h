@@ -10,17 +10,27 @@
 #include "master/core/statistics.h"
 #include "master/core/system.h"
 #include "master/core/verdict.h"
+#include "master/io/annotation.h"
+#include "master/io/plot_selection.h"
 
 namespace stride::io {
 
-/// run.json: what was run, how far it came, and what each unit did and cost. Times are in seconds.
-/// The wall-clock times differ from run to run, so unlike the other results this file does, too.
-/// `error` is the message of the error that ended the run, if one did. Throws core::Error.
-void write_run_json(const std::filesystem::path& file, const std::filesystem::path& scenario,
-                    const core::System& system, const core::RunOptions& options,
-                    const core::RunStatistics& statistics,
-                    std::span<const core::Verdict> verdicts = {},
-                    const std::optional<std::string>& error = std::nullopt);
+/// What there is to tell of a run.
+struct RunRecord {
+  std::filesystem::path scenario;
+  const core::System& system;
+  const core::RunOptions& options;
+  const core::RunStatistics& statistics;
+  std::span<const core::Verdict> verdicts{};
+  std::optional<std::string> error{};  ///< that ended the run, if one did
+  ResultFiles files{};
+  std::span<const Plot> plots{};
+};
+
+/// run.json: what was run, how far it came, what each unit did and cost, and what the other results
+/// hold. Times are in seconds. The wall-clock times differ from run to run, so unlike the other
+/// results this file does, too. Throws core::Error.
+void write_run_json(const std::filesystem::path& file, const RunRecord& record);
 
 }  // namespace stride::io
 

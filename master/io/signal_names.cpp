@@ -24,15 +24,14 @@ std::vector<NamedVariable> named_variables(const core::System& system) {
   return found;
 }
 
-bool is_meant(const core::System& system, const NamedVariable& variable,
-              const std::string& pattern) {
+bool is_meant(const core::System& system, core::VariableId id, const std::string& pattern) {
   const auto is_matched = [&](const std::string& name) {
     return name == pattern || matches_glob(pattern, name);
   };
-  if (is_matched(variable.name)) return true;
-  const std::vector<std::string>& aliases = system.variable(variable.id).aliases;
+  if (is_matched(system.full_name(id))) return true;
+  const std::vector<std::string>& aliases = system.variable(id).aliases;
   return std::any_of(aliases.begin(), aliases.end(), [&](const std::string& alias) {
-    return is_matched(system.prefix(variable.id) + alias);
+    return is_matched(system.prefix(id) + alias);
   });
 }
 

@@ -21,8 +21,7 @@ struct NamedVariable {
 std::vector<NamedVariable> named_variables(const core::System& system);
 
 /// Whether the pattern, a name or a glob, stands for the variable, by its name or an alias of it.
-bool is_meant(const core::System& system, const NamedVariable& variable,
-              const std::string& pattern);
+bool is_meant(const core::System& system, core::VariableId id, const std::string& pattern);
 
 }  // namespace stride::io
 

@@ -50,7 +50,7 @@ std::vector<core::VariableId> select_signals(const core::System& system,
     const NamedVariable* message = nullptr;
     bool has_match = false;
     for (const NamedVariable& variable : all) {
-      if (!is_meant(system, variable, pattern.text)) continue;
+      if (!is_meant(system, variable.id, pattern.text)) continue;
       if (variable.is_message) {
         message = &variable;
         continue;

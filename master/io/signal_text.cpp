@@ -28,6 +28,10 @@ std::string element_name(const core::Variable& variable, std::size_t element) {
   return fmt::format("{}[{}]", variable.name, indices);
 }
 
+std::string column_name(const core::System& system, core::VariableId id, std::size_t element) {
+  return system.prefix(id) + element_name(system.variable(id), element);
+}
+
 std::string csv_field(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string field = "\"";

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "master/core/system.h"
 #include "master/core/values.h"
 #include "master/io/output_file.h"
 
@@ -13,6 +14,9 @@ namespace stride::io {
 /// The name of an element: that of a scalar variable, else "name[1]" or "name[2,1]", counted from 1
 /// in row-major order.
 std::string element_name(const core::Variable& variable, std::size_t element);
+
+/// That of the column which the element has in signals.csv, without its unit: "component.name[1]".
+std::string column_name(const core::System& system, core::VariableId id, std::size_t element);
 
 /// A field of a CSV file (RFC 4180): in quotation marks where its text demands it.
 std::string csv_field(std::string_view text);

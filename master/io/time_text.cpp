@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -76,9 +77,31 @@ Decimal parse_decimal(std::string_view text) {
   return decimal;
 }
 
+/// What nearly all times are: few digits, a point, and twelve more at most.
+std::optional<Duration> parse_plain(std::string_view text) {
+  constexpr std::size_t kMostWhole = 6;
+  std::string_view rest = text;
+  const std::string_view whole = take_digits(rest);
+  if (whole.empty() || whole.size() > kMostWhole) return std::nullopt;
+  std::int64_t count = 0;
+  for (const char digit : whole) count = 10 * count + (digit - '0');
+  int decimals = 0;
+  if (!rest.empty() && rest.front() == '.') {
+    rest.remove_prefix(1);
+    const std::string_view fraction = take_digits(rest);
+    if (fraction.size() > kDecimals) return std::nullopt;
+    for (const char digit : fraction) count = 10 * count + (digit - '0');
+    decimals = static_cast<int>(fraction.size());
+  }
+  if (!rest.empty()) return std::nullopt;
+  for (; decimals < kDecimals; ++decimals) count *= 10;
+  return Duration(count);
+}
+
 }  // namespace
 
 Duration parse_seconds(std::string_view text) {
+  if (const auto plain = parse_plain(text)) return *plain;
   const Decimal decimal = parse_decimal(text);
   if (decimal.digits.empty()) return Duration::zero();
   if (decimal.is_negative) reject(text, "is negative");

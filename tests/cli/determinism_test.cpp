@@ -3,7 +3,7 @@
 
 using namespace stride::tests;
 
-TEST_CASE("two runs write the same signals, events and trace, on any number of threads") {
+TEST_CASE("two runs write the same results, on any number of threads") {
   const Workspace workspace(Parts{component("source", "not_a_number.fmu") +
                                       component("filter", "minimal.fmu") +
                                       component("stepper", "stepper.fmu"),
@@ -23,7 +23,7 @@ TEST_CASE("two runs write the same signals, events and trace, on any number of t
     all.insert(all.end(), {"--threads", threads});
     REQUIRE(workspace.run(all).exit_code == 0);
     std::vector<std::string> files;
-    for (const char* file : {"signals.csv", "events.csv", "signals.vcd"}) {
+    for (const char* file : {"signals.csv", "events.csv", "signals.vcd", "activity.csv"}) {
       files.push_back(workspace.result(file));
       CHECK(std::count(files.back().begin(), files.back().end(), '\n') > 1);
     }
@@ -35,5 +35,6 @@ TEST_CASE("two runs write the same signals, events and trace, on any number of t
     CHECK(first[0] == second[0]);
     CHECK(first[1] == second[1]);
     CHECK(first[2] == second[2]);
+    CHECK(first[3] == second[3]);
   }
 }

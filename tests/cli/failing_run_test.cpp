@@ -10,7 +10,8 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const std::vector<std::string> kFiles{"signals.csv", "events.csv", "signals.vcd", "run.json"};
+const std::vector<std::string> kFiles{"signals.csv", "events.csv", "signals.vcd", "activity.csv",
+                                      "run.json"};
 
 Workspace beside_a_filter(const std::string& name, const std::string& source,
                           const std::string& connections = "") {

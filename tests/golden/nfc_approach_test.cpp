@@ -42,7 +42,7 @@ TEST_CASE("the results are the golden ones") {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_CASE("a second run writes the same bytes, on two threads too") {
   const ScenarioRun second = run_with("0.001", GENERATE("1", "2"));
-  for (const char* file : {"signals.csv", "events.csv", "signals.vcd"}) {
+  for (const char* file : {"signals.csv", "events.csv", "signals.vcd", "activity.csv"}) {
     INFO(file);
     const std::string first = text_of(run().file(file));
     CHECK(first.size() > 1000);

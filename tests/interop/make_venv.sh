@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# make_venv.sh FOLDER REQUIREMENTS: a virtual environment with the tools that the interop tests use. Exit code 77 = they
+# make_venv.sh FOLDER REQUIREMENTS: a virtual environment with the packages that tests use. Exit code 77 = they
 # cannot be had here, which only CI takes for a failure.
 set -u
 folder=$1
@@ -11,6 +11,6 @@ if /usr/bin/python3 -m venv "$folder" && "$folder/bin/pip" install --quiet --dis
   exit 0
 fi
 rm -rf "$folder"
-echo "SKIPPED: FMPy cannot be installed (needs python3-venv and PyPI)"
+echo "SKIPPED: Python packages cannot be installed (needs python3-venv and PyPI)"
 [ "${CI:-}" = true ] && exit 1
 exit 77

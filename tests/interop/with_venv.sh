@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# with_venv.sh VENV SCRIPT ARGUMENT...: runs a Python script where FMPy could be installed, else says that it is skipped.
+# with_venv.sh VENV SCRIPT ARGUMENT...: runs a Python script in the virtual environment, else says that it is skipped.
 set -u
 venv=$1
 shift
 if [ ! -x "$venv/bin/python" ]; then
-  echo "SKIPPED: FMPy is not there"
+  echo "SKIPPED: there is no virtual environment with the Python packages of tests"
   [ "${CI:-}" = true ] && exit 1
   exit 77
 fi

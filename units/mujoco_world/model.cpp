@@ -191,6 +191,13 @@ const mjData& World::posed() const {
   return data;
 }
 
+mjData& World::drawn() const {
+  posed();
+  mjData& data = *instant_data_;
+  guarded([&] { api::place_what_follows(model_.get(), &data); });
+  return data;
+}
+
 const mjData& World::sensed() const {
   posed();
   if (sensors_known_) return *instant_data_;

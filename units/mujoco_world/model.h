@@ -55,6 +55,7 @@ class World {
   /// load_model() do, and for a timestep below a picosecond.
   explicit World(const std::filesystem::path& folder);
 
+  const mjModel& model() const { return *model_; }
   const Catalogue& catalogue() const { return catalogue_; }
   stride::Duration timestep() const { return timestep_; }
   stride::Time now() const { return now_; }
@@ -90,6 +91,9 @@ class World {
   Vector site_axis_rate(std::size_t site) const;   ///< [1/s], the rate of site_axis()
   std::size_t sensor_numbers() const { return static_cast<std::size_t>(model_->nsensordata); }
   double sensor(std::size_t sensor, int element = 0) const;  ///< in the sensor's unit
+
+  /// With the poses of all that can be drawn, at now(); valid until the next call of anything else.
+  mjData& drawn() const;
 
   /// All that the future depends on, as one block of state_size() doubles. After restore() the same
   /// inputs give the same bits as after save(). The block fits the same model and MuJoCo only.

@@ -65,6 +65,12 @@ inline void set_state(const mjModel* model, mjData* data, const double* state) {
 
 inline void clear_stack(mjData* data) { data->pstack = 0; }
 
+/// Of what bodies carry, when mj_kinematics and mj_comPos have placed these.
+inline void place_what_follows(const mjModel* model, mjData* data) {
+  mj_camlight(model, data);
+  mj_tendon(model, data);
+}
+
 inline std::pair<int, int> touching_geoms(const mjContact& contact) {
   return {contact.geom1, contact.geom2};
 }
@@ -96,6 +102,12 @@ inline void set_state(const mjModel* model, mjData* data, const double* state) {
 }
 
 inline void clear_stack(mjData* data) { data->pstack = data->pbase = 0; }
+
+inline void place_what_follows(const mjModel* model, mjData* data) {
+  mj_camlight(model, data);
+  mj_flex(model, data);
+  mj_tendon(model, data);
+}
 
 inline std::pair<int, int> touching_geoms(const mjContact& contact) {
   return {contact.geom[0], contact.geom[1]};

@@ -1,10 +1,15 @@
 // Any MJCF world as an FMU: the variable table follows from the model in the resources folder.
+#include <algorithm>
 #include <deque>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <stride/results.h>
 #include <stride/unit.h>
 
+#include "units/mujoco_world/film/film.h"
 #include "units/mujoco_world/hooks.h"
 #include "units/mujoco_world/model.h"
 #include "units/mujoco_world/names.h"
@@ -28,7 +33,8 @@ std::string per_second(const std::string& unit) { return unit.empty() ? unit : u
 
 class MujocoWorld : public stride::Unit {
  public:
-  explicit MujocoWorld(const stride::Setup& setup) : world_(setup.resources) {
+  explicit MujocoWorld(const stride::Setup& setup)
+      : name_(setup.instance_name), world_(setup.resources) {
     auto& info = describe("A MuJoCo world: its actuators in, its joints, sites and sensors out");
     info.fixed_step = world_.timestep();
     info.promises_idle = true;
@@ -42,19 +48,25 @@ class MujocoWorld : public stride::Unit {
     for (std::size_t i = 0; i < sites_.size(); ++i) list_site(i);
     for (const auto& sensor : catalogue.sensors) list_sensor(sensor);
     list_rest();
+    list_film();
     state();
   }
 
   void initialize(stride::Time start) override {
     allow_rest();
     world_.reset(start);
+    set_film();
     show();
   }
 
   void step(stride::Step& step) override {
     for (std::size_t i = 0; i < inputs_.size(); ++i) world_.set_input(i, inputs_[i]);
     const bool rests = world_.rests_until() >= step.to();
-    world_.advance(step.to());
+    if (film_) {
+      film_->advance(world_, step.to());
+    } else {
+      world_.advance(step.to());
+    }
     if (!rests) show();
   }
 
@@ -76,10 +88,31 @@ class MujocoWorld : public stride::Unit {
     block_.resize(world_.state_size());
     reader.read_bytes(block_.data(), block_.size() * sizeof(double));
     world_.restore(block_.data());
+    set_film();
     show();
   }
 
  private:
+  /// The world was set to another state: there is a film as the parameters want it, up to now.
+  void set_film() {
+    const mujoco_world::film::FilmSettings wanted{stride::duration_from_seconds(film_interval_),
+                                                  view_};
+    if (wanted.interval == stride::Duration{}) {
+      film_.reset();
+    } else if (film_ && film_->settings() == wanted) {
+      film_->go_on();
+    } else {
+      film_.emplace(world_, wanted, film_folder());
+    }
+  }
+
+  std::filesystem::path film_folder() const {
+    std::string name = name_;
+    std::replace(name.begin(), name.end(), '/', '_');
+    if (name.find_first_not_of('.') == std::string::npos) name += '_';
+    return stride::results_folder() / "film" / name;
+  }
+
   /// As the importer wants it.
   void allow_rest() {
     if (!max_skip()) return world_.forbid_rest();
@@ -124,6 +157,17 @@ class MujocoWorld : public stride::Unit {
         .unit("s")
         .range(0, 1e6)
         .description("for how long that has to be so");
+  }
+
+  void list_film() {
+    parameter("film.interval", film_interval_)
+        .unit("s")
+        .range(0, 1e6)
+        .description("simulated time between the pictures of a film; 0: no film");
+    parameter("film.width", view_.width).range(16, 4096).description("of a picture in pixels");
+    parameter("film.height", view_.height).range(16, 4096).description("of a picture in pixels");
+    parameter("film.camera", view_.camera)
+        .description("of the model; empty: the one called film, or one that sees the whole world");
   }
 
   struct Joint {
@@ -215,7 +259,11 @@ class MujocoWorld : public stride::Unit {
     }
   }
 
+  std::string name_;
   World world_;
+  double film_interval_ = 0;
+  mujoco_world::film::View view_;
+  std::optional<mujoco_world::film::Film> film_;
   std::vector<double> inputs_;
   std::vector<Joint> joints_;
   std::vector<Site> sites_;

@@ -1,7 +1,5 @@
 #include "units/reader/answer.h"
 
-#include <stdexcept>
-
 #include <stride/nfc/iso14443a.h>
 
 namespace reader {
@@ -90,18 +88,6 @@ std::optional<Answer> parse_answer(nfc::Command command, const nfc::Bits& bits) 
 stride::Duration longest_answer(nfc::Command command) {
   nfc::Bytes content(1 + data_size(command).most);
   return nfc::air_time({{}, 106, nfc::to_bits(nfc::with_crc(content))});
-}
-
-std::string name_of(nfc::Status status) {
-  switch (status) {
-    case nfc::Status::kOk:
-      return "ok";
-    case nfc::Status::kUnknownCommand:
-      return "unknown_command";
-    case nfc::Status::kBadArgument:
-      return "bad_argument";
-  }
-  throw std::invalid_argument("no name for status " + std::to_string(static_cast<int>(status)));
 }
 
 }  // namespace reader

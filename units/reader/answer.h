@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 
 #include <stride/nfc/commands.h>
 #include <stride/nfc/frame.h>
@@ -40,9 +39,6 @@ std::optional<Answer> parse_answer(nfc::Command command, const nfc::Bits& bits);
 
 /// How long the longest answer to a command is on the air, at the lowest bit rate.
 stride::Duration longest_answer(nfc::Command command);
-
-/// "ok", "unknown_command" or "bad_argument".
-std::string name_of(nfc::Status status);
 
 }  // namespace reader
 

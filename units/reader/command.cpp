@@ -1,7 +1,8 @@
 #include "units/reader/command.h"
 
-#include <array>
 #include <vector>
+
+#include <stride/nfc/names.h>
 
 #include "units/xml/text.h"
 
@@ -19,20 +20,6 @@ constexpr std::size_t kMostBytes = 32;         // of a raw command
 constexpr double kLeastTemperature = -327.68;  // what 16 bits of 1/100 degC hold
 constexpr double kMostTemperature = 327.67;
 constexpr const char* kRaw = "raw";
-
-struct CommandName {
-  const char* name;
-  nfc::Command command;
-};
-constexpr CommandName kCommandNames[] = {
-    {"identify", nfc::Command::kIdentify},
-    {"select", nfc::Command::kSelect},
-    {"read_temperature", nfc::Command::kReadTemperature},
-    {"read_log", nfc::Command::kReadLog},
-    {"set_sampling_period", nfc::Command::kSetSamplingPeriod},
-    {"set_led", nfc::Command::kSetLed},
-    {"sleep", nfc::Command::kSleep},
-};
 
 /// A command byte and its arguments.
 struct Request {
@@ -92,9 +79,9 @@ Request raw_request(const Element& element) {
 nfc::Command to_command(const Element& element) {
   const std::string name = element.text("name");
   std::vector<std::string> known;
-  for (const auto& entry : kCommandNames) {
-    if (name == entry.name) return entry.command;
-    known.push_back(entry.name);
+  for (const nfc::Command command : nfc::kCommands) {
+    if (name == name_of(command)) return command;
+    known.push_back(name_of(command));
   }
   known.push_back(kRaw);
   element.fail("unknown command '" + name + "': expected one of " + xml::quoted_list(known));
@@ -172,8 +159,7 @@ std::vector<std::string> data_attributes(nfc::Command command) {
 void read_status(const Element& element, Expectation& expectation) {
   const std::string name = element.has("status") ? element.text("status") : "ok";
   std::vector<std::string> known;
-  for (const auto status :
-       {nfc::Status::kOk, nfc::Status::kUnknownCommand, nfc::Status::kBadArgument}) {
+  for (const nfc::Status status : nfc::kStatuses) {
     if (name == name_of(status)) {
       expectation.status = status;
       return;
@@ -240,14 +226,6 @@ ProgramCommand parse_command(const Element& element) {
   command.pause = pause(element);
   command.expectation = expectation(element, command.command);
   return command;
-}
-
-std::string name_of(nfc::Command command) {
-  for (const auto& entry : kCommandNames) {
-    if (entry.command == command) return entry.name;
-  }
-  const auto byte = static_cast<std::uint8_t>(command);
-  return std::string("raw 0x") + "0123456789ABCDEF"[byte >> 4] + "0123456789ABCDEF"[byte & 0xF];
 }
 
 }  // namespace reader

@@ -3,7 +3,6 @@
 #define STRIDE_UNITS_READER_COMMAND_H
 
 #include <cstdint>
-#include <string>
 
 #include <stride/nfc/commands.h>
 #include <stride/nfc/frame.h>
@@ -28,10 +27,6 @@ struct ProgramCommand {
 
 /// Reads a <command>. Throws as xml::Element does.
 ProgramCommand parse_command(const xml::Element& element);
-
-/// What a command is called in programs and reports, such as "read_temperature"; "raw 0x7F" for one
-/// that has no name.
-std::string name_of(nfc::Command command);
 
 }  // namespace reader
 

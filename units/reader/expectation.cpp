@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "units/reader/text.h"
+#include <stride/nfc/names.h>
+
 #include "units/xml/text.h"
 
 namespace reader {
@@ -58,7 +59,7 @@ bool is_met(const Expectation& expectation, nfc::Command command,
 std::string text_of(const Expectation& expectation) {
   if (!expectation.answer) return "no answer";
   std::string text = name_of(expectation.status);
-  if (expectation.identifier) text += " identifier " + hexadecimal(*expectation.identifier);
+  if (expectation.identifier) text += " identifier " + nfc::hexadecimal(*expectation.identifier);
   if (expectation.samples > 0) text += " " + count_text(expectation.samples) + " or more";
   const std::string range = range_text(expectation);
   if (range.empty()) return text;
@@ -69,7 +70,7 @@ std::string text_of(nfc::Command command, const Answer& answer) {
   const std::string text = name_of(answer.status);
   if (answer.status != nfc::Status::kOk) return text;
   if (command == nfc::Command::kIdentify) {
-    return text + " identifier " + hexadecimal(answer.identifier);
+    return text + " identifier " + nfc::hexadecimal(answer.identifier);
   }
   if (command == nfc::Command::kReadTemperature) {
     return text + " " + xml::shortest(answer.temperature) + " degC";

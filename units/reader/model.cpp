@@ -4,7 +4,8 @@
 #include <chrono>
 #include <utility>
 
-#include "units/reader/text.h"
+#include <stride/nfc/names.h>
+
 #include "units/xml/text.h"
 
 namespace reader {

@@ -44,7 +44,10 @@ TEST_CASE("Everything that the annotation can say") {
       read(at_root(annotations(scenario("<stride:Step size='0.001'/>"
                                         "<stride:Record signals=' sensor.*  channel.distance'/>\n"
                                         "<stride:Record signals='reader.*'/>"
-                                        "<stride:Results signals='s.csv' events='none'/>"
+                                        "<stride:Plot title='Both' signals='a.x  b.*'/>"
+                                        "<stride:Plot title='One' signals='a.y'/>"
+                                        "<stride:Results signals='s.csv' events='none' "
+                                        "report='none'/>"
                                         "<stride:MainThread components='plant legacy.*'/>"
                                         "<stride:EarlyReturn components='* x' allowed='false'/>"
                                         "<stride:EarlyReturn components='a' allowed='true'/>"
@@ -63,6 +66,12 @@ TEST_CASE("Everything that the annotation can say") {
   CHECK(annotation.record[1].where.line == 4);
   CHECK(annotation.record[2].text == "reader.*");
   CHECK(annotation.record[2].where.line == 5);
+  REQUIRE(annotation.plots.size() == 2);
+  CHECK(annotation.plots[0].title == "Both");
+  REQUIRE(annotation.plots[0].signals.size() == 2);
+  CHECK(annotation.plots[0].signals[1].text == "b.*");
+  CHECK(annotation.plots[0].signals[1].where.line == 5);
+  CHECK(annotation.plots[1].title == "One");
   REQUIRE(annotation.main_thread.size() == 2);
   CHECK(annotation.main_thread[0].text == "plant");
   CHECK(annotation.main_thread[1].text == "legacy.*");
@@ -96,7 +105,9 @@ TEST_CASE("Everything that the annotation can say") {
   CHECK(annotation.results.signals == "s.csv");
   CHECK(annotation.results.events.empty());
   CHECK(annotation.results.trace == "signals.vcd");
+  CHECK(annotation.results.activity == "activity.csv");
   CHECK(annotation.results.statistics == "run.json");
+  CHECK(annotation.results.report.empty());
 }
 
 TEST_CASE("Everything about the stepping can be chosen") {
@@ -133,7 +144,7 @@ TEST_CASE("A mistake in the annotation is named with its line") {
                  Contains("did you mean 'Step'?"));
   CHECK_THAT(error("<stride:Policy/>"),
              Contains("known are: Step, Exchange, Record, Checks, Results, "
-                      "MainThread, EarlyReturn, Host, IdleSkip, Deadband"));
+                      "Plot, MainThread, EarlyReturn, Host, IdleSkip"));
   CHECK_THAT(error("<stride:Step siez='1'/>"), Contains("did you mean 'size'?"));
   CHECK_THAT(error("<stride:Step size=''/>"),
              Contains("the attribute 'size' of <stride:Step> is empty"));
@@ -170,7 +181,11 @@ TEST_CASE("A mistake in the annotation is named with its line") {
   CHECK_THAT(error("<stride:Tolerance variable='a.y' value='0'/>"), Contains("above 0"));
   CHECK_THAT(error("<stride:Tolerance value='1'/>"), Contains("'variable'"));
   CHECK_THAT(error("<stride:Results csv='a'/>"),
-             Contains("known are: signals, events, trace, statistics"));
+             Contains("known are: signals, events, trace, activity, statistics, report"));
+  CHECK_THAT(error("<stride:Plot signals='a'/>"), Contains("'title'"));
+  CHECK_THAT(error("<stride:Plot title='A'/>"), Contains("'signals'"));
+  CHECK_THAT(error("<stride:Plot title='A' signals=' '/>"),
+             Contains("x.ssd:4: ") && Contains("the plot shows nothing"));
   CHECK_THAT(error("<stride:Results trace='../a.vcd'/>"), Contains("is no plain file name"));
   CHECK_THAT(error("<stride:Results trace='run.json'/>"),
              Contains("two results have the file name 'run.json'"));

@@ -24,3 +24,24 @@ TEST_CASE("What cannot be a results folder is named with the reason") {
   CHECK_THROWS_WITH(make_results_folder("/proc/stride"), Contains("cannot write results"));
   CHECK_THROWS_WITH(make_results_folder(""), Contains("its name is empty"));
 }
+
+TEST_CASE("A film of an earlier run goes, and nothing else") {
+  const TemporaryFolder folder;
+  for (const char* file :
+       {"film/world/frames.csv", "film/world/00000.jpg", "film/arm/frames.csv",
+        "film/arm/00000.jpg", "film/arm/notes.jpg", "film/mine/00001.jpg", "signals.csv"}) {
+    std::filesystem::create_directories((folder / file).parent_path());
+    folder.write(file, "");
+  }
+  make_results_folder(folder / "");
+  CHECK_FALSE(std::filesystem::exists(folder / "film/world"));
+  CHECK_FALSE(std::filesystem::exists(folder / "film/arm/frames.csv"));
+  CHECK_FALSE(std::filesystem::exists(folder / "film/arm/00000.jpg"));
+  CHECK(std::filesystem::exists(folder / "film/arm/notes.jpg"));
+  CHECK(std::filesystem::exists(folder / "film/mine/00001.jpg"));
+  CHECK(std::filesystem::exists(folder / "signals.csv"));
+  std::filesystem::remove_all(folder / "film/arm");
+  std::filesystem::remove_all(folder / "film/mine");
+  folder.write("film/x", "");
+  CHECK_NOTHROW(make_results_folder(folder / ""));
+}

@@ -9,12 +9,39 @@ using namespace stride::io;
 using Catch::Contains;
 using std::chrono::milliseconds;
 
+namespace {
+
+/// The sample system with a connection.
+core::System wired_system() {
+  auto description = sample_description();
+  description->variables.push_back(
+      variable("warmth", 13, core::ValueType::Float64, core::Causality::Output, "degC"));
+  core::SystemDeclaration declaration;
+  declaration.name = "sample";
+  declaration.components = {{"a", description, {}, {}}, {"b, c", description, {}, {}}};
+  declaration.connections = {{"a", "warmth", "b, c", "temperature", false, {}}};
+  return core::System(declaration);
+}
+
+/// run.json of this much of a run of the sample system.
+std::string written(const core::RunStatistics& statistics, std::optional<std::string> error = {}) {
+  const TemporaryFolder folder;
+  const core::System system = sample_system();
+  write_run_json(folder / "run.json", {.scenario = "x.ssd",
+                                       .system = system,
+                                       .options = {},
+                                       .statistics = statistics,
+                                       .error = std::move(error)});
+  return content(folder / "run.json");
+}
+
+}  // namespace
+
 TEST_CASE("run.json tells what was run and how far it came") {
   const TemporaryFolder folder;
   core::RunOptions options;
   options.stop = Time(milliseconds(14'200));
   options.step.size = milliseconds(1);
-  options.recorded = {{0, 1}, {0, 2}};
   options.threads.count = 4;
   core::RunStatistics statistics;
   statistics.reached = options.stop;
@@ -47,8 +74,18 @@ TEST_CASE("run.json tells what was run and how far it came") {
   host.protections = {"no network", "seccomp"};
   host.missing_protections = {"landlock"};
   const std::vector<core::Verdict> verdicts = {{"b, c", false, "too \"late\""}};
-  write_run_json(folder / "run.json", "scenarios/x.ssd", sample_system(), options, statistics,
-                 verdicts);
+  options.recorded = {{0, 1}, {1, 4}};
+  const std::vector<Plot> plots = {{"Height", {"a.distance"}}};
+  ResultFiles files;
+  files.trace.clear();
+  const core::System system = wired_system();
+  write_run_json(folder / "run.json", {.scenario = "scenarios/x.ssd",
+                                       .system = system,
+                                       .options = options,
+                                       .statistics = statistics,
+                                       .verdicts = verdicts,
+                                       .files = files,
+                                       .plots = plots});
   CHECK(content(folder / "run.json") == R"({
   "scenario": "scenarios/x.ssd",
   "system": "sample",
@@ -138,23 +175,67 @@ TEST_CASE("run.json tells what was run and how far it came") {
         ]
       }
     }
+  ],
+  "connections": [
+    {
+      "from": "a.warmth",
+      "to": "b, c.temperature",
+      "kind": "value"
+    }
+  ],
+  "files": {
+    "signals": "signals.csv",
+    "events": "events.csv",
+    "activity": "activity.csv",
+    "statistics": "run.json",
+    "report": "report.html"
+  },
+  "signals": [
+    {
+      "name": "a.distance",
+      "unit": "m",
+      "type": "Float64",
+      "variability": "continuous"
+    },
+    {
+      "name": "b, c.position[1]",
+      "unit": "m",
+      "type": "Float64",
+      "variability": "continuous"
+    },
+    {
+      "name": "b, c.position[2]",
+      "unit": "m",
+      "type": "Float64",
+      "variability": "continuous"
+    },
+    {
+      "name": "b, c.position[3]",
+      "unit": "m",
+      "type": "Float64",
+      "variability": "continuous"
+    }
+  ],
+  "plots": [
+    {
+      "title": "Height",
+      "signals": [
+        "a.distance"
+      ]
+    }
   ]
 }
 )");
 }
 
 TEST_CASE("An error is told, also when the run never began") {
-  const TemporaryFolder folder;
-  write_run_json(folder / "run.json", "x.ssd", sample_system(), {}, {}, {},
-                 "unit 'a': it said \"no\"\xff");
-  const std::string text = content(folder / "run.json");
+  const std::string text = written({}, "unit 'a': it said \"no\"\xff");
   CHECK_THAT(text,
              Contains("\"outcome\": \"failed\",\n  \"error\": \"unit 'a': it said \\\"no\\\""));
   CHECK_THAT(text, Contains("\"name\": \"b, c\"") && !Contains("messages_sent"));
 }
 
 TEST_CASE("The snapshots of a process are told where there were some") {
-  const TemporaryFolder folder;
   core::RunStatistics statistics;
   statistics.units.resize(2);
   core::HostStatistics& host = statistics.units[0].host.emplace();
@@ -162,8 +243,7 @@ TEST_CASE("The snapshots of a process are told where there were some") {
   host.restores = 3;
   host.most_snapshots = 2;
   host.most_snapshot_memory = 8192;
-  write_run_json(folder / "run.json", "x.ssd", sample_system(), {}, statistics);
-  CHECK_THAT(content(folder / "run.json"), Contains(R"(
+  CHECK_THAT(written(statistics), Contains(R"(
         "snapshots": {
           "made": 14,
           "restored": 3,
@@ -173,14 +253,15 @@ TEST_CASE("The snapshots of a process are told where there were some") {
 }
 
 TEST_CASE("A unit may end the run") {
-  const TemporaryFolder folder;
   core::RunStatistics statistics;
   statistics.end = core::RunEnd::EndedByUnit;
-  write_run_json(folder / "run.json", "x.ssd", sample_system(), {}, statistics);
-  CHECK_THAT(content(folder / "run.json"), Contains("\"outcome\": \"ended by a unit\""));
+  CHECK_THAT(written(statistics), Contains("\"outcome\": \"ended by a unit\""));
 }
 
 TEST_CASE("A full disk is noticed") {
-  CHECK_THROWS_WITH(write_run_json("/dev/full", "x.ssd", sample_system(), {}, {}),
-                    Contains("/dev/full: cannot write the file"));
+  const core::System system = sample_system();
+  CHECK_THROWS_WITH(
+      write_run_json("/dev/full",
+                     {.scenario = "x.ssd", .system = system, .options = {}, .statistics = {}}),
+      Contains("/dev/full: cannot write the file"));
 }

@@ -35,9 +35,9 @@ TEST_CASE("a variable is meant by its name, an alias, and globs of both") {
   const core::System system = sample_system();
   const NamedVariable distance = named(system, "a.distance");
   for (const char* pattern : {"a.distance", "a.range", "*.dist*", "a.ran?e", "*"}) {
-    CHECK(is_meant(system, distance, pattern));
+    CHECK(is_meant(system, distance.id, pattern));
   }
   for (const char* pattern : {"distance", "b.range", "a.dist", ""}) {
-    CHECK_FALSE(is_meant(system, distance, pattern));
+    CHECK_FALSE(is_meant(system, distance.id, pattern));
   }
 }

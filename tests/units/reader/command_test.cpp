@@ -71,12 +71,6 @@ TEST_CASE("Each command of the protocol can be given, with its argument") {
   }
 }
 
-TEST_CASE("Commands have names") {
-  CHECK(reader::name_of(Command::kReadTemperature) == "read_temperature");
-  CHECK(reader::name_of(Command::kSetSamplingPeriod) == "set_sampling_period");
-  CHECK(reader::name_of(static_cast<Command>(0x7F)) == "raw 0x7F");
-}
-
 TEST_CASE("What is not given has its default") {
   const ProgramCommand command = parse("name='identify'");
   CHECK(command.timeout == std::chrono::milliseconds(50));

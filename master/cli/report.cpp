@@ -1,0 +1,43 @@
+// stride report: what a run was like, on a page.
+#include <filesystem>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "master/cli/commands.h"
+#include "master/cli/report_page.h"
+#include "master/report/results.h"
+
+namespace stride::cli {
+namespace {
+
+struct Request {
+  std::filesystem::path folder;
+  std::filesystem::path out;
+  bool open = false;
+};
+
+void make_report(const Request& request) {
+  const io::ResultFiles files = report::result_files(request.folder);
+  const std::string& name = files.report.empty() ? io::ResultFiles().report : files.report;
+  const std::filesystem::path file = request.out.empty() ? request.folder / name : request.out;
+  write_report(request.folder, files, file);
+  fmt::print("Report in {}\n", file.string());
+  if (request.open) open_in_browser(file);
+}
+
+}  // namespace
+
+void add_report(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("report", "Make the page that shows what happened in a run");
+  const auto request = std::make_shared<Request>();
+  command->add_option("FOLDER", request->folder, "The results of a run")->required()->type_name("");
+  command->add_option("--output,-o", request->out, "Write there instead of into the folder")
+      ->type_name("FILE");
+  command->add_flag("--open", request->open, "Open the page in a browser");
+  command->callback([request] { make_report(*request); });
+}
+
+}  // namespace stride::cli

@@ -1,0 +1,78 @@
+#include "master/cli/report_page.h"
+
+#include <cstdlib>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include "master/core/error.h"
+#include "master/report/page.h"
+#include "master/report/report.h"
+
+namespace stride::cli {
+namespace {
+
+/// The words of a command, with the file in place of %s or behind them.
+std::vector<std::string> words(const std::string& command, const std::string& file) {
+  std::vector<std::string> words;
+  std::istringstream stream(command);
+  bool has_file = false;
+  for (std::string word; stream >> word;) {
+    if (const std::size_t at = word.find("%s"); at != std::string::npos) {
+      word.replace(at, 2, file);
+      has_file = true;
+    }
+    words.push_back(word);
+  }
+  if (!has_file) words.push_back(file);
+  return words;
+}
+
+/// What $BROWSER lists, separated by colons, or else the desktop's own program.
+std::vector<std::string> browsers() {
+  const char* const variable = std::getenv("BROWSER");
+  if (variable == nullptr || *variable == '\0') return {"xdg-open"};
+  std::vector<std::string> commands;
+  std::istringstream list(variable);
+  for (std::string command; std::getline(list, command, ':');) commands.push_back(command);
+  return commands;
+}
+
+/// Tells whether there is such a program.
+bool start(std::vector<std::string> command) {
+  std::vector<char*> arguments;
+  for (std::string& word : command) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  pid_t process = 0;
+  return ::posix_spawnp(&process, arguments[0], nullptr, nullptr, arguments.data(), environ) == 0;
+}
+
+}  // namespace
+
+bool has_reports() { return !report::page().empty(); }
+
+void write_report(const std::filesystem::path& folder, const io::ResultFiles& files,
+                  const std::filesystem::path& report) {
+  const report::Results results = report::read_results(folder, files);
+  for (const std::string& note : results.notes) spdlog::warn("{}", note);
+  report::write_report(report, results, STRIDE_VERSION);
+}
+
+void open_in_browser(const std::filesystem::path& file) {
+  const std::string path = std::filesystem::absolute(file).string();
+  for (const std::string& browser : browsers()) {
+    if (start(words(browser, path))) return;
+  }
+  core::fail_run({},
+                 fmt::format("cannot open {}: there is no xdg-open, and BROWSER names no program "
+                             "that can be started",
+                             file.string()),
+                 fmt::format("open {} in a browser", path));
+}
+
+}  // namespace stride::cli

@@ -1,0 +1,72 @@
+#include "master/io/plot_selection.h"
+
+#include <set>
+
+#include <fmt/format.h>
+
+#include "master/core/suggest.h"
+#include "master/io/signal_names.h"
+#include "master/io/signal_text.h"
+
+namespace stride::io {
+namespace {
+
+[[noreturn]] void fail_without_match(const core::System& system,
+                                     std::span<const core::VariableId> recorded,
+                                     const PlotPattern& plot, const SignalPattern& pattern) {
+  std::vector<std::string> names;
+  for (const core::VariableId id : recorded) names.push_back(system.full_name(id));
+  core::fail_input({.where = pattern.where},
+                   fmt::format("the plot '{}' wants '{}', which matches no signal that is recorded",
+                               plot.title, pattern.text),
+                   core::suggestion(pattern.text, names));
+}
+
+/// Adds the columns of what the pattern matches; tells whether that is anything.
+bool add_matches(const core::System& system, std::span<const core::VariableId> recorded,
+                 const SignalPattern& pattern, std::set<core::VariableId>& taken, Plot& plot) {
+  bool has_match = false;
+  for (const core::VariableId id : recorded) {
+    if (!is_meant(system, id, pattern.text)) continue;
+    has_match = true;
+    if (!taken.insert(id).second) continue;
+    for (std::size_t i = 0; i < system.variable(id).size; ++i) {
+      plot.signals.push_back(column_name(system, id, i));
+    }
+  }
+  return has_match;
+}
+
+}  // namespace
+
+std::vector<Plot> select_plots(const core::System& system,
+                               std::span<const core::VariableId> recorded,
+                               std::span<const PlotPattern> patterns) {
+  std::vector<Plot> plots;
+  for (const PlotPattern& wanted : patterns) {
+    Plot& plot = plots.emplace_back(Plot{wanted.title, {}});
+    std::set<core::VariableId> taken;
+    for (const SignalPattern& pattern : wanted.signals) {
+      if (add_matches(system, recorded, pattern, taken, plot)) continue;
+      fail_without_match(system, recorded, wanted, pattern);
+    }
+  }
+  return plots;
+}
+
+std::vector<Plot> remaining_plots(const core::System& system,
+                                  std::span<const core::VariableId> recorded,
+                                  std::span<const PlotPattern> patterns) {
+  std::vector<Plot> plots;
+  for (const PlotPattern& wanted : patterns) {
+    Plot plot{wanted.title, {}};
+    std::set<core::VariableId> taken;
+    for (const SignalPattern& pattern : wanted.signals) {
+      add_matches(system, recorded, pattern, taken, plot);
+    }
+    if (!plot.signals.empty()) plots.push_back(std::move(plot));
+  }
+  return plots;
+}
+
+}  // namespace stride::io

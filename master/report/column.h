@@ -1,0 +1,80 @@
+// A recorded signal in memory.
+#ifndef STRIDE_MASTER_REPORT_COLUMN_H
+#define STRIDE_MASTER_REPORT_COLUMN_H
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <variant>
+#include <vector>
+
+#include "master/core/description.h"
+#include "master/report/csv_reader.h"
+
+namespace stride::report {
+
+/// What run.json says of a column.
+struct SignalInfo {
+  std::string name;
+  std::string unit;
+  core::ValueType type = core::ValueType::Float64;
+  bool is_continuous = true;
+};
+
+/// Texts, of which many are equal: each is kept once.
+class Texts {
+ public:
+  void add(const std::string& text);
+  const std::vector<std::string>& distinct() const { return distinct_; }
+  std::vector<std::int32_t>& indices() { return indices_; }
+  const std::vector<std::int32_t>& indices() const { return indices_; }
+
+ private:
+  std::vector<std::string> distinct_;
+  std::vector<std::int32_t> indices_;  ///< for each row, which of them
+  std::unordered_map<std::string, std::int32_t> places_;
+};
+
+/// The values of a column of signals.csv, in the narrowest form that has them all: integers become
+/// doubles as soon as one does not fit into 32 bits, and texts where a double would not be exact.
+class Column {
+ public:
+  using Values = std::variant<std::vector<std::uint8_t>, std::vector<std::int32_t>,
+                              std::vector<double>, Texts>;
+
+  /// Of a known type.
+  explicit Column(SignalInfo info);
+  /// The type follows from the fields: true and false, numbers, or else texts.
+  Column(std::string name, std::string unit);
+
+  const std::string& name() const { return info_.name; }
+  const std::string& unit() const { return info_.unit; }
+  core::ValueType type() const { return info_.type; }
+  /// Whether the signal keeps each value until the next.
+  bool is_stepped() const;
+  const Values& values() const { return values_; }
+  std::size_t size() const;
+
+  /// Throws std::invalid_argument, whose text says what was expected, for what is not of the type.
+  void append(const CsvReader::Field& field);
+  /// Of the rows from `first` on, keeps those that are listed, in ascending order.
+  void keep(std::size_t first, std::span<const std::size_t> rows);
+
+ private:
+  void append_number(std::string_view text);
+  void append_integer(std::string_view text);
+  void deduce(const CsvReader::Field& field);
+  void become_doubles();
+  void become_texts();
+
+  SignalInfo info_;
+  bool is_deduced_ = false;
+  Values values_;
+};
+
+}  // namespace stride::report
+
+#endif

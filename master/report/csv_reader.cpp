@@ -1,0 +1,131 @@
+#include "master/report/csv_reader.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include "master/core/error.h"
+
+namespace stride::report {
+namespace {
+
+constexpr std::size_t kCapacity = std::size_t{1} << 18;
+constexpr std::size_t kLongestRow = std::size_t{1} << 28;
+
+}  // namespace
+
+CsvReader::CsvReader(std::filesystem::path file)
+    : file_(std::move(file)),
+      stream_(std::fopen(file_.c_str(), "rbe"), &std::fclose),
+      buffer_(kCapacity) {
+  const auto fail_to_open = [&](const std::string& reason) {
+    core::fail_input({.where = {file_.string(), 0}},
+                     fmt::format("cannot read the file: {}", reason));
+  };
+  if (!stream_) fail_to_open(std::generic_category().message(errno));
+  struct stat status {};
+  // a device may have no end
+  if (::fstat(::fileno(stream_.get()), &status) != 0 || !S_ISREG(status.st_mode)) {
+    fail_to_open("it is no regular file");
+  }
+}
+
+std::string CsvReader::Field::value() const {
+  std::string value;
+  value.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    value += text[i];
+    i += is_quoted && text[i] == '"';  // the second of two
+  }
+  return value;
+}
+
+bool CsvReader::next() {
+  line_ = next_line_;
+  while (split() == Row::Unfinished) {
+    if (refill()) continue;
+    is_cut_ = begin_ != end_;
+    return false;
+  }
+  next_line_ += feeds_;
+  return true;
+}
+
+/// Splits the row at the begin of what is in the buffer, if it is whole.
+CsvReader::Row CsvReader::split() {
+  const char* at = buffer_.data() + begin_;
+  const char* const end = buffer_.data() + end_;
+  fields_.clear();
+  feeds_ = 1;
+  while (at != end) {
+    Field field;
+    if (*at == '"') {
+      if (!take_quoted(at, end, field)) return Row::Unfinished;
+    } else {
+      const char* const first = at;
+      while (at != end && *at != ',' && *at != '\n') ++at;
+      if (at == end) return Row::Unfinished;
+      const bool has_return = *at == '\n' && at != first && at[-1] == '\r';
+      field.text = {first, static_cast<std::size_t>(at - first) - has_return};
+    }
+    fields_.push_back(field);
+    if (*at++ == ',') continue;
+    begin_ = static_cast<std::size_t>(at - buffer_.data());
+    return Row::Whole;
+  }
+  return Row::Unfinished;
+}
+
+/// From its opening quotation mark to the separator behind it; tells whether all of it is there.
+bool CsvReader::take_quoted(const char*& at, const char* end, Field& field) {
+  const char* const first = ++at;
+  while (true) {
+    at = std::find(at, end, '"');
+    if (end - at < 2) return false;
+    if (at[1] != '"') break;
+    at += 2;
+  }
+  field = {{first, static_cast<std::size_t>(at - first)}, true};
+  feeds_ += static_cast<std::size_t>(std::count(first, at, '\n'));
+  ++at;
+  if (*at == '\r' && ++at == end) return false;
+  if (*at != ',' && *at != '\n') {
+    fail("a quotation mark ends a field, but no comma and no end of the line follows");
+  }
+  return true;
+}
+
+/// Gets more of the file; tells whether there was more.
+bool CsvReader::refill() {
+  std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_),
+            buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
+  end_ -= begin_;
+  begin_ = 0;
+  if (end_ == buffer_.size()) {
+    if (buffer_.size() >= kLongestRow) {
+      fail("the row does not end; a quotation mark may be missing");
+    }
+    buffer_.resize(2 * buffer_.size());
+  }
+  const std::size_t count =
+      std::fread(buffer_.data() + end_, 1, buffer_.size() - end_, stream_.get());
+  if (count == 0 && std::ferror(stream_.get()) != 0) {
+    fail(fmt::format("cannot read on: {}", std::generic_category().message(errno)));
+  }
+  end_ += count;
+  return count != 0;
+}
+
+void CsvReader::fail(const std::string& message) const {
+  core::fail_input({.where = {file_.string(), static_cast<int>(line_)}}, message);
+}
+
+void CsvReader::fail(const std::string& column, const std::string& message) const {
+  fail(fmt::format("column '{}': {}", column, message));
+}
+
+}  // namespace stride::report

@@ -1,0 +1,27 @@
+// Moving the cursor by what there is rather than by time.
+import { lastAtOrBefore } from "./data/exact_time.js";
+
+/** The row whose values hold at the cursor; -1 where there is no cursor, or nothing before it. */
+export function rowAtCursor({ report, view }) {
+  if (view.cursor === null) return -1;
+  return view.row ?? lastAtOrBefore(report.seconds, view.cursor);
+}
+
+/** Moves the cursor by samples, and holds it there. */
+export function moveBySamples(context, count) {
+  const { report, view } = context;
+  const last = report.seconds.length - 1;
+  if (last < 0) return;
+  const now = view.cursor === null ? lastAtOrBefore(report.seconds, view.from) : rowAtCursor(context);
+  const row = Math.min(last, Math.max(0, now + count));
+  view.holdCursor(report.seconds[row], row);
+}
+
+/** Moves the cursor to the next instant with messages, or to that before, and holds it there. */
+export function moveByMessages({ report, view }, direction) {
+  const instants = report.messages.map((message) => message.seconds);
+  const now = view.cursor ?? (direction > 0 ? -Infinity : Infinity);
+  const at = lastAtOrBefore(instants, now);
+  const target = direction > 0 ? instants[at + 1] : instants.findLast((seconds) => seconds < now);
+  if (target !== undefined) view.holdCursor(target);
+}

@@ -1,0 +1,71 @@
+// Arrays as the report holds them: little-endian, the bytes of the elements transposed, deflated, in base64.
+
+/**
+ * @typedef {object} Packed
+ * @property {"float64"|"int64"|"int32"|"uint8"|"strings"} type
+ * @property {number} [count]
+ * @property {string} [data] base64
+ * @property {string[]} [values] of type "strings": the distinct ones
+ * @property {Packed} [indices] of type "strings": which of them each element is
+ */
+
+const kArrays = { float64: Float64Array, int64: BigInt64Array, int32: Int32Array, uint8: Uint8Array };
+
+/** Characters of base64 that are decoded at once: a multiple of 4, and few enough to take no time that one would notice. */
+const kPiece = 1 << 20;
+
+function bytesOf(base64) {
+  const binary = atob(base64);
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = binary.charCodeAt(i);
+  return bytes;
+}
+
+function compressedStream(base64) {
+  let position = 0;
+  return new ReadableStream({
+    pull(controller) {
+      if (position >= base64.length) return controller.close();
+      controller.enqueue(bytesOf(base64.slice(position, position + kPiece)));
+      position += kPiece;
+    },
+  });
+}
+
+/** The inflated bytes; an error where they are not as many as expected. */
+async function inflate(base64, size) {
+  const bytes = new Uint8Array(size);
+  const reader = compressedStream(base64).pipeThrough(new DecompressionStream("deflate-raw")).getReader();
+  let filled = 0;
+  for (let piece = await reader.read(); !piece.done; piece = await reader.read()) {
+    if (filled + piece.value.length > size) throw new Error(`an array has more than its ${size} bytes`);
+    bytes.set(piece.value, filled);
+    filled += piece.value.length;
+  }
+  if (filled !== size) throw new Error(`an array has ${filled} bytes, expected ${size}`);
+  return bytes;
+}
+
+/** Undoes the transposition: byte `k` of element `i` is at `k * count + i`. */
+export function untransposed(bytes, count, width) {
+  if (width === 1) return bytes;
+  const elements = new Uint8Array(bytes.length);
+  for (let k = 0; k < width; ++k) {
+    const from = k * count;
+    for (let i = 0, to = k; i < count; ++i, to += width) elements[to] = bytes[from + i];
+  }
+  return elements;
+}
+
+/**
+ * The typed array of a packed one that is not of strings.
+ * @param {Packed} packed
+ * @returns {Promise<Float64Array|BigInt64Array|Int32Array|Uint8Array>}
+ */
+export async function unpack(packed) {
+  const type = kArrays[packed.type];
+  if (!type) throw new Error(`an array is of the unknown type "${packed.type}"`);
+  const width = type.BYTES_PER_ELEMENT;
+  const bytes = await inflate(packed.data, packed.count * width);
+  return new type(untransposed(bytes, packed.count, width).buffer);
+}

@@ -1,0 +1,74 @@
+// What a unit did over time: intervals that follow one another, and how much of any time they cover.
+import { lastAtOrBefore } from "./exact_time.js";
+
+export class Intervals {
+  /**
+   * @param {Float64Array} from [s], ascending
+   * @param {Float64Array} until [s], each at or after its `from`
+   */
+  constructor(from, until) {
+    this.from = from;
+    this.until = until;
+    this.covered = new Float64Array(from.length + 1);
+    for (let i = 0; i < from.length; ++i) this.covered[i + 1] = this.covered[i] + (until[i] - from[i]);
+  }
+
+  get count() {
+    return this.from.length;
+  }
+
+  /** The time before `time` that is covered [s], where no two overlap. */
+  coveredBefore(time) {
+    const last = lastAtOrBefore(this.from, time);
+    if (last < 0) return 0;
+    return this.covered[last] + Math.min(time, this.until[last]) - this.from[last];
+  }
+
+  /** The share of the time from `from` until `until` that is covered, 0 to 1. */
+  share(from, until) {
+    if (!(until > from)) return 0;
+    return Math.min(1, Math.max(0, (this.coveredBefore(until) - this.coveredBefore(from)) / (until - from)));
+  }
+
+  /** How many begin in [from, until). */
+  countWithin(from, until) {
+    return lastBefore(this.from, until) - lastBefore(this.from, from);
+  }
+
+  /** The index of that which covers `time`, or -1. */
+  at(time) {
+    const last = lastAtOrBefore(this.from, time);
+    return last >= 0 && time <= this.until[last] ? last : -1;
+  }
+}
+
+function lastBefore(times, time) {
+  let index = lastAtOrBefore(times, time);
+  while (index >= 0 && times[index] === time) --index;
+  return index;
+}
+
+/**
+ * The time that all of them cover.
+ * @param {Intervals[]} all each without overlaps
+ */
+export function commonIntervals(all) {
+  if (all.length === 0) return new Intervals(new Float64Array(0), new Float64Array(0));
+  return all.slice(1).reduce(intersection, all[0]);
+}
+
+function intersection(one, other) {
+  const from = [];
+  const until = [];
+  for (let i = 0, j = 0; i < one.count && j < other.count; ) {
+    const start = Math.max(one.from[i], other.from[j]);
+    const end = Math.min(one.until[i], other.until[j]);
+    if (start < end) {
+      from.push(start);
+      until.push(end);
+    }
+    if (one.until[i] < other.until[j]) ++i;
+    else ++j;
+  }
+  return new Intervals(Float64Array.from(from), Float64Array.from(until));
+}

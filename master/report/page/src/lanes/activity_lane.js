@@ -1,0 +1,63 @@
+// What one unit did over time: idle time shaded, events and early returns as ticks, what was undone or refused in red.
+import { h, sizedContext } from "../dom.js";
+import { color } from "../plot/colors.js";
+import { kGutter } from "../plot/layout.js";
+import { shadeIntervals } from "../plot/shade.js";
+
+const kHeight = 18;
+
+/** Drawn one over the other; what is rare and matters comes last. Shares of the lane's height, from the top. */
+const kTicks = [
+  { kind: "event", color: "--event", top: 0.45, bottom: 1 },
+  { kind: "early return", color: "--early-return", top: 0, bottom: 0.45 },
+  { kind: "undone", color: "--bad", top: 0, bottom: 1 },
+  { kind: "rejection", color: "--bad", top: 0, bottom: 1 },
+];
+
+export class ActivityLane {
+  constructor({ report, view }, component) {
+    this.view = view;
+    this.component = component;
+    this.activity = report.activity.get(component) ?? new Map();
+    this.canvas = h("canvas", { role: "img", "aria-label": `${component}: ${this.summary}` });
+    this.box = h("div.activity-lane", {}, h("span.lane-name", { title: component }, component), this.canvas);
+  }
+
+  /** In words: "idle 5.9 s, 1 event, 2 rejections". */
+  get summary() {
+    const parts = [];
+    const idle = this.activity.get("idle");
+    if (idle) parts.push(`idle ${idle.covered.at(-1).toPrecision(3)} s`);
+    for (const { kind } of kTicks) {
+      const count = this.activity.get(kind)?.count ?? 0;
+      if (count > 0) parts.push(countText(kind, count));
+    }
+    return parts.join(", ") || "always stepped";
+  }
+
+  draw(width) {
+    const plotted = width - kGutter;
+    const context = sizedContext(this.canvas, plotted, kHeight);
+    const box = { left: 0, top: 0, width: plotted, height: kHeight };
+    context.fillStyle = color("--lane");
+    context.fillRect(0, 0, plotted, kHeight);
+    if (this.activity.has("idle")) shadeIntervals(context, this.activity.get("idle"), this.view, box, color("--idle"));
+    for (const ticks of kTicks) if (this.activity.has(ticks.kind)) this.#drawTicks(context, ticks, plotted);
+  }
+
+  #drawTicks(context, { kind, color: name, top, bottom }, width) {
+    const intervals = this.activity.get(kind);
+    context.fillStyle = color(name);
+    const perPixel = this.view.span / width;
+    for (let x = 0; x < width; ++x) {
+      const from = this.view.from + x * perPixel;
+      if (intervals.countWithin(from, from + perPixel) === 0) continue;
+      context.fillRect(x, Math.floor(top * kHeight), 1.5, Math.ceil((bottom - top) * kHeight));
+    }
+  }
+}
+
+function countText(kind, count) {
+  if (kind === "undone") return `${count} undone ${count === 1 ? "step" : "steps"}`;
+  return `${count.toLocaleString("en")} ${kind}${count === 1 ? "" : "s"}`;
+}

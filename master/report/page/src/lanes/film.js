@@ -1,0 +1,75 @@
+// The film of the world: some of its pictures along the time axis, and that at the cursor large.
+import { lastAtOrBefore, timeText } from "../data/exact_time.js";
+import { h } from "../dom.js";
+import { kGutter } from "../plot/layout.js";
+
+const kHeight = 84;
+
+export class FilmStrip {
+  /** @param {{component: string, times: BigInt64Array, seconds: Float64Array, frames: string[]}} film */
+  constructor({ view }, film) {
+    this.view = view;
+    this.film = film;
+    this.ratio = 4 / 3;
+    this.track = h("div.film-track", {
+      tabIndex: 0,
+      role: "slider",
+      "aria-label": `Film of ${film.component}`,
+      "aria-valuemin": "0",
+      "aria-valuemax": String(film.frames.length - 1),
+      onkeydown: (event) => this.#onKey(event),
+    });
+    this.box = h("div.film", {}, h("span.lane-name", { title: film.component }, film.component), this.track);
+    this.image = h("img", { alt: "", draggable: false });
+    this.caption = h("figcaption");
+    this.picture = h("figure.film-picture", {}, this.image, this.caption);
+    this.image.addEventListener("load", () => this.#fitRatio(), { once: true });
+    this.update();
+  }
+
+  /** The picture that holds at the cursor: the last one before it, or the first of all. */
+  get current() {
+    const time = this.view.cursor ?? this.view.from;
+    return Math.max(0, lastAtOrBefore(this.film.seconds, time));
+  }
+
+  update() {
+    const index = this.current;
+    if (index === this.shown) return;
+    this.shown = index;
+    this.image.src = this.film.frames[index];
+    const time = `${timeText(this.film.times[index])} s`;
+    this.image.alt = `${this.film.component} at ${time}`;
+    this.caption.textContent = `${this.film.component} at ${time}, picture ${index + 1} of ${this.film.frames.length}`;
+    this.track.setAttribute("aria-valuenow", String(index));
+    this.track.setAttribute("aria-valuetext", time);
+  }
+
+  draw(width) {
+    const plotted = width - kGutter;
+    const count = Math.max(1, Math.round(plotted / (kHeight * this.ratio)));
+    const each = plotted / count;
+    const pictures = [];
+    for (let i = 0; i < count; ++i) {
+      const time = this.view.from + ((i + 0.5) / count) * this.view.span;
+      const index = Math.max(0, lastAtOrBefore(this.film.seconds, time));
+      pictures.push(h("img", { src: this.film.frames[index], alt: "", draggable: false, style: { width: `${each}px` } }));
+    }
+    this.track.replaceChildren(...pictures);
+  }
+
+  #fitRatio() {
+    this.ratio = this.image.naturalWidth / this.image.naturalHeight || 4 / 3;
+    this.draw(this.box.clientWidth);
+  }
+
+  #onKey(event) {
+    const steps = { ArrowLeft: -1, ArrowRight: 1, PageUp: -10, PageDown: 10, Home: -Infinity, End: Infinity };
+    if (!(event.key in steps) || event.ctrlKey || event.altKey) return;
+    const last = this.film.frames.length - 1;
+    const index = Math.min(last, Math.max(0, this.current + steps[event.key]));
+    this.view.holdCursor(this.film.seconds[index]);
+    event.preventDefault();
+    event.stopPropagation();
+  }
+}

@@ -1,0 +1,35 @@
+// Connections of a diagram: those of values from one component to another are one edge, those of messages another. Clocks are
+// left out, for they go where their messages go.
+
+const kSeparator = "\u0000";
+
+/**
+ * The component that a full name belongs to: the longest one that it begins with, since systems hold others. Without one it
+ * is a connector of the system itself.
+ */
+function componentOf(name, components) {
+  for (let end = name.lastIndexOf("."); end > 0; end = name.lastIndexOf(".", end - 1)) {
+    const candidate = name.slice(0, end);
+    if (components.has(candidate)) return candidate;
+  }
+  return null;
+}
+
+/**
+ * @param {{components: {name: string}[], connections: {from: string, to: string, kind: string}[]}} diagram
+ * @returns {{from: string, to: string, isMessage: boolean, connections: {from: string, to: string}[]}[]}
+ */
+export function bundles(diagram) {
+  const components = new Set(diagram.components.map(({ name }) => name));
+  const found = new Map();
+  for (const connection of diagram.connections) {
+    const from = componentOf(connection.from, components);
+    const to = componentOf(connection.to, components);
+    if (from === null || to === null || connection.kind === "clock") continue;
+    const isMessage = connection.kind === "message";
+    const key = [from, to, isMessage].join(kSeparator);
+    if (!found.has(key)) found.set(key, { from, to, isMessage, connections: [] });
+    found.get(key).connections.push(connection);
+  }
+  return [...found.values()];
+}

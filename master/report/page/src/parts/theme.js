@@ -1,0 +1,31 @@
+// Light or dark: as the system has it, until somebody chooses.
+
+const kDark = window.matchMedia("(prefers-color-scheme: dark)");
+
+export class Theme extends EventTarget {
+  constructor() {
+    super();
+    this.chosen = null;
+    kDark.addEventListener("change", () => this.#apply());
+    this.#apply();
+  }
+
+  get isDark() {
+    return this.chosen === null ? kDark.matches : this.chosen === "dark";
+  }
+
+  switch() {
+    this.choose(this.isDark ? "light" : "dark");
+  }
+
+  /** @param {"light"|"dark"|null} theme null: as the system has it */
+  choose(theme) {
+    this.chosen = theme;
+    this.#apply();
+  }
+
+  #apply() {
+    document.documentElement.dataset.theme = this.isDark ? "dark" : "light";
+    this.dispatchEvent(new Event("change"));
+  }
+}

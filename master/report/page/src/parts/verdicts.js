@@ -1,0 +1,80 @@
+// What was judged: the units' own verdicts and the scenario's checks, in one list.
+import { h } from "../dom.js";
+import { numberText } from "../data/number_text.js";
+
+/**
+ * @typedef {object} Judgement
+ * @property {string} name
+ * @property {boolean|null} passed null: undecided
+ * @property {string} text
+ * @property {number|null} time of the first failure [s]
+ * @property {{signal: string, value: any, unit?: string}[]} values there
+ * @property {number} [line] of the scenario
+ */
+
+/** @returns {Judgement[]} what failed first */
+export function judgements(run) {
+  const units = (run.verdicts ?? []).map(({ component, passed, text }) => {
+    return { name: component, passed, text, time: null, values: [] };
+  });
+  const checks = (run.checks ?? []).map((check) => ({ values: [], ...check, time: check.time ?? null }));
+  const rank = ({ passed }) => (passed === false ? 0 : passed === null ? 1 : 2);
+  return [...checks, ...units].sort((a, b) => rank(a) - rank(b));
+}
+
+/**
+ * What comes of all together.
+ * @returns {{kind: "good"|"bad"|"open"|"none", text: string, first?: Judgement}}
+ */
+export function summary(run) {
+  const all = judgements(run);
+  const failed = all.filter(({ passed }) => passed === false);
+  const open = all.filter(({ passed }) => passed === null);
+  if (run.outcome === "failed") return { kind: "bad", text: "The run failed" };
+  if (failed.length > 0) {
+    const timed = failed.filter(({ time }) => time !== null);
+    const first = timed.length > 0 ? timed.reduce((a, b) => (b.time < a.time ? b : a)) : undefined;
+    const names = failed.map(({ name }) => name).join(", ");
+    return { kind: "bad", text: `${failed.length} of ${all.length} failed: ${names}`, first };
+  }
+  if (run.outcome === "interrupted") return { kind: "open", text: "Interrupted; nothing failed until then" };
+  if (open.length > 0) return { kind: "open", text: `${open.length} of ${all.length} undecided` };
+  if (all.length === 0) return { kind: "none", text: "Nothing was judged: no checks, and no unit with a verdict" };
+  return { kind: "good", text: all.length === 1 ? "Passed" : `All ${all.length} passed` };
+}
+
+const kSigns = new Map([
+  [true, ["✓", "passed", "good"]],
+  [false, ["✗", "failed", "bad"]],
+  [null, ["?", "undecided", "open"]],
+]);
+
+const valueText = ({ signal, value, unit }) =>
+  `${signal} = ${typeof value === "number" ? numberText(value) : value}${unit ? ` ${unit}` : ""}`;
+
+/** A button that brings the cursor to a time. */
+export function timeLink(view, seconds) {
+  return h("button.time-link", { type: "button", onclick: () => view.holdCursor(seconds) }, `${numberText(seconds)} s`);
+}
+
+function row({ name, passed, text, time, values, line }, view) {
+  const [sign, word, kind] = kSigns.get(passed);
+  const there = values.length > 0 ? h("div.there", {}, values.map(valueText).join(", ")) : null;
+  return h(
+    "tr",
+    {},
+    h(`td.sign.${kind}`, {}, h("span", { title: word, "aria-label": word, role: "img" }, sign)),
+    h("th", { scope: "row", title: line ? `line ${line} of the scenario` : "" }, name),
+    h("td", {}, text, there),
+    h("td.number", {}, time === null ? "" : timeLink(view, time)),
+  );
+}
+
+export function verdictTable(run, view) {
+  const all = judgements(run);
+  if (all.length === 0) return null;
+  const isTimed = all.some(({ time }) => time !== null);
+  const heads = ["", "verdict of", "because", isTimed ? "first failed at" : ""].map((text) => h("th", { scope: "col" }, text));
+  const rows = all.map((judgement) => row(judgement, view));
+  return h("table.verdicts", {}, h("thead", {}, h("tr", {}, ...heads)), h("tbody", {}, ...rows));
+}

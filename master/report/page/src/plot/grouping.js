@@ -1,0 +1,37 @@
+// Which signals share a pane: those of one plot and one unit of measure; states have rows of their own.
+
+/**
+ * @param {{plots: {title: string, signals: string[]}[], columns: Map<string, import("../data/report.js").Column>}} report
+ * @returns {{title: string, unit: string, isStates: boolean, columns: import("../data/report.js").Column[]}[]}
+ */
+export function groupIntoPanes(report) {
+  return report.plots.flatMap((plot) => panesOf(plot, report.columns));
+}
+
+/**
+ * Likewise what no plot shows: the signals of each component.
+ * @returns {ReturnType<typeof groupIntoPanes>}
+ */
+export function groupOthers(report) {
+  const shown = new Set(report.plots.flatMap(({ signals }) => signals));
+  const components = new Map();
+  for (const name of report.columns.keys()) {
+    if (shown.has(name)) continue;
+    const title = report.units.findLast((unit) => name.startsWith(`${unit}.`)) ?? name.split(".")[0];
+    if (!components.has(title)) components.set(title, { title, signals: [] });
+    components.get(title).signals.push(name);
+  }
+  return groupIntoPanes({ ...report, plots: [...components.values()] });
+}
+
+function panesOf({ title, signals }, columns) {
+  const panes = new Map();
+  for (const name of signals) {
+    const column = columns.get(name);
+    if (!column) continue;
+    const key = column.isState ? "states" : `unit ${column.unit}`;
+    if (!panes.has(key)) panes.set(key, { title, unit: column.unit, isStates: column.isState, columns: [] });
+    panes.get(key).columns.push(column);
+  }
+  return [...panes.values()];
+}

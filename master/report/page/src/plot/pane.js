@@ -1,0 +1,220 @@
+// One pane: curves of one unit of measure, drawn by uPlot. Zoom, cursor and legend are the page's own, since all panes share
+// them.
+import uPlot from "uplot";
+import { color, curveColor, curveDash } from "./colors.js";
+import { kGutter } from "./layout.js";
+import { timeTicks } from "./ruler.js";
+import { finiteExtremes, hasNothingNegative, intoRange, isMostlySmall, linearRange, logarithmicRange } from "./scale.js";
+import { shadeIntervals } from "./shade.js";
+import { groupTimes, groupValues, rowGroups } from "./thin.js";
+import { trace, Tracer } from "./trace.js";
+import { commonExponent, powerText, ticks, valueTickTexts } from "./ticks.js";
+
+const kHeight = 132;
+const kFont = "11px system-ui, sans-serif";
+/** Width of curves [px]. */
+const kLine = 1.5;
+/** Samples have dots where there is this much room between them [px]. */
+const kDotDistance = 14;
+/** uPlot draws no data of its own. */
+const kNothing = [null, null];
+/** As many numbers stand along the vertical axis at most. */
+const kMostTicks = 6;
+
+export class Pane {
+  /**
+   * @param {object} context report and view
+   * @param {import("../data/report.js").Column[]} columns of one unit of measure
+   * @param {number} firstColor of its curves; the panes above have those before
+   */
+  constructor({ report, view }, columns, firstColor) {
+    this.report = report;
+    this.view = view;
+    this.columns = columns;
+    this.firstColor = firstColor;
+    this.hidden = new Set();
+    this.highlighted = null;
+    /** Whether all values are whole numbers. */
+    this.isWhole = columns.every(({ type }) => !type.startsWith("Float"));
+    this.canBeLogarithmic = !this.isWhole && columns.every(hasNothingNegative);
+    this.isLogarithmic = this.canBeLogarithmic && columns.some(isMostlySmall);
+    this.range = [0, 1];
+    this.exponent = 0;
+    /** What is drawn of each curve: its points, and the bars that these have become. */
+    this.drawn = columns.map(() => ({ groups: [], times: [], values: [] }));
+    this.bars = [];
+    this.box = document.createElement("div");
+    this.box.className = "pane-canvas";
+  }
+
+  /** Draws what is shown now. @param {number} width [px] */
+  draw(width) {
+    if (!this.plot) this.#create(width);
+    else if (this.plot.width !== width) this.plot.setSize({ width, height: kHeight });
+    const plotted = width - kGutter;
+    const { seconds } = this.report;
+    const groups = rowGroups(seconds, this.view.from, this.view.until, plotted * (window.devicePixelRatio || 1));
+    const drawn = this.columns.map((column) => (this.hidden.has(column) ? [] : groupValues(column.pyramid, groups)));
+    this.#fit(drawn);
+    this.pointCount = groups.length === 0 ? 0 : Math.max(0, ...drawn.map((values) => values.length));
+    const times = groupTimes(seconds, groups);
+    this.drawn = drawn.map((values) => ({ groups, times, values: intoRange(values, this.range) }));
+    this.plot.batch(() => {
+      this.plot.setData([[this.view.from, this.view.until], ...drawn.map(() => kNothing)], false);
+      this.plot.setScale("x", { min: this.view.from, max: this.view.until });
+      this.plot.setScale("y", { min: this.range[0], max: this.range[1] });
+    });
+  }
+
+  setLogarithmic(isLogarithmic) {
+    this.isLogarithmic = isLogarithmic;
+    this.plot?.destroy();
+    this.plot = undefined;
+  }
+
+  /** Brings one curve to the front, or none. */
+  highlight(column) {
+    this.highlighted = column;
+    this.plot?.redraw(false);
+  }
+
+  #fit(drawn) {
+    const extremes = finiteExtremes(drawn);
+    this.range = this.isLogarithmic ? logarithmicRange(extremes) : linearRange(extremes);
+    const largest = Math.max(Math.abs(extremes.least), Math.abs(extremes.most));
+    this.exponent = this.isLogarithmic ? 0 : commonExponent(Number.isFinite(largest) ? largest : 0);
+  }
+
+  /** What stands over the vertical axis. */
+  get axisLabel() {
+    const { unit } = this.columns[0];
+    return this.exponent === 0 ? unit : `${powerText(this.exponent)}${unit ? ` ${unit}` : ""}`;
+  }
+
+  #create(width) {
+    const options = {
+      width,
+      height: kHeight,
+      padding: [10, 0, 6, 0],
+      legend: { show: false },
+      cursor: { show: false },
+      scales: {
+        x: { time: false, auto: false },
+        y: { auto: false, distr: this.isLogarithmic ? 3 : 1 },
+      },
+      axes: [this.#timeAxis(), this.#valueAxis()],
+      series: [{}, ...this.columns.map((column, index) => this.#series(index))],
+      hooks: {
+        drawClear: [(plot) => this.#shadeIdleTime(plot)],
+        drawSeries: [(plot, series) => this.#fillBars(plot, series - 1)],
+        draw: [(plot) => this.#nameAxis(plot)],
+      },
+    };
+    this.plot = new uPlot(options, [[], ...this.columns.map(() => [])], this.box);
+  }
+
+  #timeAxis() {
+    return {
+      size: 0,
+      ticks: { show: false },
+      grid: { stroke: () => color("--grid"), width: 1 },
+      splits: (plot) => timeTicks(this.view, plot.width - kGutter).values,
+      values: (plot, splits) => splits.map(() => null),
+    };
+  }
+
+  #valueAxis() {
+    return {
+      size: kGutter,
+      gap: 6,
+      font: kFont,
+      stroke: () => color("--quiet-text"),
+      ticks: { show: false },
+      grid: { stroke: () => color("--grid"), width: 1 },
+      splits: () => (this.isLogarithmic ? decades(this.range) : ticks(...this.range, kMostTicks, this.isWhole ? 1 : 0).values),
+      filter: (plot, splits) => splits,
+      values: (plot, splits) =>
+        this.isLogarithmic
+          ? splits.map((value) => powerText(Math.round(Math.log10(value))))
+          : valueTickTexts(splits, this.exponent),
+    };
+  }
+
+  #series(index) {
+    return {
+      scale: "y",
+      width: kLine,
+      stroke: () => this.#curveColor(index),
+      dash: curveDash(index),
+      points: { show: false },
+      paths: (plot) => this.#paths(plot, index),
+    };
+  }
+
+  /** uPlot gives places, scales and axes; what is drawn of so many rows is ours. */
+  #paths({ bbox, scales }, index) {
+    const ratio = window.devicePixelRatio || 1;
+    const points = this.drawn[index];
+    const line = new Path2D();
+    const bars = (this.bars[index] = []);
+    const sink = {
+      moveTo: (x, y) => line.moveTo(x, y),
+      lineTo: (x, y) => line.lineTo(x, y),
+      rect: (...box) => bars.push(box.map(Math.round)),
+    };
+    const hasDots = points.groups.length / 2 < bbox.width / (kDotDistance * ratio);
+    const tracer = new Tracer(sink, { isStepped: this.columns[index].stepped, hasDots, width: kLine * ratio });
+    if (points.values.length > 0) trace(tracer, points, places(bbox, scales, this.isLogarithmic));
+    return { stroke: line, fill: null, clip: null, band: null, gaps: null, flags: 0 };
+  }
+
+  /** One by one, for a browser takes much longer to fill them all as one path. */
+  #fillBars({ ctx, bbox }, index) {
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+    ctx.clip();
+    ctx.fillStyle = this.#curveColor(index);
+    for (const box of this.bars[index] ?? []) ctx.fillRect(...box);
+    ctx.restore();
+  }
+
+  #curveColor(index) {
+    const isFaint = this.highlighted !== null && this.highlighted !== this.columns[index];
+    return color(curveColor(this.firstColor + index)) + (isFaint ? "40" : "");
+  }
+
+  #shadeIdleTime({ ctx, bbox }) {
+    shadeIntervals(ctx, this.report.idle, this.view, bbox, color("--idle-shade"));
+  }
+
+  #nameAxis({ ctx, bbox }) {
+    const ratio = window.devicePixelRatio || 1;
+    ctx.save();
+    ctx.font = `${11 * ratio}px system-ui, sans-serif`;
+    ctx.fillStyle = color("--quiet-text");
+    ctx.textAlign = "left";
+    ctx.textBaseline = "top";
+    ctx.fillText(this.axisLabel, 2 * ratio, bbox.top - 4 * ratio);
+    ctx.restore();
+  }
+}
+
+/** Where times and values are in the picture [px of the screen]. */
+function places(bbox, { x, y }, isLogarithmic) {
+  const measure = isLogarithmic ? Math.log10 : (value) => value;
+  const [bottom, top] = [measure(y.min), measure(y.max)];
+  return {
+    x: (time) => bbox.left + ((time - x.min) / (x.max - x.min)) * bbox.width,
+    y: (value) => bbox.top + (1 - (measure(value) - bottom) / (top - bottom)) * bbox.height,
+  };
+}
+
+function decades([bottom, top]) {
+  const first = Math.round(Math.log10(bottom));
+  const last = Math.round(Math.log10(top));
+  const step = Math.max(1, Math.ceil((last - first) / kMostTicks));
+  const found = [];
+  for (let exponent = first; exponent <= last; exponent += step) found.push(10 ** exponent);
+  return found;
+}

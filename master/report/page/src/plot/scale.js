@@ -1,0 +1,62 @@
+// Which values a pane shows from bottom to top.
+
+/** Below this share of the largest value a logarithmic axis does not go. */
+const kDepth = 1e-12;
+
+/**
+ * The least and the most of what is drawn, infinities and gaps aside.
+ * @param {(number|null)[][]} columns
+ */
+export function finiteExtremes(columns) {
+  let least = Infinity;
+  let most = -Infinity;
+  let leastPositive = Infinity;
+  for (const column of columns) {
+    for (const value of column) {
+      if (value === null || !Number.isFinite(value)) continue;
+      if (value < least) least = value;
+      if (value > most) most = value;
+      if (value > 0 && value < leastPositive) leastPositive = value;
+    }
+  }
+  return { least, most, leastPositive };
+}
+
+/** Bottom and top of a linear axis: a little more than the values need. */
+export function linearRange({ least, most }) {
+  if (!(least <= most)) return [0, 1];
+  const span = most - least;
+  const room = span > 0 ? span * 0.06 : Math.abs(least) * 0.1 || 1;
+  return [least - room, most + room];
+}
+
+/** Bottom and top of a logarithmic axis: whole decades. What is not positive stands at the bottom. */
+export function logarithmicRange({ most, leastPositive }) {
+  if (!(most > 0)) return [1e-1, 1];
+  const bottom = Math.floor(Math.log10(Math.max(leastPositive, most * kDepth)) + 1e-9);
+  const top = Math.ceil(Math.log10(most) - 1e-9);
+  return [10 ** bottom, 10 ** Math.max(top, bottom + 1)];
+}
+
+/** What is outside of the range stands at its edge, so that it is seen: infinities, and zeros on a logarithmic axis. */
+export const intoRange = (values, [bottom, top]) =>
+  values.map((value) => (value === null ? null : Math.min(top, Math.max(bottom, value))));
+
+function samples({ values }) {
+  const step = Math.max(1, Math.floor(values.length / 2000));
+  const found = [];
+  for (let i = 0; i < values.length; i += step) found.push(values[i]);
+  return found;
+}
+
+/** Without NaN, that is. */
+export const hasNothingNegative = ({ pyramid, values }) => !(pyramid.extremes(0, values.length).least < 0);
+
+/** Whether what is usual would lie at the bottom of a linear axis, so that a logarithmic one shows more. */
+export function isMostlySmall(column) {
+  const { most } = column.pyramid.extremes(0, column.values.length);
+  const positive = samples(column)
+    .filter((value) => value > 0)
+    .sort((a, b) => a - b);
+  return positive.length > 0 && positive[positive.length >> 1] < most / 300;
+}

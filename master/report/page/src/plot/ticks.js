@@ -1,0 +1,55 @@
+// Round numbers along an axis, and how they are written.
+
+const kSteps = [1, 2, 5, 10];
+
+/** The least step of 1, 2 or 5 times a power of ten by which `span` has no more than `most` parts. */
+export function roundStep(span, most) {
+  const raw = span / most;
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const step = kSteps.find((factor) => factor * power >= raw * (1 - 1e-9));
+  return step * power;
+}
+
+/** The multiples of a round step, which is no less than `least`, in [from, until]. */
+export function ticks(from, until, most, least = 0) {
+  const step = Math.max(least, roundStep(until - from, most));
+  const first = Math.ceil(from / step - 1e-9);
+  const last = Math.floor(until / step + 1e-9);
+  const found = [];
+  for (let i = first; i <= last; ++i) found.push(i * step);
+  return { step, values: found };
+}
+
+/** Decimals that tell multiples of `step` apart. */
+export const decimalsOf = (step) => Math.max(0, Math.min(20, -Math.floor(Math.log10(step) + 1e-9)));
+
+/** Ticks of time [s], all with the same number of decimals. */
+export function timeTickTexts(values, step) {
+  const decimals = decimalsOf(step);
+  return values.map((value) => (value + 0).toFixed(decimals).replace(/^-(0(\.0*)?)$/, "$1"));
+}
+
+const kSuperscripts = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+
+/** A power of ten: 10⁻³. */
+export function powerText(exponent) {
+  const digits = [...String(Math.abs(exponent))].map((digit) => kSuperscripts[Number(digit)]);
+  return `10${exponent < 0 ? "⁻" : ""}${digits.join("")}`;
+}
+
+/**
+ * The power of ten that is taken out of the numbers of an axis, so that these stay short: 0 for none.
+ * @param {number} largest magnitude on the axis
+ */
+export function commonExponent(largest) {
+  if (!(largest > 0) || (largest >= 1e-2 && largest < 1e5)) return 0;
+  return Math.floor(Math.log10(largest) / 3 + 1e-9) * 3;
+}
+
+/** The numbers of an axis with `exponent` taken out. */
+export function valueTickTexts(values, exponent) {
+  const scaled = values.map((value) => value / 10 ** exponent);
+  const step = scaled.length > 1 ? Math.abs(scaled[1] - scaled[0]) : Math.abs(scaled[0]) || 1;
+  const decimals = Math.min(12, decimalsOf(step));
+  return scaled.map((value) => value.toFixed(decimals).replace(/^-(0(\.0*)?)$/, "$1"));
+}

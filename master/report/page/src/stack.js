@@ -1,0 +1,182 @@
+// The rows under the common time axis: film, messages, panes, what the units did. It draws what is in sight, moves the cursor
+// through all rows, and zooms where one drags.
+import { h } from "./dom.js";
+import { kGutter } from "./plot/layout.js";
+
+/** A drag shorter than this is a click [px]. */
+const kClick = 4;
+/** How much one turn of the wheel zooms. */
+const kWheel = 1.0015;
+
+/**
+ * @typedef {object} Row
+ * @property {HTMLElement} element with the drawing at its left edge
+ * @property {(width: number) => void} draw
+ */
+
+export class Stack {
+  #dirty = new Set();
+  #visible = new Set();
+  #rows = new Map();
+
+  /**
+   * @param {import("./view.js").View} view
+   * @param {HTMLElement} head stays at the top while the rows scroll
+   * @param {HTMLElement} measure as wide as the drawings; a mark at the cursor is put into it
+   */
+  constructor(view, head, measure) {
+    this.view = view;
+    this.measure = measure;
+    this.line = h("div.cursor-line", { "aria-hidden": "true", hidden: true });
+    this.selection = h("div.selection", { "aria-hidden": "true", hidden: true });
+    this.body = h("div.stack-body");
+    this.clip = h("div.stack-overlay", { "aria-hidden": "true" }, this.line, this.selection);
+    this.element = h("div.stack", {}, head, this.body, this.clip);
+    this.mark = h("div.cursor-line", { "aria-hidden": "true", hidden: true });
+    measure.append(this.mark);
+    this.observer = new IntersectionObserver((entries) => this.#onSight(entries), { rootMargin: "300px" });
+    new ResizeObserver(() => this.redraw()).observe(this.body);
+    view.addEventListener("view", () => this.redraw());
+    view.addEventListener("cursor", () => this.#placeLine());
+    this.#listen();
+  }
+
+  /** @param {Row} row @param {HTMLElement} [parent] where it stands, if not at the end of the stack */
+  add(row, parent = this.body) {
+    if (!row.element.isConnected && row.element.parentElement !== parent) parent.append(row.element);
+    this.#rows.set(row.element, row);
+    this.#dirty.add(row);
+    this.observer.observe(row.element);
+  }
+
+  /** Width of the drawings [px]. */
+  get width() {
+    return this.measure.clientWidth;
+  }
+
+  /** Draws all that is in sight; the rest when it comes into sight. */
+  redraw() {
+    for (const row of this.#rows.values()) this.#dirty.add(row);
+    this.#drawVisible();
+    this.#placeLine();
+  }
+
+  redrawRow(row) {
+    this.#dirty.add(row);
+    this.#drawVisible();
+  }
+
+  /** Draws all rows, for paper. */
+  drawEverything() {
+    for (const row of this.#rows.values()) row.draw(this.width);
+  }
+
+  #onSight(entries) {
+    for (const { target, isIntersecting } of entries) {
+      const row = this.#rows.get(target);
+      if (isIntersecting) this.#visible.add(row);
+      else this.#visible.delete(row);
+    }
+    this.#drawVisible();
+  }
+
+  #drawVisible() {
+    const { width } = this;
+    if (width <= kGutter) return;
+    for (const row of this.#dirty) {
+      if (!this.#visible.has(row)) continue;
+      row.draw(width);
+      this.#dirty.delete(row);
+    }
+  }
+
+  #placeLine() {
+    const { cursor, isHeld } = this.view;
+    const share = cursor === null ? -1 : this.view.shareOf(cursor);
+    for (const line of [this.line, this.mark]) {
+      line.hidden = !(share >= 0 && share <= 1);
+      line.classList.toggle("held", isHeld);
+      line.style.transform = `translateX(${kGutter + share * (this.width - kGutter)}px)`;
+    }
+    this.clip.style.width = `${this.width}px`;
+  }
+
+  /** The time under the pointer [s], and whether the pointer is over drawings at all. */
+  #timeAt(event) {
+    const x = event.clientX - this.element.getBoundingClientRect().left;
+    const share = (x - kGutter) / (this.width - kGutter);
+    const time = this.view.from + Math.min(1, Math.max(0, share)) * this.view.span;
+    return { x, time, isInside: x >= kGutter && x <= this.width };
+  }
+
+  #listen() {
+    this.element.addEventListener("pointerdown", (event) => this.#onDown(event));
+    this.element.addEventListener("pointermove", (event) => this.#onMove(event));
+    this.element.addEventListener("pointerup", (event) => this.#onUp(event));
+    this.element.addEventListener("pointercancel", () => this.#endDrag());
+    this.element.addEventListener("pointerleave", () => this.#onLeave());
+    this.element.addEventListener("dblclick", (event) => this.#timeAt(event).isInside && this.view.showWhole());
+    this.element.addEventListener("wheel", (event) => this.#onWheel(event), { passive: false });
+  }
+
+  #onDown(event) {
+    const place = this.#timeAt(event);
+    if (event.button !== 0 || !place.isInside || event.target.closest("button, a, input, select")) return;
+    const isScrub = event.target.closest(".film-track") !== null;
+    const kind = isScrub || event.pointerType === "touch" ? "scrub" : event.shiftKey ? "pan" : "zoom";
+    this.drag = { kind, start: place, from: this.view.from, until: this.view.until };
+    if (kind === "scrub") this.view.holdCursor(place.time);
+    this.element.setPointerCapture(event.pointerId);
+  }
+
+  #onMove(event) {
+    const place = this.#timeAt(event);
+    if (!this.drag) {
+      if (!this.view.isHeld) this.view.moveCursor(place.isInside ? place.time : null);
+      return;
+    }
+    const { kind, start, from, until } = this.drag;
+    if (kind === "scrub") this.view.holdCursor(place.time);
+    if (kind === "zoom") this.#select(start.x, place.x);
+    if (kind === "pan") {
+      const shift = ((start.x - place.x) / (this.width - kGutter)) * (until - from);
+      this.view.show(from + shift, until + shift);
+    }
+  }
+
+  #onUp(event) {
+    if (!this.drag) return;
+    const { kind, start } = this.drag;
+    const place = this.#timeAt(event);
+    this.#endDrag();
+    if (kind !== "zoom") return;
+    if (Math.abs(place.x - start.x) < kClick) this.view.holdCursor(start.time);
+    else this.view.show(Math.min(start.time, place.time), Math.max(start.time, place.time));
+  }
+
+  #onLeave() {
+    if (!this.drag && !this.view.isHeld) this.view.moveCursor(null);
+  }
+
+  #endDrag() {
+    this.drag = undefined;
+    this.selection.hidden = true;
+  }
+
+  #select(one, other) {
+    const left = Math.max(kGutter, Math.min(one, other));
+    const right = Math.min(this.width, Math.max(one, other));
+    this.selection.hidden = right - left < kClick;
+    this.selection.style.left = `${left}px`;
+    this.selection.style.width = `${Math.max(0, right - left)}px`;
+  }
+
+  #onWheel(event) {
+    const place = this.#timeAt(event);
+    if (!place.isInside || !(event.ctrlKey || event.shiftKey)) return;
+    event.preventDefault();
+    const turn = event.deltaY || event.deltaX;
+    if (event.ctrlKey) this.view.zoom(kWheel ** turn, place.time);
+    else this.view.pan(turn / 1000);
+  }
+}

@@ -1,0 +1,169 @@
+#include "master/report/report.h"
+
+#include <cstdint>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "master/core/error.h"
+#include "master/io/output_file.h"
+#include "master/report/blob.h"
+#include "master/report/default_plots.h"
+#include "master/report/json_text.h"
+#include "master/report/page.h"
+
+namespace stride::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFormat = 1;
+
+/// Writes the members of the data, one after the other, so that no two large ones are in memory.
+class DataWriter {
+ public:
+  explicit DataWriter(io::OutputFile& file) : file_(file) {}
+
+  void write(const Results& results, const std::string& version) {
+    file_.write(R"(<script type="application/json" id="stride-report">{)");
+    file_.write(fmt::format(R"("format":{})", kFormat));
+    member("stride", json_text(version));
+    member("run", json_text(results.run.json));
+    member("notes", json_text(results.notes));
+    write(results.signals);
+    member("plots", json_text(plots(results)));
+    list("messages", results.messages, [&](const Message& message) { write(message); });
+    list("activity", results.activities, [&](const Activities& entry) { write(entry); });
+    list("films", results.films, [&](const Film& film) { write(film); });
+    member("diagram", json_text(diagram(results.run)));
+    file_.write("}</script>\n");
+  }
+
+ private:
+  void member(const char* name, const std::string& text) {
+    file_.write(fmt::format(",\"{}\":", name));
+    file_.write(text);
+  }
+
+  template <class Entries, class Write>
+  void list(const char* name, const Entries& entries, Write&& write_entry) {
+    member(name, "[");
+    bool is_first = true;
+    for (const auto& entry : entries) {
+      if (!std::exchange(is_first, false)) file_.write(',');
+      write_entry(entry);
+    }
+    file_.write(']');
+  }
+
+  void write(const Signals& signals) {
+    member("time", blob(std::span(signals.times)));
+    member("rows", std::to_string(signals.times.size()));
+    member("thinned", signals.thinned ? std::to_string(*signals.thinned) : "null");
+    list("columns", signals.columns, [&](const Column& column) {
+      file_.write(fmt::format(R"({{"name":{},"unit":{},"type":"{}","stepped":{},"values":)",
+                              json_text(column.name()), json_text(column.unit()),
+                              core::name(column.type()), column.is_stepped()));
+      file_.write(blob(column.values()));
+      file_.write('}');
+    });
+  }
+
+  void write(const Message& message) {
+    file_.write(json_text({{"time", std::to_string(message.time)},
+                           {"index", message.index},
+                           {"component", message.component},
+                           {"variable", message.variable},
+                           {"direction", message.direction},
+                           {"payload", message.payload},
+                           {"content", message.content}}));
+  }
+
+  void write(const Activities& entry) {
+    file_.write(fmt::format(R"({{"component":{},"kind":{},"from":{},"until":{}}})",
+                            json_text(entry.component), json_text(entry.kind),
+                            blob(std::span(entry.from)), blob(std::span(entry.until))));
+  }
+
+  void write(const Film& film) {
+    file_.write(fmt::format(R"({{"component":{},"times":{})", json_text(film.component),
+                            blob(std::span(film.times))));
+    list("frames", film.pictures, [&](const fs::path& picture) { write_picture(picture); });
+    file_.write('}');
+  }
+
+  void write_picture(const fs::path& picture) {
+    std::ifstream stream(picture, std::ios::binary);
+    const std::vector<char> bytes(std::istreambuf_iterator<char>(stream), {});
+    if (!stream) core::fail_input({.where = {picture.string(), 0}}, "cannot read the picture");
+    const bool is_png = picture.extension() == ".png";
+    file_.write(is_png ? "\"data:image/png;base64," : "\"data:image/jpeg;base64,");
+    file_.write(base64({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}));
+    file_.write('"');
+  }
+
+  static Json plots(const Results& results) {
+    std::vector<io::Plot> plots = results.run.plots;
+    if (plots.empty()) plots = default_plots(results.signals.columns, results.run.components);
+    Json entries = Json::array();
+    for (const io::Plot& plot : plots) {
+      entries.push_back({{"title", plot.title}, {"signals", plot.signals}});
+    }
+    return entries;
+  }
+
+  static Json diagram(const RunFile& run) {
+    Json components = Json::array();
+    for (const auto& [name, model] : run.components) {
+      components.push_back({{"name", name}, {"model", model}});
+    }
+    Json connections = Json::array();
+    for (const auto& [from, to, kind] : run.connections) {
+      connections.push_back({{"from", from}, {"to", to}, {"kind", kind}});
+    }
+    return {{"components", components}, {"connections", connections}};
+  }
+
+  io::OutputFile& file_;
+};
+
+/// Writes beside the file first, and gives what is complete its name.
+void replace(const fs::path& file, const std::function<void(io::OutputFile&)>& write) {
+  const fs::path part = file.string() + ".part";
+  try {
+    io::OutputFile output(part);
+    write(output);
+    output.close();
+    fs::rename(part, file);
+  } catch (const fs::filesystem_error& error) {
+    fs::remove(part);
+    core::fail_input({.where = {file.string(), 0}},
+                     fmt::format("cannot create the file: {}", error.code().message()),
+                     "choose a folder in which you may write");
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    throw;
+  }
+}
+
+}  // namespace
+
+void write_report(const fs::path& file, const Results& results, const std::string& version) {
+  const std::string_view text = page();
+  const std::size_t mark = text.find(kDataMark);
+  if (mark == std::string_view::npos) {
+    core::fail_input({}, "this stride was built without reports (STRIDE_REPORT=OFF)");
+  }
+  replace(file, [&](io::OutputFile& output) {
+    output.write(text.substr(0, mark));
+    DataWriter(output).write(results, version);
+    output.write(text.substr(mark + kDataMark.size()));
+  });
+}
+
+}  // namespace stride::report

@@ -1,0 +1,182 @@
+#include "master/report/results.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/core/error.h"
+#include "master/report/signals_file.h"
+#include "master/report/table.h"
+
+namespace stride::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Notes = std::vector<std::string>;
+
+constexpr const char* kFilmFolder = "film";
+
+void note_cut(const Table& table, Notes& notes) {
+  if (const auto cut = table.cut()) notes.push_back(*cut);
+}
+
+std::uint64_t index_of(const Table& table, std::size_t place) {
+  const std::string_view text = table.field(place).text;
+  std::uint64_t index = 0;
+  const auto [at, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  if (error != std::errc() || at != text.data() + text.size()) {
+    table.fail(place, fmt::format("expected an integer, found '{}'", text));
+  }
+  return index;
+}
+
+std::vector<Message> read_messages(const fs::path& file, std::size_t limit, Notes& notes) {
+  Table table(file);
+  std::vector<Message> messages;
+  if (table.columns().empty()) return messages;
+  const std::size_t time = table.place("time");
+  const std::size_t index = table.place("index");
+  const std::size_t component = table.place("component");
+  const std::size_t variable = table.place("variable");
+  const std::size_t direction = table.place("direction");
+  const std::size_t payload = table.place("payload");
+  const std::optional<std::size_t> content = table.find("content");
+  std::size_t count = 0;
+  for (; table.next(); ++count) {
+    if (count >= limit) continue;
+    messages.push_back({table.time(time), index_of(table, index), table.field(component).value(),
+                        table.field(variable).value(), table.field(direction).value(),
+                        table.field(payload).value(),
+                        content ? table.field(*content).value() : std::string()});
+  }
+  if (count > limit) {
+    notes.push_back(
+        fmt::format("{}: the first {} of {} messages are shown", file.string(), limit, count));
+  }
+  note_cut(table, notes);
+  return messages;
+}
+
+std::vector<Activities> read_activities(const fs::path& file, Notes& notes) {
+  Table table(file);
+  std::vector<Activities> all;
+  if (table.columns().empty()) return all;
+  const std::size_t time = table.place("time");
+  const std::size_t until = table.place("until");
+  const std::size_t component = table.place("component");
+  const std::size_t kind = table.place("kind");
+  std::map<std::pair<std::string, std::string>, std::size_t> places;
+  while (table.next()) {
+    const std::pair key(table.field(component).value(), table.field(kind).value());
+    const auto [place, is_new] = places.try_emplace(key, all.size());
+    if (is_new) all.push_back({key.first, key.second, {}, {}});
+    Activities& activities = all[place->second];
+    activities.from.push_back(table.time(time));
+    activities.until.push_back(table.time(until));
+    if (activities.until.back() < activities.from.back()) {
+      table.fail(until, "it ends before it begins");
+    }
+  }
+  note_cut(table, notes);
+  return all;
+}
+
+Film read_film(const fs::path& folder, Notes& notes) {
+  Table table(folder / "frames.csv");
+  Film film{folder.filename().string(), {}, {}};
+  if (table.columns().empty()) return film;
+  const std::size_t time = table.place("time");
+  const std::size_t file = table.place("file");
+  std::size_t missing = 0;
+  while (table.next()) {
+    const fs::path picture = folder / fs::path(table.field(file).value()).filename();
+    const std::int64_t at = table.time(time);
+    if (!film.times.empty() && at <= film.times.back()) table.fail(time, "the time does not grow");
+    std::error_code error;
+    if (!fs::is_regular_file(picture, error)) {
+      ++missing;
+      continue;
+    }
+    film.times.push_back(at);
+    film.pictures.push_back(picture);
+  }
+  if (missing > 0) {
+    notes.push_back(fmt::format("{}: {} of its pictures are missing",
+                                (folder / "frames.csv").string(), missing));
+  }
+  note_cut(table, notes);
+  return film;
+}
+
+std::vector<Film> read_films(const fs::path& folder, Notes& notes) {
+  std::vector<fs::path> folders;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (fs::exists(entry.path() / "frames.csv", error)) folders.push_back(entry.path());
+  }
+  std::sort(folders.begin(), folders.end());
+  std::vector<Film> films;
+  for (const fs::path& path : folders) {
+    if (Film film = read_film(path, notes); !film.times.empty()) films.push_back(std::move(film));
+  }
+  return films;
+}
+
+/// The file, if it was to be written; where it is missing, that is noted.
+std::optional<fs::path> present(const fs::path& folder, const std::string& name, Notes& notes) {
+  if (name.empty()) return std::nullopt;
+  std::error_code error;
+  const fs::path file = folder / name;
+  if (fs::exists(file, error)) return file;
+  notes.push_back(fmt::format("{} is missing", file.string()));
+  return std::nullopt;
+}
+
+}  // namespace
+
+Results read_results(const fs::path& folder, const io::ResultFiles& files, const Limits& limits) {
+  Results results;
+  Notes& notes = results.notes;
+  if (const auto file = present(folder, files.statistics, notes)) {
+    results.run = read_run_file(*file);
+  }
+  if (const auto file = present(folder, files.signals, notes)) {
+    results.signals = read_signals(*file, results.run.signals, limits.values, notes);
+  }
+  if (const auto file = present(folder, files.events, notes)) {
+    results.messages = read_messages(*file, limits.messages, notes);
+  }
+  if (const auto file = present(folder, files.activity, notes)) {
+    results.activities = read_activities(*file, notes);
+  }
+  results.films = read_films(folder / kFilmFolder, notes);
+  return results;
+}
+
+io::ResultFiles result_files(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    core::fail_input({.where = {folder.string(), 0}}, "this is no folder",
+                     "name a folder with the results of `stride run`");
+  }
+  if (const fs::path run = find_run_file(folder); !run.empty()) {
+    io::ResultFiles files = read_run_file(run).files;
+    files.statistics = run.filename().string();
+    return files;
+  }
+  const io::ResultFiles usual;
+  for (const auto& [what, member] : io::kResultFiles) {
+    if (what != std::string_view("report") && fs::exists(folder / (usual.*member), error)) {
+      return usual;
+    }
+  }
+  core::fail_input({.where = {folder.string(), 0}}, "there are no results in this folder",
+                   "name a folder with the results of `stride run`");
+}
+
+}  // namespace stride::report

@@ -1,0 +1,78 @@
+// A results folder, read back.
+#ifndef STRIDE_MASTER_REPORT_RESULTS_H
+#define STRIDE_MASTER_REPORT_RESULTS_H
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "master/io/annotation.h"
+#include "master/report/column.h"
+#include "master/report/run_file.h"
+
+namespace stride::report {
+
+/// signals.csv. Times are in picoseconds and grow strictly: of several rows at one instant the last
+/// one counts.
+struct Signals {
+  std::vector<std::int64_t> times;
+  std::vector<Column> columns;
+  std::optional<std::size_t> thinned;  ///< rows of each block of which only the extremes were kept
+};
+
+/// A row of events.csv.
+struct Message {
+  std::int64_t time = 0;  ///< [ps]
+  std::uint64_t index = 0;
+  std::string component;
+  std::string variable;
+  std::string direction;
+  std::string payload;
+  std::string content;
+};
+
+/// The rows of activity.csv with one component and kind.
+struct Activities {
+  std::string component;
+  std::string kind;
+  std::vector<std::int64_t> from;   ///< [ps]
+  std::vector<std::int64_t> until;  ///< likewise
+};
+
+/// Pictures that a component has made of itself.
+struct Film {
+  std::string component;
+  std::vector<std::int64_t> times;  ///< [ps]
+  std::vector<std::filesystem::path> pictures;
+};
+
+struct Limits {
+  std::size_t values = 20'000'000;  ///< of signals
+  std::size_t messages = 100'000;
+};
+
+struct Results {
+  RunFile run;
+  Signals signals;
+  std::vector<Message> messages;
+  std::vector<Activities> activities;
+  std::vector<Film> films;
+  /// In words, what is missing, cut off or left out.
+  std::vector<std::string> notes;
+};
+
+/// Reads what there is of a run: a folder without run.json, or with files that were cut off when
+/// the run was killed, has results, too. `files`: their names. Throws core::Error (Input) that
+/// names file, line and column, and what was expected there.
+Results read_results(const std::filesystem::path& folder, const io::ResultFiles& files,
+                     const Limits& limits = {});
+
+/// The names that run.json tells, or else the usual ones. Throws core::Error (Input) where it is no
+/// folder with the results of a run.
+io::ResultFiles result_files(const std::filesystem::path& folder);
+
+}  // namespace stride::report
+
+#endif

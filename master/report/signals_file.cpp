@@ -1,0 +1,129 @@
+#include "master/report/signals_file.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "master/report/table.h"
+#include "master/report/thinning.h"
+
+namespace stride::report {
+namespace {
+
+/// "name [unit]", as the header has it.
+std::string heading(const SignalInfo& info) {
+  return info.unit.empty() ? info.name : fmt::format("{} [{}]", info.name, info.unit);
+}
+
+Column deduced_column(const std::string& heading) {
+  const std::size_t at = heading.rfind(" [");
+  if (at == std::string::npos || !heading.ends_with(']')) return Column(heading, "");
+  return Column(heading.substr(0, at), heading.substr(at + 2, heading.size() - at - 3));
+}
+
+std::vector<Column> make_columns(std::span<const std::string> headings,
+                                 std::span<const SignalInfo> infos) {
+  std::map<std::string, const SignalInfo*> known;
+  for (const SignalInfo& info : infos) known.emplace(heading(info), &info);
+  std::vector<Column> columns;
+  for (const std::string& heading : headings) {
+    const auto found = known.find(heading);
+    columns.push_back(found == known.end() ? deduced_column(heading) : Column(*found->second));
+  }
+  return columns;
+}
+
+/// At least as many as there are rows; 0 where the file is so small that it does not matter.
+std::size_t count_lines(const std::filesystem::path& file, std::size_t limit) {
+  constexpr std::size_t kLeastValue = 2;  // a digit and a comma
+  std::error_code error;
+  if (std::filesystem::file_size(file, error) < kLeastValue * limit || error) return 0;
+  std::ifstream stream(file, std::ios::binary);
+  std::vector<char> piece(std::size_t{1} << 20);
+  std::size_t lines = 0;
+  while (stream) {
+    stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    lines +=
+        static_cast<std::size_t>(std::count(piece.begin(), piece.begin() + stream.gcount(), '\n'));
+  }
+  return lines;
+}
+
+class SignalsReader {
+ public:
+  SignalsReader(const std::filesystem::path& file, std::span<const SignalInfo> infos,
+                std::size_t limit)
+      : table_(file) {
+    if (table_.columns().empty()) return;
+    const std::span<const std::string> headings = table_.columns();
+    if (headings[0] != "time") table_.fail(0, "expected the column 'time'");
+    signals_.columns = make_columns(headings.subspan(1), infos);
+    signals_.thinned = block_size(count_lines(file, limit), signals_.columns.size(), limit);
+  }
+
+  Signals read() {
+    while (!table_.columns().empty() && table_.next()) take_row();
+    if (signals_.thinned) thin_block();
+    return std::move(signals_);
+  }
+  std::optional<std::string> cut() const { return table_.cut(); }
+
+ private:
+  void take_row() {
+    const std::int64_t time = table_.time(0);
+    std::vector<std::int64_t>& times = signals_.times;
+    if (!times.empty() && time < times.back()) table_.fail(0, "the time goes back");
+    if (!times.empty() && time == times.back()) {
+      drop_last_row();
+    } else if (signals_.thinned && times.size() - block_ == *signals_.thinned) {
+      thin_block();
+    }
+    for (std::size_t i = 0; i < signals_.columns.size(); ++i) take_field(i);
+    times.push_back(time);
+  }
+
+  void take_field(std::size_t i) {
+    try {
+      signals_.columns[i].append(table_.field(i + 1));
+    } catch (const std::invalid_argument& mistake) {
+      table_.fail(i + 1, mistake.what());
+    }
+  }
+
+  void drop_last_row() {
+    signals_.times.pop_back();
+    for (Column& column : signals_.columns) column.keep(signals_.times.size(), {});
+  }
+
+  void thin_block() {
+    thin(signals_.times, signals_.columns, block_);
+    block_ = signals_.times.size();
+  }
+
+  Table table_;
+  Signals signals_;
+  std::size_t block_ = 0;  ///< where the present block of rows begins
+};
+
+}  // namespace
+
+Signals read_signals(const std::filesystem::path& file, std::span<const SignalInfo> infos,
+                     std::size_t limit, std::vector<std::string>& notes) {
+  SignalsReader reader(file, infos, limit);
+  Signals signals = reader.read();
+  if (const auto cut = reader.cut()) notes.push_back(*cut);
+  if (signals.thinned) {
+    notes.push_back(fmt::format(
+        "{}: there are too many values to show them all; of each {} rows those with a least or a "
+        "greatest value are shown",
+        file.string(), *signals.thinned));
+  }
+  return signals;
+}
+
+}  // namespace stride::report

@@ -1,0 +1,21 @@
+#ifndef STRIDE_MASTER_REPORT_SIGNALS_FILE_H
+#define STRIDE_MASTER_REPORT_SIGNALS_FILE_H
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "master/report/results.h"
+
+namespace stride::report {
+
+/// Reads signals.csv. `infos`: what run.json says of its columns; of others the type follows from
+/// their fields. More than `limit` values are thinned while they are read, so that there are never
+/// many more in memory. Adds to the notes what was cut off. Throws core::Error (Input).
+Signals read_signals(const std::filesystem::path& file, std::span<const SignalInfo> infos,
+                     std::size_t limit, std::vector<std::string>& notes);
+
+}  // namespace stride::report
+
+#endif

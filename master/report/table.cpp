@@ -1,0 +1,56 @@
+#include "master/report/table.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "master/io/time_text.h"
+
+namespace stride::report {
+
+Table::Table(const std::filesystem::path& file) : file_(file), reader_(file) {
+  if (!reader_.next()) return;
+  for (const CsvReader::Field& field : reader_.fields()) columns_.push_back(field.value());
+}
+
+std::optional<std::size_t> Table::find(const std::string& column) const {
+  const auto found = std::find(columns_.begin(), columns_.end(), column);
+  if (found == columns_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - columns_.begin());
+}
+
+std::size_t Table::place(const std::string& column) const {
+  const auto found = find(column);
+  if (!found) reader_.fail(fmt::format("the header has no column '{}'", column));
+  return *found;
+}
+
+bool Table::next() {
+  if (!reader_.next()) return false;
+  if (fields().size() != columns_.size()) {
+    reader_.fail(fmt::format("expected {} fields, as in the header, found {}", columns_.size(),
+                             fields().size()));
+  }
+  return true;
+}
+
+std::int64_t Table::time(std::size_t place) const {
+  try {
+    return io::parse_seconds(field(place).text).count();
+  } catch (const std::invalid_argument& mistake) {
+    fail(place, mistake.what());
+  }
+}
+
+std::optional<std::string> Table::cut() const {
+  if (!reader_.is_cut()) return std::nullopt;
+  return fmt::format("{}:{}: the last line was cut off and is left out", file_.string(),
+                     reader_.line());
+}
+
+void Table::fail(std::size_t place, const std::string& message) const {
+  reader_.fail(columns_[place], message);
+}
+
+}  // namespace stride::report

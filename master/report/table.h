@@ -1,0 +1,44 @@
+#ifndef STRIDE_MASTER_REPORT_TABLE_H
+#define STRIDE_MASTER_REPORT_TABLE_H
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "master/report/csv_reader.h"
+
+namespace stride::report {
+
+/// A results file whose first row names its columns.
+class Table {
+ public:
+  /// Reads the header. Throws core::Error (Input), as its functions do.
+  explicit Table(const std::filesystem::path& file);
+
+  const std::vector<std::string>& columns() const { return columns_; }
+  /// Where a column stands; nothing, or an error, where there is none of this name.
+  std::optional<std::size_t> find(const std::string& column) const;
+  std::size_t place(const std::string& column) const;
+
+  /// The next row, of which each must have as many fields as the header.
+  bool next();
+  const std::vector<CsvReader::Field>& fields() const { return reader_.fields(); }
+  const CsvReader::Field& field(std::size_t place) const { return fields()[place]; }
+  /// The field as a time [ps].
+  std::int64_t time(std::size_t place) const;
+
+  /// In words, that the last line was cut off; nothing if it was not.
+  std::optional<std::string> cut() const;
+  [[noreturn]] void fail(std::size_t place, const std::string& message) const;
+
+ private:
+  std::filesystem::path file_;
+  CsvReader reader_;
+  std::vector<std::string> columns_;
+};
+
+}  // namespace stride::report
+
+#endif

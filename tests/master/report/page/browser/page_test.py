@@ -1,0 +1,385 @@
+"""The report's page in a browser, with data made here: page_test.py PAGE FOLDER
+
+Each test writes its page into FOLDER, and opens it as a user does.
+"""
+
+import bisect
+import math
+import random
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+import page_data  # noqa: E402
+from browser import Browser  # noqa: E402
+from selenium.webdriver.common.keys import Keys  # noqa: E402
+
+SECOND = 10**12
+PIXEL = ("data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mNk+M8AAAICAQB"
+         "7CYF4AAAAAElFTkSuQmCC")
+
+
+def message(seconds, component, content, direction="sent", variable="transmit.frame", payload="0102"):
+    return {"time": str(round(seconds * SECOND)), "index": 1, "component": component, "variable": variable,
+            "direction": direction, "payload": payload, "content": content}
+
+
+class Run:
+    """A made-up run of ten seconds with irregular samples."""
+
+    def __init__(self, rows=2000, seed=1):
+        numbers = random.Random(seed)
+        self.times = sorted(numbers.sample(range(1, 10 * SECOND), rows - 2) + [0, 10 * SECOND])
+        seconds = [time / SECOND for time in self.times]
+        self.columns = {
+            "tank.level": ([math.sin(t) + numbers.random() / 10 for t in seconds], "m", "Float64"),
+            "tank.limit": ([1e-5 if t < 5 else 1.25 for t in seconds], "m", "Float64"),
+            "pump.power": ([math.nan if 3 < t < 4 else 40 * t for t in seconds], "W", "Float64"),
+            "pump.count": ([int(t) for t in seconds], "", "Int32"),
+            "pump.on": ([int(2 < t < 7) for t in seconds], "", "Boolean"),
+            "pump.mode": (["off" if t < 2 else "full <power>" for t in seconds], "", "String"),
+        }
+        self.plots = [("Tank", ["tank.level", "tank.limit"]), ("Pump", ["pump.power", "pump.count", "pump.on", "pump.mode"])]
+        self.messages = [message(1, "pump", "start"), message(1, "tank", "start", "received"), message(1.001, "pump", "faster"),
+                         message(6.5, "pump", "a </script> & <b>"), message(9, "tank", "")]
+        self.units = [{"name": "tank", "model": "tank", "calls": 12, "steps": 10, "events": 1, "rejections": 2, "rollbacks": 0,
+                       "idle": {"skipped": 2.5, "rests": 1, "longest": 2.5},
+                       "wall_time": {"initialization": 0.01, "steps": 0.5, "events": 0.1}},
+                      {"name": "pump", "model": "minimal", "calls": 3, "steps": 3, "events": 0, "rejections": 0,
+                       "rollbacks": 1, "wall_time": {"initialization": 0, "steps": 0.2, "events": 0}}]
+        self.run = {"system": "tank <1>", "scenario": "tank.ssd", "start": 0, "stop": 10, "reached": 10, "wall_time": 2,
+                    "outcome": "completed", "communication_steps": rows, "units": self.units, "verdicts": [], "checks": []}
+        self.films = []
+
+    def data(self):
+        columns = [page_data.column(name, values, unit, kind) for name, (values, unit, kind) in self.columns.items()]
+        return page_data.report(
+            self.times, columns, self.plots, run=self.run, messages=self.messages, films=self.films,
+            activity=[page_data.activity("tank", "idle", [(0, 2 * SECOND), (6 * SECOND, 6 * SECOND + SECOND // 2)]),
+                      page_data.activity("pump", "idle", [(SECOND, 3 * SECOND)]),
+                      page_data.activity("tank", "rejection", [(8 * SECOND, 9 * SECOND)])],
+            diagram={"components": [{"name": unit["name"], "model": unit["model"]} for unit in self.units],
+                     "connections": [{"from": "tank.level", "to": "pump.level", "kind": "value"},
+                                     {"from": "tank.limit", "to": "pump.limit", "kind": "value"},
+                                     {"from": "pump.transmit.frame", "to": "tank.receive.frame", "kind": "message"}]})
+
+    def row_at(self, seconds):
+        return bisect.bisect_right([time / SECOND for time in self.times], seconds) - 1
+
+
+class PageTest(unittest.TestCase):
+    page = None
+    folder = None
+
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = Browser()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+
+    def open(self, data, **options):
+        path = self.folder / f"{self.id().rsplit('.', 1)[-1]}.html"
+        page_data.write_page(self.page, data, path)
+        return self.browser.open(path, **options)
+
+    def open_run(self, run=None, **options):
+        return self.open((run or Run()).data(), **options)
+
+    # loading
+
+    def test_loads_without_error_and_asks_for_nothing(self):
+        browser = self.open_run()
+        self.assertEqual(browser.errors(), [])
+        self.assertEqual(browser.requests(), [])
+        self.assertEqual(browser.one("h1").text.split("\n")[0].strip(), "tank <1> completed")
+
+    def test_shows_each_signal_once(self):
+        browser = self.open_run()
+        self.assertEqual(len(browser.all(".pane")), 4)
+        self.assertEqual(len(browser.all(".legend .signal")), 6)
+        traces = browser.run("return [...document.querySelectorAll('.pane .uplot')].length")
+        self.assertEqual(traces, 3)
+        self.assertEqual(browser.texts(".legend h3"), ["Tank", "Pump", "Pump", "Pump"])
+
+    def test_data_of_another_format_is_refused_in_words(self):
+        browser = self.open({**Run().data(), "format": 2})
+        self.assertIn("format 2", browser.one("[role=alert]").text)
+
+    def test_a_broken_array_is_refused_in_words(self):
+        data = Run().data()
+        data["columns"][0]["values"]["count"] += 1
+        self.assertIn("expected", self.open(data).one("[role=alert]").text)
+
+    # values
+
+    def test_values_at_the_cursor_are_those_of_the_row(self):
+        run = Run()
+        browser = self.open_run(run)
+        numbers = random.Random(2)
+        instants = [0, 10, *(numbers.uniform(0, 10) for _ in range(40)), *(run.times[i] / SECOND for i in range(0, 2000, 97))]
+        for seconds in instants:
+            row = run.row_at(seconds)
+            time_text, values = browser.put_cursor(seconds)
+            self.assertEqual(round(float(time_text) * SECOND), run.times[row])
+            for name, (column, _, kind) in run.columns.items():
+                self.assert_value(values[name], column[row], kind)
+
+    def assert_value(self, text, value, kind):
+        if kind == "Boolean":
+            self.assertEqual(text, "true" if value else "false")
+        elif kind == "String":
+            self.assertEqual(text, value)
+        elif isinstance(value, float) and math.isnan(value):
+            self.assertEqual(text, "nan")
+        else:
+            self.assertEqual(float(text), value)
+
+    def test_the_mouse_moves_the_cursor_and_a_click_holds_it(self):
+        run = Run()
+        browser = self.open_run(run)
+        y = browser.pane_middle()
+        left, right = browser.plot_box()
+        browser.move_to(round(left + (right - left) / 4), y)
+        seconds = browser.run("return stride.view.cursor")
+        self.assertAlmostEqual(seconds, 2.5, delta=10 / (right - left))
+        self.assertEqual(round(float(browser.values()[0]) * SECOND), run.times[run.row_at(seconds)])
+        browser.click_at(round(left + (right - left) / 2), y)
+        browser.move_to(round(left + (right - left) / 8), y)
+        self.assertAlmostEqual(browser.run("return stride.view.cursor"), 5, delta=10 / (right - left))
+        self.assertTrue(browser.one(".stack-overlay .cursor-line").is_displayed())
+        browser.press(Keys.ESCAPE)
+        self.assertFalse(browser.one(".stack-overlay .cursor-line").is_displayed())
+
+    # zoom
+
+    def test_dragging_zooms_all_panes(self):
+        browser = self.open_run()
+        y = browser.pane_middle()
+        left, right = browser.plot_box()
+        width = right - left
+        browser.drag(round(left + 0.2 * width), round(left + 0.4 * width), y)
+        start, end = browser.view()
+        self.assertAlmostEqual(start, 2, delta=20 / width)
+        self.assertAlmostEqual(end, 4, delta=20 / width)
+        self.assertIn("to", browser.one(".shown-time").text)
+        scales = browser.run("return [...document.querySelectorAll('.ruler')].length")
+        self.assertEqual(scales, 1)
+        self.assertIn("2.00", browser.one(".shown-time").text)
+
+    def test_keys_move_zoom_and_help(self):
+        run = Run()
+        browser = self.open_run(run)
+        browser.press(Keys.HOME, Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
+        self.assertEqual(browser.run("return stride.view.row"), 2)
+        browser.press_with_shift(Keys.ARROW_RIGHT)
+        self.assertEqual(browser.run("return stride.view.row"), 12)
+        browser.press(Keys.END)
+        self.assertEqual(browser.values()[0], "10")
+        browser.press(Keys.HOME, "n")
+        self.assertEqual(browser.run("return stride.view.cursor"), 1)
+        browser.press("n", "n")
+        self.assertEqual(browser.run("return stride.view.cursor"), 6.5)
+        browser.press("p")
+        self.assertEqual(browser.run("return stride.view.cursor"), 1.001)
+        browser.press("+")
+        self.assertAlmostEqual(browser.view()[1] - browser.view()[0], 5)
+        browser.press("-", "0")
+        self.assertEqual(browser.view(), (0, 10))
+        browser.press("?")
+        self.assertTrue(browser.one("dialog.help").is_displayed())
+        browser.press(Keys.ESCAPE)
+        self.assertFalse(browser.one("dialog.help").is_displayed())
+
+    def test_a_spike_of_one_sample_is_drawn(self):
+        rows = 200_000
+        values = [0.0] * rows
+        values[123_457] = 1.0
+        data = page_data.report(range(rows), [page_data.column("a.spike", values)], [("A", ["a.spike"])])
+        browser = self.open(data)
+        found = browser.run("""
+            const canvas = document.querySelector('.pane canvas');
+            const { width, height } = canvas;
+            const pixels = canvas.getContext('2d').getImageData(0, 0, width, height).data;
+            const columns = new Set();
+            for (let y = 14; y < height / 2; ++y) for (let x = 97; x < width; ++x) {
+              const at = 4 * (y * width + x);
+              if (pixels[at + 2] - pixels[at] > 80 && pixels[at + 3] > 100) columns.add(x);
+            }
+            return [[...columns], width]""")
+        columns, width = found
+        place = 96 + (width - 96) * 123_457 / (rows - 1)
+        self.assertTrue(columns, "the spike is not in the picture")
+        for x in columns:
+            self.assertAlmostEqual(x, place, delta=3)
+
+    # parts
+
+    def test_marks_of_messages_tell_how_many_they_are(self):
+        browser = self.open_run()
+        lanes = browser.run("return [...document.querySelectorAll('.message-lane')].map((lane) => "
+                            "[...lane.querySelectorAll('.message')].map((mark) => mark.textContent))")
+        self.assertEqual(lanes, [["start+1", "a </script> & <b>"], ["start", "0102"]])
+        self.assertEqual(len(browser.all(".messages tbody tr")), 5)
+        browser.one(".filter input").send_keys("pump sent")
+        self.assertEqual(len(browser.all(".messages tbody tr")), 3)
+        self.assertEqual(browser.one(".count").text, "3 of 5")
+        browser.all(".messages tbody tr")[2].click()
+        self.assertEqual(browser.run("return stride.view.cursor"), 6.5)
+
+    def test_a_mark_tells_all_on_focus(self):
+        browser = self.open_run()
+        browser.run("document.querySelector('.message').focus()")
+        self.assertIn("1.001 s  pump sent transmit.frame: faster", browser.texts(".tip div"))
+
+    def test_a_signal_can_be_hidden(self):
+        browser = self.open_run()
+        browser.run("document.querySelector('.legend .signal').click()")
+        self.assertEqual(browser.one(".legend .signal").get_attribute("aria-pressed"), "false")
+        browser.settle()
+        self.assertEqual(browser.errors(), [])
+
+    def test_a_failed_check_leads_to_its_instant(self):
+        run = Run()
+        run.run["checks"] = [
+            {"name": "level stays low", "kind": "range", "passed": False, "text": "1.04 m is above 1 m", "time": 7.5, "line": 12,
+             "values": [{"signal": "tank.level", "value": 1.04, "unit": "m"}]},
+            {"name": "answered", "kind": "answer", "passed": True, "text": "", "time": None, "values": []}]
+        browser = self.open_run(run)
+        self.assertIn("1 of 2 failed: level stays low", browser.one(".banner").text)
+        self.assertIn("tank.level = 1.04 m", browser.one(".verdicts").text)
+        browser.one(".banner .time-link").click()
+        self.assertEqual(browser.run("return stride.view.cursor"), 7.5)
+
+    def test_a_failed_run_shows_its_error(self):
+        run = Run()
+        run.run.update(outcome="failed", error="tank.ssd:7: pump: no <water>", reached=3.5)
+        browser = self.open_run(run)
+        self.assertIn("The run failed", browser.one(".banner").text)
+        self.assertEqual(browser.one(".error").text, "tank.ssd:7: pump: no <water>")
+
+    def test_what_is_missing_is_told(self):
+        browser = self.open(page_data.report([], [], []))
+        text = browser.one("main").text
+        for words in ["No signals were recorded", "No messages were sent", "was not recorded", "Nothing was judged"]:
+            self.assertIn(words, text)
+        browser.press(Keys.ARROW_RIGHT, "n", "+", "0")
+        self.assertEqual(browser.errors(), [])
+
+    def test_a_thinned_run_says_so(self):
+        self.assertIn("Of each 16 rows", self.open({**Run().data(), "thinned": 16}).one(".warning").text)
+
+    def test_the_film_follows_the_cursor(self):
+        run = Run()
+        run.films = [{"component": "world", "times": page_data.pack("int64", [i * SECOND for i in range(11)]),
+                      "frames": [f"{PIXEL}#{i}" for i in range(11)]}]
+        browser = self.open_run(run)
+        browser.put_cursor(4.9)
+        self.assertTrue(browser.one(".film-picture img").get_attribute("src").endswith("#4"))
+        self.assertIn("picture 5 of 11", browser.one(".film-picture").text)
+        browser.run("document.querySelector('.film-track').focus()")
+        browser.press(Keys.ARROW_RIGHT)
+        self.assertTrue(browser.one(".film-picture img").get_attribute("src").endswith("#5"))
+        self.assertEqual(browser.one(".film-track").get_attribute("aria-valuenow"), "5")
+
+    def test_the_diagram_bundles_connections(self):
+        browser = self.open_run()
+        self.assertEqual(browser.texts(".block-name"), ["tank", "pump"])
+        self.assertEqual(browser.texts(".edge-count"), ["2", "1"])
+        self.assertEqual(len(browser.all(".message-edge")), 1)
+
+    def test_costs_are_in_a_table(self):
+        browser = self.open_run()
+        rows = browser.run("return [...document.querySelectorAll('.costs tbody tr')].map((row) => "
+                           "[...row.cells].map((cell) => cell.textContent))")
+        self.assertEqual(rows[0], ["tank", "", "0.610", "0.010", "0.500", "0.100", "12", "10", "1", "2", "0", "2.5"])
+
+    def test_what_units_did_is_in_words_too(self):
+        browser = self.open_run()
+        self.assertEqual(browser.texts(".lane-summary"), ["idle 2.50 s, 1 rejection", "idle 2.00 s"])
+        idle = browser.run("return [[...stride.report.idle.from], [...stride.report.idle.until]]")
+        self.assertEqual(idle, [[1], [2]])
+
+    # looks
+
+    def test_light_and_dark(self):
+        ground = "return getComputedStyle(document.body).backgroundColor"
+        browser = self.open_run()
+        light = browser.run(ground)
+        browser.set_dark(True)
+        browser.settle()
+        dark = browser.run(ground)
+        self.assertNotEqual(light, dark)
+        browser.press("d")
+        self.assertEqual(browser.run(ground), light)
+
+    def test_texts_have_enough_contrast(self):
+        for dark in (False, True):
+            browser = self.open_run(dark=dark)
+            ratios = browser.run(CONTRAST)
+            for name, ratio in ratios.items():
+                least = 3 if name.startswith("--curve") else 4.5
+                self.assertGreaterEqual(ratio, least, f"{name} {'dark' if dark else 'light'}")
+
+    def test_a_narrow_window_needs_no_scrolling_aside(self):
+        browser = self.open_run(width=480)
+        self.assertLessEqual(browser.run("return document.documentElement.scrollWidth"), 480)
+
+    # speed
+
+    def test_a_million_samples_zoom_like_ten_thousand(self):
+        small, large = (self.redraw_time(rows) for rows in (10_000, 1_000_000))
+        print(f"redraw of a zoom, ten columns: {small:.1f} ms with 10^4 samples, {large:.1f} ms with 10^6")
+        self.assertLess(large / small, 5)
+
+    def redraw_time(self, rows):
+        """The median of the time [ms] that drawing a view takes, of views in which each pixel has several samples."""
+        values = [math.sin(i / 50) + (i * 7919 % 100) / 500 for i in range(rows)]
+        column = page_data.column("a.b", values, "V")
+        columns = [{**column, "name": f"a.b{i}"} for i in range(10)]
+        plots = [(f"Pane {i}", [f"a.b{2 * i}", f"a.b{2 * i + 1}"]) for i in range(5)]
+        self.open(page_data.report(range(0, rows * 10**6, 10**6), columns, plots))
+        self.browser.settle()
+        return self.browser.driver.execute_async_script("""
+            const done = arguments[0];
+            const { view } = stride;
+            const times = [];
+            const measure = async (i) => {
+              const span = (view.whole.until - view.whole.from) / 1.02 ** i;
+              const start = performance.now();
+              view.show(view.whole.until / 3, view.whole.until / 3 + span);
+              view.flush();
+              await new Promise((resolve) => setTimeout(resolve));  // uPlot draws when all else is done
+              times.push(performance.now() - start);
+            };
+            (async () => {
+              for (let i = 0; i < 60; ++i) await measure(i);
+              done(times.sort((a, b) => a - b)[30]);
+            })();""")
+
+
+CONTRAST = """
+    const style = getComputedStyle(document.documentElement);
+    const luminance = (name) => {
+      const hex = style.getPropertyValue(name).trim().slice(1);
+      const [r, g, b] = [0, 2, 4].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255)
+        .map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+      return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    };
+    const ratio = (one, other) => {
+      const [high, low] = [luminance(one), luminance(other)].sort((a, b) => b - a);
+      return (high + 0.05) / (low + 0.05);
+    };
+    const names = ['--text', '--quiet-text', '--link', '--good', '--bad', '--open',
+      ...[1, 2, 3, 4, 5, 6].map((i) => `--curve-${i}`)];
+    return Object.fromEntries(names.map((name) => [name, ratio(name, '--page')]));
+"""
+
+
+if __name__ == "__main__":
+    PageTest.page, PageTest.folder = (Path(argument) for argument in sys.argv[1:3])
+    PageTest.folder.mkdir(parents=True, exist_ok=True)
+    unittest.main(argv=sys.argv[:1])

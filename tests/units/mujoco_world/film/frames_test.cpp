@@ -1,0 +1,115 @@
+#include "units/mujoco_world/film/frames.h"
+
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include <catch2/catch.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/scratch_folder.h"
+
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+using mujoco_world::film::Frames;
+using mujoco_world::film::seconds_text;
+
+namespace {
+
+stride::Time at(double seconds) { return stride::time_from_seconds(seconds); }
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::set<std::string> files_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    names.insert(entry.path().filename().string());
+  }
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("each frame is a picture and a line") {
+  const stride::tests::ScratchFolder scratch;
+  Frames frames(scratch / "film/arm");
+  CHECK(text_of(scratch / "film/arm/frames.csv") == "time,file\n");
+  frames.add(at(0), {'a'});
+  frames.add(at(0.1), {'b', 'c'});
+  CHECK(text_of(scratch / "film/arm/frames.csv") == "time,file\n0,00000.jpg\n0.1,00001.jpg\n");
+  CHECK(text_of(scratch / "film/arm/00001.jpg") == "bc");
+  CHECK(frames.ends_at(at(0.1)));
+  CHECK_FALSE(frames.ends_at(at(0)));
+}
+
+TEST_CASE("what is taken back is gone, and its places are taken again") {
+  const stride::tests::ScratchFolder scratch;
+  Frames frames(scratch / "arm");
+  for (int i = 0; i < 5; ++i) frames.add(at(i), {'a'});
+  frames.remove_after(at(1.5));
+  CHECK(text_of(scratch / "arm/frames.csv") == "time,file\n0,00000.jpg\n1,00001.jpg\n");
+  CHECK(files_in(scratch / "arm") == std::set<std::string>{"00000.jpg", "00001.jpg", "frames.csv"});
+  frames.add(at(1.75), {'b'});
+  CHECK(text_of(scratch / "arm/frames.csv") ==
+        "time,file\n0,00000.jpg\n1,00001.jpg\n1.75,00002.jpg\n");
+  CHECK(text_of(scratch / "arm/00002.jpg") == "b");
+}
+
+TEST_CASE("a film replaces the one that was there, and no other file") {
+  const stride::tests::ScratchFolder scratch;
+  {
+    Frames frames(scratch / "arm");
+    for (int i = 0; i < 5; ++i) frames.add(at(i), {'a'});
+  }
+  std::ofstream(scratch / "arm/notes.txt") << "mine";
+  Frames frames(scratch / "arm");
+  frames.add(at(0), {'b'});
+  CHECK(files_in(scratch / "arm") == std::set<std::string>{"00000.jpg", "frames.csv", "notes.txt"});
+}
+
+TEST_CASE("a process that goes on from a fork goes on with the film of then") {
+  const stride::tests::ScratchFolder scratch;
+  auto frames = std::make_unique<Frames>(scratch / "arm");
+  frames->add(at(0), {'a'});
+  int go[2];
+  REQUIRE(::pipe(go) == 0);
+  const pid_t snapshot = ::fork();
+  if (snapshot == 0) {
+    char byte;
+    if (::read(go[0], &byte, 1) == 1) {
+      frames->add(at(0.5), {'c'});
+      frames.reset();
+    }
+    ::_exit(0);
+  }
+  for (int i = 1; i < 4; ++i) frames->add(at(i), {'b'});
+  REQUIRE(::write(go[1], "!", 1) == 1);
+  REQUIRE(::waitpid(snapshot, nullptr, 0) == snapshot);
+  CHECK(text_of(scratch / "arm/frames.csv") == "time,file\n0,00000.jpg\n0.5,00001.jpg\n");
+  CHECK(text_of(scratch / "arm/00001.jpg") == "c");
+  CHECK(files_in(scratch / "arm") == std::set<std::string>{"00000.jpg", "00001.jpg", "frames.csv"});
+  ::close(go[0]);
+  ::close(go[1]);
+}
+
+TEST_CASE("a disk that takes no more is an error with the file") {
+  const stride::tests::ScratchFolder scratch;
+  Frames frames(scratch / "arm");
+  fs::create_symlink("/dev/full", scratch / "arm/00000.jpg");
+  CHECK_THROWS_WITH(frames.add(at(0), {'a'}),
+                    Contains("arm/00000.jpg'") && Contains("No space left on device"));
+  std::ofstream(scratch / "file") << "no folder";
+  CHECK_THROWS_WITH(Frames(scratch / "file/arm"), Contains("file/arm'"));
+}
+
+TEST_CASE("times are written with all their digits") {
+  CHECK(seconds_text(stride::Time(stride::Duration(1))) == "0.000000000001");
+  CHECK(seconds_text(at(12)) == "12");
+  CHECK(seconds_text(at(100.1)) == "100.1");
+  CHECK(seconds_text(at(-0.25)) == "-0.25");
+  CHECK(seconds_text(stride::Time{}) == "0");
+}

@@ -1,0 +1,36 @@
+#include <set>
+
+#include <catch2/catch.hpp>
+
+#include <stride/nfc/names.h>
+
+using nfc::Command;
+using nfc::Status;
+
+TEST_CASE("each command and each status has a name of its own") {
+  std::set<std::string> names;
+  for (int byte = 0; byte < 256; ++byte) {
+    names.insert(nfc::name_of(static_cast<Command>(byte)));
+    names.insert(nfc::name_of(static_cast<Status>(byte)));
+  }
+  CHECK(names.size() == 512);
+  CHECK(nfc::name_of(Command::kReadTemperature) == "read_temperature");
+  CHECK(nfc::name_of(Command::kSetSamplingPeriod) == "set_sampling_period");
+  CHECK(nfc::name_of(static_cast<Command>(0x7F)) == "raw 0x7F");
+  CHECK(nfc::name_of(Status::kBadArgument) == "bad_argument");
+  CHECK(nfc::name_of(static_cast<Status>(0xE0)) == "status 0xE0");
+}
+
+TEST_CASE("the commands that are listed are those that there are") {
+  const std::set<Command> listed(std::begin(nfc::kCommands), std::end(nfc::kCommands));
+  for (int byte = 0; byte < 256; ++byte) {
+    const auto command = static_cast<Command>(byte);
+    CHECK(listed.count(command) == (nfc::argument_bytes(command) < 0 ? 0 : 1));
+  }
+}
+
+TEST_CASE("an identifier has eight digits") {
+  CHECK(nfc::hexadecimal(0x0A2B3C4D) == "0x0A2B3C4D");
+  CHECK(nfc::hexadecimal(0) == "0x00000000");
+  CHECK(nfc::hexadecimal(0xFFFFFFFF) == "0xFFFFFFFF");
+}

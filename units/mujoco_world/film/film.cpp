@@ -1,0 +1,56 @@
+#include "units/mujoco_world/film/film.h"
+
+#include <stdexcept>
+
+namespace mujoco_world::film {
+namespace {
+
+using stride::Duration;
+using stride::Time;
+
+FilmSettings checked(const FilmSettings& settings) {
+  if (settings.interval > Duration{}) return settings;
+  throw std::invalid_argument("the interval of a film is not above 0");
+}
+
+Time first_at_or_after(Time time, Duration interval) {
+  const Duration rest = time.time_since_epoch() % interval;
+  if (rest == Duration{}) return time;
+  return stride::later(time - rest, rest > Duration{} ? interval : Duration{});
+}
+
+}  // namespace
+
+Film::Film(const World& world, const FilmSettings& settings, const std::filesystem::path& folder)
+    : world_(world),
+      settings_(checked(settings)),
+      renderer_(world.model(), settings.view),
+      frames_(folder) {
+  go_on();
+}
+
+void Film::advance(World& world, Time to) {
+  while (next_ <= to) {
+    world.advance(next_);
+    take();
+  }
+  world.advance(to);
+}
+
+void Film::go_on() {
+  frames_.remove_after(world_.now());
+  next_ = first_at_or_after(world_.now(), settings_.interval);
+  if (next_ > world_.now()) return;
+  if (frames_.ends_at(next_)) {
+    next_ = stride::later(next_, settings_.interval);
+  } else {
+    take();
+  }
+}
+
+void Film::take() {
+  frames_.add(next_, to_jpeg(renderer_.draw(world_.model(), world_.drawn())));
+  next_ = stride::later(next_, settings_.interval);
+}
+
+}  // namespace mujoco_world::film

@@ -1,0 +1,111 @@
+#include "units/mujoco_world/film/frames.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace mujoco_world::film {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kHeader = "time,file\n";
+
+[[noreturn]] void fail(const fs::path& file) {
+  throw std::system_error(errno, std::generic_category(), "cannot write '" + file.string() + "'");
+}
+
+void write_file(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) fail(path);
+  const ssize_t written = ::write(file, bytes.data(), bytes.size());
+  // what is written in part has not said why
+  if (written >= 0 && static_cast<std::size_t>(written) < bytes.size()) errno = ENOSPC;
+  const bool is_whole = static_cast<std::size_t>(written) == bytes.size();
+  const int reason = errno;
+  ::close(file);
+  errno = reason;
+  if (!is_whole) fail(path);
+}
+
+std::string picture_name(std::size_t number) {
+  std::array<char, 32> name{};
+  std::snprintf(name.data(), name.size(), "%05zu.jpg", number);
+  return name.data();
+}
+
+}  // namespace
+
+std::string seconds_text(stride::Time time) {
+  const std::int64_t count = time.time_since_epoch().count();
+  const std::int64_t second = stride::Duration(std::chrono::seconds(1)).count();
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), "%s%lld.%012lld", count < 0 ? "-" : "",
+                static_cast<long long>(std::llabs(count / second)),
+                static_cast<long long>(std::llabs(count % second)));
+  std::string seconds = text.data();
+  seconds.erase(seconds.find_last_not_of('0') + 1);
+  if (seconds.back() == '.') seconds.pop_back();
+  return seconds;
+}
+
+Frames::Frames(const fs::path& folder) : folder_(folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw std::system_error(error, "cannot make the folder '" + folder.string() + "'");
+  const fs::path list = folder_ / "frames.csv";
+  list_ = ::open(list.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (list_ < 0) fail(list);
+  remove_pictures_from(0);
+  write_line(kHeader, 0);
+}
+
+/// What is left of what another process wrote, from which this one was forked, is not of this film.
+Frames::~Frames() {
+  if (::ftruncate(list_, end()) == 0) remove_pictures_from(rows_.size());
+  ::close(list_);
+}
+
+off_t Frames::end() const {
+  return rows_.empty() ? static_cast<off_t>(kHeader.size()) : rows_.back().end;
+}
+
+fs::path Frames::picture(std::size_t number) const { return folder_ / picture_name(number); }
+
+void Frames::add(stride::Time time, const std::vector<std::uint8_t>& jpeg) {
+  const std::size_t number = rows_.size();
+  write_file(picture(number), jpeg);
+  const std::string line = seconds_text(time) + "," + picture_name(number) + "\n";
+  write_line(line, end());
+  rows_.push_back({time, end() + static_cast<off_t>(line.size())});
+}
+
+/// The last one of the file from then on.
+void Frames::write_line(const std::string& line, off_t at) {
+  const auto size = static_cast<ssize_t>(line.size());
+  if (::ftruncate(list_, at) != 0 || ::pwrite(list_, line.data(), line.size(), at) != size) {
+    fail(folder_ / "frames.csv");
+  }
+}
+
+void Frames::remove_after(stride::Time time) {
+  const auto is_later = [&](const Row& row) { return row.time > time; };
+  const auto first = std::find_if(rows_.begin(), rows_.end(), is_later);
+  if (first == rows_.end()) return;
+  rows_.erase(first, rows_.end());
+  if (::ftruncate(list_, end()) != 0) fail(folder_ / "frames.csv");
+  remove_pictures_from(rows_.size());
+}
+
+void Frames::remove_pictures_from(std::size_t number) const {
+  std::error_code ignored;  // a picture that is not in the list harms nobody
+  while (fs::remove(picture(number), ignored)) ++number;
+}
+
+}  // namespace mujoco_world::film

@@ -1,0 +1,101 @@
+#include "units/mujoco_world/film/renderer.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+
+#include "units/mujoco_world/hooks.h"
+#include "units/mujoco_world/mjcf.h"
+
+namespace mujoco_world::film {
+namespace {
+
+// finer shadows take most of the time, in software, and are not seen
+constexpr int kShadowPerPixel = 3;
+constexpr const char* kFilmCamera = "film";
+constexpr int kMostDecorations = 10000;  // beside the model's geoms: sites, tendons, lights
+
+std::string cameras_of(const mjModel& model) {
+  std::string names;
+  for (int i = 0; i < model.ncam; ++i) {
+    names += (names.empty() ? "'" : ", '") + name_of(model, mjOBJ_CAMERA, i) + "'";
+  }
+  return names.empty() ? "none; leave it empty for one that sees the whole world" : names;
+}
+
+mjvCamera choose_camera(const mjModel& model, const std::string& wanted) {
+  mjvCamera camera;
+  mjv_defaultFreeCamera(&model, &camera);
+  const int id = mj_name2id(&model, mjOBJ_CAMERA, wanted.empty() ? kFilmCamera : wanted.c_str());
+  if (id < 0 && !wanted.empty()) {
+    throw std::runtime_error("film.camera: the world has no camera '" + wanted +
+                             "'; its cameras are: " + cameras_of(model));
+  }
+  if (id >= 0) {
+    camera.type = mjCAMERA_FIXED;
+    camera.fixedcamid = id;
+  }
+  return camera;
+}
+
+}  // namespace
+
+Renderer::Renderer(const mjModel& model, const View& view)
+    : camera_(choose_camera(model, view.camera)), frame_{0, 0, view.width, view.height} {
+  picture_.width = view.width;
+  picture_.height = view.height;
+  picture_.rgb.resize(std::size_t{3} * static_cast<std::size_t>(view.width) *
+                      static_cast<std::size_t>(view.height));
+  mjv_defaultOption(&options_);
+  mjv_defaultScene(&scene_);
+  mjr_defaultContext(&context_);
+  screen_ = make_off_screen();
+  guarded([&] { screen_->with([&] { make(model); }); });
+}
+
+void Renderer::make(const mjModel& model) {
+  mjModel sized = model;  // its arrays are the model's own
+  sized.vis.global.offwidth = frame_.width;
+  sized.vis.global.offheight = frame_.height;
+  int& shadow = sized.vis.quality.shadowsize;
+  shadow = std::min(shadow, kShadowPerPixel * std::max(frame_.width, frame_.height));
+  mjr_makeContext(&sized, &context_, mjFONTSCALE_100);
+  mjr_setBuffer(mjFB_OFFSCREEN, &context_);
+  if (context_.currentBuffer != mjFB_OFFSCREEN) {
+    throw std::runtime_error("OpenGL has no buffer of " + std::to_string(frame_.width) + " x " +
+                             std::to_string(frame_.height) + " pixels");
+  }
+  mjv_makeScene(&model, &scene_, static_cast<int>(model.ngeom) + kMostDecorations);
+}
+
+Renderer::~Renderer() {
+  mjv_freeScene(&scene_);
+  try {
+    guarded([&] { screen_->with([&] { mjr_freeContext(&context_); }); });
+  } catch (const std::exception&) {  // it goes with the process
+  }
+}
+
+const Picture& Renderer::draw(const mjModel& model, mjData& data) {
+  guarded([&] {
+    mjv_updateScene(&model, &data, &options_, nullptr, &camera_, mjCAT_ALL, &scene_);
+    screen_->with([&] {
+      mjr_render(frame_, &scene_, &context_);
+      read_pixels();
+      const int error = mjr_getError();
+      if (error != 0) throw std::runtime_error("OpenGL's error " + std::to_string(error));
+    });
+  });
+  return picture_;
+}
+
+/// OpenGL's rows go from bottom to top.
+void Renderer::read_pixels() {
+  mjr_readPixels(picture_.rgb.data(), nullptr, frame_, &context_);
+  const std::ptrdiff_t row = std::ptrdiff_t{3} * frame_.width;
+  auto top = picture_.rgb.begin();
+  auto bottom = picture_.rgb.end() - row;
+  for (; top < bottom; top += row, bottom -= row) std::swap_ranges(top, top + row, bottom);
+}
+
+}  // namespace mujoco_world::film

@@ -1,0 +1,49 @@
+#include <stride/nfc/names.h>
+
+namespace nfc {
+namespace {
+
+/// The lowest digits of a number, with "0x" before them.
+std::string hexadecimal(std::uint32_t number, int digits) {
+  std::string text = "0x";
+  while (digits-- > 0) text += "0123456789ABCDEF"[number >> (4 * digits) & 0xF];
+  return text;
+}
+
+}  // namespace
+
+std::string name_of(Command command) {
+  switch (command) {
+    case Command::kIdentify:
+      return "identify";
+    case Command::kReadTemperature:
+      return "read_temperature";
+    case Command::kSetLed:
+      return "set_led";
+    case Command::kSelect:
+      return "select";
+    case Command::kReadLog:
+      return "read_log";
+    case Command::kSetSamplingPeriod:
+      return "set_sampling_period";
+    case Command::kSleep:
+      return "sleep";
+  }
+  return "raw " + hexadecimal(static_cast<std::uint8_t>(command), 2);
+}
+
+std::string name_of(Status status) {
+  switch (status) {
+    case Status::kOk:
+      return "ok";
+    case Status::kUnknownCommand:
+      return "unknown_command";
+    case Status::kBadArgument:
+      return "bad_argument";
+  }
+  return "status " + hexadecimal(static_cast<std::uint8_t>(status), 2);
+}
+
+std::string hexadecimal(std::uint32_t number) { return hexadecimal(number, 8); }
+
+}  // namespace nfc
