@@ -1,5 +1,5 @@
 /* How a library made with the unit kit describes itself: what it exports beside the FMI 3.0 table
- * and that of <stride/idle.h>. */
+ * and those of <stride/idle.h> and <stride/describe.h>. */
 #ifndef STRIDE_SELF_DESCRIPTION_H
 #define STRIDE_SELF_DESCRIPTION_H
 

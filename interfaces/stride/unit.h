@@ -97,6 +97,15 @@ class Unit {
   /// announced, and at its maximum_step. Needs UnitInfo::promises_idle.
   virtual Time idle_until(Time now) const { return now; }
 
+  /// What a value of this Binary variable says, in words, as <stride/describe.h> has it: a line as
+  /// short as can be, in UTF-8; empty if there is nothing to say. Called with any bytes, also of a
+  /// size that the unit never sends. Control characters become blanks; what is thrown is logged as
+  /// a warning, and the run goes on without the text.
+  virtual std::string describe_message(const Variable& /*variable*/,
+                                       const Binary& /*value*/) const {
+    return {};
+  }
+
   /// What state() cannot list; called after the listed members, in both directions.
   virtual void save_state(StateWriter& /*writer*/) const {}
   virtual void load_state(StateReader& /*reader*/) {}

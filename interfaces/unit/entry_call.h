@@ -6,6 +6,7 @@
 #include <exception>
 #include <string>
 
+#include <stride/describe.h>
 #include <stride/fmi3.h>
 #include <stride/idle.h>
 #include <stride/self_description.h>
@@ -18,6 +19,7 @@ FMI3_FUNCTIONS(STRIDE_EXPORT)
 #undef STRIDE_EXPORT
 #define STRIDE_EXPORT(name) __attribute__((visibility("default"))) stride##name##TYPE stride##name;
 STRIDE_IDLE_FUNCTIONS(STRIDE_EXPORT)
+STRIDE_DESCRIBE_FUNCTIONS(STRIDE_EXPORT)
 STRIDE_EXPORT(ModelDescription)
 STRIDE_EXPORT(IdleManifest)
 #undef STRIDE_EXPORT

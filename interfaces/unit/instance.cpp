@@ -56,6 +56,15 @@ std::uint8_t log_category(const char* wanted) {
                "', only " + known);
 }
 
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
+
+/// How many of the first `most` bytes are whole characters of UTF-8.
+std::size_t whole_characters(const std::string& text, std::size_t most) {
+  if (text.size() <= most) return text.size();
+  while (most > 0 && (text[most] & 0xC0) == 0x80) --most;
+  return most;
+}
+
 void check_range(const Variable& row) {
   if (!row.min && !row.max) return;
   if (row.type != Type::Float64 || row.causality != Causality::Parameter) return;
@@ -342,6 +351,21 @@ void Instance::set_binary(const fmi3ValueReference references[], std::size_t cou
   }
   inputs_changed_ = true;
   note_discrete_change(references, count);
+}
+
+std::string Instance::describe_message(fmi3ValueReference reference, const fmi3Byte value[],
+                                       std::size_t size, std::size_t capacity) const {
+  slot(reference, Type::Binary);
+  const Variable& row = table_->row(reference);
+  std::string text;
+  try {
+    text = unit_->describe_message(row, size == 0 ? Binary() : Binary(value, value + size));
+  } catch (const std::exception& failure) {
+    importer_.message(fmi3Warning, LogWarnings,
+                      "what a value of '" + row.name + "' says is not known: " + failure.what());
+  }
+  std::replace_if(text.begin(), text.end(), is_control, ' ');
+  return text.substr(0, whole_characters(text, capacity));
 }
 
 void Instance::get_output_derivatives(const fmi3ValueReference references[], std::size_t count,

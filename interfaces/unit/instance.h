@@ -109,6 +109,11 @@ class Instance final : private InputUpdater {
   /// An instant that is not after the present one is no promise, Time::max() one without an end.
   Time idle_until() const;
 
+  /// What a value of a Binary variable says (<stride/describe.h>), in whole characters, `capacity`
+  /// bytes at most; empty if the unit says nothing.
+  std::string describe_message(fmi3ValueReference reference, const fmi3Byte value[],
+                               std::size_t size, std::size_t capacity) const;
+
   struct ClockInterval {
     Duration interval;
     fmi3IntervalQualifier qualifier;

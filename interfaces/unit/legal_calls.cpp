@@ -8,6 +8,7 @@ namespace {
 constexpr std::size_t kFunctionCount = 0
 #define STRIDE_ONE(name) +1
     FMI3_FUNCTIONS(STRIDE_ONE) STRIDE_IDLE_FUNCTIONS(STRIDE_ONE)
+        STRIDE_DESCRIBE_FUNCTIONS(STRIDE_ONE)
 #undef STRIDE_ONE
     ;
 
@@ -83,6 +84,8 @@ constexpr Rule kRules[] = {
     {Function::EnableIdleSkipping, Instantiated},
     {Function::SetIdleTolerances, Instantiated},
     {Function::GetIdlePromise, StepMode},
+
+    {Function::DescribeMessage, kAny},
 };
 
 constexpr auto kLegalModes = [] {
@@ -103,7 +106,7 @@ const char* name(Function function) {
       FMI3_FUNCTIONS(STRIDE_NAME)
 #undef STRIDE_NAME
 #define STRIDE_NAME(name) "stride" #name,
-          STRIDE_IDLE_FUNCTIONS(STRIDE_NAME)
+          STRIDE_IDLE_FUNCTIONS(STRIDE_NAME) STRIDE_DESCRIBE_FUNCTIONS(STRIDE_NAME)
 #undef STRIDE_NAME
   };
   return kNames[static_cast<std::size_t>(function)];

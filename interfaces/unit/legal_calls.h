@@ -1,11 +1,12 @@
 // Which FMI function may be called in which state of a Co-Simulation unit (FMI 3.0, 2.3 and 4.2),
-// and which of <stride/idle.h>.
+// and which of <stride/idle.h> and <stride/describe.h>.
 #ifndef STRIDE_INTERFACES_UNIT_LEGAL_CALLS_H
 #define STRIDE_INTERFACES_UNIT_LEGAL_CALLS_H
 
 #include <cstdint>
 #include <string>
 
+#include <stride/describe.h>
 #include <stride/fmi3.h>
 #include <stride/idle.h>
 
@@ -14,6 +15,7 @@ namespace stride::kit {
 enum class Function : std::uint8_t {
 #define STRIDE_NAME(name) name,
   FMI3_FUNCTIONS(STRIDE_NAME) STRIDE_IDLE_FUNCTIONS(STRIDE_NAME)
+      STRIDE_DESCRIBE_FUNCTIONS(STRIDE_NAME)
 #undef STRIDE_NAME
 };
 

@@ -90,6 +90,9 @@ class CapturedUnit final : public core::Unit {
                        std::span<double> derivatives) override {
     unit_->get_derivatives(outputs, derivatives);
   }
+  std::string describe_message(core::ValueReference variable, const core::Binary& value) override {
+    return unit_->describe_message(variable, value);
+  }
   void terminate() override;
   std::uint64_t calls() const override { return unit_->calls(); }
   std::optional<core::HostStatistics> host_statistics() const override {

@@ -84,6 +84,8 @@ void add_scenario_options(CLI::App& command, ScenarioRequest& request) {
       .add_option("--max-skip", request.max_skip,
                   "For how long an idle unit is left alone at most; 1 by default")
       ->type_name("SECONDS");
+  command.add_flag("--no-checks", request.no_checks,
+                   "Do not judge by the scenario's checks, as for a run that is to be another");
   add_host_options(command, request.hosts);
   command
       .add_option("--set", request.sets,

@@ -10,6 +10,7 @@
 
 #include "master/cli/table.h"
 #include "master/core/error.h"
+#include "master/io/message_text.h"
 
 namespace stride::cli {
 namespace {
@@ -17,17 +18,7 @@ namespace {
 constexpr std::size_t kMostMessages = 40;
 constexpr std::size_t kMostSignals = 30;
 constexpr std::size_t kMostHosts = 6;
-
-std::size_t payload_size(const core::Message& message) {
-  if (message.block == nullptr) return 0;
-  if (message.block->type() == core::ValueType::Binary) {
-    return message.block->binaries()[message.first].size();
-  }
-  if (message.block->type() == core::ValueType::String) {
-    return message.block->strings()[message.first].size();
-  }
-  return message.block->size() * core::element_size(message.block->type());
-}
+constexpr std::size_t kLongestText = 200;  // of a message
 
 std::string seconds(std::chrono::nanoseconds time) {
   return fmt::format("{:.3f}", std::chrono::duration<double>(time).count());
@@ -54,7 +45,8 @@ void Summary::on_message(const core::Message& message) {
   if (!message.received) {
     ++message_count_;
     if (messages_.size() < kMostMessages) {
-      messages_.push_back({message.id, message.time, payload_size(message), {}});
+      messages_.push_back(
+          {message.id, message.time, io::message_text(system_, message, kLongestText), {}});
     }
   } else if (message_count_ <= kMostMessages) {
     note_receiver(message.id);
@@ -94,17 +86,17 @@ std::string Summary::text(const core::RunStatistics& statistics) const {
 std::string Summary::message_table() const {
   Table table({{"time [s]", Table::Align::Right},
                {"message"},
-               {"bytes", Table::Align::Right},
+               {"what it says", Table::Align::Left, true},
                {"received by"}});
   for (const Sent& sent : messages_) {
     std::string receivers;
     for (const std::size_t i : sent.receivers) {
       receivers += (receivers.empty() ? "" : ", ") + system_.components()[i].name;
     }
-    table.add({core::to_text(sent.time), system_.full_name(sent.id), std::to_string(sent.bytes),
+    table.add({core::to_text(sent.time), system_.full_name(sent.id), sent.text,
                receivers.empty() ? "nobody" : receivers});
   }
-  std::string text = table.text();
+  std::string text = table.text(output_width());
   if (message_count_ > messages_.size()) {
     text += fmt::format("  … and {} more\n", message_count_ - messages_.size());
   }

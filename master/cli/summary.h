@@ -17,6 +17,7 @@ class Summary : public core::Observer {
   explicit Summary(const core::System& system) : system_(system) {}
 
   void on_start(std::span<const core::Signal> signals) override;
+  bool wants_content() const override { return true; }
   void on_message(const core::Message& message) override;
   void on_communication_point(Time time) override;
 
@@ -31,7 +32,7 @@ class Summary : public core::Observer {
   struct Sent {
     core::VariableId id;
     Time time;
-    std::size_t bytes;
+    std::string text;  ///< what it says
     std::vector<std::size_t> receivers;
   };
 

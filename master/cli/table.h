@@ -1,10 +1,15 @@
 #ifndef STRIDE_MASTER_CLI_TABLE_H
 #define STRIDE_MASTER_CLI_TABLE_H
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace stride::cli {
+
+/// How many characters fit in a line of the terminal to which standard output goes; 120 where it
+/// goes elsewhere.
+std::size_t output_width();
 
 /// A text table for people: a header, a line under it, and rows; columns as wide as they need.
 class Table {
@@ -13,16 +18,22 @@ class Table {
   struct Column {
     std::string title;
     Align align = Align::Left;
+    bool is_cut = false;  ///< where the table would be too wide
   };
 
   explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
   /// One text per column.
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
   std::size_t size() const { return rows_.size(); }
-  /// The lines, each indented by two blanks and ended by a newline.
-  std::string text() const;
+  /// The lines, each indented by two blanks and ended by a newline; `width` characters wide at
+  /// most, as far as columns may be cut, each of them by what is too much.
+  std::string text(std::size_t width = kNoLimit) const;
+
+  static constexpr std::size_t kNoLimit = std::string::npos;
 
  private:
+  std::vector<std::size_t> widths(std::size_t width) const;
+
   std::vector<Column> columns_;
   std::vector<std::vector<std::string>> rows_;
 };

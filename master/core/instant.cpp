@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "master/core/readable_text.h"
+
 namespace stride::core {
 namespace {
 
@@ -254,9 +256,41 @@ void Instant::transmit(std::size_t sender) {
         if (!received && block != nullptr && has_nan(*block)) fail_nan(id);
         UnitStatistics& statistics = statistics_.units[id.component];
         ++(received ? statistics.messages_received : statistics.messages_sent);
-        const Message message{time_, index_, id, received, block, 0};
-        for (Observer* observer : observers_) observer->on_message(message);
+        tell_observers(id, received, block);
       });
+}
+
+void Instant::tell_observers(VariableId id, bool received, const ValueBlock* block) {
+  Message message{time_, index_, id, received, block, 0};
+  std::string content;
+  if (block != nullptr && std::ranges::any_of(observers_, &Observer::wants_content)) {
+    content = content_of(id, *block);
+    message.content = content;
+  }
+  for (Observer* observer : observers_) observer->on_message(message);
+}
+
+/// The same bytes have the same meaning at the other end of a connection.
+std::string Instant::content_of(VariableId id, const ValueBlock& block) const {
+  if (block.type() != ValueType::Binary) return {};
+  std::string content = described_by(id, block);
+  for (const Connection& connection : system_.connections()) {
+    if (!content.empty()) break;
+    if (connection.from == id) content = described_by(connection.to, block);
+    if (connection.to == id) content = described_by(connection.from, block);
+  }
+  return readable_text(content, kLongestContent);
+}
+
+/// Of an array, what its elements say, in their order.
+std::string Instant::described_by(VariableId id, const ValueBlock& block) const {
+  std::string text;
+  for (const Binary& value : block.binaries()) {
+    const std::string said =
+        units_[id.component]->describe_message(system_.variable(id).reference, value);
+    if (!said.empty()) text.append(text.empty() ? "" : "; ").append(said);
+  }
+  return text;
 }
 
 void Instant::fail_nan(VariableId id) const {

@@ -75,6 +75,9 @@ class Instant : private Evaluation::Participants {
   void exchange_after_events();
   void exchange_messages();
   void transmit(std::size_t sender);
+  void tell_observers(VariableId id, bool received, const ValueBlock* block);
+  std::string content_of(VariableId id, const ValueBlock& block) const;
+  std::string described_by(VariableId id, const ValueBlock& block) const;
   void find_jumps();
   void route();
   [[noreturn]] void fail_nan(VariableId id) const;

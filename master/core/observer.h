@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include <stride/time.h>
 
@@ -35,7 +36,13 @@ struct Message {
   bool received = false;
   const ValueBlock* block = nullptr;  ///< null for a bare clock
   std::size_t first = 0;
+  /// What a Binary value says, in the words of its component (Unit::describe_message()) or else of
+  /// one that it is wired to, in one line of kLongestContent characters at most. Empty where none
+  /// says anything, and where no observer wants to know. Valid during the call.
+  std::string_view content{};
 };
+
+inline constexpr std::size_t kLongestContent = 200;
 
 /// Something that a component did beside ordinary steps.
 struct Activity {
@@ -62,6 +69,8 @@ class Observer {
   /// Before the first communication point. The signals are those that the observer was added with
   /// (Simulation::add_observer), or else RunOptions::recorded, in that order.
   virtual void on_start(std::span<const Signal> /*signals*/) {}
+  /// Whether messages are to come with their content, for which units have to be asked.
+  virtual bool wants_content() const { return false; }
   virtual void on_message(const Message& /*message*/) {}
   /// Asked once, before the run: whether it wants to hear of activities.
   virtual bool watches_activities() const { return false; }

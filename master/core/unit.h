@@ -184,6 +184,12 @@ class Unit {
   virtual void get_derivatives(std::span<const ValueReference> /*outputs*/,
                                std::span<double> /*derivatives*/) {}
 
+  /// What a value of a Binary variable says, in the unit's own words, which nobody has looked at
+  /// yet (readable_text()); empty where it says nothing. At any time; changes nothing.
+  virtual std::string describe_message(ValueReference /*variable*/, const Binary& /*value*/) {
+    return {};
+  }
+
   virtual void terminate() = 0;
 
   /// How many functions of the unit's interface were called so far, where they are counted.

@@ -57,6 +57,9 @@ Fmi3Library::Fmi3Library(const fs::path& path, const core::Location& where)
 #define STRIDE_FIND(name) find(idle_functions_.name, "stride" #name);
   STRIDE_IDLE_FUNCTIONS(STRIDE_FIND)
 #undef STRIDE_FIND
+#define STRIDE_FIND(name) find(describe_functions_.name, "stride" #name);
+  STRIDE_DESCRIBE_FUNCTIONS(STRIDE_FIND)
+#undef STRIDE_FIND
   find(self_description_, "strideModelDescription");
   find(idle_manifest_, "strideIdleManifest");
   if (missing.empty()) return;

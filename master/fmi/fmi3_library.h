@@ -1,10 +1,12 @@
-// An FMI 3.0 unit's library: the functions of FMI 3.0 and of <stride/idle.h>.
+// An FMI 3.0 unit's library: the functions of FMI 3.0, of <stride/idle.h> and of
+// <stride/describe.h>.
 #ifndef STRIDE_MASTER_FMI_FMI3_LIBRARY_H
 #define STRIDE_MASTER_FMI_FMI3_LIBRARY_H
 
 #include <filesystem>
 #include <string>
 
+#include <stride/describe.h>
 #include <stride/fmi3.h>
 #include <stride/idle.h>
 #include <stride/self_description.h>
@@ -28,6 +30,13 @@ struct IdleFunctions {
 #undef STRIDE_POINTER
 };
 
+/// Likewise those by which a unit tells what its messages say.
+struct DescribeFunctions {
+#define STRIDE_POINTER(name) stride##name##TYPE* name = nullptr;
+  STRIDE_DESCRIBE_FUNCTIONS(STRIDE_POINTER)
+#undef STRIDE_POINTER
+};
+
 class Fmi3Library : public SharedLibrary {
  public:
   /// Throws as SharedLibrary does, and where an FMI function is missing. Functions of the other
@@ -36,6 +45,7 @@ class Fmi3Library : public SharedLibrary {
 
   const Fmi3Functions& functions() const { return functions_; }
   const IdleFunctions& idle_functions() const { return idle_functions_; }
+  const DescribeFunctions& describe_functions() const { return describe_functions_; }
   /// Throws core::Error of the kind Input that names the functions of idle skipping that are
   /// missing, for a unit whose manifest says that it has them.
   void require_idle_functions(const core::Location& where = {}) const;
@@ -57,6 +67,7 @@ class Fmi3Library : public SharedLibrary {
 
   Fmi3Functions functions_;
   IdleFunctions idle_functions_;
+  DescribeFunctions describe_functions_;
   strideModelDescriptionTYPE* self_description_ = nullptr;
   strideIdleManifestTYPE* idle_manifest_ = nullptr;
 };

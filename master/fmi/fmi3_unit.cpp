@@ -94,6 +94,27 @@ void Fmi3Unit::terminate() {
   call("fmi3Terminate", fmi_.Terminate);
 }
 
+std::string Fmi3Unit::describe_message(core::ValueReference variable, const core::Binary& value) {
+  const char* const name = "strideDescribeMessage";
+  auto* const function = library_->describe_functions().DescribeMessage;
+  if (function == nullptr) return {};
+  const fmi3Byte none = 0;
+  std::string text(kLongestDescription, '\0');
+  std::size_t size = 0;
+  const Status status =
+      call_discardable(name, function, variable, value.empty() ? &none : value.data(), value.size(),
+                       text.data(), text.size(), &size);
+  if (status == Status::Discard) {
+    take_messages(name);
+    return {};
+  }
+  if (size > text.size()) {
+    fail(fmt::format("{} says that it has written {} bytes where {} fit", name, size, text.size()));
+  }
+  text.resize(size);
+  return text;
+}
+
 void Fmi3Unit::on_log(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category,
                       fmi3String message) {
   static_cast<Fmi3Unit*>(environment)->receive(static_cast<Status>(status), category, message);

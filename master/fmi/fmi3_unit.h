@@ -66,7 +66,11 @@ class Fmi3Unit final : public FmuInstance {
   Time idle_until() override;
   void get_derivatives(std::span<const core::ValueReference> outputs,
                        std::span<double> derivatives) override;
+  /// Of kLongestDescription bytes at most.
+  std::string describe_message(core::ValueReference variable, const core::Binary& value) override;
   void terminate() override;
+
+  static constexpr std::size_t kLongestDescription = 1024;
 
  private:
   static void on_intermediate_update(fmi3InstanceEnvironment environment, fmi3Float64 time,

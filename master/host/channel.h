@@ -44,6 +44,7 @@ enum class Request : std::uint32_t {
   SetIdleTolerances,
   GetIdleUntil,
   GetDerivatives,
+  DescribeMessage,
   Terminate,
   Free,              ///< destroys the unit; the process ends afterwards
   InputsUpdated,     ///< in answer to AskInputs: the inputs are set

@@ -183,6 +183,8 @@ void Server::handle(Request request, MessageReader& in, MessageWriter& out) {
       return put_time(out, unit_->idle_until());
     case Request::GetDerivatives:
       return get_derivatives(in, out);
+    case Request::DescribeMessage:
+      return describe_message(in, out);
     case Request::Terminate:
       return unit_->terminate();
     case Request::Free:
@@ -329,6 +331,12 @@ void Server::get_derivatives(MessageReader& in, MessageWriter& out) {
   std::vector<double> derivatives(in.take<std::size_t>());
   unit_->get_derivatives(outputs, derivatives);
   out.put_bytes(derivatives.data(), derivatives.size() * sizeof(double));
+}
+
+void Server::describe_message(MessageReader& in, MessageWriter& out) {
+  const auto variable = in.take<core::ValueReference>();
+  const core::Binary value = in.take_all<core::Binary::value_type>();
+  out.put(unit_->describe_message(variable, value));
 }
 
 }  // namespace stride::host

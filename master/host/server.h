@@ -68,6 +68,7 @@ class Server {
   void ask_inputs(double seconds_into_step);
   void set_idle_tolerances(MessageReader& in);
   void get_derivatives(MessageReader& in, MessageWriter& out);
+  void describe_message(MessageReader& in, MessageWriter& out);
   const core::Variable& variable(core::ValueReference reference) const;
 
   Request requested() const;

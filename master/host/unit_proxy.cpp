@@ -300,4 +300,18 @@ void UnitProxy::get_derivatives(References outputs, std::span<double> derivative
       [&](MessageReader& from) { from.take_into(derivatives.data(), derivatives.size_bytes()); });
 }
 
+// ---- Messages in words ----
+
+std::string UnitProxy::describe_message(core::ValueReference variable, const core::Binary& value) {
+  std::string text;
+  call(
+      Request::DescribeMessage,
+      [&](MessageWriter& to) {
+        to.put(variable);
+        to.put_all(std::span(value));
+      },
+      [&](MessageReader& from) { text = from.take_text(); });
+  return text;
+}
+
 }  // namespace stride::host

@@ -53,6 +53,7 @@ class UnitProxy final : public core::Unit {
   void set_idle_tolerances(References outputs, std::span<const double> tolerances) override;
   Time idle_until() override;
   void get_derivatives(References outputs, std::span<double> derivatives) override;
+  std::string describe_message(core::ValueReference variable, const core::Binary& value) override;
   void terminate() override;
   std::uint64_t calls() const override { return conversation_->calls(); }
   std::optional<core::HostStatistics> host_statistics() const override;

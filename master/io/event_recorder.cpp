@@ -14,7 +14,7 @@ EventRecorder::EventRecorder(const core::System& system, std::filesystem::path f
     : system_(system), file_(std::move(file)) {}
 
 void EventRecorder::on_start(std::span<const core::Signal> /*signals*/) {
-  file_.write("time,index,component,variable,direction,payload\n");
+  file_.write("time,index,component,variable,direction,payload,content\n");
   for (const core::Component& component : system_.components()) {
     std::vector<std::string>& fields = fields_.emplace_back();
     for (const core::Variable& variable : component.description->variables) {
@@ -31,6 +31,8 @@ void EventRecorder::on_message(const core::Message& message) {
   file_.write(fields_[message.id.component][message.id.variable]);
   file_.write(message.received ? std::string_view("received,") : std::string_view("sent,"));
   if (message.block != nullptr) write_payload(message);
+  file_.write(',');
+  if (!message.content.empty()) file_.write(csv_field(message.content));
   file_.write('\n');
 }
 

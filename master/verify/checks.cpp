@@ -18,6 +18,8 @@ const std::vector<Check>& checks() {
        &check_dependencies},
       {"events", "Event Mode, early returns and next events are as declared", &check_events},
       {"calls", "a whole life in order works; calls out of order are refused", &check_calls},
+      {"messages", "what the unit says of messages is text, and saying it changes nothing",
+       &check_messages},
       {"splitting", "steps may be split, where the unit says so", &check_splitting},
       {"rejection", "a rejected step leaves the unit as it was", &check_rejection},
       {"reset", "after a reset the unit is like a new one", &check_reset},

@@ -24,6 +24,7 @@ Finding check_values(const Trial& trial);
 Finding check_dependencies(const Trial& trial);
 Finding check_events(const Trial& trial);
 Finding check_calls(const Trial& trial);
+Finding check_messages(const Trial& trial);
 Finding check_splitting(const Trial& trial);
 Finding check_rejection(const Trial& trial);
 Finding check_reset(const Trial& trial);

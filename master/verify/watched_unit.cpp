@@ -1,6 +1,7 @@
 #include "master/verify/watched_unit.h"
 
 #include <cstdio>
+#include <utility>
 
 namespace stride::verify {
 namespace {
@@ -24,6 +25,11 @@ template <class Work>
 decltype(auto) WatchedUnit::watched(const char* function, Work&& work) {
   char name[64];
   std::snprintf(name, sizeof name, "%s%s", is_fmi2_ ? "fmi2" : "fmi3", function);
+  return noted(name, std::forward<Work>(work));
+}
+
+template <class Work>
+decltype(auto) WatchedUnit::noted(const char* name, Work&& work) {
   note_.write(name, now_.time_since_epoch().count());
   struct End {
     process::SharedNote& note;
@@ -118,6 +124,11 @@ core::ClockInterval WatchedUnit::clock_interval(const core::Variable& clock) {
 
 core::Interval WatchedUnit::clock_shift(const core::Variable& clock) {
   return watched("GetShift", [&] { return unit_->clock_shift(clock); });
+}
+
+std::string WatchedUnit::describe_message(core::ValueReference variable,
+                                          const core::Binary& value) {
+  return noted("strideDescribeMessage", [&] { return unit_->describe_message(variable, value); });
 }
 
 void WatchedUnit::terminate() {

@@ -41,12 +41,16 @@ class WatchedUnit final : public core::Unit {
   void enter_step_mode() override;
   core::ClockInterval clock_interval(const core::Variable& clock) override;
   core::Interval clock_shift(const core::Variable& clock) override;
+  std::string describe_message(core::ValueReference variable, const core::Binary& value) override;
   void terminate() override;
 
  private:
-  /// Notes the function while `work` is done.
+  /// Notes the function of the standard while `work` is done.
   template <class Work>
   decltype(auto) watched(const char* function, Work&& work);
+  /// Likewise one by its whole name.
+  template <class Work>
+  decltype(auto) noted(const char* name, Work&& work);
 
   const Subject& subject_;
   process::SharedNote& note_;

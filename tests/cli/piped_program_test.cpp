@@ -75,8 +75,8 @@ TEST_CASE("the example in Python and the one in C++ give the same bytes") {
   const Workspace in_cpp(cistern("cistern.fmu"));
   REQUIRE(in_cpp.run(filling()).exit_code == 0);
   CHECK_THAT(in_cpp.result("events.csv"),
-             Contains(",cistern,alarm.text,sent,full with 1.0 m3\n") &&
-                 Contains("\n1.5,0,cistern,report.text,sent,1.0 m3\n"));
+             Contains(",cistern,alarm.text,sent,full with 1.0 m3,\n") &&
+                 Contains("\n1.5,0,cistern,report.text,sent,1.0 m3,\n"));
   const Workspace in_python(cistern("packed.fmu"));
   for (const char* file : {"process.xml", "cistern.py"}) {
     fs::copy_file(kExample / file, in_python / file);

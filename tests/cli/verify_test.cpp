@@ -76,8 +76,8 @@ TEST_CASE("a unit that keeps what it declares passes all checks") {
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.err == "");
   CHECK_THAT(outcome.out, StartsWith("lying_none: FMI 3.0, steps of 0.001 s to 0.2 s, seed 1\n"));
-  CHECK_THAT(outcome.out, Contains(kSanitized ? "13 passed, 0 failed, 1 skipped"
-                                              : "14 passed, 0 failed, 0 skipped"));
+  CHECK_THAT(outcome.out, Contains(kSanitized ? "13 passed, 0 failed, 2 skipped"
+                                              : "14 passed, 0 failed, 1 skipped"));
 }
 
 TEST_CASE("each lie is found, with variable, values and time") {
@@ -109,6 +109,11 @@ TEST_CASE("each lie is found, with variable, values and time") {
               "before, and 0.25053445785019174 after it has rejected a step to 0.047 s");
   check_fails("lying_announces_past.fmu", "events",
               "at 0.031 s it announces its next event for 0.011 s, which is over");
+  check_fails(
+      "lying_mumbles_messages.fmu", "messages",
+      "as 'message' at 0 s is not one line of UTF-8 without control characters: \"\uFFFDmm\"");
+  check_fails("lying_counts_questions.fmu", "messages",
+              "'steps' is 1 in an instance that is never asked what messages say, and ");
   check_fails("lying_iterates_for_ever.fmu", "events", "do not come to an end: 1000 iterations");
 }
 
@@ -151,6 +156,11 @@ TEST_CASE("a unit that sets out to do better is believed where it does") {
              Contains("passed") && Contains(" 0 where they are not allowed"));
 }
 
+TEST_CASE("whatever the bytes of a message are, a unit may be asked what they say") {
+  CHECK_THAT(row(verify_one("types.fmu", "messages"), "messages"),
+             Contains("passed") && Contains("values of 6 Binary variables have words"));
+}
+
 TEST_CASE("what a unit does not declare is not asked of it") {
   CHECK_THAT(row(verify_one("stateless.fmu", "restore"), "restore"),
              Contains("skipped") && Contains("it has no canGetAndSetFMUState"));
@@ -158,6 +168,8 @@ TEST_CASE("what a unit does not declare is not asked of it") {
              Contains("skipped") && Contains("it has no canSerializeFMUState"));
   CHECK_THAT(row(verify_one("single.fmu", "instances"), "instances"),
              Contains("skipped") && Contains("canBeInstantiatedOnlyOncePerProcess"));
+  CHECK_THAT(row(verify_one("stateless.fmu", "messages"), "messages"),
+             Contains("skipped") && Contains("it has no Binary variable"));
 }
 
 TEST_CASE("a state that is declared and is not there") {

@@ -1,5 +1,6 @@
-// What a library made with the unit kit exports: the FMI 3.0 entry table, that of idle skipping,
-// its self-description, and nothing else, so that units cannot disturb each other.
+// What a library made with the unit kit exports: the FMI 3.0 entry table, those of idle skipping
+// and of what messages say, its self-description, and nothing else, so that units cannot disturb
+// each other.
 #include <array>
 #include <cstdio>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <catch2/catch.hpp>
 #include <dlfcn.h>
 
+#include <stride/describe.h>
 #include <stride/fmi3.h>
 #include <stride/idle.h>
 
@@ -36,6 +38,7 @@ std::set<std::string> expected_symbols() {
 #undef ADD
 #define ADD(name) names.insert("stride" #name);
   STRIDE_IDLE_FUNCTIONS(ADD)
+  STRIDE_DESCRIBE_FUNCTIONS(ADD)
 #undef ADD
   return names;
 }

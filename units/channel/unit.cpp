@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include <stride/nfc/in_words.h>
+
 #include "units/channel/tag_list.h"
 
 namespace channel {
@@ -99,6 +101,14 @@ void ChannelUnit::update_outputs() {
 
 stride::Time ChannelUnit::idle_until(stride::Time now) const {
   return air().is_quiet() && shown_ == inputs_ ? stride::Time::max() : now;
+}
+
+std::string ChannelUnit::describe_message(const stride::Variable& variable,
+                                          const stride::Binary& value) const {
+  const auto is_to_tag = [&](const TagPorts& tag) { return variable.data == &tag.to.frame; };
+  const bool is_request =
+      variable.data == &from_reader_.frame || std::any_of(ports_.begin(), ports_.end(), is_to_tag);
+  return nfc::in_words(value, is_request ? nfc::Sender::kReader : nfc::Sender::kTag);
 }
 
 void ChannelUnit::save_state(stride::StateWriter& writer) const {

@@ -32,6 +32,8 @@ class ChannelUnit : public stride::Unit {
   void event(stride::Event& event) override;
   void update_outputs() override;
   stride::Time idle_until(stride::Time now) const override;
+  std::string describe_message(const stride::Variable& variable,
+                               const stride::Binary& value) const override;
   void save_state(stride::StateWriter& writer) const override;
   void load_state(stride::StateReader& reader) override;
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <stride/nfc/in_words.h>
 #include <stride/unit.h>
 
 #include "units/reader/idle.h"
@@ -96,6 +97,12 @@ class ReaderUnit : public stride::Unit {
 
   stride::Time idle_until(stride::Time now) const override {
     return has_news() ? now : reader::idle_until(reader_, now);
+  }
+
+  std::string describe_message(const stride::Variable& variable,
+                               const stride::Binary& value) const override {
+    const bool is_request = variable.data == &transmit_frame_;
+    return nfc::in_words(value, is_request ? nfc::Sender::kReader : nfc::Sender::kTag);
   }
 
   // a state may come from an instance that runs another program, or with another seed

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <stride/nfc/frame.h>
+#include <stride/nfc/in_words.h>
 #include <stride/systemc/unit.h>
 
 #include "units/sensor/sensor.h"
@@ -26,6 +27,12 @@ class SensorUnit : public stride::systemc::DeviceUnit<Sensor> {
       if constexpr (!std::is_same_v<Member, bool>) row.range(info.minimum, info.maximum);
       if constexpr (std::is_same_v<Member, double>) row.unit(info.unit);
     });
+  }
+
+  std::string describe_message(const stride::Variable& variable,
+                               const stride::Binary& value) const override {
+    const bool is_request = variable.data == &received_;
+    return nfc::in_words(value, is_request ? nfc::Sender::kReader : nfc::Sender::kTag);
   }
 
  private:

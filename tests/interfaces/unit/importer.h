@@ -9,6 +9,7 @@
 
 #include <dlfcn.h>
 
+#include <stride/describe.h>
 #include <stride/fmi3.h>
 #include <stride/idle.h>
 #include <stride/self_description.h>
@@ -24,6 +25,7 @@ class UnitLibrary {
 #undef RESOLVE
 #define RESOLVE(name) name = reinterpret_cast<stride##name##TYPE*>(symbol("stride" #name));
     STRIDE_IDLE_FUNCTIONS(RESOLVE)
+    STRIDE_DESCRIBE_FUNCTIONS(RESOLVE)
 #undef RESOLVE
   }
   ~UnitLibrary() { dlclose(handle_); }
@@ -42,6 +44,7 @@ class UnitLibrary {
 #undef POINTER
 #define POINTER(name) stride##name##TYPE* name = nullptr;
   STRIDE_IDLE_FUNCTIONS(POINTER)
+  STRIDE_DESCRIBE_FUNCTIONS(POINTER)
 #undef POINTER
 
  private:

@@ -208,6 +208,16 @@ std::vector<Call> idle_skipping() {
   };
 }
 
+std::vector<Call> messages_in_words() {
+  return {{"strideDescribeMessage", "INEST", [](UnitInstance& u) {
+             const fmi3Byte byte = 0x26;
+             char text[100];
+             std::size_t size = 0;
+             return u.fmi.DescribeMessage(u.handle, u.reference("binary"), &byte, 1, text,
+                                          sizeof text, &size);
+           }}};
+}
+
 /// Calls each function in each state, each time on a fresh instance.
 void check(const std::vector<Call>& calls, const char* unit_library = STRIDE_TYPES_LIBRARY) {
   const UnitLibrary library(unit_library);
@@ -236,6 +246,8 @@ TEST_CASE("access to the unit's state in every state") { check(states()); }
 TEST_CASE("the intervals of clocks in every state") { check(clocks(), STRIDE_CLOCKS_LIBRARY); }
 
 TEST_CASE("idle skipping in every state") { check(idle_skipping(), STRIDE_IDLER_LIBRARY); }
+
+TEST_CASE("messages in words in every state") { check(messages_in_words()); }
 
 TEST_CASE("a call out of order changes nothing") {
   const UnitLibrary library(STRIDE_STEPPER_LIBRARY);

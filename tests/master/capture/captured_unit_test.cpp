@@ -233,12 +233,17 @@ TEST_CASE("the unit itself gets each call") {
   CHECK(block.numbers<double>()[0] == 4);
   bench.unit->on_idle_until = [](core::ScriptedUnit&) { return at(3); };
   CHECK(bench.captured->idle_until() == at(3));
+  bench.unit->on_describe = [](core::ScriptedUnit&, core::ValueReference variable,
+                               const core::Binary& value) {
+    return fmt::format("{} of {}", core::to_hex(value), variable);
+  };
+  CHECK(bench.captured->describe_message(2, {0x26}) == "26 of 2");
   CHECK_FALSE(bench.captured->host_statistics());
   bench.unit->host = core::HostStatistics{.snapshots = 5};
   CHECK(bench.captured->host_statistics().value().snapshots == 5);
   bench.captured->terminate();
   CHECK(bench.unit->calls == std::vector<std::string>{"enter_initialization", "exit_initialization",
                                                       "update_discrete_states", "enter_step_mode",
-                                                      "terminate"});
+                                                      "describe_message", "terminate"});
   CHECK_THROWS_AS(bench.captured->reset(), std::logic_error);
 }

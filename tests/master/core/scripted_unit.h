@@ -163,6 +163,9 @@ class ScriptedUnit : public Unit {
   /// The derivatives of an unknown with respect to a known, each element of one by each of the
   /// other, row by row.
   std::function<std::vector<double>(ScriptedUnit&, ValueReference, ValueReference)> on_derivative;
+  /// What it says of a message.
+  std::function<std::string(ScriptedUnit&, ValueReference, const Binary&)> on_describe =
+      [](ScriptedUnit&, ValueReference, const Binary&) { return std::string(); };
   std::optional<Duration> max_skip;  ///< as it was enabled
   /// Keeps or brings back what the script holds beside the values.
   std::function<void(bool save)> on_state = [](bool) {};
@@ -262,6 +265,10 @@ class ScriptedUnit : public Unit {
         }
       }
     }
+  }
+  std::string describe_message(ValueReference variable, const Binary& value) override {
+    calls.push_back("describe_message");
+    return on_describe(*this, variable, value);
   }
   void terminate() override { calls.push_back("terminate"); }
   std::optional<HostStatistics> host_statistics() const override { return host; }

@@ -589,3 +589,80 @@ TEST_CASE("a simulation runs once") {
   f.build(0.004, 1ms).run();
   CHECK_THROWS_AS(f.simulation->run(), std::logic_error);
 }
+
+namespace {
+
+/// Two messengers, of which `a` sends AB at 2 ms.
+struct OneMessage : Fixture {
+  ScriptedUnit& a = add("a", messenger());
+  ScriptedUnit& b = add("b", messenger());
+
+  OneMessage() {
+    wire("a", "out", "b", "in");
+    wire("a", "out.clock", "b", "in.clock");
+    a.on_step = [](ScriptedUnit& unit, Time, Time to) {
+      StepResult result;
+      result.reached = to;
+      result.event_needed = unit.clock(2) = to == time_from_seconds(0.002);
+      unit.binary(3) = {0xAB};
+      return result;
+    };
+    a.on_event = [](ScriptedUnit& unit) {
+      unit.clock(2) = false;
+      return EventResult{};
+    };
+    a.on_describe = [](ScriptedUnit&, ValueReference variable, const Binary& value) {
+      return fmt::format("{} in {}", to_hex(value), variable);
+    };
+  }
+  static bool was_asked(const ScriptedUnit& unit) {
+    return std::ranges::count(unit.calls, "describe_message") > 0;
+  }
+};
+
+struct Listener : Observer {
+  std::vector<std::string> contents;
+  bool wants_content() const override { return true; }
+  void on_message(const Message& message) override { contents.emplace_back(message.content); }
+};
+
+}  // namespace
+
+TEST_CASE("a message comes with its content where an observer wants it") {
+  OneMessage f;
+  f.b.on_describe = [](ScriptedUnit&, ValueReference, const Binary&) {
+    return std::string("heard\n\xFF") + std::string(1000, '!');
+  };
+  Listener listener;
+  Seen seen;
+  f.build(0.004, 1ms).add_observer(seen);
+  f.simulation->add_observer(listener);
+  f.simulation->run();
+  REQUIRE(listener.contents.size() == 2);
+  CHECK(listener.contents[0] == "ab in 3");
+  CHECK(listener.contents[1] == "heard \uFFFD" + std::string(kLongestContent - 8, '!') + "…");
+}
+
+TEST_CASE("who has no words for a message takes those of the other end") {
+  OneMessage f;
+  const auto words = f.a.on_describe;
+  const auto none = f.b.on_describe;
+  const bool sender_knows = GENERATE(true, false);
+  f.a.on_describe = sender_knows ? words : none;
+  f.b.on_describe = sender_knows ? none : words;
+  Listener listener;
+  f.build(0.004, 1ms).add_observer(listener);
+  f.simulation->run();
+  const std::string expected = sender_knows ? "ab in 3" : "ab in 1";
+  CHECK(listener.contents == std::vector<std::string>{expected, expected});
+}
+
+TEST_CASE("a unit is not asked what messages say where nobody wants to know") {
+  OneMessage f;
+  Seen seen;
+  f.build(0.004, 1ms).add_observer(seen);
+  f.simulation->run();
+  CHECK(seen.messages.size() == 2);
+  CHECK_FALSE(OneMessage::was_asked(f.a));
+  CHECK_FALSE(OneMessage::was_asked(f.b));
+}

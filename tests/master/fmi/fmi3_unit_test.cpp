@@ -637,3 +637,42 @@ TEST_CASE("what a library does not export for structure and derivatives is named
   CHECK_THAT(run_error([&] { unit->get_directional_derivative({}, {}, {}, {}); }),
              Contains("does not export fmi3GetDirectionalDerivative"));
 }
+
+// ---- Messages in words ----
+
+TEST_CASE("a unit says what a message says") {
+  Fixture unit("types");
+  const core::ValueReference frame = unit.reference("receive.frame");
+  CHECK(unit->describe_message(frame, {0x26, 0x27}) == "2 bytes in receive.frame");
+  unit.initialize();
+  CHECK(unit->describe_message(frame, core::Binary(1'000'000, 0x26)) ==
+        "1000000 bytes in receive.frame");
+  CHECK(unit->describe_message(frame, {}) == "");
+  CHECK(unit->describe_message(frame, {0}) == "");
+  const std::string longest = unit->describe_message(frame, {2});
+  CHECK(longest.size() == fmi::Fmi3Unit::kLongestDescription);
+  CHECK(longest.substr(longest.size() - 2) == "é");
+  CHECK_THAT(run_error([&] { unit->describe_message(unit.reference("float64"), {1}); }),
+             Contains("strideDescribeMessage returned fmi3Error: ") && Contains("not Binary"));
+}
+
+TEST_CASE("a unit of another tool says what a message says") {
+  const auto say = [](const char* behaviour, const core::Binary& value,
+                      const char* library = "raw_extended") {
+    return Raw(behaviour, {}, library).unit->describe_message(7, value);
+  };
+  CHECK(say("plain", {1, 2}) == "7: 2 bytes, somewhere");
+  CHECK(say("plain", {}) == "7: 0 bytes, somewhere");
+  CHECK(say("mute", {1}) == "");
+  CHECK(say("plain", {1}, "raw") == "");  // it does not have the function
+  CHECK_THAT(run_error([&] { say("babbles", {1}); }),
+             Contains("strideDescribeMessage says that it has written 1025 bytes where 1024 fit"));
+  CHECK_THAT(run_error([&] { say("refuses_it", {1}); }),
+             Contains("strideDescribeMessage returned fmi3Error: no comment"));
+}
+
+TEST_CASE("why a unit has nothing to say is not the reason of a later failure") {
+  Raw raw("mute", {}, "raw_extended");
+  CHECK(raw.unit->describe_message(7, {1}) == "");
+  raw.unit->step({Time(0s), Time(500ms)});
+}

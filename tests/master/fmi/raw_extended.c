@@ -11,12 +11,17 @@
  *   dreams     strideGetIdlePromise gives NaN
  *   sleeps     it promises beyond all times
  *   shy        it returns fmi3Error with a reason
+ *   babbles    strideDescribeMessage says that it has written more than fits
+ *   mute       it returns fmi3Discard with a reason
+ *   refuses_it it returns fmi3Error with a reason
  *
  * Otherwise its clocks have the interval 0.25 s and the shift 0.125 s. It has no functions for
  * fractions.
  */
 #include <math.h>
+#include <stdio.h>
 
+#include <stride/describe.h>
 #include <stride/fmi3.h>
 #include <stride/idle.h>
 
@@ -112,4 +117,19 @@ fmi3Status strideGetIdlePromise(fmi3Instance handle, fmi3Float64* until) {
   if (!is(handle, "shy")) return fmi3OK;
   instance->log(instance->environment, fmi3Error, "logStatusError", "I do not know");
   return fmi3Error;
+}
+
+fmi3Status strideDescribeMessage(fmi3Instance handle, fmi3ValueReference variable,
+                                 const fmi3Byte value[], size_t size, char text[], size_t capacity,
+                                 size_t* text_size) {
+  Instance* const instance = handle;
+  if (is(handle, "mute")) return discard(instance, "words fail me");
+  if (is(handle, "refuses_it")) {
+    instance->log(instance->environment, fmi3Error, "logStatusError", "no comment");
+    return fmi3Error;
+  }
+  const int length = snprintf(text, capacity, "%u: %zu bytes, %s", variable, size,
+                              value != NULL ? "somewhere" : "nowhere");
+  *text_size = is(handle, "babbles") ? capacity + 1 : (size_t)length;
+  return fmi3OK;
 }

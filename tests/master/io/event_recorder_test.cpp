@@ -14,15 +14,18 @@ TEST_CASE("events.csv has a row for each message sent or received") {
   recorder.on_start({});
   recorder.on_message(run.tick_at(Time{}));
   run.frame.binaries()[0] = {0x26, 0x00, 0xf1};
-  recorder.on_message(run.frame_at(Time(Duration(14'200'000'000'001)), false, 0));
+  core::Message told = run.frame_at(Time(Duration(14'200'000'000'001)), false, 0);
+  told.content = "wake_up, \"now\"";
+  recorder.on_message(told);
   recorder.on_message(run.frame_at(Time(Duration(14'200'000'000'001)), true, 1, 2));
   recorder.on_communication_point(milliseconds(15'000));
   recorder.on_finish();
   CHECK(content(folder / "events.csv") ==
-        "time,index,component,variable,direction,payload\n"
-        "0,0,a,tick,sent,\n"
-        "14.200000000001,0,a,transmit.frame,sent,2600f1\n"
-        "14.200000000001,2,\"b, c\",transmit.frame,received,2600f1\n");
+        "time,index,component,variable,direction,payload,content\n"
+        "0,0,a,tick,sent,,\n"
+        "14.200000000001,0,a,transmit.frame,sent,2600f1,\"wake_up, \"\"now\"\"\"\n"
+        "14.200000000001,2,\"b, c\",transmit.frame,received,2600f1,\n");
+  CHECK(recorder.wants_content());
 }
 
 TEST_CASE("The elements of a clocked array are separated by blanks, and text is quoted") {
@@ -46,7 +49,7 @@ TEST_CASE("The elements of a clocked array are separated by blanks, and text is 
   recorder.on_message({Time{}, 0, {0, 5}, false, &labels, 0});
   recorder.on_finish();
   CHECK(content(folder / "events.csv") ==
-        "time,index,component,variable,direction,payload\n"
-        "0,0,a,position,sent,1 -0.5 1e-09\n"
-        "0,0,a,label,sent,\"one, two three\"\n");
+        "time,index,component,variable,direction,payload,content\n"
+        "0,0,a,position,sent,1 -0.5 1e-09,\n"
+        "0,0,a,label,sent,\"one, two three\",\n");
 }

@@ -38,6 +38,8 @@ enum Lie {
   AnnouncesPast,      ///< its next event is over
   IteratesForEver,    ///< its events do not end
   ExitsInStep,        ///< it ends the process
+  MumblesMessages,    ///< what it says of messages is no text
+  CountsQuestions,    ///< it changes when it is asked what a message says
 };
 constexpr Lie kLie = LIE;
 
@@ -76,6 +78,7 @@ class Lying : public stride::Unit {
     } else {
       state(hidden_, count_);
     }
+    if (kLie == MumblesMessages || kLie == CountsQuestions) output("message", message_);
     if (kLie == CrashesInReset && was_initialized) std::raise(SIGSEGV);
     if (kLie == ForgetsInReset && was_initialized) count_ = shared_count;
     if (kLie == KeepsInputInReset) u_ = shared_input;
@@ -104,7 +107,8 @@ class Lying : public stride::Unit {
     ++count_;
     ++shared_count;
     shared_input = u_;
-    if (kLie != DependsOnSplit) steps_ = kLie == SharesState ? shared_count : count_;
+    if (kLie != DependsOnSplit)
+      steps_ = kLie == SharesState || kLie == CountsQuestions ? shared_count : count_;
     if (kLie == NotDeterministic) {
       echo_ = static_cast<double>(reinterpret_cast<std::uintptr_t>(this));
     }
@@ -112,6 +116,11 @@ class Lying : public stride::Unit {
 
   void update_outputs() override {
     if (kLie == HiddenDependency) echo_ = 2 * u_;
+  }
+
+  std::string describe_message(const stride::Variable&, const stride::Binary&) const override {
+    if (kLie == CountsQuestions) ++shared_count;
+    return kLie == MumblesMessages ? "\xFFmm" : "a message";
   }
 
   void event(stride::Event& event) override {
@@ -128,6 +137,7 @@ class Lying : public stride::Unit {
   double echo_ = 0;
   std::int32_t count_ = 0;
   double hidden_ = 0;
+  stride::Binary message_;
   std::vector<std::vector<char>> grown_;
 };
 

@@ -1,6 +1,7 @@
 // Gives each input back at once: all value types of FMI 3.0, arrays, and messages on a clock.
 #include <array>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 
 #include <stride/unit.h>
@@ -55,6 +56,16 @@ class Types : public stride::Unit {
   void initialize(stride::Time) override { echo(); }
   void step(stride::Step&) override { echo(); }
   void update_outputs() override { echo(); }
+  std::string describe_message(const stride::Variable& variable,
+                               const stride::Binary& value) const override {
+    if (value.empty()) return "";
+    if (value[0] == 0) throw std::runtime_error("nought");
+    if (value[0] == 1) return "one,\ntwo";
+    std::string text = std::to_string(value.size()) + " bytes in " + variable.name;
+    if (value[0] != 2) return text;
+    for (text.clear(); text.size() < 3000;) text += "é";
+    return text;
+  }
   void event(stride::Event&) override {
     if (!receive_.ticked()) return;
     frame_.out = frame_.in;

@@ -1,0 +1,19 @@
+// The exported function of <stride/describe.h>.
+#include <algorithm>
+
+#include "interfaces/unit/entry_call.h"
+
+using stride::kit::call;
+using stride::kit::Function;
+using stride::kit::Instance;
+
+fmi3Status strideDescribeMessage(fmi3Instance instance, fmi3ValueReference variable,
+                                 const fmi3Byte value[], size_t size, char text[], size_t capacity,
+                                 size_t* text_size) {
+  return call(instance, Function::DescribeMessage, [&](const Instance& unit) {
+    const std::string said = unit.describe_message(variable, value, size, capacity);
+    std::copy(said.begin(), said.end(), text);
+    *text_size = said.size();
+    return said.empty() ? fmi3Discard : fmi3OK;
+  });
+}

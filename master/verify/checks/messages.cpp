@@ -1,0 +1,108 @@
+#include <cstdint>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "master/core/error.h"
+#include "master/core/readable_text.h"
+#include "master/verify/checks.h"
+
+namespace stride::verify {
+namespace {
+
+using core::Binary;
+using core::ValueType;
+using core::Variable;
+
+constexpr std::size_t kValues = 500;  // of each variable, at each instant
+constexpr std::size_t kLongest = 300;
+constexpr std::size_t kHuge = std::size_t{1} << 20;
+
+std::vector<const Variable*> binaries(const core::UnitDescription& unit) {
+  std::vector<const Variable*> found;
+  for (const Variable& variable : unit.variables) {
+    if (variable.type == ValueType::Binary) found.push_back(&variable);
+  }
+  return found;
+}
+
+/// Asks a unit what values mean, those that it has and any other.
+class Asker {
+ public:
+  explicit Asker(const Trial& trial)
+      : variables_(binaries(trial.subject.description())), random_(trial.subject.request().seed) {}
+
+  void ask(Life& life) {
+    for (const Variable* variable : variables_) {
+      for (std::size_t i = 0; i < kValues; ++i) ask(life, *variable, value(random_() % kLongest));
+      ask(life, *variable, {});
+      ask(life, *variable, value(kHuge));
+    }
+  }
+
+  std::size_t variables() const { return variables_.size(); }
+  std::size_t asked() const { return asked_; }
+  std::size_t told() const { return told_; }
+
+ private:
+  /// Random bytes, of all kinds or small ones, which numbers and letters are more often.
+  Binary value(std::size_t size) {
+    const std::uint64_t mask = random_() % 2 == 0 ? 0xFF : 0x7;
+    Binary bytes(size);
+    for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random_() & mask);
+    return bytes;
+  }
+
+  void ask(Life& life, const Variable& variable, const Binary& value) {
+    const std::string text = life.unit().describe_message(variable.reference, value);
+    const std::string what = fmt::format("what {} bytes say as '{}' at {} s", value.size(),
+                                         variable.name, core::to_text(life.now()));
+    if (!core::is_readable(text)) {
+      throw Failure(what + " is not one line of UTF-8 without control characters: \"" +
+                    core::readable_text(text, 60) + '"');
+    }
+    if (life.unit().describe_message(variable.reference, value) != text) {
+      throw Failure(what + " is something else when it is asked again: \"" +
+                    core::readable_text(text, 60) + '"');
+    }
+    ++asked_;
+    if (!text.empty()) ++told_;
+  }
+
+  std::vector<const Variable*> variables_;
+  std::mt19937_64 random_;
+  std::size_t asked_ = 0;
+  std::size_t told_ = 0;
+};
+
+}  // namespace
+
+Finding check_messages(const Trial& trial) {
+  Asker asker(trial);
+  if (asker.variables() == 0) return skipped("it has no Binary variable");
+  const Recording expected = trial.record();
+  const auto library = trial.subject.fmu().load_fmi3_library();
+  if (library == nullptr || library->describe_functions().DescribeMessage == nullptr) {
+    return skipped("its library does not export strideDescribeMessage");
+  }
+  Life life = trial.live();
+  asker.ask(life);
+  life.start();
+  for (const double share : {0.0, 0.3, 0.7, 1.0}) {
+    life.run_to(trial.point_at(share));
+    asker.ask(life);
+  }
+  if (const auto differs =
+          difference(trial.subject, expected.rows, life.recording().rows,
+                     "in an instance that is never asked what messages say", "in one that is")) {
+    throw Failure(*differs);
+  }
+  life.terminate();
+  asker.ask(life);
+  return passed(fmt::format(
+      "{} of {} values of {} Binary variable{} have words; asking for them "
+      "changes nothing",
+      asker.told(), asker.asked(), asker.variables(), asker.variables() == 1 ? "" : "s"));
+}
+
+}  // namespace stride::verify
