@@ -65,10 +65,13 @@ test("a dense curve covers all its values and no others", () => {
 });
 
 test("bars side by side touch at the value between them", () => {
-  // low in one pixel, high in the next: without a join there would be a hole
-  const values = Array.from({ length: 201 }, (_, i) => (i < 100 ? i % 10 : 80 + (i % 10)));
-  const bars = drawn(values, 2).filter(([name]) => name === "rect");
-  assert.ok(bars[1][2] + bars[1][4] >= 100 - 9, "the second bar reaches down to the last value of the first one");
+  // low in one pixel, high in the next, and the other way round: without a join there would be a hole
+  const up = Array.from({ length: 201 }, (_, i) => (i < 100 ? i % 10 : 80 + (i % 10)));
+  const [, second] = drawn(up, 2).filter(([name]) => name === "rect");
+  assert.ok(second[2] + second[4] >= 100 - 9, "the second bar reaches down to the last value of the first one");
+  const down = up.map((value) => 90 - value);
+  const [, other] = drawn(down, 2).filter(([name]) => name === "rect");
+  assert.ok(other[2] <= 100 - 81, "the second bar reaches up to the last value of the first one");
 });
 
 test("dots are drawn where they are wanted", () => {
