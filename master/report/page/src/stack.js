@@ -1,5 +1,5 @@
-// The rows under the common time axis: film, messages, panes, what the units did. It draws what is in sight, moves the cursor
-// through all rows, and zooms where one drags.
+// The rows under the common time axis: film, messages, panes, what the units did. It draws what is in sight, moves the
+// cursor through all rows, and zooms where one drags.
 import { h } from "./dom.js";
 import { kGutter } from "./plot/layout.js";
 

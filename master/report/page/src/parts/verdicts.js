@@ -74,7 +74,9 @@ export function verdictTable(run, view) {
   const all = judgements(run);
   if (all.length === 0) return null;
   const isTimed = all.some(({ time }) => time !== null);
-  const heads = ["", "verdict of", "because", isTimed ? "first failed at" : ""].map((text) => h("th", { scope: "col" }, text));
+  const heads = ["", "verdict of", "because", isTimed ? "first failed at" : ""].map((text) =>
+    h("th", { scope: "col" }, text),
+  );
   const rows = all.map((judgement) => row(judgement, view));
   return h("table.verdicts", {}, h("thead", {}, h("tr", {}, ...heads)), h("tbody", {}, ...rows));
 }
