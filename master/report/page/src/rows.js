@@ -5,6 +5,7 @@ import { ActivityLane } from "./lanes/activity_lane.js";
 import { FilmStrip } from "./lanes/film.js";
 import { MessageLanes } from "./lanes/message_lanes.js";
 import { Toolbar } from "./parts/toolbar.js";
+import { failureTimes } from "./parts/verdicts.js";
 import { groupIntoPanes, groupOthers } from "./plot/grouping.js";
 import { Legend } from "./plot/legend.js";
 import { Pane } from "./plot/pane.js";
@@ -82,7 +83,7 @@ export function timeStack(context, actions) {
   const ruler = new Ruler(context);
   const rulerRow = row(ruler.box, null);
   const head = h("div.timebar", {}, toolbar.box, rulerRow);
-  const stack = new Stack(context.view, head, rulerRow.firstChild);
+  const stack = new Stack(context.view, head, rulerRow.firstChild, failureTimes(context.report.run));
   stack.add({ element: rulerRow, draw: (width) => ruler.draw(width) }, head);
   for (const name of ["view", "cursor"]) context.view.addEventListener(name, () => toolbar.update());
   toolbar.update();

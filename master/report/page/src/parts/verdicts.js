@@ -22,6 +22,12 @@ export function judgements(run) {
   return [...checks, ...units].sort((a, b) => rank(a) - rank(b));
 }
 
+/** When something failed first [s], of each that failed. */
+export function failureTimes(run) {
+  const failed = judgements(run).filter(({ passed, time }) => passed === false && time !== null);
+  return failed.map(({ time }) => time);
+}
+
 /**
  * What comes of all together.
  * @returns {{kind: "good"|"bad"|"open"|"none", text: string, first?: Judgement}}

@@ -256,6 +256,11 @@ class PageTest(unittest.TestCase):
         browser = self.open_run(run)
         self.assertIn("1 of 2 failed: level stays low", browser.one(".banner").text)
         self.assertIn("tank.level = 1.04 m", browser.one(".verdicts").text)
+        left, right = browser.plot_box()
+        line = browser.run("return [...document.querySelectorAll('.failure-line')].map("
+                           "(line) => line.getBoundingClientRect().left)")
+        self.assertEqual(len(line), 1)
+        self.assertAlmostEqual(line[0], left + 0.75 * (right - left), delta=1.5)
         browser.one(".banner .time-link").click()
         self.assertEqual(browser.run("return stride.view.cursor"), 7.5)
 

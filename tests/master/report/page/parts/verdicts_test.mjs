@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { judgements, summary } from "../../../../../master/report/page/src/parts/verdicts.js";
+import { failureTimes, judgements, summary } from "../../../../../master/report/page/src/parts/verdicts.js";
 
 const check = (name, passed, time = null) => ({
   name,
@@ -32,6 +32,7 @@ test("what failed is named, and the first instant of all is shown", () => {
   };
   const { kind, text, first } = summary(run);
   assert.deepEqual([kind, text, first.time], ["bad", "2 of 3 failed: late, early", 3]);
+  assert.deepEqual(failureTimes(run), [9, 3]);
   assert.deepEqual(
     judgements(run).map(({ name }) => name),
     ["late", "early", "fine"],
