@@ -60,7 +60,7 @@ TEST_CASE("a run's report has what was recorded") {
   CHECK(report["plots"] == json::parse(R"([{"title": "first", "signals": ["first.y"]},
                                            {"title": "second", "signals": ["second.y"]}])"));
   CHECK(report["diagram"]["connections"] ==
-        json::parse(R"([{"from": "first.y", "to": "second.u"}])"));
+        json::parse(R"([{"from": "first.y", "to": "second.u", "kind": "value"}])"));
 }
 
 TEST_CASE("stride report makes the same page again, there or elsewhere") {
