@@ -25,7 +25,7 @@ const char* name(Kind kind) {
 std::string Window::text() const {
   std::string text;
   if (from) text += fmt::format(" from {} s", core::to_text(*from));
-  if (to) text += fmt::format(" to {} s", core::to_text(*to));
+  if (to) text += fmt::format("{} {} s", from ? " to" : " up to", core::to_text(*to));
   return text;
 }
 

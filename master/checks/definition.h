@@ -31,7 +31,7 @@ struct Window {
   bool has_begun(Time time) const { return !from || time >= *from; }
   bool is_past(Time time) const { return to && time > *to; }
   bool contains(Time time) const { return has_begun(time) && !is_past(time); }
-  /// " from 8 s to 20 s", as far as it is limited.
+  /// " from 8 s to 20 s", " up to 20 s"
   std::string text() const;
 };
 

@@ -15,6 +15,7 @@ void add_complete(CLI::App& app);
 void add_pack(CLI::App& app);
 void add_report(CLI::App& app);
 void add_trace(CLI::App& app);
+void add_reference(CLI::App& app);
 void add_verify(CLI::App& app);
 
 }  // namespace stride::cli

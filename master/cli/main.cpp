@@ -26,7 +26,9 @@ void set_up_log() {
 
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (!command->get_group().empty()) names.push_back(command->get_name());
+  }
   return names;
 }
 
@@ -79,7 +81,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.failure_message(explain);
   app.footer(
-      "Exit codes: 0 good, 1 the run failed or a unit's verdict is bad, 2 the input was wrong.\n"
+      "Exit codes: 0 good, 1 the run failed or a verdict on it is bad, 2 the input was wrong.\n"
       "'stride COMMAND --help' tells more about a command.");
   app.add_flag_callback(
       "--verbose", [] { spdlog::set_level(spdlog::level::info); },
@@ -92,6 +94,7 @@ int main(int argc, char** argv) {
   stride::cli::add_complete(app);
   stride::cli::add_pack(app);
   stride::cli::add_trace(app);
+  stride::cli::add_reference(app);
   try {
     return parse(app, argc, argv);
   } catch (const stride::core::Error& error) {

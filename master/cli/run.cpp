@@ -298,10 +298,10 @@ void add_run(CLI::App& app) {
       ->add_option_function<std::string>(
           "--progress",
           [request](const std::string& text) { request->progress = read_progress_style(text); },
-          "How to show how far the run is: auto (on a terminal a line that is rewritten, elsewhere "
-          "a "
-          "line now and then), plain, json (an object a line, for programs) or none")
-      ->type_name("STYLE");
+          "How to show how far the run is: by itself (on a terminal a line that is rewritten, "
+          "elsewhere a line now and then), in plain lines, in an object a line for programs, or "
+          "not at all")
+      ->type_name("auto|plain|json|none");
   command->add_flag("--no-report", request->no_report, "Write no report.html");
   command->add_flag("--open", request->open, "Open the report in a browser when the run is over");
   command->add_flag("--quiet,-q", request->quiet, "Print nothing but errors");

@@ -28,11 +28,10 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, io::StepChoi
 void add_step_options(CLI::App& command, io::StepChoice& choice) {
   using io::StepChoice;
   add_choice(command, "--step", choice, &StepChoice::set_size,
-             "Communication step size; the first one where the error controls it")
+             "Length of the communication steps; of the first one where the error controls them")
       ->type_name("SECONDS");
-  add_choice(command, "--policy", choice, &StepChoice::set_policy,
-             "What decides on the steps: fixed, event-driven or error-controlled")
-      ->type_name("POLICY");
+  add_choice(command, "--policy", choice, &StepChoice::set_policy, "What decides on the steps")
+      ->type_name("fixed|event-driven|error-controlled");
   add_choice(command, "--max-step", choice, &StepChoice::set_maximum, "No step is longer")
       ->type_name("SECONDS");
   add_choice(command, "--min-step", choice, &StepChoice::set_minimum,
@@ -44,12 +43,14 @@ void add_step_options(CLI::App& command, io::StepChoice& choice) {
   add_choice(command, "--absolute-tolerance", choice, &StepChoice::set_absolute_tolerance,
              "Likewise, in the unit of the output that feeds the input")
       ->type_name("NUMBER");
-  add_choice(command, "--coupling", choice, &StepChoice::set_coupling,
-             "What a unit sees of the others during a step: jacobi or gauss-seidel")
-      ->type_name("METHOD");
+  add_choice(
+      command, "--coupling", choice, &StepChoice::set_coupling,
+      "What a unit sees of the others during a step: what they were at its begin, or, of those "
+      "that have stepped before it, where they are")
+      ->type_name("jacobi|gauss-seidel");
   add_choice(command, "--extrapolation", choice, &StepChoice::set_extrapolation,
-             "How inputs go on during a step: hold, linear or quadratic")
-      ->type_name("DEGREE");
+             "How inputs go on during a step")
+      ->type_name("hold|linear|quadratic");
 }
 
 void add_host_options(CLI::App& command, HostRequest& request) {
@@ -60,11 +61,15 @@ void add_host_options(CLI::App& command, HostRequest& request) {
                 "some; may be given several times")
       ->transform([](const std::string& value) { return value == "true" ? "*" : value; });
   command
-      .add_option("--unit-timeout", request.unit_timeout,
-                  "How long a call of a unit with a process of its own may take")
+      .add_option(
+          "--unit-timeout", request.unit_timeout,
+          "How long a call of a unit with a process of its own may take; before what the scenario "
+          "says")
       ->type_name("SECONDS");
-  command.add_flag("--no-sandbox", request.no_sandbox,
-                   "Let units with processes of their own do whatever you may");
+  command.add_flag(
+      "--no-sandbox", request.no_sandbox,
+      "Let units with processes of their own do whatever you may; before what the scenario "
+      "says");
 }
 
 }  // namespace
@@ -82,7 +87,8 @@ void add_scenario_options(CLI::App& command, ScenarioRequest& request) {
                    "Call every unit in every step, also those that promise to be idle");
   command
       .add_option("--max-skip", request.max_skip,
-                  "For how long an idle unit is left alone at most; 1 by default")
+                  "For how long an idle unit is left alone at most; 1 if neither this nor the "
+                  "scenario says it")
       ->type_name("SECONDS");
   command.add_flag("--no-checks", request.no_checks,
                    "Do not judge by the scenario's checks, as for a run that is to be another");

@@ -144,8 +144,10 @@ void add_verify(CLI::App& app) {
   command->add_option("FILE", request.file, "An FMU: a .fmu, or its unpacked folder")
       ->required()
       ->type_name("");
-  command->add_option("--check", request.checks, "Only this check; may be given several times")
-      ->type_name("NAME")
+  command
+      ->add_option("--check", request.checks,
+                   "Only this check of those below; may be given several times")
+      ->type_name("CHECK")
       ->allow_extra_args(false);
   command
       ->add_option("--set", request.settings,
@@ -161,7 +163,7 @@ void add_verify(CLI::App& app) {
       ->type_name("N")
       ->check(CLI::Range(40U, 10'000'000U))
       ->capture_default_str();
-  command->add_option("--json", options->json, "Write the results to a file, too")
+  command->add_option("--json", options->json, "Write the results to this file, too (.json)")
       ->type_name("FILE");
   command->footer(
       check_list() +

@@ -28,6 +28,7 @@ TEST_CASE("what is not limited goes from the start to the end") {
 TEST_CASE("in words") {
   CHECK(window({}, {}).text() == "");
   CHECK(window(1, {}).text() == " from 0.001 s");
+  CHECK(window({}, 2500).text() == " up to 2.5 s");
   CHECK(window(1, 2500).text() == " from 0.001 s to 2.5 s");
   CHECK(std::string(name(Kind::Eventually)) == "eventually");
   CHECK(std::string(name(Kind::Answer)) == "answer");

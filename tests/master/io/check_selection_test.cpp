@@ -75,13 +75,13 @@ TEST_CASE("a check without a name has what it demands for one") {
   CheckDeclaration both = count("a.transmit.frame");
   both.max = 3;
   CHECK(names({range, always("a.mode", "off"), both, answer("a.transmit.frame", "b, c.tick")}) ==
-        Names{"a.distance never > 2 m to 5 s", "a.mode always = off",
+        Names{"a.distance never > 2 m up to 5 s", "a.mode always = off",
               "a.transmit.frame count >= 1 and <= 3",
               "a.transmit.frame answered by b, c.tick within 0.01 s"});
   range.name = "near";
   const auto definitions = selected({range});
-  CHECK(
-      (definitions[0].name == "near" && definitions[0].demand == "a.distance never > 2 m to 5 s"));
+  CHECK((definitions[0].name == "near" &&
+         definitions[0].demand == "a.distance never > 2 m up to 5 s"));
   CHECK(definitions[0].where.line == 12);
 }
 
@@ -131,7 +131,7 @@ TEST_CASE("an interval lies in the run") {
   CHECK(selected({during(0, {})}).size() == 1);
   CHECK_THAT(error(during(11, {})), Contains("from: 11 s is behind the end of the run, at 10 s"));
   CHECK_THAT(error(during({}, 11)), Contains("to: 11 s is behind the end of the run, at 10 s") &&
-                                        Contains("leave to out"));
+                                        Contains("leave 'to' out"));
   CHECK_THAT(error(during(0, 0)), Contains("to: 0 s is before the beginning of the run, at 1 s"));
   CHECK(select_checks(sample_system(), Declarations{during(11, 12)}, {}).size() == 1);
 }

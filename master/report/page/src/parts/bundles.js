@@ -1,11 +1,11 @@
-// Connections of a diagram: those of values from one component to another are one edge, those of messages another. Clocks are
-// left out, for they go where their messages go.
+// Connections of a diagram: those of values from one component to another are one edge, those of messages another.
+// Clocks are left out, for they go where their messages go.
 
 const kSeparator = "\u0000";
 
 /**
- * The component that a full name belongs to: the longest one that it begins with, since systems hold others. Without one it
- * is a connector of the system itself.
+ * The component that a full name belongs to: the longest one that it begins with, since systems hold others. Without
+ * one it is a connector of the system itself.
  */
 function componentOf(name, components) {
   for (let end = name.lastIndexOf("."); end > 0; end = name.lastIndexOf(".", end - 1)) {

@@ -14,7 +14,8 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
 SWITCHES = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--hide-scrollbars",
-            "--disable-background-networking", "--disable-component-update", "--disable-sync", "--window-size=1400,1000"]
+            "--disable-background-networking", "--disable-component-update", "--disable-sync",
+            "--window-size=1400,1000"]
 PATIENCE = 120  # s, for a page to be read; no measure of how long it takes
 
 

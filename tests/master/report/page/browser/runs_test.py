@@ -1,6 +1,6 @@
 """Reports of real runs in a browser: runs_test.py STRIDE SCENARIOS FOLDER
 
-What the page shows at the cursor is compared with signals.csv, character by character, and its messages with events.csv.
+What the page shows at the cursor is compared with signals.csv, character by character; messages with events.csv.
 """
 
 import csv

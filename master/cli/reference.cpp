@@ -1,0 +1,64 @@
+// stride reference: the reference of the command line, for the documentation and for shells.
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "master/cli/commands.h"
+#include "master/cli/reference/command_tree.h"
+#include "master/cli/reference/writers.h"
+#include "master/cli/unit_path.h"
+#include "master/io/output_file.h"
+#include "master/io/scenario.h"
+
+namespace stride::cli {
+namespace {
+
+using Write = std::string (*)(const reference::Command& program);
+
+void add_text(CLI::App& app, CLI::App& group, const std::string& name, const std::string& meaning,
+              Write write) {
+  group.add_subcommand(name, meaning)->callback([&app, write] {
+    fmt::print("{}", write(reference::describe(app)));
+  });
+}
+
+void write_pages(const CLI::App& app, const std::filesystem::path& folder) {
+  for (const auto& [name, text] : reference::man_pages(reference::describe(app), STRIDE_VERSION)) {
+    io::OutputFile file(folder / name);
+    file.write(text);
+    file.close();
+  }
+}
+
+void print_components(const std::filesystem::path& file) {
+  const io::Scenario scenario = io::read_scenario(file, {find_unit, {}});
+  for (const core::ComponentDeclaration& component : scenario.system.components) {
+    fmt::print("{}\n", component.name);
+  }
+}
+
+}  // namespace
+
+/// Not shown in any help: it is for those who build and install the program.
+void add_reference(CLI::App& app) {
+  CLI::App* group = app.add_subcommand("reference", "Write the reference of the command line");
+  group->group("")->require_subcommand(1);
+  add_text(app, *group, "markdown", "As a page of the documentation", &reference::markdown);
+  add_text(app, *group, "bash", "As completion for bash", &reference::bash_completion);
+  add_text(app, *group, "zsh", "As completion for zsh", &reference::zsh_completion);
+  add_text(app, *group, "fish", "As completion for fish", &reference::fish_completion);
+  const auto path = std::make_shared<std::filesystem::path>();
+  CLI::App* man = group->add_subcommand("man", "As man pages, in a folder that exists");
+  man->add_option("FOLDER", *path, "Where they are written")->required()->type_name("");
+  man->callback([&app, path] { write_pages(app, *path); });
+  CLI::App* components =
+      group->add_subcommand("components", "List the components of a scenario, for completion");
+  components->add_option("FILE", *path, "The scenario")->required()->type_name("");
+  components->callback([path] { print_components(*path); });
+}
+
+}  // namespace stride::cli
