@@ -38,8 +38,8 @@ std::vector<Column> make_columns(std::span<const std::string> headings,
   return columns;
 }
 
-/// At least as many as there are, the header left out; 0 where the file is so small that it does not
-/// matter.
+/// At least as many as there are, the header left out; 0 where the file is so small that it does
+/// not matter.
 std::size_t count_rows(const std::filesystem::path& file, std::size_t limit) {
   constexpr std::size_t kLeastValue = 2;  // a digit and a comma
   std::error_code error;
