@@ -105,6 +105,16 @@ std::string order_table(const LoadedScenario& loaded) {
   return table.text();
 }
 
+/// Nothing where the scenario has none.
+std::string check_table(std::span<const checks::Definition> checks) {
+  Table table({{"check"}, {"demands"}, {"line", Table::Align::Right}});
+  for (const checks::Definition& check : checks) {
+    table.add({check.name, check.name == check.demand ? "" : check.demand,
+               std::to_string(check.where.line)});
+  }
+  return table.size() == 0 ? "" : "\nChecks\n" + table.text();
+}
+
 void check(const ScenarioRequest& request) {
   const LoadedScenario loaded(request);
   loaded.instantiate();
@@ -116,6 +126,7 @@ void check(const ScenarioRequest& request) {
              steps(options));
   fmt::print("\nUnits\n{}{}\nConnections\n{}", unit_table(loaded), host_table(loaded),
              connection_table(system));
+  fmt::print("{}", check_table(loaded.checks()));
   fmt::print("\nStep order\n{}", order_table(loaded));
   fmt::print("\nOrder of the initial values\n{}", initial_order_text(system));
   fmt::print("\nAlgebraic loops\n{}", loops_text(system));

@@ -7,10 +7,12 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "master/checks/checks.h"
 #include "master/cli/film.h"
 #include "master/cli/unit_path.h"
 #include "master/core/step_size.h"
 #include "master/core/suggest.h"
+#include "master/io/check_selection.h"
 #include "master/io/component_selection.h"
 #include "master/io/signal_selection.h"
 #include "master/io/time_text.h"
@@ -107,6 +109,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   choose_signals(request);
   options_.threads.main_only =
       io::select_components(component_names(), scenario_.annotation.main_thread);
+  choose_checks(request);
 }
 
 std::vector<std::string> LoadedScenario::component_names() const {
@@ -190,6 +193,14 @@ void LoadedScenario::choose_steps(const io::StepChoice& request) {
     core::fail_input({}, "both tolerances are 0, so no step is good enough",
                      "give a relative or an absolute tolerance above 0");
   }
+}
+
+/// Their intervals are those of the scenario, whatever --stop says.
+void LoadedScenario::choose_checks(const ScenarioRequest& request) {
+  if (request.no_checks) return;
+  const std::optional<Time> stop = request.stop.empty() ? options_.stop : scenario_.stop;
+  checks_ = io::select_checks(*system_, scenario_.annotation.checks, {options_.start, stop});
+  options_.watched = checks::Checks(checks_).signals();
 }
 
 /// A component that is given snapshots can do more, and so its system is another one.

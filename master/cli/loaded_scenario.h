@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "master/checks/definition.h"
 #include "master/cli/hosting.h"
 #include "master/core/simulation.h"
 #include "master/core/system.h"
@@ -28,6 +29,7 @@ struct ScenarioRequest {
   io::StepChoice step;               ///< replaces what the scenario says
   bool no_idle_skip = false;
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
+  bool no_checks = false;
   HostRequest hosts;
   std::string film;  ///< seconds between its pictures, or kFilmAsItIs; empty = none
 };
@@ -47,6 +49,8 @@ class LoadedScenario {
   const core::RunOptions& options() const { return options_; }
   /// As the scenario has them, of what is recorded.
   const std::vector<io::Plot>& plots() const { return plots_; }
+  /// What the scenario demands of the run; options() let them be watched.
+  const std::vector<checks::Definition>& checks() const { return checks_; }
 
   /// Fresh instances in the order of system().components(); what they log goes to the log. Those
   /// with processes of their own may write to the folder `results`, if it is not empty.
@@ -59,6 +63,7 @@ class LoadedScenario {
   void choose_early_returns();
   void choose_times(const ScenarioRequest& request);
   void choose_steps(const io::StepChoice& request);
+  void choose_checks(const ScenarioRequest& request);
   void choose_hosts(const HostRequest& request);
   void check_steps() const;
   void choose_idle_skips(const ScenarioRequest& request);
@@ -74,6 +79,7 @@ class LoadedScenario {
   std::vector<std::optional<Hosting>> hostings_;
   core::RunOptions options_;
   std::vector<io::Plot> plots_;
+  std::vector<checks::Definition> checks_;
 };
 
 /// The two sides of "LEFT=RIGHT", which an option was given. Throws core::Error (Input) that says

@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.failure_message(explain);
   app.footer(
-      "Exit codes: 0 good, 1 the run failed or a unit's verdict is bad, 2 the input was wrong.\n"
+      "Exit codes: 0 good, 1 the run failed or a verdict on it is bad, 2 the input was wrong.\n"
       "'stride COMMAND --help' tells more about a command.");
   app.add_flag_callback(
       "--verbose", [] { spdlog::set_level(spdlog::level::info); },

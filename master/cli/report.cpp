@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "master/cli/commands.h"
 #include "master/cli/report_page.h"
@@ -22,7 +23,9 @@ void make_report(const Request& request) {
   const io::ResultFiles files = report::result_files(request.folder);
   const std::string& name = files.report.empty() ? io::ResultFiles().report : files.report;
   const std::filesystem::path file = request.out.empty() ? request.folder / name : request.out;
-  write_report(request.folder, files, file);
+  for (const std::string& note : write_report(request.folder, files, file)) {
+    spdlog::warn("{}", note);
+  }
   fmt::print("Report in {}\n", file.string());
   if (request.open) open_in_browser(file);
 }

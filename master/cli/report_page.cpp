@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 #include <spawn.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include "master/core/error.h"
@@ -56,11 +55,12 @@ bool start(std::vector<std::string> command) {
 
 bool has_reports() { return !report::page().empty(); }
 
-void write_report(const std::filesystem::path& folder, const io::ResultFiles& files,
-                  const std::filesystem::path& report) {
+std::vector<std::string> write_report(const std::filesystem::path& folder,
+                                      const io::ResultFiles& files,
+                                      const std::filesystem::path& report) {
   const report::Results results = report::read_results(folder, files);
-  for (const std::string& note : results.notes) spdlog::warn("{}", note);
   report::write_report(report, results, STRIDE_VERSION);
+  return results.notes;
 }
 
 void open_in_browser(const std::filesystem::path& file) {

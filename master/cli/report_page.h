@@ -3,6 +3,8 @@
 #define STRIDE_MASTER_CLI_REPORT_PAGE_H
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "master/io/annotation.h"
 
@@ -11,10 +13,11 @@ namespace stride::cli {
 /// Whether this build can make reports.
 bool has_reports();
 
-/// Writes the report of the results in the folder, which have these names, and warns of what is
-/// missing there. Throws core::Error.
-void write_report(const std::filesystem::path& folder, const io::ResultFiles& files,
-                  const std::filesystem::path& report);
+/// Writes the report of the results in the folder, which have these names. Returns, in words, what
+/// is missing there, as the page says it, too. Throws core::Error.
+std::vector<std::string> write_report(const std::filesystem::path& folder,
+                                      const io::ResultFiles& files,
+                                      const std::filesystem::path& report);
 
 /// Hands the file to the programs that $BROWSER names, the first that there is, or else to
 /// xdg-open; does not wait for it. Throws core::Error (Run), whose hint is what to do instead.

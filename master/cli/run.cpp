@@ -12,6 +12,7 @@
 #include <spdlog/spdlog.h>
 
 #include "master/capture/capture.h"
+#include "master/checks/checks.h"
 #include "master/cli/commands.h"
 #include "master/cli/film.h"
 #include "master/cli/interruption.h"
@@ -20,6 +21,7 @@
 #include "master/cli/report_page.h"
 #include "master/cli/scenario_options.h"
 #include "master/cli/summary.h"
+#include "master/cli/test_report.h"
 #include "master/cli/verdicts.h"
 #include "master/io/activity_recorder.h"
 #include "master/io/csv_recorder.h"
@@ -37,6 +39,7 @@ struct Request {
   ScenarioRequest scenario;
   std::filesystem::path out;
   std::vector<std::string> captures;  ///< "component=FILE"
+  std::filesystem::path junit;        ///< empty: none
   std::size_t threads = 1;
   std::optional<ProgressStyle> progress;
   bool no_trace = false;
@@ -68,9 +71,9 @@ struct Recorders {
   }
 };
 
-std::filesystem::path make_folder(const Request& request, const LoadedScenario& loaded) {
+std::filesystem::path make_folder(const Request& request, const io::Scenario& scenario) {
   std::filesystem::path folder = request.out.empty()
-                                     ? std::filesystem::path("results") / loaded.scenario().stem()
+                                     ? std::filesystem::path("results") / io::stem(scenario.path)
                                      : request.out;
   io::make_results_folder(folder);
   // where units put the files that they write themselves
@@ -113,26 +116,29 @@ std::vector<capture::Request> captures(const Request& request) {
 /// A simulation with all that watches it.
 class RecordedRun {
  public:
-  explicit RecordedRun(const Request& request)
+  /// Both must outlive it.
+  RecordedRun(const Request& request, TestReport& report)
       : request_(request),
+        report_(report),
         loaded_(request.scenario),
         files_(chosen_files(request, loaded_.scenario())),
-        folder_(make_folder(request, loaded_)),
+        folder_(make_folder(request, loaded_.scenario())),
         options_(run_options(request, loaded_)),
         capture_(loaded_.system(), loaded_.scenario().name, options_, captures(request)),
         simulation_(loaded_.system(), captured_units(), options_),
         recorders_(loaded_.system(), files_, folder_),
+        checks_(loaded_.checks()),
         summary_(loaded_.system()),
         progress_(progress_style(request), options_.start, options_.stop, simulation_) {
     capture_.follow(simulation_);
     recorders_.add_to(simulation_);
+    if (!checks_.is_empty()) simulation_.add_observer(checks_, checks_.signals());
     if (!capture_.is_empty()) simulation_.add_observer(capture_);
     if (!request.quiet) simulation_.add_observer(summary_);
     simulation_.add_observer(progress_);
   }
 
-  /// Throws core::Error (Run) if it fails or is interrupted, and also if a unit's verdict on it is
-  /// bad.
+  /// Throws core::Error (Run) if it fails or is interrupted, and also if a verdict on it is bad.
   void run() {
     try {
       simulation_.run();
@@ -140,17 +146,22 @@ class RecordedRun {
       progress_.end("failed");
       // the first failure is the one to tell
       warn_of_failure([&] { capture_.end(fmt::format("failed: {}", failure.what())); });
+      take_verdicts(false);
       warn_of_failure([&] { write_statistics(failure.what()); });
       warn_of_failure([&] { report(); });
+      warn_of_verdicts();
       throw;
     }
-    progress_.end(name(simulation_.statistics().end));
-    capture_.end(name(simulation_.statistics().end));
+    const core::RunEnd end = simulation_.statistics().end;
+    progress_.end(name(end));
+    capture_.end(name(end));
+    take_verdicts(end == core::RunEnd::EndedByUnit ||
+                  (end == core::RunEnd::Completed && !is_cut_short()));
     write_statistics(std::nullopt);
     report();
     if (!request_.quiet) print();
     require_end();
-    require_passed(loaded_.system(), simulation_.verdicts());
+    require_passed(verdicts_);
   }
 
  private:
@@ -169,13 +180,33 @@ class RecordedRun {
     }
   }
 
-  void write_statistics(const std::optional<std::string>& error) const {
+  /// By --stop, before what the scenario demands of all of it.
+  bool is_cut_short() const { return options_.stop < loaded_.scenario().stop.value_or(Time{}); }
+
+  void take_verdicts(bool is_complete) {
+    const auto of_units = simulation_.verdicts();
+    verdicts_.assign(of_units.begin(), of_units.end());
+    for (core::Verdict& verdict :
+         checks_.verdicts({simulation_.statistics().reached, is_complete})) {
+      verdicts_.push_back(std::move(verdict));
+    }
+  }
+
+  /// In a run that has not come to its end, which is told of first.
+  void warn_of_verdicts() const {
+    const std::string failures = failures_text(verdicts_);
+    if (!failures.empty())
+      spdlog::warn("checks have failed before the end of the run:{}", failures);
+  }
+
+  void write_statistics(const std::optional<std::string>& error) {
+    report_.write(options_, simulation_.statistics(), verdicts_, error);
     if (files_.statistics.empty()) return;
     io::write_run_json(folder_ / files_.statistics, {.scenario = loaded_.scenario().path,
                                                      .system = loaded_.system(),
                                                      .options = options_,
                                                      .statistics = simulation_.statistics(),
-                                                     .verdicts = simulation_.verdicts(),
+                                                     .verdicts = verdicts_,
                                                      .error = error,
                                                      .files = files_,
                                                      .plots = loaded_.plots()});
@@ -190,13 +221,14 @@ class RecordedRun {
   void require_end() const {
     const core::RunStatistics& statistics = simulation_.statistics();
     if (statistics.end != core::RunEnd::Interrupted) return;
+    warn_of_verdicts();
     core::fail_run({{}, {}, {}, statistics.reached},
                    "the run was interrupted; its results up to there are complete");
   }
 
   void print() const {
     fmt::print("\n{}{}\nResults in {}:", summary_.text(simulation_.statistics()),
-               verdict_table(loaded_.system(), simulation_.verdicts()), folder_.string());
+               verdict_table(verdicts_), folder_.string());
     for (const auto& [what, member] : io::kResultFiles) {
       if (!(files_.*member).empty()) fmt::print(" {}", files_.*member);
     }
@@ -205,6 +237,7 @@ class RecordedRun {
 
   Interruption interruption_;
   const Request& request_;
+  TestReport& report_;
   LoadedScenario loaded_;
   io::ResultFiles files_;
   std::filesystem::path folder_;
@@ -212,9 +245,21 @@ class RecordedRun {
   capture::Capture capture_;
   core::Simulation simulation_;
   Recorders recorders_;
+  checks::Checks checks_;
+  std::vector<core::Verdict> verdicts_;
   Summary summary_;
   Progress progress_;
 };
+
+void run(const Request& request) {
+  TestReport report(request.junit, request.scenario.scenario);
+  try {
+    RecordedRun(request, report).run();
+  } catch (const std::exception& failure) {
+    if (!report.is_written()) report.write(failure.what());
+    throw;
+  }
+}
 
 }  // namespace
 
@@ -243,6 +288,11 @@ void add_run(CLI::App& app) {
                  "Pictures of the MuJoCo worlds in film/, 0.1 s of simulated time from one to the "
                  "next, or as in --film=SECONDS")
       ->transform([](const std::string& value) { return value == "true" ? kFilmAsItIs : value; });
+  command
+      ->add_option("--junit", request->junit,
+                   "Write a test report in the XML of JUnit, with a test case for the run, each "
+                   "check and each unit's verdict")
+      ->type_name("FILE");
   command->add_flag("--no-trace", request->no_trace, "Write no signals.vcd");
   command
       ->add_option_function<std::string>(
@@ -255,7 +305,7 @@ void add_run(CLI::App& app) {
   command->add_flag("--no-report", request->no_report, "Write no report.html");
   command->add_flag("--open", request->open, "Open the report in a browser when the run is over");
   command->add_flag("--quiet,-q", request->quiet, "Print nothing but errors");
-  command->callback([request] { RecordedRun(*request).run(); });
+  command->callback([request] { run(*request); });
 }
 
 }  // namespace stride::cli

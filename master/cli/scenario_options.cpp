@@ -90,6 +90,8 @@ void add_scenario_options(CLI::App& command, ScenarioRequest& request) {
                   "For how long an idle unit is left alone at most; 1 if neither this nor the "
                   "scenario says it")
       ->type_name("SECONDS");
+  command.add_flag("--no-checks", request.no_checks,
+                   "Do not judge by the scenario's checks, as for a run that is to be another");
   add_host_options(command, request.hosts);
   command
       .add_option("--set", request.sets,

@@ -8,29 +8,50 @@
 #include "master/core/error.h"
 
 namespace stride::cli {
+namespace {
 
-std::string verdict_table(const core::System& system, std::span<const core::Verdict> verdicts) {
+const char* word(std::optional<bool> passed) {
+  if (!passed) return "undecided";
+  return *passed ? "passed" : "FAILED";
+}
+
+}  // namespace
+
+std::string verdict_table(std::span<const core::Verdict> verdicts) {
   if (verdicts.empty()) return "";
-  Table table({{"unit"}, {"verdict"}, {"because"}});
+  const bool has_times = std::ranges::any_of(
+      verdicts, [](const core::Verdict& verdict) { return verdict.time.has_value(); });
+  std::vector<Table::Column> columns{{"by"}, {"verdict"}};
+  if (has_times) columns.push_back({"first failure [s]", Table::Align::Right});
+  columns.push_back({"because"});
+  Table table(columns);
   for (const core::Verdict& verdict : verdicts) {
-    table.add({system.components()[verdict.component].name, verdict.passed ? "passed" : "FAILED",
-               verdict.text});
+    std::vector<std::string> row{verdict.name, word(verdict.passed)};
+    if (has_times) row.push_back(verdict.time ? core::to_text(*verdict.time) : "");
+    row.push_back(verdict.text);
+    table.add(std::move(row));
   }
   return "\nVerdicts\n" + table.text();
 }
 
-void require_passed(const core::System& system, std::span<const core::Verdict> verdicts) {
-  const auto failed = std::ranges::count(verdicts, false, &core::Verdict::passed);
-  if (failed == 0) return;
-  std::string message =
-      fmt::format("the run is complete, and has failed by {} of {}", failed,
-                  verdicts.size() == 1 ? "1 verdict" : fmt::format("{} verdicts", verdicts.size()));
+std::string failures_text(std::span<const core::Verdict> verdicts) {
+  std::string text;
   for (const core::Verdict& verdict : verdicts) {
-    if (verdict.passed) continue;
-    message += "\n  " + system.components()[verdict.component].name;
-    if (!verdict.text.empty()) message += ": " + verdict.text;
+    if (verdict.passed != false) continue;
+    const std::string reason = core::reason(verdict);
+    text += "\n  " + core::to_text(core::Context{verdict.where, {}, {}, {}}) + verdict.name;
+    if (!reason.empty()) text += ": " + reason;
   }
-  core::fail_run({}, message);
+  return text;
+}
+
+void require_passed(std::span<const core::Verdict> verdicts) {
+  const auto failed = std::ranges::count(verdicts, std::optional(false), &core::Verdict::passed);
+  if (failed == 0) return;
+  core::fail_run({}, fmt::format("the run is complete, and has failed by {} of {}{}", failed,
+                                 verdicts.size() == 1 ? "1 verdict"
+                                                      : fmt::format("{} verdicts", verdicts.size()),
+                                 failures_text(verdicts)));
 }
 
 }  // namespace stride::cli

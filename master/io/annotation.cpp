@@ -194,6 +194,7 @@ ScenarioAnnotation read_scenario_element(const xml::Element& scenario) {
   scenario.allow_children({{kStrideScenario, "Step"},
                            {kStrideScenario, "Exchange"},
                            {kStrideScenario, "Record"},
+                           {kStrideScenario, "Checks"},
                            {kStrideScenario, "Results"},
                            {kStrideScenario, "Plot"},
                            {kStrideScenario, "MainThread"},
@@ -213,6 +214,9 @@ ScenarioAnnotation read_scenario_element(const xml::Element& scenario) {
   }
   for (const xml::Element& element : scenario.children({kStrideScenario, "Plot"})) {
     read_plot(element, annotation);
+  }
+  if (const auto checks = scenario.child({kStrideScenario, "Checks"})) {
+    annotation.checks = read_checks(*checks);
   }
   for (const xml::Element& element : scenario.children({kStrideScenario, "MainThread"})) {
     read_main_thread(element, annotation);

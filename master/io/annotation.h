@@ -10,6 +10,7 @@
 #include <stride/time.h>
 
 #include "master/core/error.h"
+#include "master/io/check_declaration.h"
 #include "master/io/component_selection.h"
 #include "master/io/host_choice.h"
 #include "master/io/idle_choice.h"
@@ -60,6 +61,7 @@ struct ScenarioAnnotation {
   StepChoice step;
   std::vector<SignalPattern> record;  ///< none: every output
   std::vector<PlotPattern> plots;
+  std::vector<CheckDeclaration> checks;
   ResultFiles results;
   std::vector<ComponentPattern> main_thread;  ///< who steps on the simulation's own thread only
   std::vector<EarlyReturnRule> early_return;  ///< without one: allowed

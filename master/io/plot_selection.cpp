@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "master/core/suggest.h"
-#include "master/io/signal_selection.h"
+#include "master/io/signal_names.h"
 #include "master/io/signal_text.h"
 
 namespace stride::io {
@@ -27,7 +27,7 @@ bool add_matches(const core::System& system, std::span<const core::VariableId> r
                  const SignalPattern& pattern, std::set<core::VariableId>& taken, Plot& plot) {
   bool has_match = false;
   for (const core::VariableId id : recorded) {
-    if (!matches_signal(system, id, pattern.text)) continue;
+    if (!is_meant(system, id, pattern.text)) continue;
     has_match = true;
     if (!taken.insert(id).second) continue;
     for (std::size_t i = 0; i < system.variable(id).size; ++i) {

@@ -1,5 +1,8 @@
 #include "master/io/run_json.h"
 
+#include <cmath>
+#include <type_traits>
+
 #include <nlohmann/json.hpp>
 
 #include "master/io/output_file.h"
@@ -92,11 +95,19 @@ Json signal_entries(const core::System& system, std::span<const core::VariableId
   return entries;
 }
 
+/// What goes along it.
+const char* kind(const core::System& system, const core::Connection& connection) {
+  const core::Variable& variable = system.variable(connection.from);
+  if (variable.type == core::ValueType::Clock) return "clock";
+  return variable.is_clocked() && !system.is_sampled(connection.from) ? "message" : "value";
+}
+
 Json connection_entries(const core::System& system) {
   Json entries = Json::array();
   for (const core::Connection& connection : system.connections()) {
-    entries.push_back(
-        {{"from", system.full_name(connection.from)}, {"to", system.full_name(connection.to)}});
+    entries.push_back({{"from", system.full_name(connection.from)},
+                       {"to", system.full_name(connection.to)},
+                       {"kind", kind(system, connection)}});
   }
   return entries;
 }
@@ -105,16 +116,6 @@ Json plot_entries(std::span<const Plot> plots) {
   Json entries = Json::array();
   for (const Plot& plot : plots) {
     entries.push_back({{"title", plot.title}, {"signals", plot.signals}});
-  }
-  return entries;
-}
-
-Json verdict_entries(const core::System& system, std::span<const core::Verdict> verdicts) {
-  Json entries = Json::array();
-  for (const core::Verdict& verdict : verdicts) {
-    entries.push_back({{"component", system.components()[verdict.component].name},
-                       {"passed", verdict.passed},
-                       {"text", verdict.text}});
   }
   return entries;
 }
@@ -136,6 +137,52 @@ Json phase_entry(const core::PhaseTimes& phases) {
           {"observers", seconds(phases.observers)}};
 }
 
+Json value_entry(const core::ValueBlock& value) {
+  return core::visit(value, [&](auto values) -> Json {
+    using T = typename decltype(values)::value_type;
+    if constexpr (std::is_floating_point_v<T>) {
+      if (!std::isfinite(values[0])) return core::element_text(value, 0);
+    }
+    if constexpr (std::is_same_v<T, core::Binary>) {
+      return core::to_hex(values[0]);
+    } else {
+      return values[0];
+    }
+  });
+}
+
+Json passed_entry(std::optional<bool> passed) { return passed ? Json(*passed) : Json(); }
+
+Json check_entry(const core::Verdict& check) {
+  Json entry = {{"name", check.name},
+                {"kind", check.kind},
+                {"passed", passed_entry(check.passed)},
+                {"text", check.text},
+                {"time", check.time ? Json(to_seconds(*check.time)) : Json()},
+                {"line", check.where.line},
+                {"values", Json::array()}};
+  for (const core::Witness& witness : check.values) {
+    entry["values"].push_back({{"signal", witness.signal},
+                               {"value", value_entry(witness.value)},
+                               {"unit", witness.unit}});
+  }
+  return entry;
+}
+
+void add_verdicts(Json& run, std::span<const core::Verdict> verdicts) {
+  run["verdicts"] = Json::array();
+  run["checks"] = Json::array();
+  for (const core::Verdict& verdict : verdicts) {
+    if (!verdict.kind.empty()) {
+      run["checks"].push_back(check_entry(verdict));
+      continue;
+    }
+    run["verdicts"].push_back({{"component", verdict.name},
+                               {"passed", passed_entry(verdict.passed)},
+                               {"text", verdict.text}});
+  }
+}
+
 }  // namespace
 
 void write_run_json(const std::filesystem::path& file, const RunRecord& record) {
@@ -145,7 +192,7 @@ void write_run_json(const std::filesystem::path& file, const RunRecord& record) 
       {"start", to_seconds(options.start)}, {"stop", to_seconds(options.stop)},
       {"step", step_entry(options)},        {"outcome", error ? "failed" : name(statistics.end)}};
   if (error) run["error"] = *error;
-  run["verdicts"] = verdict_entries(system, verdicts);
+  add_verdicts(run, verdicts);
   run["reached"] = to_seconds(statistics.reached);
   run["communication_steps"] = statistics.communication_steps;
   run["undone_steps"] = statistics.undone_steps;

@@ -42,7 +42,7 @@ void read_default_experiment(const xml::Element& root, Scenario& scenario) {
 
 }  // namespace
 
-std::string Scenario::stem() const {
+std::string stem(const std::filesystem::path& path) {
   if (std::error_code error; !std::filesystem::is_directory(path, error)) return path.stem();
   return std::filesystem::canonical(path).filename();
 }

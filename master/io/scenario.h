@@ -30,10 +30,10 @@ struct Scenario {
   ScenarioAnnotation annotation;
   std::vector<std::string> warnings;  ///< of what is odd, but no mistake
   std::shared_ptr<Files> files;       ///< holds the folders that packages are unpacked to
-
-  /// A name for its results: that of its file, or of its folder.
-  std::string stem() const;
 };
+
+/// A name for the results of a scenario: that of its file, or of its folder.
+std::string stem(const std::filesystem::path& scenario);
 
 /// What a scenario is read with.
 struct ReadOptions {

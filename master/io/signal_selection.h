@@ -19,9 +19,6 @@ namespace stride::io {
 std::vector<core::VariableId> select_signals(const core::System& system,
                                              std::span<const SignalPattern> patterns);
 
-/// Whether the pattern is the variable's "component.variable", or matches it or an alias of it.
-bool matches_signal(const core::System& system, core::VariableId id, const std::string& pattern);
-
 }  // namespace stride::io
 
 #endif

@@ -13,7 +13,7 @@
 namespace stride::report {
 namespace {
 
-constexpr std::size_t kCapacity = std::size_t{1} << 18;
+constexpr std::size_t kCapacity = std::size_t{1} << 16;
 constexpr std::size_t kLongestRow = std::size_t{1} << 28;
 
 }  // namespace

@@ -122,8 +122,8 @@ class DataWriter {
       components.push_back({{"name", name}, {"model", model}});
     }
     Json connections = Json::array();
-    for (const auto& [from, to] : run.connections) {
-      connections.push_back({{"from", from}, {"to", to}});
+    for (const auto& [from, to, kind] : run.connections) {
+      connections.push_back({{"from", from}, {"to", to}, {"kind", kind}});
     }
     return {{"components", components}, {"connections", connections}};
   }

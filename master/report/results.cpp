@@ -127,13 +127,14 @@ std::vector<Film> read_films(const fs::path& folder, Notes& notes) {
   return films;
 }
 
-/// The file, if it was to be written; where it is missing, that is noted.
+/// The file, if it was to be written; where there is none that could be read, that is noted.
 std::optional<fs::path> present(const fs::path& folder, const std::string& name, Notes& notes) {
   if (name.empty()) return std::nullopt;
   std::error_code error;
   const fs::path file = folder / name;
-  if (fs::exists(file, error)) return file;
-  notes.push_back(fmt::format("{} is missing", file.string()));
+  if (fs::is_regular_file(file, error)) return file;
+  notes.push_back(fmt::format("{} is {}", file.string(),
+                              fs::exists(file, error) ? "no regular file" : "missing"));
   return std::nullopt;
 }
 

@@ -45,7 +45,7 @@ void read_entries(RunFile& run) {
     run.components.push_back({entry.at("name"), entry.at("model")});
   }
   for (const Json& entry : entries(run.json, "connections")) {
-    run.connections.push_back({entry.at("from"), entry.at("to")});
+    run.connections.push_back({entry.at("from"), entry.at("to"), entry.value("kind", "value")});
   }
   for (const Json& entry : entries(run.json, "plots")) {
     run.plots.push_back({entry.at("title"), entry.at("signals")});

@@ -21,6 +21,7 @@ struct RunFile {
   struct Connection {
     std::string from;
     std::string to;
+    std::string kind;  ///< "value", "message" or "clock"
   };
 
   Json json;  ///< all of it; null where there is none

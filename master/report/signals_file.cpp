@@ -44,7 +44,7 @@ std::size_t count_lines(const std::filesystem::path& file, std::size_t limit) {
   std::error_code error;
   if (std::filesystem::file_size(file, error) < kLeastValue * limit || error) return 0;
   std::ifstream stream(file, std::ios::binary);
-  std::vector<char> piece(std::size_t{1} << 20);
+  std::vector<char> piece(std::size_t{1} << 16);
   std::size_t lines = 0;
   while (stream) {
     stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));

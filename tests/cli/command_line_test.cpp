@@ -18,8 +18,8 @@ TEST_CASE("--help and --version are answered on the standard output") {
   CHECK(help.exit_code == 0);
   CHECK(help.err == "");
   CHECK_THAT(help.out, Contains("Usage: stride") &&
-                           Contains("Exit codes: 0 good, 1 the run failed or a "
-                                    "unit's verdict is bad, 2 the input was wrong."));
+                           Contains("Exit codes: 0 good, 1 the run failed or a verdict "
+                                    "on it is bad, 2 the input was wrong."));
   const Outcome run_help = run_program({"run", "--help"});
   CHECK(run_help.exit_code == 0);
   for (const char* option : {"--stop", "--step", "--set", "--swap", "--signals", "--out",

@@ -46,15 +46,17 @@ Csv run(const Workspace& workspace, Arguments options) {
 
 }  // namespace
 
-TEST_CASE("a run writes four files, prints a summary, and leaves nothing else") {
+TEST_CASE("a run writes its results, prints a summary, and leaves nothing else") {
   const Workspace workspace(two_filters());
   const Outcome outcome = workspace.run();
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.out, Contains("1 s simulated") && Contains("1000 communication steps") &&
                               Contains("first.y") && Contains("second.y") &&
-                              Contains("Results in out: signals.csv events.csv signals.vcd"));
-  CHECK(files_in(workspace / "out") ==
-        std::vector<std::string>{"events.csv", "run.json", "signals.csv", "signals.vcd"});
+                              Contains("Results in out: signals.csv events.csv signals.vcd "
+                                       "activity.csv run.json report.html\n"));
+  CHECK(files_in(workspace / "out") == std::vector<std::string>{"activity.csv", "events.csv",
+                                                                "report.html", "run.json",
+                                                                "signals.csv", "signals.vcd"});
   CHECK(files_in(workspace.scratch().path()) == std::vector<std::string>{"out", "test.ssd", "tmp"});
   CHECK(workspace.left_behind().empty());
 }
@@ -62,7 +64,7 @@ TEST_CASE("a run writes four files, prints a summary, and leaves nothing else") 
 TEST_CASE("without --out, the results lie in results/ under the scenario's name") {
   const Workspace workspace(two_filters());
   CHECK(workspace.stride({"run", "test.ssd", "--quiet"}).exit_code == 0);
-  CHECK(files_in(workspace / "results/test").size() == 4);
+  CHECK(files_in(workspace / "results/test").size() == 6);
 }
 
 TEST_CASE("run.json tells what was run and how far it came") {
@@ -101,8 +103,9 @@ TEST_CASE("--quiet prints nothing") {
 TEST_CASE("--no-trace writes no VCD") {
   const Workspace workspace(two_filters());
   run(workspace, {"--no-trace"});
-  CHECK(files_in(workspace / "out") ==
-        std::vector<std::string>{"events.csv", "run.json", "signals.csv"});
+  CHECK(files_in(workspace / "out") == std::vector<std::string>{"activity.csv", "events.csv",
+                                                                "report.html", "run.json",
+                                                                "signals.csv"});
 }
 
 TEST_CASE("--signals chooses the columns, instead of the scenario") {

@@ -30,7 +30,7 @@ TEST_CASE("verdicts that are good are shown, and the exit code is 0") {
   const Outcome outcome = run(workspace, {"--set", "low.limit=1.5"});
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.err, !Contains("error"));
-  CHECK_THAT(outcome.out, Contains("\nVerdicts\n  unit  verdict  because\n") &&
+  CHECK_THAT(outcome.out, Contains("\nVerdicts\n  by    verdict  because\n") &&
                               Contains("\n  low   passed   the limit was not reached\n") &&
                               Contains("\n  high  passed   the limit was not reached\n"));
   const auto verdicts = nlohmann::json::parse(workspace.result("run.json"))["verdicts"];

@@ -66,6 +66,10 @@ const std::string kScenario = ssd(R"(<ssd:System name="root" description="&lt;&#
 <ssd:Annotations><ssc:Annotation type="org.stride">
   <stride:Scenario xmlns:stride="urn:org.stride:scenario:1">
     <stride:Step size="0.001"/><stride:Record signals="a.* b.x"/><stride:Results trace="none"/>
+    <stride:Checks><stride:Always name="n" signal="a.x" min="0" max="1e3" from="1" to="2.5"/>
+      <stride:Final signal="b.y" equals="3" tolerance="0.1"/>
+      <stride:Count event="a.m" min="1" max="18446744073709551615"/>
+      <stride:Answer request="a.m" reply="b.m" within="1e-3" repeats="true"/></stride:Checks>
   </stride:Scenario>
 </ssc:Annotation></ssd:Annotations>)");
 

@@ -45,7 +45,7 @@ TEST_CASE("another channel by --swap and by an edited attribute gives the same b
   const std::string scenario = GENERATE("nfc_approach", "nfc_far");
   INFO(unit << " in " << scenario);
   Arguments further = without_judge(scenario);
-  further.insert(further.end(), {"--no-trace", "--stop", "9"});
+  further.insert(further.end(), {"--no-trace", "--no-checks", "--stop", "9"});
   Arguments swapping = further;
   swapping.insert(swapping.end(), {"--swap", "channel=" + unit + ".fmu"});
   const ScenarioRun swapped(scenario, swapping);
@@ -63,7 +63,8 @@ TEST_CASE("another channel by --swap and by an edited attribute gives the same b
 }
 
 TEST_CASE("over an ideal channel the reader that is too far away is answered at once") {
-  const ScenarioRun run("nfc_far", {"--no-trace", "--swap", "channel=ideal_channel.fmu"});
+  const ScenarioRun run("nfc_far",
+                        {"--no-trace", "--no-checks", "--swap", "channel=ideal_channel.fmu"});
   CHECK(run.at("10", "reader.messages.answered") == 3);
   CHECK(run.at("10", "reader.messages.retries") == 0);
   CHECK(run.between("0", "10", "channel.tag_power [W]").most == 5e-3);
@@ -71,7 +72,8 @@ TEST_CASE("over an ideal channel the reader that is too far away is answered at 
 
 TEST_CASE(
     "over a packet radio an NFC sensor hears every request, and has no carrier to answer with") {
-  const ScenarioRun run("nfc_far", {"--no-trace", "--swap", "channel=rf_channel.fmu"});
+  const ScenarioRun run("nfc_far",
+                        {"--no-trace", "--no-checks", "--swap", "channel=rf_channel.fmu"});
   CHECK(run.at("10", "sensor.frames.received") == 11);
   CHECK(run.at("10", "sensor.frames.dropped") == 11);
   CHECK(run.at("10", "reader.messages.answered") == 0);
@@ -79,8 +81,8 @@ TEST_CASE(
 }
 
 TEST_CASE("with a carrier of its own the NFC sensor answers over a packet radio") {
-  const ScenarioRun run("nfc_far", {"--no-trace", "--swap", "channel=rf_channel.fmu", "--set",
-                                    "sensor.transceiver.carrier_threshold=0"});
+  const ScenarioRun run("nfc_far", {"--no-trace", "--no-checks", "--swap", "channel=rf_channel.fmu",
+                                    "--set", "sensor.transceiver.carrier_threshold=0"});
   CHECK(run.at("10", "reader.messages.answered") == 3);
   CHECK(run.at("10", "reader.messages.retries") == 0);
 }

@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "master/checks/checks.h"
+#include "master/io/check_selection.h"
 #include "tests/counting_allocator.h"
 #include "tests/property/assembly.h"
 
@@ -84,6 +86,33 @@ TEST_CASE("nor does it beside units that return early, announce events and send 
   }
   CHECK(saves > 1'000);
   CHECK(rollbacks > 100);
+}
+
+TEST_CASE("nor does it where checks watch signals and messages") {
+  using io::CheckDeclaration;
+  Assembly assembly = ring();
+  assembly.add("ticker", "ticker", {{"period", "0.0047"}}).add("listener", "listener");
+  assembly.wire_message("ticker.tick", "listener.message");
+  std::vector<CheckDeclaration> declared{{checks::Kind::Always, "bounded", "*.x"},
+                                         {checks::Kind::Count, "ticks", "ticker.tick.number"},
+                                         {checks::Kind::Answer, "heard", "ticker.tick.number"}};
+  declared[0].condition.max = "1e9";
+  declared[1].max = 1'000'000;
+  declared[2].reply = "listener.message.number";
+  const core::System system(assembly.declaration());
+  checks::Checks checks(io::select_checks(system, declared, {}));
+  core::RunOptions options = fixed_steps(1ms, Time(1s));
+  options.watched = checks.signals();
+  core::Simulation simulation(system, assembly.instantiate(), options);
+  AllocationCounter counter;
+  simulation.add_observer(checks, checks.signals());
+  simulation.add_observer(counter);
+  simulation.run();
+  for (const core::Verdict& verdict : checks.verdicts({Time(1s), true})) {
+    CHECK(verdict.passed == true);
+  }
+  CHECK(counter.messages > 300);
+  CHECK(counter.last - counter.at_warm == 0);
 }
 
 TEST_CASE("nor does it where units are left alone") {

@@ -1,5 +1,5 @@
-// node build.mjs NODE_MODULES OUTPUT_FOLDER: bundles the page into one html text, report_page.html, and makes a C++ source
-// of it, page.cpp. NODE_MODULES is where `npm ci` put the packages of package-lock.json.
+// node build.mjs NODE_MODULES OUTPUT_FOLDER: bundles the page into one html text, report_page.html, and makes a C++
+// source of it, page.cpp. NODE_MODULES is where `npm ci` put the packages of package-lock.json.
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import path from "node:path";

@@ -46,10 +46,20 @@ TEST_CASE("verdicts are what the units say at the end of the run, in their order
   simulation.run();
   const auto verdicts = simulation.verdicts();
   REQUIRE(verdicts.size() == 3);
-  CHECK((verdicts[0].component == 0 && !verdicts[0].passed));
+  CHECK((verdicts[0].name == "late" && verdicts[0].passed == false));
   CHECK(verdicts[0].text == "it did not come");
-  CHECK((verdicts[1].component == 2 && verdicts[1].passed && verdicts[1].text == "it came"));
-  CHECK((verdicts[2].component == 3 && verdicts[2].passed && verdicts[2].text.empty()));
+  CHECK(
+      (verdicts[1].name == "early" && verdicts[1].passed == true && verdicts[1].text == "it came"));
+  CHECK((verdicts[2].name == "terse" && verdicts[2].passed == true && verdicts[2].text.empty()));
+}
+
+TEST_CASE("the reason names the first failure") {
+  Verdict verdict{"voltage", false, "1.7 V; expected >= 1.8 V"};
+  CHECK(reason(verdict) == "1.7 V; expected >= 1.8 V");
+  verdict.time = Time(1500ms);
+  CHECK(reason(verdict) == "at 1.5 s: 1.7 V; expected >= 1.8 V");
+  verdict.text.clear();
+  CHECK(reason(verdict) == "at 1.5 s");
 }
 
 TEST_CASE("they are asked for before the units are terminated, and only once") {
@@ -103,5 +113,5 @@ TEST_CASE("a run that a unit ends is judged there") {
   Simulation& simulation = fixture.build(0.01, 1ms);
   simulation.run();
   REQUIRE(simulation.verdicts().size() == 1);
-  CHECK_FALSE(simulation.verdicts()[0].passed);
+  CHECK(simulation.verdicts()[0].passed == false);
 }

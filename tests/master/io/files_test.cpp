@@ -66,7 +66,7 @@ TEST_CASE("what is unpacked goes with the scenario, and complaints name the pack
     unpacked = scenario.sources.at(0).parent_path().parent_path();
     CHECK(std::filesystem::exists(unpacked / "SystemStructure.ssd"));
     CHECK(scenario.system.components.at(0).where.file == file.string() + "/SystemStructure.ssd");
-    CHECK(scenario.stem() == "p");
+    CHECK(stem(scenario.path) == "p");
   }
   CHECK_FALSE(std::filesystem::exists(unpacked));
 }

@@ -73,7 +73,7 @@ TEST_CASE("run.json tells what was run and how far it came") {
   host.most_memory = 4096;
   host.protections = {"no network", "seccomp"};
   host.missing_protections = {"landlock"};
-  const std::vector<core::Verdict> verdicts = {{1, false, "too \"late\""}};
+  const std::vector<core::Verdict> verdicts = {{"b, c", false, "too \"late\""}};
   options.recorded = {{0, 1}, {1, 4}};
   const std::vector<Plot> plots = {{"Height", {"a.distance"}}};
   ResultFiles files;
@@ -106,6 +106,7 @@ TEST_CASE("run.json tells what was run and how far it came") {
       "text": "too \"late\""
     }
   ],
+  "checks": [],
   "reached": 14.2,
   "communication_steps": 14200,
   "undone_steps": 0,
@@ -178,7 +179,8 @@ TEST_CASE("run.json tells what was run and how far it came") {
   "connections": [
     {
       "from": "a.warmth",
-      "to": "b, c.temperature"
+      "to": "b, c.temperature",
+      "kind": "value"
     }
   ],
   "files": {

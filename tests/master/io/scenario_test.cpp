@@ -233,8 +233,8 @@ TEST_CASE("What SSP has and stride has not is refused, never passed over") {
 TEST_CASE("The results are named after the file, or the folder that it is in") {
   const TemporaryFolder folder;
   const auto file = folder.write("SystemStructure.ssd", ssd_with(kComponent));
-  CHECK(read_scenario(file).stem() == "SystemStructure");
-  CHECK(read_scenario(folder / "").stem() == file.parent_path().filename());
+  CHECK(stem(file) == "SystemStructure");
+  CHECK(stem(folder / "") == file.parent_path().filename());
 }
 
 TEST_CASE("Start and stop time are exact and make sense") {

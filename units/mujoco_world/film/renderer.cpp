@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <stdexcept>
 
 #include "units/mujoco_world/hooks.h"
@@ -21,6 +22,21 @@ std::string cameras_of(const mjModel& model) {
     names += (names.empty() ? "'" : ", '") + name_of(model, mjOBJ_CAMERA, i) + "'";
   }
   return names.empty() ? "none; leave it empty for one that sees the whole world" : names;
+}
+
+/// Padding may differ, which costs a picture at most.
+template <class T>
+bool is_same(const T* one, const T* other, std::size_t count) {
+  return count == 0 || std::memcmp(one, other, count * sizeof(T)) == 0;
+}
+
+/// Makes `kept` what `now` is; says whether it was so before.
+template <class T>
+bool update(std::vector<T>& kept, const T* now, int count) {
+  const auto size = static_cast<std::size_t>(count);
+  if (kept.size() == size && is_same(kept.data(), now, size)) return true;
+  kept.assign(now, now + size);
+  return false;
 }
 
 mjvCamera choose_camera(const mjModel& model, const std::string& wanted) {
@@ -79,6 +95,7 @@ Renderer::~Renderer() {
 const Picture& Renderer::draw(const mjModel& model, mjData& data) {
   guarded([&] {
     mjv_updateScene(&model, &data, &options_, nullptr, &camera_, mjCAT_ALL, &scene_);
+    if (is_unchanged(model)) return;
     screen_->with([&] {
       mjr_render(frame_, &scene_, &context_);
       read_pixels();
@@ -87,6 +104,15 @@ const Picture& Renderer::draw(const mjModel& model, mjData& data) {
     });
   });
   return picture_;
+}
+
+bool Renderer::is_unchanged(const mjModel& model) {
+  const bool has_same_geoms = update(sight_.geoms, scene_.geoms, scene_.ngeom);
+  const bool has_same_lights = update(sight_.lights, scene_.lights, scene_.nlight);
+  const bool has_same_camera = is_same(&sight_.camera, &scene_.camera[0], 1);
+  sight_.camera = scene_.camera[0];
+  const bool may_deform = model.nskin > 0 || api::has_deformables(&model);
+  return has_same_geoms && has_same_lights && has_same_camera && !may_deform;
 }
 
 /// OpenGL's rows go from bottom to top.

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <mujoco/mujoco.h>
 
@@ -24,8 +25,8 @@ struct View {
   }
 };
 
-/// Draws one model. The same state gives the same picture. Not thread-safe, but each thread may
-/// have its own.
+/// Draws one model. The same state gives the same picture; where nothing is seen to have changed,
+/// it is not drawn again. Not thread-safe, but each thread may have its own.
 class Renderer {
  public:
   /// Throws std::runtime_error if there is no such camera, with those that there are, and as
@@ -40,7 +41,15 @@ class Renderer {
   const Picture& draw(const mjModel& model, mjData& data);
 
  private:
+  /// What goes into a picture, but for skins and other deformable surfaces.
+  struct Sight {
+    std::vector<mjvGeom> geoms;
+    std::vector<mjvLight> lights;
+    mjvGLCamera camera{};
+  };
+
   void make(const mjModel& model);
+  bool is_unchanged(const mjModel& model);
   void read_pixels();
 
   mjvCamera camera_{};
@@ -48,6 +57,7 @@ class Renderer {
   mjvScene scene_{};
   mjrContext context_{};
   mjrRect frame_{};
+  Sight sight_;  ///< in the picture
   Picture picture_;
   std::unique_ptr<OffScreen> screen_;
 };

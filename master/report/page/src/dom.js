@@ -3,7 +3,8 @@
 const kSvg = "http://www.w3.org/2000/svg";
 
 /**
- * An element with properties, attributes (`aria-…`, `data-…`, `role`, …) and children. Children that are null are left out.
+ * An element with properties, attributes (`aria-…`, `data-…`, `role`, …) and children. Children that are null are left
+ * out.
  * @param {string} tag such as "button" or "p.note": a tag and its classes
  * @param {Record<string, any>} [properties] `on…` are listeners
  * @param {...(Node|string|number|null|undefined)} children

@@ -21,7 +21,7 @@ export const kBindings = [
   { keys: ["Home"], shown: "Home", text: "first sample", action: "moveBySamples", argument: -Infinity },
   { keys: ["End"], shown: "End", text: "last sample", action: "moveBySamples", argument: Infinity },
   { keys: ["+", "="], shown: "+", text: "zoom in at the cursor", action: "zoom", argument: 0.5 },
-  { keys: ["-", "_"], shown: "−", text: "zoom out", action: "zoom", argument: 2 },
+  { keys: ["-", "_"], shown: "-", text: "zoom out", action: "zoom", argument: 2 },
   { keys: ["["], shown: "[", text: "earlier", action: "pan", argument: -0.5 },
   { keys: ["]"], shown: "]", text: "later", action: "pan", argument: 0.5 },
   { keys: ["0"], shown: "0", text: "the whole run", action: "showWhole" },

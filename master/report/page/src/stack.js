@@ -1,5 +1,5 @@
-// The rows under the common time axis: film, messages, panes, what the units did. It draws what is in sight, moves the cursor
-// through all rows, and zooms where one drags.
+// The rows under the common time axis: film, messages, panes, what the units did. It draws what is in sight, moves the
+// cursor through all rows, and zooms where one drags.
 import { h } from "./dom.js";
 import { kGutter } from "./plot/layout.js";
 
@@ -23,21 +23,24 @@ export class Stack {
    * @param {import("./view.js").View} view
    * @param {HTMLElement} head stays at the top while the rows scroll
    * @param {HTMLElement} measure as wide as the drawings; a mark at the cursor is put into it
+   * @param {number[]} failures instants at which something failed [s], which get a line through all rows
    */
-  constructor(view, head, measure) {
+  constructor(view, head, measure, failures) {
     this.view = view;
+    this.failures = failures.map((seconds) => ({ seconds, line: h("div.failure-line") }));
     this.measure = measure;
     this.line = h("div.cursor-line", { "aria-hidden": "true", hidden: true });
     this.selection = h("div.selection", { "aria-hidden": "true", hidden: true });
     this.body = h("div.stack-body");
-    this.clip = h("div.stack-overlay", { "aria-hidden": "true" }, this.line, this.selection);
+    const failureLines = this.failures.map(({ line }) => line);
+    this.clip = h("div.stack-overlay", { "aria-hidden": "true" }, ...failureLines, this.line, this.selection);
     this.element = h("div.stack", {}, head, this.body, this.clip);
     this.mark = h("div.cursor-line", { "aria-hidden": "true", hidden: true });
     measure.append(this.mark);
     this.observer = new IntersectionObserver((entries) => this.#onSight(entries), { rootMargin: "300px" });
     new ResizeObserver(() => this.redraw()).observe(this.body);
     view.addEventListener("view", () => this.redraw());
-    view.addEventListener("cursor", () => this.#placeLine());
+    view.addEventListener("cursor", () => this.#placeLines());
     this.#listen();
   }
 
@@ -58,7 +61,7 @@ export class Stack {
   redraw() {
     for (const row of this.#rows.values()) this.#dirty.add(row);
     this.#drawVisible();
-    this.#placeLine();
+    this.#placeLines();
   }
 
   redrawRow(row) {
@@ -90,15 +93,20 @@ export class Stack {
     }
   }
 
-  #placeLine() {
-    const { cursor, isHeld } = this.view;
-    const share = cursor === null ? -1 : this.view.shareOf(cursor);
+  #placeLines() {
+    for (const { seconds, line } of this.failures) this.#place(line, seconds);
     for (const line of [this.line, this.mark]) {
-      line.hidden = !(share >= 0 && share <= 1);
-      line.classList.toggle("held", isHeld);
-      line.style.transform = `translateX(${kGutter + share * (this.width - kGutter)}px)`;
+      this.#place(line, this.view.cursor);
+      line.classList.toggle("held", this.view.isHeld);
     }
     this.clip.style.width = `${this.width}px`;
+  }
+
+  /** Puts a line at a time [s], or hides it where that is out of sight or null. */
+  #place(line, seconds) {
+    const share = seconds === null ? -1 : this.view.shareOf(seconds);
+    line.hidden = !(share >= 0 && share <= 1);
+    line.style.transform = `translateX(${kGutter + share * (this.width - kGutter)}px)`;
   }
 
   /** The time under the pointer [s], and whether the pointer is over drawings at all. */

@@ -5,8 +5,8 @@ const kLeastDoubles = 4096;
 const kLeastSpan = 2e-11;
 
 /**
- * Events: "view" when another time is shown, "cursor" when the cursor has moved. Both are told once for each picture that the
- * screen shows, whatever has changed before.
+ * Events: "view" when another time is shown, "cursor" when the cursor has moved. Both are told once for each picture
+ * that the screen shows, whatever has changed before.
  */
 export class View extends EventTarget {
   #told = new Set();

@@ -1,4 +1,5 @@
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import test from "node:test";
 import { actionOf, kBindings } from "../../../../master/report/page/src/keys.js";
 
@@ -26,4 +27,10 @@ test("what the browser needs is left to it", () => {
 test("no key means two things", () => {
   const keys = kBindings.flatMap((binding) => binding.keys);
   assert.equal(new Set(keys).size, keys.length);
+});
+
+test("docs/report.md has all keys", () => {
+  const page = readFileSync(new URL("../../../../docs/report.md", import.meta.url), "utf8");
+  const rows = page.match(/^\| `[^|]*\|/gm).flatMap((row) => [...row.matchAll(/`([^`]+)`/g)].map(([, key]) => key));
+  assert.deepEqual(rows.sort(), kBindings.map(({ shown }) => shown).sort());
 });

@@ -81,6 +81,24 @@ TEST_CASE("what moves to the right does so in the picture, by as much") {
   CHECK(patch(renderer.draw(world.model(), world.drawn()), kBlue).count > 100);
 }
 
+TEST_CASE("what stands still looks the same, what moves does not") {
+  if (scene::lacks_open_gl()) return;
+  const worlds::Folder folder(scene::kBoxes);
+  World world(folder.path());
+  Renderer renderer(world.model(), {160, 120, "front"});
+  const auto seen = [&] { return renderer.draw(world.model(), world.drawn()).rgb; };
+  const auto first = seen();
+  world.advance(at(1));
+  CHECK(seen() == first);
+  world.set_input(0, 0.5);
+  world.advance(at(2));
+  const auto moved = seen();
+  CHECK(moved != first);
+  CHECK(seen() == moved);
+  world.reset(at(0));
+  CHECK(seen() == first);
+}
+
 TEST_CASE("what is above is in the upper rows") {
   if (scene::lacks_open_gl()) return;
   std::string raised = scene::kBoxes;

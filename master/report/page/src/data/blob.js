@@ -11,7 +11,9 @@
 
 const kArrays = { float64: Float64Array, int64: BigInt64Array, int32: Int32Array, uint8: Uint8Array };
 
-/** Characters of base64 that are decoded at once: a multiple of 4, and few enough to take no time that one would notice. */
+/**
+ * Characters of base64 that are decoded at once: a multiple of 4, and few enough to take no time that one would notice.
+ */
 const kPiece = 1 << 20;
 
 function bytesOf(base64) {

@@ -60,7 +60,7 @@ export function commonIntervals(all) {
 function intersection(one, other) {
   const from = [];
   const until = [];
-  for (let i = 0, j = 0; i < one.count && j < other.count; ) {
+  for (let i = 0, j = 0; i < one.count && j < other.count;) {
     const start = Math.max(one.from[i], other.from[j]);
     const end = Math.min(one.until[i], other.until[j]);
     if (start < end) {

@@ -1,5 +1,5 @@
-// Numbers as signals.csv has them: the shortest text that is read back as the same number, plain where that is no longer than
-// with an exponent (std::to_chars of C++).
+// Numbers as signals.csv has them: the shortest text that is read back as the same number, plain where that is no
+// longer than with an exponent (std::to_chars of C++).
 
 /** The shortest digits and the exponent of the first one: 0.00123 is { digits: "123", exponent: -3 }. */
 function scientific(text) {

@@ -114,6 +114,7 @@ export async function readReport(data, progress) {
   const report = {
     run,
     version: data.stride,
+    notes: data.notes ?? [],
     thinned: data.thinned ?? null,
     times,
     seconds: secondsOf(times),

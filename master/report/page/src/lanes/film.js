@@ -53,7 +53,9 @@ export class FilmStrip {
     for (let i = 0; i < count; ++i) {
       const time = this.view.from + ((i + 0.5) / count) * this.view.span;
       const index = Math.max(0, lastAtOrBefore(this.film.seconds, time));
-      pictures.push(h("img", { src: this.film.frames[index], alt: "", draggable: false, style: { width: `${each}px` } }));
+      pictures.push(
+        h("img", { src: this.film.frames[index], alt: "", draggable: false, style: { width: `${each}px` } }),
+      );
     }
     this.track.replaceChildren(...pictures);
   }

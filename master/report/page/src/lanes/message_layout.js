@@ -41,7 +41,7 @@ export function layOut(messages, view, width) {
     if (last && x - last.x < widthOf(last)) last.messages.push(message);
     else marks.push({ x, messages: [message], text: "", more: "", room: 0 });
   }
-  marks.forEach((mark, index) => label(mark, marks[index + 1]?.x ?? width + kMarkWidth));
+  marks.forEach((mark, index) => label(mark, marks[index + 1]?.x ?? width));
   return marks;
 }
 

@@ -1,10 +1,11 @@
-// Connections of a diagram: those from one component to another are one edge.
+// Connections of a diagram: those of values from one component to another are one edge, those of messages another.
+// Clocks are left out, for they go where their messages go.
 
 const kSeparator = "\u0000";
 
 /**
- * The component that a full name belongs to: the longest one that it begins with, since systems hold others. Without one it
- * is a connector of the system itself.
+ * The component that a full name belongs to: the longest one that it begins with, since systems hold others. Without
+ * one it is a connector of the system itself.
  */
 function componentOf(name, components) {
   for (let end = name.lastIndexOf("."); end > 0; end = name.lastIndexOf(".", end - 1)) {
@@ -15,18 +16,17 @@ function componentOf(name, components) {
 }
 
 /**
- * @param {{components: {name: string}[], connections: {from: string, to: string, kind?: string}[]}} diagram
- * @param {Set<string>} messageVariables full names of the variables that carry messages
+ * @param {{components: {name: string}[], connections: {from: string, to: string, kind: string}[]}} diagram
  * @returns {{from: string, to: string, isMessage: boolean, connections: {from: string, to: string}[]}[]}
  */
-export function bundles(diagram, messageVariables) {
+export function bundles(diagram) {
   const components = new Set(diagram.components.map(({ name }) => name));
   const found = new Map();
   for (const connection of diagram.connections) {
     const from = componentOf(connection.from, components);
     const to = componentOf(connection.to, components);
-    if (from === null || to === null) continue;
-    const isMessage = connection.kind === "message" || messageVariables.has(connection.from) || messageVariables.has(connection.to);
+    if (from === null || to === null || connection.kind === "clock") continue;
+    const isMessage = connection.kind === "message";
     const key = [from, to, isMessage].join(kSeparator);
     if (!found.has(key)) found.set(key, { from, to, isMessage, connections: [] });
     found.get(key).connections.push(connection);

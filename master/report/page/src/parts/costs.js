@@ -38,18 +38,32 @@ function row(unit, most) {
 function restText(run) {
   const rest = run.wall_time - run.units.reduce((sum, unit) => sum + total(unit), 0);
   const phases = Object.entries(run.phases ?? {}).map(([name, value]) => `${name} ${seconds(value)} s`);
-  const parts = phases.length > 0 ? ` By phase: ${phases.join(", ")}.` : "";
-  const shared = run.threads > 1 ? " Units were stepped at the same time, so theirs add up to more than the run took." : "";
-  return `The run took ${seconds(run.wall_time)} s${rest >= 0 ? `, of which ${seconds(rest)} s were no unit’s` : ""}.${parts}${shared}`;
+  const texts = [`The run took ${seconds(run.wall_time)} s`];
+  if (rest >= 0) texts.push(`, of which ${seconds(rest)} s were no unit’s`);
+  texts.push(".");
+  if (phases.length > 0) texts.push(` By phase: ${phases.join(", ")}.`);
+  if (run.threads > 1) texts.push(" Units were stepped at the same time, so theirs add up to more than that.");
+  return texts.join("");
 }
 
 export function costs(run) {
   const units = run.units ?? [];
   if (units.length === 0) return null;
   const most = Math.max(...units.map(total), Number.MIN_VALUE);
-  const swatch = ([name, color]) => h("th", { scope: "col" }, h("span.dot", { style: { background: `var(${color})` } }), `${name} [s]`);
-  const rest = ["calls", "steps", "events", "rejected", "undone", "idle [s]"].map((text) => h("th", { scope: "col" }, text));
-  const head = h("tr", {}, h("th", { scope: "col" }, "unit"), h("th", { scope: "col" }, "wall time"), h("th", { scope: "col" }, "all [s]"), ...kPhases.map(swatch), ...rest);
+  const swatch = ([name, color]) =>
+    h("th", { scope: "col" }, h("span.dot", { style: { background: `var(${color})` } }), `${name} [s]`);
+  const rest = ["calls", "steps", "events", "rejected", "undone", "idle [s]"].map((text) =>
+    h("th", { scope: "col" }, text),
+  );
+  const head = h(
+    "tr",
+    {},
+    h("th", { scope: "col" }, "unit"),
+    h("th", { scope: "col" }, "wall time"),
+    h("th", { scope: "col" }, "all [s]"),
+    ...kPhases.map(swatch),
+    ...rest,
+  );
   const table = h("table.costs", {}, h("thead", {}, head), h("tbody", {}, ...units.map((unit) => row(unit, most))));
   return h(
     "section",

@@ -27,7 +27,12 @@ function laidOut(diagram, edges) {
 export function curve(points) {
   let path = `M${points[0].x},${points[0].y}`;
   for (let i = 0; i + 1 < points.length; ++i) {
-    const [before, from, to, behind] = [points[i - 1] ?? points[i], points[i], points[i + 1], points[i + 2] ?? points[i + 1]];
+    const [before, from, to, behind] = [
+      points[i - 1] ?? points[i],
+      points[i],
+      points[i + 1],
+      points[i + 2] ?? points[i + 1],
+    ];
     const first = { x: from.x + (to.x - before.x) / 6, y: from.y + (to.y - before.y) / 6 };
     const second = { x: to.x - (behind.x - from.x) / 6, y: to.y - (behind.y - from.y) / 6 };
     path += ` C${first.x},${first.y} ${second.x},${second.y} ${to.x},${to.y}`;
@@ -53,9 +58,18 @@ function lines({ connections, isMessage }) {
 function arrow(edge, { points, x, y }, tip) {
   const group = svg(
     "g",
-    { class: edge.isMessage ? "edge message-edge" : "edge", tabindex: 0, role: "img", "aria-label": lines(edge).join("; ") },
+    {
+      class: edge.isMessage ? "edge message-edge" : "edge",
+      tabindex: 0,
+      role: "img",
+      "aria-label": lines(edge).join("; "),
+    },
     svg("path", { d: curve(points), class: "edge-hit" }),
-    svg("path", { d: curve(points), class: "edge-line", "marker-end": `url(#${edge.isMessage ? "message-arrow" : "arrow"})` }),
+    svg("path", {
+      d: curve(points),
+      class: "edge-line",
+      "marker-end": `url(#${edge.isMessage ? "message-arrow" : "arrow"})`,
+    }),
     svg("rect", { x: x - 14, y: y - 9, width: 28, height: 18, rx: 9, class: "edge-badge" }),
     svg("text", { x, y: y + 4, class: "edge-count" }, String(edge.connections.length)),
   );
@@ -67,23 +81,39 @@ function arrow(edge, { points, x, y }, tip) {
 
 function marker(id) {
   const head = svg("path", { d: "M0,0 L8,4 L0,8 z" });
-  return svg("marker", { id, viewBox: "0 0 8 8", refX: 8, refY: 4, markerWidth: 7, markerHeight: 7, orient: "auto" }, head);
+  return svg(
+    "marker",
+    { id, viewBox: "0 0 8 8", refX: 8, refY: 4, markerWidth: 7, markerHeight: 7, orient: "auto" },
+    head,
+  );
 }
 
 export function diagramSection({ report, tip }) {
   const { diagram } = report;
   if (diagram.components.length === 0) return null;
-  const variables = new Set(report.messages.map(({ component, variable }) => `${component}.${variable}`));
-  const edges = bundles(diagram, variables);
+  const edges = bundles(diagram);
   const graph = laidOut(diagram, edges);
   const { width, height } = graph.graph();
   const drawing = svg(
     "svg",
-    { viewBox: `0 0 ${width} ${height}`, width, height, class: "diagram", role: "group", "aria-label": "Units and connections" },
+    {
+      viewBox: `0 0 ${width} ${height}`,
+      width,
+      height,
+      class: "diagram",
+      role: "group",
+      "aria-label": "Units and connections",
+    },
     svg("defs", {}, marker("arrow"), marker("message-arrow")),
     ...edges.map((edge, index) => arrow(edge, graph.edge(edge.from, edge.to, String(index)), tip)),
     ...diagram.components.map((component) => block(component, graph.node(component.name))),
   );
   const note = "A number tells how many connections an arrow stands for; dashed ones carry messages.";
-  return h("section", { "aria-label": "Diagram" }, h("h2", {}, "Units and connections"), h("p.note", {}, note), h("div.scroll", {}, drawing));
+  return h(
+    "section",
+    { "aria-label": "Diagram" },
+    h("h2", {}, "Units and connections"),
+    h("p.note", {}, note),
+    h("div.scroll", {}, drawing),
+  );
 }

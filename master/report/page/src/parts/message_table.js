@@ -5,16 +5,18 @@ import { h } from "../dom.js";
 /** Rows that are added at once. */
 const kRows = 200;
 
+/** What of a message is searched, made when it is first needed. */
+function searchedText(message) {
+  const { time, component, variable, direction, content, payload } = message;
+  message.searched ??= `${timeText(time)} ${component}.${variable} ${direction} ${content} ${payload}`.toLowerCase();
+  return message.searched;
+}
+
 /** @param {string} text words that must all be there, in whatever case */
 export function matching(messages, text, direction) {
   const words = text.toLowerCase().split(/\s+/).filter(Boolean);
-  return messages.filter((message) => {
-    if (direction && message.direction !== direction) return false;
-    if (words.length === 0) return true;
-    const { component, variable, content, payload } = message;
-    const all = `${timeText(message.time)} ${component}.${variable} ${message.direction} ${content} ${payload}`.toLowerCase();
-    return words.every((word) => all.includes(word));
-  });
+  const isWanted = (message) => !direction || message.direction === direction;
+  return messages.filter((message) => isWanted(message) && words.every((word) => searchedText(message).includes(word)));
 }
 
 export class MessageTable {
@@ -28,9 +30,11 @@ export class MessageTable {
     this.direction = h(
       "select",
       { "aria-label": "Direction" },
-      ...[["", "sent and received"], ["sent", "sent"], ["received", "received"]].map(([value, label]) =>
-        h("option", { value }, label),
-      ),
+      ...[
+        ["", "sent and received"],
+        ["sent", "sent"],
+        ["received", "received"],
+      ].map(([value, label]) => h("option", { value }, label)),
     );
     this.text.addEventListener("input", () => this.#filter());
     this.direction.addEventListener("change", () => this.#filter());
@@ -63,7 +67,8 @@ export class MessageTable {
     this.body.append(...this.found.slice(begin, begin + kRows).map((message) => this.#row(message)));
     const shown = this.body.children.length;
     const [all, found] = [this.messages.length, this.found.length].map((count) => count.toLocaleString("en"));
-    this.count.textContent = shown < this.found.length ? `the first ${shown} of ${found} (of ${all})` : `${found} of ${all}`;
+    this.count.textContent =
+      shown < this.found.length ? `the first ${shown} of ${found} (of ${all})` : `${found} of ${all}`;
     this.more.hidden = shown === this.found.length;
   }
 

@@ -4,7 +4,8 @@ import { rowTimeText } from "../data/report.js";
 import { h } from "../dom.js";
 import { ticks, timeTickTexts } from "../plot/ticks.js";
 
-const button = (text, label, onclick) => h("button", { type: "button", title: label, "aria-label": label, onclick }, text);
+const button = (text, label, onclick) =>
+  h("button", { type: "button", title: label, "aria-label": label, onclick }, text);
 
 export class Toolbar {
   /** @param {Record<string, (argument?: any) => void>} actions those of the keys */

@@ -22,6 +22,12 @@ export function judgements(run) {
   return [...checks, ...units].sort((a, b) => rank(a) - rank(b));
 }
 
+/** When something failed first [s], of each that failed. */
+export function failureTimes(run) {
+  const failed = judgements(run).filter(({ passed, time }) => passed === false && time !== null);
+  return failed.map(({ time }) => time);
+}
+
 /**
  * What comes of all together.
  * @returns {{kind: "good"|"bad"|"open"|"none", text: string, first?: Judgement}}
@@ -74,7 +80,9 @@ export function verdictTable(run, view) {
   const all = judgements(run);
   if (all.length === 0) return null;
   const isTimed = all.some(({ time }) => time !== null);
-  const heads = ["", "verdict of", "because", isTimed ? "first failed at" : ""].map((text) => h("th", { scope: "col" }, text));
+  const heads = ["", "verdict of", "because", isTimed ? "first failed at" : ""].map((text) =>
+    h("th", { scope: "col" }, text),
+  );
   const rows = all.map((judgement) => row(judgement, view));
   return h("table.verdicts", {}, h("thead", {}, h("tr", {}, ...heads)), h("tbody", {}, ...rows));
 }

@@ -1,7 +1,8 @@
 // Which signals share a pane: those of one plot and one unit of measure; states have rows of their own.
 
 /**
- * @param {{plots: {title: string, signals: string[]}[], columns: Map<string, import("../data/report.js").Column>}} report
+ * @param {{plots: {title: string, signals: string[]}[], columns: Map<string, import("../data/report.js").Column>}}
+ * report
  * @returns {{title: string, unit: string, isStates: boolean, columns: import("../data/report.js").Column[]}[]}
  */
 export function groupIntoPanes(report) {

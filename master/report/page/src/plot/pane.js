@@ -1,10 +1,17 @@
-// One pane: curves of one unit of measure, drawn by uPlot. Zoom, cursor and legend are the page's own, since all panes share
-// them.
+// One pane: curves of one unit of measure, drawn by uPlot. Zoom, cursor and legend are the page's own, since all panes
+// share them.
 import uPlot from "uplot";
 import { color, curveColor, curveDash } from "./colors.js";
 import { kGutter } from "./layout.js";
 import { timeTicks } from "./ruler.js";
-import { finiteExtremes, hasNothingNegative, intoRange, isMostlySmall, linearRange, logarithmicRange } from "./scale.js";
+import {
+  finiteExtremes,
+  hasNothingNegative,
+  intoRange,
+  isMostlySmall,
+  linearRange,
+  logarithmicRange,
+} from "./scale.js";
 import { shadeIntervals } from "./shade.js";
 import { groupTimes, groupValues, rowGroups } from "./thin.js";
 import { trace, Tracer } from "./trace.js";
@@ -131,7 +138,8 @@ export class Pane {
       stroke: () => color("--quiet-text"),
       ticks: { show: false },
       grid: { stroke: () => color("--grid"), width: 1 },
-      splits: () => (this.isLogarithmic ? decades(this.range) : ticks(...this.range, kMostTicks, this.isWhole ? 1 : 0).values),
+      splits: () =>
+        this.isLogarithmic ? decades(this.range) : ticks(...this.range, kMostTicks, this.isWhole ? 1 : 0).values,
       filter: (plot, splits) => splits,
       values: (plot, splits) =>
         this.isLogarithmic

@@ -3,8 +3,8 @@
 const kFactor = 4;
 
 /**
- * Each level holds the least and the most of `kFactor` entries of the level below; the lowest is of rows. NaN counts for
- * neither, so what is NaN throughout has Infinity and -Infinity.
+ * Each level holds the least and the most of `kFactor` entries of the level below; the lowest is of rows. NaN counts
+ * for neither, so what is NaN throughout has Infinity and -Infinity.
  */
 export class Pyramid {
   /** @param {ArrayLike<number>} values */

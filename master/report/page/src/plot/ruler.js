@@ -12,7 +12,7 @@ const kRoom = 28;
 
 /** How many ticks of time fit whose texts are as long as those of this view. @param {number} width [px] */
 export function timeTicks(view, width) {
-  for (let most = Math.max(2, Math.floor(width / 60)); ; --most) {
+  for (let most = Math.max(2, Math.floor(width / 48)); ; --most) {
     const found = ticks(view.from, view.until, most);
     const texts = timeTickTexts(found.values, found.step);
     const longest = Math.max(0, ...texts.map((text) => text.length));

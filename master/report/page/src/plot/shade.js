@@ -6,7 +6,7 @@ export function shadeIntervals(context, intervals, view, { left, top, width, hei
   context.save();
   context.fillStyle = fill;
   const perPixel = view.span / width;
-  for (let x = 0; x < width; ) {
+  for (let x = 0; x < width;) {
     const share = shareOfPixel(intervals, view, x, perPixel);
     let end = x + 1;
     while (end < width && shareOfPixel(intervals, view, end, perPixel) === share) ++end;

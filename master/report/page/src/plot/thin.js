@@ -1,5 +1,5 @@
-// What of the rows is drawn: each, where it has a pixel of its own; else of each pixel the first, the least, the most and the
-// last, by which the picture is that of all rows, and no spike is lost.
+// What of the rows is drawn: each, where it has a pixel of its own; else of each pixel the first, the least, the most
+// and the last, by which the picture is that of all rows, and no spike is lost.
 import { lastAtOrBefore } from "../data/exact_time.js";
 
 /** The first row at or after `from` whose time is at or after `time`. The step grows, since it is mostly near. */
@@ -20,7 +20,9 @@ function rowAtOrAfter(times, time, from) {
   return high;
 }
 
-/** The rows from the last one before the view to the first one after it, so that lines go on at both ends: [begin, end). */
+/**
+ * The rows from the last one before the view to the first one after it, so that lines go on at both ends: [begin, end).
+ */
 export function rowsInView(times, from, until) {
   const begin = Math.max(0, lastAtOrBefore(times, from));
   const end = Math.min(times.length, lastAtOrBefore(times, until) + 2);
@@ -35,7 +37,7 @@ export function rowGroups(times, from, until, pixels) {
   const { begin, end } = rowsInView(times, from, until);
   const groups = [];
   const width = (until - from) / pixels;
-  for (let row = begin; row < end; ) {
+  for (let row = begin; row < end;) {
     const pixel = Math.floor((times[row] - from) / width);
     let next = rowAtOrAfter(times, from + (pixel + 1) * width, row);
     next = Math.min(end, Math.max(row + 1, next));

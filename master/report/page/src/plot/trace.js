@@ -1,5 +1,5 @@
-// How a curve is drawn: a line where a pixel has one value or nearly so, an upright bar where it has many. Long jagged lines
-// would take a browser ten times as long.
+// How a curve is drawn: a line where a pixel has one value or nearly so, an upright bar where it has many. Long jagged
+// lines would take a browser ten times as long.
 
 /** Where the values of a pixel are no further apart than this a line is drawn [px]. */
 const kSlim = 1.5;

@@ -14,7 +14,8 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
 SWITCHES = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--hide-scrollbars",
-            "--disable-background-networking", "--disable-component-update", "--disable-sync", "--window-size=1400,1000"]
+            "--disable-background-networking", "--disable-component-update", "--disable-sync",
+            "--window-size=1400,1000"]
 PATIENCE = 120  # s, for a page to be read; no measure of how long it takes
 
 
@@ -46,14 +47,17 @@ class Browser:
 
     def open(self, path, dark=False, width=1400, height=1000):
         self.set_dark(dark)
-        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
-            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
+        self.resize(width, height)
         for kind in ("browser", "performance"):
             self.driver.get_log(kind)  # what was before is not of this page
         self.driver.get(path.resolve().as_uri())
         self.wait_for("return document.getElementById('report').getAttribute('aria-busy') === 'false'"
                       " || document.querySelector('[role=alert]') !== null")
         return self
+
+    def resize(self, width, height):
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
 
     def set_dark(self, dark):
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {

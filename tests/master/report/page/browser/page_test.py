@@ -41,16 +41,20 @@ class Run:
             "pump.on": ([int(2 < t < 7) for t in seconds], "", "Boolean"),
             "pump.mode": (["off" if t < 2 else "full <power>" for t in seconds], "", "String"),
         }
-        self.plots = [("Tank", ["tank.level", "tank.limit"]), ("Pump", ["pump.power", "pump.count", "pump.on", "pump.mode"])]
-        self.messages = [message(1, "pump", "start"), message(1, "tank", "start", "received"), message(1.001, "pump", "faster"),
-                         message(6.5, "pump", "a </script> & <b>"), message(9, "tank", "")]
-        self.units = [{"name": "tank", "model": "tank", "calls": 12, "steps": 10, "events": 1, "rejections": 2, "rollbacks": 0,
+        self.plots = [("Tank", ["tank.level", "tank.limit"]),
+                      ("Pump", ["pump.power", "pump.count", "pump.on", "pump.mode"])]
+        self.messages = [message(1, "pump", "start"), message(1, "tank", "start", "received"),
+                         message(1.001, "pump", "faster"), message(6.5, "pump", "a </script> & <b>"),
+                         message(9, "tank", "")]
+        self.units = [{"name": "tank", "model": "tank", "calls": 12, "steps": 10, "events": 1, "rejections": 2,
+                       "rollbacks": 0,
                        "idle": {"skipped": 2.5, "rests": 1, "longest": 2.5},
                        "wall_time": {"initialization": 0.01, "steps": 0.5, "events": 0.1}},
                       {"name": "pump", "model": "minimal", "calls": 3, "steps": 3, "events": 0, "rejections": 0,
                        "rollbacks": 1, "wall_time": {"initialization": 0, "steps": 0.2, "events": 0}}]
         self.run = {"system": "tank <1>", "scenario": "tank.ssd", "start": 0, "stop": 10, "reached": 10, "wall_time": 2,
-                    "outcome": "completed", "communication_steps": rows, "units": self.units, "verdicts": [], "checks": []}
+                    "outcome": "completed", "communication_steps": rows, "units": self.units, "verdicts": [],
+                    "checks": []}
         self.films = []
 
     def data(self):
@@ -61,8 +65,9 @@ class Run:
                       page_data.activity("pump", "idle", [(SECOND, 3 * SECOND)]),
                       page_data.activity("tank", "rejection", [(8 * SECOND, 9 * SECOND)])],
             diagram={"components": [{"name": unit["name"], "model": unit["model"]} for unit in self.units],
-                     "connections": [{"from": "tank.level", "to": "pump.level"}, {"from": "tank.limit", "to": "pump.limit"},
-                                     {"from": "pump.transmit.frame", "to": "tank.receive.frame"}]})
+                     "connections": [{"from": "tank.level", "to": "pump.level", "kind": "value"},
+                                     {"from": "tank.limit", "to": "pump.limit", "kind": "value"},
+                                     {"from": "pump.transmit.frame", "to": "tank.receive.frame", "kind": "message"}]})
 
     def row_at(self, seconds):
         return bisect.bisect_right([time / SECOND for time in self.times], seconds) - 1
@@ -119,7 +124,8 @@ class PageTest(unittest.TestCase):
         run = Run()
         browser = self.open_run(run)
         numbers = random.Random(2)
-        instants = [0, 10, *(numbers.uniform(0, 10) for _ in range(40)), *(run.times[i] / SECOND for i in range(0, 2000, 97))]
+        samples = [time / SECOND for time in run.times[::97]]
+        instants = [0, 10, *(numbers.uniform(0, 10) for _ in range(40)), *samples]
         for seconds in instants:
             row = run.row_at(seconds)
             time_text, values = browser.put_cursor(seconds)
@@ -244,12 +250,17 @@ class PageTest(unittest.TestCase):
     def test_a_failed_check_leads_to_its_instant(self):
         run = Run()
         run.run["checks"] = [
-            {"name": "level stays low", "kind": "range", "passed": False, "text": "1.04 m is above 1 m", "time": 7.5, "line": 12,
-             "values": [{"signal": "tank.level", "value": 1.04, "unit": "m"}]},
+            {"name": "level stays low", "kind": "range", "passed": False, "text": "1.04 m is above 1 m", "time": 7.5,
+             "line": 12, "values": [{"signal": "tank.level", "value": 1.04, "unit": "m"}]},
             {"name": "answered", "kind": "answer", "passed": True, "text": "", "time": None, "values": []}]
         browser = self.open_run(run)
         self.assertIn("1 of 2 failed: level stays low", browser.one(".banner").text)
         self.assertIn("tank.level = 1.04 m", browser.one(".verdicts").text)
+        left, right = browser.plot_box()
+        line = browser.run("return [...document.querySelectorAll('.failure-line')].map("
+                           "(line) => line.getBoundingClientRect().left)")
+        self.assertEqual(len(line), 1)
+        self.assertAlmostEqual(line[0], left + 0.75 * (right - left), delta=1.5)
         browser.one(".banner .time-link").click()
         self.assertEqual(browser.run("return stride.view.cursor"), 7.5)
 
@@ -322,6 +333,14 @@ class PageTest(unittest.TestCase):
             for name, ratio in ratios.items():
                 least = 3 if name.startswith("--curve") else 4.5
                 self.assertGreaterEqual(ratio, least, f"{name} {'dark' if dark else 'light'}")
+
+    def test_paper_is_light_and_complete(self):
+        browser = self.open_run(dark=True, height=300)
+        browser.run("window.printed = []; window.addEventListener('beforeprint', () => printed.push("
+                    "document.documentElement.dataset.theme, document.querySelectorAll('.pane .uplot').length))")
+        browser.driver.execute_cdp_cmd("Page.printToPDF", {})
+        self.assertEqual(browser.run("return printed"), ["light", 3])
+        self.assertEqual(browser.run("return document.documentElement.dataset.theme"), "dark")
 
     def test_a_narrow_window_needs_no_scrolling_aside(self):
         browser = self.open_run(width=480)

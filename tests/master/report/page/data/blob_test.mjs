@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import { deflateRawSync } from "node:zlib";
+import "../deflate_raw.mjs";
 import { unpack, untransposed } from "../../../../../master/report/page/src/data/blob.js";
 
 /** What the program does, element by element. */

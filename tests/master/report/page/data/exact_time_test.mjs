@@ -1,6 +1,11 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { lastAtOrBefore, secondsOf, timeText, toSeconds } from "../../../../../master/report/page/src/data/exact_time.js";
+import {
+  lastAtOrBefore,
+  secondsOf,
+  timeText,
+  toSeconds,
+} from "../../../../../master/report/page/src/data/exact_time.js";
 
 test("no digit of a time is lost", () => {
   assert.equal(timeText(0n), "0");

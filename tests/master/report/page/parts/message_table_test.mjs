@@ -3,8 +3,22 @@ import test from "node:test";
 import { matching } from "../../../../../master/report/page/src/parts/message_table.js";
 
 const kMessages = [
-  { time: 14_200_000_000_000n, component: "reader", variable: "transmit.frame", direction: "sent", content: "set_led 1", payload: "03" },
-  { time: 15_050_000_000_000n, component: "sensor", variable: "receive.frame", direction: "received", content: "", payload: "ab" },
+  {
+    time: 14_200_000_000_000n,
+    component: "reader",
+    variable: "transmit.frame",
+    direction: "sent",
+    content: "set_led 1",
+    payload: "03",
+  },
+  {
+    time: 15_050_000_000_000n,
+    component: "sensor",
+    variable: "receive.frame",
+    direction: "received",
+    content: "",
+    payload: "ab",
+  },
 ];
 const found = (text, direction = "") => matching(kMessages, text, direction).map(({ component }) => component);
 

@@ -3,7 +3,10 @@ import test from "node:test";
 import { idleShare, keyNumbers } from "../../../../../master/report/page/src/parts/numbers.js";
 
 const kRun = {
-  start: 0, reached: 10, wall_time: 2, communication_steps: 12345,
+  start: 0,
+  reached: 10,
+  wall_time: 2,
+  communication_steps: 12345,
   units: [{ rejections: 1, idle: { skipped: 5 } }, { rejections: 2 }],
 };
 

@@ -1,23 +1,42 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { judgements, summary } from "../../../../../master/report/page/src/parts/verdicts.js";
+import { failureTimes, judgements, summary } from "../../../../../master/report/page/src/parts/verdicts.js";
 
-const check = (name, passed, time = null) => ({ name, kind: "range", passed, text: `${name}…`, time, line: 7, values: [] });
+const check = (name, passed, time = null) => ({
+  name,
+  kind: "range",
+  passed,
+  text: `${name}…`,
+  time,
+  line: 7,
+  values: [],
+});
 
 test("without anything that judges the page says so", () => {
   assert.deepEqual(summary({ outcome: "completed" }).kind, "none");
 });
 
 test("all passed", () => {
-  const run = { outcome: "completed", verdicts: [{ component: "truth", passed: true, text: "" }], checks: [check("a", true)] };
+  const run = {
+    outcome: "completed",
+    verdicts: [{ component: "truth", passed: true, text: "" }],
+    checks: [check("a", true)],
+  };
   assert.deepEqual(summary(run), { kind: "good", text: "All 2 passed" });
 });
 
 test("what failed is named, and the first instant of all is shown", () => {
-  const run = { outcome: "completed", checks: [check("late", false, 9), check("fine", true), check("early", false, 3)] };
+  const run = {
+    outcome: "completed",
+    checks: [check("late", false, 9), check("fine", true), check("early", false, 3)],
+  };
   const { kind, text, first } = summary(run);
   assert.deepEqual([kind, text, first.time], ["bad", "2 of 3 failed: late, early", 3]);
-  assert.deepEqual(judgements(run).map(({ name }) => name), ["late", "early", "fine"]);
+  assert.deepEqual(failureTimes(run), [9, 3]);
+  assert.deepEqual(
+    judgements(run).map(({ name }) => name),
+    ["late", "early", "fine"],
+  );
 });
 
 test("undecided is neither passed nor failed", () => {

@@ -8,12 +8,20 @@ test("a pane has one unit of measure; states have rows of their own", () => {
   const columns = new Map([column("a", "V"), column("b", "W"), column("c", "V"), column("on", "", true)]);
   const panes = groupIntoPanes({ plots: [{ title: "Power", signals: ["a", "b", "on", "c", "unknown"] }], columns });
   const found = panes.map(({ title, isStates, columns }) => [title, isStates, columns.map(({ name }) => name)]);
-  assert.deepEqual(found, [["Power", false, ["a", "c"]], ["Power", false, ["b"]], ["Power", true, ["on"]]]);
+  assert.deepEqual(found, [
+    ["Power", false, ["a", "c"]],
+    ["Power", false, ["b"]],
+    ["Power", true, ["on"]],
+  ]);
 });
 
 test("signals that no plot shows are gathered by component", () => {
   const columns = new Map([column("a.x", "V"), column("a.y", "V"), column("b.c.z", ""), column("b.w", "")]);
   const panes = groupOthers({ plots: [{ title: "X", signals: ["a.x"] }], columns, units: ["a", "b", "b.c"] });
   const found = panes.map(({ title, columns }) => [title, columns.map(({ name }) => name)]);
-  assert.deepEqual(found, [["a", ["a.y"]], ["b.c", ["b.c.z"]], ["b", ["b.w"]]]);
+  assert.deepEqual(found, [
+    ["a", ["a.y"]],
+    ["b.c", ["b.c.z"]],
+    ["b", ["b.w"]],
+  ]);
 });

@@ -2,18 +2,31 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import { Pyramid } from "../../../../../master/report/page/src/plot/pyramid.js";
 import {
-  finiteExtremes, hasNothingNegative, intoRange, isMostlySmall, linearRange, logarithmicRange,
+  finiteExtremes,
+  hasNothingNegative,
+  intoRange,
+  isMostlySmall,
+  linearRange,
+  logarithmicRange,
 } from "../../../../../master/report/page/src/plot/scale.js";
 
 const column = (...values) => ({ values, pyramid: new Pyramid(values) });
 
 test("gaps and infinities do not widen the axis", () => {
-  const extremes = finiteExtremes([[1, null, Infinity], [-Infinity, 3]]);
+  const extremes = finiteExtremes([
+    [1, null, Infinity],
+    [-Infinity, 3],
+  ]);
   assert.deepEqual(extremes, { least: 1, most: 3, leastPositive: 1 });
 });
 
 test("a linear axis has room at both ends, also for a constant", () => {
-  for (const [least, most] of [[1, 3], [5, 5], [0, 0], [-2, -2]]) {
+  for (const [least, most] of [
+    [1, 3],
+    [5, 5],
+    [0, 0],
+    [-2, -2],
+  ]) {
     const [bottom, top] = linearRange({ least, most });
     assert.ok(bottom < least && top > most);
   }

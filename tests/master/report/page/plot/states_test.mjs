@@ -12,7 +12,14 @@ function statesOf(values, pixels) {
 
 test("a state lasts until the next one", () => {
   const found = statesOf(Uint8Array.of(0, 0, 1, 1, 1, 0), 100);
-  assert.deepEqual(found.map(({ from, until, value }) => [from, until, value]), [[0, 2, 0], [2, 5, 1], [5, undefined, 0]]);
+  assert.deepEqual(
+    found.map(({ from, until, value }) => [from, until, value]),
+    [
+      [0, 2, 0],
+      [2, 5, 1],
+      [5, undefined, 0],
+    ],
+  );
 });
 
 test("a short pulse among many rows is seen", () => {

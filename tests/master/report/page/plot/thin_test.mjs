@@ -52,7 +52,16 @@ function views(count, seed) {
     const until = i === 0 ? whole : from + (whole - from) * random() ** 3 + 1e-6;
     const pixels = 1 + Math.floor(random() * 800);
     const groups = rowGroups(times, from, until, pixels);
-    return { times, values, from, until, pixels, groups, points: groupValues(pyramid, groups), at: groupTimes(times, groups) };
+    return {
+      times,
+      values,
+      from,
+      until,
+      pixels,
+      groups,
+      points: groupValues(pyramid, groups),
+      at: groupTimes(times, groups),
+    };
   });
 }
 

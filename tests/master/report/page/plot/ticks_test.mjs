@@ -1,7 +1,12 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import {
-  commonExponent, powerText, roundStep, ticks, timeTickTexts, valueTickTexts,
+  commonExponent,
+  powerText,
+  roundStep,
+  ticks,
+  timeTickTexts,
+  valueTickTexts,
 } from "../../../../../master/report/page/src/plot/ticks.js";
 
 test("steps are 1, 2 or 5 times a power of ten", () => {
@@ -12,7 +17,13 @@ test("steps are 1, 2 or 5 times a power of ten", () => {
 });
 
 test("ticks are in the range, and no more than wanted", () => {
-  for (const [from, until] of [[0, 30], [14.2003, 14.2004], [-3, 5], [1e6, 1e6 + 1e-6], [-1e-9, 1e-9]]) {
+  for (const [from, until] of [
+    [0, 30],
+    [14.2003, 14.2004],
+    [-3, 5],
+    [1e6, 1e6 + 1e-6],
+    [-1e-9, 1e-9],
+  ]) {
     const { values } = ticks(from, until, 8);
     assert.ok(values.length >= 2 && values.length <= 9, `${values.length} in ${from} to ${until}`);
     const room = (until - from) * 1e-6;
@@ -21,7 +32,10 @@ test("ticks are in the range, and no more than wanted", () => {
 });
 
 test("whole numbers are not divided", () => {
-  assert.deepEqual(ticks(-0.1, 2.1, 6, 1).values.map((value) => value + 0), [0, 1, 2]);
+  assert.deepEqual(
+    ticks(-0.1, 2.1, 6, 1).values.map((value) => value + 0),
+    [0, 1, 2],
+  );
 });
 
 test("times have as many decimals as tell them apart", () => {

@@ -1,0 +1,61 @@
+#include "master/cli/test_report.h"
+
+#include <climits>
+#include <utility>
+
+#include <unistd.h>
+
+#include "master/core/error.h"
+#include "master/io/scenario.h"
+
+namespace stride::cli {
+namespace {
+
+std::string host_name() {
+  char name[HOST_NAME_MAX + 1] = {};
+  return ::gethostname(name, HOST_NAME_MAX) == 0 ? name : "localhost";
+}
+
+}  // namespace
+
+TestReport::TestReport(std::filesystem::path file, const std::filesystem::path& scenario)
+    : file_(std::move(file)) {
+  if (file_.empty()) return;
+  report_.suite = io::stem(scenario);
+  report_.host = host_name();
+  report_.began = std::chrono::system_clock::now();
+  report_.properties = {{"scenario", scenario.string()}, {"stride", STRIDE_VERSION}};
+  report_.error = "the run has not ended";
+  put();
+}
+
+void TestReport::write(const core::RunOptions& options, const core::RunStatistics& statistics,
+                       std::span<const core::Verdict> verdicts,
+                       const std::optional<std::string>& error) {
+  is_written_ = true;
+  report_.wall_time = elapsed();
+  report_.properties.emplace_back("start", core::to_text(options.start));
+  report_.properties.emplace_back("stop", core::to_text(options.stop));
+  report_.properties.emplace_back("reached", core::to_text(statistics.reached));
+  report_.properties.emplace_back("outcome", error ? "failed" : core::name(statistics.end));
+  report_.error = error;
+  if (!error && statistics.end == core::RunEnd::Interrupted) {
+    report_.error = "the run was interrupted at " + core::to_text(statistics.reached) + " s";
+  }
+  report_.verdicts = verdicts;
+  put();
+  report_.verdicts = {};
+}
+
+void TestReport::write(const std::string& error) {
+  is_written_ = true;
+  report_.wall_time = elapsed();
+  report_.error = error;
+  put();
+}
+
+void TestReport::put() const {
+  if (!file_.empty()) io::write_junit(file_, report_);
+}
+
+}  // namespace stride::cli

@@ -1,0 +1,45 @@
+// What `stride run --junit` leaves for continuous integration.
+#ifndef STRIDE_MASTER_CLI_TEST_REPORT_H
+#define STRIDE_MASTER_CLI_TEST_REPORT_H
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "master/core/run_options.h"
+#include "master/core/statistics.h"
+#include "master/core/verdict.h"
+#include "master/io/junit.h"
+
+namespace stride::cli {
+
+/// Is on the disk from the beginning: until more is known it says that the run has not ended, so
+/// that one which is killed is no good one.
+class TestReport {
+ public:
+  /// Throws core::Error if the file cannot be written. Without a file it does nothing, as do the
+  /// functions below.
+  TestReport(std::filesystem::path file, const std::filesystem::path& scenario);
+
+  /// The run is over; `error` says why if it has not come to its end.
+  void write(const core::RunOptions& options, const core::RunStatistics& statistics,
+             std::span<const core::Verdict> verdicts, const std::optional<std::string>& error);
+  /// There was no run, or its report was not written.
+  void write(const std::string& error);
+  bool is_written() const { return is_written_; }
+
+ private:
+  std::chrono::nanoseconds elapsed() const { return std::chrono::steady_clock::now() - began_; }
+  void put() const;
+
+  std::filesystem::path file_;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  io::JunitReport report_;
+  bool is_written_ = false;
+};
+
+}  // namespace stride::cli
+
+#endif

@@ -1,0 +1,94 @@
+// The rows under the time axis, and what each shows when the cursor moves.
+import { rowAtCursor } from "./cursor.js";
+import { h } from "./dom.js";
+import { ActivityLane } from "./lanes/activity_lane.js";
+import { FilmStrip } from "./lanes/film.js";
+import { MessageLanes } from "./lanes/message_lanes.js";
+import { Toolbar } from "./parts/toolbar.js";
+import { failureTimes } from "./parts/verdicts.js";
+import { groupIntoPanes, groupOthers } from "./plot/grouping.js";
+import { Legend } from "./plot/legend.js";
+import { Pane } from "./plot/pane.js";
+import { Ruler } from "./plot/ruler.js";
+import { StatesPane } from "./plot/states.js";
+import { Stack } from "./stack.js";
+
+const note = (text) => h("p.note", {}, text);
+const row = (box, side) => h("div.row", {}, h("div.plot", {}, box), h("div.side", {}, side));
+
+/** Films and messages stand in one row, for the picture beside them is high. */
+function addFilmsAndMessages(context, stack) {
+  const { report, view } = context;
+  const strips = report.films.filter(({ frames }) => frames.length > 0).map((film) => new FilmStrip(context, film));
+  for (const name of ["cursor", "view"]) {
+    view.addEventListener(name, () => strips.forEach((strip) => strip.update()));
+  }
+  const lanes = new MessageLanes(context);
+  const words = lanes.isEmpty ? "No messages were sent." : "Messages: ▲ sent, △ received. n: next, p: previous";
+  const element = row(h("div", {}, ...strips.map((strip) => strip.box), lanes.box), note(words));
+  element.lastChild.prepend(...strips.map((strip) => strip.picture));
+  stack.add({ element, draw: (width) => [...strips, lanes].forEach((part) => part.draw(width)) });
+}
+
+/** One pane with its legend. */
+function addPane(context, stack, group, firstColor, parent) {
+  const Kind = group.isStates ? StatesPane : Pane;
+  const pane = new Kind(context, group.columns, firstColor);
+  const entry = { pane, draw: (width) => pane.draw(width) };
+  const legend = new Legend(group, pane, () => stack.redrawRow(entry));
+  entry.element = row(pane.box, legend.box);
+  entry.element.classList.add("pane");
+  stack.add(entry, parent);
+  const update = () => legend.update(rowAtCursor(context));
+  context.view.addEventListener("cursor", update);
+  update();
+}
+
+function addPanes(context, stack) {
+  const { report } = context;
+  if (report.columns.size === 0) return stack.body.append(note("No signals were recorded."));
+  let colors = 0;
+  const add = (group, parent) => {
+    addPane(context, stack, group, colors, parent);
+    colors += group.isStates ? 1 : group.columns.length;
+  };
+  groupIntoPanes(report).forEach((group) => add(group));
+  const others = groupOthers(report);
+  if (others.length === 0) return;
+  const count = others.reduce((sum, { columns }) => sum + columns.length, 0);
+  const box = h("details.others", {}, h("summary", {}, `${count} more recorded ${count === 1 ? "signal" : "signals"}`));
+  stack.body.append(box);
+  others.forEach((group) => add(group, box));
+}
+
+/** What the colours of the lanes mean. */
+function activityKey() {
+  const entry = (name) => h("span", {}, h(`span.dot.${name.split(" ")[0]}`), name);
+  return h("span.key", {}, ...["idle", "event", "early return", "undone or rejected"].map(entry));
+}
+
+function addActivity(context, stack) {
+  const { report } = context;
+  if (report.activity.size === 0) return stack.body.append(note("What the units did over time was not recorded."));
+  stack.body.append(h("h3.lanes-head", {}, "What the units did", activityKey()));
+  for (const component of report.units) {
+    const lane = new ActivityLane(context, component);
+    stack.add({ element: row(lane.box, h("span.lane-summary", {}, lane.summary)), draw: (width) => lane.draw(width) });
+  }
+}
+
+/** @param {Record<string, (argument?: any) => void>} actions those of the keys */
+export function timeStack(context, actions) {
+  const toolbar = new Toolbar(context, actions);
+  const ruler = new Ruler(context);
+  const rulerRow = row(ruler.box, null);
+  const head = h("div.timebar", {}, toolbar.box, rulerRow);
+  const stack = new Stack(context.view, head, rulerRow.firstChild, failureTimes(context.report.run));
+  stack.add({ element: rulerRow, draw: (width) => ruler.draw(width) }, head);
+  for (const name of ["view", "cursor"]) context.view.addEventListener(name, () => toolbar.update());
+  toolbar.update();
+  addFilmsAndMessages(context, stack);
+  addPanes(context, stack);
+  addActivity(context, stack);
+  return stack;
+}

@@ -1,0 +1,140 @@
+#include "master/checks/signal_check.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "tests/master/checks/support.h"
+
+using namespace stride;
+using namespace stride::checks;
+using core::ValueType;
+
+namespace {
+
+using Course = std::vector<std::pair<std::int64_t, double>>;  // ms and value
+
+Definition demand(Kind kind, Window of, const std::string& min) {
+  ConditionText text;
+  text.min = min;
+  const core::Variable voltage = variable(ValueType::Float64, "V");
+  return {kind, "voltage",    "",
+          of,   {"x.ssd", 7}, SignalDemand{{0, 0}, 1, "a.x", "V", Condition(voltage, text)}};
+}
+
+core::Verdict judged(const Definition& definition, const Course& course, const Ending& ending) {
+  SignalCheck check(definition);
+  core::ValueBlock block(ValueType::Float64, 3);
+  check.attach({check.id(), &block, 1});
+  for (const auto& [time, value] : course) {
+    block.numbers<double>()[2] = value;
+    check.on_point(at(time));
+  }
+  return check.verdict(ending);
+}
+
+const Course kFalls{{0, 3}, {10, 2}, {20, 1.5}, {30, 1}, {40, 4}};
+
+}  // namespace
+
+TEST_CASE("always: the first value that is not as it should be, with its instant") {
+  const auto verdict = judged(demand(Kind::Always, {}, "1.8"), kFalls, ended(40));
+  CHECK(verdict.passed == false);
+  CHECK(verdict.time == at(20));
+  CHECK(verdict.text == "1.5 V; expected >= 1.8 V");
+  CHECK((verdict.name == "voltage" && verdict.kind == "always" && verdict.where.line == 7));
+  REQUIRE(verdict.values.size() == 1);
+  CHECK(verdict.values[0].signal == "a.x");
+  CHECK(verdict.values[0].unit == "V");
+  CHECK(verdict.values[0].value.numbers<double>()[0] == 1.5);
+}
+
+TEST_CASE("always: the interval's ends belong to it, and nothing else does") {
+  CHECK(judged(demand(Kind::Always, window(0, 10), "1.8"), kFalls, ended(40)).passed == true);
+  CHECK(judged(demand(Kind::Always, window(31, 40), "1.8"), kFalls, ended(40)).passed == true);
+  CHECK(judged(demand(Kind::Always, window(10, 20), "1.8"), kFalls, ended(40)).time == at(20));
+  CHECK(judged(demand(Kind::Always, window(30, 40), "1.8"), kFalls, ended(40)).time == at(30));
+  CHECK(judged(demand(Kind::Always, window(0, 10), "1.8"), kFalls, ended(40)).text ==
+        "it was between 2 V and 3 V");
+}
+
+TEST_CASE("never: the other way round") {
+  CHECK(judged(demand(Kind::Never, {}, "5"), kFalls, ended(40)).passed == true);
+  const auto verdict = judged(demand(Kind::Never, window(10, {}), "4"), kFalls, ended(40));
+  CHECK((verdict.passed == false && verdict.time == at(40)));
+  CHECK(verdict.text == "4 V; expected never >= 4 V");
+}
+
+TEST_CASE("NaN fails what is to be so always, and what is never to be so") {
+  const Course course{{0, 3}, {10, std::nan("")}, {20, 3}};
+  CHECK(judged(demand(Kind::Always, {}, "1.8"), course, ended(20)).time == at(10));
+  CHECK(judged(demand(Kind::Never, {}, "4"), course, ended(20)).time == at(10));
+  CHECK(judged(demand(Kind::Eventually, window(10, 10), "0"), course, ended(20)).passed == false);
+  CHECK(judged(demand(Kind::Final, {}, "0"), {{0, std::nan("")}}, ended(0)).passed == false);
+}
+
+TEST_CASE("eventually: once is enough, and the end of the interval is the failure") {
+  const auto verdict = judged(demand(Kind::Eventually, {}, "4"), kFalls, ended(40));
+  CHECK((verdict.passed == true && verdict.text == "4 V at 0.04 s" && !verdict.time));
+  const auto late = judged(demand(Kind::Eventually, window(5, 35), "4"), kFalls, ended(40));
+  CHECK((late.passed == false && late.time == at(35)));
+  CHECK(late.text == "1 V; expected >= 4 V");
+  CHECK(judged(demand(Kind::Eventually, {}, "5"), kFalls, ended(40)).time == at(40));
+}
+
+TEST_CASE("final: the value where the run ends") {
+  const auto good = judged(demand(Kind::Final, {}, "4"), kFalls, ended(40));
+  CHECK((good.passed == true && good.text == "4 V"));
+  const auto bad = judged(demand(Kind::Final, {}, "5"), kFalls, ended(40));
+  CHECK((bad.passed == false && bad.time == at(40) && bad.text == "4 V; expected >= 5 V"));
+  CHECK_FALSE(judged(demand(Kind::Final, {}, "4"), kFalls, broke(40)).passed);
+}
+
+TEST_CASE("a run that breaks off leaves open what it did not come to") {
+  CHECK_FALSE(judged(demand(Kind::Always, {}, "0"), kFalls, broke(40)).passed);
+  CHECK_FALSE(judged(demand(Kind::Always, window(0, 41), "0"), kFalls, broke(40)).passed);
+  CHECK(judged(demand(Kind::Always, window(0, 40), "0"), kFalls, broke(40)).passed == true);
+  CHECK(judged(demand(Kind::Always, {}, "1.8"), kFalls, broke(40)).time == at(20));
+  CHECK_FALSE(judged(demand(Kind::Eventually, {}, "5"), kFalls, broke(40)).passed);
+  CHECK(judged(demand(Kind::Eventually, {}, "4"), kFalls, broke(40)).passed == true);
+  CHECK(judged(demand(Kind::Always, {}, "0"), {}, broke(0)).text ==
+        "the run ended at 0 s, before this was decided");
+}
+
+TEST_CASE("an interval that the run has not come to the end of is open, also if it ended well") {
+  CHECK_FALSE(judged(demand(Kind::Always, window(0, 41), "0"), kFalls, ended(40)).passed);
+  CHECK_FALSE(judged(demand(Kind::Eventually, window(0, 41), "5"), kFalls, ended(40)).passed);
+  CHECK_FALSE(judged(demand(Kind::Always, window(41, {}), "0"), kFalls, ended(40)).passed);
+}
+
+TEST_CASE("between two communication points is known what holds at both") {
+  CHECK(judged(demand(Kind::Always, window(11, 19), "1.5"), kFalls, ended(40)).passed == true);
+  CHECK(judged(demand(Kind::Eventually, window(11, 19), "1.5"), kFalls, ended(40)).passed == true);
+  const auto open = judged(demand(Kind::Always, window(11, 19), "1.8"), kFalls, ended(40));
+  CHECK_FALSE(open.passed);
+  CHECK(open.text == "there was no communication point in the interval");
+}
+
+TEST_CASE("texts are kept as they were") {
+  ConditionText text;
+  text.equals = "calm";
+  const Definition definition{
+      Kind::Always,
+      "mood",
+      "",
+      {},
+      {},
+      SignalDemand{{0, 0}, 0, "a.s", "", Condition(variable(ValueType::String), text)}};
+  SignalCheck check(definition);
+  core::ValueBlock block(ValueType::String, 1);
+  check.attach({{0, 0}, &block, 0});
+  for (const auto& [time, mood] : {std::pair(0, "calm"), {1, "cross"}, {2, "calm"}}) {
+    block.strings()[0] = mood;
+    check.on_point(at(time));
+  }
+  const auto verdict = check.verdict(ended(2));
+  CHECK(verdict.time == at(1));
+  CHECK(verdict.text == "'cross'; expected = 'calm'");
+}

@@ -1,0 +1,45 @@
+// What the tests of the checks share.
+#ifndef STRIDE_TESTS_MASTER_CHECKS_SUPPORT_H
+#define STRIDE_TESTS_MASTER_CHECKS_SUPPORT_H
+
+#include <chrono>
+#include <optional>
+#include <ostream>
+#include <string>
+
+#include "master/checks/check.h"
+#include "master/core/description.h"
+
+namespace stride::checks {
+
+constexpr Time at(std::int64_t milliseconds) {
+  return Time(std::chrono::milliseconds(milliseconds));
+}
+
+inline Window window(std::optional<std::int64_t> from, std::optional<std::int64_t> to) {
+  Window made;
+  if (from) made.from = at(*from);
+  if (to) made.to = at(*to);
+  return made;
+}
+
+inline core::Variable variable(core::ValueType type, const std::string& unit = "") {
+  core::Variable made;
+  made.name = "x";
+  made.type = type;
+  made.unit = unit;
+  return made;
+}
+
+/// A message at the variable (0, `place`).
+inline core::Message message(std::int64_t milliseconds, std::size_t place) {
+  return {at(milliseconds), 0, {0, place}, false, nullptr, 0};
+}
+
+/// Of a run that went to its end there, and of one that did not.
+inline Ending ended(std::int64_t milliseconds) { return {at(milliseconds), true}; }
+inline Ending broke(std::int64_t milliseconds) { return {at(milliseconds), false}; }
+
+}  // namespace stride::checks
+
+#endif

@@ -1,0 +1,154 @@
+#include "master/report/report.h"
+
+#include <cmath>
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+#include "master/report/page.h"
+#include "tests/master/report/support.h"
+
+using namespace stride;
+using namespace stride::report;
+using Catch::Contains;
+using core::ValueType;
+using nlohmann::json;
+
+namespace {
+
+Column column(const SignalInfo& info, const std::vector<std::string>& fields) {
+  Column made(info);
+  for (const std::string& field : fields) made.append({field, false});
+  return made;
+}
+
+/// Of a run with one of everything.
+Results sample(const TemporaryFolder& folder) {
+  Results results;
+  results.run.json = {{"outcome", "completed"}, {"error", "</script>"}};
+  results.run.components = {{"a", "A"}, {"b", "B"}};
+  results.run.connections = {{"a.x", "b.u"}};
+  results.notes = {"something is missing"};
+  results.signals.times = {0, 1};
+  results.signals.columns = {
+      column({"a.x", "m", ValueType::Float64, true}, {"nan", "-inf"}),
+      column({"a.<n>", "", ValueType::Int64, false}, {"9007199254740993", "1"}),
+      column({"a.on", "", ValueType::Boolean, false}, {"true", "false"})};
+  results.messages = {{14'200'358'702'064, 1, "a", "y", "sent", "00e8", "</script><!--\xff"}};
+  results.activities = {{"a", "idle", {0, 5}, {4, 9}}};
+  results.films = {
+      {"world", {0, 7}, {folder.write("0.jpg", "zero"), folder.write("1.png", "one")}}};
+  return results;
+}
+
+json written(const TemporaryFolder& folder, const Results& results) {
+  write_report(folder / "report.html", results, "1.2.3");
+  return data_of(content(folder / "report.html"));
+}
+
+}  // namespace
+
+TEST_CASE("the page has the data in place of its mark, and all else as it is") {
+  const TemporaryFolder folder;
+  written(folder, sample(folder));
+  const std::string page_with_data = content(folder / "report.html");
+  const std::string_view empty = page();
+  const std::size_t mark = empty.find(kDataMark);
+  REQUIRE(mark != std::string_view::npos);
+  CHECK(page_with_data.starts_with(empty.substr(0, mark)));
+  CHECK(page_with_data.ends_with(empty.substr(mark + kDataMark.size())));
+  CHECK(page_with_data.find(kDataMark) == std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(folder / "report.html.part"));
+}
+
+TEST_CASE("the data is what was recorded") {
+  const TemporaryFolder folder;
+  const json data = written(folder, sample(folder));
+  CHECK(data["format"] == 1);
+  CHECK(data["stride"] == "1.2.3");
+  CHECK(data["run"] == json{{"outcome", "completed"}, {"error", "</script>"}});
+  CHECK(data["notes"] == json{"something is missing"});
+  CHECK(data["rows"] == 2);
+  CHECK(data["thinned"].is_null());
+  CHECK(unpacked<std::int64_t>(data["time"]) == std::vector<std::int64_t>{0, 1});
+  const json& columns = data["columns"];
+  REQUIRE(columns.size() == 3);
+  CHECK(columns[0]["name"] == "a.x");
+  CHECK(columns[0]["unit"] == "m");
+  CHECK(columns[0]["type"] == "Float64");
+  CHECK(columns[0]["stepped"] == false);
+  const std::vector<double> x = unpacked<double>(columns[0]["values"]);
+  CHECK(std::isnan(x[0]));
+  CHECK(x[1] == -std::numeric_limits<double>::infinity());
+  CHECK(columns[1]["name"] == "a.<n>");
+  CHECK(columns[1]["stepped"] == true);
+  CHECK(unpacked_texts(columns[1]["values"]) == std::vector<std::string>{"9007199254740993", "1"});
+  CHECK(unpacked<std::uint8_t>(columns[2]["values"]) == std::vector<std::uint8_t>{1, 0});
+}
+
+TEST_CASE("messages, activities, films and the diagram") {
+  const TemporaryFolder folder;
+  const json data = written(folder, sample(folder));
+  CHECK(data["messages"] == json::parse(R"([{"time": "14200358702064", "index": 1,
+    "component": "a", "variable": "y", "direction": "sent", "payload": "00e8",
+    "content": "</script><!--\uFFFD"}])"));
+  const json& activity = data["activity"].at(0);
+  CHECK(activity["component"] == "a");
+  CHECK(activity["kind"] == "idle");
+  CHECK(unpacked<std::int64_t>(activity["from"]) == std::vector<std::int64_t>{0, 5});
+  CHECK(unpacked<std::int64_t>(activity["until"]) == std::vector<std::int64_t>{4, 9});
+  const json& film = data["films"].at(0);
+  CHECK(film["component"] == "world");
+  CHECK(unpacked<std::int64_t>(film["times"]) == std::vector<std::int64_t>{0, 7});
+  CHECK(film["frames"] == json{"data:image/jpeg;base64,emVybw==", "data:image/png;base64,b25l"});
+  CHECK(data["diagram"] == json::parse(R"({
+    "components": [{"name": "a", "model": "A"}, {"name": "b", "model": "B"}],
+    "connections": [{"from": "a.x", "to": "b.u"}]})"));
+}
+
+TEST_CASE("plots are the scenario's, or else the default ones") {
+  const TemporaryFolder folder;
+  Results results = sample(folder);
+  CHECK(written(folder, results)["plots"] == json::parse(R"([
+    {"title": "a [m]", "signals": ["a.x"]},
+    {"title": "a: states and counts", "signals": ["a.<n>", "a.on"]}])"));
+  results.run.plots = {{"Place", {"a.x"}}};
+  CHECK(written(folder, results)["plots"] ==
+        json::parse(R"([{"title": "Place", "signals": ["a.x"]}])"));
+}
+
+TEST_CASE("an empty folder makes a page without a run") {
+  const TemporaryFolder folder;
+  const json data = written(folder, {});
+  CHECK(data["run"].is_null());
+  CHECK(data["columns"].empty());
+  CHECK(data["messages"].empty());
+}
+
+TEST_CASE("the same results make the same bytes") {
+  const TemporaryFolder folder;
+  written(folder, sample(folder));
+  const std::string first = content(folder / "report.html");
+  written(folder, sample(folder));
+  CHECK(content(folder / "report.html") == first);
+}
+
+TEST_CASE("where it fails the page before stays, and no part of a new one") {
+  const TemporaryFolder folder;
+  folder.write("report.html", "old");
+  Results results = sample(folder);
+  results.films[0].pictures[1] = folder / "gone.jpg";
+  CHECK_THAT(error_of([&] { write_report(folder / "report.html", results, ""); }),
+             Contains("gone.jpg: cannot read the picture"));
+  CHECK(content(folder / "report.html") == "old");
+  CHECK_FALSE(std::filesystem::exists(folder / "report.html.part"));
+}
+
+TEST_CASE("a file that cannot be written is named") {
+  const TemporaryFolder folder;
+  CHECK_THAT(error_of([&] { write_report(folder / "none/report.html", {}, ""); }),
+             Contains("none/report.html") && Contains("cannot create the file"));
+  std::filesystem::create_directories(folder / "report.html/x");
+  CHECK_THAT(error_of([&] { write_report(folder / "report.html", {}, ""); }),
+             Contains("report.html: cannot create the file"));
+}

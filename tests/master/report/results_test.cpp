@@ -1,0 +1,185 @@
+#include "master/report/results.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/master/report/support.h"
+
+using namespace stride;
+using namespace stride::report;
+using Catch::Contains;
+
+namespace {
+
+using Times = std::vector<std::int64_t>;
+
+constexpr std::int64_t kMillisecond = 1'000'000'000;
+
+const char* const kRun = R"({
+  "outcome": "completed",
+  "signals": [{"name": "a.x", "unit": "m", "type": "Float64", "variability": "continuous"}],
+  "units": [{"name": "a", "model": "A"}],
+  "connections": [{"from": "a.x", "to": "b.u"}]
+})";
+
+/// A folder with all that a run leaves.
+struct Folder {
+  TemporaryFolder folder;
+
+  Folder() {
+    folder.write("run.json", kRun);
+    folder.write("signals.csv", "time,a.x [m]\n0,1\n0.001,2\n");
+    folder.write("events.csv",
+                 "time,index,component,variable,direction,payload,content\n"
+                 "0.0005,2,\"b, c\",y,sent,00ff,\"set_led 1, \"\"on\"\"\"\n");
+    folder.write("activity.csv",
+                 "time,until,component,kind\n"
+                 "0,0,a,event\n0,0.001,a,idle\n0.001,0.002,a,idle\n");
+    folder.write("signals.vcd", "");
+  }
+  Results read(const Limits& limits = {}) const {
+    return read_results(folder / "", io::ResultFiles(), limits);
+  }
+  void film(const std::string& list) const {
+    std::filesystem::create_directories(folder / "film/world");
+    folder.write("film/world/frames.csv", list);
+    folder.write("film/world/0.jpg", "zero");
+    folder.write("film/world/1.jpg", "one");
+  }
+  std::string refusal() const {
+    return error_of([&] { read(); });
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a results folder is read") {
+  const Folder f;
+  const Results results = f.read();
+  CHECK(results.notes.empty());
+  CHECK(results.signals.times == Times{0, kMillisecond});
+  REQUIRE(results.messages.size() == 1);
+  const Message& message = results.messages[0];
+  CHECK(message.time == kMillisecond / 2);
+  CHECK(message.index == 2);
+  CHECK(message.component == "b, c");
+  CHECK(message.variable == "y");
+  CHECK(message.direction == "sent");
+  CHECK(message.payload == "00ff");
+  CHECK(message.content == "set_led 1, \"on\"");
+  REQUIRE(results.activities.size() == 2);
+  CHECK(results.activities[0].kind == "event");
+  CHECK(results.activities[1].kind == "idle");
+  CHECK(results.activities[1].component == "a");
+  CHECK(results.activities[1].from == Times{0, kMillisecond});
+  CHECK(results.activities[1].until == Times{kMillisecond, 2 * kMillisecond});
+  CHECK(results.films.empty());
+}
+
+TEST_CASE("messages without the column content have none") {
+  const Folder f;
+  f.folder.write("events.csv",
+                 "time,index,component,variable,direction,payload\n0,0,a,y,sent,00ff\n");
+  CHECK(f.read().messages.at(0).content.empty());
+}
+
+TEST_CASE("pictures are found in film/, with their instants; a missing one is told") {
+  const Folder f;
+  f.film("time,file\n0,0.jpg\n0.001,gone.jpg\n0.002,1.jpg\n");
+  const Results results = f.read();
+  REQUIRE(results.films.size() == 1);
+  CHECK(results.films[0].component == "world");
+  CHECK(results.films[0].times == Times{0, 2 * kMillisecond});
+  CHECK(results.films[0].pictures[1].filename() == "1.jpg");
+  REQUIRE(results.notes.size() == 1);
+  CHECK_THAT(results.notes[0], Contains("frames.csv: 1 of its pictures are missing"));
+}
+
+TEST_CASE("a picture is of the film's own folder, whatever its name says") {
+  const Folder f;
+  f.film("time,file\n0,../../1.jpg\n");
+  CHECK(f.read().films.at(0).pictures.at(0) == f.folder / "film/world/1.jpg");
+}
+
+TEST_CASE("a folder without run.json has results, too") {
+  const Folder f;
+  std::filesystem::remove(f.folder / "run.json");
+  const Results results = f.read();
+  CHECK(results.run.json.is_null());
+  CHECK(results.signals.times.size() == 2);
+  CHECK_THAT(results.notes.at(0), Contains("run.json is missing"));
+}
+
+TEST_CASE("what a killed run left is shown, and what was cut off is told") {
+  const Folder f;
+  std::filesystem::remove(f.folder / "run.json");
+  f.folder.write("signals.csv", "time,a.x [m]\n0,1\n0.0");
+  f.folder.write("events.csv", "time,index,component,variable,direction,payload\n0,0,a");
+  f.folder.write("activity.csv", "");
+  const Results results = f.read();
+  CHECK(results.signals.times.size() == 1);
+  CHECK(results.messages.empty());
+  CHECK(results.activities.empty());
+  REQUIRE(results.notes.size() == 3);
+  CHECK_THAT(results.notes[1], Contains("signals.csv:3: the last line was cut off"));
+  CHECK_THAT(results.notes[2], Contains("events.csv:2: the last line was cut off"));
+}
+
+TEST_CASE("what the scenario has switched off is not missed") {
+  const Folder f;
+  io::ResultFiles files;
+  files.events.clear();
+  files.activity.clear();
+  const Results results = read_results(f.folder / "", files);
+  CHECK(results.notes.empty());
+  CHECK(results.messages.empty());
+}
+
+TEST_CASE("more messages than a page can show are counted") {
+  const Folder f;
+  std::string text = "time,index,component,variable,direction,payload\n";
+  for (int i = 0; i < 5; ++i) text += "0,0,a,y,sent,\n";
+  f.folder.write("events.csv", text);
+  const Results results = f.read({.messages = 3});
+  CHECK(results.messages.size() == 3);
+  CHECK_THAT(results.notes.at(0), Contains("events.csv: the first 3 of 5 messages are shown"));
+}
+
+TEST_CASE("mistakes are named with file, line and column") {
+  const Folder f;
+  SECTION("a missing column") {
+    f.folder.write("events.csv", "time,component\n");
+    CHECK_THAT(f.refusal(), Contains("events.csv:1: the header has no column 'index'"));
+  }
+  SECTION("an index") {
+    f.folder.write("events.csv",
+                   "time,index,component,variable,direction,payload\n0,x,a,y,sent,\n");
+    CHECK_THAT(f.refusal(),
+               Contains("events.csv:2: column 'index': expected an integer, found 'x'"));
+  }
+  SECTION("an activity") {
+    f.folder.write("activity.csv", "time,until,component,kind\n1,0,a,idle\n");
+    CHECK_THAT(f.refusal(), Contains("activity.csv:2: column 'until': it ends before it begins"));
+  }
+  SECTION("a film") {
+    f.film("time,file\n0,0.jpg\n0,1.jpg\n");
+    CHECK_THAT(f.refusal(), Contains("frames.csv:3: column 'time': the time does not grow"));
+  }
+}
+
+TEST_CASE("the names of the files are those that run.json tells") {
+  const Folder f;
+  f.folder.write("run.json", R"({"files": {"signals": "s.csv", "statistics": "run.json"}})");
+  const io::ResultFiles files = result_files(f.folder / "");
+  CHECK(files.signals == "s.csv");
+  CHECK(files.events.empty());
+  CHECK(files.statistics == "run.json");
+  std::filesystem::remove(f.folder / "run.json");
+  CHECK(result_files(f.folder / "").events == "events.csv");
+}
+
+TEST_CASE("a folder without results is refused") {
+  const TemporaryFolder folder;
+  folder.write("something", "");
+  CHECK_THAT(error_of([&] { result_files(folder / ""); }), Contains("there are no results"));
+  CHECK_THAT(error_of([&] { result_files(folder / "none"); }), Contains("this is no folder"));
+}

@@ -1,0 +1,75 @@
+#include "master/report/run_file.h"
+
+#include <catch2/catch.hpp>
+
+#include "master/io/run_json.h"
+#include "tests/master/report/support.h"
+
+using namespace stride;
+using namespace stride::report;
+using Catch::Contains;
+
+TEST_CASE("run.json comes back as it was written") {
+  const TemporaryFolder folder;
+  const core::System system = io::sample_system();
+  core::RunOptions options;
+  options.recorded = {{0, 1}, {0, 2}, {0, 4}};
+  io::ResultFiles files;
+  files.trace.clear();
+  files.events = "messages.csv";
+  const std::vector<io::Plot> plots = {{"Height", {"a.distance"}}};
+  io::write_run_json(folder / "run.json", {.scenario = "x.ssd",
+                                           .system = system,
+                                           .options = options,
+                                           .statistics = {},
+                                           .files = files,
+                                           .plots = plots});
+  const RunFile run = read_run_file(folder / "run.json");
+  CHECK(run.json["outcome"] == "completed");
+  CHECK(run.files.events == "messages.csv");
+  CHECK(run.files.trace.empty());
+  REQUIRE(run.signals.size() == 5);
+  CHECK(run.signals[0].name == "a.distance");
+  CHECK(run.signals[0].unit == "m");
+  CHECK(run.signals[0].is_continuous);
+  CHECK(run.signals[1].type == core::ValueType::Boolean);
+  CHECK_FALSE(run.signals[1].is_continuous);
+  CHECK(run.signals[4].name == "a.position[3]");
+  REQUIRE(run.components.size() == 2);
+  CHECK(run.components[1].name == "b, c");
+  CHECK(run.components[1].model == "Sample");
+  CHECK(run.plots == plots);
+}
+
+TEST_CASE("one of an older program says less") {
+  const TemporaryFolder folder;
+  const RunFile run = read_run_file(folder.write("run.json", R"({"outcome": "completed"})"));
+  CHECK(run.signals.empty());
+  CHECK(run.files.signals == "signals.csv");
+}
+
+TEST_CASE("what is no run.json is refused") {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& text) {
+    return error_of([&] { read_run_file(folder.write("run.json", text)); });
+  };
+  CHECK_THAT(refusal("{\n\"a\": 1,\n\"b\""), Contains("run.json:3: this is no JSON"));
+  CHECK_THAT(refusal(""), Contains("run.json:1: this is no JSON"));
+  CHECK_THAT(refusal("[]"), Contains("this is no JSON object"));
+  CHECK_THAT(refusal(R"({"signals": [{"name": 1}]})"),
+             Contains("run.json: this is not what `stride run` writes: "));
+  CHECK_THAT(refusal(R"({"plots": 3})"), Contains("this is not what `stride run` writes: "));
+  CHECK_THAT(refusal("{\"a\":" + std::string(100'000, '[')), Contains("nested too deeply"));
+  CHECK_THAT(error_of([&] { read_run_file(folder / "none.json"); }), Contains("none.json: cannot"));
+}
+
+TEST_CASE("it is found under another name, by what it says of itself") {
+  const TemporaryFolder folder;
+  CHECK(find_run_file(folder / "").empty());
+  folder.write("a.json", R"({"files": {"statistics": "other.json"}})");
+  folder.write("b.json", "no JSON");
+  folder.write("stats.json", R"({"files": {"statistics": "stats.json"}})");
+  CHECK(find_run_file(folder / "").filename() == "stats.json");
+  folder.write("run.json", "{}");
+  CHECK(find_run_file(folder / "").filename() == "run.json");
+}

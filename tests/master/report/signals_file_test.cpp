@@ -1,0 +1,141 @@
+#include "master/report/signals_file.h"
+
+#include <algorithm>
+#include <random>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "tests/master/report/support.h"
+
+using namespace stride::report;
+using Catch::Contains;
+using stride::core::ValueType;
+
+namespace {
+
+constexpr std::size_t kNoLimit = 1'000'000;
+
+const std::vector<SignalInfo> kInfos = {{"a.x", "m", ValueType::Float64, true},
+                                        {"a.on", "", ValueType::Boolean, false},
+                                        {"a.label, long", "", ValueType::String, false}};
+const std::string kHeader = "time,a.x [m],a.on,\"a.label, long\"\n";
+
+struct Read {
+  Signals signals;
+  std::vector<std::string> notes;
+};
+
+Read read(const std::string& text, std::size_t limit = kNoLimit,
+          std::span<const SignalInfo> infos = kInfos) {
+  const TemporaryFolder folder;
+  Read read;
+  read.signals = read_signals(folder.write("signals.csv", text), infos, limit, read.notes);
+  return read;
+}
+
+std::string refusal(const std::string& text) {
+  return error_of([&] { read(kHeader + text); });
+}
+
+const std::vector<double>& doubles(const Column& column) {
+  return std::get<std::vector<double>>(column.values());
+}
+
+}  // namespace
+
+TEST_CASE("times are exact, and columns have the types that run.json tells") {
+  const Signals signals =
+      read(kHeader + "0,1.5,true,\"a\"\n0.000000000001,2,false,\"b, c\"\n30,3,false,\"\"\n")
+          .signals;
+  CHECK(signals.times == std::vector<std::int64_t>{0, 1, 30'000'000'000'000});
+  REQUIRE(signals.columns.size() == 3);
+  CHECK(signals.columns[0].name() == "a.x");
+  CHECK(signals.columns[0].unit() == "m");
+  CHECK(doubles(signals.columns[0]) == std::vector<double>{1.5, 2, 3});
+  CHECK(signals.columns[1].type() == ValueType::Boolean);
+  CHECK(signals.columns[2].name() == "a.label, long");
+  CHECK_FALSE(signals.thinned);
+}
+
+TEST_CASE("columns that nobody has told of show their types themselves") {
+  const Signals signals = read("time,a.x [m],new [m/s],b[1],on\n0,1,2,3,true\n").signals;
+  REQUIRE(signals.columns.size() == 4);
+  CHECK(signals.columns[1].name() == "new");
+  CHECK(signals.columns[1].unit() == "m/s");
+  CHECK(signals.columns[1].type() == ValueType::Float64);
+  CHECK(signals.columns[2].name() == "b[1]");
+  CHECK(signals.columns[3].type() == ValueType::Boolean);
+}
+
+TEST_CASE("of several rows at one instant the last one counts") {
+  const Signals signals = read(kHeader + "0,1,true,\"\"\n0,2,true,\"\"\n1,3,true,\"\"\n").signals;
+  CHECK(signals.times == std::vector<std::int64_t>{0, 1'000'000'000'000});
+  CHECK(doubles(signals.columns[0]) == std::vector<double>{2, 3});
+}
+
+TEST_CASE("a cut line is told, and the rest is there") {
+  const Read found = read(kHeader + "0,1,true,\"\"\n0.5,2,tr");
+  CHECK(found.signals.times.size() == 1);
+  REQUIRE(found.notes.size() == 1);
+  CHECK_THAT(found.notes[0], Contains("signals.csv:3: the last line was cut off"));
+}
+
+TEST_CASE("a file that was cut off in its header, or before, is empty") {
+  CHECK(read("").signals.columns.empty());
+  const Read found = read("time,a.x");
+  CHECK(found.signals.columns.empty());
+  CHECK(found.notes.size() == 1);
+}
+
+TEST_CASE("a mistake is named with file, line and column") {
+  CHECK_THAT(refusal("0,x,true,\"\"\n"),
+             Contains("signals.csv:2: column 'a.x [m]': expected a number (the type is Float64), "
+                      "found 'x'"));
+  CHECK_THAT(refusal("0,1,true,\"\"\n1,1,yes,\"\"\n"),
+             Contains("signals.csv:3: column 'a.on': expected true or false"));
+  CHECK_THAT(refusal("0,1,true\n"),
+             Contains("signals.csv:2: expected 4 fields, as in the header, found 3"));
+  CHECK_THAT(refusal("soon,1,true,\"\"\n"), Contains("column 'time': 'soon' is no number"));
+  CHECK_THAT(refusal("1,1,true,\"\"\n0.5,1,true,\"\"\n"),
+             Contains("signals.csv:3: column 'time': the time goes back"));
+  CHECK_THAT(error_of([] { read("x,y\n1,2\n"); }), Contains("expected the column 'time'"));
+}
+
+TEST_CASE("too many values are thinned while they are read, and no extreme is lost") {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  const std::size_t count = 50'000;
+  std::vector<double> all(count);
+  std::string text = "time,a.x [m],a.flat [m]\n";
+  for (std::size_t i = 0; i < count; ++i) {
+    all[i] = normal(random);
+    text += fmt::format("{},{},7\n", static_cast<double>(i) / 8, all[i]);
+  }
+  const Read found = read(text, 10'000);
+  REQUIRE(found.signals.thinned);
+  const std::size_t block = *found.signals.thinned;
+  const std::vector<std::int64_t>& times = found.signals.times;
+  CHECK(2 * times.size() <= 10'000);
+  CHECK(times.size() > 500);
+  CHECK(std::is_sorted(times.begin(), times.end()));
+  CHECK(times.back() == (static_cast<std::int64_t>(count) - 1) * 125'000'000'000);
+  const std::vector<double>& kept = doubles(found.signals.columns[0]);
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    rows.push_back(static_cast<std::size_t>(times[i] / 125'000'000'000));
+    CHECK(kept[i] == all[rows.back()]);
+  }
+  for (std::size_t first = 0; first < count; first += block) {
+    const std::size_t end = std::min(count, first + block);
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto [least, most] =
+        std::minmax_element(begin, all.begin() + static_cast<std::ptrdiff_t>(end));
+    for (const auto extreme : {least, most}) {
+      const auto row = static_cast<std::size_t>(extreme - all.begin());
+      CHECK(std::binary_search(rows.begin(), rows.end(), row));
+    }
+  }
+  REQUIRE(found.notes.size() == 1);
+  CHECK_THAT(found.notes[0], Contains("too many values"));
+}
