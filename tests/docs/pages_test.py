@@ -1,6 +1,6 @@
 """pages_test.py STRIDE ROOT: links between the pages lead somewhere, lines in docs/ other than a table's and what a
-program prints are no longer than 120 characters, and the command line references in docs/scenario.md and docs/traces.md have exactly the options of
-the program."""
+program prints are no longer than 120 characters, and the command line reference in docs/traces.md has exactly the
+options of the program."""
 
 import pathlib
 import re
@@ -53,8 +53,7 @@ def main(program, root):
     docs = sorted((root / "docs").rglob("*.md"))
     pages = sorted(root.glob("*.md")) + docs
     pages += sorted((root / "units").rglob("*.md")) + sorted((root / "scenarios").rglob("*.md"))
-    mistakes = list(wrong_options(program, root / "docs" / "scenario.md"))
-    mistakes += wrong_options(program, root / "docs" / "traces.md", "trace")
+    mistakes = list(wrong_options(program, root / "docs" / "traces.md", "trace"))
     for page in pages:
         mistakes += broken_links(page)
     for page in docs:

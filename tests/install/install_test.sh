@@ -22,6 +22,14 @@ if grep -rlF -e "$build" -e "$work/first" "$work/stride/lib" --include='*.cmake'
   fail "these files name a folder of the machine that built them"
 fi
 
+step "Man pages and completions"
+for file in man/man1/stride.1 man/man1/stride-run.1 bash-completion/completions/stride \
+  zsh/site-functions/_stride fish/vendor_completions.d/stride.fish; do
+  [ -s "$work/stride/share/$file" ] || fail "there is no share/$file"
+done
+bash -c 'source "$1" && complete -p stride' - "$work/stride/share/bash-completion/completions/stride" > /dev/null ||
+  fail "bash does not know how to complete stride"
+
 step "Libraries in the units look for others beside themselves only"
 for unit in "$work"/stride/lib/stride/units/*.fmu; do
   mkdir -p "$work/unpacked" && (cd "$work/unpacked" && "$cmake" -E tar xf "$unit")

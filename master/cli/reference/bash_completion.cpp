@@ -34,7 +34,7 @@ _stride_files() { # EXTENSION...; any file if there is none
 }
 
 _stride_components() { # what follows each name
-  local word scenario
+  local word scenario=
   for word in "${words[@]}"; do
     case $word in *.ssd | *.ssp) scenario=$word ;; esac
   done

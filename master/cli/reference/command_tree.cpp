@@ -108,7 +108,7 @@ std::string phrase(std::string text) {
   return text;
 }
 
-/// `--help` stands in the list of the program alone, and so does a footer that is handed down.
+/// A footer that is handed down stays with the program.
 Command describe(const CLI::App& app, std::vector<std::string> words) {
   words.push_back(app.get_name());
   const CLI::App* const above = app.get_parent();
@@ -121,8 +121,9 @@ Command describe(const CLI::App& app, std::vector<std::string> words) {
                   {}};
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_group().empty()) continue;
-    if (above != nullptr && option == app.get_help_ptr()) continue;
-    (option->get_positional() ? command.arguments : command.options).push_back(describe(*option));
+    auto& options = option->get_positional() ? command.arguments : command.options;
+    options.push_back(describe(*option));
+    options.back().is_help = option == app.get_help_ptr();
   }
   for (const CLI::App* below : app.get_subcommands({})) {
     if (below->get_group().empty()) continue;
@@ -148,6 +149,12 @@ std::vector<const Command*> all_of(const Command& command) {
   return all;
 }
 
+std::vector<Option> told_options(const Command& command) {
+  std::vector<Option> told = command.options;
+  if (command.words.size() > 1) std::erase_if(told, &Option::is_help);
+  return told;
+}
+
 std::string value_text(const Option& option) {
   if (!option.takes_value()) return "";
   return option.is_value_optional ? "[=" + option.placeholder + "]" : " " + option.placeholder;
@@ -155,7 +162,7 @@ std::string value_text(const Option& option) {
 
 std::string synopsis(const Command& command) {
   std::string text = command.full_name();
-  if (!command.options.empty()) text += " [OPTION]...";
+  if (!told_options(command).empty()) text += " [OPTION]...";
   for (const Option& argument : command.arguments) {
     text += argument.is_required ? " " + argument.names[0] : " [" + argument.names[0] + "]";
   }

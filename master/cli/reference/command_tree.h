@@ -34,6 +34,7 @@ struct Option {
   bool is_value_optional = false;  ///< "--isolate" or "--isolate=COMPONENT"
   bool is_required = false;
   bool is_repeatable = false;
+  bool is_help = false;  ///< which every command has
   std::string description;
   std::string default_text;
   Value value;
@@ -60,6 +61,9 @@ Command describe(const CLI::App& app);
 
 /// The command and all below it, each before those below it.
 std::vector<const Command*> all_of(const Command& command);
+
+/// Those that a page tells of a command: help is told of the program alone.
+std::vector<Option> told_options(const Command& command);
 
 /// "SECONDS", "[=COMPONENT]": what follows the names of an option in a synopsis.
 std::string value_text(const Option& option);

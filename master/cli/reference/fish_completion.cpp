@@ -12,7 +12,7 @@ function __stride_at # COMMAND...: whether the words of the line begin with thes
     set -l words (commandline -opc)[2..]
     set -l found
     for word in $words
-        if contains -- (string join ' ' $found $word) $__stride_commands
+        if contains -- (string join -- ' ' $found $word) $__stride_commands
             set -a found $word
         end
     end
@@ -47,6 +47,8 @@ end
 complete -c stride -f
 )sh";
 
+constexpr const char* kAnyFile = " -F";
+
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) {
@@ -73,7 +75,7 @@ std::string offer(const Value& value) {
     case Kind::Choice:
       return fmt::format(" -a '{}'", fmt::join(value.choices, " "));
     case Kind::File:
-      if (value.extensions.empty()) return " -F";
+      if (value.extensions.empty()) return kAnyFile;
       return fmt::format(" -a '(__stride_files {})'", fmt::join(value.extensions, " "));
     case Kind::Folder:
       return " -a '(__fish_complete_directories (commandline -ct))'";
@@ -95,8 +97,9 @@ std::string option_line(const Command& command, const Option& option) {
     text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
   }
   if (option.takes_value()) {
-    if (!option.is_value_optional) text += " -r";
-    text += offer(option.value);
+    const std::string words = offer(option.value);
+    if (!option.is_value_optional) text += words == kAnyFile ? " -r" : " -x";
+    text += words;
   }
   return text + " -d " + quoted(option.description) + "\n";
 }

@@ -53,7 +53,8 @@ std::string section(const Command& command, std::size_t depth) {
       fmt::format("\n{} {}\n\n```sh\n{}\n```\n\n{}", std::string(depth, '#'), command.full_name(),
                   synopsis(command), wrapped(command.description + ".", kWidth));
   if (!command.arguments.empty()) text += table("argument", command.arguments, true);
-  if (!command.options.empty()) text += table("option", command.options, false);
+  const std::vector<Option> options = told_options(command);
+  if (!options.empty()) text += table("option", options, false);
   if (!command.commands.empty()) {
     text += "\n| command | what it does |\n|---|---|\n";
     for (const Command& below : command.commands) {

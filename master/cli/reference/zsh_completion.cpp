@@ -13,7 +13,7 @@ _stride_components() { # what follows each name
   local scenario=${${(M)words:#*.ss[dp]}[-1]}
   [[ -n $scenario ]] || return 1
   local -a names=(${(f)"$($_stride_program reference components ${(Q)scenario} 2> /dev/null)"})
-  compadd -S "$1" -a names
+  compadd ${1:+-S} ${1:+$1} -a names
 }
 
 _stride_component_files() { # pattern of the files
@@ -42,9 +42,11 @@ std::string escaped(const std::string& text, const std::string& special) {
 
 std::string glob(const Value& value) {
   if (value.extensions.empty()) return "*";
+  if (value.extensions.size() == 1) return "*." + value.extensions.front();
   return fmt::format("*.({})", fmt::join(value.extensions, "|"));
 }
 
+/// An action of _arguments; with a blank before it, a function gets its own arguments alone.
 std::string completer(const Value& value) {
   using Kind = Value::Kind;
   switch (value.kind) {
@@ -55,11 +57,11 @@ std::string completer(const Value& value) {
     case Kind::Folder:
       return "_files -/";
     case Kind::Component:
-      return "_stride_components \"\"";
+      return " _stride_components \"\"";
     case Kind::ComponentVariable:
-      return "_stride_components .";
+      return " _stride_components .";
     case Kind::ComponentFile:
-      return fmt::format("_stride_component_files \"{}\"", glob(value));
+      return fmt::format(" _stride_component_files \"{}\"", glob(value));
     case Kind::Anything:
       break;
   }
@@ -108,7 +110,9 @@ std::string commands_of(const Command& command) {
 std::string function(const Command& command) {
   const bool has_commands = !command.commands.empty();
   std::string text = fmt::format("\n{}() {{\n", function_name(command));
-  if (has_commands) text += "  local context state state_descr line\n  typeset -A opt_args\n";
+  if (has_commands)
+    text +=
+        "  local curcontext=$curcontext context state state_descr line\n  typeset -A opt_args\n";
   text += fmt::format("  _arguments{}", has_commands ? " -C" : "");
   for (const Option& option : command.options) text += " \\\n    " + specification(option);
   for (std::size_t i = 0; i < command.arguments.size(); ++i) {
