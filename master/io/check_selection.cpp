@@ -53,9 +53,14 @@ class Selection {
   std::vector<core::VariableId> find_messages(const CheckDeclaration& check,
                                               const std::string& pattern) const;
   core::VariableId find_message(const CheckDeclaration& check, const std::string& name) const;
-  /// Whether its ticks are told of: not where they carry values, which are told of instead.
-  bool is_told(const NamedVariable& message) const;
-  std::string carried_by(const NamedVariable& clock) const;
+  /// Whether it is a message, and its ticks are told of: not where they carry values, which are
+  /// told of instead.
+  bool is_told(const NamedVariable& variable) const;
+  bool is_triggered(const NamedVariable& clock) const;
+  /// The first one; null if it is a bare clock.
+  const NamedVariable* carried_by(const NamedVariable& clock) const;
+  [[noreturn]] void fail_unsuitable(const CheckDeclaration& check, const NamedVariable& named,
+                                    bool wants_message) const;
   [[noreturn]] void fail_unknown(const CheckDeclaration& check, const std::string& pattern,
                                  bool wants_message) const;
 
@@ -78,60 +83,65 @@ void Selection::check_window(const CheckDeclaration& check) const {
   if (to && *to > *times_.stop) fail("to", *to, "behind the end of", *times_.stop);
 }
 
+/// What is named exists, but has not what a check of this kind needs.
+[[noreturn]] void Selection::fail_unsuitable(const CheckDeclaration& check,
+                                             const NamedVariable& named, bool wants_message) const {
+  const core::Context context{.where = check.where};
+  if (!wants_message) {
+    core::fail_input(
+        context,
+        fmt::format("'{}' belongs to a clock and has a value only when that ticks", named.name),
+        "count its messages with <stride:Count event=\"…\"/>, or wait for them with "
+        "<stride:Answer/>");
+  }
+  if (!named.is_message) {
+    core::fail_input(context,
+                     fmt::format("'{}' is no message, but has a value at each time", named.name),
+                     "compare it with <stride:Always>, <stride:Never>, <stride:Eventually> or "
+                     "<stride:Final>");
+  }
+  const NamedVariable* const carried = carried_by(named);
+  core::fail_input(context, fmt::format("the ticks of '{}' are not told of", named.name),
+                   carried == nullptr || !is_triggered(named)
+                       ? "it ticks by the time alone"
+                       : fmt::format("name what it carries: '{}'", carried->name));
+}
+
 [[noreturn]] void Selection::fail_unknown(const CheckDeclaration& check, const std::string& pattern,
                                           bool wants_message) const {
   std::vector<std::string> names;
   for (const NamedVariable& variable : variables_) {
-    if (variable.is_message == wants_message && (!wants_message || is_told(variable))) {
-      names.push_back(variable.name);
+    if (!is_glob(pattern) && is_meant(system_, variable.id, pattern)) {
+      fail_unsuitable(check, variable, wants_message);
     }
+    const bool fits = wants_message ? is_told(variable) : !variable.is_message;
+    if (fits) names.push_back(variable.name);
   }
-  const char* const what = wants_message ? "message" : "signal";
-  for (const NamedVariable& other : variables_) {
-    if (!is_meant(system_, other.id, pattern) || is_glob(pattern)) continue;
-    if (!wants_message) {
-      core::fail_input(
-          {.where = check.where},
-          fmt::format("'{}' belongs to a clock and has a value only when that ticks", other.name),
-          "count its messages with <stride:Count event=\"…\"/>, or wait for them with "
-          "<stride:Answer/>");
-    }
-    if (other.is_message) {
-      core::fail_input({.where = check.where},
-                       fmt::format("the ticks of '{}' are not told of", other.name),
-                       carried_by(other));
-    }
-    core::fail_input({.where = check.where},
-                     fmt::format("'{}' is no message, but has a value at each time", other.name),
-                     "compare it with <stride:Always>, <stride:Never>, <stride:Eventually> or "
-                     "<stride:Final>");
-  }
-  core::fail_input({.where = check.where}, fmt::format("there is no {} '{}'", what, pattern),
-                   core::suggestion(pattern, names));
+  core::fail_input(
+      {.where = check.where},
+      fmt::format("there is no {} '{}'", wants_message ? "message" : "signal", pattern),
+      core::suggestion(pattern, names));
 }
 
-std::string Selection::carried_by(const NamedVariable& clock) const {
+bool Selection::is_triggered(const NamedVariable& clock) const {
   const core::Variable& variable = system_.variable(clock.id);
-  if (!variable.clock) return "";
-  for (const NamedVariable& other : variables_) {
-    const core::Variable& carried = system_.variable(other.id);
-    if (other.id.component != clock.id.component || carried.causality != variable.causality ||
-        std::ranges::find(carried.clocks, variable.reference) == carried.clocks.end()) {
-      continue;
-    }
-    if (variable.clock->variability == core::IntervalVariability::Triggered) {
-      return fmt::format("name what it carries: '{}'", other.name);
-    }
-    break;
-  }
-  return "it ticks by the time alone";
+  return variable.clock && variable.clock->variability == core::IntervalVariability::Triggered;
 }
 
-bool Selection::is_told(const NamedVariable& message) const {
-  const core::Variable& variable = system_.variable(message.id);
-  if (!variable.clock) return true;
-  if (variable.clock->variability != core::IntervalVariability::Triggered) return false;
-  return !carried_by(message).starts_with("name");
+const NamedVariable* Selection::carried_by(const NamedVariable& clock) const {
+  const core::Variable& variable = system_.variable(clock.id);
+  const auto carried = std::ranges::find_if(variables_, [&](const NamedVariable& other) {
+    const core::Variable& candidate = system_.variable(other.id);
+    return other.id.component == clock.id.component && candidate.causality == variable.causality &&
+           std::ranges::find(candidate.clocks, variable.reference) != candidate.clocks.end();
+  });
+  return carried == variables_.end() ? nullptr : &*carried;
+}
+
+bool Selection::is_told(const NamedVariable& variable) const {
+  if (!variable.is_message) return false;
+  const bool is_clock = system_.variable(variable.id).clock.has_value();
+  return !is_clock || (is_triggered(variable) && carried_by(variable) == nullptr);
 }
 
 std::vector<Element> Selection::find_elements(const CheckDeclaration& check) const {

@@ -38,8 +38,9 @@ std::vector<Column> make_columns(std::span<const std::string> headings,
   return columns;
 }
 
-/// At least as many as there are rows; 0 where the file is so small that it does not matter.
-std::size_t count_lines(const std::filesystem::path& file, std::size_t limit) {
+/// At least as many as there are, the header left out; 0 where the file is so small that it does
+/// not matter.
+std::size_t count_rows(const std::filesystem::path& file, std::size_t limit) {
   constexpr std::size_t kLeastValue = 2;  // a digit and a comma
   std::error_code error;
   if (std::filesystem::file_size(file, error) < kLeastValue * limit || error) return 0;
@@ -51,7 +52,7 @@ std::size_t count_lines(const std::filesystem::path& file, std::size_t limit) {
     lines +=
         static_cast<std::size_t>(std::count(piece.begin(), piece.begin() + stream.gcount(), '\n'));
   }
-  return lines;
+  return std::max<std::size_t>(lines, 1) - 1;
 }
 
 class SignalsReader {
@@ -63,7 +64,7 @@ class SignalsReader {
     const std::span<const std::string> headings = table_.columns();
     if (headings[0] != "time") table_.fail(0, "expected the column 'time'");
     signals_.columns = make_columns(headings.subspan(1), infos);
-    signals_.thinned = block_size(count_lines(file, limit), signals_.columns.size(), limit);
+    signals_.thinned = block_size(count_rows(file, limit), signals_.columns.size(), limit);
   }
 
   Signals read() {

@@ -105,6 +105,16 @@ TEST_CASE("--no-checks judges by none, not even by what makes no sense") {
   CHECK(checks_of(workspace).empty());
 }
 
+TEST_CASE("checks change nothing in the run") {
+  const Workspace workspace = watched(kGood + kBad);
+  run(workspace, {"--no-checks"});
+  const std::vector<std::string> files{"signals.csv", "events.csv", "signals.vcd"};
+  std::vector<std::string> expected;
+  for (const std::string& file : files) expected.push_back(workspace.result(file));
+  CHECK(run(workspace).exit_code == 1);
+  for (std::size_t i = 0; i < files.size(); ++i) CHECK(workspace.result(files[i]) == expected[i]);
+}
+
 TEST_CASE("idle skipping, threads, processes and unrecorded signals change no check") {
   const Workspace workspace = watched(kGood + kBad);
   run(workspace);

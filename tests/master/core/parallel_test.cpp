@@ -38,6 +38,14 @@ struct Trace : Observer {
       words.push_back(bits);
     }
   }
+  bool watches_activities() const override { return true; }
+  void on_activity(const Activity& activity) override {
+    threads.insert(std::this_thread::get_id());
+    words.insert(words.end(),
+                 {activity.component, static_cast<std::uint64_t>(activity.kind),
+                  static_cast<std::uint64_t>(activity.from.time_since_epoch().count()),
+                  static_cast<std::uint64_t>(activity.until.time_since_epoch().count())});
+  }
   void add(const RunStatistics& run) {
     words.insert(words.end(), {run.communication_steps, run.event_iterations});
     for (const UnitStatistics& unit : run.units) {

@@ -27,7 +27,7 @@ Results sample(const TemporaryFolder& folder) {
   Results results;
   results.run.json = {{"outcome", "completed"}, {"error", "</script>"}};
   results.run.components = {{"a", "A"}, {"b", "B"}};
-  results.run.connections = {{"a.x", "b.u"}};
+  results.run.connections = {{"a.x", "b.u", "value"}};
   results.notes = {"something is missing"};
   results.signals.times = {0, 1};
   results.signals.columns = {
@@ -103,7 +103,7 @@ TEST_CASE("messages, activities, films and the diagram") {
   CHECK(film["frames"] == json{"data:image/jpeg;base64,emVybw==", "data:image/png;base64,b25l"});
   CHECK(data["diagram"] == json::parse(R"({
     "components": [{"name": "a", "model": "A"}, {"name": "b", "model": "B"}],
-    "connections": [{"from": "a.x", "to": "b.u"}]})"));
+    "connections": [{"from": "a.x", "to": "b.u", "kind": "value"}]})"));
 }
 
 TEST_CASE("plots are the scenario's, or else the default ones") {

@@ -1,5 +1,5 @@
-// How a curve is drawn: a line where a pixel has one value or nearly so, an upright bar where it has many. Long jagged
-// lines would take a browser ten times as long.
+// How a curve is drawn: a line where a pixel has one value or only rises or falls, an upright bar where it has many.
+// Long jagged lines would take a browser ten times as long.
 
 /** Where the values of a pixel are no further apart than this a line is drawn [px]. */
 const kSlim = 1.5;
@@ -48,6 +48,10 @@ export class Tracer {
   bar(first, last, top, bottom) {
     const isWhole = first.y !== null && last.y !== null;
     if (isWhole && bottom - top <= kSlim) return this.#lineTo((first.x + last.x) / 2, (top + bottom) / 2);
+    if (isWhole && isSlope(first.y, last.y, top, bottom)) {
+      this.#lineTo(first.x, first.y);
+      return this.#lineTo(last.x, last.y);
+    }
     const touches = this.#pen?.isBar && first.x - this.#pen.x <= kNear;
     if (!touches && this.#pen && first.y !== null) this.#lineTo(first.x, first.y);
     const high = touches ? Math.min(top, this.#pen.y) : top;
@@ -79,6 +83,9 @@ export class Tracer {
     this.sink.rect(x - size / 2, y - size / 2, size, size);
   }
 }
+
+/** Whether nothing lies beyond the first and the last value, so that a line from one to the other shows all. */
+const isSlope = (first, last, top, bottom) => Math.min(first, last) === top && Math.max(first, last) === bottom;
 
 /**
  * Draws what groupTimes() and groupValues() have found.

@@ -54,6 +54,16 @@ test("many values of almost one height are a line", () => {
   assert.ok(calls.length <= 53);
 });
 
+test("a dense slope is a line from its first to its last value", () => {
+  const calls = drawn(
+    Array.from({ length: 1001 }, (_, i) => i),
+    10,
+  );
+  assert.ok(calls.every(([name]) => name !== "rect"));
+  const heights = calls.map(([, , y]) => y);
+  assert.deepEqual([Math.max(...heights), Math.min(...heights)], [100, -900]);
+});
+
 test("a dense curve covers all its values and no others", () => {
   const random = randomNumbers(9);
   const values = Array.from({ length: 5001 }, () => 50 + 40 * (random() - 0.5));
@@ -66,7 +76,7 @@ test("a dense curve covers all its values and no others", () => {
 
 test("bars side by side touch at the value between them", () => {
   // low in one pixel, high in the next, and the other way round: without a join there would be a hole
-  const up = Array.from({ length: 201 }, (_, i) => (i < 100 ? i % 10 : 80 + (i % 10)));
+  const up = Array.from({ length: 201 }, (_, i) => (i < 100 ? 0 : 80) + ((i * 3) % 10));
   const [, second] = drawn(up, 2).filter(([name]) => name === "rect");
   assert.ok(second[2] + second[4] >= 100 - 9, "the second bar reaches down to the last value of the first one");
   const down = up.map((value) => 90 - value);
