@@ -233,7 +233,7 @@ class RecordedRun {
     for (const auto& [what, member] : io::kResultFiles) {
       if (!(files_.*member).empty()) fmt::print(" {}", files_.*member);
     }
-    fmt::print("\n");
+    fmt::print("{}\n", request_.scenario.film.empty() ? "" : " film/");
   }
 
   Interruption interruption_;

@@ -15,19 +15,19 @@ cp -r $scenarios/nfc_approach $work/here
 touch $work/here/unit.fmu
 failures=0
 
+zpty -b shell zsh -f -i
+zpty -w shell "PS1=; stty -echo; cd $work/here; path=(${stride:h} \$path); fpath=($work/functions \$fpath)"
+zpty -w shell "autoload -Uz compinit; compinit -u -D; compdef _stride stride"
+zpty -w shell 'tell() { print -r -- "<$BUFFER>"; BUFFER= }; zle -N tell'
+zpty -w shell 'bindkey "^X" tell; bindkey "^I" complete-word'
+zpty -w shell 'print rea""dy'
+zpty -r -m shell answer '*ready*'
+
 # offers 'the line as it becomes' LINE, where TAB is typed behind it
 offers() {
   local answer
-  zpty -b shell zsh -f -i
-  zpty -w shell "PS1=; stty -echo; cd $work/here; path=(${stride:h} \$path); fpath=($work/functions \$fpath)"
-  zpty -w shell "autoload -Uz compinit; compinit -u -D; compdef _stride stride"
-  zpty -w shell 'tell() { print -r -- "<$BUFFER>"; BUFFER=; zle accept-line }; zle -N tell'
-  zpty -w shell 'bindkey "^X" tell; bindkey "^I" complete-word'
-  zpty -w shell 'print ready'
-  zpty -r shell answer '*ready*ready*'
   zpty -w -n shell "$2"$'\t\x18'
   zpty -r -m shell answer '*<*>*'
-  zpty -d shell
   answer=${${answer##*<}%%>*}
   [[ $answer == $1 ]] && return
   print -r -- "'$2' becomes '$answer', expected '$1'"
