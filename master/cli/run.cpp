@@ -130,6 +130,7 @@ class RecordedRun {
         checks_(loaded_.checks()),
         summary_(loaded_.system()),
         progress_(progress_style(request), options_.start, options_.stop, simulation_) {
+    io::remove_conclusions(folder_, loaded_.scenario().annotation.results);
     capture_.follow(simulation_);
     recorders_.add_to(simulation_);
     if (!checks_.is_empty()) simulation_.add_observer(checks_, checks_.signals());
@@ -232,7 +233,7 @@ class RecordedRun {
     for (const auto& [what, member] : io::kResultFiles) {
       if (!(files_.*member).empty()) fmt::print(" {}", files_.*member);
     }
-    fmt::print("\n");
+    fmt::print("{}\n", request_.scenario.film.empty() ? "" : " film/");
   }
 
   Interruption interruption_;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "master/core/readable_text.h"
 #include "master/host/sandbox_hint.h"
 #include "master/process/process_memory.h"
 
@@ -153,7 +154,9 @@ void Conversation::fail_nonsense(std::optional<Time> time) {
 }
 
 std::string Conversation::present_call() const {
-  const std::string function = channel_.memory->call_note.read();
+  constexpr std::size_t kLongest = 100;
+  const std::string function =
+      core::readable_text(channel_.memory->call_note.read(), kLongest);  // the unit can write there
   return function.empty() ? "" : " in " + function;
 }
 

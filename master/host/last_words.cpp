@@ -1,17 +1,14 @@
 #include "master/host/last_words.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
+
+#include "master/core/readable_text.h"
 
 namespace stride::host {
 
 void LastWords::add(const char* how, std::string_view line) {
   if (lines_.size() == kMost) lines_.pop_front();
-  std::string text(line.substr(0, kLongest));
-  std::ranges::replace_if(
-      text, [](unsigned char c) { return c < ' '; }, ' ');
-  lines_.push_back(fmt::format("it {}: {}", how, text));
+  lines_.push_back(fmt::format("it {}: {}", how, core::readable_text(line, kLongest)));
 }
 
 std::string LastWords::text() const {

@@ -56,4 +56,12 @@ void make_results_folder(const fs::path& folder) {
   remove_films(folder);
 }
 
+void remove_conclusions(const fs::path& folder, const ResultFiles& files) {
+  for (const std::string& name : {files.statistics, files.report}) {
+    std::error_code ignored;  // what cannot be removed fails where it is to be replaced
+    const fs::path file = folder / name;
+    if (fs::is_regular_file(fs::symlink_status(file, ignored))) fs::remove(file, ignored);
+  }
+}
+
 }  // namespace stride::io

@@ -70,6 +70,9 @@ TEST_CASE("a film has a picture for each tenth of a second, and changes nothing 
   const auto files = film(workspace);
   CHECK(files.at("00001.jpg") != files.at("00000.jpg"));
 
+  CHECK_THAT(workspace.run({"--film=0.5"}).out,
+             Contains("Results in out:") && Contains(" film/\n"));
+
   // the next run is not taken for one with a film
   REQUIRE(workspace.run({"--quiet"}).exit_code == 0);
   CHECK_FALSE(fs::exists(workspace / "out/film/world/frames.csv"));

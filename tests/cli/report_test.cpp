@@ -129,6 +129,21 @@ TEST_CASE("of a killed run what is there is shown") {
   CHECK(report_of(workspace)["run"].is_null());
 }
 
+TEST_CASE("what a killed run leaves has nothing of the run before") {
+  const Workspace workspace(two_filters());
+  REQUIRE(workspace.run({"--quiet"}).exit_code == 0);
+  fs::remove(workspace / "out/signals.csv");
+  Process process(stride_command(Workspace::run_arguments({"--stop", "1e6", "--no-trace"})),
+                  workspace.scratch().path());
+  await_first_results(process, workspace);
+  process.send(SIGKILL);
+  process.wait();
+  CHECK_FALSE(fs::exists(workspace / "out/run.json"));
+  CHECK_FALSE(fs::exists(workspace / "out/report.html"));
+  CHECK(workspace.stride({"report", "out"}).exit_code == 0);
+  CHECK(report_of(workspace)["run"].is_null());
+}
+
 TEST_CASE("the report can be left out") {
   const bool by_option = GENERATE(true, false);
   const Workspace workspace = with(by_option ? "" : "<stride:Results report=\"none\"/>");

@@ -11,7 +11,9 @@ TEST_CASE("the last lines are kept, as one said them") {
   CHECK(words.text().empty());
   words.add_logged("first\tthing");
   words.add_printed(std::string(1000, 'x'));
-  CHECK(words.text() == "\n  it logged: first thing\n  it printed: " + std::string(200, 'x'));
+  words.add_printed("\xef\xef");
+  CHECK(words.text() == "\n  it logged: first thing\n  it printed: " + std::string(199, 'x') +
+                            "…\n  it printed: \uFFFD\uFFFD");
   for (std::size_t i = 0; i < LastWords::kMost; ++i) words.add_printed(std::to_string(i));
   CHECK(words.text().find("first") == std::string::npos);
   CHECK(words.text().find("\n  it printed: 0\n") == 0);

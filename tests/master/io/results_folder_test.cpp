@@ -25,6 +25,24 @@ TEST_CASE("What cannot be a results folder is named with the reason") {
   CHECK_THROWS_WITH(make_results_folder(""), Contains("its name is empty"));
 }
 
+TEST_CASE("What an earlier run told of itself goes, and nothing else") {
+  const TemporaryFolder folder;
+  for (const char* file : {"run.json", "page.html", "report.html", "signals.csv"}) {
+    folder.write(file, "");
+  }
+  ResultFiles files;
+  files.report = "page.html";
+  remove_conclusions(folder / "", files);
+  CHECK_FALSE(std::filesystem::exists(folder / "run.json"));
+  CHECK_FALSE(std::filesystem::exists(folder / "page.html"));
+  CHECK(std::filesystem::exists(folder / "report.html"));
+  CHECK(std::filesystem::exists(folder / "signals.csv"));
+  std::filesystem::create_symlink("signals.csv", folder / "run.json");
+  files.report.clear();
+  remove_conclusions(folder / "", files);
+  CHECK(std::filesystem::is_symlink(folder / "run.json"));
+}
+
 TEST_CASE("A film of an earlier run goes, and nothing else") {
   const TemporaryFolder folder;
   for (const char* file :

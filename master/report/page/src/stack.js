@@ -129,7 +129,8 @@ export class Stack {
 
   #onDown(event) {
     const place = this.#timeAt(event);
-    if (event.button !== 0 || !place.isInside || event.target.closest("button, a, input, select")) return;
+    const isPlot = event.target.closest(".plot") !== null && event.target.closest("button") === null;
+    if (event.button !== 0 || !place.isInside || !isPlot) return;
     const isScrub = event.target.closest(".film-track") !== null;
     const kind = isScrub || event.pointerType === "touch" ? "scrub" : event.shiftKey ? "pan" : "zoom";
     this.drag = { kind, start: place, from: this.view.from, until: this.view.until };

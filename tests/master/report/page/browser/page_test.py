@@ -295,6 +295,19 @@ class PageTest(unittest.TestCase):
         self.assertTrue(browser.one(".film-picture img").get_attribute("src").endswith("#5"))
         self.assertEqual(browser.one(".film-track").get_attribute("aria-valuenow"), "5")
 
+    def test_a_film_is_scrubbed_by_dragging(self):
+        run = Run()
+        run.films = [{"component": "world", "times": page_data.pack("int64", [i * SECOND for i in range(11)]),
+                      "frames": [f"{PIXEL}#{i}" for i in range(11)]}]
+        browser = self.open_run(run)
+        browser.settle()
+        y = browser.run("const box = document.querySelector('.film-track').getBoundingClientRect();"
+                        "return Math.round((box.top + box.bottom) / 2)")
+        left, right = browser.plot_box()
+        browser.drag(round(left + 0.1 * (right - left)), round(left + 0.75 * (right - left)), y)
+        self.assertEqual(browser.view(), (0, 10))
+        self.assertTrue(browser.one(".film-picture img").get_attribute("src").endswith("#7"))
+
     def test_the_diagram_bundles_connections(self):
         browser = self.open_run()
         self.assertEqual(browser.texts(".block-name"), ["tank", "pump"])
