@@ -264,7 +264,7 @@ TEST_CASE("the help names each check") {
   const Outcome outcome = run_program({"verify", "--help"});
   CHECK(outcome.exit_code == 0);
   for (const char* check :
-       {"load", "description", "values", "dependencies", "events", "calls", "splitting",
+       {"load", "description", "values", "dependencies", "events", "calls", "messages", "splitting",
         "rejection", "reset", "instances", "restore", "serialization", "memory", "determinism"}) {
     CHECK_THAT(outcome.out, Contains(std::string("\n  ") + check + " "));
   }
