@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "master/core/error.h"
+#include "master/report/notes.h"
 #include "master/report/signals_file.h"
 #include "master/report/table.h"
 
@@ -17,13 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Notes = std::vector<std::string>;
-
 constexpr const char* kFilmFolder = "film";
-
-void note_cut(const Table& table, Notes& notes) {
-  if (const auto cut = table.cut()) notes.push_back(*cut);
-}
 
 std::uint64_t index_of(const Table& table, std::size_t place) {
   const std::string_view text = table.field(place).text;
@@ -55,10 +50,9 @@ std::vector<Message> read_messages(const fs::path& file, std::size_t limit, Note
                         content ? table.field(*content).value() : std::string()});
   }
   if (count > limit) {
-    notes.push_back(
-        fmt::format("{}: the first {} of {} messages are shown", file.string(), limit, count));
+    notes.add(file, fmt::format("the first {} of {} messages are shown", limit, count));
   }
-  note_cut(table, notes);
+  notes.add_cut(file, table.cut());
   return messages;
 }
 
@@ -82,7 +76,7 @@ std::vector<Activities> read_activities(const fs::path& file, Notes& notes) {
       table.fail(until, "it ends before it begins");
     }
   }
-  note_cut(table, notes);
+  notes.add_cut(file, table.cut());
   return all;
 }
 
@@ -106,10 +100,9 @@ Film read_film(const fs::path& folder, Notes& notes) {
     film.pictures.push_back(picture);
   }
   if (missing > 0) {
-    notes.push_back(fmt::format("{}: {} of its pictures are missing",
-                                (folder / "frames.csv").string(), missing));
+    notes.add(folder / "frames.csv", fmt::format("{} of its pictures are missing", missing));
   }
-  note_cut(table, notes);
+  notes.add_cut(folder / "frames.csv", table.cut());
   return film;
 }
 
@@ -133,8 +126,7 @@ std::optional<fs::path> present(const fs::path& folder, const std::string& name,
   std::error_code error;
   const fs::path file = folder / name;
   if (fs::is_regular_file(file, error)) return file;
-  notes.push_back(fmt::format("{} is {}", file.string(),
-                              fs::exists(file, error) ? "no regular file" : "missing"));
+  notes.add(file, fs::exists(file, error) ? "this is no regular file" : "this file is missing");
   return std::nullopt;
 }
 
@@ -142,7 +134,7 @@ std::optional<fs::path> present(const fs::path& folder, const std::string& name,
 
 Results read_results(const fs::path& folder, const io::ResultFiles& files, const Limits& limits) {
   Results results;
-  Notes& notes = results.notes;
+  Notes notes(folder);
   if (const auto file = present(folder, files.statistics, notes)) {
     results.run = read_run_file(*file);
   }
@@ -156,6 +148,7 @@ Results read_results(const fs::path& folder, const io::ResultFiles& files, const
     results.activities = read_activities(*file, notes);
   }
   results.films = read_films(folder / kFilmFolder, notes);
+  results.notes = notes.texts();
   return results;
 }
 

@@ -72,7 +72,7 @@ class SignalsReader {
     if (signals_.thinned) thin_block();
     return std::move(signals_);
   }
-  std::optional<std::string> cut() const { return table_.cut(); }
+  std::optional<std::size_t> cut() const { return table_.cut(); }
 
  private:
   void take_row() {
@@ -114,15 +114,14 @@ class SignalsReader {
 }  // namespace
 
 Signals read_signals(const std::filesystem::path& file, std::span<const SignalInfo> infos,
-                     std::size_t limit, std::vector<std::string>& notes) {
+                     std::size_t limit, Notes& notes) {
   SignalsReader reader(file, infos, limit);
   Signals signals = reader.read();
-  if (const auto cut = reader.cut()) notes.push_back(*cut);
+  notes.add_cut(file, reader.cut());
   if (signals.thinned) {
-    notes.push_back(fmt::format(
-        "{}: there are too many values to show them all; of each {} rows those with a least or a "
-        "greatest value are shown",
-        file.string(), *signals.thinned));
+    notes.add(file, fmt::format("there are too many values to show them all; of each {} rows those "
+                                "with a least or a greatest value are shown",
+                                *signals.thinned));
   }
   return signals;
 }

@@ -3,9 +3,8 @@
 
 #include <filesystem>
 #include <span>
-#include <string>
-#include <vector>
 
+#include "master/report/notes.h"
 #include "master/report/results.h"
 
 namespace stride::report {
@@ -14,7 +13,7 @@ namespace stride::report {
 /// their fields. More than `limit` values are thinned while they are read, so that there are never
 /// many more in memory. Adds to the notes what was cut off. Throws core::Error (Input).
 Signals read_signals(const std::filesystem::path& file, std::span<const SignalInfo> infos,
-                     std::size_t limit, std::vector<std::string>& notes);
+                     std::size_t limit, Notes& notes);
 
 }  // namespace stride::report
 

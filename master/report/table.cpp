@@ -9,7 +9,7 @@
 
 namespace stride::report {
 
-Table::Table(const std::filesystem::path& file) : file_(file), reader_(file) {
+Table::Table(const std::filesystem::path& file) : reader_(file) {
   if (!reader_.next()) return;
   for (const CsvReader::Field& field : reader_.fields()) columns_.push_back(field.value());
 }
@@ -43,10 +43,9 @@ std::int64_t Table::time(std::size_t place) const {
   }
 }
 
-std::optional<std::string> Table::cut() const {
+std::optional<std::size_t> Table::cut() const {
   if (!reader_.is_cut()) return std::nullopt;
-  return fmt::format("{}:{}: the last line was cut off and is left out", file_.string(),
-                     reader_.line());
+  return reader_.line();
 }
 
 void Table::fail(std::size_t place, const std::string& message) const {

@@ -29,12 +29,11 @@ class Table {
   /// The field as a time [ps].
   std::int64_t time(std::size_t place) const;
 
-  /// In words, that the last line was cut off; nothing if it was not.
-  std::optional<std::string> cut() const;
+  /// After the last row: the line that was cut off behind it; nothing if none was.
+  std::optional<std::size_t> cut() const;
   [[noreturn]] void fail(std::size_t place, const std::string& message) const;
 
  private:
-  std::filesystem::path file_;
   CsvReader reader_;
   std::vector<std::string> columns_;
 };

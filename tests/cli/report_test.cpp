@@ -123,8 +123,8 @@ TEST_CASE("of a killed run what is there is shown") {
   fs::resize_file(workspace / "out/signals.csv", fs::file_size(workspace / "out/signals.csv") - 3);
   const Outcome outcome = workspace.stride({"report", "out"});
   CHECK(outcome.exit_code == 0);
-  CHECK_THAT(outcome.err, Contains("warning: out/run.json is missing") &&
-                              Contains("out/signals.csv:1002: the last line was cut off"));
+  CHECK_THAT(outcome.err, Contains("warning: run.json: this file is missing") &&
+                              Contains("warning: signals.csv:1002: the last line was cut off"));
   CHECK(report_of(workspace)["rows"] == 1000);
   CHECK(report_of(workspace)["run"].is_null());
 }

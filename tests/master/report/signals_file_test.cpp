@@ -29,9 +29,9 @@ struct Read {
 Read read(const std::string& text, std::size_t limit = kNoLimit,
           std::span<const SignalInfo> infos = kInfos) {
   const TemporaryFolder folder;
-  Read read;
-  read.signals = read_signals(folder.write("signals.csv", text), infos, limit, read.notes);
-  return read;
+  Notes notes(folder / "");
+  Signals signals = read_signals(folder.write("signals.csv", text), infos, limit, notes);
+  return {std::move(signals), notes.texts()};
 }
 
 std::string refusal(const std::string& text) {

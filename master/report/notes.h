@@ -1,0 +1,42 @@
+#ifndef STRIDE_MASTER_REPORT_NOTES_H
+#define STRIDE_MASTER_REPORT_NOTES_H
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace stride::report {
+
+/// What is missing, cut off or left out of results: "signals.csv:7: TEXT". Files go by their names
+/// in the folder, wherever that is, so that the same results make the same page.
+class Notes {
+ public:
+  explicit Notes(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  void add(const std::filesystem::path& file, const std::string& text) {
+    texts_.push_back(fmt::format("{}: {}", name(file), text));
+  }
+  /// Of a file whose last line, if any, was cut off.
+  void add_cut(const std::filesystem::path& file, std::optional<std::size_t> line) {
+    if (!line) return;
+    texts_.push_back(
+        fmt::format("{}:{}: the last line was cut off and is left out", name(file), *line));
+  }
+  const std::vector<std::string>& texts() const { return texts_; }
+
+ private:
+  std::string name(const std::filesystem::path& file) const {
+    return file.lexically_relative(folder_).string();
+  }
+
+  std::filesystem::path folder_;
+  std::vector<std::string> texts_;
+};
+
+}  // namespace stride::report
+
+#endif
