@@ -63,12 +63,12 @@ void add_host_options(CLI::App& command, HostRequest& request) {
   command
       .add_option(
           "--unit-timeout", request.unit_timeout,
-          "How long a call of a unit with a process of its own may take; before what the scenario "
-          "says")
+          "How long a call of a unit with a process of its own may take; goes before what the "
+          "scenario says")
       ->type_name("SECONDS");
   command.add_flag(
       "--no-sandbox", request.no_sandbox,
-      "Let units with processes of their own do whatever you may; before what the scenario "
+      "Let units with processes of their own do whatever you may; goes before what the scenario "
       "says");
 }
 
