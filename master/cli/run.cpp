@@ -76,6 +76,7 @@ std::filesystem::path make_folder(const Request& request, const io::Scenario& sc
                                      ? std::filesystem::path("results") / io::stem(scenario.path)
                                      : request.out;
   io::make_results_folder(folder);
+  io::remove_results(folder, scenario.annotation.results);
   // where units put the files that they write themselves
   ::setenv("STRIDE_RESULTS", std::filesystem::absolute(folder).c_str(), 1);
   return folder;
@@ -130,7 +131,6 @@ class RecordedRun {
         checks_(loaded_.checks()),
         summary_(loaded_.system()),
         progress_(progress_style(request), options_.start, options_.stop, simulation_) {
-    io::remove_conclusions(folder_, loaded_.scenario().annotation.results);
     capture_.follow(simulation_);
     recorders_.add_to(simulation_);
     if (!checks_.is_empty()) simulation_.add_observer(checks_, checks_.signals());
@@ -159,10 +159,7 @@ class RecordedRun {
     take_verdicts(end == core::RunEnd::EndedByUnit ||
                   (end == core::RunEnd::Completed && !is_cut_short()));
     write_statistics(std::nullopt);
-    report();
-    if (!request_.quiet) print();
-    require_end();
-    require_passed(verdicts_);
+    conclude();
   }
 
  private:
@@ -170,6 +167,26 @@ class RecordedRun {
     auto units = loaded_.instantiate(folder_);
     capture_.wrap(units);
     return units;
+  }
+
+  /// A report that cannot be written does not hide how the run ended.
+  void conclude() {
+    std::exception_ptr failure;
+    try {
+      report();
+    } catch (const std::exception&) {
+      failure = std::current_exception();
+    }
+    const auto tell = [&] {
+      if (failure) std::rethrow_exception(failure);
+    };
+    if (!request_.quiet) print();
+    const bool is_good = simulation_.statistics().end != core::RunEnd::Interrupted &&
+                         failures_text(verdicts_).empty();
+    if (!is_good) warn_of_failure(tell);
+    require_end();
+    require_passed(verdicts_);
+    tell();
   }
 
   template <class Work>
@@ -233,7 +250,7 @@ class RecordedRun {
     for (const auto& [what, member] : io::kResultFiles) {
       if (!(files_.*member).empty()) fmt::print(" {}", files_.*member);
     }
-    fmt::print("{}\n", request_.scenario.film.empty() ? "" : " film/");
+    fmt::print("{}\n", std::filesystem::exists(folder_ / "film") ? " film/" : "");
   }
 
   Interruption interruption_;

@@ -41,6 +41,8 @@ void Summary::on_start(std::span<const core::Signal> signals) {
   }
 }
 
+bool Summary::wants_content() const { return messages_.size() < kMostMessages; }
+
 void Summary::on_message(const core::Message& message) {
   if (!message.received) {
     ++message_count_;

@@ -17,7 +17,7 @@ class Summary : public core::Observer {
   explicit Summary(const core::System& system) : system_(system) {}
 
   void on_start(std::span<const core::Signal> signals) override;
-  bool wants_content() const override { return true; }
+  bool wants_content() const override;
   void on_message(const core::Message& message) override;
   void on_communication_point(Time time) override;
 

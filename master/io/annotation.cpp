@@ -168,7 +168,7 @@ IdleNumber read_idle_number(const xml::Element& element, double (*parse)(std::st
 }
 
 void check_file_name(const xml::Element& element, const char* attribute, const std::string& name) {
-  if (name == "." || name == ".." || name.find('/') != std::string::npos) {
+  if (!is_plain_file_name(name)) {
     element.fail(fmt::format("{}=\"{}\" is no plain file name", attribute, name),
                  "the file goes into the results folder, so give its name only");
   }
@@ -243,6 +243,10 @@ ScenarioAnnotation read_scenario_element(const xml::Element& scenario) {
 }
 
 }  // namespace
+
+bool is_plain_file_name(const std::string& name) {
+  return name != "." && name != ".." && name.find('/') == std::string::npos;
+}
 
 ScenarioAnnotation read_annotation(const xml::Element& root) {
   std::vector<xml::Element> found;

@@ -53,13 +53,13 @@ void make_results_folder(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error) fail(error.message());
   if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(std::generic_category().message(errno));
-  remove_films(folder);
 }
 
-void remove_conclusions(const fs::path& folder, const ResultFiles& files) {
-  for (const std::string& name : {files.statistics, files.report}) {
+void remove_results(const fs::path& folder, const ResultFiles& files) {
+  remove_films(folder);
+  for (const auto& [what, member] : kResultFiles) {
     std::error_code ignored;  // what cannot be removed fails where it is to be replaced
-    const fs::path file = folder / name;
+    const fs::path file = folder / (files.*member);
     if (fs::is_regular_file(fs::symlink_status(file, ignored))) fs::remove(file, ignored);
   }
 }

@@ -8,13 +8,12 @@
 namespace stride::io {
 
 /// Makes the folder, and those above it, where they do not exist. Throws core::Error (Input) if
-/// that is not possible, or if it is no folder in which files can be written. A film that an
-/// earlier run has left there goes, since it would be taken for one of the next run.
+/// that is not possible, or if it is no folder in which files can be written.
 void make_results_folder(const std::filesystem::path& folder);
 
-/// What an earlier run told of itself in the end, its statistics and its report, goes before the
-/// next one writes its signals, to which it would be taken to belong if that run is killed.
-void remove_conclusions(const std::filesystem::path& folder, const ResultFiles& files);
+/// The films and the files of these names that an earlier run has left go before the next one
+/// begins: what that does not write itself, or not before it is killed, would be taken for its own.
+void remove_results(const std::filesystem::path& folder, const ResultFiles& files);
 
 }  // namespace stride::io
 

@@ -2,15 +2,14 @@
 
 #include <cstdint>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <string_view>
-#include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "master/core/error.h"
-#include "master/io/output_file.h"
+#include "master/io/replacement.h"
 #include "master/report/blob.h"
 #include "master/report/default_plots.h"
 #include "master/report/json_text.h"
@@ -131,26 +130,6 @@ class DataWriter {
   io::OutputFile& file_;
 };
 
-/// Writes beside the file first, and gives what is complete its name.
-void replace(const fs::path& file, const std::function<void(io::OutputFile&)>& write) {
-  const fs::path part = file.string() + ".part";
-  try {
-    io::OutputFile output(part);
-    write(output);
-    output.close();
-    fs::rename(part, file);
-  } catch (const fs::filesystem_error& error) {
-    fs::remove(part);
-    core::fail_input({.where = {file.string(), 0}},
-                     fmt::format("cannot create the file: {}", error.code().message()),
-                     "choose a folder in which you may write");
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove(part, ignored);
-    throw;
-  }
-}
-
 }  // namespace
 
 void write_report(const fs::path& file, const Results& results, const std::string& version) {
@@ -159,11 +138,11 @@ void write_report(const fs::path& file, const Results& results, const std::strin
   if (mark == std::string_view::npos) {
     core::fail_input({}, "this stride was built without reports (STRIDE_REPORT=OFF)");
   }
-  replace(file, [&](io::OutputFile& output) {
-    output.write(text.substr(0, mark));
-    DataWriter(output).write(results, version);
-    output.write(text.substr(mark + kDataMark.size()));
-  });
+  io::Replacement report(file);
+  report.file().write(text.substr(0, mark));
+  DataWriter(report.file()).write(results, version);
+  report.file().write(text.substr(mark + kDataMark.size()));
+  report.commit();
 }
 
 }  // namespace stride::report

@@ -31,7 +31,11 @@ const Json& entries(const Json& json, const char* name) {
 void read_files(const Json& json, io::ResultFiles& files) {
   if (!json.contains("files")) return;
   for (const auto& [what, member] : io::kResultFiles) {
-    files.*member = json["files"].value(what, std::string());
+    const std::string name = json["files"].value(what, std::string());
+    if (!io::is_plain_file_name(name)) {
+      throw std::invalid_argument(fmt::format("'{}' is no file of this folder", name));
+    }
+    files.*member = name;
   }
 }
 
@@ -96,7 +100,7 @@ RunFile read_run_file(const std::filesystem::path& file) {
         1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
     core::fail_input({.where = {file.string(), static_cast<int>(line)}},
                      fmt::format("this is no JSON: {}", error.what()), hint);
-  } catch (const std::length_error& error) {
+  } catch (const std::logic_error& error) {
     core::fail_input({.where = {file.string(), 0}},
                      fmt::format("this is not what `stride run` writes: {}", error.what()), hint);
   } catch (const Json::exception& error) {

@@ -175,8 +175,8 @@ TEST_CASE("an interrupted run: likewise") {
 
 TEST_CASE("--junit: a test case for the run, each unit's verdict and each check") {
   const Workspace workspace = watched(kGood + kBad, component("judge", "judge.fmu"));
-  CHECK(run(workspace, {"--junit", "report.xml"}).exit_code == 1);
-  const std::string report = read(workspace / "report.xml");
+  CHECK(run(workspace, {"--junit", "reports/new/report.xml"}).exit_code == 1);
+  const std::string report = read(workspace / "reports/new/report.xml");
   CHECK(count(report, "<testcase ") == 8);
   CHECK(count(report, "<failure ") == 1);
   CHECK_THAT(report, Contains("<testsuite name=\"test\"") &&
@@ -198,8 +198,8 @@ TEST_CASE("--junit: where there was no run, the report says why") {
 
 TEST_CASE("--junit: a file that cannot be written is told before the run") {
   const Workspace workspace = watched(kGood);
-  CHECK_THAT(input_error_of(run(workspace, {"--junit", "nowhere/report.xml"})),
-             Contains("nowhere/report.xml") && Contains("in which you may write"));
+  CHECK_THAT(input_error_of(run(workspace, {"--junit", "test.ssd/report.xml"})),
+             Contains("test.ssd/report.xml") && Contains("in which you may write"));
   CHECK_FALSE(fs::exists(workspace / "out"));
 }
 

@@ -166,12 +166,14 @@ TEST_CASE("results and report under other names are found again") {
   CHECK(workspace.result("page.html") == before);
 }
 
-TEST_CASE("a report that cannot be written is an error, and all else is kept") {
-  const Workspace workspace(two_filters());
+TEST_CASE("a report that cannot be written is an error, and all else is kept and told") {
+  const std::string limit = GENERATE("1e9", "-1");
+  const Workspace workspace(Parts{component("judge", "judge.fmu")});
   fs::create_directories(workspace / "out/report.html/x");
-  const Outcome outcome = workspace.run({"--quiet"});
-  CHECK(outcome.exit_code == 2);
-  CHECK_THAT(outcome.err, Contains("stride: error: out/report.html: cannot create the file"));
+  const Outcome outcome = workspace.run({"--set", "judge.limit=" + limit});
+  CHECK(outcome.exit_code == (limit == "-1" ? 1 : 2));
+  CHECK_THAT(outcome.err, Contains("out/report.html: this is a folder"));
+  CHECK_THAT(outcome.out, Contains("Verdicts") && Contains("Results in out"));
   CHECK(run_json(workspace)["outcome"] == "completed");
 }
 
@@ -227,4 +229,23 @@ TEST_CASE("what is not written cannot be opened") {
   const Workspace workspace(two_filters());
   CHECK_THAT(input_error_of(workspace.run({"--no-report", "--open"})),
              Contains("--open: this run writes no report"));
+}
+
+TEST_CASE("a report is written where its user says, and nowhere else") {
+  const Workspace workspace(two_filters());
+  REQUIRE(workspace.run({"--quiet"}).exit_code == 0);
+  workspace.scratch().write("target.html", "");
+  fs::create_symlink("target.html", workspace / "link.html");
+  CHECK(workspace.stride({"report", "out", "-o", "link.html"}).exit_code == 0);
+  CHECK(fs::is_symlink(workspace / "link.html"));
+  CHECK_FALSE(read(workspace / "target.html").empty());
+  CHECK(workspace.stride({"report", "out", "-o", "/dev/null"}).exit_code == 0);
+  CHECK(fs::is_character_file("/dev/null"));
+
+  std::string run = workspace.result("run.json");
+  run.replace(run.find("\"report.html\""), 13, "\"../victim.html\"");
+  workspace.scratch().write("out/run.json", run);
+  CHECK_THAT(input_error_of(workspace.stride({"report", "out"})),
+             Contains("'../victim.html' is no file of this folder"));
+  CHECK_FALSE(fs::exists(workspace / "victim.html"));
 }

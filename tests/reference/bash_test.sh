@@ -66,6 +66,10 @@ offers "unit.fmu" run scenario.ssd --swap sensor = u
 offers "sensor." run scenario.ssd --set s
 offers "sensor" run scenario.ssd --isolate = s
 offers "" run --swap s
+sed 's/"sensor"/"$(touch hacked)sensor"/g' scenario.ssd > hostile.ssd
+offers '$(touch hacked)sensor.' run hostile.ssd --set '$'
+[ ! -e hacked ] || { echo "a component's name was run as a command"; failures=1; }
+rm hostile.ssd
 offers "dependencies description determinism" verify --check de
 offers "other.fmu" inspect ot
 exit $failures

@@ -40,9 +40,11 @@ _stride_components() { # what follows each name
   done
   [ -n "$scenario" ] || return 0
   [ -z "$1" ] || compopt -o nospace 2> /dev/null
-  local IFS=$'\n' names
-  names=$("${words[0]}" reference components "$scenario" 2> /dev/null)
-  COMPREPLY+=($(compgen -S "$1" -W "$names" -- "$value"))
+  local name # compgen -W would take names for words of the shell, and run what is in them
+  while IFS= read -r name; do
+    [[ $name == "$value"* ]] && COMPREPLY+=("$name$1")
+  done < <("${words[0]}" reference components "$scenario" 2> /dev/null)
+  return 0
 }
 
 _stride_component_files() { # EXTENSION...

@@ -25,25 +25,25 @@ TEST_CASE("What cannot be a results folder is named with the reason") {
   CHECK_THROWS_WITH(make_results_folder(""), Contains("its name is empty"));
 }
 
-TEST_CASE("What an earlier run told of itself goes, and nothing else") {
+TEST_CASE("The files of an earlier run go, and nothing else") {
   const TemporaryFolder folder;
   for (const char* file : {"run.json", "page.html", "report.html", "signals.csv"}) {
     folder.write(file, "");
   }
   ResultFiles files;
   files.report = "page.html";
-  remove_conclusions(folder / "", files);
+  remove_results(folder / "", files);
   CHECK_FALSE(std::filesystem::exists(folder / "run.json"));
   CHECK_FALSE(std::filesystem::exists(folder / "page.html"));
+  CHECK_FALSE(std::filesystem::exists(folder / "signals.csv"));
   CHECK(std::filesystem::exists(folder / "report.html"));
-  CHECK(std::filesystem::exists(folder / "signals.csv"));
   std::filesystem::create_symlink("signals.csv", folder / "run.json");
   files.report.clear();
-  remove_conclusions(folder / "", files);
+  remove_results(folder / "", files);
   CHECK(std::filesystem::is_symlink(folder / "run.json"));
 }
 
-TEST_CASE("A film of an earlier run goes, and nothing else") {
+TEST_CASE("Of a film of an earlier run nothing else goes") {
   const TemporaryFolder folder;
   for (const char* file :
        {"film/world/frames.csv", "film/world/00000.jpg", "film/arm/frames.csv",
@@ -51,15 +51,15 @@ TEST_CASE("A film of an earlier run goes, and nothing else") {
     std::filesystem::create_directories((folder / file).parent_path());
     folder.write(file, "");
   }
-  make_results_folder(folder / "");
+  remove_results(folder / "", {});
   CHECK_FALSE(std::filesystem::exists(folder / "film/world"));
   CHECK_FALSE(std::filesystem::exists(folder / "film/arm/frames.csv"));
   CHECK_FALSE(std::filesystem::exists(folder / "film/arm/00000.jpg"));
   CHECK(std::filesystem::exists(folder / "film/arm/notes.jpg"));
   CHECK(std::filesystem::exists(folder / "film/mine/00001.jpg"));
-  CHECK(std::filesystem::exists(folder / "signals.csv"));
+  CHECK_FALSE(std::filesystem::exists(folder / "signals.csv"));
   std::filesystem::remove_all(folder / "film/arm");
   std::filesystem::remove_all(folder / "film/mine");
   folder.write("film/x", "");
-  CHECK_NOTHROW(make_results_folder(folder / ""));
+  CHECK_NOTHROW(remove_results(folder / "", {}));
 }

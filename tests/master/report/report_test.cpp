@@ -58,7 +58,7 @@ TEST_CASE("the page has the data in place of its mark, and all else as it is") {
   CHECK(page_with_data.starts_with(empty.substr(0, mark)));
   CHECK(page_with_data.ends_with(empty.substr(mark + kDataMark.size())));
   CHECK(page_with_data.find(kDataMark) == std::string::npos);
-  CHECK_FALSE(std::filesystem::exists(folder / "report.html.part"));
+  CHECK_FALSE(std::filesystem::exists(folder / "report.html.new"));
 }
 
 TEST_CASE("the data is what was recorded") {
@@ -141,14 +141,14 @@ TEST_CASE("where it fails the page before stays, and no part of a new one") {
   CHECK_THAT(error_of([&] { write_report(folder / "report.html", results, ""); }),
              Contains("gone.jpg: cannot read the picture"));
   CHECK(content(folder / "report.html") == "old");
-  CHECK_FALSE(std::filesystem::exists(folder / "report.html.part"));
+  CHECK_FALSE(std::filesystem::exists(folder / "report.html.new"));
 }
 
 TEST_CASE("a file that cannot be written is named") {
   const TemporaryFolder folder;
   CHECK_THAT(error_of([&] { write_report(folder / "none/report.html", {}, ""); }),
-             Contains("none/report.html") && Contains("cannot create the file"));
+             Contains("none/report.html") && Contains("the folder of this file does not exist"));
   std::filesystem::create_directories(folder / "report.html/x");
   CHECK_THAT(error_of([&] { write_report(folder / "report.html", {}, ""); }),
-             Contains("report.html: cannot create the file"));
+             Contains("report.html: this is a folder"));
 }
