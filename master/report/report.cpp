@@ -62,7 +62,6 @@ class DataWriter {
   void write(const Signals& signals) {
     member("time", blob(std::span(signals.times)));
     member("rows", std::to_string(signals.times.size()));
-    member("thinned", signals.thinned ? std::to_string(*signals.thinned) : "null");
     list("columns", signals.columns, [&](const Column& column) {
       file_.write(fmt::format(R"({{"name":{},"unit":{},"type":"{}","stepped":{},"values":)",
                               json_text(column.name()), json_text(column.unit()),

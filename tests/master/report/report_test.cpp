@@ -69,7 +69,6 @@ TEST_CASE("the data is what was recorded") {
   CHECK(data["run"] == json{{"outcome", "completed"}, {"error", "</script>"}});
   CHECK(data["notes"] == json{"something is missing"});
   CHECK(data["rows"] == 2);
-  CHECK(data["thinned"].is_null());
   CHECK(unpacked<std::int64_t>(data["time"]) == std::vector<std::int64_t>{0, 1});
   const json& columns = data["columns"];
   REQUIRE(columns.size() == 3);

@@ -39,10 +39,6 @@ function printWell(theme, stack) {
   window.addEventListener("afterprint", () => theme.choose(chosen));
 }
 
-const thinnedText = (rows) =>
-  `There were too many samples for a page. Of each ${rows} rows only those with the least and the most of a signal ` +
-  "are here; values at the cursor are those of the rows that were kept.";
-
 function build(report) {
   const view = new View(report.whole);
   const tip = new Tip();
@@ -55,7 +51,6 @@ function build(report) {
   const parts = [
     header(context),
     ...report.notes.map((text) => h("p.warning", {}, text)),
-    report.thinned ? h("p.warning", {}, thinnedText(report.thinned)) : null,
     stack.element,
     report.messages.length > 0 ? new MessageTable(context).box : null,
     costs(report.run),

@@ -2,6 +2,9 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import test from "node:test";
 import { actionOf, kBindings } from "../../../../master/report/page/src/keys.js";
+import { kMouse } from "../../../../master/report/page/src/parts/help.js";
+
+const documented = () => readFileSync(new URL("../../../../docs/report.md", import.meta.url), "utf8");
 
 test("arrows move by samples, by ten with Shift", () => {
   assert.deepEqual(actionOf({ key: "ArrowRight" }), { action: "moveBySamples", argument: 1 });
@@ -30,7 +33,14 @@ test("no key means two things", () => {
 });
 
 test("docs/report.md has all keys", () => {
-  const page = readFileSync(new URL("../../../../docs/report.md", import.meta.url), "utf8");
-  const rows = page.match(/^\| `[^|]*\|/gm).flatMap((row) => [...row.matchAll(/`([^`]+)`/g)].map(([, key]) => key));
-  assert.deepEqual(rows.sort(), kBindings.map(({ shown }) => shown).sort());
+  const rows = documented().match(/^\| `[^|]*\|/gm);
+  const keys = rows.flatMap((row) => [...row.matchAll(/`([^`]+)`/g)].map(([, key]) => key));
+  assert.deepEqual(keys.sort(), kBindings.map(({ shown }) => shown).sort());
+});
+
+test("docs/report.md and the help have all that the mouse does", () => {
+  const names = kMouse.map(([what]) => what.replace(" + ", " and "));
+  assert.ok(names.includes("Shift and wheel"));
+  const [, table] = documented().match(/^\| mouse \|.*\n\|---.*\n((?:\|.*\n)+)/m);
+  assert.deepEqual([...table.matchAll(/^\| ([^|]+) \|/gm)].map(([, what]) => what), names);
 });

@@ -41,7 +41,7 @@ def activity(component, kind, intervals):
 def report(times, columns, plots, **parts):
     """The whole object; `times` in picoseconds."""
     data = {"format": 1, "stride": "test", "run": {}, "time": pack("int64", times), "rows": len(times),
-            "columns": columns, "thinned": None,
+            "columns": columns,
             "plots": [{"title": title, "signals": signals} for title, signals in plots],
             "messages": [], "activity": [], "films": [], "diagram": {"components": [], "connections": []}}
     data.update(parts)

@@ -35,11 +35,28 @@ export class Intervals {
     return lastBefore(this.from, until) - lastBefore(this.from, from);
   }
 
+  /** How many begin in [from, until]. */
+  countThrough(from, until) {
+    return lastAtOrBefore(this.from, until) - lastBefore(this.from, from);
+  }
+
   /** The index of that which covers `time`, or -1. */
   at(time) {
     const last = lastAtOrBefore(this.from, time);
     return last >= 0 && time <= this.until[last] ? last : -1;
   }
+}
+
+/** The pixels of the shown time in which some begin; the end of it is in the last one. */
+export function pixelsWith(intervals, { from, until }, width) {
+  const perPixel = (until - from) / width;
+  const pixels = [];
+  for (let x = 0; x < width; ++x) {
+    const left = from + x * perPixel;
+    const count = x + 1 < width ? intervals.countWithin(left, left + perPixel) : intervals.countThrough(left, until);
+    if (count > 0) pixels.push(x);
+  }
+  return pixels;
 }
 
 function lastBefore(times, time) {

@@ -115,7 +115,6 @@ export async function readReport(data, progress) {
     run,
     version: data.stride,
     notes: data.notes ?? [],
-    thinned: data.thinned ?? null,
     times,
     seconds: secondsOf(times),
     columns: new Map(columns.map((column) => [column.name, column])),

@@ -1,4 +1,5 @@
 // What one unit did over time: idle time shaded, events and early returns as ticks, what was undone or refused in red.
+import { pixelsWith } from "../data/intervals.js";
 import { h, sizedContext } from "../dom.js";
 import { color } from "../plot/colors.js";
 import { kGutter } from "../plot/layout.js";
@@ -48,10 +49,7 @@ export class ActivityLane {
   #drawTicks(context, { kind, color: name, top, bottom }, width) {
     const intervals = this.activity.get(kind);
     context.fillStyle = color(name);
-    const perPixel = this.view.span / width;
-    for (let x = 0; x < width; ++x) {
-      const from = this.view.from + x * perPixel;
-      if (intervals.countWithin(from, from + perPixel) === 0) continue;
+    for (const x of pixelsWith(intervals, this.view, width)) {
       context.fillRect(x, Math.floor(top * kHeight), 1.5, Math.ceil((bottom - top) * kHeight));
     }
   }

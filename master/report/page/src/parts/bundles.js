@@ -1,21 +1,11 @@
 // Connections of a diagram: those of values from one component to another are one edge, those of messages another.
 // Clocks are left out, for they go where their messages go.
+import { componentOf } from "../data/components.js";
 
 const kSeparator = "\u0000";
 
 /**
- * The component that a full name belongs to: the longest one that it begins with, since systems hold others. Without
- * one it is a connector of the system itself.
- */
-function componentOf(name, components) {
-  for (let end = name.lastIndexOf("."); end > 0; end = name.lastIndexOf(".", end - 1)) {
-    const candidate = name.slice(0, end);
-    if (components.has(candidate)) return candidate;
-  }
-  return null;
-}
-
-/**
+ * What belongs to no component is a connector of the system itself, and left out, too.
  * @param {{components: {name: string}[], connections: {from: string, to: string, kind: string}[]}} diagram
  * @returns {{from: string, to: string, isMessage: boolean, connections: {from: string, to: string}[]}[]}
  */

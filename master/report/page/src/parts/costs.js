@@ -1,4 +1,5 @@
 // What each unit cost, by the wall clock.
+import { briefText } from "../data/number_text.js";
 import { h } from "../dom.js";
 
 const kPhases = [
@@ -8,6 +9,9 @@ const kPhases = [
 ];
 
 const seconds = (value) => (value >= 0.0005 ? value.toFixed(3) : value > 0 ? "< 0.001" : "0");
+
+/** How long a unit was left alone [s]. */
+export const idleText = (unit) => (unit.idle ? briefText(unit.idle.skipped) : "");
 
 const total = (unit) => kPhases.reduce((sum, [name]) => sum + (unit.wall_time?.[name] ?? 0), 0);
 
@@ -30,7 +34,7 @@ function row(unit, most) {
     h("td.number.total", {}, seconds(total(unit))),
     ...cells,
     ...counts.map((count) => h("td.number", {}, (count ?? 0).toLocaleString("en"))),
-    h("td.number", {}, unit.idle ? unit.idle.skipped.toPrecision(4).replace(/\.?0+$/, "") : ""),
+    h("td.number", {}, idleText(unit)),
   );
 }
 

@@ -2,11 +2,13 @@
 import { h } from "../dom.js";
 import { kBindings } from "../keys.js";
 
-const kMouse = [
+/** What the mouse does, and how. */
+export const kMouse = [
   ["move", "the cursor and the values at it"],
   ["click", "hold the cursor there"],
   ["drag", "zoom into this time (Shift: move along)"],
   ["Ctrl + wheel", "zoom"],
+  ["Shift + wheel", "move along"],
   ["double click", "the whole run"],
 ];
 

@@ -45,6 +45,7 @@ export function summary(run) {
   }
   if (run.outcome === "interrupted") return { kind: "open", text: "Interrupted; nothing failed until then" };
   if (open.length > 0) return { kind: "open", text: `${open.length} of ${all.length} undecided` };
+  if (all.length === 0 && !run.outcome) return { kind: "none", text: "Verdicts are not known: there is no run.json" };
   if (all.length === 0) return { kind: "none", text: "Nothing was judged: no checks, and no unit with a verdict" };
   return { kind: "good", text: all.length === 1 ? "Passed" : `All ${all.length} passed` };
 }

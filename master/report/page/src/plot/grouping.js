@@ -1,4 +1,5 @@
 // Which signals share a pane: those of one plot and one unit of measure; states have rows of their own.
+import { ownerOf } from "../data/components.js";
 
 /**
  * @param {{plots: {title: string, signals: string[]}[], columns: Map<string, import("../data/report.js").Column>}}
@@ -15,10 +16,11 @@ export function groupIntoPanes(report) {
  */
 export function groupOthers(report) {
   const shown = new Set(report.plots.flatMap(({ signals }) => signals));
+  const units = new Set(report.units);
   const components = new Map();
   for (const name of report.columns.keys()) {
     if (shown.has(name)) continue;
-    const title = report.units.findLast((unit) => name.startsWith(`${unit}.`)) ?? name.split(".")[0];
+    const title = ownerOf(name, units);
     if (!components.has(title)) components.set(title, { title, signals: [] });
     components.get(title).signals.push(name);
   }

@@ -1,4 +1,5 @@
 // Rows of states, one for each signal: a bar while a Boolean is true, boxes with the texts of a text.
+import { nameWithin } from "../data/components.js";
 import { sizedContext } from "../dom.js";
 import { color, curveColor } from "./colors.js";
 import { kGutter } from "./layout.js";
@@ -16,6 +17,7 @@ export class StatesPane {
     this.report = report;
     this.view = view;
     this.columns = columns;
+    this.components = new Set(report.units);
     this.firstColor = firstColor;
     this.hidden = new Set();
     this.box = document.createElement("canvas");
@@ -47,7 +49,7 @@ export class StatesPane {
   }
 
   #drawName(context, column, top, width) {
-    const name = column.name.split(".").slice(1).join(".") || column.name;
+    const name = nameWithin(column.name, this.components);
     context.fillStyle = color("--grid");
     context.fillRect(kGutter, top + kRow / 2 + kBar / 2, width - kGutter, 1);
     context.fillStyle = color("--quiet-text");

@@ -274,13 +274,15 @@ class PageTest(unittest.TestCase):
     def test_what_is_missing_is_told(self):
         browser = self.open(page_data.report([], [], []))
         text = browser.one("main").text
-        for words in ["No signals were recorded", "No messages were sent", "was not recorded", "Nothing was judged"]:
+        for words in ["No signals were recorded", "No messages were sent", "was not recorded",
+                      "Verdicts are not known"]:
             self.assertIn(words, text)
         browser.press(Keys.ARROW_RIGHT, "n", "+", "0")
         self.assertEqual(browser.errors(), [])
 
-    def test_a_thinned_run_says_so(self):
-        self.assertIn("Of each 16 rows", self.open({**Run().data(), "thinned": 16}).one(".warning").text)
+    def test_notes_are_shown_once(self):
+        browser = self.open({**Run().data(), "notes": ["signals.csv: of each 16 rows"]})
+        self.assertEqual(browser.texts(".warning"), ["signals.csv: of each 16 rows"])
 
     def test_the_film_follows_the_cursor(self):
         run = Run()

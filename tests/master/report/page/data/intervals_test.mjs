@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { commonIntervals, Intervals } from "../../../../../master/report/page/src/data/intervals.js";
+import { commonIntervals, Intervals, pixelsWith } from "../../../../../master/report/page/src/data/intervals.js";
 import { randomNumbers } from "../random.mjs";
 
 const intervals = (...pairs) =>
@@ -32,6 +32,13 @@ test("no instant is lost or counted twice between pixels", () => {
   let count = 0;
   for (let i = 0; i < 100; ++i) count += some.countWithin(i / 100, (i + 1) / 100);
   assert.equal(count, 500);
+});
+
+test("an instant at the very end is in the last pixel", () => {
+  const some = intervals([0, 0], [5, 5], [10, 10]);
+  assert.deepEqual(pixelsWith(some, { from: 0, until: 10 }, 100), [0, 50, 99]);
+  assert.deepEqual(pixelsWith(some, { from: 0, until: 10 }, 99.5), [0, 49, 99]);
+  assert.deepEqual(pixelsWith(some, { from: 1, until: 9 }, 8), [4]);
 });
 
 test("the time that all cover", () => {

@@ -16,6 +16,10 @@ test("without anything that judges the page says so", () => {
   assert.deepEqual(summary({ outcome: "completed" }).kind, "none");
 });
 
+test("without run.json verdicts are not known", () => {
+  assert.deepEqual(summary({}), { kind: "none", text: "Verdicts are not known: there is no run.json" });
+});
+
 test("all passed", () => {
   const run = {
     outcome: "completed",

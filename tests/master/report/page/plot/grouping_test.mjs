@@ -15,6 +15,14 @@ test("a pane has one unit of measure; states have rows of their own", () => {
   ]);
 });
 
+test("a system does not take the signals of what it holds, whichever is told first", () => {
+  const columns = new Map([column("a.b.x", "V"), column("a.y", "V"), column("z", "")]);
+  for (const units of [["a.b", "a"], ["a", "a.b"]]) {
+    const titles = groupOthers({ plots: [], columns, units }).map(({ title }) => title);
+    assert.deepEqual(titles, ["a.b", "a", "z"]);
+  }
+});
+
 test("signals that no plot shows are gathered by component", () => {
   const columns = new Map([column("a.x", "V"), column("a.y", "V"), column("b.c.z", ""), column("b.w", "")]);
   const panes = groupOthers({ plots: [{ title: "X", signals: ["a.x"] }], columns, units: ["a", "b", "b.c"] });
