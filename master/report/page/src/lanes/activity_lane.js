@@ -1,5 +1,6 @@
 // What one unit did over time: idle time shaded, events and early returns as ticks, what was undone or refused in red.
 import { pixelsWith } from "../data/intervals.js";
+import { briefText } from "../data/number_text.js";
 import { h, sizedContext } from "../dom.js";
 import { color } from "../plot/colors.js";
 import { kGutter } from "../plot/layout.js";
@@ -28,7 +29,7 @@ export class ActivityLane {
   get summary() {
     const parts = [];
     const idle = this.activity.get("idle");
-    if (idle) parts.push(`idle ${idle.covered.at(-1).toPrecision(3)} s`);
+    if (idle) parts.push(`idle ${briefText(idle.covered.at(-1))} s`);
     for (const { kind } of kTicks) {
       const count = this.activity.get(kind)?.count ?? 0;
       if (count > 0) parts.push(countText(kind, count));

@@ -324,7 +324,7 @@ class PageTest(unittest.TestCase):
 
     def test_what_units_did_is_in_words_too(self):
         browser = self.open_run()
-        self.assertEqual(browser.texts(".lane-summary"), ["idle 2.50 s, 1 rejection", "idle 2.00 s"])
+        self.assertEqual(browser.texts(".lane-summary"), ["idle 2.5 s, 1 rejection", "idle 2 s"])
         idle = browser.run("return [[...stride.report.idle.from], [...stride.report.idle.until]]")
         self.assertEqual(idle, [[1], [2]])
 
