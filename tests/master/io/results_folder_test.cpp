@@ -63,3 +63,12 @@ TEST_CASE("A film of an earlier run goes, and nothing else") {
   folder.write("film/x", "");
   CHECK_NOTHROW(make_results_folder(folder / ""));
 }
+
+TEST_CASE("What is in a folder comes sorted, and a folder that is none has nothing") {
+  const TemporaryFolder folder;
+  folder.write("b", "");
+  folder.write("a", "");
+  CHECK(folder_entries(folder / "") ==
+        std::vector<std::filesystem::path>{folder / "a", folder / "b"});
+  CHECK(folder_entries(folder / "none").empty());
+}
