@@ -1,5 +1,6 @@
 #include "master/cli/progress.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>

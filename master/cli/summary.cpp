@@ -11,6 +11,7 @@
 #include "master/cli/table.h"
 #include "master/core/error.h"
 #include "master/io/message_text.h"
+#include "master/io/time_text.h"
 
 namespace stride::cli {
 namespace {
@@ -19,10 +20,6 @@ constexpr std::size_t kMostMessages = 40;
 constexpr std::size_t kMostSignals = 30;
 constexpr std::size_t kMostHosts = 6;
 constexpr std::size_t kLongestText = 200;  // of a message
-
-std::string seconds(std::chrono::nanoseconds time) {
-  return fmt::format("{:.3f}", std::chrono::duration<double>(time).count());
-}
 
 std::string end_text(const core::RunStatistics& statistics) {
   if (statistics.end == core::RunEnd::Completed) return "";
@@ -181,8 +178,8 @@ std::string Summary::unit_table(const core::RunStatistics& statistics) const {
                std::to_string(unit.early_returns), std::to_string(unit.rejections),
                std::to_string(unit.rollbacks), std::to_string(unit.events),
                fmt::format("{:.6g}", to_seconds(unit.rested)), std::to_string(unit.messages_sent),
-               std::to_string(unit.messages_received), seconds(unit.initialization_time),
-               seconds(unit.step_time), seconds(unit.event_time)});
+               std::to_string(unit.messages_received), io::wall_seconds(unit.initialization_time),
+               io::wall_seconds(unit.step_time), io::wall_seconds(unit.event_time)});
   }
   return table.text();
 }

@@ -1,40 +1,19 @@
 #include "master/core/readable_text.h"
 
-#include <algorithm>
 #include <cstdint>
+
+#include "master/core/utf8.h"
 
 namespace stride::core {
 namespace {
 
-constexpr std::string_view kReplacement = "\uFFFD";
 constexpr std::string_view kEllipsis = "…";
-
-std::uint8_t byte(std::string_view text, std::size_t at) {
-  return at < text.size() ? static_cast<std::uint8_t>(text[at]) : 0;
-}
-
-/// How many bytes the character at the beginning has; 0 for what is none. The bounds of the second
-/// byte leave out what is longer than need be, surrogates, and what is beyond U+10FFFF (The Unicode
-/// Standard 15.0, table 3-7).
-std::size_t character_size(std::string_view text) {
-  const std::uint8_t first = byte(text, 0);
-  if (first < 0x80) return 1;
-  if (first < 0xC2 || first > 0xF4) return 0;
-  const std::size_t size = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-  const std::uint8_t low = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
-  const std::uint8_t high = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
-  if (byte(text, 1) < low || byte(text, 1) > high) return 0;
-  for (std::size_t i = 2; i < size; ++i) {
-    if ((byte(text, i) & 0xC0) != 0x80) return 0;
-  }
-  return size;
-}
 
 /// C0 and C1, DEL, and the separators of lines and paragraphs.
 bool is_control(std::string_view character) {
-  const std::uint8_t first = byte(character, 0);
+  const auto first = static_cast<std::uint8_t>(character[0]);
   if (character.size() == 1) return first < 0x20 || first == 0x7F;
-  if (character.size() == 2) return first == 0xC2 && byte(character, 1) < 0xA0;
+  if (character.size() == 2) return character >= "\u0080" && character < "\u00A0";
   return character == "\u2028" || character == "\u2029";
 }
 
@@ -45,11 +24,9 @@ std::string readable_text(std::string_view text, std::size_t most) {
   std::size_t last = 0;  // where the last character that may stay begins
   for (std::size_t count = 0; !text.empty(); ++count) {
     if (count == most) return readable.substr(0, last).append(most == 0 ? "" : kEllipsis);
-    const std::size_t size = character_size(text);
-    const std::string_view character = text.substr(0, std::max<std::size_t>(size, 1));
+    const std::string_view character = take_character(text);
     last = readable.size();
-    readable += size == 0 ? kReplacement : is_control(character) ? " " : character;
-    text.remove_prefix(character.size());
+    readable += is_control(character) ? " " : character;
   }
   return readable;
 }

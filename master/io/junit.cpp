@@ -8,14 +8,11 @@
 
 #include "master/core/error.h"
 #include "master/io/output_file.h"
+#include "master/io/time_text.h"
 #include "master/xml/writer.h"
 
 namespace stride::io {
 namespace {
-
-std::string seconds(std::chrono::nanoseconds time) {
-  return fmt::format("{:.3f}", std::chrono::duration<double>(time).count());
-}
 
 /// An attribute cannot hold a line feed.
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
@@ -64,7 +61,7 @@ class JunitWriter {
     xml_.attribute("failures", count(false));
     xml_.attribute("errors", report_.error ? "1" : "0");
     xml_.attribute("skipped", count(std::nullopt));
-    xml_.attribute("time", seconds(report_.wall_time));
+    xml_.attribute("time", wall_seconds(report_.wall_time));
     xml_.attribute("timestamp",
                    fmt::format("{:%Y-%m-%dT%H:%M:%S}",
                                fmt::gmtime(std::chrono::system_clock::to_time_t(report_.began))));
@@ -86,7 +83,7 @@ class JunitWriter {
     xml_.open("testcase");
     xml_.attribute("name", first_line(name));
     xml_.attribute("classname", report_.suite + group);
-    xml_.attribute("time", seconds(time));
+    xml_.attribute("time", wall_seconds(time));
   }
 
   void write_outcome(const char* element, const std::string& type, const std::string& message,

@@ -1,9 +1,10 @@
 #include "master/io/results_folder.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <iterator>
 #include <string>
 #include <system_error>
-#include <vector>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -24,19 +25,28 @@ bool is_picture(const fs::path& file) {
 void remove_films(const fs::path& folder) {
   std::error_code ignored;  // what cannot be removed fails where it is to be replaced
   std::vector<fs::path> goes;
-  for (const auto& film : fs::directory_iterator(folder / "film", ignored)) {
-    if (!fs::exists(film.path() / "frames.csv", ignored)) continue;
-    for (const auto& file : fs::directory_iterator(film.path(), ignored)) {
-      if (is_picture(file.path())) goes.push_back(file.path());
-    }
-    goes.push_back(film.path() / "frames.csv");
-    goes.push_back(film.path());
+  for (const fs::path& film : folder_entries(folder / "film")) {
+    if (!fs::exists(film / "frames.csv", ignored)) continue;
+    std::ranges::copy_if(folder_entries(film), std::back_inserter(goes), is_picture);
+    goes.push_back(film / "frames.csv");
+    goes.push_back(film);
   }
   if (!goes.empty()) goes.push_back(folder / "film");
   for (const fs::path& path : goes) fs::remove(path, ignored);
 }
 
 }  // namespace
+
+std::vector<fs::path> folder_entries(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    paths.push_back(entry->path());
+  }
+  std::ranges::sort(paths);
+  return paths;
+}
 
 void make_results_folder(const fs::path& folder) {
   const auto fail = [&](const std::string& reason) {

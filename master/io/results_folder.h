@@ -2,6 +2,7 @@
 #define STRIDE_MASTER_IO_RESULTS_FOLDER_H
 
 #include <filesystem>
+#include <vector>
 
 #include "master/io/annotation.h"
 
@@ -10,6 +11,9 @@ namespace stride::io {
 /// Makes the folder, and those above it, where they do not exist. Throws core::Error (Input) if
 /// that is not possible, or if it is no folder in which files can be written.
 void make_results_folder(const std::filesystem::path& folder);
+
+/// The paths of what is in the folder, sorted: none, or not all, where it cannot be read.
+std::vector<std::filesystem::path> folder_entries(const std::filesystem::path& folder);
 
 /// The films and the files of these names that an earlier run has left go before the next one
 /// begins: what that does not write itself, or not before it is killed, would be taken for its own.

@@ -4,7 +4,6 @@
 #include <charconv>
 #include <optional>
 #include <stdexcept>
-#include <string>
 
 #include <fmt/format.h>
 
@@ -121,6 +120,10 @@ Duration parse_seconds(std::string_view text) {
     reject(text, "is beyond 9.2e6 s, the largest time");
   }
   return Duration(static_cast<std::int64_t>(count));
+}
+
+std::string wall_seconds(std::chrono::nanoseconds time) {
+  return fmt::format("{:.3f}", std::chrono::duration<double>(time).count());
 }
 
 }  // namespace stride::io

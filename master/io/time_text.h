@@ -2,6 +2,8 @@
 #ifndef STRIDE_MASTER_IO_TIME_TEXT_H
 #define STRIDE_MASTER_IO_TIME_TEXT_H
 
+#include <chrono>
+#include <string>
 #include <string_view>
 
 #include <stride/time.h>
@@ -13,6 +15,9 @@ namespace stride::io {
 /// std::invalid_argument, whose text says what was expected, for what is negative, too large or no
 /// number.
 Duration parse_seconds(std::string_view text);
+
+/// Seconds that a computation took, with three decimals.
+std::string wall_seconds(std::chrono::nanoseconds time);
 
 }  // namespace stride::io
 

@@ -1,5 +1,6 @@
 #include "master/report/blob.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <stdexcept>

@@ -1,8 +1,7 @@
 #include "master/report/column.h"
 
 #include <charconv>
-#include <cmath>
-#include <limits>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -66,6 +65,25 @@ void Texts::add(const std::string& text) {
       places_.try_emplace(text, static_cast<std::int32_t>(distinct_.size()));
   if (is_new) distinct_.push_back(text);
   indices_.push_back(place->second);
+}
+
+void Texts::keep(std::size_t first, std::span<const std::size_t> rows) {
+  keep_in(indices_, first, rows);
+  if (distinct_.size() > 2 * indices_.size()) drop_unused();
+}
+
+void Texts::drop_unused() {
+  std::vector<std::string> all = std::exchange(distinct_, {});
+  std::vector<std::int32_t> places(all.size(), -1);
+  for (const std::int32_t index : indices_) places[static_cast<std::size_t>(index)] = 0;
+  places_.clear();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (places[i] < 0) continue;
+    places[i] = static_cast<std::int32_t>(distinct_.size());
+    places_.emplace(all[i], places[i]);
+    distinct_.push_back(std::move(all[i]));
+  }
+  for (std::int32_t& index : indices_) index = places[static_cast<std::size_t>(index)];
 }
 
 Column::Column(SignalInfo info) : info_(std::move(info)), values_(empty_values(info_.type)) {}
@@ -151,7 +169,7 @@ void Column::become_texts() {
 
 void Column::keep(std::size_t first, std::span<const std::size_t> rows) {
   if (Texts* texts = std::get_if<Texts>(&values_)) {
-    keep_in(texts->indices(), first, rows);
+    texts->keep(first, rows);
   } else if (Doubles* doubles = std::get_if<Doubles>(&values_)) {
     keep_in(*doubles, first, rows);
   } else if (Integers* integers = std::get_if<Integers>(&values_)) {
@@ -159,6 +177,10 @@ void Column::keep(std::size_t first, std::span<const std::size_t> rows) {
   } else {
     keep_in(std::get<Booleans>(values_), first, rows);
   }
+}
+
+void Column::drop_unused_texts() {
+  if (Texts* texts = std::get_if<Texts>(&values_)) texts->drop_unused();
 }
 
 }  // namespace stride::report

@@ -29,8 +29,12 @@ class Texts {
  public:
   void add(const std::string& text);
   const std::vector<std::string>& distinct() const { return distinct_; }
-  std::vector<std::int32_t>& indices() { return indices_; }
   const std::vector<std::int32_t>& indices() const { return indices_; }
+  /// Of the rows from `first` on, keeps those that are listed, in ascending order. Texts that no
+  /// row has any more go as soon as they are more than the rows.
+  void keep(std::size_t first, std::span<const std::size_t> rows);
+  /// All of them go.
+  void drop_unused();
 
  private:
   std::vector<std::string> distinct_;
@@ -62,6 +66,8 @@ class Column {
   void append(const CsvReader::Field& field);
   /// Of the rows from `first` on, keeps those that are listed, in ascending order.
   void keep(std::size_t first, std::span<const std::size_t> rows);
+  /// Forgets the texts that no row has any more.
+  void drop_unused_texts();
 
  private:
   void append_number(std::string_view text);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "master/core/error.h"
+#include "master/io/results_folder.h"
 #include "master/report/notes.h"
 #include "master/report/signals_file.h"
 #include "master/report/table.h"
@@ -109,10 +110,9 @@ Film read_film(const fs::path& folder, Notes& notes) {
 std::vector<Film> read_films(const fs::path& folder, Notes& notes) {
   std::vector<fs::path> folders;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (fs::exists(entry.path() / "frames.csv", error)) folders.push_back(entry.path());
+  for (const fs::path& path : io::folder_entries(folder)) {
+    if (fs::exists(path / "frames.csv", error)) folders.push_back(path);
   }
-  std::sort(folders.begin(), folders.end());
   std::vector<Film> films;
   for (const fs::path& path : folders) {
     if (Film film = read_film(path, notes); !film.times.empty()) films.push_back(std::move(film));

@@ -1,15 +1,16 @@
 #include "master/report/run_file.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
-#include <set>
 #include <stdexcept>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "master/core/error.h"
+#include "master/io/results_folder.h"
 
 namespace stride::report {
 namespace {
@@ -63,10 +64,17 @@ bool refuse_depth(int depth, Json::parse_event_t, Json&) {
   return true;
 }
 
+/// Thousands of signals take a few MiB.
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 20;
+
 std::string content(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
     core::fail_input({.where = {file.string(), 0}}, "cannot read the file: it is no regular file");
+  }
+  if (std::filesystem::file_size(file, error) > kMostBytes && !error) {
+    core::fail_input({.where = {file.string(), 0}},
+                     "this is not what `stride run` writes: it has more than 64 MiB");
   }
   std::ifstream stream(file, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(stream), {});
@@ -113,12 +121,10 @@ std::filesystem::path find_run_file(const std::filesystem::path& folder) {
   std::error_code error;
   const std::filesystem::path usual = folder / io::ResultFiles().statistics;
   if (std::filesystem::exists(usual, error)) return usual;
-  std::set<std::filesystem::path> others;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".json") others.insert(entry.path());
+  for (const std::filesystem::path& other : io::folder_entries(folder)) {
+    if (other.extension() == ".json" && is_run_file(other)) return other;
   }
-  const auto found = std::find_if(others.begin(), others.end(), is_run_file);
-  return found == others.end() ? std::filesystem::path() : *found;
+  return {};
 }
 
 }  // namespace stride::report

@@ -64,12 +64,13 @@ class SignalsReader {
     const std::span<const std::string> headings = table_.columns();
     if (headings[0] != "time") table_.fail(0, "expected the column 'time'");
     signals_.columns = make_columns(headings.subspan(1), infos);
-    signals_.thinned = block_size(count_rows(file, limit), signals_.columns.size(), limit);
+    thinner_ = Thinner(count_rows(file, limit), signals_.columns.size(), limit);
+    signals_.thinned = thinner_.block();
   }
 
   Signals read() {
     while (!table_.columns().empty() && table_.next()) take_row();
-    if (signals_.thinned) thin_block();
+    thinner_.finish(signals_.times, signals_.columns);
     return std::move(signals_);
   }
   std::optional<std::size_t> cut() const { return table_.cut(); }
@@ -81,8 +82,8 @@ class SignalsReader {
     if (!times.empty() && time < times.back()) table_.fail(0, "the time goes back");
     if (!times.empty() && time == times.back()) {
       drop_last_row();
-    } else if (signals_.thinned && times.size() - block_ == *signals_.thinned) {
-      thin_block();
+    } else {
+      thinner_.make_room(times, signals_.columns);
     }
     for (std::size_t i = 0; i < signals_.columns.size(); ++i) take_field(i);
     times.push_back(time);
@@ -101,14 +102,9 @@ class SignalsReader {
     for (Column& column : signals_.columns) column.keep(signals_.times.size(), {});
   }
 
-  void thin_block() {
-    thin(signals_.times, signals_.columns, block_);
-    block_ = signals_.times.size();
-  }
-
   Table table_;
   Signals signals_;
-  std::size_t block_ = 0;  ///< where the present block of rows begins
+  Thinner thinner_;
 };
 
 }  // namespace

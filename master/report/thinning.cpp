@@ -31,13 +31,14 @@ void add_extremes(const std::vector<Element>& values, std::size_t first,
   }
 }
 
+/// A block keeps three rows of each column at most, its first and its last one.
+std::size_t most_kept(std::size_t columns) { return 3 * columns + 2; }
+
 }  // namespace
 
 std::optional<std::size_t> block_size(std::size_t rows, std::size_t columns, std::size_t limit) {
   if (columns == 0 || rows <= limit / columns) return std::nullopt;
-  // a block keeps three rows of each column at most, its first and its last one
-  const std::size_t kept = 3 * columns + 2;
-  const std::size_t blocks = std::max<std::size_t>(1, limit / columns / kept);
+  const std::size_t blocks = std::max<std::size_t>(1, limit / columns / most_kept(columns));
   return (rows + blocks - 1) / blocks;
 }
 
@@ -61,6 +62,28 @@ void thin(std::vector<std::int64_t>& times, std::vector<Column>& columns, std::s
   std::size_t to = first;
   for (const std::size_t row : rows) times[to++] = times[row];
   times.resize(to);
+}
+
+Thinner::Thinner(std::size_t rows, std::size_t columns, std::size_t limit)
+    : block_(block_size(rows, columns, limit)) {
+  if (block_) most_held_ = std::max(limit / columns, 2 * most_kept(columns));
+}
+
+void Thinner::make_room(std::vector<std::int64_t>& times, std::vector<Column>& columns) {
+  if (!block_) return;
+  const bool is_full = count_ == *block_;
+  if (is_full || times.size() - first_ >= most_held_) thin(times, columns, first_);
+  if (is_full) {
+    first_ = times.size();
+    count_ = 0;
+  }
+  ++count_;
+}
+
+void Thinner::finish(std::vector<std::int64_t>& times, std::vector<Column>& columns) {
+  if (!block_) return;
+  thin(times, columns, first_);
+  for (Column& column : columns) column.drop_unused_texts();
 }
 
 }  // namespace stride::report

@@ -1,16 +1,29 @@
 #include "master/xml/writer.h"
 
-#include <algorithm>
+#include <string_view>
 
 #include <tinyxml2.h>
+
+#include "master/core/utf8.h"
 
 namespace stride::xml {
 namespace {
 
-std::string printable(std::string text) {
-  std::ranges::replace_if(
-      text, [](unsigned char c) { return c < ' ' && c != '\t' && c != '\n' && c != '\r'; }, '?');
-  return text;
+/// Char of XML 1.0; surrogates are no characters of UTF-8.
+bool is_allowed(std::string_view character) {
+  constexpr std::string_view kAllowedControls = "\t\n\r";
+  const auto first = static_cast<unsigned char>(character[0]);
+  if (first < ' ') return kAllowedControls.find(character) != std::string_view::npos;
+  return character != "\uFFFE" && character != "\uFFFF";
+}
+
+std::string printable(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const std::string_view character = core::take_character(text);
+    result += is_allowed(character) ? character : core::kReplacement;
+  }
+  return result;
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ class XMLPrinter;
 
 namespace stride::xml {
 
-/// Texts are UTF-8; characters that XML 1.0 cannot hold, such as most control characters, become
-/// question marks.
+/// Texts are UTF-8. What is not, and characters that XML 1.0 cannot hold, such as most control
+/// characters, become U+FFFD.
 class Writer {
  public:
   Writer();

@@ -32,7 +32,7 @@ function __stride_files # EXTENSION...
     end
 end
 
-function __stride_component_files # EXTENSION...
+function __stride_component_files
     set -l token (commandline -ct)
     if string match -q -- '*=*' $token
         set -l component (string replace -r '=.*' '' -- $token)

@@ -63,3 +63,12 @@ TEST_CASE("Of a film of an earlier run nothing else goes") {
   folder.write("film/x", "");
   CHECK_NOTHROW(remove_results(folder / "", {}));
 }
+
+TEST_CASE("What is in a folder comes sorted, and a folder that is none has nothing") {
+  const TemporaryFolder folder;
+  folder.write("b", "");
+  folder.write("a", "");
+  CHECK(folder_entries(folder / "") ==
+        std::vector<std::filesystem::path>{folder / "a", folder / "b"});
+  CHECK(folder_entries(folder / "none").empty());
+}

@@ -70,3 +70,8 @@ TEST_CASE("What is no time is refused, and the text says what was expected") {
   CHECK_THROWS_WITH(parse_seconds(text), Catch::Contains(reason) &&
                                              Catch::Contains("a number of seconds such as 0.001"));
 }
+
+TEST_CASE("what a computation took is told to the millisecond") {
+  CHECK(stride::io::wall_seconds(std::chrono::nanoseconds(1'234'567'890)) == "1.235");
+  CHECK(stride::io::wall_seconds({}) == "0.000");
+}

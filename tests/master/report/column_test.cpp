@@ -117,3 +117,25 @@ TEST_CASE("rows are kept from one on") {
   column.keep(3, {});
   CHECK(column.size() == 3);
 }
+
+TEST_CASE("texts of rows that are gone go, and the others stay what they are") {
+  Column column = of(ValueType::String, {"a", "b", "c", "d", "b", "e"});
+  const std::vector<std::size_t> rows = {3, 4};
+  column.keep(1, rows);
+  CHECK(texts(column) == Words{"a", "d", "b"});
+  column.drop_unused_texts();
+  CHECK(std::get<Texts>(column.values()).distinct() == Words{"a", "b", "d"});
+  column.append({"b", false});
+  column.append({"c", false});
+  CHECK(texts(column) == Words{"a", "d", "b", "b", "c"});
+  CHECK(std::get<Texts>(column.values()).distinct().size() == 4);
+}
+
+TEST_CASE("texts of rows that are gone do not pile up") {
+  Column column = of(ValueType::String, {"first"});
+  for (int i = 0; i < 1000; ++i) {
+    column.append({std::to_string(i), false});
+    column.keep(1, {});
+    CHECK(std::get<Texts>(column.values()).distinct().size() <= 2);
+  }
+}

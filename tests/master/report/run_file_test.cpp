@@ -1,5 +1,7 @@
 #include "master/report/run_file.h"
 
+#include <fstream>
+
 #include <catch2/catch.hpp>
 
 #include "master/io/run_json.h"
@@ -72,4 +74,16 @@ TEST_CASE("it is found under another name, by what it says of itself") {
   CHECK(find_run_file(folder / "").filename() == "stats.json");
   folder.write("run.json", "{}");
   CHECK(find_run_file(folder / "").filename() == "run.json");
+}
+
+TEST_CASE("what is too large to be one is not read") {
+  const TemporaryFolder folder;
+  const auto file = folder.write("a.json", R"({"files": {"statistics": "a.json"}})");
+  REQUIRE(find_run_file(folder / "") == file);
+  std::ofstream padded(file, std::ios::app);
+  for (int i = 0; i < 64; ++i) padded << std::string(std::size_t{1} << 20, ' ');
+  padded.close();
+  CHECK(find_run_file(folder / "").empty());
+  CHECK_THAT(error_of([&] { read_run_file(file); }),
+             Contains("a.json: this is not what") && Contains("more than 64 MiB"));
 }

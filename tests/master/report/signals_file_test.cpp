@@ -139,3 +139,16 @@ TEST_CASE("too many values are thinned while they are read, and no extreme is lo
   REQUIRE(found.notes.size() == 1);
   CHECK_THAT(found.notes[0], Contains("too many values"));
 }
+
+TEST_CASE("of texts only those are kept whose rows are") {
+  std::string text = "time,a.name\n";
+  for (int i = 0; i < 20'000; ++i) text += fmt::format("{},\"name {}\"\n", i, i);
+  const Read found = read(text, 1'000);
+  REQUIRE(found.signals.thinned);
+  const Texts& texts = std::get<Texts>(found.signals.columns[0].values());
+  CHECK(texts.distinct().size() == found.signals.times.size());
+  for (std::size_t row = 0; row < found.signals.times.size(); ++row) {
+    CHECK(texts.distinct()[static_cast<std::size_t>(texts.indices()[row])] ==
+          fmt::format("name {}", found.signals.times[row] / 1'000'000'000'000));
+  }
+}

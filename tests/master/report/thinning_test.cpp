@@ -101,3 +101,39 @@ TEST_CASE("rows before the block stay") {
   thin(times, columns, 4);
   CHECK(times.size() == 4);
 }
+
+TEST_CASE("what is held while rows are added stays below a bound, and the same rows stay") {
+  const std::size_t count = GENERATE(2u, 40u, 100u);  // columns
+  const std::size_t rows = 20'000;
+  const std::size_t limit = 10'000;
+  Thinner thinner(rows, count, limit);
+  REQUIRE(thinner.block());
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  std::vector<Column> columns(count, doubles({})), block(count, doubles({}));
+  std::vector<std::int64_t> times, block_times, expected;
+  std::size_t most_held = 0;
+  const auto end_block = [&] {
+    thin(block_times, block, 0);
+    expected.insert(expected.end(), block_times.begin(), block_times.end());
+    block_times.clear();
+    for (Column& column : block) column.keep(0, {});
+  };
+  for (std::size_t row = 0; row < rows; ++row) {
+    thinner.make_room(times, columns);
+    if (block_times.size() == *thinner.block()) end_block();
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::string text = fmt::format("{:.3f}", normal(random));
+      columns[i].append({text, false});
+      block[i].append({text, false});
+    }
+    times.push_back(static_cast<std::int64_t>(row));
+    block_times.push_back(times.back());
+    most_held = std::max(most_held, times.size() * count);
+  }
+  thinner.finish(times, columns);
+  end_block();
+  CHECK(times == expected);
+  CHECK(columns.back().size() == times.size());
+  CHECK(most_held <= std::max(3 * limit, 2 * (3 * count + 2) * count));
+}
