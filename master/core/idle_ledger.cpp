@@ -81,7 +81,6 @@ bool IdleLedger::wake(std::size_t component, Time time) {
   account.rests = false;
   const Duration debt = time - account.since;
   if (debt == Duration{}) return false;
-  account.has_ended_rest = true;
   account.ended = time;
   const StepResult result = units_[component]->step({account.since, time});
   check_promise(component, time, result);
@@ -95,8 +94,8 @@ bool IdleLedger::wake(std::size_t component, Time time) {
 
 void IdleLedger::tell_rest(std::size_t component) {
   Account& account = accounts_[component];
-  if (!std::exchange(account.has_ended_rest, false)) return;
-  activities_.tell({component, Activity::Kind::Idle, account.since, account.ended});
+  const std::optional<Time> ended = std::exchange(account.ended, std::nullopt);
+  if (ended) activities_.tell({component, Activity::Kind::Idle, account.since, *ended});
 }
 
 bool IdleLedger::wake_and_tell(std::size_t component, Time time) {
@@ -108,10 +107,7 @@ bool IdleLedger::wake_and_tell(std::size_t component, Time time) {
 void IdleLedger::tell_unfinished_rests(Time time) {
   for (const std::size_t i : candidates_) {
     Account& account = accounts_[i];
-    if (std::exchange(account.rests, false) && account.since < time) {
-      account.has_ended_rest = true;
-      account.ended = time;
-    }
+    if (std::exchange(account.rests, false) && account.since < time) account.ended = time;
     tell_rest(i);
   }
 }

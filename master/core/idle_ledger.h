@@ -56,6 +56,8 @@ class IdleLedger {
   bool wake(std::size_t component, Time time);
   /// On the thread of the simulation, some time after wake(): tells of the rest that ended.
   void tell_rest(std::size_t component);
+  /// Both at once, on that thread.
+  bool wake_and_tell(std::size_t component, Time time);
 
   /// All units stand at or owe up to `time`: the outputs of those that rest are what their tangents
   /// say, and those whose rests end here are woken. Returns those of them that have an event.
@@ -85,11 +87,10 @@ class IdleLedger {
   struct Account {
     bool is_candidate = false;
     bool rests = false;
-    bool has_ended_rest = false;  ///< of which is still to be told
-    Time since{};                 ///< where the unit stands
-    Time until{};                 ///< its promise
-    Time end{};                   ///< of the rest, at most
-    Time ended{};                 ///< where it did, if that is still to be told
+    Time since{};               ///< where the unit stands
+    Time until{};               ///< its promise
+    Time end{};                 ///< of the rest, at most
+    std::optional<Time> ended;  ///< where it did, if that is still to be told
     Duration max_skip{};
     std::vector<WatchedInput> inputs;
     std::vector<Tangent> tangents;
@@ -99,7 +100,6 @@ class IdleLedger {
 
   void open(std::size_t component, Duration max_skip);
   void begin_rest(std::size_t component, Time time, Time until, Time end);
-  bool wake_and_tell(std::size_t component, Time time);
   bool is_disturbed(const Account& account) const;
   void check_promise(std::size_t component, Time time, const StepResult& result) const;
 

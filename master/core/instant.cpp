@@ -133,10 +133,7 @@ bool Instant::prepare_events() {
 
 void Instant::enter_event_mode(std::size_t i) {
   if (in_event_mode_[i]) return;
-  if (ledger_ != nullptr && ledger_->rests(i)) {
-    ledger_->wake(i, time_);
-    ledger_->tell_rest(i);
-  }
+  if (ledger_ != nullptr && ledger_->rests(i)) ledger_->wake_and_tell(i, time_);
   units_[i]->enter_event_mode();
   in_event_mode_[i] = has_event_ = true;
   exchange_.deliver(i, *units_[i]);
