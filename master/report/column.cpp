@@ -58,6 +58,10 @@ void keep_in(std::vector<Element>& values, std::size_t first, std::span<const st
   values.resize(to);
 }
 
+void keep_in(Texts& texts, std::size_t first, std::span<const std::size_t> rows) {
+  texts.keep(first, rows);
+}
+
 }  // namespace
 
 void Texts::add(const std::string& text) {
@@ -94,10 +98,7 @@ Column::Column(std::string name, std::string unit)
 bool Column::is_stepped() const { return !info_.is_continuous || !core::is_real(info_.type); }
 
 std::size_t Column::size() const {
-  if (const Texts* texts = std::get_if<Texts>(&values_)) return texts->indices().size();
-  if (const Doubles* doubles = std::get_if<Doubles>(&values_)) return doubles->size();
-  if (const Integers* integers = std::get_if<Integers>(&values_)) return integers->size();
-  return std::get<Booleans>(values_).size();
+  return std::visit([](const auto& values) { return values.size(); }, values_);
 }
 
 void Column::append(const CsvReader::Field& field) {
@@ -168,15 +169,7 @@ void Column::become_texts() {
 }
 
 void Column::keep(std::size_t first, std::span<const std::size_t> rows) {
-  if (Texts* texts = std::get_if<Texts>(&values_)) {
-    texts->keep(first, rows);
-  } else if (Doubles* doubles = std::get_if<Doubles>(&values_)) {
-    keep_in(*doubles, first, rows);
-  } else if (Integers* integers = std::get_if<Integers>(&values_)) {
-    keep_in(*integers, first, rows);
-  } else {
-    keep_in(std::get<Booleans>(values_), first, rows);
-  }
+  std::visit([&](auto& values) { keep_in(values, first, rows); }, values_);
 }
 
 void Column::drop_unused_texts() {

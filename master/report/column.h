@@ -30,6 +30,7 @@ class Texts {
   void add(const std::string& text);
   const std::vector<std::string>& distinct() const { return distinct_; }
   const std::vector<std::int32_t>& indices() const { return indices_; }
+  std::size_t size() const { return indices_.size(); }
   /// Of the rows from `first` on, keeps those that are listed, in ascending order. Texts that no
   /// row has any more go as soon as they are more than the rows.
   void keep(std::size_t first, std::span<const std::size_t> rows);
