@@ -250,7 +250,7 @@ class RecordedRun {
     for (const auto& [what, member] : io::kResultFiles) {
       if (!(files_.*member).empty()) fmt::print(" {}", files_.*member);
     }
-    fmt::print("{}\n", std::filesystem::exists(folder_ / "film") ? " film/" : "");
+    fmt::print("{}\n", std::filesystem::exists(folder_ / io::kFilmFolder) ? " film/" : "");
   }
 
   Interruption interruption_;

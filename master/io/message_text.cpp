@@ -10,7 +10,7 @@ namespace stride::io {
 namespace {
 
 template <class T>
-std::string element_text(const T& value) {
+std::string brief_text(const T& value) {
   if constexpr (std::is_same_v<T, core::Binary>) {
     return fmt::format("{} {}", value.size(), value.size() == 1 ? "byte" : "bytes");
   } else if constexpr (std::is_floating_point_v<T>) {
@@ -30,7 +30,7 @@ std::string message_text(const core::System& system, const core::Message& messag
   std::string text;
   core::visit(*message.block, [&](auto values) {
     for (const auto& value : values.subspan(message.first, variable.size)) {
-      text += (text.empty() ? "" : ", ") + element_text(value);
+      text += (text.empty() ? "" : ", ") + brief_text(value);
       if (text.size() > 4 * most) break;  // no character has more bytes
     }
   });

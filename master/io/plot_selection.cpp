@@ -37,35 +37,39 @@ bool add_matches(const core::System& system, std::span<const core::VariableId> r
   return has_match;
 }
 
-}  // namespace
-
-std::vector<Plot> select_plots(const core::System& system,
-                               std::span<const core::VariableId> recorded,
-                               std::span<const PlotPattern> patterns) {
+/// Calls miss(plot, pattern) for a pattern that matches nothing.
+template <class Miss>
+std::vector<Plot> matching_plots(const core::System& system,
+                                 std::span<const core::VariableId> recorded,
+                                 std::span<const PlotPattern> patterns, Miss&& miss) {
   std::vector<Plot> plots;
   for (const PlotPattern& wanted : patterns) {
     Plot& plot = plots.emplace_back(Plot{wanted.title, {}});
     std::set<core::VariableId> taken;
     for (const SignalPattern& pattern : wanted.signals) {
-      if (add_matches(system, recorded, pattern, taken, plot)) continue;
-      fail_without_match(system, recorded, wanted, pattern);
+      if (!add_matches(system, recorded, pattern, taken, plot)) miss(wanted, pattern);
     }
   }
   return plots;
 }
 
+}  // namespace
+
+std::vector<Plot> select_plots(const core::System& system,
+                               std::span<const core::VariableId> recorded,
+                               std::span<const PlotPattern> patterns) {
+  return matching_plots(system, recorded, patterns,
+                        [&](const PlotPattern& plot, const SignalPattern& pattern) {
+                          fail_without_match(system, recorded, plot, pattern);
+                        });
+}
+
 std::vector<Plot> remaining_plots(const core::System& system,
                                   std::span<const core::VariableId> recorded,
                                   std::span<const PlotPattern> patterns) {
-  std::vector<Plot> plots;
-  for (const PlotPattern& wanted : patterns) {
-    Plot plot{wanted.title, {}};
-    std::set<core::VariableId> taken;
-    for (const SignalPattern& pattern : wanted.signals) {
-      add_matches(system, recorded, pattern, taken, plot);
-    }
-    if (!plot.signals.empty()) plots.push_back(std::move(plot));
-  }
+  std::vector<Plot> plots =
+      matching_plots(system, recorded, patterns, [](const PlotPattern&, const SignalPattern&) {});
+  std::erase_if(plots, [](const Plot& plot) { return plot.signals.empty(); });
   return plots;
 }
 

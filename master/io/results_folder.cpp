@@ -25,13 +25,13 @@ bool is_picture(const fs::path& file) {
 void remove_films(const fs::path& folder) {
   std::error_code ignored;  // what cannot be removed fails where it is to be replaced
   std::vector<fs::path> goes;
-  for (const fs::path& film : folder_entries(folder / "film")) {
-    if (!fs::exists(film / "frames.csv", ignored)) continue;
+  for (const fs::path& film : folder_entries(folder / kFilmFolder)) {
+    if (!fs::exists(film / kFilmList, ignored)) continue;
     std::ranges::copy_if(folder_entries(film), std::back_inserter(goes), is_picture);
-    goes.push_back(film / "frames.csv");
+    goes.push_back(film / kFilmList);
     goes.push_back(film);
   }
-  if (!goes.empty()) goes.push_back(folder / "film");
+  if (!goes.empty()) goes.push_back(folder / kFilmFolder);
   for (const fs::path& path : goes) fs::remove(path, ignored);
 }
 

@@ -8,6 +8,10 @@
 
 namespace stride::io {
 
+/// Where units put their films, each into a folder of its own, and the list of its pictures there.
+inline constexpr const char* kFilmFolder = "film";
+inline constexpr const char* kFilmList = "frames.csv";
+
 /// Makes the folder, and those above it, where they do not exist. Throws core::Error (Input) if
 /// that is not possible, or if it is no folder in which files can be written.
 void make_results_folder(const std::filesystem::path& folder);

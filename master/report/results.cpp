@@ -19,8 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFilmFolder = "film";
-
 std::uint64_t index_of(const Table& table, std::size_t place) {
   const std::string_view text = table.field(place).text;
   std::uint64_t index = 0;
@@ -82,7 +80,7 @@ std::vector<Activities> read_activities(const fs::path& file, Notes& notes) {
 }
 
 Film read_film(const fs::path& folder, Notes& notes) {
-  Table table(folder / "frames.csv");
+  Table table(folder / io::kFilmList);
   Film film{folder.filename().string(), {}, {}};
   if (table.columns().empty()) return film;
   const std::size_t time = table.place("time");
@@ -101,9 +99,9 @@ Film read_film(const fs::path& folder, Notes& notes) {
     film.pictures.push_back(picture);
   }
   if (missing > 0) {
-    notes.add(folder / "frames.csv", fmt::format("{} of its pictures are missing", missing));
+    notes.add(folder / io::kFilmList, fmt::format("{} of its pictures are missing", missing));
   }
-  notes.add_cut(folder / "frames.csv", table.cut());
+  notes.add_cut(folder / io::kFilmList, table.cut());
   return film;
 }
 
@@ -111,7 +109,7 @@ std::vector<Film> read_films(const fs::path& folder, Notes& notes) {
   std::vector<fs::path> folders;
   std::error_code error;
   for (const fs::path& path : io::folder_entries(folder)) {
-    if (fs::exists(path / "frames.csv", error)) folders.push_back(path);
+    if (fs::exists(path / io::kFilmList, error)) folders.push_back(path);
   }
   std::vector<Film> films;
   for (const fs::path& path : folders) {
@@ -147,7 +145,7 @@ Results read_results(const fs::path& folder, const io::ResultFiles& files, const
   if (const auto file = present(folder, files.activity, notes)) {
     results.activities = read_activities(*file, notes);
   }
-  results.films = read_films(folder / kFilmFolder, notes);
+  results.films = read_films(folder / io::kFilmFolder, notes);
   results.notes = notes.texts();
   return results;
 }
