@@ -9,15 +9,9 @@
 #include <stride/time.h>
 
 #include "master/core/values.h"
+#include "master/core/variable_id.h"
 
 namespace stride::core {
-
-/// A variable of a component, by its places in System::components() and UnitDescription::variables.
-struct VariableId {
-  std::size_t component = 0;
-  std::size_t variable = 0;
-  auto operator<=>(const VariableId&) const = default;
-};
 
 /// Where an observed variable's present value stands: `variable.size` elements of the block from
 /// `first` on. Valid and kept up to date for the whole run.

@@ -12,7 +12,7 @@
 
 #include <stride/time.h>
 
-#include "master/core/observer.h"
+#include "master/core/variable_id.h"
 
 namespace stride::core {
 

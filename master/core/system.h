@@ -13,8 +13,8 @@
 #include "master/core/description.h"
 #include "master/core/error.h"
 #include "master/core/mistakes.h"
-#include "master/core/observer.h"
 #include "master/core/values.h"
+#include "master/core/variable_id.h"
 
 namespace stride::core {
 
