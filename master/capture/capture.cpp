@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "master/core/error.h"
-#include "master/core/suggest.h"
+#include "master/util/error.h"
+#include "master/util/suggest.h"
 
 namespace stride::capture {
 namespace {

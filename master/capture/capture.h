@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "master/algorithm/observer.h"
+#include "master/algorithm/run_options.h"
+#include "master/algorithm/simulation.h"
 #include "master/capture/captured_unit.h"
-#include "master/core/observer.h"
-#include "master/core/run_options.h"
-#include "master/core/simulation.h"
-#include "master/core/system.h"
+#include "master/model/system.h"
 
 namespace stride::capture {
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "master/algorithm/statistics.h"
+#include "master/algorithm/unit.h"
 #include "master/capture/stimuli_file.h"
-#include "master/core/statistics.h"
-#include "master/core/unit.h"
 
 namespace stride::capture {
 

@@ -10,9 +10,9 @@
 
 #include <stride/time.h>
 
-#include "master/core/description.h"
-#include "master/core/values.h"
 #include "master/io/output_file.h"
+#include "master/model/description.h"
+#include "master/model/values.h"
 
 namespace stride::capture {
 

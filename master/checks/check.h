@@ -8,9 +8,9 @@
 
 #include <stride/time.h>
 
+#include "master/algorithm/observer.h"
+#include "master/algorithm/verdict.h"
 #include "master/checks/definition.h"
-#include "master/core/observer.h"
-#include "master/core/verdict.h"
 
 namespace stride::checks {
 

@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "master/algorithm/observer.h"
+#include "master/algorithm/verdict.h"
 #include "master/checks/check.h"
 #include "master/checks/definition.h"
 #include "master/checks/signal_check.h"
-#include "master/core/observer.h"
-#include "master/core/verdict.h"
 
 namespace stride::checks {
 

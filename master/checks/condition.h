@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "master/core/description.h"
-#include "master/core/values.h"
+#include "master/model/description.h"
+#include "master/model/values.h"
 
 namespace stride::checks {
 

@@ -10,9 +10,9 @@
 
 #include <stride/time.h>
 
+#include "master/algorithm/observer.h"
 #include "master/checks/condition.h"
-#include "master/core/error.h"
-#include "master/core/observer.h"
+#include "master/util/error.h"
 
 namespace stride::checks {
 

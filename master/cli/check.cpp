@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "master/algorithm/stepping/step_order.h"
 #include "master/cli/commands.h"
 #include "master/cli/evaluation_text.h"
 #include "master/cli/loaded_scenario.h"
 #include "master/cli/scenario_options.h"
 #include "master/cli/table.h"
-#include "master/core/step_order.h"
 
 namespace stride::cli {
 namespace {

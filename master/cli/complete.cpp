@@ -6,11 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "master/archive/zip.h"
 #include "master/cli/commands.h"
 #include "master/cli/loaded_scenario.h"
 #include "master/cli/unit_path.h"
 #include "master/io/replacement.h"
+#include "master/util/archive/zip.h"
 
 namespace stride::cli {
 namespace {

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "master/algorithm/loops/evaluation_order.h"
 #include "master/cli/table.h"
-#include "master/core/evaluation_order.h"
 
 namespace stride::cli {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "master/core/system.h"
+#include "master/model/system.h"
 
 namespace stride::cli {
 

@@ -5,12 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "master/archive/temporary_folder.h"
 #include "master/cli/unit_path.h"
-#include "master/core/error.h"
 #include "master/fmi/binaries.h"
 #include "master/fmi/unpacked_fmu.h"
 #include "master/io/program_files.h"
+#include "master/util/archive/temporary_folder.h"
+#include "master/util/error.h"
 
 namespace stride::cli {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "master/core/system.h"
+#include "master/model/system.h"
 
 namespace stride::cli {
 

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "master/core/error.h"
-#include "master/core/step_order.h"
+#include "master/algorithm/stepping/step_order.h"
+#include "master/util/error.h"
 
 namespace stride::cli {
 namespace {

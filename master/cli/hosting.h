@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "master/core/run_options.h"
-#include "master/core/system.h"
+#include "master/algorithm/run_options.h"
 #include "master/host/hosted_unit.h"
 #include "master/io/host_choice.h"
+#include "master/model/system.h"
 
 namespace stride::cli {
 

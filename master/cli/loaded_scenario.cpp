@@ -7,15 +7,15 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "master/algorithm/stepping/step_size.h"
 #include "master/checks/checks.h"
 #include "master/cli/film.h"
 #include "master/cli/unit_path.h"
-#include "master/core/step_size.h"
-#include "master/core/suggest.h"
 #include "master/io/check_selection.h"
 #include "master/io/component_selection.h"
 #include "master/io/signal_selection.h"
 #include "master/io/time_text.h"
+#include "master/util/suggest.h"
 
 namespace stride::cli {
 namespace {

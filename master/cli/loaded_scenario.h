@@ -9,13 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "master/algorithm/simulation.h"
 #include "master/checks/definition.h"
 #include "master/cli/hosting.h"
-#include "master/core/simulation.h"
-#include "master/core/system.h"
 #include "master/fmi/fmu.h"
 #include "master/io/plot_selection.h"
 #include "master/io/scenario.h"
+#include "master/model/system.h"
 
 namespace stride::cli {
 

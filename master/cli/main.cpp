@@ -9,8 +9,8 @@
 #include <spdlog/spdlog.h>
 
 #include "master/cli/commands.h"
-#include "master/core/error.h"
-#include "master/core/suggest.h"
+#include "master/util/error.h"
+#include "master/util/suggest.h"
 
 namespace {
 

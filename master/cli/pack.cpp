@@ -9,13 +9,13 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "master/archive/temporary_folder.h"
-#include "master/archive/zip.h"
 #include "master/cli/commands.h"
 #include "master/cli/file_units.h"
 #include "master/cli/unit_path.h"
 #include "master/io/package.h"
 #include "master/io/scenario.h"
+#include "master/util/archive/temporary_folder.h"
+#include "master/util/archive/zip.h"
 
 namespace stride::cli {
 namespace {

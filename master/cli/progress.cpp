@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "master/core/error.h"
+#include "master/util/error.h"
 
 namespace stride::cli {
 namespace {

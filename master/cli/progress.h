@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "master/algorithm/observer.h"
+#include "master/algorithm/simulation.h"
 #include "master/cli/pace.h"
-#include "master/core/observer.h"
-#include "master/core/simulation.h"
 
 namespace stride::cli {
 

@@ -9,9 +9,9 @@
 #include <spawn.h>
 #include <unistd.h>
 
-#include "master/core/error.h"
 #include "master/report/page.h"
 #include "master/report/report.h"
+#include "master/util/error.h"
 
 namespace stride::cli {
 namespace {

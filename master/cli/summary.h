@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "master/core/observer.h"
-#include "master/core/statistics.h"
-#include "master/core/system.h"
+#include "master/algorithm/observer.h"
+#include "master/algorithm/statistics.h"
+#include "master/model/system.h"
 
 namespace stride::cli {
 

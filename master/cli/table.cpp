@@ -6,7 +6,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "master/core/readable_text.h"
+#include "master/util/readable_text.h"
 
 namespace stride::cli {
 namespace {

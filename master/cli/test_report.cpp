@@ -5,8 +5,8 @@
 
 #include <unistd.h>
 
-#include "master/core/error.h"
 #include "master/io/scenario.h"
+#include "master/util/error.h"
 
 namespace stride::cli {
 namespace {

@@ -8,9 +8,9 @@
 #include <span>
 #include <string>
 
-#include "master/core/run_options.h"
-#include "master/core/statistics.h"
-#include "master/core/verdict.h"
+#include "master/algorithm/run_options.h"
+#include "master/algorithm/statistics.h"
+#include "master/algorithm/verdict.h"
 #include "master/io/junit.h"
 
 namespace stride::cli {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "master/core/suggest.h"
+#include "master/util/suggest.h"
 
 namespace stride::cli {
 namespace {

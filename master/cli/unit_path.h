@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "master/core/error.h"
+#include "master/util/error.h"
 
 namespace stride::cli {
 

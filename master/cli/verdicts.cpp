@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "master/cli/table.h"
-#include "master/core/error.h"
+#include "master/util/error.h"
 
 namespace stride::cli {
 namespace {

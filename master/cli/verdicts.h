@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "master/core/verdict.h"
+#include "master/algorithm/verdict.h"
 
 namespace stride::cli {
 

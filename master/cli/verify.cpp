@@ -15,10 +15,10 @@
 #include "master/cli/interruption.h"
 #include "master/cli/table.h"
 #include "master/cli/unit_path.h"
-#include "master/core/error.h"
 #include "master/io/number_text.h"
 #include "master/io/output_file.h"
 #include "master/io/time_text.h"
+#include "master/util/error.h"
 #include "master/verify/checks.h"
 
 namespace stride::cli {

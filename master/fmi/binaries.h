@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "master/core/error.h"
+#include "master/util/error.h"
 
 namespace stride::fmi {
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "master/core/description.h"
-#include "master/xml/element.h"
+#include "master/model/description.h"
+#include "master/util/xml/element.h"
 
 namespace stride::fmi {
 

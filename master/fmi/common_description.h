@@ -7,8 +7,8 @@
 
 #include <stride/time.h>
 
-#include "master/core/description.h"
-#include "master/xml/element.h"
+#include "master/model/description.h"
+#include "master/util/xml/element.h"
 
 namespace stride::fmi {
 

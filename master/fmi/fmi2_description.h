@@ -3,7 +3,7 @@
 #define STRIDE_MASTER_FMI_FMI2_DESCRIPTION_H
 
 #include "master/fmi/model_description.h"
-#include "master/xml/element.h"
+#include "master/util/xml/element.h"
 
 namespace stride::fmi {
 

@@ -7,8 +7,8 @@
 
 #include <stride/fmi2.h>
 
-#include "master/core/error.h"
 #include "master/fmi/shared_library.h"
+#include "master/util/error.h"
 
 namespace stride::fmi {
 

@@ -2,8 +2,8 @@
 #ifndef STRIDE_MASTER_FMI_FMI3_DESCRIPTION_H
 #define STRIDE_MASTER_FMI_FMI3_DESCRIPTION_H
 
-#include "master/core/description.h"
-#include "master/xml/element.h"
+#include "master/model/description.h"
+#include "master/util/xml/element.h"
 
 namespace stride::fmi {
 

@@ -11,8 +11,8 @@
 #include <stride/idle.h>
 #include <stride/self_description.h>
 
-#include "master/core/error.h"
 #include "master/fmi/shared_library.h"
+#include "master/util/error.h"
 
 namespace stride::fmi {
 

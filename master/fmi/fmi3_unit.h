@@ -10,10 +10,10 @@
 
 #include <stride/fmi3.h>
 
-#include "master/core/error.h"
 #include "master/fmi/fmi3_library.h"
 #include "master/fmi/fmu_instance.h"
 #include "master/fmi/saved_states.h"
+#include "master/util/error.h"
 
 namespace stride::fmi {
 

@@ -5,8 +5,8 @@
 #include <map>
 #include <vector>
 
-#include "master/core/description.h"
-#include "master/xml/element.h"
+#include "master/model/description.h"
+#include "master/util/xml/element.h"
 
 namespace stride::fmi {
 

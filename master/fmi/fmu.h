@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "master/core/unit.h"
+#include "master/algorithm/unit.h"
 #include "master/fmi/fmi2_library.h"
 #include "master/fmi/fmi3_library.h"
 #include "master/fmi/fmu_instance.h"

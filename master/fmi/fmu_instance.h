@@ -15,11 +15,11 @@
 #include <utility>
 #include <vector>
 
-#include "master/core/error.h"
-#include "master/core/unit.h"
+#include "master/algorithm/unit.h"
 #include "master/fmi/call_note.h"
 #include "master/fmi/shared_library.h"
 #include "master/fmi/status.h"
+#include "master/util/error.h"
 
 namespace stride::fmi {
 

@@ -8,7 +8,7 @@
 
 #include <stride/idle.h>
 
-#include "master/xml/document.h"
+#include "master/util/xml/document.h"
 
 namespace stride::fmi {
 namespace {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "master/core/description.h"
+#include "master/model/description.h"
 
 namespace stride::fmi {
 

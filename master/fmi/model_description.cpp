@@ -5,7 +5,7 @@
 #include "master/fmi/common_description.h"
 #include "master/fmi/fmi2_description.h"
 #include "master/fmi/fmi3_description.h"
-#include "master/xml/document.h"
+#include "master/util/xml/document.h"
 
 namespace stride::fmi {
 namespace {

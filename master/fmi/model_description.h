@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "master/core/description.h"
 #include "master/fmi/fmi2_attributes.h"
+#include "master/model/description.h"
 
 namespace stride::fmi {
 

@@ -7,13 +7,13 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-#include "master/archive/zip.h"
-#include "master/core/error.h"
 #include "master/fmi/binaries.h"
 #include "master/fmi/fmi3_library.h"
 #include "master/fmi/idle_manifest.h"
 #include "master/fmi/model_description.h"
 #include "master/fmi/unpacked_fmu.h"
+#include "master/util/archive/zip.h"
+#include "master/util/error.h"
 
 namespace stride::fmi {
 namespace {

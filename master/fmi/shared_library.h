@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "master/core/error.h"
+#include "master/util/error.h"
 
 namespace stride::fmi {
 

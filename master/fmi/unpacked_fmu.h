@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "master/archive/unpacked_archive.h"
+#include "master/util/archive/unpacked_archive.h"
 
 namespace stride::fmi {
 

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "master/core/description.h"
-#include "master/xml/element.h"
+#include "master/model/description.h"
+#include "master/util/xml/element.h"
 
 namespace stride::fmi {
 

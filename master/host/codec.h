@@ -4,11 +4,11 @@
 
 #include <optional>
 
-#include "master/core/error.h"
-#include "master/core/unit.h"
-#include "master/core/values.h"
+#include "master/algorithm/unit.h"
 #include "master/host/message.h"
+#include "master/model/values.h"
 #include "master/process/sandbox.h"
+#include "master/util/error.h"
 
 namespace stride::host {
 

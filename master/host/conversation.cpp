@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "master/core/readable_text.h"
 #include "master/host/sandbox_hint.h"
 #include "master/process/process_memory.h"
+#include "master/util/readable_text.h"
 
 namespace stride::host {
 namespace {

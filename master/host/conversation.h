@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "master/core/statistics.h"
+#include "master/algorithm/statistics.h"
 #include "master/host/channel.h"
 #include "master/host/host_process.h"
 #include "master/host/last_words.h"

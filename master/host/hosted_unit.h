@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "master/core/unit.h"
+#include "master/algorithm/unit.h"
 #include "master/fmi/fmu.h"
 
 namespace stride::host {

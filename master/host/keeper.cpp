@@ -19,8 +19,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "master/archive/temporary_folder.h"
 #include "master/process/surroundings.h"
+#include "master/util/archive/temporary_folder.h"
 
 namespace stride::host {
 namespace {

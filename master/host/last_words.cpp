@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "master/core/readable_text.h"
+#include "master/util/readable_text.h"
 
 namespace stride::host {
 

@@ -9,8 +9,7 @@
 
 #include <sys/types.h>
 
-#include "master/archive/temporary_folder.h"
-#include "master/core/unit.h"
+#include "master/algorithm/unit.h"
 #include "master/fmi/fmu.h"
 #include "master/host/channel.h"
 #include "master/host/hosted_unit.h"
@@ -20,6 +19,7 @@
 #include "master/host/step_plan.h"
 #include "master/process/bell.h"
 #include "master/process/sandbox.h"
+#include "master/util/archive/temporary_folder.h"
 
 namespace stride::host {
 

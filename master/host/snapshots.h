@@ -12,9 +12,9 @@
 
 #include <sys/types.h>
 
-#include "master/core/error.h"
 #include "master/host/snapshot_board.h"
 #include "master/process/open_files.h"
+#include "master/util/error.h"
 
 namespace stride::host {
 

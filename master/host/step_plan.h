@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "master/core/unit.h"
+#include "master/algorithm/unit.h"
 #include "master/host/message.h"
 
 namespace stride::host {

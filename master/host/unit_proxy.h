@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "master/core/unit.h"
+#include "master/algorithm/unit.h"
 #include "master/host/conversation.h"
 #include "master/host/server.h"
 #include "master/host/step_plan.h"

@@ -10,7 +10,7 @@
 
 #include "master/io/number_text.h"
 #include "master/io/ssp.h"
-#include "master/xml/element.h"
+#include "master/util/xml/element.h"
 
 namespace stride::io {
 namespace {

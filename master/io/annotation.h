@@ -9,13 +9,13 @@
 
 #include <stride/time.h>
 
-#include "master/core/error.h"
 #include "master/io/check_declaration.h"
 #include "master/io/component_selection.h"
 #include "master/io/host_choice.h"
 #include "master/io/idle_choice.h"
 #include "master/io/step_choice.h"
-#include "master/xml/element.h"
+#include "master/util/error.h"
+#include "master/util/xml/element.h"
 
 namespace stride::io {
 

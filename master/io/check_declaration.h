@@ -11,8 +11,8 @@
 
 #include "master/checks/condition.h"
 #include "master/checks/definition.h"
-#include "master/core/error.h"
-#include "master/xml/element.h"
+#include "master/util/error.h"
+#include "master/util/xml/element.h"
 
 namespace stride::io {
 

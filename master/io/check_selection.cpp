@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "master/core/mistakes.h"
-#include "master/core/suggest.h"
 #include "master/io/glob.h"
 #include "master/io/signal_names.h"
 #include "master/io/signal_text.h"
+#include "master/util/mistakes.h"
+#include "master/util/suggest.h"
 
 namespace stride::io {
 namespace {

@@ -9,8 +9,8 @@
 #include <stride/time.h>
 
 #include "master/checks/definition.h"
-#include "master/core/system.h"
 #include "master/io/check_declaration.h"
+#include "master/model/system.h"
 
 namespace stride::io {
 

@@ -10,8 +10,8 @@
 #include "master/io/definitions.h"
 #include "master/io/ssp.h"
 #include "master/io/system_reader.h"
-#include "master/xml/document.h"
-#include "master/xml/editor.h"
+#include "master/util/xml/document.h"
+#include "master/util/xml/editor.h"
 
 namespace stride::io {
 namespace {

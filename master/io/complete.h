@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "master/core/description.h"
+#include "master/model/description.h"
 
 namespace stride::io {
 

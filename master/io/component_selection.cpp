@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "master/core/suggest.h"
 #include "master/io/glob.h"
+#include "master/util/suggest.h"
 
 namespace stride::io {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "master/core/error.h"
+#include "master/util/error.h"
 
 namespace stride::io {
 

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "master/core/suggest.h"
 #include "master/io/ssp.h"
+#include "master/util/suggest.h"
 
 namespace stride::io {
 namespace {

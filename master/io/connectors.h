@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "master/core/system.h"
 #include "master/io/definitions.h"
 #include "master/io/system_tree.h"
-#include "master/xml/element.h"
+#include "master/model/system.h"
+#include "master/util/xml/element.h"
 
 namespace stride::io {
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "master/core/observer.h"
-#include "master/core/system.h"
+#include "master/algorithm/observer.h"
 #include "master/io/output_file.h"
+#include "master/model/system.h"
 
 namespace stride::io {
 

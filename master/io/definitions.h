@@ -5,8 +5,8 @@
 #include <map>
 #include <string>
 
-#include "master/core/conversion.h"
-#include "master/xml/element.h"
+#include "master/model/conversion.h"
+#include "master/util/xml/element.h"
 
 namespace stride::io {
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "master/core/suggest.h"
+#include "master/util/suggest.h"
 
 namespace stride::io {
 namespace {

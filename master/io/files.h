@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "master/archive/unpacked_archive.h"
-#include "master/core/error.h"
+#include "master/util/archive/unpacked_archive.h"
+#include "master/util/error.h"
 
 namespace stride::io {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "master/core/system.h"
 #include "master/io/system_tree.h"
+#include "master/model/system.h"
 
 namespace stride::io {
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "master/io/time_text.h"
-#include "master/xml/words.h"
+#include "master/util/xml/words.h"
 
 namespace stride::io {
 namespace {

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "master/core/error.h"
 #include "master/io/component_selection.h"
+#include "master/util/error.h"
 
 namespace stride::io {
 

@@ -8,10 +8,10 @@
 
 #include <stride/time.h>
 
-#include "master/core/error.h"
-#include "master/core/run_options.h"
-#include "master/core/system.h"
+#include "master/algorithm/run_options.h"
 #include "master/io/component_selection.h"
+#include "master/model/system.h"
+#include "master/util/error.h"
 
 namespace stride::io {
 

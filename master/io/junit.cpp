@@ -6,10 +6,10 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include "master/core/error.h"
 #include "master/io/output_file.h"
 #include "master/io/time_text.h"
-#include "master/xml/writer.h"
+#include "master/util/error.h"
+#include "master/util/xml/writer.h"
 
 namespace stride::io {
 namespace {

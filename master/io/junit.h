@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "master/core/verdict.h"
+#include "master/algorithm/verdict.h"
 
 namespace stride::io {
 

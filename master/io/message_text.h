@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <string>
 
-#include "master/core/observer.h"
-#include "master/core/system.h"
+#include "master/algorithm/observer.h"
+#include "master/model/system.h"
 
 namespace stride::io {
 

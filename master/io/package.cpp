@@ -9,8 +9,8 @@
 
 #include "master/io/ssp.h"
 #include "master/io/uri.h"
-#include "master/xml/document.h"
-#include "master/xml/editor.h"
+#include "master/util/xml/document.h"
+#include "master/util/xml/editor.h"
 
 namespace stride::io {
 namespace {

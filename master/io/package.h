@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <functional>
 
-#include "master/archive/zip.h"
-#include "master/core/error.h"
 #include "master/io/files.h"
+#include "master/util/archive/zip.h"
+#include "master/util/error.h"
 
 namespace stride::io {
 

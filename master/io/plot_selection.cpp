@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "master/core/suggest.h"
 #include "master/io/signal_names.h"
 #include "master/io/signal_text.h"
+#include "master/util/suggest.h"
 
 namespace stride::io {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "master/core/observer.h"
-#include "master/core/system.h"
+#include "master/algorithm/observer.h"
 #include "master/io/annotation.h"
+#include "master/model/system.h"
 
 namespace stride::io {
 

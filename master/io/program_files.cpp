@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "master/xml/document.h"
+#include "master/util/xml/document.h"
 
 namespace stride::io {
 namespace {

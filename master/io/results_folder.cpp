@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "master/core/error.h"
+#include "master/util/error.h"
 
 namespace stride::io {
 namespace {

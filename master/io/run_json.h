@@ -6,12 +6,12 @@
 #include <span>
 #include <string>
 
-#include "master/core/simulation.h"
-#include "master/core/statistics.h"
-#include "master/core/system.h"
-#include "master/core/verdict.h"
+#include "master/algorithm/simulation.h"
+#include "master/algorithm/statistics.h"
+#include "master/algorithm/verdict.h"
 #include "master/io/annotation.h"
 #include "master/io/plot_selection.h"
+#include "master/model/system.h"
 
 namespace stride::io {
 

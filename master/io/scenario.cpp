@@ -10,7 +10,7 @@
 #include "master/io/ssp.h"
 #include "master/io/system_reader.h"
 #include "master/io/time_text.h"
-#include "master/xml/document.h"
+#include "master/util/xml/document.h"
 
 namespace stride::io {
 namespace {

@@ -10,10 +10,10 @@
 
 #include <stride/time.h>
 
-#include "master/core/system.h"
 #include "master/io/annotation.h"
 #include "master/io/files.h"
 #include "master/io/system_tree.h"
+#include "master/model/system.h"
 
 namespace stride::io {
 

@@ -6,7 +6,7 @@
 
 #include "master/io/ssp.h"
 #include "master/io/uri.h"
-#include "master/xml/document.h"
+#include "master/util/xml/document.h"
 
 namespace stride::io {
 namespace {

@@ -9,7 +9,7 @@
 #include "master/io/connectors.h"
 #include "master/io/files.h"
 #include "master/io/system_tree.h"
-#include "master/xml/element.h"
+#include "master/util/xml/element.h"
 
 namespace stride::io {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "master/core/observer.h"
-#include "master/core/system.h"
+#include "master/algorithm/observer.h"
+#include "master/model/system.h"
 
 namespace stride::io {
 

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "master/core/suggest.h"
 #include "master/io/signal_names.h"
+#include "master/util/suggest.h"
 
 namespace stride::io {
 namespace {

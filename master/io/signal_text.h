@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "master/core/system.h"
-#include "master/core/values.h"
 #include "master/io/output_file.h"
+#include "master/model/system.h"
+#include "master/model/values.h"
 
 namespace stride::io {
 

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "master/core/suggest.h"
 #include "master/io/number_text.h"
 #include "master/io/time_text.h"
+#include "master/util/suggest.h"
 
 namespace stride::io {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "master/core/run_options.h"
+#include "master/algorithm/run_options.h"
 
 namespace stride::io {
 

@@ -8,14 +8,14 @@
 
 #include <fmt/format.h>
 
-#include "master/core/suggest.h"
 #include "master/io/connectors.h"
 #include "master/io/parameters.h"
 #include "master/io/signal_dictionary.h"
 #include "master/io/ssp.h"
 #include "master/io/transformation.h"
 #include "master/io/uri.h"
-#include "master/xml/document.h"
+#include "master/util/suggest.h"
+#include "master/util/xml/document.h"
 
 namespace stride::io {
 namespace {

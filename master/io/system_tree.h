@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "master/core/system.h"
+#include "master/model/system.h"
 
 namespace stride::io {
 

@@ -2,8 +2,8 @@
 #ifndef STRIDE_MASTER_IO_TRANSFORMATION_H
 #define STRIDE_MASTER_IO_TRANSFORMATION_H
 
-#include "master/core/conversion.h"
-#include "master/xml/element.h"
+#include "master/model/conversion.h"
+#include "master/util/xml/element.h"
 
 namespace stride::io {
 

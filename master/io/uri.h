@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "master/xml/element.h"
+#include "master/util/xml/element.h"
 
 namespace stride::io {
 

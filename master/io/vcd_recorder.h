@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "master/core/observer.h"
-#include "master/core/system.h"
+#include "master/algorithm/observer.h"
 #include "master/io/output_file.h"
 #include "master/io/vcd_scope.h"
+#include "master/model/system.h"
 
 namespace stride::io {
 

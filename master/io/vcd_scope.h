@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "master/core/description.h"
 #include "master/io/output_file.h"
+#include "master/model/description.h"
 
 namespace stride::io {
 

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "master/core/description.h"
+#include "master/model/description.h"
 #include "master/report/csv_reader.h"
 
 namespace stride::report {

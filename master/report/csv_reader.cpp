@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include "master/core/error.h"
+#include "master/util/error.h"
 
 namespace stride::report {
 namespace {

@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
-#include "master/core/error.h"
 #include "master/io/results_folder.h"
 #include "master/report/notes.h"
 #include "master/report/signals_file.h"
 #include "master/report/table.h"
+#include "master/util/error.h"
 
 namespace stride::report {
 namespace {

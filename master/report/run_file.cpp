@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "master/core/error.h"
 #include "master/io/results_folder.h"
+#include "master/util/error.h"
 
 namespace stride::report {
 namespace {

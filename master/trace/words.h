@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "master/core/error.h"
+#include "master/util/error.h"
 
 namespace stride::trace {
 

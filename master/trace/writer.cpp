@@ -3,7 +3,7 @@
 #include <charconv>
 #include <system_error>
 
-#include "master/core/error.h"
+#include "master/util/error.h"
 
 namespace stride::trace {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "master/core/clocks.h"
+#include "master/algorithm/events/clocks.h"
 #include "master/verify/recording.h"
 #include "master/verify/stimulus.h"
 #include "master/verify/subject.h"

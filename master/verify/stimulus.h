@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "master/core/unit.h"
-#include "master/core/values.h"
+#include "master/algorithm/unit.h"
+#include "master/model/values.h"
 #include "master/verify/subject.h"
 
 namespace stride::verify {

@@ -12,8 +12,8 @@
 
 #include <stride/time.h>
 
-#include "master/core/system.h"
 #include "master/fmi/fmu.h"
+#include "master/model/system.h"
 
 namespace stride::verify {
 

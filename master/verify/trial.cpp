@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "master/core/error.h"
 #include "master/process/signal_name.h"
+#include "master/util/error.h"
 #include "master/verify/finding.h"
 
 namespace stride::verify {

@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "master/core/error.h"
-#include "master/core/suggest.h"
 #include "master/process/child.h"
 #include "master/process/shared_note.h"
+#include "master/util/error.h"
+#include "master/util/suggest.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "master/core/unit.h"
+#include "master/algorithm/unit.h"
 #include "master/process/shared_note.h"
 #include "master/verify/subject.h"
 

@@ -12,7 +12,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "master/core/simulation.h"
+#include "master/algorithm/simulation.h"
 
 namespace {
 

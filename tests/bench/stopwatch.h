@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "master/core/simulation.h"
+#include "master/algorithm/simulation.h"
 
 namespace stride::bench {
 

@@ -1,7 +1,7 @@
 // Scenarios in packages, and systems in systems, from outside.
 #include <catch2/catch.hpp>
 
-#include "master/archive/zip.h"
+#include "master/util/archive/zip.h"
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;

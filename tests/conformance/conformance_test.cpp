@@ -8,9 +8,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/core/values.h"
 #include "master/fmi/fmi3_library.h"
 #include "master/fmi/fmu.h"
+#include "master/model/values.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/core/error.h"
+#include "master/util/error.h"
 #include "tests/property/promise.h"
 
 namespace {

@@ -5,8 +5,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/core/error.h"
 #include "master/report/results.h"
+#include "master/util/error.h"
 #include "tests/fuzz/mutator.h"
 #include "tests/master/io/support.h"
 

@@ -6,11 +6,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/archive/zip.h"
-#include "master/core/error.h"
 #include "master/io/complete.h"
 #include "master/io/package.h"
 #include "master/io/scenario.h"
+#include "master/util/archive/zip.h"
+#include "master/util/error.h"
 #include "tests/fuzz/mutator.h"
 #include "tests/master/io/support.h"
 

@@ -2,10 +2,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/core/error.h"
 #include "master/trace/compress.h"
 #include "master/trace/expand.h"
 #include "master/trace/info.h"
+#include "master/util/error.h"
 #include "tests/fuzz/mutator.h"
 #include "tests/master/io/support.h"
 #include "tests/master/trace/random_trace.h"

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "master/core/simulation.h"
+#include "master/algorithm/simulation.h"
 #include "master/fmi/fmu.h"
-#include "tests/master/core/scripted_unit.h"
+#include "tests/master/algorithm/scripted_unit.h"
 
 namespace stride::tests {
 

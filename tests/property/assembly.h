@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "master/algorithm/simulation.h"
 #include "master/capture/capture.h"
-#include "master/core/simulation.h"
-#include "master/core/system.h"
 #include "master/fmi/fmu.h"
+#include "master/model/system.h"
 
 namespace stride::tests {
 

@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "master/core/values.h"
+#include "master/model/values.h"
 
 namespace stride::tests {
 namespace {

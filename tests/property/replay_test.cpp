@@ -10,7 +10,7 @@
 
 #include "master/fmi/binaries.h"
 #include "master/fmi/fmi3_library.h"
-#include "tests/master/archive/support.h"
+#include "tests/master/util/archive/support.h"
 #include "tests/property/random_system.h"
 
 using namespace stride;

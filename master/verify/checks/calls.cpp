@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "master/core/error.h"
+#include "master/util/error.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {

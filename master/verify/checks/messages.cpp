@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "master/core/error.h"
-#include "master/core/readable_text.h"
+#include "master/util/error.h"
+#include "master/util/readable_text.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {

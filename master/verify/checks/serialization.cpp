@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "master/core/error.h"
+#include "master/util/error.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {

@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/master/archive/support.h"
-#include "tests/master/core/scripted_unit.h"
+#include "tests/master/algorithm/scripted_unit.h"
+#include "tests/master/util/archive/support.h"
 
 using namespace stride;
 using namespace stride::capture;

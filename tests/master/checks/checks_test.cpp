@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/master/algorithm/scripted_system.h"
 #include "tests/master/checks/support.h"
-#include "tests/master/core/scripted_system.h"
 
 using namespace stride;
 using namespace stride::checks;

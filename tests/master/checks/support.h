@@ -8,7 +8,7 @@
 #include <string>
 
 #include "master/checks/check.h"
-#include "master/core/description.h"
+#include "master/model/description.h"
 
 namespace stride::checks {
 

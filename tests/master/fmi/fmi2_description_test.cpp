@@ -1,6 +1,6 @@
 #include "master/fmi/fmi2_description.h"
 
-#include "master/core/values.h"
+#include "master/model/values.h"
 #include "tests/master/fmi/support.h"
 
 using namespace stride;

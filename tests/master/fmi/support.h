@@ -11,7 +11,7 @@
 #include "master/fmi/binaries.h"
 #include "master/fmi/fmu.h"
 #include "master/host/hosted_unit.h"
-#include "tests/master/archive/support.h"
+#include "tests/master/util/archive/support.h"
 
 namespace stride::tests {
 

@@ -15,11 +15,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "master/core/error.h"
 #include "master/process/child.h"
 #include "master/process/shared_memory.h"
 #include "master/process/sibling.h"
 #include "master/process/surroundings.h"
+#include "master/util/error.h"
 #include "tests/scratch_folder.h"
 
 using namespace stride::host;

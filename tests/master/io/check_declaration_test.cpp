@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/xml/document.h"
+#include "master/util/xml/document.h"
 #include "tests/master/io/support.h"
 
 using namespace stride;

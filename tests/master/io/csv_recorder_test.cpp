@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/core/error.h"
+#include "master/util/error.h"
 #include "tests/master/io/recorder_support.h"
 
 using namespace stride;

@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/archive/zip.h"
 #include "master/io/scenario.h"
+#include "master/util/archive/zip.h"
 #include "tests/master/io/support.h"
 
 using namespace stride;

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/core/error.h"
+#include "master/util/error.h"
 #include "tests/master/io/file_size_limit.h"
 #include "tests/master/io/support.h"
 

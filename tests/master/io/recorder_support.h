@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "master/core/observer.h"
+#include "master/algorithm/observer.h"
 #include "tests/master/io/support.h"
 
 namespace stride::io {

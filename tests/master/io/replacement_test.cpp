@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "master/core/error.h"
+#include "master/util/error.h"
 #include "tests/master/io/file_size_limit.h"
 #include "tests/master/io/support.h"
 

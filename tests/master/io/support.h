@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "master/core/system.h"
+#include "master/model/system.h"
 
 namespace stride::io {
 

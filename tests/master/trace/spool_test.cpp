@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/core/error.h"
+#include "master/util/error.h"
 #include "tests/master/trace/support.h"
 
 using namespace stride;

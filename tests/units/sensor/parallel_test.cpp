@@ -10,7 +10,7 @@
 #include <stride/nfc/iso14443a.h>
 
 #include "master/fmi/fmu.h"
-#include "tests/master/core/scripted_system.h"
+#include "tests/master/algorithm/scripted_system.h"
 
 using namespace stride;
 using namespace stride::core;

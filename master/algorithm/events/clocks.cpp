@@ -1,0 +1,170 @@
+#include "master/algorithm/events/clocks.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace stride::core {
+
+Clocks::Clocks(const System& system, std::span<const std::unique_ptr<Unit>> units)
+    : system_(system), units_(units) {
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < system.components().size(); ++i) {
+    const auto& variables = system.components()[i].description->variables;
+    Line line{i, {}, {}};
+    for (std::size_t v = 0; v < variables.size(); ++v) {
+      const Variable& variable = variables[v];
+      if (!variable.is_time_based_clock()) continue;
+      line.clocks.push_back({{i, v}, variable.reference, &*variable.clock});
+    }
+    line_of_.push_back(lines_.size());
+    if (line.clocks.empty()) {
+      line_of_.back() = system.components().size();
+      continue;
+    }
+    most = std::max(most, line.clocks.size());
+    line.ticking.reserve(line.clocks.size());
+    lines_.push_back(std::move(line));
+  }
+  due_.reserve(lines_.size());
+  ticks_ = ValueBlock(ValueType::Clock, most);
+  std::ranges::fill(ticks_.numbers<bool>(), true);
+}
+
+Clocks::Line* Clocks::line(std::size_t component) {
+  const std::size_t place = line_of_[component];
+  return place < lines_.size() ? &lines_[place] : nullptr;
+}
+
+void Clocks::begin(Time start_time) {
+  for (Line& line : lines_) {
+    for (Schedule& clock : line.clocks) start(clock, start_time);
+  }
+  is_stale_ = true;
+  due(start_time);
+}
+
+void Clocks::resume(const Clocks& other) {
+  lines_ = other.lines_;
+  is_stale_ = true;
+  next_.reset();
+  due_.clear();
+  find_due(Time::min());
+}
+
+void Clocks::start(Schedule& clock, Time start_time) {
+  clock.base = start_time;
+  if (clock.attributes->interval) {
+    clock.interval = *clock.attributes->interval;
+    clock.shift = clock.attributes->shift;
+  } else {
+    const ClockInterval said = ask(clock, start_time);
+    if (said.state == ClockInterval::State::NotYetKnown) return;
+    clock.interval = said.interval;
+    const bool periodic = clock.attributes->is_periodic();
+    clock.shift = periodic ? units_[clock.id.component]->clock_shift(system_.variable(clock.id))
+                           : said.interval;
+  }
+  check_interval(clock, start_time);
+  clock.next = tick_time(start_time, clock.shift, {}, 0);
+}
+
+ClockInterval Clocks::ask(const Schedule& clock, Time time) {
+  const ClockInterval said = units_[clock.id.component]->clock_interval(system_.variable(clock.id));
+  const bool may_be_unknown = clock.attributes->variability == IntervalVariability::Countdown;
+  if (said.state == ClockInterval::State::NotYetKnown && !may_be_unknown) {
+    fail(clock, time, "the unit does not know the clock's interval yet");
+  }
+  return said;
+}
+
+void Clocks::check_interval(const Schedule& clock, Time time) const {
+  if (!clock.attributes->is_periodic() || !clock.interval.is_below_picosecond()) return;
+  fail(clock, time,
+       fmt::format("the clock's interval is {} s, and times are counted in picoseconds",
+                   clock.interval.seconds()));
+}
+
+void Clocks::fail(const Schedule& clock, Time time, const std::string& message) const {
+  fail_run(
+      {{}, system_.components()[clock.id.component].name, system_.variable(clock.id).name, time},
+      message,
+      fmt::format("the clock is a {} one; look at the parameters on which its interval depends",
+                  name(clock.attributes->variability)));
+}
+
+std::span<const std::size_t> Clocks::find_due(Time time) {
+  if (is_stale_) {
+    next_.reset();
+    for (const Line& line : lines_) {
+      for (const Schedule& clock : line.clocks) {
+        if (clock.next && (!next_ || *clock.next < *next_)) next_ = clock.next;
+      }
+    }
+    is_stale_ = false;
+  }
+  due_.clear();
+  if (!next_ || *next_ > time) [[likely]]
+    return {};
+  for (const Line& line : lines_) {
+    const bool ticks = std::any_of(line.clocks.begin(), line.clocks.end(), [&](const auto& clock) {
+      return clock.next && *clock.next <= time;
+    });
+    if (ticks) due_.push_back(line.component);
+  }
+  return due_;
+}
+
+std::span<const std::size_t> Clocks::tick(Time time) {
+  for (const std::size_t component : due_) {
+    Line& ticking = *line(component);
+    for (Schedule& clock : ticking.clocks) {
+      if (!clock.next || *clock.next > time) continue;
+      ticking.ticking.push_back(clock.reference);
+      clock.next = clock.attributes->is_periodic()
+                       ? tick_time(clock.base, clock.shift, clock.interval, ++clock.count)
+                       : std::nullopt;
+    }
+    units_[component]->set(ticking.ticking, ticks_);
+    is_stale_ = true;
+  }
+  return due_;
+}
+
+std::span<const ValueReference> Clocks::ticking(std::size_t component) const {
+  const std::size_t place = line_of_[component];
+  if (place >= lines_.size()) return {};
+  return lines_[place].ticking;
+}
+
+void Clocks::update(std::size_t component, Time time) {
+  Line* const updated = line(component);
+  if (updated == nullptr) return;
+  for (Schedule& clock : updated->clocks) {
+    const auto& ticking = updated->ticking;
+    update(clock, time,
+           std::find(ticking.begin(), ticking.end(), clock.reference) != ticking.end());
+  }
+  updated->ticking.clear();
+}
+
+/// Which clocks are asked is table "Overview of Clock types" of FMI 3.0, 2.2.8; what the answers
+/// mean, "Allowed qualifiers for time-based Clocks".
+void Clocks::update(Schedule& clock, Time time, bool ticked) {
+  const IntervalVariability variability = clock.attributes->variability;
+  const bool is_tunable =
+      variability == IntervalVariability::Tunable && !clock.attributes->interval;
+  const bool is_next = variability == IntervalVariability::Changing && ticked;
+  if (!is_tunable && !is_next && variability != IntervalVariability::Countdown) return;
+  const ClockInterval said = ask(clock, time);
+  if (said.state != ClockInterval::State::Changed && !is_next) return;
+  clock.interval = said.interval;
+  check_interval(clock, time);
+  clock.base = time;
+  clock.shift = {};
+  clock.count = 1;
+  clock.next = tick_time(time, {}, said.interval, 1);
+  is_stale_ = true;
+}
+
+}  // namespace stride::core

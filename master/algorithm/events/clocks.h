@@ -1,0 +1,96 @@
+// The time-based input clocks of a system: when each of them ticks, and the ticks.
+#ifndef STRIDE_MASTER_ALGORITHM_EVENTS_CLOCKS_H
+#define STRIDE_MASTER_ALGORITHM_EVENTS_CLOCKS_H
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/algorithm/unit.h"
+#include "master/model/system.h"
+
+namespace stride::core {
+
+/// Who asks whom, and when, is that of FMI 3.0, 2.2.8. The units say the intervals; the interval
+/// that a description gives is taken from there, and fmi3SetInterval is not called, so it stays.
+///
+/// Tick k of a periodic clock stands at start + shift + k * interval, rounded once to the
+/// picosecond, and never at a sum of earlier ticks. An interval that a unit names in an event
+/// counts from that event, as a whole number of picoseconds.
+///
+/// Ticks are made, and counted, at instants that all units have reached, so a rollback concerns
+/// none. Call order: begin(), then at each instant {due(), tick(), update() for the units that had
+/// an event} until nothing is due.
+class Clocks {
+ public:
+  /// `units` in the order of system.components(); both must outlive this object.
+  Clocks(const System& system, std::span<const std::unique_ptr<Unit>> units);
+
+  /// Asks the units, which are in Initialization Mode with all their parameters, for the intervals
+  /// and shifts that they determine. Throws Error (Run), as update() does, that names unit, clock
+  /// and time where an interval cannot be.
+  void begin(Time start);
+
+  /// Instead of begin(): goes on where another one, of the same system, stands.
+  void resume(const Clocks& other);
+
+  /// The next tick, after the last due().
+  std::optional<Time> next() const { return next_; }
+  /// The components of which a clock ticks at `time`, in order.
+  std::span<const std::size_t> due(Time time) {
+    const bool is_sure = !is_stale_ && due_.empty();
+    if (is_sure && (!next_ || *next_ > time)) return {};
+    return find_due(time);
+  }
+  /// Sets the clocks that are due, in the order of their descriptions; their units are in Event
+  /// Mode. Returns the components, those of the last due().
+  std::span<const std::size_t> tick(Time time);
+  /// The clocks of the component that were set and not updated since.
+  std::span<const ValueReference> ticking(std::size_t component) const;
+  /// Asks for the intervals that may have changed, after update_discrete_states() of the component;
+  /// its clocks do not tick any longer.
+  void update(std::size_t component, Time time);
+
+ private:
+  struct Schedule {
+    VariableId id;
+    ValueReference reference;
+    const ClockAttributes* attributes;
+    Time base{};  ///< from where the ticks are counted
+    Interval shift{};
+    Interval interval{};
+    std::uint64_t count = 0;  ///< the number of the next tick since `base`
+    std::optional<Time> next{};
+  };
+  struct Line {
+    std::size_t component;
+    std::vector<Schedule> clocks;
+    std::vector<ValueReference> ticking;
+  };
+
+  std::span<const std::size_t> find_due(Time time);
+  Line* line(std::size_t component);
+  void start(Schedule& clock, Time start);
+  void update(Schedule& clock, Time time, bool ticked);
+  /// The unit's word on its clock, checked.
+  ClockInterval ask(const Schedule& clock, Time time);
+  void check_interval(const Schedule& clock, Time time) const;
+  [[noreturn]] void fail(const Schedule& clock, Time time, const std::string& message) const;
+
+  const System& system_;
+  std::span<const std::unique_ptr<Unit>> units_;
+  std::vector<Line> lines_;           ///< of the components that have such clocks
+  std::vector<std::size_t> line_of_;  ///< by component; lines_.size() = none
+  std::vector<std::size_t> due_;
+  ValueBlock ticks_{ValueType::Clock, 0};  ///< as many ticks as a unit can need at once
+  std::optional<Time> next_;
+  bool is_stale_ = false;  ///< next_ is to be looked for again
+};
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,93 @@
+#include "master/algorithm/events/messages.h"
+
+#include <algorithm>
+
+namespace stride::core {
+namespace {
+
+std::vector<VariableId> targets_of(const System& system, VariableId source) {
+  std::vector<VariableId> targets;
+  for (const Connection& connection : system.connections()) {
+    if (connection.from == source) targets.push_back(connection.to);
+  }
+  return targets;
+}
+
+}  // namespace
+
+MessageExchange::MessageExchange(const System& system, std::span<const std::unique_ptr<Unit>> units)
+    : system_(system), units_(units), lines_(system.components().size()) {
+  tick_.numbers<bool>()[0] = true;
+  for (std::size_t component = 0; component < lines_.size(); ++component) {
+    const UnitDescription& description = *system.components()[component].description;
+    Line& line = lines_[component];
+    for (std::size_t i = 0; i < description.variables.size(); ++i) {
+      const Variable& clock = description.variables[i];
+      if (clock.type != ValueType::Clock || clock.causality != Causality::Output) continue;
+      OutputClock output{{component, i}, {}, targets_of(system, {component, i}), false};
+      for (std::size_t k = 0; k < description.variables.size(); ++k) {
+        const Variable& variable = description.variables[k];
+        const auto& clocks = variable.clocks;
+        const bool carried =
+            std::find(clocks.begin(), clocks.end(), clock.reference) != clocks.end();
+        if (!carried || variable.causality != Causality::Output) continue;
+        output.payloads.push_back({{component, k},
+                                   variable.reference,
+                                   ValueBlock(variable.type, variable.size),
+                                   receivers_of({component, k}, output.targets)});
+      }
+      line.references.push_back(clock.reference);
+      line.clocks.push_back(std::move(output));
+    }
+    line.ticked = ValueBlock(ValueType::Clock, line.clocks.size());
+  }
+}
+
+/// The inputs that the value travels to when the clock ticks: those that belong to a clock wired to
+/// it.
+std::vector<MessageExchange::Receiver> MessageExchange::receivers_of(
+    VariableId value, std::span<const VariableId> clock_targets) const {
+  std::vector<Receiver> receivers;
+  for (const Connection& connection : system_.connections()) {
+    if (connection.from != value) continue;
+    const VariableId input = connection.to;
+    const Variable& variable = system_.variable(input);
+    const bool is_reached = std::ranges::any_of(clock_targets, [&](VariableId clock) {
+      return clock.component == input.component &&
+             std::ranges::find(variable.clocks, system_.variable(clock).reference) !=
+                 variable.clocks.end();
+    });
+    if (!is_reached) continue;
+    receivers.push_back({input, &connection, ValueBlock(variable.type, variable.size)});
+  }
+  return receivers;
+}
+
+void MessageExchange::begin_instant() {
+  for (Line& line : lines_) {
+    for (OutputClock& clock : line.clocks) clock.is_handed_over = false;
+  }
+}
+
+bool MessageExchange::poll(std::size_t component) {
+  Line& line = lines_[component];
+  if (line.clocks.empty()) return false;
+  units_[component]->get(line.references, line.ticked);
+  const auto ticked = line.ticked.numbers<bool>();
+  return std::find(ticked.begin(), ticked.end(), true) != ticked.end();
+}
+
+void MessageExchange::fetch(std::size_t component, Payload& payload) {
+  units_[component]->get({&payload.reference, 1}, payload.block);
+}
+
+void MessageExchange::set_clock(VariableId target) {
+  units_[target.component]->set({&system_.variable(target).reference, 1}, tick_);
+}
+
+void MessageExchange::set_payload(Receiver& receiver, const ValueBlock& payload) {
+  copy_elements(receiver.block, 0, payload, 0, payload.size(), receiver.connection->conversion);
+  units_[receiver.id.component]->set({&system_.variable(receiver.id).reference, 1}, receiver.block);
+}
+
+}  // namespace stride::core

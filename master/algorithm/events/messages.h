@@ -1,0 +1,101 @@
+// The exchange of messages: values that exist at the ticks of a clock only.
+#ifndef STRIDE_MASTER_ALGORITHM_EVENTS_MESSAGES_H
+#define STRIDE_MASTER_ALGORITHM_EVENTS_MESSAGES_H
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "master/algorithm/observer.h"
+#include "master/algorithm/unit.h"
+#include "master/model/system.h"
+
+namespace stride::core {
+
+/// For each unit its triggered output clocks, the values that each carries, and the inputs that
+/// they are wired to.
+class MessageExchange {
+ public:
+  MessageExchange(const System& system, std::span<const std::unique_ptr<Unit>> units);
+
+  /// A new super-dense instant begins: each clock may tick once in it.
+  void begin_instant();
+
+  /// Reads the output clocks of a unit in Event Mode and hands over those that tick and were not
+  /// handed over in this instant. `prepare` is called with each receiving component before anything
+  /// is set there (it must be in Event Mode then), `tell` with each message sent or received.
+  template <class Prepare, class Tell>
+  void transmit(std::size_t component, Prepare&& prepare, Tell&& tell) {
+    if (!poll(component)) return;
+    Line& line = lines_[component];
+    for (std::size_t i = 0; i < line.clocks.size(); ++i) {
+      if (!line.ticked.numbers<bool>()[i] || line.clocks[i].is_handed_over) continue;
+      line.clocks[i].is_handed_over = true;
+      hand_over(component, line.clocks[i], prepare, tell);
+    }
+  }
+
+ private:
+  /// An input that a value travels to, and what it becomes on the way.
+  struct Receiver {
+    VariableId id;
+    const Connection* connection;
+    ValueBlock block;
+  };
+  /// A value that travels with a clock's tick.
+  struct Payload {
+    VariableId id;
+    ValueReference reference;
+    ValueBlock block;
+    std::vector<Receiver> receivers;
+  };
+  struct OutputClock {
+    VariableId id;
+    std::vector<Payload> payloads;
+    std::vector<VariableId> targets;
+    bool is_handed_over = false;  ///< in this instant
+  };
+  /// All that leaves one component.
+  struct Line {
+    std::vector<OutputClock> clocks;
+    std::vector<ValueReference> references;  ///< of the clocks
+    ValueBlock ticked{ValueType::Clock, 0};
+  };
+
+  bool poll(std::size_t component);
+  void fetch(std::size_t component, Payload& payload);
+  void set_clock(VariableId target);
+  void set_payload(Receiver& receiver, const ValueBlock& payload);
+  std::vector<Receiver> receivers_of(VariableId value,
+                                     std::span<const VariableId> clock_targets) const;
+
+  template <class Prepare, class Tell>
+  void hand_over(std::size_t component, OutputClock& clock, Prepare& prepare, Tell& tell) {
+    for (Payload& payload : clock.payloads) {
+      fetch(component, payload);
+      tell(payload.id, false, &payload.block);
+    }
+    if (clock.payloads.empty()) tell(clock.id, false, static_cast<const ValueBlock*>(nullptr));
+    for (const VariableId target : clock.targets) {
+      prepare(target.component);
+      set_clock(target);
+      if (clock.payloads.empty()) tell(target, true, static_cast<const ValueBlock*>(nullptr));
+    }
+    for (Payload& payload : clock.payloads) {
+      for (Receiver& receiver : payload.receivers) {
+        set_payload(receiver, payload.block);
+        tell(receiver.id, true, &receiver.block);
+      }
+    }
+  }
+
+  const System& system_;
+  std::span<const std::unique_ptr<Unit>> units_;
+  std::vector<Line> lines_;
+  ValueBlock tick_{ValueType::Clock, 1};
+};
+
+}  // namespace stride::core
+
+#endif

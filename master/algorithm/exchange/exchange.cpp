@@ -1,0 +1,445 @@
+#include "master/algorithm/exchange/exchange.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <set>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace stride::core {
+namespace {
+
+bool exchanged(const System& system, VariableId id) {
+  const Variable& variable = system.variable(id);
+  return variable.type != ValueType::Clock && (!variable.is_clocked() || system.is_sampled(id));
+}
+
+/// One transfer for the variables of a component that have this type, are written at these
+/// occasions, and belong to these clocks.
+template <class Transfer>
+Transfer make_transfer(const System& system, ValueType type, Occasion occasion,
+                       const std::vector<ValueReference>& clocks,
+                       const std::vector<VariableId>& ids) {
+  Transfer transfer{ValueBlock(type, 0), occasion, ValueBlock(type, 0), true, clocks, {}, ids, {}};
+  std::size_t size = 0;
+  for (const VariableId id : ids) {
+    transfer.references.push_back(system.variable(id).reference);
+    transfer.firsts.push_back(size);
+    size += system.variable(id).size;
+  }
+  transfer.block = transfer.delivered = ValueBlock(type, size);
+  return transfer;
+}
+
+Occasion occasion_of(const Variable& variable, bool jumps) {
+  if (jumps || variable.variability != Variability::Continuous) return Occasion::Change;
+  return variable.intermediate_update ? Occasion::PointAndWithin : Occasion::Point;
+}
+
+/// At most three transfers for each type that occurs, one for each occasion, and further ones for
+/// each set of time-based clocks. `jumps`: what is discrete whatever it says.
+template <class Transfers>
+void plan(Transfers& transfers, Transfers& sampled, const System& system,
+          const std::set<VariableId>& ids, const std::set<VariableId>& jumps) {
+  using Transfer = typename Transfers::value_type::value_type;
+  using Key = std::tuple<std::size_t, ValueType, Occasion, std::vector<ValueReference>>;
+  std::map<Key, std::vector<VariableId>> groups;
+  for (const VariableId id : ids) {
+    const Variable& variable = system.variable(id);
+    const Occasion occasion = occasion_of(variable, jumps.contains(id));
+    groups[{id.component, variable.type, occasion, variable.clocks}].push_back(id);
+  }
+  transfers.resize(system.components().size());
+  sampled.resize(system.components().size());
+  for (const auto& [key, members] : groups) {
+    const auto& [component, type, occasion, clocks] = key;
+    auto& list = clocks.empty() ? transfers : sampled;
+    list[component].push_back(make_transfer<Transfer>(system, type, occasion, clocks, members));
+  }
+}
+
+template <std::size_t kSize, class Copies>
+void copy_numbers(const Copies& copies) {
+  for (const auto& copy : copies) std::memcpy(copy.to, copy.from, kSize);
+}
+
+template <class To, class From>
+void copy_mapped(void* to, const void* from, const Conversion& conversion) {
+  *static_cast<To*>(to) = converted<To>(*static_cast<const From*>(from), conversion);
+}
+
+}  // namespace
+
+Exchange::Exchange(const System& system, std::span<const VariableId> observed)
+    : system_(system), is_delivered_(system.components().size()) {
+  std::set<VariableId> outputs;
+  std::set<VariableId> inputs;
+  std::set<VariableId> jumps;  // a value that is held between ticks changes by an event
+  for (const Connection& connection : system.connections()) {
+    if (!exchanged(system, connection.from)) continue;
+    outputs.insert(connection.from);
+    inputs.insert(connection.to);
+    if (system.is_sampled(connection.from)) jumps.insert(connection.to);
+  }
+  for (const VariableId id : observed) {
+    if (!inputs.contains(id)) outputs.insert(id);
+  }
+  plan(outputs_, sampled_outputs_, system, outputs, {});
+  plan(inputs_, sampled_inputs_, system, inputs, jumps);
+  for (const auto& transfers : inputs_) {
+    has_discrete_inputs_.push_back(std::any_of(transfers.begin(), transfers.end(),
+                                               [](const Transfer& t) { return t.is_discrete(); }));
+  }
+  for (const Connection& connection : system.connections()) {
+    if (!exchanged(system, connection.from)) continue;
+    add_copies(connection);
+    has_other_types_ |= system.variable(connection.from).type != ValueType::Float64;
+  }
+  bind_step_values();
+}
+
+/// All of them stand in one row, so that a communication step goes through memory once.
+void Exchange::bind_step_values() {
+  struct Lengths {
+    std::size_t inputs, outputs;
+  };
+  std::vector<Lengths> lengths;
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    const std::size_t first = bound_values_.size();
+    for (Transfer& input : inputs_[i]) {
+      if (!input.is_discrete()) bound_values_.emplace_back(input.references, input.block);
+    }
+    const std::size_t inputs = bound_values_.size() - first;
+    for (Transfer& output : outputs_[i]) {
+      bound_values_.emplace_back(output.references, output.block);
+    }
+    lengths.push_back({inputs, outputs_[i].size()});
+  }
+  const BoundValues* next = bound_values_.data();
+  for (const auto& [inputs, outputs] : lengths) {
+    step_values_.push_back({{next, inputs}, {next + inputs, outputs}});
+    next += inputs + outputs;
+  }
+}
+
+Exchange::Found Exchange::locate(Transfers& transfers, VariableId id) {
+  for (Transfer& transfer : transfers[id.component]) {
+    const auto found = std::lower_bound(transfer.ids.begin(), transfer.ids.end(), id);
+    if (found == transfer.ids.end() || *found != id) continue;
+    return {&transfer, transfer.firsts[static_cast<std::size_t>(found - transfer.ids.begin())]};
+  }
+  return {};
+}
+
+Exchange::Found Exchange::locate_input(VariableId id) {
+  return locate(system_.variable(id).is_clocked() ? sampled_inputs_ : inputs_, id);
+}
+
+Exchange::Found Exchange::locate_output(VariableId id) {
+  return locate(system_.variable(id).is_clocked() ? sampled_outputs_ : outputs_, id);
+}
+
+Signal Exchange::signal(VariableId id) {
+  const Found input = locate_input(id);
+  if (input.transfer != nullptr && system_.variable(id).is_clocked()) {
+    return {id, &input.transfer->delivered, input.first};
+  }
+  const Place value = place(id);
+  return {id, value.block, value.first};
+}
+
+Exchange::Place Exchange::place(VariableId id) {
+  const Found input = locate_input(id);
+  const Found found = input.transfer != nullptr ? input : locate_output(id);
+  return {&found.transfer->block, found.first};
+}
+
+void Exchange::add_copies(const Connection& connection) {
+  const Found from = locate_output(connection.from);
+  const Found to = locate_input(connection.to);
+  for (std::size_t i = 0; i < system_.variable(connection.from).size; ++i) {
+    add_copy(connection, to.transfer->block, to.first + i, from.transfer->block, from.first + i);
+  }
+}
+
+void Exchange::add_copy(const Connection& connection, ValueBlock& target, std::size_t target_at,
+                        const ValueBlock& source, std::size_t source_at) {
+  switch (source.type()) {
+    case ValueType::String:
+      strings_.push_back({&target.strings()[target_at], &source.strings()[source_at]});
+      break;
+    case ValueType::Binary:
+      binaries_.push_back({&target.binaries()[target_at], &source.binaries()[source_at]});
+      break;
+    case ValueType::Float64:
+      add_real(doubles_, connection, target, target_at, &source.numbers<double>()[source_at]);
+      break;
+    case ValueType::Float32:
+      add_real(floats_, connection, target, target_at, &source.numbers<float>()[source_at]);
+      break;
+    default:
+      add_number(connection, target, target_at, source, source_at);
+  }
+}
+
+template <class Real, class Other>
+void Exchange::add_real(RealLists<Real, Other>& lists, const Connection& connection,
+                        ValueBlock& target, std::size_t target_at, const Real* from) {
+  const LinearConversion& linear = connection.conversion.linear;
+  lists.checked.push_back({from, connection.from});
+  if (target.type() != system_.variable(connection.from).type) {
+    lists.changed.push_back(
+        {&target.numbers<Other>()[target_at], from, linear.factor, linear.offset});
+  } else if (linear.is_identity()) {
+    lists.plain.push_back({&target.numbers<Real>()[target_at], from});
+  } else {
+    lists.converted.push_back(
+        {&target.numbers<Real>()[target_at], from, linear.factor, linear.offset});
+  }
+}
+
+void Exchange::add_number(const Connection& connection, ValueBlock& target, std::size_t target_at,
+                          const ValueBlock& source, std::size_t source_at) {
+  const std::size_t size = element_size(target.type());
+  const Conversion& conversion = connection.conversion;
+  std::byte* const to = target.bytes() + target_at * size;
+  if (target.type() == source.type() && conversion.is_identity()) {
+    const std::size_t list = size == 1 ? 0 : size == 2 ? 1 : size == 4 ? 2 : 3;
+    numbers_[list].push_back({to, source.bytes() + source_at * size});
+    return;
+  }
+  const auto* const from = source.bytes() + source_at * element_size(source.type());
+  visit(target, [&]<class To>(std::span<To>) {
+    visit(source, [&]<class From>(std::span<const From>) {
+      if constexpr (std::is_arithmetic_v<To> && std::is_integral_v<From>) {
+        mapped_.push_back({&copy_mapped<To, From>, to, from, &connection});
+      }
+    });
+  });
+}
+
+void Exchange::fetch(std::size_t component, Unit& unit) {
+  for (const BoundValues& output : step_values_[component].outputs) {
+    unit.get(output.references, *output.block);
+  }
+}
+
+void Exchange::begin_samples(std::size_t component, Unit& unit) {
+  for (Transfer& transfer : sampled_outputs_[component]) {
+    unit.get(transfer.references, transfer.block);
+  }
+  for (Transfer& transfer : sampled_inputs_[component]) {
+    transfer.delivered = transfer.block;
+    transfer.is_new = false;
+  }
+}
+
+bool Exchange::any_discrete_change(std::size_t component) const {
+  for (const Transfer& transfer : inputs_[component]) {
+    if (transfer.is_discrete() && !(transfer.block == transfer.delivered)) return true;
+  }
+  return false;
+}
+
+void Exchange::deliver(std::size_t component, Unit& unit) {
+  is_delivered_[component] = true;
+  for (const BoundValues& input : step_values_[component].inputs) {
+    unit.set(input.references, *input.block);
+  }
+  if (has_discrete_inputs_[component]) deliver_discrete(component, unit);
+}
+
+void Exchange::deliver_discrete(std::size_t component, Unit& unit) {
+  for (Transfer& transfer : inputs_[component]) {
+    if (transfer.is_discrete() && is_changed(transfer)) write(transfer, unit);
+  }
+}
+
+void Exchange::write(Transfer& transfer, Unit& unit) {
+  transfer.delivered = transfer.block;
+  transfer.is_new = false;
+  unit.set(transfer.references, transfer.block);
+}
+
+bool Exchange::is_of(const Transfer& transfer, std::span<const ValueReference> ticking) {
+  return std::ranges::find_first_of(transfer.clocks, ticking) != transfer.clocks.end();
+}
+
+void Exchange::fetch_sampled(std::size_t component, Unit& unit,
+                             std::span<const ValueReference> ticking) {
+  for (Transfer& transfer : sampled_outputs_[component]) {
+    if (is_of(transfer, ticking)) unit.get(transfer.references, transfer.block);
+  }
+}
+
+void Exchange::deliver_sampled(std::size_t component, Unit& unit,
+                               std::span<const ValueReference> ticking) {
+  for (Transfer& transfer : sampled_inputs_[component]) {
+    if (is_of(transfer, ticking) && is_changed(transfer)) write(transfer, unit);
+  }
+}
+
+bool Exchange::has_sampled_change(std::size_t component,
+                                  std::span<const ValueReference> ticking) const {
+  const auto& transfers = sampled_inputs_[component];
+  return std::any_of(transfers.begin(), transfers.end(), [&](const Transfer& transfer) {
+    return is_of(transfer, ticking) && is_changed(transfer);
+  });
+}
+
+std::vector<VariableId> Exchange::sampled_changes(std::size_t component,
+                                                  std::span<const ValueReference> ticking) const {
+  std::vector<VariableId> changes;
+  for (const Transfer& transfer : sampled_inputs_[component]) {
+    if (is_of(transfer, ticking)) add_changes(transfer, transfer.delivered, changes);
+  }
+  return changes;
+}
+
+void Exchange::deliver_within_step(std::size_t component, Unit& unit) {
+  for (const Transfer& transfer : inputs_[component]) {
+    if (transfer.occasion != Occasion::PointAndWithin) continue;
+    unit.set(transfer.references, transfer.block);
+  }
+}
+
+std::vector<ContinuousLink> Exchange::continuous_links() {
+  std::vector<ContinuousLink> links;
+  for (const Connection& connection : system_.connections()) {
+    const Variable& source = system_.variable(connection.from);
+    const Variable& target = system_.variable(connection.to);
+    const bool continuous = source.variability == Variability::Continuous &&
+                            target.variability == Variability::Continuous;
+    if (!continuous || source.is_clocked() || target.is_clocked()) continue;
+    const Found from = locate_output(connection.from);
+    const Found to = locate_input(connection.to);
+    for (std::size_t i = 0; i < source.size; ++i) {
+      links.push_back({connection.from,
+                       connection.to,
+                       {&from.transfer->block, from.first + i},
+                       {&to.transfer->block, to.first + i},
+                       connection.conversion.linear});
+    }
+  }
+  return links;
+}
+
+std::vector<Exchange::RealValue> Exchange::elements(
+    std::vector<Transfer>& transfers, const std::function<bool(const Transfer&)>& is_wanted) const {
+  std::vector<RealValue> elements;
+  for (Transfer& transfer : transfers) {
+    if (!is_wanted(transfer)) continue;
+    for (std::size_t i = 0; i < transfer.ids.size(); ++i) {
+      for (std::size_t k = 0; k < system_.variable(transfer.ids[i]).size; ++k) {
+        elements.push_back({transfer.ids[i], {&transfer.block, transfer.firsts[i] + k}});
+      }
+    }
+  }
+  return elements;
+}
+
+std::vector<Exchange::RealValue> Exchange::continuous_inputs(std::size_t component) {
+  return elements(inputs_[component], [](const Transfer& t) { return !t.is_discrete(); });
+}
+
+std::vector<Exchange::RealValue> Exchange::outputs_with_tolerance(std::size_t component) {
+  std::vector<RealValue> values = elements(outputs_[component], [](const Transfer& transfer) {
+    return transfer.block.type() == ValueType::Float64;
+  });
+  std::erase_if(values, [&](const RealValue& v) { return !system_.variable(v.id).tolerance; });
+  return values;
+}
+
+/// The variables of which a value is not what it was.
+void Exchange::add_changes(const Transfer& transfer, const ValueBlock& before,
+                           std::vector<VariableId>& changes) const {
+  for (std::size_t i = 0; i < transfer.ids.size(); ++i) {
+    const std::size_t first = transfer.firsts[i];
+    const std::size_t end = first + system_.variable(transfer.ids[i]).size;
+    bool differs = false;
+    for (std::size_t k = first; k < end; ++k) differs |= !is_same(transfer.block, k, before, k);
+    if (differs) changes.push_back(transfer.ids[i]);
+  }
+}
+
+template <class Real, class Other>
+bool Exchange::RealLists<Real, Other>::route() const {
+  bool has_nan = false;
+  for (const auto& [to, from] : plain) {
+    const Real value = *from;
+    *to = value;
+    has_nan |= std::isnan(value);
+  }
+  const auto route_converted =
+      [&has_nan]<class To>(const std::vector<ConvertedCopy<To, Real>>& copies) {
+        for (const auto& copy : copies) {
+          const Real value = *copy.from;
+          *copy.to = static_cast<To>(copy.factor * value + copy.offset);
+          has_nan |= std::isnan(value);
+        }
+      };
+  route_converted(converted);
+  route_converted(changed);
+  return has_nan;
+}
+
+void Exchange::route(Time time) {
+  std::fill(is_delivered_.begin(), is_delivered_.end(), false);
+  bool has_nan = doubles_.route();
+  if (has_other_types_) {
+    route_other_types(time);
+    has_nan |= floats_.route();
+  }
+  if (has_nan) [[unlikely]]
+    check_nan(time);
+}
+
+void Exchange::route_other_types(Time time) {
+  copy_numbers<1>(numbers_[0]);
+  copy_numbers<2>(numbers_[1]);
+  copy_numbers<4>(numbers_[2]);
+  copy_numbers<8>(numbers_[3]);
+  for (const MappedCopy& copy : mapped_) {
+    copy.copy(copy.to, copy.from, copy.connection->conversion);
+    if (!copy.connection->conversion.valid.empty()) check_item(copy, time);
+  }
+  for (const auto& copy : strings_) *copy.to = *copy.from;
+  for (const auto& copy : binaries_) *copy.to = *copy.from;
+}
+
+/// An Enumeration takes 64 bits.
+void Exchange::check_item(const MappedCopy& copy, Time time) const {
+  const std::int64_t value = *static_cast<const std::int64_t*>(copy.to);
+  const auto& valid = copy.connection->conversion.valid;
+  if (std::binary_search(valid.begin(), valid.end(), value)) [[likely]]
+    return;
+  const VariableId to = copy.connection->to;
+  fail_run({{}, system_.components()[to.component].name, system_.variable(to).name, time},
+           fmt::format("'{}' gives it {}, which is no item of its Enumeration",
+                       system_.full_name(copy.connection->from), value),
+           "map such values in an <ssc:IntegerMappingTransformation> at the connection");
+}
+
+void Exchange::check_nan(Time time) const {
+  check_nan(doubles_, time);
+  check_nan(floats_, time);
+}
+
+template <class Real, class Other>
+void Exchange::check_nan(const RealLists<Real, Other>& lists, Time time) const {
+  for (const auto& [value, id] : lists.checked) {
+    if (!std::isnan(*value)) [[likely]]
+      continue;
+    fail_run(
+        {{}, system_.components()[id.component].name, system_.variable(id).name, time},
+        "the output is NaN (not a number), and another unit is connected to it",
+        "look at what this unit received before this instant; a parameter may be out of range");
+  }
+}
+
+}  // namespace stride::core

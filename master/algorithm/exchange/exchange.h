@@ -1,0 +1,228 @@
+// The exchange of values at communication points: made once, then only copies.
+#ifndef STRIDE_MASTER_ALGORITHM_EXCHANGE_EXCHANGE_H
+#define STRIDE_MASTER_ALGORITHM_EXCHANGE_EXCHANGE_H
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "master/algorithm/observer.h"
+#include "master/algorithm/unit.h"
+#include "master/model/system.h"
+
+namespace stride::core {
+
+/// One element of a Float64 or Float32 variable, where it stands in an exchange's blocks.
+struct RealElement {
+  ValueBlock* block = nullptr;
+  std::size_t at = 0;
+
+  double get() const { return real(*block, at); }
+  void set(double value) const { set_real(*block, at, value); }
+  /// Whether it would be another after set().
+  bool differs_from(double value) const {
+    return get() != (block->type() == ValueType::Float32 ? static_cast<float>(value) : value);
+  }
+  auto operator<=>(const RealElement&) const = default;
+};
+
+/// When variables are written.
+enum class Occasion {
+  Point,           ///< at each communication point
+  PointAndWithin,  ///< and at instants within a step, if the unit asks for it
+  Change,          ///< where they changed: what is discrete
+};
+
+/// A connection between continuous variables, for one element.
+struct ContinuousLink {
+  VariableId from, to;
+  RealElement source, target;
+  LinearConversion conversion;
+};
+
+/// For each unit and type one contiguous block of outputs and one of inputs, and a list of copies
+/// between them. What belongs to time-based clocks is read and written at their ticks, and holds
+/// between them. Messages are not part of it: see messages.h. Nothing here allocates after
+/// construction, except where a String or a Binary grows.
+class Exchange {
+ public:
+  /// `observed`: variables that are read although nobody is connected to them.
+  Exchange(const System& system, std::span<const VariableId> observed);
+
+  /// Reads a unit's outputs and observed variables.
+  void fetch(std::size_t component, Unit& unit);
+  /// Copies the outputs of all units to the inputs of all units. Throws Error (Run) where a
+  /// connected output is NaN, or an integer becomes no item of an Enumeration.
+  void route(Time time);
+  /// Throws as route() does.
+  void check_nan(Time time) const;
+  /// Whether a discrete input of the unit is not what was delivered last; FMI wants Event Mode
+  /// then.
+  bool has_discrete_change(std::size_t component) const {
+    return has_discrete_inputs_[component] && any_discrete_change(component);
+  }
+  bool has_discrete_inputs(std::size_t component) const { return has_discrete_inputs_[component]; }
+  /// Writes a unit's continuous inputs, and the discrete ones if they changed.
+  void deliver(std::size_t component, Unit& unit);
+  /// Likewise, if something was routed since the unit's inputs were written.
+  void deliver_routed(std::size_t component, Unit& unit) {
+    if (!is_delivered_[component]) deliver(component, unit);
+  }
+  /// A step of the unit with its inputs, as deliver_routed() writes them, and with its outputs.
+  StepResult step(std::size_t component, Unit& unit, const StepInterval& interval) {
+    const StepValues& values = step_values_[component];
+    if (is_delivered_[component]) return unit.step(interval, {{}, values.outputs});
+    if (has_discrete_inputs_[component]) deliver_discrete(component, unit);
+    is_delivered_[component] = true;
+    return unit.step(interval, values);
+  }
+  /// An input was changed where it stands, by another than route().
+  void note_change(std::size_t component) { is_delivered_[component] = false; }
+
+  /// Writes those of a unit's continuous inputs that may change within a step.
+  void deliver_within_step(std::size_t component, Unit& unit);
+
+  /// All connections between continuous variables, sorted by target.
+  std::vector<ContinuousLink> continuous_links();
+
+  struct RealValue {
+    VariableId id;
+    RealElement element;
+  };
+  /// The elements of a component's connected inputs that are not discrete.
+  std::vector<RealValue> continuous_inputs(std::size_t component);
+  /// The elements of a component's Float64 outputs with a tolerance that are read at all.
+  std::vector<RealValue> outputs_with_tolerance(std::size_t component);
+
+  /// In Initialization Mode, when its inputs have been set: what belongs to the unit's time-based
+  /// clocks is exchanged at their ticks from now on, and holds what it is until then.
+  void begin_samples(std::size_t component, Unit& unit);
+  /// fetch() and deliver() for what belongs to one of these clocks of the unit, which tick.
+  void fetch_sampled(std::size_t component, Unit& unit, std::span<const ValueReference> ticking);
+  void deliver_sampled(std::size_t component, Unit& unit, std::span<const ValueReference> ticking);
+  /// Whether deliver_sampled() has something new to write.
+  bool has_sampled_change(std::size_t component, std::span<const ValueReference> ticking) const;
+  /// The inputs of which that holds, for people.
+  std::vector<VariableId> sampled_changes(std::size_t component,
+                                          std::span<const ValueReference> ticking) const;
+
+  /// Where the variable's value stands. An input that is connected is seen as its source left it,
+  /// one that belongs to a time-based clock as it was at its last tick.
+  Signal signal(VariableId id);
+
+  /// Likewise, of a variable that is connected, for who evaluates single variables: an output that
+  /// was read belongs there, and deliver() takes an input from there. See evaluation.h.
+  struct Place {
+    ValueBlock* block = nullptr;
+    std::size_t first = 0;
+  };
+  Place place(VariableId id);
+
+ private:
+  /// Variables of one type of one unit, read or written by one call.
+  struct Transfer {
+    ValueBlock block;
+    Occasion occasion;
+    ValueBlock delivered;                ///< of a discrete one: what was written last
+    bool is_new = true;                  ///< nothing was written yet
+    std::vector<ValueReference> clocks;  ///< those at whose ticks it is exchanged; empty: always
+    std::vector<ValueReference> references;
+    std::vector<VariableId> ids;      ///< sorted
+    std::vector<std::size_t> firsts;  ///< where each variable begins in the block
+
+    bool is_discrete() const { return occasion == Occasion::Change; }
+  };
+  using Transfers = std::vector<std::vector<Transfer>>;  // by component; final once it is planned
+
+  template <class T>
+  struct Copy {
+    T* to;
+    const T* from;
+  };
+  template <class To, class From>
+  struct ConvertedCopy {
+    To* to;
+    const From* from;
+    double factor, offset;
+  };
+  template <class Real>
+  struct Checked {
+    const Real* value;
+    VariableId id;
+  };
+  template <class Real, class Other>
+  struct RealLists {
+    std::vector<Copy<Real>> plain;
+    std::vector<ConvertedCopy<Real, Real>> converted;
+    std::vector<ConvertedCopy<Other, Real>> changed;  ///< to another type
+    std::vector<Checked<Real>> checked;               ///< the sources of all of them
+
+    /// Tells whether one of the sources is NaN.
+    bool route() const;
+  };
+  /// A whole number that is mapped or becomes one of another type.
+  struct MappedCopy {
+    void (*copy)(void* to, const void* from, const Conversion& conversion);
+    void* to;
+    const void* from;
+    const Connection* connection;
+  };
+
+  std::vector<RealValue> elements(std::vector<Transfer>& transfers,
+                                  const std::function<bool(const Transfer&)>& is_wanted) const;
+  static bool is_of(const Transfer& transfer, std::span<const ValueReference> ticking);
+  static bool is_changed(const Transfer& transfer) {
+    return transfer.is_new || !(transfer.block == transfer.delivered);
+  }
+  static void write(Transfer& transfer, Unit& unit);
+  bool any_discrete_change(std::size_t component) const;
+  void deliver_discrete(std::size_t component, Unit& unit);
+  void bind_step_values();
+  void route_other_types(Time time);
+  void add_changes(const Transfer& transfer, const ValueBlock& before,
+                   std::vector<VariableId>& changes) const;
+  template <class Real, class Other>
+  void check_nan(const RealLists<Real, Other>& lists, Time time) const;
+  void check_item(const MappedCopy& copy, Time time) const;
+  void add_copies(const Connection& connection);
+  void add_copy(const Connection& connection, ValueBlock& target, std::size_t target_at,
+                const ValueBlock& source, std::size_t source_at);
+  template <class Real, class Other>
+  void add_real(RealLists<Real, Other>& lists, const Connection& connection, ValueBlock& target,
+                std::size_t target_at, const Real* from);
+  void add_number(const Connection& connection, ValueBlock& target, std::size_t target_at,
+                  const ValueBlock& source, std::size_t source_at);
+  /// The transfer that holds the variable and its place there; null if there is none.
+  struct Found {
+    Transfer* transfer = nullptr;
+    std::size_t first = 0;
+  };
+  static Found locate(Transfers& transfers, VariableId id);
+  Found locate_input(VariableId id);
+  Found locate_output(VariableId id);
+
+  const System& system_;
+  Transfers outputs_;
+  Transfers inputs_;
+  Transfers sampled_outputs_;  ///< what belongs to time-based clocks
+  Transfers sampled_inputs_;
+  std::vector<StepValues> step_values_;    ///< by component; the inputs are continuous ones
+  std::vector<BoundValues> bound_values_;  ///< of them
+  std::vector<char> has_discrete_inputs_;  ///< by component
+  std::vector<char> is_delivered_;         ///< likewise
+  std::array<std::vector<Copy<std::byte>>, 4> numbers_;  // of 1, 2, 4 and 8 bytes
+  std::vector<Copy<std::string>> strings_;
+  std::vector<Copy<Binary>> binaries_;
+  std::vector<MappedCopy> mapped_;
+  RealLists<double, float> doubles_;
+  RealLists<float, double> floats_;
+  bool has_other_types_ = false;  ///< than Float64, in connections
+};
+
+}  // namespace stride::core
+
+#endif

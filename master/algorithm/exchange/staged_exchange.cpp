@@ -1,0 +1,123 @@
+#include "master/algorithm/exchange/staged_exchange.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+namespace stride::core {
+namespace {
+
+/// For the blocks of an exchange.
+bool copy(const Exchange::Place& to, const ValueBlock& from, std::size_t first, std::size_t size,
+          const Conversion& conversion = {}) {
+  return copy_elements(*to.block, to.first, from, first, size, conversion);
+}
+
+}  // namespace
+
+StagedExchange::StagedExchange(const System& system, std::span<const std::unique_ptr<Unit>> units,
+                               Exchange& exchange, const UnitTimer& timer, bool all_new)
+    : system_(system),
+      units_(units),
+      exchange_(exchange),
+      timer_(timer),
+      all_new_(all_new),
+      due_(units.size()) {}
+
+void StagedExchange::add(Batch& batch, VariableId id) {
+  const Variable& variable = system_.variable(id);
+  batch.references.push_back(variable.reference);
+  batch.pieces.push_back({exchange_.place(id), batch.size, variable.size});
+  batch.size += variable.size;
+}
+
+void StagedExchange::complete(Batch& batch) {
+  if (batch.values.size() != batch.size) batch.values = ValueBlock(batch.values.type(), batch.size);
+}
+
+StagedExchange::Stage StagedExchange::plan_stage(const EvaluationStep& step) {
+  Stage stage;
+  stage.component_ = step.component;
+  std::map<ValueType, std::vector<VariableId>> types;
+  for (const VariableId id : step.outputs) types[system_.variable(id).type].push_back(id);
+  for (const auto& [type, ids] : types) {
+    Batch& batch = stage.reads_.emplace_back(make_batch(type, false));
+    for (const VariableId id : ids) add(batch, id);
+    complete(batch);
+  }
+  open_.erase(open_.lower_bound({step.component, ValueType{}}),
+              open_.lower_bound({step.component + 1, ValueType{}}));
+  return stage;
+}
+
+StagedExchange::Wire StagedExchange::plan_wire(VariableId id) {
+  const auto& all = system_.connections();
+  const Connection& connection = *std::lower_bound(
+      all.begin(), all.end(), id, [](const Connection& c, VariableId to) { return c.to < to; });
+  const Variable& input = system_.variable(connection.to);
+  Batch*& batch = open_[{connection.to.component, input.type}];
+  if (batch == nullptr) batch = &batches_.emplace_back(make_batch(input.type, all_new_));
+  add(*batch, connection.to);
+  Wire wire;
+  wire.connection_ = &connection;
+  wire.from_ = exchange_.place(connection.from);
+  wire.to_ = exchange_.place(connection.to);
+  wire.size_ = input.size;
+  wire.batch_ = batch;
+  return wire;
+}
+
+void StagedExchange::begin() {
+  for (std::vector<Batch*>& batches : due_) batches.clear();
+  for (Batch& batch : batches_) batch.is_due = false;
+}
+
+void StagedExchange::evaluate(Stage& stage) {
+  write(stage.component_);
+  for (Batch& batch : stage.reads_) {
+    timer_.timed(stage.component_,
+                 [&] { units_[stage.component_]->get(batch.references, batch.values); });
+    for (const Batch::Piece& piece : batch.pieces) {
+      copy(piece.place, batch.values, piece.first, piece.size);
+    }
+  }
+}
+
+void StagedExchange::write(std::size_t component) {
+  for (Batch* batch : due_[component]) {
+    complete(*batch);
+    for (const Batch::Piece& piece : batch->pieces) {
+      copy({&batch->values, piece.first}, *piece.place.block, piece.place.first, piece.size);
+    }
+    timer_.timed(component, [&] { units_[component]->set(batch->references, batch->values); });
+    batch->is_due = batch->is_new = false;
+  }
+  due_[component].clear();
+}
+
+bool StagedExchange::route(Wire& wire) {
+  const bool changes =
+      copy(wire.to_, *wire.from_.block, wire.from_.first, wire.size_, wire.connection_->conversion);
+  if (changes || wire.batch_->is_new) make_due(wire);
+  return changes;
+}
+
+void StagedExchange::make_due(Wire& wire) {
+  if (std::exchange(wire.batch_->is_due, true)) return;
+  due_[wire.target().component].push_back(wire.batch_);
+}
+
+void StagedExchange::read_input(Wire& wire) {
+  const Variable& input = system_.variable(wire.target());
+  ValueBlock value(input.type, input.size);
+  units_[wire.target().component]->get({&input.reference, 1}, value);
+  copy(wire.to_, value, 0, input.size);
+}
+
+bool StagedExchange::has_nan(const Stage& stage) const {
+  return std::any_of(stage.reads_.begin(), stage.reads_.end(),
+                     [](const Batch& batch) { return core::has_nan(batch.values); });
+}
+
+}  // namespace stride::core

@@ -1,0 +1,109 @@
+// The exchange of single variables, in an order in which each value is there when it is needed.
+#ifndef STRIDE_MASTER_ALGORITHM_EXCHANGE_STAGED_EXCHANGE_H
+#define STRIDE_MASTER_ALGORITHM_EXCHANGE_STAGED_EXCHANGE_H
+
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <memory>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "master/algorithm/exchange/exchange.h"
+#include "master/algorithm/loops/evaluation_order.h"
+#include "master/algorithm/unit.h"
+#include "master/algorithm/unit_timer.h"
+#include "master/model/system.h"
+
+namespace stride::core {
+
+/// Stages and wires are planned in the order in which they will be used; inputs that become known
+/// between two stages of a component are written by one call. The values stand in the blocks of an
+/// Exchange, which therefore has nothing to route afterwards.
+class StagedExchange {
+ private:
+  /// Variables of one component and type, read or written by one call.
+  struct Batch {
+    struct Piece {
+      Exchange::Place place;
+      std::size_t first;  ///< in `values`
+      std::size_t size;
+    };
+    std::vector<ValueReference> references;
+    std::vector<Piece> pieces;
+    std::size_t size = 0;  ///< of `values`, which are made when they are needed first
+    ValueBlock values;
+    bool is_due = false;
+    bool is_new = false;  ///< never written
+  };
+
+ public:
+  /// `units` in the order of system.components(). `all_new`: an input is written when it is first
+  /// routed, whatever its value; otherwise only when it changes.
+  StagedExchange(const System& system, std::span<const std::unique_ptr<Unit>> units,
+                 Exchange& exchange, const UnitTimer& timer, bool all_new);
+
+  class Wire {
+   public:
+    VariableId target() const { return connection_->to; }
+    Exchange::Place place() const { return to_; }  ///< of the target
+    std::size_t size() const { return size_; }
+
+   private:
+    friend StagedExchange;
+    const Connection* connection_;
+    Exchange::Place from_, to_;
+    std::size_t size_;
+    Batch* batch_;
+  };
+  class Stage {
+   public:
+    std::size_t component() const { return component_; }
+
+   private:
+    friend StagedExchange;
+    std::size_t component_;
+    std::vector<Batch> reads_;
+  };
+
+  Stage plan_stage(const EvaluationStep& step);
+  /// The connection that ends at the input.
+  Wire plan_wire(VariableId input);
+
+  /// Nothing routed so far waits to be written.
+  void begin();
+  /// Writes what was routed to the component, then reads the outputs of the stage.
+  void evaluate(Stage& stage);
+  /// Writes what was routed to the component.
+  void write(std::size_t component);
+  /// Copies an output's value to the input; returns whether the input changes.
+  bool route(Wire& wire);
+  /// The input was changed where it stands, see Wire::place().
+  void touch(Wire& wire) { make_due(wire); }
+  /// Reads what the unit has for the input.
+  void read_input(Wire& wire);
+  /// Whether an output of the stage is NaN.
+  bool has_nan(const Stage& stage) const;
+
+ private:
+  static Batch make_batch(ValueType type, bool is_new) {
+    return {{}, {}, 0, ValueBlock(type, 0), false, is_new};
+  }
+  static void complete(Batch& batch);
+  void add(Batch& batch, VariableId id);
+  void make_due(Wire& wire);
+
+  const System& system_;
+  std::span<const std::unique_ptr<Unit>> units_;
+  Exchange& exchange_;
+  UnitTimer timer_;
+  bool all_new_;
+  std::deque<Batch> batches_;                                  // of inputs
+  std::map<std::tuple<std::size_t, ValueType>, Batch*> open_;  // of a component, while planning
+  std::vector<std::vector<Batch*>> due_;                       // by component
+};
+
+}  // namespace stride::core
+
+#endif

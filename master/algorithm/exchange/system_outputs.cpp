@@ -1,0 +1,38 @@
+#include "master/algorithm/exchange/system_outputs.h"
+
+#include <algorithm>
+
+namespace stride::core {
+
+SystemOutputs::SystemOutputs(const System& system, std::span<const VariableId> observed)
+    : system_(system) {
+  for (const VariableId id : observed) {
+    if (!system.is_output(id)) {
+      sources_.push_back(id);
+      continue;
+    }
+    const SystemOutput& output = system.outputs()[id.variable];
+    sources_.push_back(output.from);
+    outputs_.push_back({id, &output, ValueBlock(output.variable.type, output.variable.size)});
+  }
+}
+
+void SystemOutputs::connect(Exchange& exchange) {
+  for (Output& output : outputs_) output.source = exchange.signal(output.output->from);
+}
+
+void SystemOutputs::update() {
+  for (Output& output : outputs_) {
+    copy_elements(output.block, 0, *output.source.block, output.source.first, output.block.size(),
+                  output.output->conversion);
+  }
+}
+
+Signal SystemOutputs::signal(VariableId id, Exchange& exchange) const {
+  if (!system_.is_output(id)) return exchange.signal(id);
+  const auto found =
+      std::ranges::find_if(outputs_, [&](const Output& output) { return output.id == id; });
+  return {id, &found->block, 0};
+}
+
+}  // namespace stride::core

@@ -1,0 +1,260 @@
+#include "master/algorithm/loops/algebraic_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace stride::core {
+namespace {
+
+/// Rounds in which what is no floating-point number may change.
+constexpr int kMostRounds = 100;
+constexpr std::size_t kMostValues = 8;  // in a message
+
+/// Returns whether it was another one.
+bool change_real(const Exchange::Place& place, std::size_t element, double value) {
+  const double before = real(*place.block, place.first + element);
+  set_real(*place.block, place.first + element, value);
+  return real(*place.block, place.first + element) != before;
+}
+
+/// A unit is better not given what is not finite.
+bool is_finite(const ValueBlock& block) {
+  if (!is_real(block.type())) return true;
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    if (!std::isfinite(real(block, i))) return false;
+  }
+  return true;
+}
+
+/// The precision of the numbers that run through the loop.
+double epsilon(const System& system, const EvaluationBlock& plan) {
+  const auto is_coarse = [&](VariableId id) {
+    return system.variable(id).type == ValueType::Float32;
+  };
+  bool coarse = std::ranges::any_of(plan.inputs, is_coarse);
+  for (const EvaluationStep& step : plan.steps) {
+    coarse |= std::ranges::any_of(step.outputs, is_coarse);
+  }
+  return coarse ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
+}
+
+}  // namespace
+
+AlgebraicLoop::AlgebraicLoop(const System& system, std::span<const std::unique_ptr<Unit>> units,
+                             const EvaluationBlock& plan, Exchange& exchange,
+                             StagedExchange& staged)
+    : system_(system), plan_(plan), staged_(staged) {
+  if (LoopTangents::exist(system, plan)) tangents_.emplace(system, units, plan);
+  scale_.epsilon = epsilon(system, plan);
+  for (const Tear& tear : plan.tears) {
+    const Variable& input = system.variable(tear.inputs.front());
+    Cut cut{&tear,
+            exchange.place(tear.source),
+            {},
+            ValueBlock(input.type, input.size),
+            is_real(input.type)};
+    for (const VariableId id : tear.inputs) cut.wires.push_back(staged.plan_wire(id));
+    for (std::size_t i = 0; i < input.size; ++i) {
+      unknowns_.push_back({cuts_.size(), i});
+      if (!cut.is_real) continue;
+      reals_.push_back({cuts_.size(), i});
+      scale_.nominals.push_back(input.nominal);
+    }
+    cuts_.push_back(std::move(cut));
+  }
+}
+
+void AlgebraicLoop::guess() {
+  for (Cut& cut : cuts_) {
+    staged_.read_input(cut.wires.front());
+    const Exchange::Place first = cut.wires.front().place();
+    for (StagedExchange::Wire& wire : cut.wires) {
+      copy_elements(*wire.place().block, wire.place().first, *first.block, first.first,
+                    cut.result.size());
+      staged_.touch(wire);
+    }
+  }
+}
+
+bool AlgebraicLoop::is_settled() {
+  collect();
+  return std::all_of(unknowns_.begin(), unknowns_.end(),
+                     [&](const Unknown& unknown) { return is_settled(unknown); });
+}
+
+void AlgebraicLoop::collect() {
+  for (Cut& cut : cuts_) {
+    copy_elements(cut.result, 0, *cut.source.block, cut.source.first, cut.result.size(),
+                  cut.tear->conversion);
+  }
+}
+
+bool AlgebraicLoop::is_settled(const Unknown& unknown) const {
+  const Cut& cut = cuts_[unknown.cut];
+  const Exchange::Place place = cut.wires.front().place();
+  const std::size_t at = place.first + unknown.element;
+  if (!cut.is_real) return is_same(*place.block, at, cut.result, unknown.element);
+  const double nominal = system_.variable(cut.wires.front().target()).nominal;
+  return core::is_settled(real(*place.block, at), real(cut.result, unknown.element), nominal,
+                          scale_.epsilon);
+}
+
+void AlgebraicLoop::sweep() {
+  (*sweep_)();
+  ++sweeps_;
+  collect();
+}
+
+void AlgebraicLoop::solve(const Sweep& sweep, Time time) {
+  sweep_ = &sweep;
+  sweeps_ = 1;
+  const Values first = inputs();
+  if (iterate()) return;
+  put(first);
+  for (int round = 1;; ++round) {
+    if (reals_.empty()) {
+      this->sweep();
+    } else if (!solve_reals()) {
+      break;
+    }
+    if (is_held_settled()) return;
+    if (round == kMostRounds) break;
+    for (Cut& cut : cuts_) {
+      if (!cut.is_real) put(cut, cut.result);
+    }
+  }
+  fail(time);
+}
+
+/// Without a loop in truth, each sweep settles one unknown at least for good: fewer than before are
+/// unsettled, or some that were not met before.
+bool AlgebraicLoop::iterate() {
+  std::vector<char> met(unknowns_.size());
+  std::size_t last_count = unknowns_.size() + 1;
+  for (std::size_t sweeps = 0; sweeps <= unknowns_.size(); ++sweeps) {
+    std::size_t count = 0;
+    bool is_any_new = false;
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
+      if (is_settled(unknowns_[i])) continue;
+      ++count;
+      is_any_new |= std::exchange(met[i], true) == 0;
+    }
+    if (count == 0) return true;
+    if (!is_any_new && count >= last_count) return false;
+    last_count = count;
+    for (Cut& cut : cuts_) {
+      if (is_finite(cut.result)) put(cut, cut.result);
+    }
+    sweep();
+  }
+  return false;
+}
+
+bool AlgebraicLoop::solve_reals() {
+  std::vector<double> guess;
+  for (const Unknown& unknown : reals_) {
+    const Exchange::Place place = cuts_[unknown.cut].wires.front().place();
+    guess.push_back(real(*place.block, place.first + unknown.element));
+  }
+  const auto function = [&](std::span<const double> x, std::span<double> g) {
+    put(x);
+    sweep();
+    for (std::size_t i = 0; i < reals_.size(); ++i) {
+      g[i] = real(cuts_[reals_[i].cut].result, reals_[i].element);
+    }
+  };
+  LoopJacobian jacobian;
+  if (tangents_) {
+    jacobian = [&](std::span<const double> x, std::span<double> columns) {
+      for (std::size_t i = 0; i < reals_.size(); ++i) {
+        tangents_->derive(reals_[i].cut, reals_[i].element,
+                          columns.subspan(i * x.size(), x.size()));
+      }
+    };
+  }
+  return solve_loop(function, std::move(guess), scale_, jacobian).found;
+}
+
+bool AlgebraicLoop::is_held_settled() const {
+  return std::all_of(unknowns_.begin(), unknowns_.end(), [&](const Unknown& unknown) {
+    return cuts_[unknown.cut].is_real || is_settled(unknown);
+  });
+}
+
+AlgebraicLoop::Values AlgebraicLoop::inputs() const {
+  Values values;
+  for (const Cut& cut : cuts_) {
+    const Exchange::Place place = cut.wires.front().place();
+    ValueBlock& value = values.emplace_back(cut.result.type(), cut.result.size());
+    copy_elements(value, 0, *place.block, place.first, value.size());
+  }
+  return values;
+}
+
+void AlgebraicLoop::put(const Values& values) {
+  for (std::size_t i = 0; i < cuts_.size(); ++i) put(cuts_[i], values[i]);
+}
+
+void AlgebraicLoop::put(Cut& cut, const ValueBlock& value) {
+  for (StagedExchange::Wire& wire : cut.wires) {
+    const Exchange::Place to = wire.place();
+    if (copy_elements(*to.block, to.first, value, 0, value.size())) staged_.touch(wire);
+  }
+}
+
+void AlgebraicLoop::put(std::span<const double> x) {
+  for (std::size_t i = 0; i < reals_.size(); ++i) {
+    for (StagedExchange::Wire& wire : cuts_[reals_[i].cut].wires) {
+      if (change_real(wire.place(), reals_[i].element, x[i])) staged_.touch(wire);
+    }
+  }
+}
+
+// ---- Failure ----
+
+void AlgebraicLoop::fail(Time time) const {
+  fail_run({{}, {}, {}, time},
+           fmt::format("no solution of the algebraic loop {} was found in {} evaluations: {}",
+                       path_text(plan_), sweeps_, values_text()),
+           hint());
+}
+
+std::string AlgebraicLoop::values_text() const {
+  std::vector<std::string> texts;
+  std::size_t count = 0;
+  for (const Unknown& unknown : unknowns_) {
+    if (is_settled(unknown) || ++count > kMostValues) continue;
+    const Cut& cut = cuts_[unknown.cut];
+    const Exchange::Place place = cut.wires.front().place();
+    const std::size_t at = place.first + unknown.element;
+    std::string text = fmt::format(
+        "with {}{} = {} it gives back {}", system_.full_name(cut.wires.front().target()),
+        cut.result.size() == 1 ? "" : fmt::format("[{}]", unknown.element + 1),
+        element_text(*place.block, at), element_text(cut.result, unknown.element));
+    if (cut.is_real) {
+      const double x = real(*place.block, at);
+      text += fmt::format(", a residual of {:.3g}", real(cut.result, unknown.element) - x);
+    }
+    texts.push_back(std::move(text));
+  }
+  if (count > kMostValues) texts.push_back(fmt::format("{} more", count - kMostValues));
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+std::string AlgebraicLoop::hint() const {
+  std::string text = fmt::format(
+      "a unit in it whose output does not depend on its input at the same instant, as "
+      "a delay or a state, breaks the loop; a start value of {} nearer to the solution "
+      "may help",
+      system_.full_name(cuts_.front().wires.front().target()));
+  const std::string undeclared = undeclared_text(system_, plan_);
+  return undeclared.empty() ? text
+                            : text + "; " + undeclared + ", so all inputs are taken for them";
+}
+
+}  // namespace stride::core

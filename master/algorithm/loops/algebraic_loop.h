@@ -1,0 +1,93 @@
+// An algebraic loop between units: x = g(x), x being the inputs at which it is cut.
+#ifndef STRIDE_MASTER_ALGORITHM_LOOPS_ALGEBRAIC_LOOP_H
+#define STRIDE_MASTER_ALGORITHM_LOOPS_ALGEBRAIC_LOOP_H
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/algorithm/exchange/exchange.h"
+#include "master/algorithm/exchange/staged_exchange.h"
+#include "master/algorithm/loops/evaluation_order.h"
+#include "master/algorithm/loops/loop_solver.h"
+#include "master/algorithm/loops/loop_tangents.h"
+#include "master/model/system.h"
+
+namespace stride::core {
+
+/// How it is solved:
+///
+/// 1. x ← g(x), as long as that settles one input after the other, as it does where dependencies
+///    were declared, or assumed, that do not exist.
+/// 2. solve_loop() from where it began, with what is no floating-point number held; then what is
+///    held follows, until nothing of it changes.
+class AlgebraicLoop {
+ public:
+  /// Evaluates all outputs in the loop from the inputs at which it is cut.
+  using Sweep = std::function<void()>;
+
+  /// `plan` is a loop and outlives this object, as do the others.
+  AlgebraicLoop(const System& system, std::span<const std::unique_ptr<Unit>> units,
+                const EvaluationBlock& plan, Exchange& exchange, StagedExchange& staged);
+
+  /// Takes the values that the units have for the inputs at which the loop is cut.
+  void guess();
+  /// Whether the last sweep gave back the inputs at which the loop is cut: numbers to within
+  /// rounding, others exactly.
+  bool is_settled();
+  /// The last sweep did not. Changes the inputs until it does. Throws Error (Run) with the path and
+  /// the last values if no solution is found.
+  void solve(const Sweep& sweep, Time time);
+
+ private:
+  /// Inputs that get the same value, and the output that it comes from.
+  struct Cut {
+    const Tear* tear;
+    Exchange::Place source;
+    std::vector<StagedExchange::Wire> wires;
+    ValueBlock result;  ///< what the source says, as the inputs want it
+    bool is_real;
+  };
+  /// One element of a cut.
+  struct Unknown {
+    std::size_t cut;
+    std::size_t element;
+  };
+  using Values = std::vector<ValueBlock>;  // by cut
+
+  void sweep();
+  void collect();
+  bool is_settled(const Unknown& unknown) const;
+  bool is_held_settled() const;
+  bool iterate();
+  bool solve_reals();
+  Values inputs() const;
+  void put(const Values& values);
+  void put(Cut& cut, const ValueBlock& value);
+  void put(std::span<const double> x);
+  [[noreturn]] void fail(Time time) const;
+  std::string values_text() const;
+  std::string hint() const;
+
+  const System& system_;
+  const EvaluationBlock& plan_;
+  StagedExchange& staged_;
+  std::vector<Cut> cuts_;
+  std::vector<Unknown> unknowns_;
+  std::vector<Unknown> reals_;            ///< those of the unknowns that Newton's method is for
+  LoopScale scale_;                       ///< of the reals
+  std::optional<LoopTangents> tangents_;  ///< where the units know their derivatives
+
+  const Sweep* sweep_ = nullptr;
+  std::size_t sweeps_ = 0;
+};
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,82 @@
+#include "master/algorithm/loops/dependencies.h"
+
+#include <algorithm>
+
+namespace stride::core {
+namespace {
+
+/// What does not vary with the time does not vary with the inputs.
+bool never_follows_inputs(const Variable& variable) {
+  return variable.variability == Variability::Constant ||
+         variable.variability == Variability::Fixed || variable.variability == Variability::Tunable;
+}
+
+}  // namespace
+
+bool carries_value(const System& system, const Connection& connection, Phase phase) {
+  const auto has_value = [&](VariableId id) {
+    if (!system.variable(id).is_clocked()) return true;
+    return phase == Phase::Initialization && system.is_sampled(id);
+  };
+  return system.variable(connection.from).type != ValueType::Clock && has_value(connection.from) &&
+         has_value(connection.to);
+}
+
+Dependencies::Dependencies(const System& system, Phase phase)
+    : system_(system), phase_(phase), inputs_(system.components().size()) {
+  for (const Connection& connection : system.connections()) {  // sorted by target
+    if (!carries_value(system, connection, phase)) continue;
+    inputs_[connection.to.component].push_back(connection.to.variable);
+  }
+  for (const Component& component : system.components()) {
+    const auto [entry, is_new] = declared_.try_emplace(component.description.get());
+    if (!is_new) continue;
+    Declared& declared = entry->second;
+    const UnitDescription& unit = *component.description;
+    for (std::size_t i = 0; i < unit.variables.size(); ++i) {
+      declared.variables.emplace(unit.variables[i].reference, i);
+    }
+    for (const Unknown& output : unit.outputs) declared.outputs[output.reference] = &output;
+    for (const Unknown& initial : unit.initial_unknowns) {
+      declared.initial_unknowns[initial.reference] = &initial;
+    }
+  }
+}
+
+bool Dependencies::depends_on_nothing(const UnitDescription& unit, const Variable& output) const {
+  if (never_follows_inputs(output)) return true;
+  return phase_ == Phase::Initialization ? output.initial == Initial::Exact : !unit.has_event_mode;
+}
+
+const Unknown* Dependencies::unknown(const Declared& declared, const Variable& output) const {
+  const auto find = [&](const std::map<ValueReference, const Unknown*>& unknowns) {
+    const auto found = unknowns.find(output.reference);
+    return found == unknowns.end() ? nullptr : found->second;
+  };
+  const Unknown* initial =
+      phase_ == Phase::Initialization ? find(declared.initial_unknowns) : nullptr;
+  return initial != nullptr ? initial : find(declared.outputs);
+}
+
+Dependencies::Inputs Dependencies::inputs_of(VariableId output) const {
+  const UnitDescription& unit = *system_.components()[output.component].description;
+  const Variable& variable = unit.variables[output.variable];
+  if (depends_on_nothing(unit, variable)) return {};
+  const Declared& declared = declared_.at(&unit);
+  const std::vector<std::size_t>& connected = inputs_[output.component];
+  const Unknown* found = unknown(declared, variable);
+  if (found == nullptr || !found->dependencies) return {false, {}};
+  Inputs inputs;
+  for (const ValueReference reference : *found->dependencies) {
+    const auto known = declared.variables.find(reference);
+    if (known == declared.variables.end()) continue;
+    if (!std::binary_search(connected.begin(), connected.end(), known->second)) continue;
+    inputs.variables.push_back(known->second);
+  }
+  std::sort(inputs.variables.begin(), inputs.variables.end());
+  inputs.variables.erase(std::unique(inputs.variables.begin(), inputs.variables.end()),
+                         inputs.variables.end());
+  return inputs;
+}
+
+}  // namespace stride::core

@@ -1,0 +1,154 @@
+#include "master/algorithm/loops/evaluation.h"
+
+#include <algorithm>
+
+namespace stride::core {
+
+Evaluation::Evaluation(const System& system, std::span<const std::unique_ptr<Unit>> units,
+                       Exchange& exchange, Phase phase, const UnitTimer& timer)
+    : system_(system),
+      exchange_(exchange),
+      phase_(phase),
+      order_(evaluation_order(system, phase)),
+      staged_(system, units, exchange, timer, phase == Phase::Initialization) {
+  std::map<VariableId, std::vector<VariableId>> targets;
+  for (const Connection& connection : system.connections()) {
+    if (carries_value(system, connection, phase)) {
+      targets[connection.from].push_back(connection.to);
+    }
+  }
+  blocks_.reserve(order_.size());
+  for (const EvaluationBlock& planned : order_) plan(planned, targets, units);
+  if (phase == Phase::Events) find_direct_inputs();
+}
+
+void Evaluation::plan(const EvaluationBlock& planned, const Targets& targets,
+                      std::span<const std::unique_ptr<Unit>> units) {
+  Block& block = blocks_.emplace_back();
+  block.plan = &planned;
+  std::set<VariableId> inner(planned.inputs.begin(), planned.inputs.end());
+  std::set<VariableId> cut;
+  if (planned.is_loop()) block.loop.emplace(system_, units, planned, exchange_, staged_);
+  for (const Tear& tear : planned.tears) cut.insert(tear.inputs.begin(), tear.inputs.end());
+  std::vector<VariableId> onward;
+  for (const EvaluationStep& step : planned.steps) {
+    Stage& stage = block.stages.emplace_back(Stage{staged_.plan_stage(step), {}});
+    for (const VariableId output : step.outputs) {
+      for (const VariableId input : targets.at(output)) {
+        if (planned.is_loop() && inner.count(input) == 0) {
+          onward.push_back(input);
+        } else if (cut.count(input) == 0) {
+          stage.wires.push_back(staged_.plan_wire(input));
+        }
+      }
+    }
+  }
+  for (const VariableId input : onward) block.onward.push_back(staged_.plan_wire(input));
+}
+
+void Evaluation::find_direct_inputs() {
+  const Dependencies dependencies(system_, phase_);
+  std::set<VariableId> sources;
+  for (const Connection& connection : system_.connections()) sources.insert(connection.from);
+  for (std::size_t i = 0; i < system_.components().size(); ++i) {
+    const auto& variables = system_.components()[i].description->variables;
+    const std::vector<std::size_t>& all = dependencies.all_inputs(i);
+    std::set<std::size_t> direct;
+    for (std::size_t k = 0; k < variables.size() && direct.size() < all.size(); ++k) {
+      const Variable& output = variables[k];
+      const bool is_local = output.causality == Causality::Local && sources.contains({i, k});
+      if ((output.causality != Causality::Output && !is_local) || output.is_clocked()) continue;
+      if (output.type == ValueType::Clock) continue;
+      const Dependencies::Inputs inputs = dependencies.inputs_of({i, k});
+      const auto& depends_on = inputs.declared ? inputs.variables : all;
+      direct.insert(depends_on.begin(), depends_on.end());
+    }
+    has_direct_inputs_ |= !direct.empty();
+    for (const std::size_t k : direct) {
+      if (variables[k].variability == Variability::Continuous) followed_.insert({i, k});
+    }
+  }
+}
+
+void Evaluation::run(Time time, Participants& participants) {
+  time_ = time;
+  participants_ = &participants;
+  staged_.begin();
+  for (Block& block : blocks_) {
+    if (block.loop) {
+      evaluate_loop(block);
+    } else if (takes_part(block)) {
+      evaluate(block.stages.front());
+      check_nan(block);
+    }
+  }
+  for (std::size_t i = 0; i < system_.components().size(); ++i) {
+    if (participants.takes_part(i)) staged_.write(i);
+  }
+}
+
+void Evaluation::evaluate(Stage& stage) {
+  if (!participants_->takes_part(stage.stage.component())) return;
+  staged_.evaluate(stage.stage);
+  for (StagedExchange::Wire& wire : stage.wires) route(wire);
+}
+
+void Evaluation::route(StagedExchange::Wire& wire) {
+  if (staged_.route(wire)) report(wire.target());
+}
+
+void Evaluation::report(VariableId input) {
+  const bool may_jump = phase_ == Phase::Events &&
+                        system_.variable(input).variability == Variability::Continuous &&
+                        system_.components()[input.component].description->has_event_mode;
+  if (!is_trying_ && may_jump) participants_->on_jump(input, followed_.count(input) != 0);
+}
+
+void Evaluation::sweep(Block& block) {
+  for (Stage& stage : block.stages) evaluate(stage);
+}
+
+bool Evaluation::takes_part(const Block& block) const {
+  return std::any_of(block.stages.begin(), block.stages.end(), [&](const Stage& stage) {
+    return participants_->takes_part(stage.stage.component());
+  });
+}
+
+void Evaluation::evaluate_loop(Block& block) {
+  if (!takes_part(block)) return;
+  if (phase_ == Phase::Initialization) block.loop->guess();
+  sweep(block);
+  if (!block.loop->is_settled()) solve(block);
+  check_nan(block);
+  for (StagedExchange::Wire& wire : block.onward) route(wire);
+}
+
+void Evaluation::solve(Block& block) {
+  bool has_joined = false;
+  for (Stage& stage : block.stages) has_joined |= participants_->join(stage.stage.component());
+  std::vector<ValueBlock> before;
+  for (const VariableId input : block.plan->inputs) before.push_back(value(input));
+  is_trying_ = true;
+  if (has_joined) sweep(block);
+  if (!block.loop->is_settled()) block.loop->solve([&] { sweep(block); }, time_);
+  is_trying_ = false;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const VariableId input = block.plan->inputs[i];
+    if (!(before[i] == value(input))) report(input);
+  }
+}
+
+ValueBlock Evaluation::value(VariableId id) {
+  const Exchange::Place place = exchange_.place(id);
+  ValueBlock value(place.block->type(), system_.variable(id).size);
+  copy_elements(value, 0, *place.block, place.first, value.size());
+  return value;
+}
+
+void Evaluation::check_nan(const Block& block) const {
+  const bool has_nan = std::any_of(block.stages.begin(), block.stages.end(),
+                                   [&](const Stage& s) { return staged_.has_nan(s.stage); });
+  if (has_nan) exchange_.check_nan(time_);
+}
+
+}  // namespace stride::core

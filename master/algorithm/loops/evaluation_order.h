@@ -1,0 +1,55 @@
+// The order in which the values of a system are evaluated at one instant.
+#ifndef STRIDE_MASTER_ALGORITHM_LOOPS_EVALUATION_ORDER_H
+#define STRIDE_MASTER_ALGORITHM_LOOPS_EVALUATION_ORDER_H
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "master/algorithm/loops/dependencies.h"
+#include "master/model/system.h"
+
+namespace stride::core {
+
+/// Outputs of one component that are read together, since what they depend on is known.
+struct EvaluationStep {
+  std::size_t component = 0;
+  std::vector<VariableId> outputs;  ///< sorted
+};
+
+/// Where a loop is cut: these inputs get the same value from one output, and it is solved for.
+struct Tear {
+  VariableId source;
+  Conversion conversion;
+  std::vector<VariableId> inputs;  ///< sorted
+};
+
+/// What is evaluated at once: outputs of one component, or an algebraic loop.
+struct EvaluationBlock {
+  std::vector<EvaluationStep>
+      steps;                       ///< one; of a loop, the order in which they follow from `tears`
+  std::vector<Tear> tears;         ///< of a loop only, as what follows
+  std::vector<VariableId> inputs;  ///< all that the loop runs through, sorted
+  std::vector<std::string> paths;  ///< "a.u -> a.y -> b.u -> b.y -> a.u"
+  std::size_t unnamed_paths = 0;   ///< those that `paths` leaves out, where there are many
+  /// Components that declare no dependencies, if there would be no loop without them.
+  std::vector<std::size_t> undeclared;
+
+  bool is_loop() const { return !tears.empty(); }
+};
+
+/// All connected outputs that are not clocked, each behind those that it depends on. Components
+/// take few turns, since one all of whose outputs can be read goes first; of several, the first in
+/// the file. A loop is a strongly connected part of the dependencies, cut at few connections. Both
+/// choices are heuristics, and depend on nothing but the system.
+std::vector<EvaluationBlock> evaluation_order(const System& system, Phase phase);
+
+/// The paths of a loop, in one line of text.
+std::string path_text(const EvaluationBlock& loop);
+
+/// "unit 'a' declares no dependencies", of a loop that would not be there otherwise; else empty.
+std::string undeclared_text(const System& system, const EvaluationBlock& loop);
+
+}  // namespace stride::core
+
+#endif

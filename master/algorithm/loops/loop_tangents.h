@@ -1,0 +1,62 @@
+// How an algebraic loop answers to small changes of the inputs at which it is cut.
+#ifndef STRIDE_MASTER_ALGORITHM_LOOPS_LOOP_TANGENTS_H
+#define STRIDE_MASTER_ALGORITHM_LOOPS_LOOP_TANGENTS_H
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "master/algorithm/loops/evaluation_order.h"
+#include "master/algorithm/unit.h"
+#include "master/model/system.h"
+
+namespace stride::core {
+
+/// The derivatives of one sweep through a loop, by the chain rule, from the directional derivatives
+/// of its units.
+class LoopTangents {
+ public:
+  /// `loop` is one, and outlives this object, as do the others.
+  LoopTangents(const System& system, std::span<const std::unique_ptr<Unit>> units,
+               const EvaluationBlock& loop);
+
+  /// Whether all units in the loop know their derivatives, and only floating-point numbers run
+  /// through it.
+  static bool exist(const System& system, const EvaluationBlock& loop);
+
+  /// How what comes back to each element of the cut inputs, one tear after the other, changes with
+  /// the element `element` of the tear `tear`. The units have their inputs from the last sweep.
+  void derive(std::size_t tear, std::size_t element, std::span<double> column);
+
+ private:
+  /// Outputs of one component, what of it the loop runs through, and where these lead.
+  struct Stage {
+    std::size_t component;
+    std::vector<ValueReference> unknowns, knowns;
+    std::size_t first_output, outputs;  ///< in outputs_
+    std::size_t first_input, inputs;    ///< in inputs_
+  };
+  struct Wire {
+    std::size_t stage;  ///< behind which it carries
+    std::size_t from, to, size;
+    double factor;
+  };
+
+  void place_inputs();
+  void add_stage(const EvaluationStep& step);
+  void add_wires();
+
+  const System& system_;
+  std::span<const std::unique_ptr<Unit>> units_;
+  const EvaluationBlock& loop_;
+  std::map<VariableId, std::size_t> input_places_, output_places_;
+  std::vector<Stage> stages_;
+  std::vector<Wire> wires_;  ///< by stage
+  std::vector<double> inputs_, outputs_;
+};
+
+}  // namespace stride::core
+
+#endif

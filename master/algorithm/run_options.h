@@ -1,0 +1,112 @@
+// What a user chooses of a run.
+#ifndef STRIDE_MASTER_ALGORITHM_RUN_OPTIONS_H
+#define STRIDE_MASTER_ALGORITHM_RUN_OPTIONS_H
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/model/variable_id.h"
+
+namespace stride::core {
+
+/// Where the next communication point is, as far as no event comes before it.
+enum class StepPolicy : std::uint8_t {
+  Fixed,            ///< on a grid
+  EventDriven,      ///< only where a unit stops, has an event, or must not step further
+  ErrorControlled,  ///< as far as the error of the inputs between the points stays tolerable
+};
+
+/// What a unit sees of the others during a step.
+enum class Coupling : std::uint8_t {
+  Jacobi,       ///< all step from what was put out at the communication point
+  GaussSeidel,  ///< one after the other; each sees where those before it have arrived
+};
+
+/// How an input goes on from its last values during a step: as a polynomial of this degree.
+enum class Extrapolation : std::uint8_t { Hold, Linear, Quadratic };
+
+inline constexpr std::array kStepPolicies{StepPolicy::Fixed, StepPolicy::EventDriven,
+                                          StepPolicy::ErrorControlled};
+inline constexpr std::array kCouplings{Coupling::Jacobi, Coupling::GaussSeidel};
+inline constexpr std::array kExtrapolations{Extrapolation::Hold, Extrapolation::Linear,
+                                            Extrapolation::Quadratic};
+
+/// As scenarios and the command line have them: "event-driven".
+const char* name(StepPolicy policy);
+const char* name(Coupling coupling);
+const char* name(Extrapolation extrapolation);
+
+struct StepOptions {
+  StepPolicy policy = StepPolicy::Fixed;
+  Duration size{};  ///< Fixed: of the grid; ErrorControlled: of the first step
+  /// No step is longer. Nothing: as far as the units let; ErrorControlled: a tenth of the run.
+  std::optional<Duration> maximum{};
+  /// No shorter one is tried after a rejection.
+  Duration minimum = std::chrono::nanoseconds(1);
+  /// ErrorControlled: an input v may be off by absolute_tolerance + relative_tolerance * |v|, in
+  /// the unit of the output that feeds it.
+  double relative_tolerance = 1e-3;
+  double absolute_tolerance = 1e-6;
+};
+
+/// On how many threads a run may step its units. Changes the speed of a run, never its results.
+struct ThreadOptions {
+  std::size_t count = 1;  ///< the thread that runs the simulation included
+  /// Components, by their places in System::components(), that step on that thread only, as for
+  /// units that must not run beside each other.
+  std::vector<std::size_t> main_only{};
+  /// Threads are used from the first step on, whether they pay or not: for tests.
+  bool always = false;
+};
+
+/// A number for one variable.
+struct IdleSetting {
+  VariableId id;
+  double value = 0;
+};
+
+/// Who may be left alone while it promises to be idle (org.stride.idle).
+struct IdleOptions {
+  /// For how long, by component; nothing: not at all. Shorter than the components: nobody further.
+  std::vector<std::optional<Duration>> max_skip{};
+  std::vector<IdleSetting> deadbands{};   ///< of inputs, in place of those that the units name
+  std::vector<IdleSetting> tolerances{};  ///< of outputs, likewise
+  Duration least{};                       ///< a unit is not left alone for less
+};
+
+struct RunOptions {
+  /// Units may rest where nothing but events and steps needs them: inputs that are extrapolated, or
+  /// whose error is controlled, are needed between communication points.
+  bool may_skip_idle_time() const {
+    return !sets_inputs_in_steps() && step.policy != StepPolicy::ErrorControlled;
+  }
+  /// Whether inputs are set anew for each step. With Jacobi and held inputs they stay what they
+  /// were at the communication point.
+  bool sets_inputs_in_steps() const {
+    return coupling != Coupling::Jacobi || extrapolation != Extrapolation::Hold;
+  }
+
+  Time start{};
+  Time stop{};
+  StepOptions step{};
+  Coupling coupling = Coupling::Jacobi;
+  Extrapolation extrapolation = Extrapolation::Hold;
+  ThreadOptions threads{};  ///< not with Gauss-Seidel, where units step one after another
+  IdleOptions idle{};       ///< as far as may_skip_idle_time()
+  std::vector<VariableId> recorded{};  ///< what observers see that ask for nothing else, in order
+  std::vector<VariableId> watched{};   ///< what observers may ask for beside that
+  bool measure_time = true;  ///< wall-clock time per unit; costs two clock readings a unit step
+  /// Where this is no longer 0 the run ends at its next communication point.
+  const volatile std::sig_atomic_t* interrupted = nullptr;
+};
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,54 @@
+// A run: the stepping algorithm over a system and its instances.
+#ifndef STRIDE_MASTER_ALGORITHM_SIMULATION_H
+#define STRIDE_MASTER_ALGORITHM_SIMULATION_H
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/algorithm/observer.h"
+#include "master/algorithm/run_options.h"
+#include "master/algorithm/statistics.h"
+#include "master/algorithm/unit.h"
+#include "master/algorithm/verdict.h"
+#include "master/model/system.h"
+
+namespace stride::core {
+
+/// Runs a system once. The pseudocode is in docs/stepping.md.
+class Simulation {
+ public:
+  /// `units` are the instances in the order of system.components(). The system must outlive the
+  /// simulation, the observers the run.
+  Simulation(const System& system, std::vector<std::unique_ptr<Unit>> units, RunOptions options);
+  ~Simulation();
+
+  void add_observer(Observer& observer);
+  /// It sees these signals, in this order, in place of the recorded ones. Each is one of
+  /// RunOptions::recorded or RunOptions::watched.
+  void add_observer(Observer& observer, std::vector<VariableId> signals);
+
+  /// From initialisation to the stop time, or until a unit ends the simulation or it is
+  /// interrupted. Throws Error; the observers' on_finish() has been called then, and the statistics
+  /// tell how far it came.
+  void run();
+
+  const RunStatistics& statistics() const;
+  /// The simulated time for which units have been left alone because they promised to be idle, all
+  /// of them together and up to where the run stands: unlike the statistics' `rested`, with the
+  /// rests that still last. For observers, at a communication point; one look at each unit that may
+  /// rest.
+  Duration rested() const;
+  /// What the units say of the run, where it ended; none where it failed or was interrupted.
+  std::span<const Verdict> verdicts() const;
+
+ private:
+  class Run;
+  std::unique_ptr<Run> run_;
+};
+
+}  // namespace stride::core
+
+#endif

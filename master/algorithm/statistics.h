@@ -1,0 +1,75 @@
+#ifndef STRIDE_MASTER_ALGORITHM_STATISTICS_H
+#define STRIDE_MASTER_ALGORITHM_STATISTICS_H
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <stride/time.h>
+
+namespace stride::core {
+
+/// Of a unit in a process of its own.
+struct HostStatistics {
+  std::uint64_t snapshots = 0;             ///< of its process that were made
+  std::uint64_t restores = 0;              ///< times that one of them took over
+  std::size_t most_snapshots = 0;          ///< kept at the same time
+  std::uint64_t most_snapshot_memory = 0;  ///< that those kept had to themselves, at most [byte]
+  std::uint64_t most_memory = 0;           ///< resident, of the process that serves [byte]
+  std::vector<std::string> protections{};  ///< in force
+  std::vector<std::string> missing_protections{};  ///< wanted, and not to be had from this kernel
+};
+
+struct UnitStatistics {
+  std::uint64_t calls = 0;          ///< of functions of its interface, where they are counted
+  std::uint64_t steps = 0;          ///< that it made, redone ones included
+  std::uint64_t early_returns = 0;  ///< steps that it ended before their end
+  std::uint64_t rejections = 0;     ///< steps that it refused
+  std::uint64_t rollbacks = 0;      ///< steps of it that were undone, because another unit stopped
+  std::uint64_t saves = 0;          ///< of its state
+  std::uint64_t events = 0;         ///< super-dense instants handled in Event Mode
+  std::uint64_t rests = 0;  ///< times that it was left alone, because it promised to be idle
+  Duration rested{};        ///< the simulated time of all of them
+  Duration longest_rest{};
+  std::uint64_t messages_sent = 0;
+  std::uint64_t messages_received = 0;
+  std::chrono::nanoseconds
+      initialization_time{};             ///< wall-clock time within the unit's own functions
+  std::chrono::nanoseconds step_time{};  ///< likewise, its state saved and restored included
+  std::chrono::nanoseconds event_time{};
+  std::optional<HostStatistics> host{};  ///< of a unit in a process of its own
+};
+
+/// Wall-clock time of a whole run.
+struct PhaseTimes {
+  std::chrono::nanoseconds initialization{};
+  std::chrono::nanoseconds steps{};     ///< of all units, with inputs within steps and redone steps
+  std::chrono::nanoseconds instants{};  ///< values exchanged and events handled between steps
+  std::chrono::nanoseconds observers{};
+};
+
+/// How a run that did not fail came to its end.
+enum class RunEnd : std::uint8_t { Completed, EndedByUnit, Interrupted };
+
+/// As run.json has it: "ended by a unit".
+const char* name(RunEnd end);
+
+struct RunStatistics {
+  Time start{};
+  Time reached{};  ///< the last accepted instant
+  std::uint64_t communication_steps = 0;
+  std::uint64_t undone_steps = 0;  ///< of all units, since an input's error was too large
+  std::uint64_t event_iterations = 0;
+  std::uint64_t parallel_steps = 0;  ///< communication steps that were made on several threads
+  std::chrono::nanoseconds wall_time{};
+  PhaseTimes phases{};
+  RunEnd end = RunEnd::Completed;
+  std::vector<UnitStatistics> units;  ///< in the order of System::components()
+};
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,124 @@
+#include "master/algorithm/stepping/step_inputs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stride::core {
+
+StepInputs::StepInputs(const System& system, Exchange& exchange, Coupling coupling,
+                       Extrapolation extrapolation)
+    : exchange_(exchange),
+      sequential_(coupling == Coupling::GaussSeidel),
+      sources_(system.components().size()),
+      steps_(system.components().size()),
+      feeds_(system.components().size()) {
+  Places places;
+  for (const ContinuousLink& link : exchange.continuous_links()) {
+    std::vector<Feed>& feeds = feeds_[link.to.component];
+    auto feed = std::find_if(feeds.begin(), feeds.end(),
+                             [&](const Feed& f) { return f.source == link.from.component; });
+    if (feed == feeds.end()) feed = feeds.insert(feed, {link.from.component, {}});
+    feed->links.push_back({signal_of(link, places), system.variable(link.to).intermediate_update,
+                           link.target, link.conversion});
+  }
+  for (Source& source : sources_) {
+    source.history = SignalHistory(source.signals.size(), static_cast<unsigned>(extrapolation));
+  }
+}
+
+std::size_t StepInputs::signal_of(const ContinuousLink& link, Places& places) {
+  Source& source = sources_[link.from.component];
+  const auto [place, is_new] = places.emplace(link.source, source.signals.size());
+  if (is_new) {
+    source.signals.push_back(link.source);
+    source.ids.push_back(link.from);
+  }
+  return place->second;
+}
+
+void StepInputs::sample(Source& source, Time time) {
+  const std::span<double> values = source.history.add(time);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = source.signals[i].get();
+}
+
+void StepInputs::accept(Time time, std::span<const char> had_event) {
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    Source& source = sources_[i];
+    if (source.signals.empty()) continue;
+    SignalHistory& history = source.history;
+    if (had_event[i]) history.clear();
+    // what was fetched after a step may have changed since, and a step may end where it began
+    if (!history.empty() && history.newest() == time) history.remove_newest();
+    source.is_ahead = false;
+    sample(source, time);
+  }
+}
+
+void StepInputs::set_targets(const Feed& feed, const SignalHistory& history,
+                             const SignalHistory::Weights& weights, bool within_step) {
+  for (const Link& link : feed.links) {
+    if (link.within_step != within_step) continue;
+    const double value = history.value(link.signal, weights);
+    link.target.set(link.conversion.factor * value + link.conversion.offset);
+  }
+}
+
+void StepInputs::before_step(std::size_t component, const StepInterval& interval) {
+  if (feeds_[component].empty()) return;
+  steps_[component] = {interval.from, interval.to};
+  for (const Feed& feed : feeds_[component]) {
+    const Source& source = sources_[feed.source];
+    const SignalHistory& history = source.history;
+    if (source.is_ahead && source.is_nan) exchange_.check_nan(history.newest());
+    set_targets(feed, history, history.mean(interval.from, interval.to), false);
+    set_targets(feed, history, history.at(interval.from, 0, interval.to - interval.from), true);
+  }
+  exchange_.note_change(component);
+}
+
+void StepInputs::within_step(std::size_t component, Unit& unit, double seconds_into_step) {
+  const auto [from, to] = steps_[component];
+  for (const Feed& feed : feeds_[component]) {
+    const SignalHistory& history = sources_[feed.source].history;
+    set_targets(feed, history, history.at(from, seconds_into_step, to - from), true);
+  }
+  exchange_.deliver_within_step(component, unit);
+}
+
+void StepInputs::after_step(std::size_t component, Time reached) {
+  Source& source = sources_[component];
+  if (!sequential_ || source.signals.empty() || source.history.newest() == reached) return;
+  sample(source, reached);
+  source.is_ahead = true;
+  source.is_nan = std::any_of(source.signals.begin(), source.signals.end(),
+                              [](const RealElement& signal) { return std::isnan(signal.get()); });
+}
+
+void StepInputs::undo_step(std::size_t component) {
+  Source& source = sources_[component];
+  if (!source.is_ahead) return;  // never, with Jacobi, where other threads look at it
+  source.history.remove_newest();
+  source.is_ahead = false;
+}
+
+Excess StepInputs::excess(Time time, double absolute, double relative) {
+  Excess worst;
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    const Source& source = sources_[i];
+    if (source.signals.empty()) continue;
+    undo_step(i);
+    const SignalHistory& history = source.history;
+    const SignalHistory::Weights weights = history.at(time, 0, time - history.newest());
+    for (std::size_t k = 0; k < source.signals.size(); ++k) {
+      const double actual = source.signals[k].get();
+      const double error = std::abs(actual - history.value(k, weights));
+      const bool is_relative = std::isfinite(error);  // what becomes infinite is no larger number
+      const double tolerance = absolute + (is_relative ? relative * std::abs(actual) : 0);
+      const double ratio = error / tolerance;
+      if (ratio > worst.ratio) worst = {ratio, source.ids[k]};
+    }
+  }
+  return worst;
+}
+
+}  // namespace stride::core

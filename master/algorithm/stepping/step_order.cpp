@@ -1,0 +1,202 @@
+#include "master/algorithm/stepping/step_order.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace stride::core {
+namespace {
+
+bool may_stop(const Component& component) {
+  return component.may_return_early() || component.description->may_reject;
+}
+
+/// Of the units that may stop and have no state of their own, the one that is asked when those that
+/// can be rolled back have agreed.
+std::optional<std::size_t> first_final(const std::vector<Component>& components) {
+  std::optional<std::size_t> best;
+  const auto rank = [&](std::size_t i) {
+    return std::pair(!components[i].may_return_early(), components[i].has_snapshots);
+  };
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    if (!may_stop(components[i]) || components[i].description->can_save_state) continue;
+    if (!best || rank(i) < rank(*best)) best = i;
+  }
+  return best;
+}
+
+StepRole role_of(const Component& component, bool is_first_final, StepPolicy policy) {
+  const bool may_go_back =
+      policy == StepPolicy::ErrorControlled || (may_stop(component) && !is_first_final);
+  if (component.can_save_state() && may_go_back) return StepRole::CanRollBack;
+  return component.may_return_early() ? StepRole::MayStopEarly : StepRole::DoesAsTold;
+}
+
+std::string reason_to_go_back(const Component& component, bool saves_state) {
+  if (!saves_state) return "can be rolled back; no other unit may stop, so nothing is saved";
+  return component.description->can_save_state
+             ? "can be rolled back; its state is saved before each step"
+             : "can be rolled back; a snapshot of its process is taken before each step";
+}
+
+std::string reason(const Component& component, StepRole role, bool saves_state) {
+  const UnitDescription& unit = *component.description;
+  if (role == StepRole::CanRollBack) return reason_to_go_back(component, saves_state);
+  if (role == StepRole::DoesAsTold && component.can_save_state() && !may_stop(component)) {
+    return "never stops: follows the others, so nothing is saved";
+  }
+  if (component.has_snapshots) {
+    return fmt::format(
+        "{}; the one that needs no snapshot: it is asked when the others have agreed",
+        role == StepRole::MayStopEarly ? "may return early" : "might reject a step");
+  }
+  if (role == StepRole::MayStopEarly) {
+    return "may return early and cannot be rolled back: what it reaches is final";
+  }
+  std::string text = "cannot be rolled back; ";
+  if (unit.may_return_early) text += "is not allowed to return early; ";
+  return text + (unit.may_reject ? "does not return early, but might reject a step"
+                                 : "does as it is told");
+}
+
+void check_single(const System& system, const std::vector<StepPlace>& order) {
+  std::vector<std::string> names;
+  for (const StepPlace& place : order) {
+    if (place.role == StepRole::MayStopEarly) {
+      names.push_back(system.components()[place.component].name);
+    }
+  }
+  if (names.size() < 2) return;
+  fail_input(
+      {},
+      fmt::format("'{}' and '{}' may both return early from a step, and neither can be "
+                  "rolled back: when one stops, the other may already be too far",
+                  names[0], names[1]),
+      fmt::format("let one of them have a process of its own, whose snapshots take it back, "
+                  "<stride:Host components=\"{0}\" process=\"true\"/>, or make its steps to the "
+                  "end, <stride:EarlyReturn components=\"{0}\" allowed=\"false\"/>, or replace it "
+                  "by a unit that can save its state (canGetAndSetFMUState)",
+                  names[1]));
+}
+
+/// Whom each component feeds with values that exist between events too.
+std::vector<std::set<std::size_t>> fed_components(const System& system) {
+  std::vector<std::set<std::size_t>> fed(system.components().size());
+  for (const Connection& connection : system.connections()) {
+    const bool feeds = connection.from.component != connection.to.component &&
+                       !system.variable(connection.from).is_clocked();
+    if (feeds) fed[connection.from.component].insert(connection.to.component);
+  }
+  return fed;
+}
+
+/// Kahn's topological sort of the places of one role; where all that are left wait for each other,
+/// the first of them goes on.
+void sort_along_connections(const std::vector<std::set<std::size_t>>& fed,
+                            std::span<StepPlace> places) {
+  std::map<std::size_t, std::size_t> position;  // by component
+  for (std::size_t i = 0; i < places.size(); ++i) position[places[i].component] = i;
+  const auto for_each_fed = [&](std::size_t i, auto&& action) {
+    for (const std::size_t target : fed[places[i].component]) {
+      if (const auto found = position.find(target); found != position.end()) action(found->second);
+    }
+  };
+  std::vector<std::size_t> sources(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for_each_fed(i, [&](std::size_t target) { ++sources[target]; });
+  }
+  std::set<std::pair<bool, std::size_t>> left;  // those that wait for nobody first
+  for (std::size_t i = 0; i < places.size(); ++i) left.insert({sources[i] > 0, i});
+  std::vector<std::size_t> order;
+  while (!left.empty()) {
+    const std::size_t next = left.extract(left.begin()).value().second;
+    order.push_back(next);
+    for_each_fed(next, [&](std::size_t target) {
+      if (left.erase({sources[target] > 0, target}) == 0) return;
+      --sources[target];
+      left.insert({sources[target] > 0, target});
+    });
+  }
+  std::vector<StepPlace> sorted;
+  for (const std::size_t i : order) sorted.push_back(places[i]);
+  std::move(sorted.begin(), sorted.end(), places.begin());
+}
+
+void sort_along_connections(const System& system, std::vector<StepPlace>& order) {
+  const auto fed = fed_components(system);
+  for (auto first = order.begin(); first != order.end();) {
+    const auto end = std::find_if(
+        first, order.end(), [&](const StepPlace& place) { return place.role != first->role; });
+    sort_along_connections(fed, {first, end});
+    first = end;
+  }
+}
+
+void form_stages(const System& system, std::vector<StepPlace>& order) {
+  std::size_t stage = 0;
+  bool stage_may_stop = false;
+  for (StepPlace& place : order) {
+    if (place.role != StepRole::CanRollBack && stage_may_stop) {
+      ++stage;
+      stage_may_stop = false;
+    }
+    place.stage = stage;
+    stage_may_stop |= may_stop(system.components()[place.component]);
+  }
+}
+
+}  // namespace
+
+std::vector<StepPlace> step_order(const System& system, StepPolicy policy, Coupling coupling) {
+  const auto& components = system.components();
+  const std::optional<std::size_t> final = first_final(components);
+  std::vector<StepPlace> order;
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    const UnitDescription& unit = *components[i].description;
+    const StepRole role = role_of(components[i], i == final, policy);
+    bool another_may_stop = policy == StepPolicy::ErrorControlled;
+    for (std::size_t k = 0; k < components.size(); ++k) {
+      another_may_stop |= k != i && may_stop(components[k]);
+    }
+    const bool saves_state = role == StepRole::CanRollBack && another_may_stop;
+    order.push_back(
+        {i, role, unit.can_vary_step, saves_state, reason(components[i], role, saves_state), 0});
+  }
+  std::stable_sort(order.begin(), order.end(), [&](const StepPlace& a, const StepPlace& b) {
+    if (a.role != b.role) return a.role < b.role;
+    if (a.role != StepRole::DoesAsTold) return false;
+    // the first to be asked can still reject, since nothing final has happened before it
+    return components[a.component].description->may_reject &&
+           !components[b.component].description->may_reject;
+  });
+  check_single(system, order);
+  if (coupling == Coupling::GaussSeidel) sort_along_connections(system, order);
+  form_stages(system, order);
+  return order;
+}
+
+std::vector<std::size_t> missing_snapshots(std::span<const ComponentDeclaration> components,
+                                           StepPolicy policy, const std::vector<bool>& may_have) {
+  const bool all_go_back = policy == StepPolicy::ErrorControlled;
+  std::vector<std::size_t> lacking;
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    const UnitDescription& unit = *components[i].description;
+    const bool may_return = components[i].early_return_allowed && unit.may_return_early;
+    if (!all_go_back && !may_return) continue;
+    if (!unit.can_save_state && !components[i].has_snapshots) lacking.push_back(i);
+  }
+  const auto must_do_without = [&](std::size_t i) { return !may_have[i]; };
+  if (!all_go_back && !lacking.empty()) {
+    const auto found = std::find_if(lacking.begin(), lacking.end(), must_do_without);
+    lacking.erase(found == lacking.end() ? lacking.begin() : found);
+  }
+  std::erase_if(lacking, must_do_without);
+  return lacking;
+}
+
+}  // namespace stride::core

@@ -1,0 +1,48 @@
+// Whether a run was as it should be.
+#ifndef STRIDE_MASTER_ALGORITHM_VERDICT_H
+#define STRIDE_MASTER_ALGORITHM_VERDICT_H
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/algorithm/unit.h"
+#include "master/model/system.h"
+#include "master/model/values.h"
+#include "master/util/error.h"
+
+namespace stride::core {
+
+/// What an element of a signal was at some instant.
+struct Witness {
+  std::string signal;
+  ValueBlock value;  ///< of one element
+  std::string unit;  ///< of measure
+};
+
+/// What a unit, or a check of the scenario, says of a run.
+struct Verdict {
+  std::string name;               ///< of the component or of the check
+  std::optional<bool> passed;     ///< nothing: undecided, as for what the run did not come to
+  std::string text{};             ///< why, for people; empty if there are no words for it
+  std::string kind{};             ///< of a check; empty: a unit's verdict
+  Location where{};               ///< of a check
+  std::optional<Time> time{};     ///< of the first failure, as far as it has an instant
+  std::vector<Witness> values{};  ///< at that time
+};
+
+/// "at 12.3 s: 1.79 V, expected >= 1.8 V", as far as there is a time and a text.
+std::string reason(const Verdict& verdict);
+
+/// Those of the units that declare one, in the order of the components. The units, in that order,
+/// stand at the end of the run, which has ended well, not terminated yet. Throws Error.
+std::vector<Verdict> read_verdicts(const System& system,
+                                   std::span<const std::unique_ptr<Unit>> units);
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,423 @@
+#include "master/model/conversion.h"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "master/util/suggest.h"
+
+namespace stride::core {
+namespace {
+
+/// The whole numbers of a type; Boolean and Enumeration as integers.
+struct Range {
+  std::int64_t least;
+  std::uint64_t most;
+
+  bool holds(const Range& other) const { return least <= other.least && most >= other.most; }
+  bool holds(std::int64_t number) const {
+    return number >= least && (number < 0 || static_cast<std::uint64_t>(number) <= most);
+  }
+};
+
+template <class T>
+constexpr Range range_of() {
+  using Limits = std::numeric_limits<T>;
+  return {static_cast<std::int64_t>(Limits::min()), static_cast<std::uint64_t>(Limits::max())};
+}
+
+/// Of Float32 and Float64: the numbers up to which all whole numbers are exact.
+std::optional<Range> range_of(ValueType type) {
+  switch (type) {
+    case ValueType::Float32:
+      return Range{-(std::int64_t{1} << 24), std::uint64_t{1} << 24};
+    case ValueType::Float64:
+      return Range{-(std::int64_t{1} << 53), std::uint64_t{1} << 53};
+    case ValueType::Int8:
+      return range_of<std::int8_t>();
+    case ValueType::UInt8:
+      return range_of<std::uint8_t>();
+    case ValueType::Int16:
+      return range_of<std::int16_t>();
+    case ValueType::UInt16:
+      return range_of<std::uint16_t>();
+    case ValueType::Int32:
+      return range_of<std::int32_t>();
+    case ValueType::UInt32:
+      return range_of<std::uint32_t>();
+    case ValueType::Int64:
+    case ValueType::Enumeration:
+      return range_of<std::int64_t>();
+    case ValueType::UInt64:
+      return range_of<std::uint64_t>();
+    case ValueType::Boolean:
+    case ValueType::String:
+    case ValueType::Binary:
+    case ValueType::Clock:
+      break;
+  }
+  return std::nullopt;
+}
+
+bool is_integer(ValueType type) { return range_of(type) && !is_real(type); }
+
+/// b after a
+LinearConversion then(const LinearConversion& a, const LinearConversion& b) {
+  if (a.is_identity()) return b;
+  return {b.factor * a.factor, b.factor * a.offset + b.offset};
+}
+
+NumberMap then(const NumberMap& a, const NumberMap& b) {
+  std::map<std::int64_t, std::int64_t> all(b.begin(), b.end());
+  for (const auto& [source, target] : a) all[source] = mapped(b, target);
+  return {all.begin(), all.end()};
+}
+
+std::optional<std::int64_t> number_of(const EnumerationItems& items, const std::string& name) {
+  for (const auto& [item, number] : items) {
+    if (item == name) return number;
+  }
+  return std::nullopt;
+}
+
+/// Puts the passages together, one after the other.
+class Composer {
+ public:
+  Composer(const std::vector<Waypoint>& waypoints, std::span<const Passage> passages,
+           const Context& context)
+      : waypoints_(completed(waypoints)), passages_(passages), context_(context) {}
+
+  LinearConversion linear() const {
+    LinearConversion linear;
+    bool is_plain = true;
+    for (std::size_t i = 0; i < passages_.size(); ++i) {
+      check_types(i);
+      check_transformation(i);
+      const Transformation& transformation = passages_[i].transformation;
+      linear = then(linear, unit_conversion(i));
+      if (transformation.kind == Transformation::Kind::Linear) {
+        linear = then(linear, transformation.linear);
+      }
+      is_plain &= !passages_[i].suppress_unit_conversion &&
+                  transformation.kind != Transformation::Kind::Linear;
+    }
+    if (!is_real(type(passages_.size()))) return {};
+    // by way of another unit, it would be rounded more than once
+    const auto direct = convert(waypoints_.front().unit, waypoints_.back().unit);
+    return is_plain && direct ? *direct : linear;
+  }
+
+  Conversion conversion() const {
+    Conversion conversion{linear(), {}, {}};
+    for (std::size_t i = 0; i < passages_.size(); ++i) {
+      conversion.map = then(conversion.map, numbers(i));
+    }
+    check_results(conversion);
+    std::erase_if(conversion.map, [&](const auto& entry) {
+      const auto range = range_of(type(0));
+      return range && !range->holds(entry.first);
+    });
+    return conversion;
+  }
+
+  std::string words(std::string text) const {
+    for (std::size_t i = 0; i < passages_.size(); ++i) {
+      const Transformation::Kind kind = passages_[i].transformation.kind;
+      if (kind == Transformation::Kind::None || kind == Transformation::Kind::Linear) continue;
+      std::string result;
+      for (std::size_t at = 0; (at = text.find_first_not_of(" \t\r\n", at)) != text.npos;) {
+        const std::size_t end = std::min(text.find_first_of(" \t\r\n", at), text.size());
+        result += (result.empty() ? "" : " ") + word(i, text.substr(at, end - at));
+        at = end;
+      }
+      text = result;
+    }
+    return text;
+  }
+
+ private:
+  ValueType type(std::size_t waypoint) const { return *waypoints_[waypoint].type; }
+
+  std::string wire(std::size_t passage) const {
+    return fmt::format("'{}' to '{}'", waypoints_[passage].name, waypoints_[passage + 1].name);
+  }
+
+  [[noreturn]] void fail(const std::string& message, const std::string& hint) const {
+    fail_input(context_, message, hint);
+  }
+  [[noreturn]] void fail(const Transformation& at, const std::string& message,
+                         const std::string& hint) const {
+    fail_input({at.where, {}, {}, {}}, message, hint);
+  }
+
+  void check_types(std::size_t passage) const {
+    const Waypoint& from = waypoints_[passage];
+    const Waypoint& to = waypoints_[passage + 1];
+    // what an enumeration's items become behind a mapping is checked at the end
+    const bool is_checked_later =
+        is_integer(*from.type) && is_integer(*to.type) &&
+        passages_[passage].transformation.kind != Transformation::Kind::None;
+    if (is_checked_later || converts_without_loss(*from.type, *to.type, from.items)) return;
+    if (is_real(*from.type) && is_real(*to.type)) return;
+    fail(fmt::format(
+             "cannot connect {}: {} and {} are different types, and {}", wire(passage),
+             core::name(*from.type), core::name(*to.type),
+             range_of(*from.type) && range_of(*to.type)
+                 ? fmt::format("not every {} is a {}", core::name(*from.type), core::name(*to.type))
+                 : "one is not converted into the other"),
+         is_integer(*from.type) && is_integer(*to.type)
+             ? "an <ssc:IntegerMappingTransformation> whose targets all fit says which become "
+               "which; otherwise put a unit between them that converts the value"
+             : "put a unit between them that converts the value, or use one with another type");
+  }
+
+  /// Which types a transformation is for: SSP 2.0, "Transformation Choice".
+  void check_transformation(std::size_t passage) const {
+    const Transformation& transformation = passages_[passage].transformation;
+    const auto both = [&](auto&& is_right) {
+      return is_right(type(passage)) && is_right(type(passage + 1));
+    };
+    const auto complain = [&](const char* meant_for) {
+      fail(transformation,
+           fmt::format("a {} is for {}, and {} is a connection from {} to {}",
+                       core::name(transformation.kind), meant_for, wire(passage),
+                       core::name(type(passage)), core::name(type(passage + 1))),
+           fmt::format("transform such values by {}", transformation_for(type(passage))));
+    };
+    switch (transformation.kind) {
+      case Transformation::Kind::None:
+        return;
+      case Transformation::Kind::Linear:
+        if (!both(is_real)) complain("Float64 and Float32");
+        return;
+      case Transformation::Kind::BooleanMapping:
+        if (!both([](ValueType t) { return t == ValueType::Boolean; })) complain("Boolean");
+        return;
+      case Transformation::Kind::IntegerMapping:
+        if (!both(is_integer)) complain("integers and Enumerations");
+        return;
+      case Transformation::Kind::EnumerationMapping:
+        if (!both([](ValueType t) { return t == ValueType::Enumeration; })) {
+          complain("Enumerations");
+        }
+    }
+  }
+
+  static const char* transformation_for(ValueType type) {
+    if (is_real(type)) return "a <ssc:LinearTransformation factor=\"…\" offset=\"…\"/>";
+    if (type == ValueType::Boolean) return "a <ssc:BooleanMappingTransformation>";
+    if (type == ValueType::Enumeration) return "an <ssc:EnumerationMappingTransformation>";
+    if (is_integer(type)) return "an <ssc:IntegerMappingTransformation>";
+    return "a unit between the two; SSP has no transformation for them";
+  }
+
+  LinearConversion unit_conversion(std::size_t passage) const {
+    if (passages_[passage].suppress_unit_conversion) return {};
+    const Waypoint& from = waypoints_[passage];
+    const Waypoint& to = waypoints_[passage + 1];
+    if (const auto conversion = convert(from.unit, to.unit)) return *conversion;
+    fail(fmt::format("cannot connect {}: '{}' is in '{}', '{}' in '{}', and one cannot be "
+                     "converted into the other",
+                     wire(passage), from.name, from.unit.name, to.name, to.unit.name),
+         "correct the wiring, or say suppressUnitConversion=\"true\" if the numbers fit");
+  }
+
+  std::int64_t item(const Transformation& transformation, std::size_t waypoint,
+                    const std::string& name) const {
+    const Waypoint& connector = waypoints_[waypoint];
+    if (const auto number = number_of(connector.items, name)) return *number;
+    std::vector<std::string> known;
+    for (const auto& [item, number] : connector.items) known.push_back(item);
+    fail(transformation,
+         fmt::format("the Enumeration of '{}' has no item '{}'", connector.name, name),
+         known.empty() ? "its connector declares no enumeration" : suggestion(name, known));
+  }
+
+  /// A passage's mapping as one of numbers.
+  NumberMap numbers(std::size_t passage) const {
+    const Transformation& transformation = passages_[passage].transformation;
+    NumberMap map = transformation.numbers;
+    for (const auto& [source, target] : transformation.names) {
+      map.emplace_back(item(transformation, passage, source),
+                       item(transformation, passage + 1, target));
+    }
+    std::sort(map.begin(), map.end());
+    const Waypoint& to = waypoints_[passage + 1];
+    const auto range = range_of(*to.type);
+    for (const auto& [source, target] : map) {
+      if (range && !range->holds(target)) {
+        fail(transformation,
+             fmt::format("the target {} of the mapping is no {}, which '{}' is", target,
+                         core::name(*to.type), to.name),
+             "choose a number that it can have");
+      }
+      if (*to.type == ValueType::Enumeration) check_item(transformation, to, target);
+    }
+    return map;
+  }
+
+  void check_item(const Transformation& transformation, const Waypoint& to,
+                  std::int64_t target) const {
+    const bool is_known =
+        to.items.empty() || std::any_of(to.items.begin(), to.items.end(),
+                                        [&](const auto& item) { return item.second == target; });
+    if (is_known) return;
+    fail(transformation,
+         fmt::format("the target {} of the mapping is no item of the Enumeration of '{}'", target,
+                     to.name),
+         fmt::format("its items are {}", item_text(to.items)));
+  }
+
+  static std::string item_text(const EnumerationItems& items) {
+    std::vector<std::string> texts;
+    for (const auto& [item, number] : items) texts.push_back(fmt::format("{} ({})", item, number));
+    return fmt::format("{}", fmt::join(texts, ", "));
+  }
+
+  /// Whatever an enumeration's items, or the numbers of an integer, become must be in the target.
+  void check_results(Conversion& conversion) const {
+    const Waypoint& first = waypoints_.front();
+    const Waypoint& last = waypoints_.back();
+    if (!is_integer(*first.type) || !is_integer(*last.type)) return;
+    const bool to_items = *last.type == ValueType::Enumeration && !last.items.empty();
+    if (*first.type == ValueType::Enumeration && !first.items.empty()) {
+      for (const auto& [item, number] : first.items) {
+        check_result(item, mapped(conversion.map, number));
+      }
+      return;
+    }
+    if (to_items) {
+      for (const auto& [item, number] : last.items) conversion.valid.push_back(number);
+      std::sort(conversion.valid.begin(), conversion.valid.end());
+      return;
+    }
+    if (converts_without_loss(*first.type, *last.type, first.items)) return;
+    fail(fmt::format("cannot connect '{}' to '{}': not every {} is a {}, and what the mapping does "
+                     "not name stays what it is",
+                     first.name, last.name, core::name(*first.type), core::name(*last.type)),
+         "put a unit between them that converts the value, or use one with another type");
+  }
+
+  void check_result(const std::string& item, std::int64_t becomes) const {
+    const Waypoint& first = waypoints_.front();
+    const Waypoint& last = waypoints_.back();
+    const bool to_items = *last.type == ValueType::Enumeration && !last.items.empty();
+    const bool is_known = to_items ? std::any_of(last.items.begin(), last.items.end(),
+                                                 [&](const auto& i) { return i.second == becomes; })
+                                   : range_of(*last.type)->holds(becomes);
+    if (is_known) return;
+    fail(fmt::format("cannot connect '{}' to '{}': the item '{}' of the one becomes {}, which is "
+                     "no {}",
+                     first.name, last.name, item, becomes,
+                     to_items ? fmt::format("item of the other: {}", item_text(last.items))
+                              : core::name(*last.type)),
+         to_items ? "say what it becomes, in an <ssc:EnumerationMappingTransformation>"
+                  : "say what it becomes, in an <ssc:IntegerMappingTransformation>");
+  }
+
+  std::string word(std::size_t passage, const std::string& word) const {
+    const Transformation& transformation = passages_[passage].transformation;
+    if (transformation.kind == Transformation::Kind::EnumerationMapping) {
+      for (const auto& [source, target] : transformation.names) {
+        if (source == word) return target;
+      }
+      return word;
+    }
+    std::int64_t number = 0;
+    const auto end = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (transformation.kind == Transformation::Kind::BooleanMapping) {
+      if (word != "true" && word != "1" && word != "false" && word != "0") return word;
+      return mapped(transformation.numbers, word == "true" || word == "1" ? 1 : 0) != 0 ? "true"
+                                                                                        : "false";
+    }
+    if (end.ptr != word.data() + word.size() || end.ec != std::errc{}) {
+      const auto named = number_of(waypoints_[passage].items, word);
+      if (!named) return word;
+      number = *named;
+    }
+    return std::to_string(mapped(transformation.numbers, number));
+  }
+
+  std::vector<Waypoint> waypoints_;
+  std::span<const Passage> passages_;
+  const Context& context_;
+};
+
+}  // namespace
+
+std::int64_t mapped(const NumberMap& map, std::int64_t value) {
+  const auto found = std::lower_bound(map.begin(), map.end(), value,
+                                      [](const auto& entry, auto v) { return entry.first < v; });
+  return found != map.end() && found->first == value ? found->second : value;
+}
+
+std::optional<LinearConversion> convert(const MeasureUnit& from, const MeasureUnit& to) {
+  if (from.name.empty() || to.name.empty()) return LinearConversion{};
+  if (!from.meaning || !to.meaning) {
+    return from.name == to.name ? std::optional(LinearConversion{}) : std::nullopt;
+  }
+  const BaseUnit& a = *from.meaning;
+  const BaseUnit& b = *to.meaning;
+  if (a.exponents != b.exponents) return std::nullopt;
+  return LinearConversion{a.factor / b.factor, (a.offset - b.offset) / b.factor};
+}
+
+MeasureUnit known_unit(MeasureUnit unit, const UnitDescription& description) {
+  if (unit.meaning) return unit;
+  const auto found = description.units.find(unit.name);
+  if (found != description.units.end()) unit.meaning = found->second;
+  return unit;
+}
+
+const char* name(Transformation::Kind kind) {
+  constexpr const char* kNames[] = {"", "LinearTransformation", "BooleanMappingTransformation",
+                                    "IntegerMappingTransformation",
+                                    "EnumerationMappingTransformation"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+bool converts_without_loss(ValueType from, ValueType to, const EnumerationItems& items) {
+  if (from == to) return true;
+  const auto target = range_of(to);
+  const auto source = range_of(from);
+  if (!source || !target) return false;
+  if (is_real(from)) return from == ValueType::Float32 && to == ValueType::Float64;
+  if (from == ValueType::Enumeration && !items.empty()) {
+    return std::all_of(items.begin(), items.end(),
+                       [&](const auto& item) { return target->holds(item.second); });
+  }
+  return target->holds(*source);
+}
+
+std::vector<Waypoint> completed(std::vector<Waypoint> waypoints) {
+  const auto inherit = [](Waypoint& to, const Waypoint& from) {
+    if (!to.type) to.type = from.type;
+    if (to.unit.name.empty() && to.type && is_real(*to.type)) to.unit = from.unit;
+    if (to.items.empty() && to.type == ValueType::Enumeration) to.items = from.items;
+  };
+  for (std::size_t i = waypoints.size() - 1; i-- > 0;) {
+    if (waypoints[i].takes_after_next) inherit(waypoints[i], waypoints[i + 1]);
+  }
+  for (std::size_t i = 1; i < waypoints.size(); ++i) inherit(waypoints[i], waypoints[i - 1]);
+  for (std::size_t i = waypoints.size() - 1; i-- > 0;) {
+    if (!waypoints[i].type) inherit(waypoints[i], waypoints[i + 1]);
+  }
+  return waypoints;
+}
+
+Conversion compose(const std::vector<Waypoint>& waypoints, std::span<const Passage> passages,
+                   const Context& context) {
+  return Composer(waypoints, passages, context).conversion();
+}
+
+TextConversion compose_text(const std::string& text, const std::vector<Waypoint>& waypoints,
+                            std::span<const Passage> passages, const Context& context) {
+  const Composer composer(waypoints, passages, context);
+  return {composer.words(text), composer.linear()};
+}
+
+}  // namespace stride::core

@@ -1,0 +1,103 @@
+// How the values of an output become those of an input: units, transformations, types.
+#ifndef STRIDE_MASTER_MODEL_CONVERSION_H
+#define STRIDE_MASTER_MODEL_CONVERSION_H
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "master/model/description.h"
+#include "master/util/error.h"
+
+namespace stride::core {
+
+/// Whole numbers that become others, sorted by source; what is not in it stays what it is.
+using NumberMap = std::vector<std::pair<std::int64_t, std::int64_t>>;
+
+/// What becomes of each element of a value.
+struct Conversion {
+  LinearConversion linear;  ///< of Float32 and Float64 only
+  NumberMap map;            ///< of integers, Enumeration and Boolean (0 and 1) only
+  /// The values that the target, an Enumeration, may have; empty: nothing is to be checked.
+  std::vector<std::int64_t> valid;
+
+  bool is_identity() const { return linear.is_identity() && map.empty(); }
+};
+
+/// The number that it becomes.
+std::int64_t mapped(const NumberMap& map, std::int64_t value);
+
+/// A unit of measurement by its name; empty: none is said. What has no meaning equals what has the
+/// same name.
+struct MeasureUnit {
+  std::string name{};
+  std::optional<BaseUnit> meaning{};
+};
+
+/// How values in one unit become values in another. Where one side has none they are taken as they
+/// are; nothing if they cannot be converted into each other.
+std::optional<LinearConversion> convert(const MeasureUnit& from, const MeasureUnit& to);
+
+/// The unit, with what the description says of it, where the unit itself says nothing.
+MeasureUnit known_unit(MeasureUnit unit, const UnitDescription& description);
+
+using EnumerationItems = std::vector<std::pair<std::string, std::int64_t>>;
+
+/// A transformation of SSP (2.0, section "Transformation Choice"), applied behind the conversion of
+/// units.
+struct Transformation {
+  enum class Kind { None, Linear, BooleanMapping, IntegerMapping, EnumerationMapping };
+  Kind kind = Kind::None;
+  LinearConversion linear{};
+  NumberMap numbers{};                                       ///< of Boolean and integer mappings
+  std::vector<std::pair<std::string, std::string>> names{};  ///< of Enumerations, by their items
+  Location where{};
+};
+
+/// "LinearTransformation", the name of its element.
+const char* name(Transformation::Kind kind);
+
+/// Between two connectors: an ssd:Connection or an ssm:MappingEntry.
+struct Passage {
+  bool suppress_unit_conversion = false;
+  Transformation transformation{};
+};
+
+/// A connector that a value comes through, as far as it is declared.
+struct Waypoint {
+  std::string name{};  ///< for people
+  std::optional<ValueType> type{};
+  MeasureUnit unit{};
+  EnumerationItems items{};
+  /// What is not declared is that of the connector before it (an output of a system) or behind it.
+  bool takes_after_next = false;
+};
+
+/// The waypoints with what they take after others. The type of the first or the last is known.
+std::vector<Waypoint> completed(std::vector<Waypoint> waypoints);
+
+/// Composes the passages between waypoints, of which there is one more. Throws Error (Input) at
+/// `context`, or at the transformation that is wrong, for units that cannot be converted into each
+/// other, types that cannot or could lose something, and transformations that do not fit the types.
+Conversion compose(const std::vector<Waypoint>& waypoints, std::span<const Passage> passages,
+                   const Context& context);
+
+/// Likewise for a value that is given as text, whose type and enumeration need not be known: the
+/// text behind all mappings, and what to do with its numbers.
+struct TextConversion {
+  std::string text;
+  LinearConversion linear;
+};
+TextConversion compose_text(const std::string& text, const std::vector<Waypoint>& waypoints,
+                            std::span<const Passage> passages, const Context& context);
+
+/// Whether each value of a type is one of the other. An Enumeration is seen as an Int64, and fits
+/// wherever all of its items do.
+bool converts_without_loss(ValueType from, ValueType to, const EnumerationItems& items);
+
+}  // namespace stride::core
+
+#endif

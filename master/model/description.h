@@ -1,0 +1,222 @@
+// What a unit says of itself: the part of a modelDescription.xml that a master needs.
+#ifndef STRIDE_MASTER_MODEL_DESCRIPTION_H
+#define STRIDE_MASTER_MODEL_DESCRIPTION_H
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/model/interval.h"
+
+namespace stride::core {
+
+using ValueReference = std::uint32_t;
+
+enum class ValueType : std::uint8_t {
+  Float32,
+  Float64,
+  Int8,
+  UInt8,
+  Int16,
+  UInt16,
+  Int32,
+  UInt32,
+  Int64,
+  UInt64,
+  Boolean,
+  String,
+  Binary,
+  Enumeration,
+  Clock,
+};
+inline constexpr std::size_t kValueTypeCount = 15;
+
+/// Whether it is a floating-point type.
+inline bool is_real(ValueType type) {
+  return type == ValueType::Float64 || type == ValueType::Float32;
+}
+
+enum class Causality : std::uint8_t {
+  Parameter,
+  CalculatedParameter,
+  StructuralParameter,
+  Input,
+  Output,
+  Local,
+  Independent,
+};
+enum class Variability : std::uint8_t { Constant, Fixed, Tunable, Discrete, Continuous };
+
+/// Where the value at the start comes from: the start value, the unit with the start value as its
+/// first guess, the unit alone. None: the question does not arise, as for the time.
+enum class Initial : std::uint8_t { Exact, Approx, Calculated, None };
+
+/// When a clock ticks (FMI 3.0, 2.2.8). Triggered ones tick when something happens; the others, the
+/// time-based ones, by the time: periodically, the interval known from the description (Constant),
+/// from the start on (Fixed) or until it changes (Tunable); or once after each interval that the
+/// unit names, when it has just ticked (Changing) or at any event (Countdown).
+enum class IntervalVariability : std::uint8_t {
+  Constant,
+  Fixed,
+  Tunable,
+  Changing,
+  Countdown,
+  Triggered,
+};
+inline constexpr std::size_t kIntervalVariabilityCount = 6;
+
+/// The words of the standard: "Float64", "input", "continuous", "countdown".
+const char* name(ValueType type);
+const char* name(Causality causality);
+const char* name(Variability variability);
+const char* name(Initial initial);
+const char* name(IntervalVariability variability);
+
+/// value in SI base units = factor * value + offset. exponents of kg, m, s, A, K, mol, cd, rad.
+struct BaseUnit {
+  std::array<int, 8> exponents{};
+  double factor = 1;
+  double offset = 0;
+};
+
+/// What a description says of a Clock.
+struct ClockAttributes {
+  IntervalVariability variability = IntervalVariability::Triggered;
+  std::optional<Interval> interval;  ///< of a periodic clock, if it is not the unit that says it
+  Interval shift;                  ///< from the start to the first tick, where there is an interval
+  bool supports_fraction = false;  ///< the unit can give intervals as fractions
+  bool can_be_deactivated = false;
+  std::optional<std::uint32_t> priority;  ///< of no meaning in Co-Simulation
+
+  bool is_periodic() const { return variability <= IntervalVariability::Tunable; }
+};
+
+struct Dimension {
+  constexpr Dimension(std::size_t elements, std::optional<ValueReference> given_by = {})
+      : size(elements), parameter(given_by) {}
+
+  std::size_t size;
+  std::optional<ValueReference> parameter;  ///< the structural parameter that gives it
+  bool operator==(const Dimension&) const = default;
+};
+
+/// What an array may have: enough for any model, and so few that a wrong number cannot take the
+/// memory.
+inline constexpr std::size_t kMaxElements = std::size_t{1} << 28;
+
+/// The product of the sizes; nothing if it is above kMaxElements.
+std::optional<std::size_t> element_count(const std::vector<Dimension>& dimensions);
+
+struct Variable {
+  std::string name;
+  std::vector<std::string> aliases;  ///< its other names
+  ValueReference reference = 0;
+  ValueType type = ValueType::Float64;
+  Causality causality = Causality::Local;
+  Variability variability = Variability::Continuous;
+  Initial initial = Initial::Calculated;
+  std::vector<Dimension> dimensions;  ///< empty for a scalar
+  std::size_t size = 1;               ///< the number of elements
+  std::string unit;
+  std::string description;
+  std::string start;  ///< as it stands in the description; elements separated by blanks
+  std::string min;    ///< likewise, empty if there is none
+  std::string max;
+  double nominal = 0;  ///< of a floating-point number, the magnitude to expect; 0 = not said
+  std::vector<ValueReference> clocks;                       ///< the clocks that it belongs to
+  std::optional<ClockAttributes> clock;                     ///< of a Clock
+  std::vector<std::pair<std::string, std::int64_t>> items;  ///< of an Enumeration
+
+  /// Of a continuous input or an output: it may be accessed within a step.
+  bool intermediate_update = false;
+
+  /// Of a Float64 input: how far it may go before a unit's promise to be idle ends.
+  double deadband = 0;
+  /// Of a Float64 output: how far it may be from its tangent while the unit promises to be idle;
+  /// without one it stays what it is meanwhile.
+  std::optional<double> tolerance;
+  bool has_derivative = false;  ///< of an output with a tolerance: get_derivatives() knows it
+
+  bool is_clocked() const { return !clocks.empty(); }
+  /// Whether it is a clock that the master ticks by the time.
+  bool is_time_based_clock() const {
+    return clock && causality == Causality::Input &&
+           clock->variability != IntervalVariability::Triggered;
+  }
+};
+
+/// An output or initial unknown, and what it depends on. Nothing = not said, so all inputs.
+struct Unknown {
+  ValueReference reference = 0;
+  std::optional<std::vector<ValueReference>> dependencies;
+};
+
+struct UnitDescription {
+  std::string fmi_version;
+  std::string model_name;
+  std::string model_identifier;
+  std::string instantiation_token;
+  std::string description;
+  std::string generation_tool;
+  std::vector<Variable> variables;        ///< in the order of the description
+  std::map<std::string, BaseUnit> units;  ///< those whose meaning is given
+  std::vector<Unknown> outputs;
+  std::vector<Unknown> initial_unknowns;
+
+  bool has_event_mode = false;
+  bool can_save_state = false;
+  bool can_serialize_state = false;
+  bool can_vary_step = false;
+  bool may_return_early = false;
+  bool single_instance = false;
+  bool needs_execution_tool = false;
+  /// It can ask for its inputs within a step (fmi3IntermediateUpdateCallback).
+  bool provides_intermediate_update = false;
+  bool provides_directional_derivatives = false;
+  unsigned max_output_derivative_order = 0;
+  /// It can promise to be idle (org.stride.idle, see <stride/idle.h>).
+  bool promises_idle = false;
+  /// Whether the unit may reject a step (fmi3Discard); true unless it says otherwise.
+  bool may_reject = true;
+  /// Steps of any sizes between two instants lead to the same values, but for rounding, while the
+  /// inputs are held; false unless the unit says so.
+  bool split_invariant = false;
+  /// The place of the Boolean output that is the unit's verdict on a run, if it gives one, and of
+  /// the String output that explains it.
+  std::optional<std::size_t> verdict;
+  std::optional<std::size_t> verdict_text;
+  std::optional<Duration> fixed_internal_step;
+  std::optional<Duration> maximum_step;  ///< no step may be longer
+  std::optional<Duration> default_step;  ///< DefaultExperiment
+  std::optional<Time> default_stop;
+
+  /// The variable's place in `variables`, if there is one of that name or alias.
+  std::optional<std::size_t> find(const std::string& variable_name) const;
+  /// The place of the variable with this value reference.
+  std::optional<std::size_t> find(ValueReference reference) const;
+
+  /// Gives a structural parameter its value: the arrays whose dimensions depend on it get their
+  /// sizes. Returns the first variable that would have too many elements, and is then unchanged.
+  const Variable* resize(ValueReference structural_parameter, std::size_t value);
+
+  /// Whether the variable belongs to time-based clocks only: its value is exchanged at their ticks,
+  /// and holds between them.
+  bool is_sampled(const Variable& variable) const;
+};
+
+/// target = factor * source + offset
+struct LinearConversion {
+  double factor = 1;
+  double offset = 0;
+  bool is_identity() const { return factor == 1 && offset == 0; }
+};
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,125 @@
+#include "master/model/interval.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace stride::core {
+namespace {
+
+__extension__ using Wide = unsigned __int128;
+
+constexpr std::uint64_t kPicoseconds = 1'000'000'000'000;
+/// So that the sum of two fractions of different denominators fits into 128 bits.
+constexpr std::uint64_t kMaxDenominator = std::uint64_t{1} << 62;
+constexpr int kMaxDecimals = 18;  // 10^18 < 2^62
+
+Wide greatest_common_divisor(Wide a, Wide b) {
+  while (b != 0) {
+    const Wide rest = a % b;
+    a = b;
+    b = rest;
+  }
+  return a;
+}
+
+std::uint64_t power_of_ten(int exponent) {
+  std::uint64_t power = 1;
+  for (int i = 0; i < exponent; ++i) power *= 10;
+  return power;
+}
+
+/// digits * 10^exponent
+struct Decimal {
+  std::uint64_t digits;
+  int exponent;
+};
+
+/// The shortest decimal that reads back as this positive number: at most 17 digits.
+Decimal shortest_decimal(double value) {
+  char text[32];
+  const auto end =
+      std::to_chars(std::begin(text), std::end(text), value, std::chars_format::scientific);
+  const std::string_view all(text, static_cast<std::size_t>(end.ptr - text));
+  const std::size_t e = all.find('e');
+  std::string mantissa(all.substr(0, e));
+  int decimals = 0;
+  if (const std::size_t point = mantissa.find('.'); point != std::string::npos) {
+    decimals = static_cast<int>(mantissa.size() - point - 1);
+    mantissa.erase(point, 1);
+  }
+  std::string_view power = all.substr(e + 1);
+  if (power.front() == '+') power.remove_prefix(1);
+  Decimal decimal{};
+  std::from_chars(mantissa.data(), mantissa.data() + mantissa.size(), decimal.digits);
+  std::from_chars(power.data(), power.data() + power.size(), decimal.exponent);
+  decimal.exponent -= decimals;
+  return decimal;
+}
+
+}  // namespace
+
+Interval::Interval(Wide numerator, std::uint64_t denominator) {
+  const Wide divisor = greatest_common_divisor(numerator, denominator);
+  numerator_ = numerator / divisor;
+  denominator_ = static_cast<std::uint64_t>(denominator / divisor);
+}
+
+Interval Interval::from_fraction(std::uint64_t counter, std::uint64_t resolution) {
+  if (resolution == 0) throw std::invalid_argument("the resolution is 0");
+  const Interval interval(Wide{counter} * kPicoseconds, resolution);
+  if (interval.denominator_ > kMaxDenominator) {
+    throw std::invalid_argument("the resolution " + std::to_string(resolution) +
+                                " is finer than any clock's");
+  }
+  return interval;
+}
+
+Interval Interval::from_seconds(double seconds) {
+  if (std::isnan(seconds)) throw std::invalid_argument("it is not a number");
+  if (seconds < 0) throw std::invalid_argument("it is negative");
+  if (seconds == 0) return {};
+  auto [digits, exponent] = shortest_decimal(std::min(seconds, 2 * kMaxSeconds));
+  exponent += 12;
+  for (; exponent < -kMaxDecimals && digits != 0; ++exponent) digits /= 10;
+  if (digits == 0) return {};
+  if (exponent < 0) return {digits, power_of_ten(-exponent)};
+  return {Wide{digits} * power_of_ten(exponent), 1};
+}
+
+Interval Interval::from_duration(Duration duration) {
+  if (duration < Duration{}) throw std::invalid_argument("it is negative");
+  return {static_cast<std::uint64_t>(duration.count()), 1};
+}
+
+double Interval::seconds() const {
+  return static_cast<double>(numerator_) / static_cast<double>(denominator_) / 1e12;
+}
+
+std::optional<Time> tick_time(Time base, const Interval& shift, const Interval& interval,
+                              std::uint64_t count) {
+  constexpr Wide kMax = std::numeric_limits<std::int64_t>::max();
+  if (interval.numerator_ != 0 && count > ~Wide{0} / interval.numerator_) return std::nullopt;
+  const Wide repeated = count * interval.numerator_;
+  const Wide shift_rest = shift.numerator_ % shift.denominator_;
+  const Wide rest = repeated % interval.denominator_;
+  // two fractions below 1, so that their rounded sum is 0, 1 or 2
+  const Wide denominator = Wide{shift.denominator_} * interval.denominator_;
+  const Wide sum = shift_rest * interval.denominator_ + rest * shift.denominator_;
+  const Wide rounded = (2 * sum + denominator) / 2 / denominator;
+  const Wide shift_whole = shift.numerator_ / shift.denominator_;
+  const Wide whole = repeated / interval.denominator_;
+  if (shift_whole > kMax || whole > kMax) return std::nullopt;
+  const Wide duration = shift_whole + whole + rounded;
+  const auto start = base.time_since_epoch().count();
+  const Wide left = start < 0 ? kMax : kMax - static_cast<Wide>(start);
+  if (duration > left) return std::nullopt;
+  return base + Duration(static_cast<std::int64_t>(duration));
+}
+
+}  // namespace stride::core

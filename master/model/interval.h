@@ -1,0 +1,49 @@
+// The interval of a clock, exact however often it is repeated.
+#ifndef STRIDE_MASTER_MODEL_INTERVAL_H
+#define STRIDE_MASTER_MODEL_INTERVAL_H
+
+#include <cstdint>
+#include <optional>
+
+#include <stride/time.h>
+
+namespace stride::core {
+
+/// A length of time as a fraction of picoseconds. A double stands for the shortest decimal that
+/// reads back as that double, so 0.1 s is a tenth of a second, and its millionth multiple is exact.
+class Interval {
+ public:
+  /// No time.
+  Interval() = default;
+  /// counter / resolution seconds. Throws std::invalid_argument for the resolution 0, and for one
+  /// that no clock has (a picosecond's fraction beyond 2^62).
+  static Interval from_fraction(std::uint64_t counter, std::uint64_t resolution);
+  /// More than kMaxSeconds, infinity included, is an interval that outlasts every simulation.
+  /// Throws std::invalid_argument for what is negative or not a number.
+  static Interval from_seconds(double seconds);
+  static Interval from_duration(Duration duration);
+
+  bool operator==(const Interval&) const = default;
+  bool is_zero() const { return numerator_ == 0; }
+  bool is_below_picosecond() const { return numerator_ < denominator_; }
+  /// The nearest double, for people [s].
+  double seconds() const;
+
+ private:
+  friend std::optional<Time> tick_time(Time, const Interval&, const Interval&, std::uint64_t);
+  __extension__ using Wide = unsigned __int128;
+
+  Interval(Wide numerator, std::uint64_t denominator);
+
+  Wide numerator_ = 0;  ///< the fraction is reduced
+  std::uint64_t denominator_ = 1;
+};
+
+/// base + shift + count * interval, rounded once, to the nearest picosecond; nothing if that is
+/// later than any Time.
+std::optional<Time> tick_time(Time base, const Interval& shift, const Interval& interval,
+                              std::uint64_t count);
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,326 @@
+#include "master/model/system.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "master/model/unknown_variable.h"
+#include "master/util/suggest.h"
+
+namespace stride::core {
+namespace {
+
+/// Only what FMI calls initial = exact or approx can be set before the start.
+void check_settable(const Variable& variable, const Context& context) {
+  const bool exact = variable.initial == Initial::Exact || variable.initial == Initial::Approx;
+  if (exact && variable.variability != Variability::Constant && variable.type != ValueType::Clock) {
+    return;
+  }
+  fail_input(context,
+             fmt::format("a {} {} with initial = {} cannot be set", name(variable.variability),
+                         name(variable.causality), name(variable.initial)),
+             "parameters, inputs and what the unit declares as initial = exact can");
+}
+
+/// Whether the element lies within min and max, which stand as texts in the description.
+void check_range(const Variable& variable, const ValueBlock& value, const Context& context) {
+  visit(value, [&](auto elements) {
+    using T = typename decltype(elements)::value_type;
+    if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<std::remove_const_t<T>, bool>) {
+      const auto bound = [&](const std::string& text, double otherwise) {
+        return text.empty() ? otherwise : std::strtod(text.c_str(), nullptr);
+      };
+      constexpr double kInfinity = std::numeric_limits<double>::infinity();
+      const double least = bound(variable.min, -kInfinity);
+      const double most = bound(variable.max, kInfinity);
+      for (const auto element : elements) {
+        const double number = static_cast<double>(element);
+        if (number >= least && number <= most) continue;
+        fail_input(context, fmt::format("the value {} is out of range, expected {}", element,
+                                        number < least ? "at least " + variable.min
+                                                       : "at most " + variable.max));
+      }
+    }
+  });
+}
+
+void convert_start(ValueBlock& value, const LinearConversion& conversion) {
+  if (conversion.is_identity()) return;  // which keeps the sign of -0
+  visit(value, [&](auto elements) {
+    using T = typename decltype(elements)::value_type;
+    if constexpr (std::is_floating_point_v<T>) {
+      for (T& element : elements) {
+        element = static_cast<T>(conversion.factor * element + conversion.offset);
+      }
+    }
+  });
+}
+
+/// What a value comes through, from its beginning on.
+struct Way {
+  std::vector<Waypoint> waypoints;
+  std::vector<Passage> passages{};
+
+  explicit Way(Waypoint first) : waypoints{std::move(first)} {}
+
+  template <class Declaration>
+  void go(const Declaration& wanted, Waypoint last) {
+    for (const ViaDeclaration& via : wanted.via) go(via.connector, via.passage);
+    go(std::move(last), Passage{wanted.suppress_unit_conversion, wanted.transformation});
+  }
+  void go(Waypoint next, Passage passage) {
+    waypoints.push_back(std::move(next));
+    passages.push_back(std::move(passage));
+  }
+};
+
+}  // namespace
+
+/// What is wrong is told at once, as far as it does not follow from something else.
+System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
+  Mistakes mistakes;
+  add_components(declaration, mistakes);
+  const std::vector<Target> targets = find_targets(declaration, mistakes);
+  if (!mistakes.attempt([&] { add_structural_values(targets); })) mistakes.raise();
+  add_connections(declaration, mistakes);
+  add_start_values(targets, mistakes);
+  mistakes.raise();
+  add_outputs(declaration);
+}
+
+std::string System::prefix(VariableId id) const {
+  return is_output(id) ? "" : components_[id.component].name + ".";
+}
+
+void System::add_components(const SystemDeclaration& declaration, Mistakes& mistakes) {
+  if (declaration.components.empty()) {
+    fail_input({}, "the system has no component, so there is nothing to simulate");
+  }
+  std::set<std::string> names;
+  for (const ComponentDeclaration& component : declaration.components) {
+    if (!names.insert(component.name).second) {
+      fail_input({component.where}, fmt::format("two components are named '{}'", component.name),
+                 "give one of them another name");
+    }
+    for (const ConnectorDeclaration& connector : component.connectors) {
+      mistakes.attempt([&] { check_connector(declaration, component, connector); });
+    }
+    check_clocks(component);
+    components_.push_back({component.name, component.description, component.early_return_allowed,
+                           component.has_snapshots});
+  }
+}
+
+void System::check_connector(const SystemDeclaration& declaration,
+                             const ComponentDeclaration& component,
+                             const ConnectorDeclaration& connector) {
+  const Context context{connector.where, component.name, connector.name, {}};
+  const auto found = component.description->find(connector.name);
+  if (!found) {
+    fail_unknown_variable(context, *component.description, &declaration);
+  }
+  const Variable& variable = component.description->variables[*found];
+  if (connector.causality && *connector.causality != variable.causality) {
+    fail_input(context,
+               fmt::format("the connector says {}, the unit says {}",
+                           core::name(*connector.causality), core::name(variable.causality)));
+  }
+  if (connector.type && *connector.type != variable.type) {
+    fail_input(context, fmt::format("the connector says {}, the unit says {}",
+                                    core::name(*connector.type), core::name(variable.type)));
+  }
+  if (connector.unit.name.empty()) return;
+  const MeasureUnit unit = known_unit(connector.unit, *component.description);
+  if (!convert(unit, known_unit({variable.unit}, *component.description))) {
+    fail_input(context, fmt::format("the connector is in '{}', the unit's variable in '{}'",
+                                    unit.name, variable.unit));
+  }
+  connector_units_[{components_.size(), *found}] = unit;
+}
+
+void System::check_clocks(const ComponentDeclaration& component) const {
+  const UnitDescription& description = *component.description;
+  if (description.has_event_mode) return;
+  for (const Variable& variable : description.variables) {
+    if (!variable.is_time_based_clock()) continue;
+    fail_input({component.where, component.name, variable.name, {}},
+               fmt::format("this is a {} clock, which ticks in Event Mode, and the unit has none "
+                           "(hasEventMode)",
+                           core::name(variable.clock->variability)),
+               "use a unit that has Event Mode");
+  }
+}
+
+std::size_t System::find_component(const std::string& name, const Location& where) const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < components_.size(); ++i) {
+    if (components_[i].name == name) return i;
+    names.push_back(components_[i].name);
+  }
+  fail_input({where}, fmt::format("there is no component '{}'", name), suggestion(name, names));
+}
+
+/// If it is not there, the declaration says what is expected, in the error.
+VariableId System::find_variable(const std::string& component, const std::string& variable,
+                                 const Location& where, const SystemDeclaration* expecting) const {
+  const std::size_t index = find_component(component, where);
+  const UnitDescription& description = *components_[index].description;
+  if (const auto found = description.find(variable)) return {index, *found};
+  fail_unknown_variable({where, component, variable, {}}, description, expecting);
+}
+
+/// In the unit that the variable has, or else in the one that its connector declares.
+Waypoint System::waypoint(VariableId id) const {
+  const Variable& end = variable(id);
+  const auto declared = connector_units_.find(id);
+  const bool is_declared = end.unit.empty() && declared != connector_units_.end();
+  return {full_name(id), end.type,
+          is_declared ? declared->second
+                      : known_unit({end.unit}, *components_[id.component].description),
+          end.items, false};
+}
+
+Connection System::connect(const ConnectionDeclaration& wanted, const Ends& ends) const {
+  const auto [from, to] = ends;
+  check_ends(wanted, from, to);
+  Way way(waypoint(from));
+  way.go(wanted, waypoint(to));
+  return {from, to, compose(way.waypoints, way.passages, {wanted.where, {}, {}, {}})};
+}
+
+/// Nothing, and a warning, where a parameter set holds a value for nobody, as SSP allows it to.
+void System::note_missing(const StartDeclaration& wanted) {
+  try {
+    find_variable(wanted.component, wanted.variable, wanted.where);
+  } catch (const Error& mistake) {
+    if (!wanted.is_optional) throw;
+    warnings_.push_back(
+        fmt::format("{}\n  the value is passed over, as SSP wants it", mistake.what()));
+  }
+}
+
+/// Of those that are there; of the others, what is not meant to be passed over is an error.
+std::vector<System::Target> System::find_targets(const SystemDeclaration& declaration,
+                                                 Mistakes& mistakes) {
+  std::vector<Target> targets;
+  std::vector<const StartDeclaration*> missing;
+  std::set<std::size_t> found_groups;
+  for (const StartDeclaration& wanted : declaration.start_values) {
+    const std::size_t component = find_component(wanted.component, wanted.where);
+    const auto place = components_[component].description->find(wanted.variable);
+    if (!place) {
+      missing.push_back(&wanted);
+      continue;
+    }
+    const VariableId id{component, *place};
+    found_groups.insert(wanted.group);
+    mistakes.attempt([&] {
+      check_settable(variable(id), {wanted.where, wanted.component, wanted.variable, {}});
+      targets.push_back({&wanted, id});
+    });
+  }
+  for (const StartDeclaration* wanted : missing) {
+    if (wanted->group != 0 && found_groups.contains(wanted->group)) continue;
+    mistakes.attempt([&] { note_missing(*wanted); });
+  }
+  return targets;
+}
+
+ValueBlock System::start_value(const StartDeclaration& wanted, VariableId id) const {
+  const Variable& target = variable(id);
+  const UnitDescription& description = *components_[id.component].description;
+  const Context context{wanted.where, wanted.component, wanted.variable, {}};
+  const MeasureUnit unit = known_unit(wanted.unit, description);
+  if (wanted.via.empty() && !wanted.suppress_unit_conversion && !convert(unit, waypoint(id).unit)) {
+    fail_input(context,
+               fmt::format("the value is in '{}', the variable in '{}'", unit.name,
+                           waypoint(id).unit.name),
+               "give the value in the variable's unit");
+  }
+  Way way({"the value", {}, unit, {}, true});
+  way.go(wanted, waypoint(id));
+  const auto [text, linear] = compose_text(wanted.value, way.waypoints, way.passages, context);
+  try {
+    ValueBlock value = parse(target, text);
+    convert_start(value, linear);
+    check_range(target, value, context);
+    return value;
+  } catch (const std::invalid_argument& mistake) {
+    fail_input(context, mistake.what());
+  }
+}
+
+void System::resize(const StartDeclaration& declaration, VariableId structural_parameter,
+                    std::size_t size) {
+  auto& shared = components_[structural_parameter.component].description;
+  UnitDescription description = *shared;
+  if (const Variable* large = description.resize(variable(structural_parameter).reference, size)) {
+    fail_input({declaration.where, declaration.component, declaration.variable, {}},
+               fmt::format("with the value {}, '{}' would have more than {} elements", size,
+                           large->name, kMaxElements),
+               "give a smaller value");
+  }
+  shared = std::make_shared<const UnitDescription>(std::move(description));
+}
+
+void System::add_structural_values(const std::vector<Target>& targets) {
+  std::map<VariableId, ValueBlock> values;
+  for (const auto& [wanted, id] : targets) {
+    if (variable(id).causality != Causality::StructuralParameter) continue;
+    ValueBlock value = start_value(*wanted, id);
+    if (value.type() == ValueType::UInt64) resize(*wanted, id, value.numbers<std::uint64_t>()[0]);
+    values.insert_or_assign(id, std::move(value));
+  }
+  for (auto& [id, value] : values) structural_values_.push_back({id, std::move(value)});
+}
+
+void System::add_start_values(const std::vector<Target>& targets, Mistakes& mistakes) {
+  std::map<VariableId, ValueBlock> values;
+  for (const Target& target : targets) {
+    const VariableId id = target.id;
+    if (variable(id).causality == Causality::StructuralParameter) continue;
+    mistakes.attempt([&] { values.insert_or_assign(id, start_value(*target.declaration, id)); });
+  }
+  for (auto& [id, value] : values) start_values_.push_back({id, std::move(value)});
+}
+
+void System::add_outputs(const SystemDeclaration& declaration) {
+  std::set<std::string> names;
+  for (std::size_t c = 0; !declaration.outputs.empty() && c < components_.size(); ++c) {
+    const auto& variables = components_[c].description->variables;
+    for (std::size_t v = 0; v < variables.size(); ++v) names.insert(full_name({c, v}));
+  }
+  for (const OutputDeclaration& wanted : declaration.outputs) {
+    // a variable of that name is recorded as it is
+    if (!names.contains(wanted.via.back().connector.name)) add_output(wanted);
+  }
+}
+
+void System::add_output(const OutputDeclaration& wanted) {
+  const VariableId from = find_variable(wanted.component, wanted.variable, wanted.where);
+  const Variable& source = variable(from);
+  const bool is_message =
+      source.type == ValueType::Clock || (source.is_clocked() && !is_sampled(from));
+  if (is_message) return;  // it is seen where it is sent
+  Way way(waypoint(from));
+  for (const ViaDeclaration& via : wanted.via) way.go(via.connector, via.passage);
+  const std::vector<Waypoint> waypoints = completed(way.waypoints);
+  const Waypoint& end = waypoints.back();
+  SystemOutput output{from, compose(waypoints, way.passages, {wanted.where, {}, {}, {}}), source};
+  output.variable.name = end.name;
+  output.variable.aliases.clear();
+  output.variable.type = *end.type;
+  output.variable.unit = end.unit.name;
+  output.variable.items = end.items;
+  output.variable.causality = Causality::Output;
+  output.variable.clocks.clear();
+  outputs_.push_back(std::move(output));
+}
+
+}  // namespace stride::core

@@ -1,0 +1,191 @@
+// The system: components and connections, checked once and never changed afterwards.
+#ifndef STRIDE_MASTER_MODEL_SYSTEM_H
+#define STRIDE_MASTER_MODEL_SYSTEM_H
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "master/model/conversion.h"
+#include "master/model/description.h"
+#include "master/model/values.h"
+#include "master/model/variable_id.h"
+#include "master/util/error.h"
+#include "master/util/mistakes.h"
+
+namespace stride::core {
+
+/// What a person writes, by name, before it is checked.
+struct ConnectorDeclaration {
+  std::string name;
+  std::optional<ValueType> type;
+  std::optional<Causality> causality;
+  MeasureUnit unit;
+  Location where{};
+  EnumerationItems items{};  ///< of its Enumeration, if that is declared
+};
+struct ComponentDeclaration {
+  std::string name;
+  std::shared_ptr<const UnitDescription> description;
+  std::vector<ConnectorDeclaration> connectors;  ///< may be empty: resolved against the description
+  Location where{};
+  bool early_return_allowed = true;
+  bool has_snapshots = false;
+};
+/// A connector of a system that a value comes through, and what is done to it on the way there.
+struct ViaDeclaration {
+  Waypoint connector;
+  Passage passage;
+};
+struct ConnectionDeclaration {
+  std::string from_component, from_connector;
+  std::string to_component, to_connector;
+  bool suppress_unit_conversion = false;
+  Location where{};
+  Transformation transformation{};    ///< on the way from the last of `via`, as is the above
+  std::vector<ViaDeclaration> via{};  ///< connectors of systems in between
+};
+/// A value that leaves the system under a name of its own.
+struct OutputDeclaration {
+  std::string component, variable;
+  std::vector<ViaDeclaration> via;  ///< the last one is the system's connector itself, by its name
+  Location where{};
+};
+struct StartDeclaration {
+  std::string component, variable;
+  std::string value;
+  MeasureUnit unit;  ///< in which the value is given; no name = the variable's own
+  Location where{};
+  bool suppress_unit_conversion = false;
+  Transformation transformation{};
+  std::vector<ViaDeclaration> via{};
+  /// Whether it is passed over, with a warning, if there is no such variable.
+  bool is_optional = false;
+  /// One name may stand for several variables: those with the same number, if it is not 0, of which
+  /// one must be there.
+  std::size_t group = 0;
+};
+struct SystemDeclaration {
+  std::string name;
+  std::vector<ComponentDeclaration> components;
+  std::vector<ConnectionDeclaration> connections;
+  std::vector<StartDeclaration> start_values;  ///< a later one replaces an earlier one
+  std::vector<OutputDeclaration> outputs{};
+};
+
+struct Component {
+  std::string name;
+  std::shared_ptr<const UnitDescription> description;
+  /// Whether its unit is instantiated with earlyReturnAllowed.
+  bool early_return_allowed = true;
+  /// Whether its process can be saved, in place of a state that the unit does not have.
+  bool has_snapshots = false;
+
+  bool may_return_early() const { return early_return_allowed && description->may_return_early; }
+  bool can_save_state() const { return description->can_save_state || has_snapshots; }
+};
+struct Connection {
+  VariableId from;
+  VariableId to;
+  Conversion conversion;
+};
+/// What a system puts out: a component's variable, converted, by another name.
+struct SystemOutput {
+  VariableId from;
+  Conversion conversion;
+  Variable variable;  ///< its name, type, size and unit
+};
+struct StartValue {
+  VariableId id;
+  ValueBlock value;
+};
+
+/// An immutable, valid system. Components stand in the order of the file, connections are sorted by
+/// target.
+class System {
+ public:
+  /// Checks names, types, causality, units, sizes, clocks and that each input has one source at
+  /// most. Throws Error of the kind Input with file and line, and with the nearest name where a
+  /// name is unknown; several mistakes are one Error, with a line for each.
+  explicit System(const SystemDeclaration& declaration);
+
+  const std::string& name() const { return name_; }
+  const std::vector<Component>& components() const { return components_; }
+  const std::vector<Connection>& connections() const { return connections_; }
+  const std::vector<StartValue>& start_values() const { return start_values_; }
+  /// Their ids are those of a component behind the last one: see output_id(). None is a message.
+  const std::vector<SystemOutput>& outputs() const { return outputs_; }
+  VariableId output_id(std::size_t output) const { return {components_.size(), output}; }
+  bool is_output(VariableId id) const { return id.component == components_.size(); }
+  /// Those of structural parameters, sorted by component; the sizes of the components' arrays, in
+  /// their descriptions, follow from them.
+  const std::vector<StartValue>& structural_values() const { return structural_values_; }
+  /// What was passed over, in words.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+  const Variable& variable(VariableId id) const {
+    if (is_output(id)) return outputs_[id.variable].variable;
+    return components_[id.component].description->variables[id.variable];
+  }
+  /// Whether the variable belongs to time-based clocks only; see UnitDescription::is_sampled().
+  bool is_sampled(VariableId id) const {
+    return !is_output(id) && components_[id.component].description->is_sampled(variable(id));
+  }
+  /// "component.variable"; of an output of the system its name.
+  std::string full_name(VariableId id) const { return prefix(id) + variable(id).name; }
+  /// What stands before the variable's name in that: "component.", or nothing.
+  std::string prefix(VariableId id) const;
+
+ private:
+  void add_components(const SystemDeclaration& declaration, Mistakes& mistakes);
+  void add_connections(const SystemDeclaration& declaration, Mistakes& mistakes);
+  void add_outputs(const SystemDeclaration& declaration);
+  void add_output(const OutputDeclaration& declaration);
+  /// A start value and what it is for.
+  struct Target {
+    const StartDeclaration* declaration;
+    VariableId id;
+  };
+  std::vector<Target> find_targets(const SystemDeclaration& declaration, Mistakes& mistakes);
+  void add_structural_values(const std::vector<Target>& targets);
+  void add_start_values(const std::vector<Target>& targets, Mistakes& mistakes);
+  void resize(const StartDeclaration& declaration, VariableId structural_parameter,
+              std::size_t size);
+  std::size_t find_component(const std::string& name, const Location& where) const;
+  VariableId find_variable(const std::string& component, const std::string& variable,
+                           const Location& where,
+                           const SystemDeclaration* expecting = nullptr) const;
+  void check_connector(const SystemDeclaration& declaration, const ComponentDeclaration& component,
+                       const ConnectorDeclaration& connector);
+  void check_clocks(const ComponentDeclaration& component) const;
+  void check_clocked(const ConnectionDeclaration& declaration, VariableId from,
+                     VariableId to) const;
+  void check_event_mode(const ConnectionDeclaration& declaration, VariableId id) const;
+  void check_message(const ConnectionDeclaration& declaration, const Connection& connection) const;
+  using Ends = std::pair<VariableId, VariableId>;
+  std::optional<Ends> find_ends(const SystemDeclaration& declaration,
+                                const ConnectionDeclaration& wanted, Mistakes& mistakes) const;
+  static void check_only(const ConnectionDeclaration& declaration,
+                         const ConnectionDeclaration* first);
+  Connection connect(const ConnectionDeclaration& declaration, const Ends& ends) const;
+  void check_ends(const ConnectionDeclaration& declaration, VariableId from, VariableId to) const;
+  Waypoint waypoint(VariableId id) const;
+  void note_missing(const StartDeclaration& declaration);
+  ValueBlock start_value(const StartDeclaration& declaration, VariableId id) const;
+
+  std::string name_;
+  std::vector<Component> components_;
+  std::vector<Connection> connections_;
+  std::vector<StartValue> start_values_;
+  std::vector<SystemOutput> outputs_;
+  std::vector<StartValue> structural_values_;
+  std::vector<std::string> warnings_;
+  std::map<VariableId, MeasureUnit> connector_units_;  ///< those that connectors declare
+};
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,164 @@
+// The part of System that checks and makes its connections.
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "master/model/system.h"
+#include "master/model/unknown_variable.h"
+
+namespace stride::core {
+namespace {
+
+/// SSP lets a local variable be connected as if it were an output; messages come from outputs only.
+bool is_source(const Variable& variable) {
+  const bool is_local = variable.causality == Causality::Local && !variable.is_clocked() &&
+                        variable.type != ValueType::Clock;
+  return is_local || variable.causality == Causality::Output ||
+         variable.causality == Causality::CalculatedParameter;
+}
+
+std::string shape(const Variable& variable) {
+  if (variable.dimensions.empty()) return "a scalar";
+  return fmt::format("an array of {} elements", variable.size);
+}
+
+/// The variable that carries a value through a connection between clocked variables also needs its
+/// clock connected.
+std::vector<VariableId> clocks_of(const System& system, VariableId id) {
+  const UnitDescription& description = *system.components()[id.component].description;
+  std::vector<VariableId> clocks;
+  for (const ValueReference reference : system.variable(id).clocks) {
+    clocks.push_back({id.component, *description.find(reference)});
+  }
+  return clocks;
+}
+
+}  // namespace
+
+void System::add_connections(const SystemDeclaration& declaration, Mistakes& mistakes) {
+  std::map<VariableId, const ConnectionDeclaration*> sources;
+  for (const ConnectionDeclaration& wanted : declaration.connections) {
+    const std::optional<Ends> ends = find_ends(declaration, wanted, mistakes);
+    if (!ends) continue;
+    mistakes.attempt([&] {
+      const Connection connection = connect(wanted, *ends);
+      check_only(wanted, sources.emplace(connection.to, &wanted).first->second);
+      connections_.push_back(connection);
+    });
+  }
+  std::sort(connections_.begin(), connections_.end(),
+            [](const Connection& a, const Connection& b) { return a.to < b.to; });
+  if (mistakes.any()) return;  // a clock's connection may be among them
+  for (const Connection& connection : connections_) {
+    mistakes.attempt([&] { check_message(*sources.at(connection.to), connection); });
+  }
+}
+
+/// Both, if they are there and nothing is wrong with them so far.
+std::optional<System::Ends> System::find_ends(const SystemDeclaration& declaration,
+                                              const ConnectionDeclaration& wanted,
+                                              Mistakes& mistakes) const {
+  const auto find = [&](const std::string& component, const std::string& connector) {
+    std::optional<VariableId> end;
+    if (mistakes.tell_of(component, connector)) return end;
+    mistakes.attempt(
+        [&] { end = find_variable(component, connector, wanted.where, &declaration); });
+    return end;
+  };
+  const auto from = find(wanted.from_component, wanted.from_connector);
+  const auto to = find(wanted.to_component, wanted.to_connector);
+  if (!from || !to) return std::nullopt;
+  return Ends{*from, *to};
+}
+
+void System::check_only(const ConnectionDeclaration& wanted, const ConnectionDeclaration* first) {
+  if (&wanted == first) return;
+  fail_input({wanted.where, wanted.to_component, wanted.to_connector, {}},
+             fmt::format("this input has two sources: '{}.{}' here and '{}.{}' in line {}",
+                         wanted.from_component, wanted.from_connector, first->from_component,
+                         first->from_connector, first->where.line),
+             "remove one of the two connections");
+}
+
+/// What carries a message from clock to clock needs its clock connected, too.
+void System::check_message(const ConnectionDeclaration& wanted,
+                           const Connection& connection) const {
+  if (is_sampled(connection.to)) return;
+  const auto from_clocks = clocks_of(*this, connection.from);
+  for (const VariableId to_clock : clocks_of(*this, connection.to)) {
+    const bool wired = std::any_of(connections_.begin(), connections_.end(), [&](const auto& c) {
+      return c.to == to_clock &&
+             std::find(from_clocks.begin(), from_clocks.end(), c.from) != from_clocks.end();
+    });
+    if (wired) continue;
+    fail_input({wanted.where, wanted.to_component, wanted.to_connector, {}},
+               fmt::format("its clock '{}' is not connected to the clock of '{}'",
+                           full_name(to_clock), full_name(connection.from)),
+               "a message needs two connections: one for its value, one for its clock");
+  }
+}
+
+/// A message goes to a message. A value that is sampled at a time-based clock's ticks, on either
+/// side, may be connected to any other value that is no message.
+void System::check_clocked(const ConnectionDeclaration& wanted, VariableId from,
+                           VariableId to) const {
+  const std::string wire = fmt::format("'{}' to '{}'", full_name(from), full_name(to));
+  const Context context{wanted.where, {}, {}, {}};
+  if (variable(to).is_time_based_clock()) {
+    fail_input(context,
+               fmt::format("cannot connect {}: '{}' is a {} clock, which ticks by the time alone",
+                           wire, full_name(to), core::name(variable(to).clock->variability)),
+               "remove the connection; the master ticks such a clock when its unit says");
+  }
+  const bool from_message = variable(from).is_clocked() && !is_sampled(from);
+  const bool to_message = variable(to).is_clocked() && !is_sampled(to);
+  if (from_message == to_message) return;
+  const VariableId message = from_message ? from : to;
+  fail_input(context,
+             fmt::format("cannot connect {}: '{}' is a message, which exists at the ticks of its "
+                         "triggered clock only, and the other is not",
+                         wire, full_name(message)),
+             "connect a message, and its clock, to another message");
+}
+
+/// Clocks tick in Event Mode only, so without it a message would be lost without a word.
+void System::check_event_mode(const ConnectionDeclaration& wanted, VariableId id) const {
+  const Variable& connected = variable(id);
+  const bool ticks = connected.type == ValueType::Clock || connected.is_clocked();
+  if (!ticks || components_[id.component].description->has_event_mode) return;
+  fail_input({wanted.where, components_[id.component].name, connected.name, {}},
+             "this is a clock, or belongs to one, which ticks in Event Mode, and the unit has none "
+             "(hasEventMode)",
+             "use a unit that has Event Mode");
+}
+
+void System::check_ends(const ConnectionDeclaration& wanted, VariableId from, VariableId to) const {
+  const Variable& source = variable(from);
+  const Variable& target = variable(to);
+  const std::string wire = fmt::format("'{}' to '{}'", full_name(from), full_name(to));
+  const Context context{wanted.where, {}, {}, {}};
+  if (!is_source(source)) {
+    fail_input(context,
+               fmt::format("cannot connect {}: '{}' is no output but {}", wire, full_name(from),
+                           core::name(source.causality)),
+               "a connection starts at an output and ends at an input");
+  }
+  if (target.causality != Causality::Input) {
+    const bool is_parameter = target.causality == Causality::Parameter ||
+                              target.causality == Causality::StructuralParameter;
+    fail_input(context,
+               fmt::format("cannot connect {}: '{}' is no input but {}", wire, full_name(to),
+                           core::name(target.causality)),
+               is_parameter ? "give the parameter its value in a <ssd:ParameterBinding>"
+                            : "a connection starts at an output and ends at an input");
+  }
+  check_clocked(wanted, from, to);
+  for (const VariableId end : {from, to}) check_event_mode(wanted, end);
+  if (source.size != target.size) {
+    fail_input(context,
+               fmt::format("cannot connect {}: {} and {}", wire, shape(source), shape(target)));
+  }
+}
+
+}  // namespace stride::core

@@ -1,0 +1,94 @@
+#include "master/model/unknown_variable.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "master/util/suggest.h"
+
+namespace stride::core {
+namespace {
+
+const ComponentDeclaration* find(const SystemDeclaration& system, const std::string& name) {
+  const auto found = std::ranges::find(system.components, name, &ComponentDeclaration::name);
+  return found == system.components.end() ? nullptr : &*found;
+}
+
+class Wanted {
+ public:
+  Wanted(const SystemDeclaration& system, const std::string& component, const std::string& variable)
+      : system_(system) {
+    take_declared(component, variable);
+    for (const ConnectionDeclaration& connection : system.connections) {
+      if (connection.to_component == component && connection.to_connector == variable) {
+        add_end(connection.from_component, connection.from_connector, Causality::Input);
+      }
+      if (connection.from_component == component && connection.from_connector == variable) {
+        add_end(connection.to_component, connection.to_connector, Causality::Output);
+      }
+    }
+  }
+
+  std::string text() const {
+    std::string text = causality_ == Causality::Input ? "an input" : "an output";
+    if (causality_ && *causality_ != Causality::Input && *causality_ != Causality::Output) {
+      text = fmt::format("a {}", name(*causality_));
+    }
+    if (type_) text += fmt::format(" {}", name(*type_));
+    if (!unit_.empty()) text += fmt::format(" in {}", unit_);
+    if (ends_.empty()) return text;
+    return text + fmt::format("{} {}", causality_ == Causality::Input ? ", fed by" : " for",
+                              quoted(ends_));
+  }
+
+ private:
+  void take_declared(const std::string& component, const std::string& variable) {
+    const ComponentDeclaration* declared = find(system_, component);
+    if (declared == nullptr) return;
+    const auto connector =
+        std::ranges::find(declared->connectors, variable, &ConnectorDeclaration::name);
+    if (connector == declared->connectors.end()) return;
+    causality_ = connector->causality;
+    type_ = connector->type;
+    unit_ = connector->unit.name;
+  }
+
+  void add_end(const std::string& component, const std::string& variable, Causality causality) {
+    if (!causality_) causality_ = causality;
+    ends_.push_back(component + "." + variable);
+    const ComponentDeclaration* other = find(system_, component);
+    const auto place = other == nullptr ? std::nullopt : other->description->find(variable);
+    if (!place) return;
+    if (!type_) type_ = other->description->variables[*place].type;
+    if (unit_.empty()) unit_ = other->description->variables[*place].unit;
+  }
+
+  const SystemDeclaration& system_;
+  std::optional<Causality> causality_;
+  std::optional<ValueType> type_;
+  std::string unit_;
+  std::vector<std::string> ends_;
+};
+
+}  // namespace
+
+/// The component is in the context; a swapped one is another model than its name lets expect.
+void fail_unknown_variable(const Context& context, const UnitDescription& description,
+                           const SystemDeclaration* system) {
+  std::vector<std::string> names, connectors;
+  for (const Variable& variable : description.variables) {
+    names.push_back(variable.name);
+    const bool is_connector =
+        variable.causality == Causality::Input || variable.causality == Causality::Output;
+    if (is_connector) connectors.push_back(variable.name);
+  }
+  const bool is_near = !nearest(context.variable, names).empty();
+  std::string message = fmt::format("its model '{}' has no such variable", description.model_name);
+  if (system != nullptr) {
+    message += "; expected " + Wanted(*system, context.unit, context.variable).text();
+  }
+  fail_input(context, message,
+             suggestion(context.variable, system != nullptr && !is_near ? connectors : names));
+}
+
+}  // namespace stride::core

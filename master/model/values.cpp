@@ -1,0 +1,207 @@
+#include "master/model/values.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace stride::core {
+namespace {
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> words;
+  std::size_t at = 0;
+  constexpr const char* kBlanks = " \t\r\n";
+  while ((at = text.find_first_not_of(kBlanks, at)) != std::string::npos) {
+    const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
+    words.push_back(text.substr(at, end - at));
+    at = end;
+  }
+  return words;
+}
+
+[[noreturn]] void reject(const std::string& text, const std::string& expected) {
+  throw std::invalid_argument(fmt::format("'{}' is no value for it, expected {}", text, expected));
+}
+
+template <class Number>
+void parse_element(const Variable& variable, const std::string& text, Number& value) {
+  const char* const end = text.data() + text.size();
+  const char* const begin = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
+  const auto result = std::from_chars(begin, end, value);
+  if (result.ec == std::errc{} && result.ptr == end) return;
+  reject(text, result.ec == std::errc::result_out_of_range
+                   ? fmt::format("a number within the range of {}", name(variable.type))
+                   : fmt::format("a {} number", name(variable.type)));
+}
+
+void parse_element(const Variable&, const std::string& text, bool& value) {
+  if (text != "true" && text != "false" && text != "1" && text != "0") {
+    reject(text, "true or false");
+  }
+  value = text == "true" || text == "1";
+}
+
+void parse_element(const Variable&, const std::string& text, std::string& value) { value = text; }
+
+void parse_element(const Variable&, const std::string& text, Binary& value) {
+  if (text.size() % 2 != 0) reject(text, "an even number of hexadecimal digits");
+  value.resize(text.size() / 2);
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const char* digits = text.data() + 2 * i;
+    if (std::from_chars(digits, digits + 2, value[i], 16).ptr != digits + 2) {
+      reject(text, "hexadecimal digits");
+    }
+  }
+}
+
+void parse_enumeration(const Variable& variable, const std::string& text, std::int64_t& value) {
+  std::string names;
+  for (const auto& [item, number] : variable.items) {
+    if (item == text || std::to_string(number) == text) {
+      value = number;
+      return;
+    }
+    names += (names.empty() ? "" : ", ") + item;
+  }
+  reject(text, "one of " + names);
+}
+
+template <class T>
+std::span<const T> elements(const ValueBlock& block) {
+  if constexpr (std::is_same_v<T, std::string>) {
+    return block.strings();
+  } else if constexpr (std::is_same_v<T, Binary>) {
+    return block.binaries();
+  } else {
+    return block.numbers<T>();
+  }
+}
+
+/// Writes a value, and returns whether it was another one.
+template <class T>
+bool change(T& target, T value) {
+  const bool changes = !(target == value);
+  target = std::move(value);
+  return changes;
+}
+
+}  // namespace
+
+std::size_t element_size(ValueType type) {
+  constexpr std::size_t kSizes[] = {4, 8, 1, 1, 2, 2, 4, 4, 8, 8, 1, 0, 0, 8, 1};
+  return kSizes[static_cast<std::size_t>(type)];
+}
+
+ValueBlock::ValueBlock(ValueType type, std::size_t size) : type_(type), size_(size) {
+  switch (type) {
+    case ValueType::String:
+      data_ = std::vector<std::string>(size);
+      break;
+    case ValueType::Binary:
+      data_ = std::vector<Binary>(size);
+      break;
+    default:
+      data_ = Bytes(size * element_size(type));
+  }
+}
+
+bool copy_elements(ValueBlock& to, std::size_t to_first, const ValueBlock& from,
+                   std::size_t from_first, std::size_t size, const Conversion& conversion) {
+  return visit(to, [&]<class To>(std::span<To> targets) {
+    return visit(from, [&]<class From>(std::span<const From> sources) {
+      bool changes = false;
+      for (std::size_t i = 0; i < size; ++i) {
+        const From& source = sources[from_first + i];
+        To& target = targets[to_first + i];
+        if constexpr (std::is_arithmetic_v<To> && std::is_arithmetic_v<From>) {
+          changes |= change(target, converted<To>(source, conversion));
+        } else if constexpr (std::is_same_v<To, From>) {
+          changes |= change(target, source);
+        }
+      }
+      return changes;
+    });
+  });
+}
+
+double real(const ValueBlock& block, std::size_t element) {
+  return block.type() == ValueType::Float32 ? block.numbers<float>()[element]
+                                            : block.numbers<double>()[element];
+}
+
+void set_real(ValueBlock& block, std::size_t element, double value) {
+  if (block.type() == ValueType::Float32) {
+    block.numbers<float>()[element] = static_cast<float>(value);
+  } else {
+    block.numbers<double>()[element] = value;
+  }
+}
+
+bool has_nan(const ValueBlock& block) {
+  return visit(block, []<class T>(std::span<const T> values) {
+    if constexpr (std::is_floating_point_v<T>) {
+      return std::any_of(values.begin(), values.end(), [](T value) { return std::isnan(value); });
+    }
+    return false;
+  });
+}
+
+bool is_same(const ValueBlock& a, std::size_t a_element, const ValueBlock& b,
+             std::size_t b_element) {
+  return visit(a, [&]<class T>(std::span<const T> values) {
+    return values[a_element] == elements<T>(b)[b_element];
+  });
+}
+
+ValueBlock parse(const Variable& variable, const std::string& text) {
+  ValueBlock block(variable.type, variable.size);
+  const bool whole = variable.type == ValueType::String && variable.size == 1;
+  const std::vector<std::string> words = whole ? std::vector<std::string>{text}
+                                         : variable.type == ValueType::Binary && text.empty()
+                                             ? std::vector<std::string>{""}
+                                             : split(text);
+  if (words.size() != variable.size) {
+    reject(text, variable.size == 1 ? fmt::format("one {} value", name(variable.type))
+                                    : fmt::format("{} {} values separated by blanks", variable.size,
+                                                  name(variable.type)));
+  }
+  if (variable.type == ValueType::Enumeration) {
+    const auto values = block.numbers<std::int64_t>();
+    for (std::size_t i = 0; i < words.size(); ++i) parse_enumeration(variable, words[i], values[i]);
+    return block;
+  }
+  visit(block, [&](auto values) {
+    for (std::size_t i = 0; i < words.size(); ++i) parse_element(variable, words[i], values[i]);
+  });
+  return block;
+}
+
+std::string to_hex(std::span<const std::uint8_t> bytes) {
+  std::string text;
+  text.reserve(2 * bytes.size());
+  constexpr char kDigits[] = "0123456789abcdef";
+  for (const std::uint8_t byte : bytes) {
+    text += kDigits[byte >> 4];
+    text += kDigits[byte & 15];
+  }
+  return text;
+}
+
+std::string element_text(const ValueBlock& block, std::size_t element) {
+  return visit(block, [&](auto values) -> std::string {
+    const auto& value = values[element];
+    using T = std::remove_cvref_t<decltype(value)>;
+    if constexpr (std::is_same_v<T, Binary>) {
+      return to_hex(value);
+    } else {
+      return fmt::format("{}", value);
+    }
+  });
+}
+
+}  // namespace stride::core

@@ -1,0 +1,140 @@
+// Blocks of values of one type, and the text form of a value.
+#ifndef STRIDE_MASTER_MODEL_VALUES_H
+#define STRIDE_MASTER_MODEL_VALUES_H
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "master/model/conversion.h"
+#include "master/model/description.h"
+
+namespace stride::core {
+
+using Binary = std::vector<std::uint8_t>;
+
+/// The bytes of one element of a numeric type (Boolean and Clock: 1); 0 for String and Binary.
+std::size_t element_size(ValueType type);
+
+/// A contiguous block of values of one type, as the C ABI wants them. Its size never changes, so
+/// pointers into it stay valid.
+class ValueBlock {
+ public:
+  ValueBlock(ValueType type, std::size_t size);
+
+  ValueType type() const { return type_; }
+  std::size_t size() const { return size_; }
+
+  /// The elements of a numeric type. T: the C type of the FMI type; bool for Boolean and Clock,
+  /// std::int64_t for Enumeration.
+  template <class T>
+  std::span<T> numbers() {
+    assert(sizeof(T) == element_size(type_));
+    return {reinterpret_cast<T*>(std::get<Bytes>(data_).data()), size_};
+  }
+  template <class T>
+  std::span<const T> numbers() const {
+    assert(sizeof(T) == element_size(type_));
+    return {reinterpret_cast<const T*>(std::get<Bytes>(data_).data()), size_};
+  }
+  /// The first byte of a numeric block.
+  std::byte* bytes() { return std::get<Bytes>(data_).data(); }
+  const std::byte* bytes() const { return std::get<Bytes>(data_).data(); }
+  std::span<std::string> strings() { return std::get<std::vector<std::string>>(data_); }
+  std::span<const std::string> strings() const { return std::get<std::vector<std::string>>(data_); }
+  std::span<Binary> binaries() { return std::get<std::vector<Binary>>(data_); }
+  std::span<const Binary> binaries() const { return std::get<std::vector<Binary>>(data_); }
+
+  bool operator==(const ValueBlock&) const = default;
+
+ private:
+  using Bytes = std::vector<std::byte>;  // as operator new aligns them, so for any number
+
+  ValueType type_;
+  std::size_t size_;
+  std::variant<Bytes, std::vector<std::string>, std::vector<Binary>> data_;
+};
+
+/// Calls visitor(std::span<T>) with the elements of the block (const or not) in their C++ type.
+template <class Block, class Visitor>
+decltype(auto) visit(Block& block, Visitor&& visitor) {
+  switch (block.type()) {
+    case ValueType::Float32:
+      return visitor(block.template numbers<float>());
+    case ValueType::Float64:
+      return visitor(block.template numbers<double>());
+    case ValueType::Int8:
+      return visitor(block.template numbers<std::int8_t>());
+    case ValueType::UInt8:
+      return visitor(block.template numbers<std::uint8_t>());
+    case ValueType::Int16:
+      return visitor(block.template numbers<std::int16_t>());
+    case ValueType::UInt16:
+      return visitor(block.template numbers<std::uint16_t>());
+    case ValueType::Int32:
+      return visitor(block.template numbers<std::int32_t>());
+    case ValueType::UInt32:
+      return visitor(block.template numbers<std::uint32_t>());
+    case ValueType::Int64:
+    case ValueType::Enumeration:
+      return visitor(block.template numbers<std::int64_t>());
+    case ValueType::UInt64:
+      return visitor(block.template numbers<std::uint64_t>());
+    case ValueType::Boolean:
+    case ValueType::Clock:
+      return visitor(block.template numbers<bool>());
+    case ValueType::String:
+      return visitor(block.strings());
+    case ValueType::Binary:
+      break;
+  }
+  return visitor(block.binaries());
+}
+
+/// Copies elements, converted, to a block of the same type or of one that System lets be connected
+/// to it; returns whether the target changes. NaN is another value each time.
+bool copy_elements(ValueBlock& to, std::size_t to_first, const ValueBlock& from,
+                   std::size_t from_first, std::size_t size, const Conversion& conversion = {});
+
+/// An element of a Float64 or Float32 block as a double; set_real() rounds to the block's type.
+double real(const ValueBlock& block, std::size_t element);
+void set_real(ValueBlock& block, std::size_t element, double value);
+
+/// The value of type To that one of type From becomes.
+template <class To, class From>
+To converted(const From& value, const Conversion& conversion) {
+  if constexpr (std::is_floating_point_v<From>) {
+    if (conversion.linear.is_identity()) return static_cast<To>(value);
+    return static_cast<To>(conversion.linear.factor * value + conversion.linear.offset);
+  } else {
+    if (conversion.map.empty()) return static_cast<To>(value);
+    return static_cast<To>(mapped(conversion.map, static_cast<std::int64_t>(value)));
+  }
+}
+
+/// Whether a floating-point number of the block is NaN.
+bool has_nan(const ValueBlock& block);
+
+/// Whether two elements of blocks of the same type are equal.
+bool is_same(const ValueBlock& a, std::size_t a_element, const ValueBlock& b,
+             std::size_t b_element);
+
+/// Parses a variable's value: numbers separated by blanks for an array, "true"/"false"/"1"/"0" for
+/// Boolean, the item's name or number for Enumeration, hexadecimal digits for Binary, the text
+/// itself for String. Throws std::invalid_argument whose text says what was expected.
+ValueBlock parse(const Variable& variable, const std::string& text);
+
+/// The text of one element: shortest decimal form that reads back the same, "true"/"false",
+/// hexadecimal digits.
+std::string element_text(const ValueBlock& block, std::size_t element);
+
+std::string to_hex(std::span<const std::uint8_t> bytes);
+
+}  // namespace stride::core
+
+#endif

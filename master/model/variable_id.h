@@ -1,0 +1,18 @@
+#ifndef STRIDE_MASTER_MODEL_VARIABLE_ID_H
+#define STRIDE_MASTER_MODEL_VARIABLE_ID_H
+
+#include <compare>
+#include <cstddef>
+
+namespace stride::core {
+
+/// A variable of a component, by its places in System::components() and UnitDescription::variables.
+struct VariableId {
+  std::size_t component = 0;
+  std::size_t variable = 0;
+  auto operator<=>(const VariableId&) const = default;
+};
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,39 @@
+#ifndef STRIDE_MASTER_UTIL_ARCHIVE_TEMPORARY_FOLDER_H
+#define STRIDE_MASTER_UTIL_ARCHIVE_TEMPORARY_FOLDER_H
+
+#include <filesystem>
+
+#include <sys/types.h>
+
+namespace stride::archive {
+
+/// A fresh, empty folder that goes when the object goes.
+///
+/// It stands in `<TMPDIR or /tmp>/stride-<uid>/`, beside a file of the same name with `.lock` that
+/// this process keeps locked (flock), so the kernel frees the lock however the process ends. Each
+/// new folder first sweeps away those whose lock is free: what a crashed run left behind.
+class TemporaryFolder {
+ public:
+  /// Throws core::Error of the kind Run if it cannot be made.
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Where the folders of this user stand now; it need not exist.
+  static std::filesystem::path parent();
+
+  /// Removes what crashed runs of this user have left; what cannot be removed stays.
+  static void sweep_abandoned() noexcept;
+
+ private:
+  std::filesystem::path path_;
+  int lock_ = -1;
+  pid_t owner_;  ///< a forked child must not remove what its parent uses
+};
+
+}  // namespace stride::archive
+
+#endif

@@ -1,0 +1,236 @@
+#include "master/util/archive/unpacked_archive.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include <archive.h>
+#include <archive_entry.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace stride::archive {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* kind_name(mode_t type) {
+  switch (type) {
+    case AE_IFLNK:
+      return "a symbolic link";
+    case AE_IFCHR:
+    case AE_IFBLK:
+      return "a device";
+    case AE_IFIFO:
+      return "a pipe";
+    case AE_IFSOCK:
+      return "a socket";
+    default:
+      return "of an unknown kind";
+  }
+}
+
+/// A new file, never one that is there already.
+class UnpackedFile {
+ public:
+  UnpackedFile(const fs::path& path, mode_t mode)
+      : file_(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode)) {}
+  ~UnpackedFile() {
+    if (file_ >= 0) ::close(file_);
+  }
+  UnpackedFile(const UnpackedFile&) = delete;
+  UnpackedFile& operator=(const UnpackedFile&) = delete;
+
+  bool is_open() const { return file_ >= 0; }
+  bool write(const char* data, std::size_t size) {
+    while (size != 0) {
+      const ssize_t written = ::write(file_, data, size);
+      if (written < 0 && errno == EINTR) continue;
+      if (written <= 0) return false;
+      data += written;
+      size -= static_cast<std::size_t>(written);
+    }
+    return true;
+  }
+
+ private:
+  int file_;
+};
+
+/// Unpacks one archive into one folder. Links are never made, and files never overwritten, so a
+/// path of checked names cannot leave the folder.
+class Extraction {
+ public:
+  Extraction(fs::path archive, fs::path folder, std::string expected, core::Location where,
+             UnpackLimits limits)
+      : archive_(std::move(archive)),
+        folder_(std::move(folder)),
+        expected_("expected " + std::move(expected)),
+        where_(std::move(where)),
+        limits_(limits),
+        reader_(archive_read_new(), &archive_read_free) {}
+
+  void run() {
+    open();
+    std::uint64_t entries = 0;
+    while (next()) {
+      if (++entries > limits_.entries) {
+        fail(fmt::format("has more than {} entries", limits_.entries),
+             "unpack it yourself and name the folder instead, if you trust it");
+      }
+      unpack_entry();
+    }
+    if (entries == 0) fail("is an empty archive", expected_);
+  }
+
+ private:
+  static constexpr std::size_t kPiece = 1 << 16;
+
+  [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const {
+    core::fail_input({.where = where_}, fmt::format("'{}' {}", archive_.string(), what), hint);
+  }
+  [[noreturn]] void fail_entry(const std::string& what) const {
+    fail(fmt::format("holds the entry '{}', {}", name_, what),
+         "an archive holds plain files and folders with relative names only; pack it again");
+  }
+  [[noreturn]] void fail_writing(const fs::path& path) const {
+    core::fail_run({.where = where_},
+                   fmt::format("cannot write '{}' while unpacking '{}': {}", path.string(),
+                               archive_.string(), std::strerror(errno)),
+                   "set TMPDIR to a folder that you may write to and that has room");
+  }
+
+  /// libarchive does not always have one.
+  std::string reason() const {
+    const char* const known = archive_error_string(reader_.get());
+    return known != nullptr ? known : "no reason is known";
+  }
+
+  void open() {
+    if (::access(archive_.c_str(), R_OK) != 0) {
+      fail(fmt::format("cannot be read: {}", std::strerror(errno)));
+    }
+    archive_read_support_format_zip(reader_.get());
+    if (archive_read_open_filename(reader_.get(), archive_.c_str(), kPiece) != ARCHIVE_OK) {
+      fail("is no zip archive", expected_);
+    }
+  }
+
+  bool next() {
+    const int status = archive_read_next_header(reader_.get(), &entry_);
+    if (status == ARCHIVE_EOF) return false;
+    if (status >= ARCHIVE_WARN) return true;
+    fail(fmt::format("is damaged: {}", reason()), "pack or copy it again");
+  }
+
+  void unpack_entry() {
+    const char* name = archive_entry_pathname_utf8(entry_);
+    if (name == nullptr) name = archive_entry_pathname(entry_);
+    name_ = name != nullptr ? name : "";
+    const fs::path target = folder_ / checked_name();
+    const mode_t type = archive_entry_filetype(entry_);
+    if (archive_entry_hardlink(entry_) != nullptr) fail_entry("a hard link");
+    if (archive_entry_is_encrypted(entry_) != 0) fail_entry("which is encrypted");
+    if (type == AE_IFDIR) {
+      make_folder(target);
+    } else if (type == AE_IFREG) {
+      make_folder(target.parent_path());
+      write_file(target);
+    } else {
+      fail_entry(kind_name(type));
+    }
+  }
+
+  fs::path checked_name() const {
+    const fs::path relative(name_);
+    if (name_.empty()) fail_entry("which has no name");
+    if (relative.is_absolute()) fail_entry("which is an absolute path");
+    for (const fs::path& part : relative) {
+      if (part == "..") fail_entry("which leads out of the archive's folder");
+    }
+    return relative.lexically_normal();
+  }
+
+  void make_folder(const fs::path& path) const {
+    std::error_code error;
+    fs::create_directories(path, error);
+    if (fs::is_directory(path)) return;
+    if (fs::exists(path)) fail_entry("but also a file in the place of one of its folders");
+    errno = error.value();
+    fail_writing(path);
+  }
+
+  void write_file(const fs::path& path) {
+    const bool executable = (archive_entry_perm(entry_) & 0100) != 0;
+    UnpackedFile file(path, executable ? 0700 : 0600);
+    if (!file.is_open()) {
+      if (errno == EEXIST) return compare(path);
+      fail_writing(path);
+    }
+    while (const std::size_t size = read_piece()) {
+      if (!file.write(buffer_.data(), size)) fail_writing(path);
+    }
+  }
+
+  /// Some tools pack a folder twice, which does no harm.
+  void compare(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, kPiece> first;
+    bool is_same = fs::is_regular_file(path);
+    while (const std::size_t size = read_piece()) {
+      is_same = is_same && file.read(first.data(), static_cast<std::streamsize>(size)) &&
+                std::equal(first.data(), first.data() + size, buffer_.data());
+    }
+    is_same = is_same && file.peek() == std::ifstream::traits_type::eof();
+    if (!is_same) fail_entry("which it holds twice, with different contents");
+  }
+
+  /// The next bytes of the entry are in the buffer; returns how many.
+  std::size_t read_piece() {
+    const la_ssize_t size = archive_read_data(reader_.get(), buffer_.data(), buffer_.size());
+    if (size < 0) {
+      fail_entry(fmt::format("which is damaged: {}", reason()));
+    }
+    bytes_ += static_cast<std::uint64_t>(size);
+    if (bytes_ > limits_.bytes) {
+      fail(fmt::format("unpacks to more than {} bytes", limits_.bytes),
+           "unpack it yourself and name the folder instead, if you trust it");
+    }
+    return static_cast<std::size_t>(size);
+  }
+
+  fs::path archive_;
+  fs::path folder_;
+  std::string expected_;
+  core::Location where_;
+  UnpackLimits limits_;
+  std::unique_ptr<::archive, decltype(&archive_read_free)> reader_;
+  archive_entry* entry_ = nullptr;
+  std::string name_;
+  std::uint64_t bytes_ = 0;
+  std::array<char, kPiece> buffer_;
+};
+
+}  // namespace
+
+UnpackedArchive::UnpackedArchive(const fs::path& path, const std::string& expected,
+                                 const core::Location& where, const UnpackLimits& limits) {
+  if (!fs::exists(path)) {
+    core::fail_input({.where = where}, fmt::format("there is no file '{}'", path.string()),
+                     "relative names are taken from the folder of the file that names them");
+  }
+  if (fs::is_directory(path)) {
+    folder_ = fs::absolute(path);
+  } else {
+    temporary_.emplace();
+    folder_ = temporary_->path();
+    Extraction(path, folder_, expected, where, limits).run();
+  }
+}
+
+}  // namespace stride::archive

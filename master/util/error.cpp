@@ -1,0 +1,62 @@
+#include "master/util/error.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace stride::core {
+Error::Error(Kind kind, Context context, const std::string& message, const std::string& hint)
+    : std::runtime_error(to_text(context) + message + (hint.empty() ? "" : "\n  hint: " + hint)),
+      kind_(kind),
+      context_(std::move(context)),
+      message_(message),
+      hint_(hint) {}
+
+void fail_input(Context context, const std::string& message, const std::string& hint) {
+  throw Error(Error::Kind::Input, std::move(context), message, hint);
+}
+
+void fail_run(Context context, const std::string& message, const std::string& hint) {
+  throw Error(Error::Kind::Run, std::move(context), message, hint);
+}
+
+std::string to_text(const Context& context) {
+  std::string head;
+  if (!context.where.file.empty()) {
+    head += context.where.file;
+    if (context.where.line > 0) head += fmt::format(":{}", context.where.line);
+    head += ": ";
+  }
+  std::string subject;
+  const auto add = [&](const std::string& part) {
+    subject += (subject.empty() ? "" : ", ") + part;
+  };
+  if (!context.unit.empty()) add(fmt::format("unit '{}'", context.unit));
+  if (!context.variable.empty()) add(fmt::format("variable '{}'", context.variable));
+  if (context.time) add(fmt::format("at {} s", to_text(*context.time)));
+  if (!subject.empty()) subject += ": ";
+  return head + subject;
+}
+
+std::string quoted(std::span<const std::string> names) {
+  std::string text;
+  for (const std::string& name : names) {
+    if (!text.empty()) text += ", ";
+    text += "'" + name + "'";
+  }
+  return text;
+}
+
+std::string to_text(Time time) {
+  const std::int64_t ticks = time.time_since_epoch().count();
+  const std::uint64_t magnitude =
+      ticks < 0 ? 0 - static_cast<std::uint64_t>(ticks) : static_cast<std::uint64_t>(ticks);
+  constexpr std::uint64_t kPerSecond = 1'000'000'000'000;
+  std::string text = fmt::format("{}{}.{:012}", ticks < 0 ? "-" : "", magnitude / kPerSecond,
+                                 magnitude % kPerSecond);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+}  // namespace stride::core

@@ -1,0 +1,75 @@
+// The one exception type of the master.
+#ifndef STRIDE_MASTER_UTIL_ERROR_H
+#define STRIDE_MASTER_UTIL_ERROR_H
+
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include <stride/time.h>
+
+namespace stride::core {
+
+/// A place in a file that a person wrote. line 0 = the file as a whole.
+struct Location {
+  std::string file;
+  int line = 0;
+};
+
+/// Where something went wrong; what is not known is left empty.
+struct Context {
+  Location where{};
+  std::string unit{};      ///< the component's name
+  std::string variable{};  ///< the variable's or connector's name
+  std::optional<Time> time{};
+};
+
+/// Its text reads "FILE:LINE: unit 'U', variable 'V', at T s: MESSAGE", followed by the hint on a
+/// line of its own.
+class Error : public std::runtime_error {
+ public:
+  enum class Kind {
+    Input,  ///< what the user gave is wrong: exit code 2
+    Run,    ///< a unit or the simulation failed: exit code 1
+  };
+
+  Error(Kind kind, Context context, const std::string& message, const std::string& hint = "");
+
+  Kind kind() const { return kind_; }
+  const Context& context() const { return context_; }
+  /// Without the context, and without the hint.
+  const std::string& message() const { return message_; }
+  const std::string& hint() const { return hint_; }
+
+ private:
+  Kind kind_;
+  Context context_;
+  std::string message_, hint_;
+};
+
+/// A unit cannot be called, because another one has failed before. Where units step at the same
+/// time the other's failure is the one to tell.
+class ConsequentError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Shorthands for the two kinds.
+[[noreturn]] void fail_input(Context context, const std::string& message,
+                             const std::string& hint = "");
+[[noreturn]] void fail_run(Context context, const std::string& message,
+                           const std::string& hint = "");
+
+/// "FILE:LINE: unit 'U', variable 'V', at T s: ", as far as it is known.
+std::string to_text(const Context& context);
+
+/// "'a', 'b'"
+std::string quoted(std::span<const std::string> names);
+
+/// The exact decimal text of a time in seconds, without trailing zeros: "14.2".
+std::string to_text(Time time);
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,20 @@
+#ifndef STRIDE_MASTER_UTIL_READABLE_TEXT_H
+#define STRIDE_MASTER_UTIL_READABLE_TEXT_H
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace stride::core {
+
+/// A text from elsewhere, made fit to be shown in a line: `most` characters at most, the last of
+/// which is "…" where there were more; control characters are blanks, and each byte that is not of
+/// a character of UTF-8 is U+FFFD.
+std::string readable_text(std::string_view text, std::size_t most);
+
+/// Whether the text is so already.
+inline bool is_readable(std::string_view text) { return readable_text(text, text.size()) == text; }
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,56 @@
+#include "master/util/suggest.h"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace stride::core {
+namespace {
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string nearest(const std::string& word, std::span<const std::string> candidates) {
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < best_distance) {
+      best = candidate;
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+std::string suggestion(const std::string& word, std::span<const std::string> candidates) {
+  if (const std::string near = nearest(word, candidates); !near.empty()) {
+    return fmt::format("did you mean '{}'?", near);
+  }
+  if (candidates.empty()) return "there are none";
+  constexpr std::size_t kMost = 100;  // characters
+  std::string shown;
+  for (const std::string& candidate : candidates) {
+    if (!shown.empty() && shown.size() + candidate.size() > kMost) return shown + ", …";
+    shown += (shown.empty() ? "known are: " : ", ") + candidate;
+  }
+  return shown;
+}
+
+}  // namespace stride::core

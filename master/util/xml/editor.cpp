@@ -1,0 +1,209 @@
+#include "master/util/xml/editor.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace stride::xml {
+namespace {
+
+constexpr const char* kBlanks = " \t\r\n";
+
+/// The end of what begins at `at` and is no element: a comment, a CDATA section, a declaration.
+std::size_t markup_end(const std::string& text, std::size_t at) {
+  struct Kind {
+    std::string_view begin, end;
+  };
+  constexpr Kind kKinds[] = {{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}, {"<!", ">"}};
+  for (const Kind& kind : kKinds) {
+    if (text.compare(at, kind.begin.size(), kind.begin) != 0) continue;
+    const std::size_t end = text.find(kind.end, at + kind.begin.size());
+    return end == std::string::npos ? text.size() : end + kind.end.size();
+  }
+  return at;
+}
+
+std::size_t tag_end(const std::string& text, std::size_t at) {
+  char quote = 0;
+  for (; at < text.size(); ++at) {
+    const char c = text[at];
+    if (quote != 0) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '>') {
+      return at + 1;
+    }
+  }
+  return at;
+}
+
+}  // namespace
+
+std::vector<ElementPlace> element_places(const std::string& text) {
+  std::vector<ElementPlace> places;
+  std::vector<std::size_t> open;
+  std::size_t at = 0;
+  while ((at = text.find('<', at)) != std::string::npos) {
+    if (const std::size_t end = markup_end(text, at); end != at) {
+      at = end;
+      continue;
+    }
+    const std::size_t end = tag_end(text, at);
+    if (text.compare(at, 2, "</") == 0) {
+      if (open.empty()) break;
+      places[open.back()].end_tag = at;
+      places[open.back()].end = end;
+      open.pop_back();
+    } else {
+      const bool is_empty = end >= 2 && text[end - 2] == '/';
+      if (!is_empty) open.push_back(places.size());
+      places.push_back({at, end, end, end, is_empty});
+    }
+    at = end;
+  }
+  return places;
+}
+
+Editor::Editor(const std::string& text)
+    : text_(text),
+      places_(element_places(text)),
+      line_end_(text.find("\r\n") == std::string::npos ? "\n" : "\r\n"),
+      step_("  ") {
+  if (places_.size() < 2) return;
+  const std::string outer = indentation(0);
+  const std::string inner = indentation(1);
+  if (inner.size() > outer.size()) step_ = inner.substr(outer.size());
+}
+
+std::string Editor::indentation(std::size_t element) const {
+  const std::size_t begin = places_[element].begin;
+  const std::size_t line = text_.find_last_of('\n', begin);
+  const std::size_t first = line == std::string::npos ? 0 : line + 1;
+  const std::string before = text_.substr(first, begin - first);
+  return before.find_first_not_of(" \t") == std::string::npos ? before : "";
+}
+
+std::string Editor::lines(const std::vector<std::string>& pieces,
+                          const std::string& indentation) const {
+  std::string joined;
+  for (const std::string& piece : pieces) {
+    joined += line_end_ + indentation;
+    for (const char c : piece) {
+      if (c == '\n') {
+        joined += line_end_ + indentation;
+      } else if (c == '\t') {
+        joined += step_;
+      } else {
+        joined += c;
+      }
+    }
+  }
+  return joined;
+}
+
+void Editor::open_empty_tag(std::size_t element, const std::vector<std::string>& pieces) {
+  const ElementPlace& place = places_[element];
+  const std::size_t last = text_.find_last_not_of(kBlanks, place.end - 3);
+  const std::size_t name_end = text_.find_first_of(" \t\r\n/>", place.begin);
+  const std::string name = text_.substr(place.begin + 1, name_end - place.begin - 1);
+  const std::string outer = indentation(element);
+  edits_.push_back({last + 1, place.end - last - 1,
+                    ">" + lines(pieces, outer + step_) + line_end_ + outer + "</" + name + ">"});
+}
+
+void Editor::prepend_children(std::size_t element, const std::vector<std::string>& pieces) {
+  if (pieces.empty()) return;
+  const ElementPlace& place = places_[element];
+  if (place.is_empty_tag) return open_empty_tag(element, pieces);
+  const std::string outer = indentation(element);
+  std::string inserted = lines(pieces, outer + step_);
+  const char next = text_[place.start_tag_end];
+  if (next != '\n' && next != '\r') {
+    inserted += line_end_ + outer + (place.end_tag == place.start_tag_end ? "" : step_);
+  }
+  edits_.push_back({place.start_tag_end, 0, inserted});
+}
+
+void Editor::append_children(std::size_t element, const std::vector<std::string>& pieces) {
+  if (pieces.empty()) return;
+  const ElementPlace& place = places_[element];
+  if (place.is_empty_tag) return open_empty_tag(element, pieces);
+  const std::string outer = indentation(element);
+  const std::size_t at = text_.find_last_not_of(kBlanks, place.end_tag - 1) + 1;
+  std::string inserted = lines(pieces, outer + step_);
+  if (text_.find('\n', at) >= place.end_tag) inserted += line_end_ + outer;
+  edits_.push_back({at, 0, inserted});
+}
+
+void Editor::insert_behind(std::size_t element, const std::string& piece) {
+  edits_.push_back({places_[element].end, 0, lines({piece}, indentation(element))});
+}
+
+void Editor::add_attribute(std::size_t element, const std::string& name, const std::string& value) {
+  const ElementPlace& place = places_[element];
+  const std::size_t close = place.start_tag_end - (place.is_empty_tag ? 2 : 1);
+  const std::size_t at = text_.find_last_not_of(kBlanks, close - 1) + 1;
+  edits_.push_back({at, 0, " " + name + "=\"" + escaped(value) + "\""});
+}
+
+void Editor::set_attribute(std::size_t element, const std::string& name, const std::string& value) {
+  const ElementPlace& place = places_[element];
+  std::size_t at = text_.find_first_of(kBlanks, place.begin);
+  while (at < place.start_tag_end) {
+    const std::size_t begin = text_.find_first_not_of(kBlanks, at);
+    const std::size_t equals = text_.find('=', begin);
+    const std::size_t open = text_.find_first_of("'\"", equals);
+    if (open >= place.start_tag_end) break;
+    const std::size_t close = text_.find(text_[open], open + 1);
+    const std::size_t name_end = text_.find_last_not_of(kBlanks, equals - 1) + 1;
+    if (text_.substr(begin, name_end - begin) == name) {
+      edits_.push_back({open, close + 1 - open, "\"" + escaped(value) + "\""});
+      return;
+    }
+    at = close + 1;
+  }
+}
+
+std::string Editor::result() const {
+  std::vector<Edit> edits = edits_;
+  std::stable_sort(edits.begin(), edits.end(),
+                   [](const Edit& a, const Edit& b) { return a.at < b.at; });
+  std::string result;
+  std::size_t at = 0;
+  for (const Edit& edit : edits) {
+    result += text_.substr(at, edit.at - at) + edit.inserted;
+    at = edit.at + edit.erased;
+  }
+  return result + text_.substr(at);
+}
+
+std::string escaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\n':
+        escaped += "&#10;";
+        break;
+      case '\t':
+        escaped += "&#9;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+}  // namespace stride::xml

@@ -1,0 +1,64 @@
+// Changes to an XML text that leave every other byte of it as it is.
+#ifndef STRIDE_MASTER_UTIL_XML_EDITOR_H
+#define STRIDE_MASTER_UTIL_XML_EDITOR_H
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace stride::xml {
+
+/// Where an element stands in the text, as offsets.
+struct ElementPlace {
+  std::size_t begin = 0;          ///< of the start tag
+  std::size_t start_tag_end = 0;  ///< behind its '>'
+  std::size_t end_tag = 0;        ///< where the end tag begins; of an empty-element tag: its end
+  std::size_t end = 0;            ///< behind the element
+  bool is_empty_tag = false;      ///< <a/>
+};
+
+/// The places of all elements in document order. The text must be well-formed.
+std::vector<ElementPlace> element_places(const std::string& text);
+
+/// Collects changes, then makes them all at once.
+class Editor {
+ public:
+  /// The text must be well-formed and outlive the editor.
+  explicit Editor(const std::string& text);
+
+  /// The blanks before an element that begins its line, else nothing.
+  std::string indentation(std::size_t element) const;
+  /// Each piece is an element, which may span lines; a tab in it is one step of indentation. It
+  /// gets a line of its own, indented by one step below its new parent; `element` is a place in
+  /// document order (Element::index).
+  void prepend_children(std::size_t element, const std::vector<std::string>& pieces);
+  void append_children(std::size_t element, const std::vector<std::string>& pieces);
+  void insert_behind(std::size_t element, const std::string& piece);
+  void add_attribute(std::size_t element, const std::string& name, const std::string& value);
+  /// Replaces the value of an attribute, which the element must have.
+  void set_attribute(std::size_t element, const std::string& name, const std::string& value);
+
+  std::string result() const;
+
+ private:
+  struct Edit {
+    std::size_t at;
+    std::size_t erased;
+    std::string inserted;
+  };
+  std::string lines(const std::vector<std::string>& pieces, const std::string& indentation) const;
+  void open_empty_tag(std::size_t element, const std::vector<std::string>& pieces);
+
+  const std::string& text_;
+  std::vector<ElementPlace> places_;
+  std::string line_end_;
+  std::string step_;
+  std::vector<Edit> edits_;
+};
+
+/// As the value of an attribute: & < > " and control characters as entities.
+std::string escaped(const std::string& text);
+
+}  // namespace stride::xml
+
+#endif

@@ -1,0 +1,110 @@
+// A read-only view of an XML document: namespaces are resolved, and each complaint names its file
+// and line.
+#ifndef STRIDE_MASTER_UTIL_XML_ELEMENT_H
+#define STRIDE_MASTER_UTIL_XML_ELEMENT_H
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "master/util/error.h"
+#include "master/util/xml/words.h"
+
+namespace tinyxml2 {
+class XMLElement;
+}
+
+namespace stride::xml {
+
+/// An element's name. One text alone is a name in no namespace.
+struct Name {
+  constexpr Name(std::string_view in, std::string_view name) : name_space(in), local(name) {}
+  constexpr Name(const char* name) : local(name) {}
+
+  std::string_view name_space;
+  std::string_view local;
+  bool operator==(const Name&) const = default;
+};
+
+/// A view of an element; the document must outlive it. What is missing or malformed throws
+/// core::Error (Input).
+class Element {
+ public:
+  Element(const tinyxml2::XMLElement& element, const std::string& file);
+
+  Name name() const;
+  bool is(std::string_view name_space, std::string_view local) const {
+    return name() == Name(name_space, local);
+  }
+  /// As it is written: "<ssd:Component>".
+  std::string tag() const;
+  core::Location where() const;
+  /// The prefix by which this namespace is known here, the empty text if it is the default one.
+  std::optional<std::string> prefix_of(std::string_view name_space) const;
+  /// Its place among all elements of the document, in document order; the root is 0.
+  std::size_t index() const;
+
+  std::optional<std::string> attribute(const char* name) const;
+  /// An attribute of a namespace, whatever the prefix by which it is known.
+  std::optional<std::string> attribute(std::string_view name_space, std::string_view local) const;
+  std::string attribute_or(const char* name, const std::string& otherwise = "") const;
+  /// An attribute that must be there.
+  std::string given(const char* name) const;
+  /// An attribute that must be there and not be empty.
+  std::string required(const char* name) const;
+  bool flag(const char* name, bool otherwise = false) const;
+
+  template <class T>
+  std::optional<T> number(const char* name) const {
+    const auto value = attribute(name);
+    return value ? std::optional(checked<T>(name, *value)) : std::nullopt;
+  }
+  template <class T>
+  T required_number(const char* name) const {
+    return checked<T>(name, given(name));
+  }
+  template <class T>
+  std::vector<T> number_list(const char* name) const {
+    const std::string list = attribute_or(name);
+    std::vector<T> values;
+    for (const std::string_view word : split(list)) values.push_back(checked<T>(name, word));
+    return values;
+  }
+
+  std::vector<Element> children() const;
+  std::vector<Element> children(Name name) const;
+  /// The only child of this name, if there is one; two are an error.
+  std::optional<Element> child(Name name) const;
+  std::optional<Element> parent() const;
+
+  /// Refuses what is not listed, so that no misspelt word is passed over. Attributes of other
+  /// namespaces, and the attributes `id` and `description`, are always allowed.
+  void allow_attributes(std::initializer_list<std::string_view> names) const;
+  void allow_children(std::initializer_list<Name> names) const;
+
+  /// Throws core::Error (Input) with the element's file and line.
+  [[noreturn]] void fail(const std::string& message, const std::string& hint = "") const;
+  /// Says that this version cannot do it.
+  [[noreturn]] void fail_unsupported(const std::string& what, const std::string& hint = "") const;
+
+ private:
+  template <class T>
+  T checked(const char* attribute, std::string_view text) const {
+    const auto words = split(text);
+    const auto value = words.size() == 1 ? to_number<T>(words.front()) : std::nullopt;
+    if (!value) fail_number(attribute, text, std::is_integral_v<T>);
+    return *value;
+  }
+  [[noreturn]] void fail_number(const char* attribute, std::string_view value,
+                                bool is_integer) const;
+
+  const tinyxml2::XMLElement* element_;
+  const std::string* file_;
+};
+
+}  // namespace stride::xml
+
+#endif

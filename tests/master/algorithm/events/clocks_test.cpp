@@ -1,0 +1,415 @@
+// Time-based clocks in a run: when they tick, and what is sampled at their ticks.
+#include "master/algorithm/events/clocks.h"
+
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+#include "tests/master/algorithm/scripted_system.h"
+
+using namespace stride;
+using namespace stride::core;
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+
+namespace {
+
+using State = ClockInterval::State;
+using Ticks = std::vector<Time>;
+
+constexpr Duration kStep = 10ms;
+
+Interval every(Duration duration) { return Interval::from_duration(duration); }
+ClockInterval changed(Duration duration) { return {State::Changed, every(duration)}; }
+
+Ticks times(std::initializer_list<Duration> list) {
+  Ticks ticks;
+  for (const Duration duration : list) ticks.emplace_back(duration);
+  return ticks;
+}
+
+/// Writes down at what time its clock 0 is set.
+struct Watch {
+  explicit Watch(ScriptedUnit& unit) {
+    unit.on_step = [this](ScriptedUnit&, Time, Time to) {
+      now = to;
+      return reached(to);
+    };
+    unit.on_set_clock = [this](ScriptedUnit&) { ticks.push_back(now); };
+  }
+  Time now{};
+  Ticks ticks;
+};
+
+std::string failure(Simulation& simulation) {
+  try {
+    simulation.run();
+  } catch (const Error& error) {
+    CHECK(error.kind() == Error::Kind::Run);
+    return error.what();
+  }
+  return "none";
+}
+
+/// A unit with a clock, an input and an output that belong to it, and an ordinary input and output.
+auto sampler(const std::string& name, Duration interval, Duration shift = {}) {
+  return Describe(name)
+      .clock("tick", IntervalVariability::Constant, every(interval), every(shift))
+      .input("in")
+      .clocked_by(0)
+      .output("out")
+      .clocked_by(0)
+      .input("u")
+      .output("y")
+      .done();
+}
+constexpr ValueReference kIn = 1, kOut = 2, kU = 3, kY = 4;
+
+/// Its output is a function of its input, computed when it is read, if not loose before the first
+/// tick.
+struct Following : ScriptedUnit {
+  using ScriptedUnit::ScriptedUnit;
+  bool is_loose = false;
+  void get(std::span<const ValueReference> references, ValueBlock& values) override {
+    if (!is_loose || clock(0)) number(kOut) = number(kIn) + 1;
+    ScriptedUnit::get(references, values);
+  }
+};
+
+struct Recorded : Observer {
+  std::vector<Time> points;
+  std::vector<double> values;
+  Signal signal{};
+  void on_start(std::span<const Signal> signals) override { signal = signals[0]; }
+  void on_communication_point(Time time) override {
+    points.push_back(time);
+    values.push_back(signal.block->numbers<double>()[signal.first]);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a constant clock ticks at start + shift + k intervals, each rounded by itself") {
+  ScriptedSystem f;
+  Watch watch(f.add("a", Describe("a")
+                             .clock("tick", IntervalVariability::Constant,
+                                    Interval::from_fraction(1, 3), Interval::from_fraction(1, 6))
+                             .done()));
+  f.build(1.5, kStep).run();
+  const auto tick = [](std::int64_t picoseconds) { return Time(Duration(picoseconds)); };
+  CHECK(watch.ticks == Ticks{tick(166'666'666'667), tick(500'000'000'000), tick(833'333'333'333),
+                             tick(1'166'666'666'667), tick(1'500'000'000'000)});
+}
+
+TEST_CASE("a million ticks of a third of a millisecond do not drift") {
+  ScriptedSystem f;
+  std::uint64_t wrong = 0;
+  std::uint64_t count = 0;
+  Time now{};
+  auto& a =
+      f.add("a", Describe("a")
+                     .clock("tick", IntervalVariability::Constant, Interval::from_fraction(1, 3000))
+                     .done());
+  a.on_step = [&](ScriptedUnit&, Time, Time to) { return reached(now = to); };
+  a.on_set_clock = [&](ScriptedUnit&) {
+    wrong += now != Time(Duration((count * 1'000'000'000 + 1) / 3));
+    ++count;
+    a.calls.clear();
+  };
+  f.build(1'000'000.0 / 3000, 1s).run();
+  CHECK(count == 1'000'001);
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("clocks that resume tick when those would have that they continue") {
+  ScriptedSystem f;
+  f.add("a",
+        Describe("a").clock("tick", IntervalVariability::Constant, every(3ms), every(1ms)).done());
+  const System system(f.declaration);
+  Clocks clocks(system, f.units);
+  clocks.begin({});
+  const auto tick = [](Clocks& ticking, Time time) {
+    ticking.due(time);
+    ticking.tick(time);
+    ticking.update(0, time);
+    ticking.due(time);
+  };
+  tick(clocks, Time(1ms));
+  Clocks other(system, f.units);
+  other.resume(clocks);
+  CHECK(other.next() == Time(4ms));
+  tick(clocks, Time(4ms));
+  CHECK(other.next() == Time(4ms));
+  tick(other, Time(4ms));
+  CHECK(other.next() == clocks.next());
+  CHECK(other.next() == Time(7ms));
+}
+
+TEST_CASE("a clock that ticks at once, and one that ticks at the end") {
+  ScriptedSystem f;
+  Watch watch(f.add("a", sampler("a", 4ms)));
+  f.build(0.008, kStep).run();
+  CHECK(watch.ticks == times({0ms, 4ms, 8ms}));
+}
+
+TEST_CASE("the interval and the shift of a fixed clock come from the unit, once") {
+  ScriptedSystem f;
+  auto& a = f.add("a", Describe("a").clock("tick", IntervalVariability::Fixed).done());
+  Watch watch(a);
+  int asked = 0;
+  a.on_clock_interval = [&](ScriptedUnit& unit, ValueReference) {
+    CHECK(unit.calls.back() == "enter_initialization");
+    ++asked;
+    return changed(7ms);
+  };
+  a.on_clock_shift = [](ScriptedUnit&, ValueReference) { return every(1ms); };
+  f.build(0.02, kStep).run();
+  CHECK(watch.ticks == times({1ms, 8ms, 15ms}));
+  CHECK(asked == 1);
+}
+
+TEST_CASE("an interval that the description gives is not asked for") {
+  ScriptedSystem f;
+  const auto kind = GENERATE(IntervalVariability::Fixed, IntervalVariability::Tunable);
+  auto& a = f.add("a", Describe("a").clock("tick", kind, every(8ms), every(2ms)).done());
+  Watch watch(a);
+  a.on_clock_interval = [](ScriptedUnit&, ValueReference) -> ClockInterval {
+    throw std::logic_error("asked");
+  };
+  f.build(0.02, kStep).run();
+  CHECK(watch.ticks == times({2ms, 10ms, 18ms}));
+}
+
+TEST_CASE("a tunable clock counts a new interval from the event in which it changed") {
+  ScriptedSystem f;
+  auto& a = f.add("a", Describe("a").clock("tick", IntervalVariability::Tunable).done());
+  Watch watch(a);
+  a.on_clock_interval = [&](ScriptedUnit&, ValueReference) -> ClockInterval {
+    if (watch.now == Time(5ms)) return changed(3ms);
+    return {State::Unchanged, every(4ms)};
+  };
+  a.on_event = [&](ScriptedUnit&) {
+    EventResult result;
+    if (watch.now < Time(5ms)) result.next_event = Time(5ms);
+    return result;
+  };
+  f.build(0.013, kStep).run();
+  CHECK(watch.ticks == times({0ms, 4ms, 8ms, 11ms}));
+}
+
+TEST_CASE("a changing clock says at each tick when the next one is") {
+  ScriptedSystem f;
+  auto& a = f.add("a", Describe("a").clock("tick", IntervalVariability::Changing).done());
+  Watch watch(a);
+  a.on_clock_interval = [&](ScriptedUnit&, ValueReference) {
+    return changed(static_cast<int>(watch.ticks.size() + 1) * Duration(1ms));
+  };
+  f.build(0.02, kStep).run();
+  CHECK(watch.ticks == times({1ms, 3ms, 6ms, 10ms, 15ms}));
+}
+
+TEST_CASE("a countdown clock is asked at every event, and waits until its unit knows") {
+  ScriptedSystem f;
+  auto& a = f.add("a", Describe("a").clock("tick", IntervalVariability::Countdown).done());
+  Watch watch(a);
+  int asked = 0;
+  a.on_event = [&](ScriptedUnit&) {
+    EventResult result;
+    for (const Time event : {Time(3ms), Time(5ms), Time(15ms)}) {
+      if (watch.now < event && !result.next_event) result.next_event = event;
+    }
+    return result;
+  };
+  a.on_clock_interval = [&](ScriptedUnit&, ValueReference) -> ClockInterval {
+    ++asked;
+    if (watch.now == Time(3ms)) return changed(10ms);
+    if (watch.now == Time(5ms)) return changed(4ms);  // in the place of the other
+    if (watch.now == Time(15ms)) return changed(1ms);
+    return {watch.now < Time(5ms) ? State::NotYetKnown : State::Unchanged, every(4ms)};
+  };
+  f.build(0.02, kStep).run();
+  CHECK(watch.ticks == times({9ms, 16ms}));
+  CHECK(asked == 7);  // before the start, at the start, at 3, 5, 9, 15 and 16 ms
+}
+
+TEST_CASE("a countdown of 0 is another super-dense instant of the same time") {
+  ScriptedSystem f;
+  auto& a = f.add("a", Describe("a").clock("tick", IntervalVariability::Countdown).done());
+  Watch watch(a);
+  a.on_clock_interval = [&](ScriptedUnit&, ValueReference) -> ClockInterval {
+    if (watch.ticks.empty()) return changed(2ms);
+    return watch.ticks.size() < 3 ? changed(0ms) : ClockInterval{};
+  };
+  f.build(0.005, kStep).run();
+  CHECK(watch.ticks == times({2ms, 2ms, 2ms}));
+}
+
+TEST_CASE("a clock that never ends its instant is an error that names the unit") {
+  ScriptedSystem f;
+  auto& a = f.add("a", Describe("a").clock("tick", IntervalVariability::Countdown).done());
+  a.on_clock_interval = [](ScriptedUnit&, ValueReference) { return changed(0ms); };
+  CHECK_THAT(failure(f.build(1, kStep)), Contains("1000 event iterations") && Contains("'a'"));
+}
+
+TEST_CASE("intervals that cannot be name unit, clock and time") {
+  const auto reason = [](IntervalVariability kind, ClockInterval said) {
+    ScriptedSystem f;
+    f.add("a", Describe("a").clock("tick", kind).done()).on_clock_interval =
+        [said](ScriptedUnit&, ValueReference) { return said; };
+    return failure(f.build(1, kStep));
+  };
+  CHECK_THAT(reason(IntervalVariability::Fixed, changed(0ms)),
+             Contains("unit 'a', variable 'tick', at 0 s") && Contains("interval is 0 s") &&
+                 Contains("a fixed one"));
+  CHECK_THAT(reason(IntervalVariability::Tunable, {State::Changed, Interval::from_seconds(1e-13)}),
+             Contains("interval is 1e-13 s"));
+  CHECK_THAT(reason(IntervalVariability::Changing, {}),
+             Contains("unit 'a', variable 'tick', at 0 s") && Contains("does not know"));
+  const double infinity = std::numeric_limits<double>::infinity();
+  CHECK(reason(IntervalVariability::Countdown,
+               {State::Changed, Interval::from_seconds(infinity)}) == "none");
+}
+
+TEST_CASE("ticks that fall on other events and on each other are all there") {
+  ScriptedSystem f;
+  auto& a = f.add("a", sampler("a", 2ms));
+  auto& b = f.add("b", sampler("b", 3ms));
+  Watch on_a(a);
+  Watch on_b(b);
+  int events = 0;
+  a.on_event = [&](ScriptedUnit&) {
+    ++events;
+    EventResult result;
+    result.next_event = on_a.now + 1ms;
+    return result;
+  };
+  f.build(0.006, 1500us).run();
+  CHECK(on_a.ticks == times({0ms, 2ms, 4ms, 6ms}));
+  CHECK(on_b.ticks == times({0ms, 3ms, 6ms}));
+  CHECK(events == 7);
+}
+
+TEST_CASE("a step that is redone makes no tick twice and loses none") {
+  ScriptedSystem f;
+  auto a = Describe("a").clock("tick", IntervalVariability::Constant, every(5ms)).can_save_state();
+  Watch watch(f.add("a", a.done()));
+  auto& b = f.add("b", Describe("b").may_return_early().can_save_state().done());
+  b.on_step = [](ScriptedUnit&, Time from, Time to) {
+    const bool stops = from < Time(3ms) && to > Time(3ms);
+    StepResult result = reached(stops ? Time(3ms) : to);
+    result.early_return = stops;
+    return result;
+  };
+  Simulation& simulation = f.build(0.012, kStep);
+  simulation.run();
+  CHECK(watch.ticks == times({0ms, 5ms, 10ms}));
+  CHECK(simulation.statistics().units[0].rollbacks == 1);
+}
+
+TEST_CASE("the clocked inputs are set and the clocked outputs read while the clock ticks") {
+  ScriptedSystem f;
+  auto& source = f.add("source", Describe("source").output("y").done());
+  auto& a = f.add("a", sampler("a", 4ms, 1ms));
+  auto& sink = f.add("sink", Describe("sink").input("u").event_mode().done());
+  f.wire("source", "y", "a", "in");
+  f.wire("a", "out", "sink", "u");
+  source.on_step = [](ScriptedUnit& unit, Time, Time to) {
+    unit.number(0) = 1000 * to_seconds(to);
+    return reached(to);
+  };
+  // the output has its value for as long as the clock ticks, and is nonsense otherwise
+  a.on_step = [](ScriptedUnit& unit, Time, Time to) {
+    unit.number(kOut) = -1;
+    return reached(to);
+  };
+  a.on_set_clock = [](ScriptedUnit& unit) { unit.number(kOut) = 10; };
+  std::vector<double> in;
+  a.on_event = [&](ScriptedUnit& unit) {
+    if (unit.clock(0)) in.push_back(unit.number(kIn));
+    unit.number(kOut) = -2;
+    return EventResult{};
+  };
+  Recorded recorded;
+  f.build(0.006, 1ms, {{1, kOut}}).add_observer(recorded);
+  f.simulation->run();
+  CHECK(in == std::vector<double>{1, 5});
+  CHECK(recorded.values == std::vector<double>{0, 10, 10, 10, 10, 10, 10});
+  CHECK(sink.number(0) == 10);
+}
+
+TEST_CASE("what is sampled and held is an event for who receives it") {
+  ScriptedSystem f;
+  auto& a = f.add("a", sampler("a", 4ms));
+  auto& sink = f.add("sink", Describe("sink").input("u").event_mode().done());
+  f.wire("a", "out", "sink", "u");
+  a.on_set_clock = [count = 0](ScriptedUnit& unit) mutable { unit.number(kOut) = ++count; };
+  std::vector<std::string> seen;
+  sink.on_step = [&](ScriptedUnit& unit, Time, Time to) {
+    seen.push_back(to_text(to) + ":" + std::to_string(static_cast<int>(unit.number(0))));
+    return reached(to);
+  };
+  sink.on_event = [&](ScriptedUnit& unit) {
+    seen.push_back("event:" + std::to_string(static_cast<int>(unit.number(0))));
+    return EventResult{};
+  };
+  f.build(0.006, 2ms).run();
+  CHECK(seen ==
+        std::vector<std::string>{"event:0", "event:1", "0.002:1", "0.004:1", "event:2", "0.006:2"});
+}
+
+TEST_CASE("values from clock to clock: of this instant where both tick, else the last") {
+  ScriptedSystem f;
+  auto& b = f.add("b", sampler("b", 3ms));  // stands before its source
+  auto& a = f.add("a", sampler("a", 2ms));
+  f.wire("a", "out", "b", "in");
+  a.on_set_clock = [count = 0](ScriptedUnit& unit) mutable { unit.number(kOut) = ++count; };
+  std::vector<double> seen;
+  b.on_event = [&](ScriptedUnit& unit) {
+    if (unit.clock(0)) seen.push_back(unit.number(kIn));
+    return EventResult{};
+  };
+  f.build(0.009, kStep).run();
+  CHECK(seen == std::vector<double>{1, 2, 4, 5});  // at 0, 3, 6 and 9 ms
+}
+
+TEST_CASE("a chain of clocks that tick together has no delay") {
+  ScriptedSystem f;
+  auto& c = f.add<Following>("c", sampler("c", 2ms));
+  f.add<Following>("b", sampler("b", 2ms));
+  f.add<Following>("a", sampler("a", 2ms));
+  f.wire("a", "out", "b", "in");
+  f.wire("b", "out", "c", "in");
+  std::vector<double> seen;
+  c.on_event = [&](ScriptedUnit& unit) {
+    if (unit.clock(0)) seen.push_back(unit.number(kIn));
+    return EventResult{};
+  };
+  f.build(0.003, kStep).run();
+  CHECK(seen == std::vector<double>{2, 2});
+}
+
+TEST_CASE("a loop of values that are sampled at one instant is an error that names them") {
+  ScriptedSystem f;
+  auto& a = f.add<Following>("a", sampler("a", 2ms, 1ms));
+  auto& b = f.add<Following>("b", sampler("b", 2ms, 1ms));
+  f.wire("a", "out", "b", "in");
+  f.wire("b", "out", "a", "in");
+  a.is_loose = b.is_loose = true;  // until the clocks tick
+  CHECK_THAT(failure(f.build(1, kStep)),
+             Contains("at 0.001 s") && Contains("algebraic loop") && Contains("'a.in', 'b.in'"));
+}
+
+TEST_CASE("sampled values may also be recorded where they go in: as they were at the tick") {
+  ScriptedSystem f;
+  auto& source = f.add("source", Describe("source").output("y").done());
+  f.add("a", sampler("a", 2ms));
+  f.wire("source", "y", "a", "in");
+  source.on_step = [](ScriptedUnit& unit, Time, Time to) {
+    unit.number(0) = 1000 * to_seconds(to);
+    return reached(to);
+  };
+  Recorded recorded;
+  f.build(0.004, 1ms, {{1, kIn}}).add_observer(recorded);
+  f.simulation->run();
+  CHECK(recorded.values == std::vector<double>{0, 0, 2, 2, 4});
+}

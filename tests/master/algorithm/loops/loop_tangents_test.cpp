@@ -1,0 +1,109 @@
+#include "master/algorithm/loops/loop_tangents.h"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "master/algorithm/loops/initial_values.h"
+#include "tests/master/algorithm/scripted_system.h"
+
+using namespace stride;
+using namespace stride::core;
+
+namespace {
+
+constexpr ValueReference kU = 0, kY = 1;
+
+/// A unit of two inputs and two outputs, whose derivatives are the matrix, row by row.
+ScriptedUnit& linear(ScriptedSystem& system, const std::string& name, const BaseUnit& meaning,
+                     std::vector<double> matrix) {
+  ScriptedUnit& unit = system.add(name, Describe("linear")
+                                            .unit("unit", meaning)
+                                            .add("u", ValueType::Float64, Causality::Input, "unit")
+                                            .size(2)
+                                            .add("y", ValueType::Float64, Causality::Output, "unit")
+                                            .size(2)
+                                            .depends_on({kU})
+                                            .directional_derivatives()
+                                            .done());
+  unit.on_derivative = [matrix](ScriptedUnit&, ValueReference unknown, ValueReference known) {
+    CHECK(unknown == kY);
+    CHECK(known == kU);
+    return matrix;
+  };
+  return unit;
+}
+
+/// x = cos x, with a unit that knows its derivative or does not.
+struct Cosine : ScriptedSystem {
+  explicit Cosine(bool knows_derivative) {
+    Describe description("cosine");
+    if (knows_derivative) description.directional_derivatives();
+    auto& unit = add("a", description.input("u").output("y").depends_on({kU}).done());
+    unit.on_initialize = [](ScriptedUnit& self) { self.number(kY) = std::cos(self.number(kU)); };
+    unit.on_derivative = [](ScriptedUnit& self, ValueReference, ValueReference) {
+      return std::vector{-std::sin(self.number(kU))};
+    };
+    wire("a", "y", "a", "u");
+  }
+};
+
+std::size_t count(const ScriptedUnit& unit, const std::string& call) {
+  return static_cast<std::size_t>(std::count(unit.calls.begin(), unit.calls.end(), call));
+}
+
+}  // namespace
+
+TEST_CASE("the chain rule runs through arrays and units of measurement") {
+  ScriptedSystem f;
+  const BaseUnit metre{{0, 1}, 1, 0};
+  const BaseUnit millimetre{{0, 1}, 1e-3, 0};
+  linear(f, "a", metre, {1, 2, 3, 4});
+  linear(f, "b", millimetre, {5, 0, 7, 11});
+  f.wire("a", "y", "b", "u");
+  f.wire("b", "y", "a", "u");
+  const System system(f.declaration);
+  const auto order = evaluation_order(system, Phase::Initialization);
+  REQUIRE(order.size() == 1);
+  REQUIRE(LoopTangents::exist(system, order[0]));
+  REQUIRE(order[0].tears.size() == 1);
+  LoopTangents tangents(system, f.units, order[0]);
+  std::vector<double> first(2), second(2);
+  tangents.derive(0, 0, first);
+  tangents.derive(0, 1, second);
+  // the loop is cut before one of the two; the product of the matrices is that of the other then
+  const bool cut_before_a = order[0].tears[0].inputs[0].component == 0;
+  if (cut_before_a) {
+    CHECK(first == std::vector<double>{5, 40});    // b (a e1), in metres again
+    CHECK(second == std::vector<double>{10, 58});  // b (a e2)
+  } else {
+    CHECK(first == std::vector<double>{19, 43});   // a (b e1)
+    CHECK(second == std::vector<double>{22, 44});  // a (b e2)
+  }
+}
+
+TEST_CASE("a loop is solved with the derivatives of its units, where all know them") {
+  Cosine with(true);
+  Cosine without(false);
+  for (Cosine* system : {&with, &without}) {
+    ScriptedUnit& unit = *system->instances[0];
+    system->build(0.001, std::chrono::milliseconds(1)).run();
+    CHECK(unit.number(kU) == Approx(0.73908513321516064).epsilon(1e-14));
+  }
+  CHECK(count(*with.instances[0], "get_directional_derivative") > 0);
+  CHECK(count(*without.instances[0], "get_directional_derivative") == 0);
+  CHECK(with.instances[0]->gets < without.instances[0]->gets);
+}
+
+TEST_CASE("derivatives are of no use where something else than real numbers is in the loop") {
+  ScriptedSystem f;
+  f.add("a", Describe("a")
+                 .add("u", ValueType::Boolean, Causality::Input)
+                 .add("y", ValueType::Boolean, Causality::Output)
+                 .depends_on({kU})
+                 .directional_derivatives()
+                 .done());
+  f.wire("a", "y", "a", "u");
+  const System system(f.declaration);
+  CHECK_FALSE(LoopTangents::exist(system, evaluation_order(system, Phase::Initialization).front()));
+}

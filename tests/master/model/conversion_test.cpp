@@ -1,0 +1,348 @@
+#include "master/model/conversion.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/master/algorithm/scripted_system.h"
+
+using namespace stride;
+using namespace stride::core;
+using Catch::Matchers::Contains;
+using Kind = Transformation::Kind;
+
+namespace {
+
+const MeasureUnit kMetre{"m", BaseUnit{{0, 1, 0, 0, 0, 0, 0, 0}, 1, 0}};
+const MeasureUnit kCentimetre{"cm", BaseUnit{{0, 1, 0, 0, 0, 0, 0, 0}, 0.01, 0}};
+const MeasureUnit kSecond{"s", BaseUnit{{0, 0, 1, 0, 0, 0, 0, 0}, 1, 0}};
+
+Waypoint point(const std::string& name, std::optional<ValueType> type, const MeasureUnit& unit = {},
+               bool takes_after_next = false) {
+  return {name, type, unit, {}, takes_after_next};
+}
+
+Waypoint items(const std::string& name, EnumerationItems items) {
+  return {name, ValueType::Enumeration, {}, std::move(items), false};
+}
+
+Passage linear(double factor, double offset, bool suppress = false) {
+  return {suppress, {Kind::Linear, {factor, offset}, {}, {}, {"x.ssd", 7}}};
+}
+
+Passage numbers(Kind kind, NumberMap map) {
+  return {false, {kind, {}, std::move(map), {}, {"x.ssd", 7}}};
+}
+
+Passage names(std::vector<std::pair<std::string, std::string>> entries) {
+  return {false, {Kind::EnumerationMapping, {}, {}, std::move(entries), {"x.ssd", 7}}};
+}
+
+Conversion of(std::vector<Waypoint> waypoints, const std::vector<Passage>& passages) {
+  return compose(std::move(waypoints), passages, {{"x.ssd", 9}, {}, {}, {}});
+}
+
+std::string reason(std::vector<Waypoint> waypoints, const std::vector<Passage>& passages) {
+  try {
+    of(std::move(waypoints), passages);
+  } catch (const Error& error) {
+    CHECK(error.kind() == Error::Kind::Input);
+    return error.what();
+  }
+  return "accepted";
+}
+
+const EnumerationItems kLamp{{"off", 0}, {"on", 1}};
+const EnumerationItems kSignal{{"red", 3}, {"green", 4}};
+
+}  // namespace
+
+TEST_CASE("units with the same base are converted, also those with an offset") {
+  const MeasureUnit kelvin{"K", BaseUnit{{0, 0, 0, 0, 1, 0, 0, 0}, 1, 0}};
+  const MeasureUnit celsius{"degC", BaseUnit{{0, 0, 0, 0, 1, 0, 0, 0}, 1, 273.15}};
+  CHECK(convert(kCentimetre, kMetre)->factor == Approx(1e-2));
+  CHECK(convert(kMetre, kCentimetre)->factor == Approx(1e2));
+  const auto to_kelvin = convert(celsius, kelvin);
+  CHECK(to_kelvin->factor * 20 + to_kelvin->offset == Approx(293.15));
+  const auto to_celsius = convert(kelvin, celsius);
+  CHECK(to_celsius->factor * 293.15 + to_celsius->offset == Approx(20));
+}
+
+TEST_CASE(
+    "units of another kind are not, and those that are missing or alike are taken as they are") {
+  const MeasureUnit furlong{"furlong", {}};
+  CHECK_FALSE(convert(kCentimetre, kSecond));
+  CHECK_FALSE(convert(kCentimetre, furlong));
+  CHECK(convert({}, kCentimetre)->is_identity());
+  CHECK(convert(furlong, furlong)->is_identity());
+}
+
+TEST_CASE("units are converted before the transformation, or not at all") {
+  const auto y = point("a.y", ValueType::Float64, kCentimetre);
+  const auto u = point("b.u", ValueType::Float64, kMetre);
+  const Conversion both = of({y, u}, {linear(2, 5)});
+  CHECK(both.linear.factor == Approx(0.02));
+  CHECK(both.linear.offset == 5);
+  const Conversion only = of({y, u}, {linear(2, 5, true)});
+  CHECK(only.linear.factor == 2);
+  CHECK(only.linear.offset == 5);
+}
+
+TEST_CASE("passages are made one after the other") {
+  const auto y = point("a.y", ValueType::Float64, kCentimetre);
+  const auto u = point("c.u", ValueType::Float64, kCentimetre);
+  SECTION("what leaves a system has the unit that it came with, unless its connector says one") {
+    const Conversion c =
+        of({y, point("s.y", {}), point("t.u", {}, kMetre), u}, {linear(1, 10), {}, linear(3, 0)});
+    CHECK(c.linear.factor == Approx(3));  // cm + 10 -> m -> cm, times 3
+    CHECK(c.linear.offset == Approx(30));
+  }
+  SECTION("what enters a system has the unit of what is inside") {
+    const Conversion c =
+        of({y, point("t.u", {}, {}, true), point("c.u", ValueType::Float64, kMetre)},
+           {linear(1, 10), {}});
+    CHECK(c.linear.factor == Approx(0.01));
+    CHECK(c.linear.offset == 10);
+  }
+  SECTION("by way of another unit, a number stays the same") {
+    CHECK(of({y, point("s.y", {}, kMetre), u}, {{}, {}}).is_identity());
+  }
+  SECTION("a unit that does not fit is named where it does not") {
+    CHECK_THAT(reason({y, point("s.y", {}, kSecond), u}, {{}, {}}),
+               Contains("x.ssd:9: cannot connect 'a.y' to 's.y': 'a.y' is in 'cm', 's.y' in 's'") &&
+                   Contains("suppressUnitConversion"));
+    CHECK(reason({y, point("s.y", {}, kSecond), u}, {{true, {}}, {true, {}}}) == "accepted");
+  }
+}
+
+TEST_CASE("types that hold all values of another may take them") {
+  const auto [from, to, fits] = GENERATE(table<ValueType, ValueType, bool>({
+      {ValueType::Float32, ValueType::Float64, true},
+      {ValueType::Float64, ValueType::Float32, true},
+      {ValueType::UInt8, ValueType::Int16, true},
+      {ValueType::Int32, ValueType::Int64, true},
+      {ValueType::UInt32, ValueType::UInt64, true},
+      {ValueType::Int32, ValueType::Float64, true},
+      {ValueType::Int16, ValueType::Float32, true},
+      {ValueType::Int32, ValueType::Float32, false},
+      {ValueType::Int64, ValueType::Float64, false},
+      {ValueType::Int8, ValueType::UInt8, false},
+      {ValueType::Int32, ValueType::Int16, false},
+      {ValueType::UInt64, ValueType::Int64, false},
+      {ValueType::Float64, ValueType::Int32, false},
+      {ValueType::Boolean, ValueType::Int32, false},
+      {ValueType::Int32, ValueType::Boolean, false},
+      {ValueType::Binary, ValueType::String, false},
+      {ValueType::Clock, ValueType::Boolean, false},
+  }));
+  CAPTURE(name(from), name(to));
+  const std::string said = reason({point("a.y", from), point("b.u", to)}, {{}});
+  if (fits) {
+    CHECK(said == "accepted");
+  } else {
+    CHECK_THAT(said, Contains("x.ssd:9: cannot connect 'a.y' to 'b.u'") && Contains(name(from)) &&
+                         Contains(name(to)) && Contains("hint:"));
+  }
+}
+
+TEST_CASE("a transformation is for its types") {
+  const auto real = [](const char* name) { return point(name, ValueType::Float64); };
+  const auto whole = [](const char* name) { return point(name, ValueType::Int32); };
+  const auto flag = [](const char* name) { return point(name, ValueType::Boolean); };
+  CHECK_THAT(reason({flag("a.y"), flag("b.u")}, {linear(2, 0)}),
+             Contains("x.ssd:7: a LinearTransformation is for Float64 and Float32") &&
+                 Contains("BooleanMappingTransformation"));
+  CHECK_THAT(reason({real("a.y"), real("b.u")}, {numbers(Kind::IntegerMapping, {{1, 2}})}),
+             Contains("is for integers and Enumerations") && Contains("LinearTransformation"));
+  CHECK_THAT(reason({whole("a.y"), whole("b.u")}, {numbers(Kind::BooleanMapping, {{1, 0}})}),
+             Contains("is for Boolean") && Contains("IntegerMappingTransformation"));
+  CHECK_THAT(reason({whole("a.y"), whole("b.u")}, {names({{"a", "b"}})}),
+             Contains("is for Enumerations"));
+  CHECK_THAT(reason({whole("a.y"), real("b.u")}, {linear(2, 0)}), Contains("is for Float64"));
+  const auto text = [](const char* name) { return point(name, ValueType::String); };
+  CHECK_THAT(reason({text("a.y"), text("b.u")}, {linear(2, 0)}),
+             Contains("SSP has no transformation for them"));
+}
+
+TEST_CASE("what a mapping does not name stays what it is") {
+  const auto y = point("a.y", ValueType::Int32);
+  const auto u = point("b.u", ValueType::Int32);
+  const Conversion once = of({y, u}, {numbers(Kind::IntegerMapping, {{1, 10}, {2, 20}})});
+  CHECK(mapped(once.map, 1) == 10);
+  CHECK(mapped(once.map, 2) == 20);
+  CHECK(mapped(once.map, 3) == 3);
+  const Conversion twice =
+      of({y, point("s.y", {}), u}, {numbers(Kind::IntegerMapping, {{1, 2}, {5, 7}}),
+                                    numbers(Kind::IntegerMapping, {{2, 3}, {4, 5}, {7, 7}})});
+  const std::vector<std::int64_t> results{0, 3, 3, 3, 5, 7, 6, 7};
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    CHECK(mapped(twice.map, static_cast<std::int64_t>(i)) == results[i]);
+  }
+  const Conversion flag = of({point("a.y", ValueType::Boolean), point("b.u", ValueType::Boolean)},
+                             {numbers(Kind::BooleanMapping, {{0, 1}, {1, 0}})});
+  CHECK(mapped(flag.map, 0) == 1);
+  CHECK(mapped(flag.map, 1) == 0);
+}
+
+TEST_CASE("the targets of a mapping are in the target, its sources need not be in the source") {
+  const auto small = point("b.u", ValueType::UInt8);
+  CHECK_THAT(
+      reason({point("a.y", ValueType::UInt8), small}, {numbers(Kind::IntegerMapping, {{1, 256}})}),
+      Contains("x.ssd:7: the target 256 of the mapping is no UInt8, which 'b.u' is"));
+  const Conversion c = of({point("a.y", ValueType::UInt8), small},
+                          {numbers(Kind::IntegerMapping, {{-1, 3}, {1, 2}, {999, 4}})});
+  CHECK(c.map == NumberMap{{1, 2}});
+  CHECK_THAT(
+      reason({point("a.y", ValueType::Int32), small}, {numbers(Kind::IntegerMapping, {{-1, 3}})}),
+      Contains("not every Int32 is a UInt8") && Contains("stays what it is"));
+}
+
+TEST_CASE("the items of Enumerations are mapped by their names") {
+  const Conversion c =
+      of({items("a.y", kLamp), items("b.u", kSignal)}, {names({{"off", "red"}, {"on", "green"}})});
+  CHECK(c.map == NumberMap{{0, 3}, {1, 4}});
+  CHECK(c.valid.empty());
+  CHECK_THAT(reason({items("a.y", kLamp), items("b.u", kSignal)}, {names({{"of", "red"}})}),
+             Contains("x.ssd:7: the Enumeration of 'a.y' has no item 'of'") &&
+                 Contains("did you mean 'off'?"));
+  CHECK_THAT(reason({items("a.y", kLamp), items("b.u", kSignal)}, {names({{"off", "red"}})}),
+             Contains("the item 'on' of the one becomes 1, which is no item of the other: red (3), "
+                      "green (4)"));
+  CHECK_THAT(reason({items("a.y", kLamp), items("b.u", kSignal)}, {{}}),
+             Contains("the item 'off'") && Contains("EnumerationMappingTransformation"));
+  CHECK_THAT(reason({items("a.y", kLamp), items("b.u", kSignal)},
+                    {numbers(Kind::IntegerMapping, {{0, 3}, {1, 5}})}),
+             Contains("the target 5 of the mapping is no item of the Enumeration of 'b.u'"));
+}
+
+TEST_CASE("an Enumeration goes to an integer that holds its items, and back if they are items") {
+  const auto to = [](ValueType type) { return point("b.u", type); };
+  CHECK(of({items("a.y", kLamp), to(ValueType::UInt8)}, {{}}).is_identity());
+  CHECK_THAT(reason({items("a.y", {{"low", -1}}), to(ValueType::UInt8)}, {{}}),
+             Contains("Enumeration and UInt8 are different types"));
+  CHECK(reason({items("a.y", {{"low", -1}}), to(ValueType::UInt8)},
+               {numbers(Kind::IntegerMapping, {{-1, 0}})}) == "accepted");
+  CHECK_THAT(reason({items("a.y", {{"low", -1}, {"lower", -2}}), to(ValueType::UInt8)},
+                    {numbers(Kind::IntegerMapping, {{-1, 0}})}),
+             Contains("the item 'lower' of the one becomes -2, which is no UInt8"));
+  const Conversion back = of({point("a.y", ValueType::Int32), items("b.u", kSignal)}, {{}});
+  CHECK(back.valid == std::vector<std::int64_t>{3, 4});
+}
+
+TEST_CASE("values that are given as text are mapped word by word") {
+  const auto with = [](const std::string& text, ValueType type, const Passage& passage) {
+    const std::vector<Passage> passages{passage};
+    return compose_text(text, {{"the value", {}, {}, {}, true}, point("b.u", type)}, passages, {})
+        .text;
+  };
+  CHECK(with("on", ValueType::Enumeration, names({{"on", "green"}})) == "green");
+  CHECK(with("1 2  3", ValueType::Int32, numbers(Kind::IntegerMapping, {{2, 5}})) == "1 5 3");
+  CHECK(with("0 true", ValueType::Boolean, numbers(Kind::BooleanMapping, {{0, 1}})) == "true true");
+  CHECK(with(" a  b ", ValueType::String, {}) == " a  b ");
+}
+
+TEST_CASE("each connection of a running system converts, from the first instant on") {
+  using T = ValueType;
+  ScriptedSystem system;
+  const auto source = Describe("source")
+                          .add("d", T::Float64, Causality::Output)
+                          .add("f", T::Float32, Causality::Output)
+                          .add("n", T::Int16, Causality::Output)
+                          .add("b", T::Boolean, Causality::Output)
+                          .add("u", T::UInt64, Causality::Output)
+                          .done();
+  const auto sink = Describe("sink")
+                        .add("f", T::Float32, Causality::Input)
+                        .add("d", T::Float64, Causality::Input)
+                        .add("d2", T::Float64, Causality::Input)
+                        .add("b", T::Boolean, Causality::Input)
+                        .add("u", T::UInt64, Causality::Input)
+                        .done();
+  ScriptedUnit& a = system.add("a", source);
+  ScriptedUnit& b = system.add("b", sink);
+  const auto put = [](ScriptedUnit& self, double x) {
+    self.number(0) = x;
+    self.block(1).numbers<float>()[0] = static_cast<float>(2 * x);
+    self.block(2).numbers<std::int16_t>()[0] = static_cast<std::int16_t>(x);
+    self.block(3).numbers<bool>()[0] = true;
+    self.block(4).numbers<std::uint64_t>()[0] = ~std::uint64_t{0};
+  };
+  a.on_initialize = [&](ScriptedUnit& self) { put(self, 4); };
+  a.on_step = [&](ScriptedUnit& self, Time, Time to) {
+    put(self, 4 + to_seconds(to));
+    return reached(to);
+  };
+  std::vector<std::string> seen;
+  b.on_step = [&](ScriptedUnit& self, Time, Time to) {
+    seen.push_back(fmt::format("{} {} {} {} {}", self.block(0).numbers<float>()[0], self.number(1),
+                               self.number(2), self.block(3).numbers<bool>()[0],
+                               self.block(4).numbers<std::uint64_t>()[0]));
+    return reached(to);
+  };
+  system.wire("a", "d", "b", "f");
+  system.wire("a", "f", "b", "d");
+  system.wire("a", "n", "b", "d2");
+  system.wire("a", "b", "b", "b");
+  system.wire("a", "u", "b", "u");
+  auto& wires = system.declaration.connections;
+  wires[0].transformation = {Kind::Linear, {3, 1}, {}, {}, {}};
+  wires[3].transformation = {Kind::BooleanMapping, {}, {{1, 0}}, {}, {}};
+  wires[4].transformation = {Kind::IntegerMapping, {}, {{-1, 7}}, {}, {}};  // no UInt64, so ignored
+  system.build(2, std::chrono::seconds(1)).run();
+  const std::string all = std::to_string(~std::uint64_t{0});
+  CHECK(seen == std::vector<std::string>{"13 8 4 false " + all, "16 10 5 false " + all});
+}
+
+TEST_CASE("an integer that is no item of the Enumeration that it goes to ends the run") {
+  ScriptedSystem system;
+  auto sink = std::make_shared<UnitDescription>(
+      *Describe("sink").add("mode", ValueType::Enumeration, Causality::Input).done());
+  sink->variables[0].items = kSignal;
+  ScriptedUnit& a =
+      system.add("a", Describe("a").add("n", ValueType::Int32, Causality::Output).done());
+  a.on_initialize = [](ScriptedUnit& self) { self.block(0).numbers<std::int32_t>()[0] = 3; };
+  a.on_step = [](ScriptedUnit& self, Time, Time to) {
+    self.block(0).numbers<std::int32_t>()[0] = 5;
+    return reached(to);
+  };
+  system.add("b", sink);
+  system.wire("a", "n", "b", "mode");
+  CHECK_THROWS_WITH(system.build(2, std::chrono::seconds(1)).run(),
+                    Contains("unit 'b', variable 'mode', at 1 s: 'a.n' gives it 5") &&
+                        Contains("IntegerMappingTransformation"));
+}
+
+TEST_CASE("messages are converted, too") {
+  ScriptedSystem system;
+  const auto sender = Describe("sender")
+                          .add("clock", ValueType::Clock, Causality::Output)
+                          .add("level", ValueType::Float32, Causality::Output)
+                          .clocked_by(0)
+                          .done();
+  const auto receiver = Describe("receiver")
+                            .add("clock", ValueType::Clock, Causality::Input)
+                            .add("level", ValueType::Float64, Causality::Input)
+                            .clocked_by(0)
+                            .done();
+  ScriptedUnit& a = system.add("a", sender);
+  ScriptedUnit& b = system.add("b", receiver);
+  a.on_step = [](ScriptedUnit& self, Time, Time to) {
+    self.clock(0) = true;
+    self.block(1).numbers<float>()[0] = 1.5F;
+    StepResult result = reached(to);
+    result.event_needed = true;
+    return result;
+  };
+  a.on_event = [](ScriptedUnit& self) {
+    self.clock(0) = false;
+    return EventResult{};
+  };
+  std::vector<double> levels;
+  b.on_event = [&](ScriptedUnit& self) {
+    if (std::exchange(self.clock(0), false)) levels.push_back(self.number(1));
+    return EventResult{};
+  };
+  system.wire("a", "clock", "b", "clock");
+  system.wire("a", "level", "b", "level");
+  system.declaration.connections[1].transformation = {Kind::Linear, {10, 1}, {}, {}, {}};
+  system.build(1, std::chrono::seconds(1)).run();
+  CHECK(levels == std::vector<double>{16});
+}

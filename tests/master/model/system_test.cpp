@@ -1,0 +1,277 @@
+#include "master/model/system.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/master/algorithm/scripted_unit.h"
+
+using namespace stride::core;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+const BaseUnit kMetre{{0, 1, 0, 0, 0, 0, 0, 0}, 1, 0};
+const BaseUnit kMillimetre{{0, 1, 0, 0, 0, 0, 0, 0}, 1e-3, 0};
+const BaseUnit kSecond{{0, 0, 1, 0, 0, 0, 0, 0}, 1, 0};
+
+std::shared_ptr<const UnitDescription> description() {
+  return Describe("model")
+      .unit("m", kMetre)
+      .unit("mm", kMillimetre)
+      .unit("s", kSecond)
+      .input("u", "m")
+      .output("y", "mm")
+      .output("t", "s")
+      .add("n", ValueType::Int32, Causality::Input)
+      .add("gain", ValueType::Float64, Causality::Parameter)
+      .add("clock_in", ValueType::Clock, Causality::Input)
+      .add("frame_in", ValueType::Binary, Causality::Input)
+      .clocked_by(5)
+      .add("clock_out", ValueType::Clock, Causality::Output)
+      .add("frame_out", ValueType::Binary, Causality::Output)
+      .clocked_by(7)
+      .output("pair")
+      .size(2)
+      .add("ranged", ValueType::Float64, Causality::Parameter)
+      .range("0", "2")
+      .add("short", ValueType::Float32, Causality::Input, "m")
+      .input("trio")
+      .size(3)
+      .done();
+}
+
+SystemDeclaration declaration() {
+  SystemDeclaration system;
+  system.name = "test";
+  system.components = {{"alpha", description(), {}, {"s.ssd", 3}},
+                       {"beta", description(), {}, {"s.ssd", 4}}};
+  return system;
+}
+
+ConnectionDeclaration wire(const std::string& from, const std::string& to, int line = 9) {
+  return {"alpha", from, "beta", to, false, {"s.ssd", line}};
+}
+
+std::string reason(const SystemDeclaration& system) {
+  try {
+    System{system};
+  } catch (const Error& error) {
+    CHECK(error.kind() == Error::Kind::Input);
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::string reason(std::vector<ConnectionDeclaration> connections) {
+  SystemDeclaration system = declaration();
+  system.connections = std::move(connections);
+  return reason(system);
+}
+
+}  // namespace
+
+TEST_CASE("a valid system is built, with conversions") {
+  SystemDeclaration declared = declaration();
+  declared.connections = {wire("y", "u")};
+  declared.start_values = {{"beta", "gain", "2.5", {}, {"s.ssd", 12}},
+                           {"beta", "gain", "3.5", {}, {"--set", 0}}};
+  const System system(declared);
+  REQUIRE(system.connections().size() == 1);
+  CHECK(system.connections()[0].conversion.linear.factor == Approx(1e-3));
+  CHECK(system.full_name(system.connections()[0].from) == "alpha.y");
+  REQUIRE(system.start_values().size() == 1);
+  CHECK(element_text(system.start_values()[0].value, 0) == "3.5");
+}
+
+TEST_CASE("names that do not exist are named with the nearest that does") {
+  CHECK_THAT(
+      reason({{"alpa", "y", "beta", "u", false, {"s.ssd", 9}}}),
+      Contains("s.ssd:9") && Contains("no component 'alpa'") && Contains("did you mean 'alpha'?"));
+  CHECK_THAT(reason({wire("y", "gian")}),
+             Contains("unit 'beta', variable 'gian'") && Contains("did you mean 'gain'?"));
+  SystemDeclaration system = declaration();
+  system.start_values = {{"beta", "gan", "1", {}, {"s.ssd", 12}}};
+  CHECK_THAT(reason(system), Contains("s.ssd:12") && Contains("did you mean 'gain'?"));
+}
+
+TEST_CASE("a connection goes from an output to an input of the same type and size") {
+  CHECK_THAT(reason({wire("u", "u")}), Contains("'alpha.u' is no output but input"));
+  CHECK_THAT(reason({wire("y", "y")}), Contains("'beta.y' is no input but output"));
+  CHECK_THAT(reason({wire("y", "gain")}), Contains("'beta.gain' is no input but parameter"));
+  CHECK_THAT(reason({wire("y", "n")}), Contains("Float64 and Int32 are different types"));
+  CHECK_THAT(reason({wire("pair", "trio")}), Contains("an array of 2 elements and an array of 3"));
+  CHECK_THAT(reason({wire("y", "trio")}), Contains("a scalar and an array of 3"));
+}
+
+TEST_CASE("units that do not fit are an error that can be overruled") {
+  CHECK_THAT(reason({wire("t", "u")}),
+             Contains("'alpha.t' is in 's'") && Contains("suppressUnitConversion"));
+  ConnectionDeclaration suppressed = wire("t", "u");
+  suppressed.suppress_unit_conversion = true;
+  CHECK(reason({suppressed}) == "accepted");
+}
+
+TEST_CASE("an input has one source") {
+  CHECK_THAT(reason({wire("y", "u", 9), wire("y", "u", 10)}),
+             Contains("s.ssd:10") && Contains("two sources") && Contains("line 9"));
+}
+
+TEST_CASE("a message needs its clock wired too") {
+  CHECK_THAT(reason({wire("frame_out", "frame_in")}),
+             Contains("its clock 'beta.clock_in' is not connected"));
+  CHECK(reason({wire("frame_out", "frame_in"), wire("clock_out", "clock_in")}) == "accepted");
+}
+
+TEST_CASE("what belongs to a time-based clock may be connected to any value but a message") {
+  const Interval second = Interval::from_fraction(1, 1);
+  const auto sampler = Describe("sampler")
+                           .clock("tick", IntervalVariability::Constant, second)
+                           .input("in")
+                           .clocked_by(0)
+                           .output("out")
+                           .clocked_by(0)
+                           .input("u")
+                           .output("y")
+                           .add("clock_out", ValueType::Clock, Causality::Output)
+                           .output("message_out")
+                           .clocked_by(5)
+                           .add("clock_in", ValueType::Clock, Causality::Input)
+                           .input("message_in")
+                           .clocked_by(7)
+                           .done();
+  const auto with = [&](const std::string& from, const std::string& to) {
+    SystemDeclaration system;
+    system.components = {{"alpha", sampler, {}, {}}, {"beta", sampler, {}, {}}};
+    system.connections = {wire(from, to)};
+    return reason(system);
+  };
+  CHECK(with("out", "in") == "accepted");
+  CHECK(with("out", "u") == "accepted");
+  CHECK(with("y", "in") == "accepted");
+  CHECK_THAT(with("message_out", "in"), Contains("s.ssd:9") &&
+                                            Contains("'alpha.message_out' is a message") &&
+                                            Contains("to another message"));
+  CHECK_THAT(with("out", "message_in"), Contains("'beta.message_in' is a message"));
+  CHECK_THAT(with("y", "message_in"), Contains("'beta.message_in' is a message"));
+  CHECK_THAT(with("message_out", "u"), Contains("'alpha.message_out' is a message"));
+  for (const char* source : {"clock_out", "y"}) {
+    CHECK_THAT(with(source, "tick"), Contains("s.ssd:9") && Contains("a constant clock") &&
+                                         Contains("remove the connection"));
+  }
+}
+
+TEST_CASE("a time-based clock needs Event Mode") {
+  auto unit = std::make_shared<UnitDescription>(
+      *Describe("model").clock("tick", IntervalVariability::Countdown).done());
+  unit->has_event_mode = false;
+  SystemDeclaration system;
+  system.components = {{"alpha", unit, {}, {"s.ssd", 3}}};
+  CHECK_THAT(reason(system), Contains("s.ssd:3") && Contains("unit 'alpha', variable 'tick'") &&
+                                 Contains("countdown clock") && Contains("hasEventMode"));
+}
+
+TEST_CASE("a message needs units with Event Mode, at both ends") {
+  const bool at_source = GENERATE(true, false);
+  const auto unit = [](bool has_event_mode) {
+    auto description =
+        std::make_shared<UnitDescription>(*Describe("model")
+                                               .add("out", ValueType::Clock, Causality::Output)
+                                               .add("in", ValueType::Clock, Causality::Input)
+                                               .done());
+    description->has_event_mode = has_event_mode;
+    return description;
+  };
+  SystemDeclaration declaration;
+  declaration.components = {{"a", unit(!at_source), {}, {}}, {"b", unit(at_source), {}, {}}};
+  CHECK_NOTHROW(System(declaration));
+  declaration.connections = {{"a", "out", "b", "in", false, {"s.ssd", 9}}};
+  CHECK_THROWS_WITH(System(declaration), Contains("s.ssd:9") && Contains("hasEventMode") &&
+                                             Contains(at_source ? "unit 'a', variable 'out'"
+                                                                : "unit 'b', variable 'in'"));
+}
+
+TEST_CASE("two components of one name, and a system without any, are refused") {
+  SystemDeclaration twice = declaration();
+  twice.components[1].name = "alpha";
+  CHECK_THAT(reason(twice), Contains("s.ssd:4") && Contains("two components are named 'alpha'"));
+  CHECK_THAT(reason(SystemDeclaration{}), Contains("no component"));
+}
+
+TEST_CASE("declared connectors must agree with the unit") {
+  const auto with = [](ConnectorDeclaration connector) {
+    connector.where = {"s.ssd", 5};
+    SystemDeclaration system = declaration();
+    system.components[0].connectors = {connector};
+    return reason(system);
+  };
+  CHECK(with({"u", ValueType::Float64, Causality::Input, "m", {}}) == "accepted");
+  CHECK_THAT(with({"v", {}, {}, "", {}}), Contains("s.ssd:5") && Contains("no such variable"));
+  CHECK_THAT(with({"u", {}, Causality::Output, "", {}}),
+             Contains("the connector says output, the unit says input"));
+  CHECK_THAT(with({"u", ValueType::Int32, {}, "", {}}),
+             Contains("says Int32, the unit says Float64"));
+  CHECK_THAT(with({"u", {}, {}, "s", {}}), Contains("the connector is in 's'"));
+}
+
+TEST_CASE("a unit that does not fit is explained connector by connector, each of them once") {
+  auto system = declaration();
+  system.components[1].connectors = {
+      {"u", ValueType::Int32, {}, {}, {"s.ssd", 5}},
+      {"lamp", ValueType::Boolean, Causality::Output, {}, {"s.ssd", 6}},
+      {"height", {}, Causality::Input, {"mm", kMillimetre}, {"s.ssd", 7}}};
+  system.connections = {wire("y", "u", 10),
+                        wire("y", "height", 11),
+                        wire("y", "speed", 12),
+                        wire("t", "n", 13),
+                        {"beta", "lamp", "alpha", "n", false, {"s.ssd", 14}}};
+  CHECK_THAT(
+      reason(system),
+      StartsWith(
+          "there are 5 mistakes:\n"
+          "  s.ssd:5: unit 'beta', variable 'u': the connector says Int32, the unit says Float64\n"
+          "  s.ssd:6: unit 'beta', variable 'lamp': its model 'model' has no such variable; "
+          "expected an output Boolean for 'alpha.n'\n"
+          "  s.ssd:7: unit 'beta', variable 'height': its model 'model' has no such variable; "
+          "expected an input Float64 in mm, fed by 'alpha.y'\n"
+          "  s.ssd:12: unit 'beta', variable 'speed': its model 'model' has no such variable; "
+          "expected an input Float64 in mm, fed by 'alpha.y'\n"
+          "  s.ssd:13: cannot connect 'alpha.t' to 'beta.n': Float64 and Int32 are different "
+          "types"));
+}
+
+TEST_CASE("wrong start values are told of together") {
+  auto system = declaration();
+  system.start_values = {{"alpha", "gain", "high", {}, {"s.ssd", 5}},
+                         {"alpha", "ranged", "3", {}, {"s.ssd", 6}},
+                         {"beta", "y", "1", {}, {"s.ssd", 7}}};
+  CHECK_THAT(reason(system), Contains("3 mistakes") &&
+                                 Contains("s.ssd:5: unit 'alpha', variable 'gain'") &&
+                                 Contains("s.ssd:6: unit 'alpha', variable 'ranged'") &&
+                                 Contains("s.ssd:7: unit 'beta', variable 'y'"));
+}
+
+TEST_CASE("start values are converted, parsed and refused where they cannot be set") {
+  const auto with = [](StartDeclaration start) {
+    start.where = {"s.ssd", 12};
+    SystemDeclaration system = declaration();
+    system.start_values = {start};
+    return reason(system);
+  };
+  CHECK_THAT(with({"beta", "gain", "big", "", {}}), Contains("expected a Float64 number"));
+  CHECK_THAT(with({"beta", "clock_in", "true", "", {}}), Contains("cannot be set"));
+  CHECK_THAT(with({"beta", "y", "1", "", {}}), Contains("initial = calculated cannot be set"));
+  CHECK_THAT(with({"beta", "ranged", "-1", "", {}}),
+             Contains("-1 is out of range, expected at least 0"));
+  CHECK_THAT(with({"beta", "ranged", "2.5", "", {}}),
+             Contains("2.5 is out of range, expected at most 2"));
+  CHECK_THAT(with({"beta", "ranged", "nan", "", {}}), Contains("out of range"));
+  CHECK(with({"beta", "ranged", "2", "", {}}) == "accepted");
+  CHECK_THAT(with({"beta", "u", "1", "s", {}}), Contains("the value is in 's'"));
+  SystemDeclaration declared = declaration();
+  declared.start_values = {{"beta", "u", "1500", "mm", {}}};
+  const System system(declared);
+  CHECK(system.start_values()[0].value.numbers<double>()[0] == Approx(1.5));
+  declared.start_values = {{"beta", "short", "1500", "mm", {}}};
+  const System with_float(declared);
+  CHECK(with_float.start_values()[0].value.numbers<float>()[0] == Approx(1.5F));
+}

@@ -1,0 +1,74 @@
+#include "master/model/values.h"
+
+#include <stdexcept>
+
+#include <catch2/catch.hpp>
+
+#include "tests/master/algorithm/scripted_unit.h"
+
+using namespace stride::core;
+using Catch::Matchers::Contains;
+
+namespace {
+
+Variable variable(ValueType type, std::size_t size = 1) {
+  Variable row = make_variable("v", 0, type, Causality::Parameter);
+  row.size = size;
+  return row;
+}
+
+std::string reason(const Variable& row, const std::string& text) {
+  try {
+    parse(row, text);
+  } catch (const std::invalid_argument& mistake) {
+    return mistake.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("each type is parsed and printed back") {
+  const auto round_trip = [](ValueType type, const std::string& text) {
+    return element_text(parse(variable(type), text), 0);
+  };
+  CHECK(round_trip(ValueType::Float64, "0.1") == "0.1");
+  CHECK(round_trip(ValueType::Float64, "+1e-3") == "0.001");
+  CHECK(round_trip(ValueType::Float32, "0.1") == "0.1");
+  CHECK(round_trip(ValueType::Int8, "-128") == "-128");
+  CHECK(round_trip(ValueType::UInt8, "255") == "255");
+  CHECK(round_trip(ValueType::Int64, "-9223372036854775808") == "-9223372036854775808");
+  CHECK(round_trip(ValueType::UInt64, "18446744073709551615") == "18446744073709551615");
+  CHECK(round_trip(ValueType::Boolean, "1") == "true");
+  CHECK(round_trip(ValueType::String, "two words") == "two words");
+  CHECK(round_trip(ValueType::Binary, "00FFa5") == "00ffa5");
+  CHECK(round_trip(ValueType::Binary, "") == "");
+}
+
+TEST_CASE("arrays are separated by blanks and keep their order") {
+  const ValueBlock block = parse(variable(ValueType::Int16, 3), " 1  -2\n3 ");
+  CHECK(element_text(block, 0) == "1");
+  CHECK(element_text(block, 1) == "-2");
+  CHECK(element_text(block, 2) == "3");
+}
+
+TEST_CASE("an enumeration takes names and numbers") {
+  Variable row = variable(ValueType::Enumeration);
+  row.items = {{"off", 0}, {"on", 7}};
+  CHECK(element_text(parse(row, "on"), 0) == "7");
+  CHECK(element_text(parse(row, "7"), 0) == "7");
+  CHECK_THAT(reason(row, "maybe"), Contains("expected one of off, on"));
+}
+
+TEST_CASE("what is no value says what was expected") {
+  CHECK_THAT(reason(variable(ValueType::Float64), "fast"), Contains("expected a Float64 number"));
+  CHECK_THAT(reason(variable(ValueType::Float64), "1 2"), Contains("expected one Float64 value"));
+  CHECK_THAT(reason(variable(ValueType::Float64), ""), Contains("expected one Float64 value"));
+  CHECK_THAT(reason(variable(ValueType::UInt8), "256"), Contains("within the range of UInt8"));
+  CHECK_THAT(reason(variable(ValueType::UInt8), "-1"), Contains("expected a UInt8 number"));
+  CHECK_THAT(reason(variable(ValueType::Int32), "1.5"), Contains("expected a Int32 number"));
+  CHECK_THAT(reason(variable(ValueType::Boolean), "yes"), Contains("expected true or false"));
+  CHECK_THAT(reason(variable(ValueType::Binary), "abc"), Contains("even number"));
+  CHECK_THAT(reason(variable(ValueType::Binary), "zz"), Contains("hexadecimal"));
+  CHECK_THAT(reason(variable(ValueType::Float64, 2), "1"), Contains("2 Float64 values"));
+}

@@ -1,0 +1,167 @@
+#include "master/util/archive/unpacked_archive.h"
+
+#include "tests/master/util/archive/support.h"
+
+using namespace stride;
+using namespace stride::tests;
+using archive::UnpackedArchive;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr const char* kExpected = "a unit";
+
+const Entry kDescription{"modelDescription.xml", "<x/>"};
+
+std::string unpack_error(const fs::path& path, const archive::UnpackLimits& limits = {}) {
+  return input_error([&] { UnpackedArchive(path, kExpected, {"system.ssd", 7}, limits); });
+}
+
+/// Every file below a folder, with its text, but for the lock of the temporary folders.
+std::map<std::string, std::string> files_in(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file() || entry.path().filename() == ".lock") continue;
+    files[entry.path().lexically_relative(folder).string()] = read(entry.path());
+  }
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("an archive is unpacked into a folder that goes with the object") {
+  const Scratch scratch;
+  const std::string large(300'000, 'x');
+  const auto path = make_zip(scratch / "unit.fmu", {kDescription,
+                                                    {"resources/", "", AE_IFDIR},
+                                                    {"resources/deep/er/data.bin", large},
+                                                    {"./documentation/index.html", "text"},
+                                                    {"resources/grüße.txt", "hallo"}});
+  fs::path folder;
+  {
+    const UnpackedArchive fmu(path, kExpected);
+    folder = fmu.folder();
+    CHECK(folder.is_absolute());
+    CHECK(files_in(folder) ==
+          std::map<std::string, std::string>{{"modelDescription.xml", "<x/>"},
+                                             {"resources/deep/er/data.bin", large},
+                                             {"documentation/index.html", "text"},
+                                             {"resources/grüße.txt", "hallo"}});
+  }
+  CHECK_FALSE(fs::exists(folder));
+}
+
+TEST_CASE("two objects of the same archive have folders of their own") {
+  const Scratch scratch;
+  const auto path = make_zip(scratch / "unit.fmu", {kDescription});
+  const UnpackedArchive first(path, kExpected);
+  const UnpackedArchive second(path, kExpected);
+  CHECK(first.folder() != second.folder());
+  CHECK(fs::exists(first.folder() / "modelDescription.xml"));
+}
+
+TEST_CASE("a folder is used where it is, and stays") {
+  const Scratch scratch;
+  scratch.write("unit/modelDescription.xml", "<x/>");
+  { CHECK(UnpackedArchive(scratch / "unit", kExpected).folder() == scratch / "unit"); }
+  CHECK(fs::exists(scratch / "unit/modelDescription.xml"));
+}
+
+TEST_CASE("entries that reach out of the folder are refused, and nothing is written outside") {
+  const Scratch scratch;
+  struct Case {
+    Entry entry;
+    const char* complaint;
+  };
+  const Case cases[] = {
+      {{"../evil.txt", "x"}, "'../evil.txt', which leads out"},
+      {{"resources/../../evil.txt", "x"}, "leads out of the archive's folder"},
+      {{"resources/..", "x"}, "leads out"},
+      {{(scratch / "evil.txt").string(), "x"}, "which is an absolute path"},
+      {{"link", "", AE_IFLNK, "/etc"}, "'link', a symbolic link"},
+      {{"resources", "", AE_IFLNK, ".."}, "'resources', a symbolic link"},
+  };
+  for (const Case& c : cases) {
+    CAPTURE(c.entry.name);
+    const auto path = make_zip(scratch / "evil.fmu", {kDescription, c.entry});
+    const auto before = files_in(scratch.path());
+    const std::string error = unpack_error(path);
+    CHECK_THAT(error, Contains(c.complaint));
+    CHECK_THAT(error, Contains("system.ssd:7: ") && Contains("evil.fmu"));
+    const auto after = files_in(scratch.path());
+    CHECK(after == before);
+  }
+}
+
+TEST_CASE("devices and sockets are refused") {
+  // Zip keeps the file's type in the upper half of a field of the central directory.
+  const Scratch scratch;
+  for (const unsigned type : {0020000U, 0060000U, 0140000U}) {
+    const auto path = make_zip(scratch / "unit.fmu", {kDescription, {"node", ""}});
+    std::string bytes = read(path);
+    const std::size_t last = bytes.rfind("PK\x01\x02");
+    const unsigned mode = type | 0644U;
+    bytes[last + 40] = static_cast<char>(mode & 0xff);
+    bytes[last + 41] = static_cast<char>(mode >> 8);
+    std::ofstream(path, std::ios::binary) << bytes;
+    CAPTURE(type);
+    CHECK_THAT(unpack_error(path), Contains("'node', "));
+  }
+}
+
+TEST_CASE("an archive may hold a file twice if it is the same, but not as a folder") {
+  const Scratch scratch;
+  const std::string large(100'000, 'x');
+  const auto twice =
+      make_zip(scratch / "a.fmu", {{"a", large}, {"b", ""}, {"a", large}, {"b", ""}});
+  CHECK(read(UnpackedArchive(twice, kExpected).folder() / "a") == large);
+  for (const std::string& other : {large.substr(1), large + "x", std::string(100'000, 'y')}) {
+    CHECK_THAT(unpack_error(make_zip(scratch / "b.fmu", {{"a", large}, {"a", other}})),
+               Contains("'a', which it holds twice, with different contents"));
+  }
+  CHECK_THAT(unpack_error(make_zip(scratch / "d.fmu", {{"a/b", ""}, {"a", ""}})),
+             Contains("'a', which it holds twice"));
+  CHECK_THAT(
+      unpack_error(make_zip(scratch / "b.fmu", {kDescription, {"modelDescription.xml/x", ""}})),
+      Contains("'modelDescription.xml/x', but also a file"));
+}
+
+TEST_CASE("an archive larger than the limits is refused") {
+  const Scratch scratch;
+  const auto bomb = make_zip(scratch / "bomb.fmu", {{"zeros", std::string(1 << 20, '\0')}});
+  CHECK(fs::file_size(bomb) < 10'000);
+  CHECK_THAT(unpack_error(bomb, {.bytes = 1 << 19}), Contains("unpacks to more than 524288 bytes"));
+  const auto many = make_zip(scratch / "many.fmu", {kDescription, {"a"}, {"b"}});
+  CHECK_THAT(unpack_error(many, {.entries = 2}), Contains("more than 2 entries"));
+  CHECK_NOTHROW(UnpackedArchive(many, kExpected, {}, {.bytes = 4, .entries = 3}));
+}
+
+TEST_CASE("what is no archive is an error that says so") {
+  const Scratch scratch;
+  CHECK_THAT(unpack_error(scratch / "absent.fmu"), Contains("there is no file"));
+  const std::string text = unpack_error(scratch.write("text.fmu", "This is no archive at all."));
+  CHECK_THAT(text, Contains("text.fmu' is no zip archive") && Contains("hint: expected a unit"));
+  CHECK_THAT(unpack_error(scratch.write("empty.fmu", "")), Contains("is no zip archive"));
+}
+
+TEST_CASE("a damaged archive is an error") {
+  const Scratch scratch;
+  const auto path = make_zip(scratch / "unit.fmu", {{"modelDescription.xml", "0123456789abcdef"}});
+  std::string bytes = read(path);
+  SECTION("the contents do not fit the checksum") {
+    bytes[bytes.find("modelDescription.xml") + 45] ^= 0x55;
+  }
+  SECTION("it is cut off") { bytes.resize(bytes.find("modelDescription.xml") + 35); }
+  std::ofstream(path, std::ios::binary) << bytes;
+  CHECK_THAT(unpack_error(path), Contains("damaged"));
+}
+
+TEST_CASE("no folder is left when unpacking fails") {
+  const Scratch scratch;
+  unpack_error(make_zip(scratch / "evil.fmu", {kDescription, {"../evil", "x"}}));
+  std::size_t left = 0;
+  for (const auto& entry : fs::directory_iterator(archive::TemporaryFolder::parent())) {
+    left += entry.is_directory() ? 1 : 0;
+  }
+  CHECK(left == 0);
+}

@@ -1,0 +1,22 @@
+#include "master/util/suggest.h"
+
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+using namespace stride::core;
+
+TEST_CASE("the nearest name is suggested, and only if it is near") {
+  const std::vector<std::string> names = {"sensor", "channel", "world"};
+  CHECK(nearest("sensr", names) == "sensor");
+  CHECK(nearest("chanel", names) == "channel");
+  CHECK(nearest("environment", names).empty());
+  CHECK(suggestion("wrld", names) == "did you mean 'world'?");
+  CHECK(suggestion("environment", names) == "known are: sensor, channel, world");
+  CHECK(suggestion("x", {}) == "there are none");
+}
+
+TEST_CASE("a long list is shortened") {
+  const std::vector<std::string> names(20, "abcdefgh");
+  CHECK(suggestion("zzzzzzzzzzzzzzzzzzz", names).find("…") != std::string::npos);
+}

@@ -1,0 +1,62 @@
+#include "master/util/xml/document.h"
+
+#include "tests/master/util/xml/support.h"
+
+using namespace stride;
+using namespace stride::tests;
+using Catch::Contains;
+
+namespace {
+
+std::string error_in(const std::string& text) {
+  return error_of([&] { xml::Document::parse(text, "x.ssd"); });
+}
+
+}  // namespace
+
+TEST_CASE("A file that cannot be read is named, with the reason") {
+  const std::filesystem::path missing = "/absent/missing.ssd";
+  CHECK_THAT(error_of([&] { xml::Document document(missing); }),
+             Contains(missing.string() + ": the file does not exist"));
+  CHECK_THAT(error_of([&] { xml::Document document("/"); }),
+             Contains("this is a folder, expected a file"));
+  CHECK_THAT(error_of([&] { xml::Document document("/proc/self/mem"); }),
+             Contains("/proc/self/mem: cannot read the file"));
+}
+
+TEST_CASE("What is not well-formed is refused with its line") {
+  CHECK_THAT(error_in("<a>\n<b>\n</a>"),
+             Contains("x.ssd:2: this is not well-formed XML: an element without its end tag") &&
+                 Contains("missing end tag"));
+  CHECK_THAT(error_in("<a x=1/>"),
+             Contains("x.ssd:1: this is not well-formed XML: a malformed or doubled attribute"));
+  CHECK_THAT(error_in("<a x='1' x='2'/>"), Contains("a malformed or doubled attribute"));
+  CHECK_THAT(error_in("<a>\n<!-- ends never"), Contains("x.ssd:2") && Contains("a comment"));
+  CHECK_THAT(error_in("stride"), Contains("text where a tag is expected") || Contains("no XML"));
+  CHECK_THAT(error_in(""), Contains("the file holds nothing"));
+  CHECK_THAT(error_in("<!-- nothing -->"), Contains("the file holds no XML element"));
+  CHECK_THAT(error_in("<a/>\n<b/>"), Contains("x.ssd:2: a second root element <b>"));
+  CHECK_THAT(error_in(std::string("<a>\0</a>", 8)), Contains("this is no text in UTF-8"));
+  CHECK_THAT(error_in("\xff\xfe<"), Contains("this is no text in UTF-8"));
+  CHECK_THAT(error_in("<?xml version='1.0' encoding='ISO-8859-1'?><a/>"),
+             Contains("the encoding 'iso-8859-1' is not read"));
+  CHECK(error_in("<?xml version='1.0' encoding='utf-8'?><a encoding='x'/>") == "");
+  CHECK(error_in("<?xml version='1.0'?><a encoding='x'/>") == "");
+  CHECK_THAT(error_in("PK\x03\x04..."), Contains("this is a packed archive") && Contains("unpack"));
+}
+
+TEST_CASE("A document's elements stay valid when it is moved") {
+  xml::Document first = xml::Document::parse("<a>\n<b/></a>", "x.xml");
+  const xml::Element b = *first.root().child("b");
+  const xml::Document second = std::move(first);
+  CHECK(b.where().file == "x.xml");
+  CHECK(b.where().line == 2);
+  CHECK(second.root().child("b")->tag() == "<b>");
+  CHECK(second.text() == "<a>\n<b/></a>");
+}
+
+TEST_CASE("an end tag is no element") {
+  CHECK_THROWS_WITH(xml::Document::parse("<a></b c='1'/></a>", "x.xml"),
+                    Contains("x.xml: this is not well-formed XML") && Contains("'/' at its end"));
+  CHECK_NOTHROW(xml::Document::parse("<a><!-- </b/> --><![CDATA[</c/>]]><d/></a>", "x.xml"));
+}

@@ -1,0 +1,96 @@
+#include "master/util/xml/element.h"
+
+#include "master/util/xml/document.h"
+#include "tests/master/util/xml/support.h"
+
+using namespace stride;
+using namespace stride::tests;
+using Catch::Contains;
+
+TEST_CASE("Namespaces are resolved, whatever the prefixes") {
+  const xml::Document document = xml::Document::parse(
+      "<a xmlns='one' xmlns:p='two'>\n<p:b/><b/><c xmlns='three' xmlns:p='four'><p:d/></c>"
+      "<q:e/></a>",
+      "x.xml");
+  const xml::Element root = document.root();
+  CHECK(root.is("one", "a"));
+  const auto children = root.children();
+  REQUIRE(children.size() == 4);
+  CHECK(children[0].is("two", "b"));
+  CHECK(children[0].where().line == 2);
+  CHECK(children[1].is("one", "b"));
+  CHECK(children[2].is("three", "c"));
+  CHECK(children[2].children()[0].is("four", "d"));
+  CHECK(children[2].prefix_of("two") == std::nullopt);  // hidden by the inner declaration
+  CHECK(children[0].prefix_of("two") == "p");
+  CHECK(children[0].prefix_of("one") == "");
+  CHECK_THROWS_WITH(children[3].name(), Contains("the prefix 'q' of <q:e> is not declared"));
+  CHECK(root.index() == 0);
+  CHECK(children[2].children()[0].index() == 4);
+  CHECK(children[3].index() == 5);
+}
+
+TEST_CASE("Attributes and children that are not known are refused with the nearest name") {
+  const xml::Document document = xml::Document::parse(
+      "<a xmlns='one' siez='1' id='i' p:q='1' empty='' yes='maybe'>\n<stpe/><b xmlns='x'/>"
+      "<twice/><twice/></a>",
+      "x.xml");
+  const xml::Element root = document.root();
+  CHECK_THAT(error_of([&] {
+               root.allow_attributes({"size", "empty", "yes"});
+             }),
+             Contains("x.xml:1: <a> has no attribute 'siez'") && Contains("did you mean 'size'?"));
+  CHECK_THAT(error_of([&] {
+               root.allow_children({{"one", "step"}, {"one", "b"}});
+             }),
+             Contains("x.xml:2: <stpe> is not known in <a>") && Contains("did you mean 'step'?"));
+  CHECK_THAT(error_of([&] {
+               root.allow_children({{"one", "stpe"}, {"one", "b"}});
+             }),
+             Contains("<b> is in the namespace 'x'") && Contains("it belongs in 'one'"));
+  CHECK_THAT(error_of([&] { root.required("none"); }), Contains("<a> needs the attribute 'none'"));
+  CHECK_THAT(error_of([&] { root.required("empty"); }), Contains("'empty' of <a> is empty"));
+  CHECK_THAT(error_of([&] { root.flag("yes", true); }), Contains("expected true or false"));
+  CHECK_THAT(error_of([&] { root.child({"one", "twice"}); }), Contains("a second <twice> in <a>"));
+}
+
+TEST_CASE("attributes are read with their defaults") {
+  const xml::Document document = xml::Document::parse(
+      "<a i=' 3 ' f='0.5' yes='1' no='false' list='1 2  3'><b/><c/><b n='2'/></a>", "unit.xml");
+  const xml::Element a = document.root();
+  CHECK(a.required_number<int>("i") == 3);
+  CHECK(a.number<double>("f") == 0.5);
+  CHECK_FALSE(a.number<double>("absent"));
+  CHECK(a.attribute_or("absent", "other") == "other");
+  CHECK(a.flag("yes"));
+  CHECK_FALSE(a.flag("no"));
+  CHECK_FALSE(a.flag("absent"));
+  CHECK(a.number_list<unsigned>("list") == std::vector<unsigned>{1, 2, 3});
+  CHECK(a.children("b").size() == 2);
+  CHECK(a.children().size() == 3);
+  CHECK(a.child("c")->name() == "c");
+  CHECK_FALSE(a.child("d"));
+}
+
+TEST_CASE("complaints name file and line") {
+  const xml::Document document =
+      xml::Document::parse("<a>\n<b i='1.5' f='x' flag='maybe' list='1 two'/>\n</a>", "unit.xml");
+  const xml::Element b = *document.root().child("b");
+  CHECK_THAT(error_of([&] { b.required("name"); }),
+             Contains("unit.xml:2: <b> needs the attribute 'name'"));
+  CHECK_THAT(error_of([&] { b.number<int>("i"); }),
+             Contains("i=\"1.5\"") && Contains("expected an integer"));
+  CHECK_THAT(error_of([&] { b.number<double>("f"); }), Contains("expected a number"));
+  CHECK_THAT(error_of([&] { b.flag("flag"); }), Contains("expected true or false"));
+  CHECK_THAT(error_of([&] { b.number_list<int>("list"); }), Contains("list=\"two\""));
+}
+
+TEST_CASE("an attribute is known by its namespace, not by its prefix") {
+  const xml::Document document = xml::Document::parse(
+      "<a xmlns:p='urn:x' xmlns='urn:x' q='0' p:q='1'><b xmlns:r='urn:x' r:q='2'/></a>",
+      "unit.xml");
+  CHECK(document.root().attribute("urn:x", "q") == "1");
+  CHECK(document.root().children()[0].attribute("urn:x", "q") == "2");
+  CHECK_FALSE(document.root().attribute("urn:y", "q"));
+  CHECK_FALSE(document.root().attribute("urn:x", "absent"));
+}
