@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "master/cli/unit_path.h"
-#include "master/fmi/binaries.h"
-#include "master/fmi/unpacked_fmu.h"
+#include "master/importer/binaries.h"
+#include "master/importer/unpacked_fmu.h"
 #include "master/io/program_files.h"
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/error.h"

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "master/fmi/pack.h"
+#include "master/importer/pack.h"
 
 namespace stride::cli {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "master/algorithm/run_options.h"
-#include "master/host/hosted_unit.h"
 #include "master/io/host_choice.h"
+#include "master/isolation/hosted_unit.h"
 #include "master/model/system.h"
 
 namespace stride::cli {

@@ -7,7 +7,7 @@
 #include "master/cli/commands.h"
 #include "master/cli/table.h"
 #include "master/cli/unit_path.h"
-#include "master/fmi/fmu.h"
+#include "master/importer/fmu.h"
 
 namespace stride::cli {
 namespace {

@@ -12,7 +12,7 @@
 #include "master/algorithm/simulation.h"
 #include "master/checks/definition.h"
 #include "master/cli/hosting.h"
-#include "master/fmi/fmu.h"
+#include "master/importer/fmu.h"
 #include "master/io/plot_selection.h"
 #include "master/io/scenario.h"
 #include "master/model/system.h"

@@ -1,6 +1,6 @@
 // stride pack: a library made with the unit kit, another .fmu, captured stimuli or the declaration
 // of a program become a .fmu, a scenario a .ssp.
-#include "master/fmi/pack.h"
+#include "master/importer/pack.h"
 
 #include <functional>
 #include <memory>

@@ -12,7 +12,7 @@
 
 #include <stride/time.h>
 
-#include "master/fmi/fmu.h"
+#include "master/importer/fmu.h"
 #include "master/model/system.h"
 
 namespace stride::verify {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "master/process/child.h"
-#include "master/process/shared_note.h"
+#include "master/isolation/process/child.h"
+#include "master/isolation/process/shared_note.h"
 #include "master/verify/life.h"
 #include "master/verify/subject.h"
 

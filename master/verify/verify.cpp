@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "master/process/child.h"
-#include "master/process/shared_note.h"
+#include "master/isolation/process/child.h"
+#include "master/isolation/process/shared_note.h"
 #include "master/util/error.h"
 #include "master/util/suggest.h"
 #include "master/verify/checks.h"

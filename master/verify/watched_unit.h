@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "master/algorithm/unit.h"
-#include "master/process/shared_note.h"
+#include "master/isolation/process/shared_note.h"
 #include "master/verify/subject.h"
 
 namespace stride::verify {

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "master/checks/checks.h"
-#include "master/fmi/fmu.h"
+#include "master/importer/fmu.h"
 #include "master/io/check_selection.h"
 #include "tests/bench/stopwatch.h"
 

@@ -8,7 +8,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "master/fmi/fmu.h"
+#include "master/importer/fmu.h"
 #include "tests/bench/stopwatch.h"
 
 namespace {

@@ -17,8 +17,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "master/fmi/fmu.h"
-#include "master/host/hosted_unit.h"
+#include "master/importer/fmu.h"
+#include "master/isolation/hosted_unit.h"
 #include "tests/bench/stopwatch.h"
 
 namespace {

@@ -1,7 +1,7 @@
 // FMI 2.0 units, as a user of the program meets them.
 #include <nlohmann/json.hpp>
 
-#include "master/fmi/unpacked_fmu.h"
+#include "master/importer/unpacked_fmu.h"
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;

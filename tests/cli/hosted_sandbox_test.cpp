@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/process/landlock.h"
+#include "master/isolation/process/landlock.h"
 #include "tests/cli/failures.h"
 
 using namespace stride::tests;

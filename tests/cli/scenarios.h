@@ -7,7 +7,7 @@
 
 #include "tests/cli/program.h"
 #include "tests/cli/results.h"
-#include "tests/master/fmi/support.h"
+#include "tests/master/importer/support.h"
 
 namespace stride::tests {
 

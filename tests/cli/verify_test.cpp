@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "master/fmi/unpacked_fmu.h"
+#include "master/importer/unpacked_fmu.h"
 #include "tests/cli/scenarios.h"
 #include "tests/fuzz/mutator.h"
 

@@ -8,8 +8,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/fmi/fmi3_library.h"
-#include "master/fmi/fmu.h"
+#include "master/importer/fmi3/fmi3_library.h"
+#include "master/importer/fmu.h"
 #include "master/model/values.h"
 
 namespace {

@@ -3,11 +3,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/fmi/fmu.h"
-#include "master/fmi/idle_manifest.h"
-#include "master/fmi/model_description.h"
+#include "master/importer/fmu.h"
+#include "master/importer/idle_manifest.h"
+#include "master/importer/model_description.h"
 #include "tests/fuzz/mutator.h"
-#include "tests/master/fmi/support.h"
+#include "tests/master/importer/support.h"
 
 using namespace stride;
 using namespace stride::tests;

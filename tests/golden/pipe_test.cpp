@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/fmi/fmu.h"
+#include "master/importer/fmu.h"
 #include "tests/golden/scenario_run.h"
 
 using namespace stride::tests;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "master/algorithm/simulation.h"
-#include "master/fmi/fmu.h"
+#include "master/importer/fmu.h"
 #include "tests/master/algorithm/scripted_unit.h"
 
 namespace stride::tests {

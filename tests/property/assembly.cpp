@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "master/host/hosted_unit.h"
 #include "master/io/csv_recorder.h"
 #include "master/io/event_recorder.h"
-#include "tests/master/fmi/support.h"
+#include "master/isolation/hosted_unit.h"
+#include "tests/master/importer/support.h"
 
 namespace stride::tests {
 namespace {

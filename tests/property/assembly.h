@@ -11,7 +11,7 @@
 
 #include "master/algorithm/simulation.h"
 #include "master/capture/capture.h"
-#include "master/fmi/fmu.h"
+#include "master/importer/fmu.h"
 #include "master/model/system.h"
 
 namespace stride::tests {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "master/fmi/fmu.h"
+#include "master/importer/fmu.h"
 
 namespace stride::tests {
 

@@ -8,8 +8,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/fmi/binaries.h"
-#include "master/fmi/fmi3_library.h"
+#include "master/importer/binaries.h"
+#include "master/importer/fmi3/fmi3_library.h"
 #include "tests/master/util/archive/support.h"
 #include "tests/property/random_system.h"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tests/master/fmi/support.h"
+#include "tests/master/importer/support.h"
 
 using namespace stride;
 using namespace stride::verify;

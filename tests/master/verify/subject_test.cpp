@@ -1,6 +1,6 @@
 #include "master/verify/subject.h"
 
-#include "tests/master/fmi/support.h"
+#include "tests/master/importer/support.h"
 
 using namespace stride;
 using namespace stride::tests;

@@ -9,7 +9,7 @@
 #include <stride/nfc/frame.h>
 #include <stride/nfc/iso14443a.h>
 
-#include "master/fmi/fmu.h"
+#include "master/importer/fmu.h"
 #include "tests/master/algorithm/scripted_system.h"
 
 using namespace stride;

@@ -1,0 +1,98 @@
+#include "master/importer/binaries.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#if !defined(__linux__)
+#error "FMI platform names: add those of this operating system (FMI 3.0, 2.5.1.1; FMI 2.0, 2.3)"
+#endif
+#if defined(__x86_64__)
+#define STRIDE_PLATFORM "x86_64-linux"
+#define STRIDE_FMI2_PLATFORM "linux64"
+#elif defined(__aarch64__)
+#define STRIDE_PLATFORM "aarch64-linux"
+#define STRIDE_FMI2_PLATFORM STRIDE_PLATFORM
+#elif defined(__i386__)
+#define STRIDE_PLATFORM "x86-linux"
+#define STRIDE_FMI2_PLATFORM "linux32"
+#else
+#error "FMI platform names: add those of this architecture (FMI 3.0, 2.5.1.1; FMI 2.0, 2.3)"
+#endif
+
+namespace stride::fmi {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> folder_names(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.is_directory()) names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// What to do about an FMU that has sources and no library.
+std::string how_to_compile(bool is_fmi2, const std::string& library) {
+  return fmt::format(
+      "compile the C files of its folder 'sources' that the model description lists to '{}' "
+      "(cc -shared -fPIC{}), or let the tool that made it export binaries for Linux",
+      library, is_fmi2 ? " -DFMI2_OVERRIDE_FUNCTION_PREFIX" : "");
+}
+
+/// Likewise about one whose libraries are all for other platforms.
+std::string how_to_export(const std::vector<std::string>& others) {
+  const auto all = [&](auto&& test) { return std::all_of(others.begin(), others.end(), test); };
+  if (all([](std::string_view name) {
+        return name.find("win") == 0 || name.ends_with("-windows");
+      })) {
+    return "a Windows library cannot be loaded on Linux; export the unit on Linux, or for it, if "
+           "its tool can do that";
+  }
+  const bool is_64_bit = sizeof(void*) == 8;
+  if (is_64_bit && all([](std::string_view n) { return n == "linux32" || n == "x86-linux"; })) {
+    return "a 64-bit program cannot load a 32-bit library; export the unit for 64-bit Linux";
+  }
+  return "export the unit for this platform";
+}
+
+}  // namespace
+
+const char* platform() { return STRIDE_PLATFORM; }
+const char* fmi2_platform() { return STRIDE_FMI2_PLATFORM; }
+
+fs::path find_library(const fs::path& fmu_folder, const std::string& fmi_version,
+                      const std::string& model_identifier, const core::Location& where) {
+  const bool is_fmi2 = fmi_version.starts_with("2.");
+  const char* const name = is_fmi2 ? fmi2_platform() : platform();
+  const std::string relative = fmt::format("binaries/{}/{}.so", name, model_identifier);
+  const fs::path library = fmu_folder / relative;
+  if (fs::is_regular_file(library)) return library;
+  const core::Context context{.where = where, .unit = model_identifier};
+  if (fs::is_directory(library.parent_path())) {
+    core::fail_input(context, fmt::format("the FMU's library '{}' is missing", relative),
+                     "its name must be the modelIdentifier of the model description");
+  }
+  const auto others = folder_names(fmu_folder / "binaries");
+  if (!others.empty()) {
+    core::fail_input(
+        context,
+        fmt::format("the FMU has no binaries for {}; it has {}", name, fmt::join(others, ", ")),
+        how_to_export(others));
+  }
+  const bool has_sources = fs::is_directory(fmu_folder / "sources");
+  core::fail_input(
+      context,
+      fmt::format("the FMU has no binaries for {}; it has {}", name,
+                  has_sources ? "its source code only" : "none at all"),
+      has_sources ? how_to_compile(is_fmi2, relative) : "export the unit for this platform");
+}
+
+}  // namespace stride::fmi

@@ -1,0 +1,27 @@
+// The libraries in an unpacked FMU, and which of them is for this machine.
+#ifndef STRIDE_MASTER_IMPORTER_BINARIES_H
+#define STRIDE_MASTER_IMPORTER_BINARIES_H
+
+#include <filesystem>
+#include <string>
+
+#include "master/util/error.h"
+
+namespace stride::fmi {
+
+/// The name of this build's folder in binaries/: the platform tuple of FMI 3.0 ("x86_64-linux").
+const char* platform();
+/// Likewise that of FMI 2.0 ("linux64"), which knows the tuple where it has no name of its own.
+const char* fmi2_platform();
+
+/// Where the library of this name stands in an unpacked FMU of this version, "2.0" or "3.0". Throws
+/// core::Error of the kind Input that lists the platforms that there are, if it is not built for
+/// this one, and says how to come by such a library.
+std::filesystem::path find_library(const std::filesystem::path& fmu_folder,
+                                   const std::string& fmi_version,
+                                   const std::string& model_identifier,
+                                   const core::Location& where = {});
+
+}  // namespace stride::fmi
+
+#endif

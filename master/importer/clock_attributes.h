@@ -1,0 +1,21 @@
+// Reads what a modelDescription.xml says of a clock.
+#ifndef STRIDE_MASTER_IMPORTER_CLOCK_ATTRIBUTES_H
+#define STRIDE_MASTER_IMPORTER_CLOCK_ATTRIBUTES_H
+
+#include <optional>
+
+#include "master/model/description.h"
+#include "master/util/xml/element.h"
+
+namespace stride::fmi {
+
+/// The attributes of a <Clock>, which its declared <ClockType> may give as well (FMI 3.0, 2.4.7.4).
+/// Throws core::Error of the kind Input that names the attribute and its line: no interval where
+/// there must be one, one that is not positive, a time-based clock that is no input.
+core::ClockAttributes read_clock_attributes(const xml::Element& clock,
+                                            const std::optional<xml::Element>& declared_type,
+                                            core::Causality causality);
+
+}  // namespace stride::fmi
+
+#endif

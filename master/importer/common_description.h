@@ -1,0 +1,30 @@
+// What the descriptions of both versions of FMI say in the same words.
+#ifndef STRIDE_MASTER_IMPORTER_COMMON_DESCRIPTION_H
+#define STRIDE_MASTER_IMPORTER_COMMON_DESCRIPTION_H
+
+#include <optional>
+#include <string>
+
+#include <stride/time.h>
+
+#include "master/model/description.h"
+#include "master/util/xml/element.h"
+
+namespace stride::fmi {
+
+// Each throws core::Error of the kind Input that names the place of what is wrong.
+
+/// <CoSimulation>, which the unit must have.
+xml::Element find_co_simulation(const xml::Element& root);
+/// Its attributes that have one name in both. The name of the library is a plain one, which cannot
+/// lead to another folder.
+void read_capabilities(const xml::Element& co_simulation, core::UnitDescription& unit);
+/// Nothing if there is no such attribute; it must be positive.
+std::optional<Duration> read_step_size(const xml::Element& element, const char* attribute);
+/// <UnitDefinitions> and <DefaultExperiment>.
+void read_units(const xml::Element& root, core::UnitDescription& unit);
+void read_default_experiment(const xml::Element& root, core::UnitDescription& unit);
+
+}  // namespace stride::fmi
+
+#endif

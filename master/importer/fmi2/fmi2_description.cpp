@@ -1,0 +1,179 @@
+#include "master/importer/fmi2/fmi2_description.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "master/importer/common_description.h"
+#include "master/importer/variable_attributes.h"
+
+namespace stride::fmi {
+namespace {
+
+using core::Causality;
+using core::ValueType;
+using core::Variability;
+
+void read_co_simulation(const xml::Element& element, ModelDescription& unit) {
+  read_capabilities(element, unit);
+  unit.can_save_state = element.flag("canGetAndSetFMUstate");
+  unit.can_serialize_state = element.flag("canSerializeFMUstate");
+  unit.provides_intermediate_update = element.flag("canInterpolateInputs");
+  unit.provides_directional_derivatives = element.flag("providesDirectionalDerivative");
+  unit.fmi2->can_run_asynchronously =
+      element.flag("canRunAsynchronuously");  // as it is spelt there
+}
+
+/// The five elements that give a variable or a declared type its type.
+std::optional<ValueType> find_type(const xml::Element& element) {
+  constexpr std::pair<const char*, ValueType> kTypes[] = {
+      {"Real", ValueType::Float64},
+      {"Integer", ValueType::Int32},
+      {"Boolean", ValueType::Boolean},
+      {"String", ValueType::String},
+      {"Enumeration", ValueType::Enumeration},
+  };
+  for (const auto& [name, type] : kTypes) {
+    if (element.is("", name)) return type;
+  }
+  return std::nullopt;
+}
+
+/// That one of them which an element has as a child.
+xml::Element type_element(const xml::Element& parent) {
+  for (const xml::Element& child : parent.children()) {
+    if (find_type(child)) return child;
+  }
+  parent.fail(fmt::format("{} has none of <Real>, <Integer>, <Boolean>, <String>, <Enumeration>",
+                          parent.tag()));
+}
+
+/// Reads <ModelVariables>.
+class Variables {
+ public:
+  Variables(const xml::Element& root, ModelDescription& unit) : unit_(unit) {
+    const auto list = root.child("ModelVariables");
+    if (!list) root.fail("<ModelVariables> is missing");
+    read_types(root);
+    for (const xml::Element& element : list->children("ScalarVariable")) add(element);
+  }
+
+ private:
+  void read_types(const xml::Element& root) {
+    const auto definitions = root.child("TypeDefinitions");
+    if (!definitions) return;
+    for (const xml::Element& definition : definitions->children("SimpleType")) {
+      types_.add(definition, type_element(definition));
+    }
+  }
+
+  void add(const xml::Element& element) {
+    const auto reference = element.required_number<fmi2ValueReference>("valueReference");
+    core::Variable variable = read(element);
+    variable.reference = static_cast<core::ValueReference>(unit_.variables.size());
+    names_.add(variable.name, element);
+    if (variable.causality == Causality::Input) check_input(element, variable, reference);
+    unit_.fmi2->references.push_back(reference);
+    unit_.variables.push_back(std::move(variable));
+  }
+
+  core::Variable read(const xml::Element& element) const {
+    const xml::Element typed = type_element(element);
+    core::Variable variable;
+    variable.name = element.required("name");
+    variable.description = element.attribute_or("description");
+    variable.type = *find_type(typed);
+    variable.causality = read_causality(element);
+    if (variable.causality == Causality::StructuralParameter) {
+      element.fail("causality=\"structuralParameter\": there are none in FMI 2.0");
+    }
+    variable.variability = variability(element, variable);
+    variable.initial = read_initial(element, variable);
+    variable.start = typed.attribute_or("start");
+    const auto declared = declared_type(typed);
+    variable.unit = inherited(typed, declared, "unit");
+    variable.min = inherited(typed, declared, "min");
+    variable.max = inherited(typed, declared, "max");
+    variable.nominal = read_nominal(typed, variable.type, declared);
+    variable.intermediate_update = unit_.provides_intermediate_update &&
+                                   variable.causality == Causality::Input &&
+                                   variable.variability == Variability::Continuous;
+    if (variable.type != ValueType::Enumeration) return variable;
+    if (!declared) typed.required("declaredType");
+    variable.items = read_items(*declared);
+    return variable;
+  }
+
+  /// To FMI 2.0 "continuous" is the default, of an Integer as well, which cannot be.
+  static Variability variability(const xml::Element& element, const core::Variable& variable) {
+    const Variability said = read_variability(element, variable.type, variable.causality);
+    const bool is_possible = said != Variability::Continuous || variable.type == ValueType::Float64;
+    return is_possible ? said : Variability::Discrete;
+  }
+
+  std::optional<xml::Element> declared_type(const xml::Element& typed) const {
+    const auto type = types_.declared(typed);
+    if (!type || type->name() == typed.name()) return type;
+    typed.fail(fmt::format("declaredType=\"{}\" is a {}; expected a {}",
+                           *typed.attribute("declaredType"), type->tag(), typed.tag()));
+  }
+
+  /// One of them would take the other's values away.
+  void check_input(const xml::Element& element, const core::Variable& variable,
+                   fmi2ValueReference reference) {
+    const bool is_integer = variable.type == ValueType::Enumeration;
+    const ValueType base = is_integer ? ValueType::Int32 : variable.type;
+    const auto [same, is_new] = inputs_.emplace(std::pair(base, reference), variable.name);
+    if (is_new) return;
+    element.fail(fmt::format("the input '{}' has the value reference {} of the input '{}'",
+                             variable.name, reference, same->second));
+  }
+
+  ModelDescription& unit_;
+  TypeDefinitions types_;
+  VariableNames names_;
+  std::map<std::pair<ValueType, fmi2ValueReference>, std::string> inputs_;
+};
+
+/// From an index of ModelStructure, which counts the variables from 1.
+core::ValueReference to_reference(const xml::Element& unknown, core::ValueReference index,
+                                  const ModelDescription& unit) {
+  if (index >= 1 && index <= unit.variables.size()) return index - 1;
+  unknown.fail(fmt::format("{} refers to the variable with the index {}; expected one from 1 to {}",
+                           unknown.tag(), index, unit.variables.size()));
+}
+
+std::vector<core::Unknown> read_unknowns(const xml::Element& structure, const char* list,
+                                         const ModelDescription& unit) {
+  std::vector<core::Unknown> unknowns;
+  const auto parent = structure.child(list);
+  if (!parent) return unknowns;
+  for (const xml::Element& element : parent->children("Unknown")) {
+    core::Unknown& unknown = unknowns.emplace_back();
+    unknown.reference =
+        to_reference(element, element.required_number<core::ValueReference>("index"), unit);
+    if (!element.attribute("dependencies")) continue;
+    unknown.dependencies = element.number_list<core::ValueReference>("dependencies");
+    for (auto& known : *unknown.dependencies) known = to_reference(element, known, unit);
+  }
+  return unknowns;
+}
+
+}  // namespace
+
+void read_fmi2_description(const xml::Element& root, ModelDescription& unit) {
+  unit.fmi2.emplace();
+  unit.instantiation_token = root.given("guid");
+  read_co_simulation(find_co_simulation(root), unit);
+  Variables(root, unit);
+  const auto structure = root.child("ModelStructure");
+  if (!structure) root.fail("<ModelStructure> is missing");
+  unit.outputs = read_unknowns(*structure, "Outputs", unit);
+  unit.initial_unknowns = read_unknowns(*structure, "InitialUnknowns", unit);
+}
+
+}  // namespace stride::fmi

@@ -1,0 +1,18 @@
+// Reads what a modelDescription.xml of FMI 2.0 has of its own (2.2 and 4.3 there).
+#ifndef STRIDE_MASTER_IMPORTER_FMI2_FMI2_DESCRIPTION_H
+#define STRIDE_MASTER_IMPORTER_FMI2_FMI2_DESCRIPTION_H
+
+#include "master/importer/model_description.h"
+#include "master/util/xml/element.h"
+
+namespace stride::fmi {
+
+/// Each <ScalarVariable> becomes a variable, aliases as well: they may differ in causality, and so
+/// in what can be connected, and in their dependencies. Its reference is its place, see
+/// Fmi2Attributes. Throws as read_model_description() does, and where two inputs are aliases of
+/// each other, which FMI 2.0 forbids (2.2.7).
+void read_fmi2_description(const xml::Element& root, ModelDescription& unit);
+
+}  // namespace stride::fmi
+
+#endif

@@ -1,0 +1,93 @@
+#include "master/importer/fmi2/fmi2_library.h"
+
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace stride::fmi {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What Fmi2Unit may call for any Co-Simulation unit. What depends on a capability flag of the
+/// description, or is asked only where a unit knows more, is not here.
+constexpr std::string_view kNeeded[] = {
+    "Instantiate",
+    "FreeInstance",
+    "SetupExperiment",
+    "EnterInitializationMode",
+    "ExitInitializationMode",
+    "Terminate",
+    "GetReal",
+    "SetReal",
+    "GetInteger",
+    "SetInteger",
+    "GetBoolean",
+    "SetBoolean",
+    "GetString",
+    "SetString",
+    "DoStep",
+};
+
+constexpr std::size_t kNeededFound = 0
+#define STRIDE_COUNT(name) +(contains(kNeeded, #name) ? 1 : 0)
+    FMI2_FUNCTIONS(STRIDE_COUNT)
+#undef STRIDE_COUNT
+    ;
+static_assert(kNeededFound == std::size(kNeeded), "a name in kNeeded is misspelt or there twice");
+
+bool is_unreserved(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+         c == '.' || c == '_' || c == '~';
+}
+
+}  // namespace
+
+Fmi2Library::Fmi2Library(const fs::path& path, const std::string& model_identifier,
+                         const core::Location& where)
+    : SharedLibrary(path, where) {
+  std::vector<std::string> missing;
+#define STRIDE_FIND(name)                                       \
+  find(functions_.name, "fmi2" #name);                          \
+  if (functions_.name == nullptr && contains(kNeeded, #name)) { \
+    missing.emplace_back("fmi2" #name);                         \
+  }
+  FMI2_FUNCTIONS(STRIDE_FIND)
+#undef STRIDE_FIND
+  if (!missing.empty()) {
+    const bool has_prefix = has(model_identifier + "_fmi2DoStep");
+    core::fail_input(
+        {.where = where},
+        fmt::format("the library '{}' does not export {}, which an FMI 2.0 Co-Simulation unit must",
+                    path.string(), fmt::join(missing, ", ")),
+        has_prefix ? fmt::format("its functions have the prefix '{}_' of a static library; compile "
+                                 "it with FMI2_OVERRIDE_FUNCTION_PREFIX defined",
+                                 model_identifier)
+                   : "export it with C linkage, default visibility and exactly this name");
+  }
+  const std::string types =
+      functions_.GetTypesPlatform != nullptr ? functions_.GetTypesPlatform() : FMI2_TYPES_PLATFORM;
+  if (types == FMI2_TYPES_PLATFORM) return;
+  core::fail_input(
+      {.where = where},
+      fmt::format("the library '{}' was compiled for the platform types '{}'; expected "
+                  "'" FMI2_TYPES_PLATFORM "'",
+                  path.string(), types),
+      "compile it with the fmi2TypesPlatform.h of the standard");
+}
+
+std::string resource_uri(const fs::path& resources) {
+  std::string uri = "file://";
+  for (const char c : fs::absolute(resources).lexically_normal().string()) {
+    if (is_unreserved(c) || c == '/') {
+      uri += c;
+    } else {
+      uri += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+  }
+  return uri;
+}
+
+}  // namespace stride::fmi

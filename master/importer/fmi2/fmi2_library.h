@@ -1,0 +1,42 @@
+// An FMI 2.0 unit's library.
+#ifndef STRIDE_MASTER_IMPORTER_FMI2_FMI2_LIBRARY_H
+#define STRIDE_MASTER_IMPORTER_FMI2_FMI2_LIBRARY_H
+
+#include <filesystem>
+#include <string>
+
+#include <stride/fmi2.h>
+
+#include "master/importer/shared_library.h"
+#include "master/util/error.h"
+
+namespace stride::fmi {
+
+/// The entry table: a pointer for each fmi2<Name>, null if the library does not have it.
+struct Fmi2Functions {
+#define STRIDE_POINTER(name) fmi2##name##TYPE* name = nullptr;
+  FMI2_FUNCTIONS(STRIDE_POINTER)
+#undef STRIDE_POINTER
+};
+
+class Fmi2Library : public SharedLibrary {
+ public:
+  /// Throws as SharedLibrary does, where a function is missing that any Co-Simulation unit must
+  /// have, and where it was compiled for other platform types than those of <stride/fmi2.h>.
+  Fmi2Library(const std::filesystem::path& path, const std::string& model_identifier,
+              const core::Location& where = {});
+
+  const Fmi2Functions& functions() const { return functions_; }
+
+ private:
+  Fmi2Functions functions_;
+};
+
+/// A folder of resources as FMI 2.0 passes it, whether it exists or not: the URI of its absolute
+/// path, with the scheme file (RFC 8089), and all but unreserved characters escaped (RFC
+/// 3986, 2.3).
+std::string resource_uri(const std::filesystem::path& resources);
+
+}  // namespace stride::fmi
+
+#endif

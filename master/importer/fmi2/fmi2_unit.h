@@ -1,0 +1,147 @@
+// An instance of an FMI 2.0 Co-Simulation unit in this process.
+#ifndef STRIDE_MASTER_IMPORTER_FMI2_FMI2_UNIT_H
+#define STRIDE_MASTER_IMPORTER_FMI2_FMI2_UNIT_H
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <stride/fmi2.h>
+
+#include "master/importer/asynchronous_step.h"
+#include "master/importer/fmi2/fmi2_attributes.h"
+#include "master/importer/fmi2/fmi2_library.h"
+#include "master/importer/fmi2/input_derivatives.h"
+#include "master/importer/fmu_instance.h"
+#include "master/importer/saved_states.h"
+
+namespace stride::fmi {
+
+/// See core::Unit for the order of calls, and FmuInstance for failures; terminate() does nothing
+/// after one. Such a unit has neither Event Mode nor clocks.
+///
+/// Types: Real is Float64, Integer Int32, Enumeration core's Enumeration. Start values of inputs
+/// are kept until Initialization Mode, since FMI 2.0 allows them no earlier.
+///
+/// fmi2Discard means that the unit came a part of the way, where core wants a step that is made or
+/// one that is not. What becomes of it hangs on what the unit can do (docs/stepping.md):
+///
+/// - it wants the simulation to end (fmi2Terminated): it stands where it came to, and asks for
+/// that;
+/// - its state can be saved (canGetAndSetFMUstate): it was, right before the step, and is restored.
+///   The step is rejected, and StepResult::reached is how far it came;
+/// - otherwise it stands where it came to, as if it had returned early, and the log says so once.
+/// If
+///   it does not say where that is, or that it came nowhere, a core::Error of the kind Run.
+///
+/// After fmi2Pending step() waits until the unit says that its step has finished, by a callback or
+/// when it is asked. There is no time-out; the log says once that a step takes long.
+///
+/// With an input update, inputs that a unit interpolates (canInterpolateInputs) are given with
+/// their first and second derivatives at the beginning of each step.
+///
+/// After the first exchange, get(), set() and step() do not allocate, except where a string
+/// outgrows the longest before it.
+class Fmi2Unit final : public FmuInstance {
+ public:
+  /// Throws core::Error of the kind Run, with the unit's messages, if it cannot be instantiated.
+  Fmi2Unit(std::string name, std::shared_ptr<const Fmi2Library> library,
+           std::shared_ptr<const Fmi2Attributes> attributes, UnitParts parts,
+           InstanceOptions options = {});
+  ~Fmi2Unit() override;
+
+  void enter_initialization(Time start, std::optional<Time> stop) override;
+  void exit_initialization() override;
+  void get(std::span<const core::ValueReference> references, core::ValueBlock& values) override;
+  void set(std::span<const core::ValueReference> references,
+           const core::ValueBlock& values) override;
+  void get_directional_derivative(References unknowns, References knowns,
+                                  std::span<const double> seed,
+                                  std::span<double> sensitivity) override;
+  using FmuInstance::step;
+  core::StepResult step(const core::StepInterval& interval,
+                        const core::StepValues& values) override;
+  void save_state() override;
+  void restore_state() override;
+  void select_state(std::size_t slot) override;
+  std::vector<std::uint8_t> serialize_state() override;
+  void deserialize_state(std::span<const std::uint8_t> bytes) override;
+  void reset() override;
+  void enter_event_mode() override;
+  core::EventResult update_discrete_states() override;
+  void enter_step_mode() override;
+  void set_input_update(core::InputUpdate update) override;
+  void terminate() override;
+
+ private:
+  /// What the unit was at some time.
+  struct SavedState {
+    fmi2FMUstate state = nullptr;
+    std::optional<Time> time;
+    bool is_instantiated_only = false;
+  };
+
+  static void on_log(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status,
+                     fmi2String category, fmi2String message, ...);
+  static void on_step_finished(fmi2ComponentEnvironment environment, fmi2Status status);
+  std::string variable_name(char type, fmi2ValueReference reference) const;
+
+  const fmi2ValueReference* own(References references) { return own(references, own_); }
+  const fmi2ValueReference* own(References references, std::vector<fmi2ValueReference>& into);
+  void get(const core::BoundValues& values);
+  void set(const core::BoundValues& values);
+  void get_enumerations(References references, std::span<std::int64_t> values);
+  void set_enumerations(References references, std::span<const std::int64_t> values);
+  void get_booleans(References references, std::span<bool> values);
+  void set_booleans(References references, std::span<const bool> values);
+  void get_strings(References references, std::span<std::string> values);
+  void set_strings(References references, std::span<const std::string> values);
+  bool is_kept(References references, const core::ValueBlock& values);
+
+  void set_input_derivatives(double size);
+  void save(SavedState& saved);
+  void restore(const SavedState& saved);
+  void free_state(SavedState& saved);
+
+  Status do_step(const core::StepInterval& interval, double size);
+  Status wait_for_step();
+  Status poll_step();
+  std::string pending_text();
+  core::StepResult settle_discard(const core::StepInterval& interval);
+  core::StepResult end_run(const core::StepInterval& interval, std::optional<Time> stands);
+  core::StepResult stand(const core::StepInterval& interval, std::optional<Time> stands);
+  template <class Function, class Value>
+  bool ask(const char* name, Function* function, fmi2StatusKind kind, Value* value);
+  std::optional<Time> last_successful_time(const core::StepInterval& interval);
+  bool wants_end();
+
+  const Fmi2Functions& fmi_;
+  const fmi2ValueReference* unit_references_;  ///< by core's reference
+  bool saves_each_step_;
+  bool is_as_saved_ = false;  ///< the unit is what the chosen state holds
+  core::InputUpdate input_update_;
+  InputDerivatives* sampled_inputs_ = nullptr;  ///< who is given inputs in place of the unit
+  SavedState before_step_;
+  SavedStates<SavedState> states_;
+  bool has_discard_warning_ = false;
+  std::shared_ptr<const Fmi2Library> library_;
+  std::shared_ptr<const Fmi2Attributes> attributes_;
+
+  fmi2CallbackFunctions callbacks_{};  ///< units keep the pointer
+  AsynchronousStep asynchronous_;
+  bool has_patience_ = true;  ///< no pending step has been told to take long
+  InputDerivatives input_derivatives_;
+
+  bool is_instantiated_only_ = true;
+  std::vector<std::pair<std::vector<core::ValueReference>, core::ValueBlock>> kept_inputs_;
+
+  std::vector<fmi2ValueReference> own_, own_knowns_;
+  std::vector<fmi2Integer> integers_;
+  std::vector<fmi2String> texts_;
+};
+
+}  // namespace stride::fmi
+
+#endif

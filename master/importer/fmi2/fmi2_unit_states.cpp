@@ -1,0 +1,71 @@
+// Kept states, states as bytes, and the way back to the beginning.
+#include "master/importer/fmi2/fmi2_unit.h"
+
+namespace stride::fmi {
+namespace {
+
+constexpr const char* kSaving = "canGetAndSetFMUstate";
+constexpr const char* kSerializing = "canSerializeFMUstate";
+
+}  // namespace
+
+void Fmi2Unit::save_state() {
+  save(states_.chosen());
+  is_as_saved_ = true;
+}
+
+void Fmi2Unit::restore_state() {
+  restore(states_.chosen());
+  is_as_saved_ = true;
+}
+
+void Fmi2Unit::save(SavedState& saved) {
+  require("fmi2GetFMUstate", fmi_.GetFMUstate, kSaving);
+  call("fmi2GetFMUstate", fmi_.GetFMUstate, &saved.state);  // the unit uses its memory again
+  saved.time = time_;
+  saved.is_instantiated_only = is_instantiated_only_;
+}
+
+void Fmi2Unit::restore(const SavedState& saved) {
+  if (saved.state == nullptr) fail("no state of it has been saved that could be restored");
+  require("fmi2SetFMUstate", fmi_.SetFMUstate, kSaving);
+  call("fmi2SetFMUstate", fmi_.SetFMUstate, saved.state);
+  time_ = saved.time;
+  is_instantiated_only_ = saved.is_instantiated_only;
+}
+
+void Fmi2Unit::free_state(SavedState& saved) {
+  if (saved.state == nullptr || is_condemned_ || fmi_.FreeFMUstate == nullptr) return;
+  if (fmi_.FreeFMUstate(instance_, &saved.state) == fmi2Fatal) condemn();
+  saved = {};
+}
+
+void Fmi2Unit::select_state(std::size_t slot) {
+  states_.choose(slot);
+  is_as_saved_ = false;
+}
+
+std::vector<std::uint8_t> Fmi2Unit::serialize_state() {
+  return serialized(states_.chosen().state, "fmi2SerializedFMUstateSize",
+                    fmi_.SerializedFMUstateSize, "fmi2SerializeFMUstate", fmi_.SerializeFMUstate,
+                    kSerializing);
+}
+
+/// The bytes do not tell the time.
+void Fmi2Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
+  require("fmi2DeSerializeFMUstate", fmi_.DeSerializeFMUstate, kSerializing);
+  SavedState& saved = states_.chosen();
+  free_state(saved);
+  is_as_saved_ = false;
+  call("fmi2DeSerializeFMUstate", fmi_.DeSerializeFMUstate,
+       reinterpret_cast<const fmi2Byte*>(bytes.data()), bytes.size(), &saved.state);
+}
+
+void Fmi2Unit::reset() {
+  reset_by("fmi2Reset", fmi_.Reset);
+  is_as_saved_ = has_discard_warning_ = false;
+  has_patience_ = is_instantiated_only_ = true;
+  kept_inputs_.clear();
+}
+
+}  // namespace stride::fmi

@@ -1,0 +1,170 @@
+// How a step of an FMI 2.0 unit ends, and what is to be done when it did not come to its end.
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "master/importer/fmi2/fmi2_unit.h"
+
+namespace stride::fmi {
+Status Fmi2Unit::do_step(const core::StepInterval& interval, double size) {
+  if (callbacks_.stepFinished != nullptr) asynchronous_.begin();
+  // noSetFMUStatePriorToCurrentPoint
+  const fmi2Boolean never_goes_back = options_.may_go_back ? fmi2False : fmi2True;
+  const Status status =
+      call_discardable("fmi2DoStep", fmi_.DoStep, interval.begin_seconds, size, never_goes_back);
+  return status == Status::Pending ? wait_for_step() : status;
+}
+
+// ---- Steps that take their time ----
+
+void Fmi2Unit::on_step_finished(fmi2ComponentEnvironment environment, fmi2Status status) {
+  static_cast<Fmi2Unit*>(environment)->asynchronous_.finish(static_cast<Status>(status));
+}
+
+/// Asks now and then, since not every unit calls back, and less and less often.
+Status Fmi2Unit::wait_for_step() {
+  using namespace std::chrono_literals;
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::microseconds kLongestPause = 5ms;
+  const Clock::time_point began = Clock::now();
+  Status status = Status::Pending;
+  for (auto pause = 20us; status == Status::Pending; pause = std::min(pause * 2, kLongestPause)) {
+    status = asynchronous_.wait(pause).value_or(Status::Pending);
+    if (status == Status::Pending) status = poll_step();
+    const bool is_long = has_patience_ && Clock::now() - began > options_.patience;
+    if (status != Status::Pending || !is_long) continue;
+    has_patience_ = false;
+    warn(
+        fmt::format("the unit has not finished its step from {} s yet (fmi2Pending){}; stride "
+                    "waits for it",
+                    core::to_text(*time_), pending_text()));
+  }
+  return look_into("fmi2DoStep", status);
+}
+
+/// The unit's messages are those of the step, so the call is not looked into.
+Status Fmi2Unit::poll_step() {
+  if (fmi_.GetStatus == nullptr) return Status::Pending;
+  note_call("fmi2GetStatus");
+  fmi2Status of_step = fmi2Pending;
+  const auto answer = static_cast<Status>(fmi_.GetStatus(instance_, fmi2DoStepStatus, &of_step));
+  if (answer == Status::Error || answer == Status::Fatal) fail_call("fmi2GetStatus", answer);
+  const bool is_known = answer == Status::Ok || answer == Status::Warning;
+  if (!is_known || of_step == fmi2Pending) return Status::Pending;
+  asynchronous_.note_asked();
+  return static_cast<Status>(of_step);
+}
+
+/// What the unit says of a step that is not finished.
+std::string Fmi2Unit::pending_text() {
+  if (fmi_.GetStringStatus == nullptr) return "";
+  note_call("fmi2GetStringStatus");
+  fmi2String text = nullptr;
+  const fmi2Status answer = fmi_.GetStringStatus(instance_, fmi2PendingStatus, &text);
+  return answer == fmi2OK && text != nullptr ? fmt::format("; it says: {}", text) : "";
+}
+
+// ---- Steps that end before their end (FMI 2.0, 4.2.2 and 4.2.3) ----
+
+core::StepResult Fmi2Unit::settle_discard(const core::StepInterval& interval) {
+  take_rejection_reason("fmi2DoStep");
+  const std::optional<Time> stands = last_successful_time(interval);
+  if (wants_end()) return end_run(interval, stands);
+  if (!saves_each_step_) return stand(interval, stands);
+  restore(is_as_saved_ ? states_.chosen() : before_step_);
+  return {.rejected = true, .reached = stands.value_or(interval.from)};
+}
+
+/// The unit stands where it wants the simulation to end; if it does not say where that is, the step
+/// is undone.
+core::StepResult Fmi2Unit::end_run(const core::StepInterval& interval, std::optional<Time> stands) {
+  if (!stands) {
+    if (!saves_each_step_) {
+      fail(
+          "the unit ended the simulation within its step (fmi2Terminated), and does not say when "
+          "(fmi2LastSuccessfulTime)");
+    }
+    restore(is_as_saved_ ? states_.chosen() : before_step_);
+    stands = interval.from;
+  }
+  return {.early_return = *stands != interval.to, .terminate = true, .reached = *stands};
+}
+
+/// The unit cannot go back.
+core::StepResult Fmi2Unit::stand(const core::StepInterval& interval, std::optional<Time> stands) {
+  if (!stands || *stands == interval.from) {
+    fail(fmt::format("fmi2DoStep returned fmi2Discard in the step to {} s, the unit {}, and its "
+                     "state was not saved, since it cannot be (canGetAndSetFMUstate){}{}",
+                     core::to_text(interval.to),
+                     stands ? "says that it came no further than where the step began"
+                            : "does not say how far it came (fmi2LastSuccessfulTime)",
+                     rejection_reason_.empty() ? "" : "; it says: ", rejection_reason_),
+         "try a smaller step, or use a unit that can save its state");
+  }
+  if (!std::exchange(has_discard_warning_, true)) {
+    warn(
+        fmt::format("the step to {} s ended at {} s (fmi2Discard), and the unit's state cannot be "
+                    "restored (canGetAndSetFMUstate), so all go on from there, here and in later "
+                    "steps; FMI 2.0 allows such a unit to be ended only, so look at its results",
+                    core::to_text(interval.to), core::to_text(*stands)));
+  }
+  return {.early_return = *stands != interval.to, .reached = *stands};
+}
+
+/// Tells whether the unit has an answer.
+template <class Function, class Value>
+bool Fmi2Unit::ask(const char* name, Function* function, fmi2StatusKind kind, Value* value) {
+  if (function == nullptr) return false;
+  const Status status = call_discardable(name, function, kind, value);
+  if (has_messages_) take_messages(name);  // of why it has none
+  return status == Status::Ok || status == Status::Warning;
+}
+
+/// Nothing if it is not known, or not in the step.
+std::optional<Time> Fmi2Unit::last_successful_time(const core::StepInterval& interval) {
+  double seconds = 0;
+  const bool is_known =
+      ask("fmi2GetRealStatus", fmi_.GetRealStatus, fmi2LastSuccessfulTime, &seconds);
+  if (!is_known || !is_within(interval, seconds)) return std::nullopt;
+  if (is_end(interval, seconds)) return interval.to;
+  return std::clamp(checked_time(seconds, "fmi2LastSuccessfulTime"), interval.from, interval.to);
+}
+
+bool Fmi2Unit::wants_end() {
+  fmi2Boolean wants = fmi2False;
+  return ask("fmi2GetBooleanStatus", fmi_.GetBooleanStatus, fmi2Terminated, &wants) &&
+         wants != fmi2False;
+}
+
+// ---- Inputs within a step ----
+
+void Fmi2Unit::set_input_update(core::InputUpdate update) {
+  if (parts_.description->provides_intermediate_update) input_update_ = std::move(update);
+}
+
+/// The input update sets inputs at three instants, and these are its.
+void Fmi2Unit::set_input_derivatives(double size) {
+  struct Sampling {
+    explicit Sampling(Fmi2Unit& owner) : unit(owner) {
+      unit.sampled_inputs_ = &unit.input_derivatives_;
+    }
+    ~Sampling() { unit.sampled_inputs_ = nullptr; }
+    Fmi2Unit& unit;
+  };
+  {
+    const Sampling sampling(*this);
+    for (int k = 0; k < InputDerivatives::kSamples; ++k) {
+      input_derivatives_.begin_sample(k);
+      input_update_(InputDerivatives::instant(k, size));
+    }
+  }
+  input_derivatives_.compute(size);
+  const auto& references = input_derivatives_.references();
+  if (references.empty()) return;
+  require("fmi2SetRealInputDerivatives", fmi_.SetRealInputDerivatives, "canInterpolateInputs");
+  call("fmi2SetRealInputDerivatives", fmi_.SetRealInputDerivatives, references.data(),
+       references.size(), input_derivatives_.orders().data(), input_derivatives_.values().data());
+}
+
+}  // namespace stride::fmi

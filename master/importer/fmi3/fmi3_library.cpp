@@ -1,0 +1,122 @@
+#include "master/importer/fmi3/fmi3_library.h"
+
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace stride::fmi {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What Fmi3Unit may call for any Co-Simulation unit. What depends on a capability flag of the
+/// description, and what belongs to another interface type, is not here.
+constexpr std::string_view kNeeded[] = {
+    "GetVersion",    "InstantiateCoSimulation",
+    "FreeInstance",  "EnterInitializationMode",
+    "DoStep",        "ExitInitializationMode",
+    "Terminate",     "EnterEventMode",
+    "EnterStepMode", "UpdateDiscreteStates",
+    "GetFloat32",    "SetFloat32",
+    "GetFloat64",    "SetFloat64",
+    "GetInt8",       "SetInt8",
+    "GetUInt8",      "SetUInt8",
+    "GetInt16",      "SetInt16",
+    "GetUInt16",     "SetUInt16",
+    "GetInt32",      "SetInt32",
+    "GetUInt32",     "SetUInt32",
+    "GetInt64",      "SetInt64",
+    "GetUInt64",     "SetUInt64",
+    "GetBoolean",    "SetBoolean",
+    "GetString",     "SetString",
+    "GetBinary",     "SetBinary",
+    "GetClock",      "SetClock",
+};
+
+constexpr std::size_t kNeededFound = 0
+#define STRIDE_COUNT(name) +(contains(kNeeded, #name) ? 1 : 0)
+    FMI3_FUNCTIONS(STRIDE_COUNT)
+#undef STRIDE_COUNT
+    ;
+static_assert(kNeededFound == std::size(kNeeded), "a name in kNeeded is misspelt or there twice");
+
+}  // namespace
+
+Fmi3Library::Fmi3Library(const fs::path& path, const core::Location& where)
+    : SharedLibrary(path, where) {
+  std::vector<std::string> missing;
+#define STRIDE_FIND(name)                                       \
+  find(functions_.name, "fmi3" #name);                          \
+  if (functions_.name == nullptr && contains(kNeeded, #name)) { \
+    missing.emplace_back("fmi3" #name);                         \
+  }
+  FMI3_FUNCTIONS(STRIDE_FIND)
+#undef STRIDE_FIND
+#define STRIDE_FIND(name) find(idle_functions_.name, "stride" #name);
+  STRIDE_IDLE_FUNCTIONS(STRIDE_FIND)
+#undef STRIDE_FIND
+#define STRIDE_FIND(name) find(describe_functions_.name, "stride" #name);
+  STRIDE_DESCRIBE_FUNCTIONS(STRIDE_FIND)
+#undef STRIDE_FIND
+  find(self_description_, "strideModelDescription");
+  find(idle_manifest_, "strideIdleManifest");
+  if (missing.empty()) return;
+  core::fail_input({.where = where},
+                   fmt::format("the library '{}' does not export {}, which an FMI 3.0 "
+                               "Co-Simulation unit must",
+                               path.string(), fmt::join(missing, ", ")),
+                   "export it with C linkage, default visibility and exactly this name");
+}
+
+std::string Fmi3Library::describe(const fs::path& resources, const core::Location& where) const {
+  if (!describes_itself()) {
+    core::fail_input(
+        {.where = where},
+        fmt::format("the library '{}' does not know its own model description", path().string()),
+        "only libraries made with stride's unit kit do; give an FMU that has a "
+        "modelDescription.xml instead");
+  }
+  return ask(self_description_, resources, where);
+}
+
+std::string Fmi3Library::idle_manifest(const fs::path& resources,
+                                       const core::Location& where) const {
+  return idle_manifest_ != nullptr ? ask(idle_manifest_, resources, where) : std::string();
+}
+
+std::string Fmi3Library::ask(strideModelDescriptionTYPE* function, const fs::path& resources,
+                             const core::Location& where) const {
+  const std::string folder = resource_path(resources);
+  const char* error = nullptr;
+  const char* text = function(folder.empty() ? nullptr : folder.c_str(), &error);
+  if (text != nullptr) return text;
+  core::fail_input({.where = where},
+                   fmt::format("the unit in '{}' cannot describe itself: {}",
+                               path().filename().string(),  // it may be unpacked somewhere
+                               error != nullptr ? error : "it gives no reason"));
+}
+
+void Fmi3Library::require_idle_functions(const core::Location& where) const {
+  std::vector<std::string> missing;
+#define STRIDE_CHECK(name) \
+  if (idle_functions_.name == nullptr) missing.emplace_back("stride" #name);
+  STRIDE_IDLE_FUNCTIONS(STRIDE_CHECK)
+#undef STRIDE_CHECK
+  if (missing.empty()) return;
+  core::fail_input(
+      {.where = where},
+      fmt::format("the library '{}' does not export {}, which a unit with a manifest of {} must",
+                  path().string(), fmt::join(missing, ", "), STRIDE_IDLE_NAME),
+      "export it with C linkage and default visibility (<stride/idle.h>), or leave the manifest "
+      "'" STRIDE_IDLE_MANIFEST "' out of the FMU");
+}
+
+std::string resource_path(const fs::path& resources) {
+  if (resources.empty()) return "";
+  const fs::path folder = fs::absolute(resources / "").lexically_normal();
+  return fs::is_directory(folder) ? folder.string() : "";
+}
+
+}  // namespace stride::fmi

@@ -1,0 +1,338 @@
+#include "master/importer/fmi3/fmi3_unit.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace stride::fmi {
+namespace {
+
+/// The getter and setter of a C type. Enumerations travel as Int64.
+template <class T>
+struct Access;
+#define STRIDE_ACCESS(T)                                  \
+  template <>                                             \
+  struct Access<fmi3##T> {                                \
+    static constexpr const char* kGetName = "fmi3Get" #T; \
+    static constexpr const char* kSetName = "fmi3Set" #T; \
+    static constexpr auto kGet = &Fmi3Functions::Get##T;  \
+    static constexpr auto kSet = &Fmi3Functions::Set##T;  \
+  };
+FMI3_VALUE_TYPES(STRIDE_ACCESS)
+#undef STRIDE_ACCESS
+
+/// The inputs that may be set within a step.
+std::vector<core::ValueReference> intermediate_inputs(const core::UnitDescription& description) {
+  std::vector<core::ValueReference> references;
+  if (!description.provides_intermediate_update) return references;
+  for (const core::Variable& variable : description.variables) {
+    const bool is_input = variable.causality == core::Causality::Input &&
+                          variable.variability == core::Variability::Continuous;
+    if (is_input && variable.intermediate_update) references.push_back(variable.reference);
+  }
+  return references;
+}
+
+}  // namespace
+
+// ---- Life and death ----
+
+Fmi3Unit::Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library, UnitParts parts,
+                   InstanceOptions options)
+    : FmuInstance("fmi3", library, std::move(name), std::move(parts), std::move(options)),
+      fmi_(library->functions()),
+      library_(std::move(library)),
+      tangent_outputs_(tangent_outputs(*parts_.description)) {
+  check_callable("fmi3InstantiateCoSimulation");
+  const core::UnitDescription& description = *parts_.description;
+  const bool has_resources = !parts_.resources.empty();
+  std::vector<core::ValueReference> intermediate;
+  if (options_.intermediate_update) intermediate = intermediate_inputs(description);
+  note_call("fmi3InstantiateCoSimulation");
+  instance_ = fmi_.InstantiateCoSimulation(
+      name_.c_str(), description.instantiation_token.c_str(),
+      has_resources ? parts_.resources.c_str() : nullptr, fmi3False, options_.debug_logging,
+      description.has_event_mode, options_.early_return_allowed, intermediate.data(),
+      intermediate.size(), this, &on_log, intermediate.empty() ? nullptr : &on_intermediate_update);
+  if (instance_ == nullptr) {
+    fail(fmt::format("fmi3InstantiateCoSimulation failed: {}",
+                     take_messages("fmi3InstantiateCoSimulation")));
+  }
+}
+
+Fmi3Unit::~Fmi3Unit() {
+  if (instance_ == nullptr || is_condemned_) return;
+  for (SavedState& saved : states_) free_state(saved);
+  note_call("fmi3FreeInstance");
+  if (!is_condemned_) fmi_.FreeInstance(instance_);
+}
+
+void Fmi3Unit::enter_configuration_mode() {
+  const char* const capability = "structural parameters";
+  require("fmi3EnterConfigurationMode", fmi_.EnterConfigurationMode, capability);
+  require("fmi3ExitConfigurationMode", fmi_.ExitConfigurationMode, capability);
+  call("fmi3EnterConfigurationMode", fmi_.EnterConfigurationMode);
+}
+
+void Fmi3Unit::exit_configuration_mode() {
+  call("fmi3ExitConfigurationMode", fmi_.ExitConfigurationMode);
+}
+
+void Fmi3Unit::enter_initialization(Time start, std::optional<Time> stop) {
+  time_ = start;
+  call("fmi3EnterInitializationMode", fmi_.EnterInitializationMode, fmi3False, 0.0,
+       to_seconds(start), stop.has_value(), to_seconds(stop.value_or(Time{})));
+}
+
+void Fmi3Unit::exit_initialization() {
+  call("fmi3ExitInitializationMode", fmi_.ExitInitializationMode);
+}
+
+void Fmi3Unit::terminate() {
+  if (has_failed()) return;
+  call("fmi3Terminate", fmi_.Terminate);
+}
+
+std::string Fmi3Unit::describe_message(core::ValueReference variable, const core::Binary& value) {
+  const char* const name = "strideDescribeMessage";
+  auto* const function = library_->describe_functions().DescribeMessage;
+  if (function == nullptr) return {};
+  const fmi3Byte none = 0;
+  std::string text(kLongestDescription, '\0');
+  std::size_t size = 0;
+  const Status status =
+      call_discardable(name, function, variable, value.empty() ? &none : value.data(), value.size(),
+                       text.data(), text.size(), &size);
+  if (status == Status::Discard) {
+    take_messages(name);
+    return {};
+  }
+  if (size > text.size()) {
+    fail(fmt::format("{} says that it has written {} bytes where {} fit", name, size, text.size()));
+  }
+  text.resize(size);
+  return text;
+}
+
+void Fmi3Unit::on_log(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category,
+                      fmi3String message) {
+  static_cast<Fmi3Unit*>(environment)->receive(static_cast<Status>(status), category, message);
+}
+
+// ---- Values ----
+
+// Most values are of this type.
+inline void Fmi3Unit::get(const core::BoundValues& values) {
+  if (values.float64s.empty()) return get(values.references, *values.block);
+  call("fmi3GetFloat64", fmi_.GetFloat64, values.references.data(), values.references.size(),
+       values.float64s.data(), values.float64s.size());
+}
+
+inline void Fmi3Unit::set(const core::BoundValues& values) {
+  if (values.float64s.empty()) return set(values.references, *values.block);
+  call("fmi3SetFloat64", fmi_.SetFloat64, values.references.data(), values.references.size(),
+       values.float64s.data(), values.float64s.size());
+}
+
+void Fmi3Unit::get(References references, core::ValueBlock& values) {
+  if (values.type() == core::ValueType::Clock) {
+    call("fmi3GetClock", fmi_.GetClock, references.data(), references.size(),
+         values.numbers<bool>().data());
+    return;
+  }
+  core::visit(values, [&]<class T>(std::span<T> elements) {
+    if constexpr (std::is_same_v<T, std::string>) {
+      get_strings(references, elements);
+    } else if constexpr (std::is_same_v<T, core::Binary>) {
+      get_binaries(references, elements);
+    } else {
+      call(Access<T>::kGetName, fmi_.*Access<T>::kGet, references.data(), references.size(),
+           elements.data(), elements.size());
+    }
+  });
+}
+
+void Fmi3Unit::set(References references, const core::ValueBlock& values) {
+  if (values.type() == core::ValueType::Clock) {
+    call("fmi3SetClock", fmi_.SetClock, references.data(), references.size(),
+         values.numbers<bool>().data());
+    return;
+  }
+  core::visit(values, [&]<class T>(std::span<const T> elements) {
+    if constexpr (std::is_same_v<T, std::string>) {
+      set_strings(references, elements);
+    } else if constexpr (std::is_same_v<T, core::Binary>) {
+      set_binaries(references, elements);
+    } else {
+      call(Access<T>::kSetName, fmi_.*Access<T>::kSet, references.data(), references.size(),
+           elements.data(), elements.size());
+    }
+  });
+}
+
+// What a unit returns is its own memory, valid until its next function is called: copied at once.
+
+void Fmi3Unit::get_strings(References references, std::span<std::string> values) {
+  texts_.assign(values.size(), nullptr);
+  call("fmi3GetString", fmi_.GetString, references.data(), references.size(), texts_.data(),
+       texts_.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i].assign(texts_[i] != nullptr ? texts_[i] : "");
+  }
+}
+
+void Fmi3Unit::set_strings(References references, std::span<const std::string> values) {
+  texts_.resize(values.size());
+  std::transform(values.begin(), values.end(), texts_.begin(),
+                 [](const std::string& value) { return value.c_str(); });
+  call("fmi3SetString", fmi_.SetString, references.data(), references.size(),
+       std::as_const(texts_).data(), texts_.size());
+}
+
+void Fmi3Unit::get_binaries(References references, std::span<core::Binary> values) {
+  bytes_.assign(values.size(), nullptr);
+  sizes_.assign(values.size(), 0);
+  call("fmi3GetBinary", fmi_.GetBinary, references.data(), references.size(), sizes_.data(),
+       bytes_.data(), bytes_.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (sizes_[i] != 0 && bytes_[i] == nullptr) {
+      fail(fmt::format("fmi3GetBinary gave {} bytes at the address NULL", sizes_[i]));
+    }
+    values[i].assign(bytes_[i], bytes_[i] + sizes_[i]);
+  }
+}
+
+void Fmi3Unit::set_binaries(References references, std::span<const core::Binary> values) {
+  bytes_.resize(values.size());
+  sizes_.resize(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    bytes_[i] = values[i].data();
+    sizes_[i] = values[i].size();
+  }
+  call("fmi3SetBinary", fmi_.SetBinary, references.data(), references.size(),
+       std::as_const(sizes_).data(), std::as_const(bytes_).data(), bytes_.size());
+}
+
+void Fmi3Unit::get_directional_derivative(References unknowns, References knowns,
+                                          std::span<const double> seed,
+                                          std::span<double> sensitivity) {
+  require("fmi3GetDirectionalDerivative", fmi_.GetDirectionalDerivative,
+          "providesDirectionalDerivatives");
+  call("fmi3GetDirectionalDerivative", fmi_.GetDirectionalDerivative, unknowns.data(),
+       unknowns.size(), knowns.data(), knowns.size(), seed.data(), seed.size(), sensitivity.data(),
+       sensitivity.size());
+}
+
+// ---- Steps and events ----
+
+core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
+                                const core::StepValues& values) {
+  for (const core::BoundValues& input : values.inputs) set(input);
+  time_ = interval.from;
+  // no other double lands nearer to the end
+  const double size = interval.end_seconds - interval.begin_seconds;
+  if (!(size > 0)) {  // to the unit, whose time is a double, it is the same instant
+    time_ = interval.to;
+    return {.reached = interval.to};
+  }
+  bool event_needed = false;
+  bool terminate = false;
+  bool early = false;
+  double last_successful = interval.end_seconds;
+  step_point_ = interval.begin_seconds;
+  const fmi3Boolean never_goes_back = !options_.may_go_back;  // noSetFMUStatePriorToCurrentPoint
+  const Status status =
+      call_discardable("fmi3DoStep", fmi_.DoStep, interval.begin_seconds, size, never_goes_back,
+                       &event_needed, &terminate, &early, &last_successful);
+  rethrow_callback_failure();
+  if (status == Status::Discard) {
+    take_rejection_reason("fmi3DoStep");
+    return {.rejected = true, .reached = interval.from};
+  }
+  if (event_needed && !parts_.description->has_event_mode) [[unlikely]]
+    fail("fmi3DoStep returned eventHandlingNeeded, and the unit has no Event Mode (hasEventMode)");
+  if (!early && last_successful != interval.end_seconds) compare_times(interval, last_successful);
+  time_ = early ? reached_early(interval, last_successful) : interval.to;
+  for (const core::BoundValues& output : values.outputs) get(output);
+  return {.early_return = early,
+          .event_needed = event_needed,
+          .terminate = terminate,
+          .reached = *time_};
+}
+
+// ---- Inputs within a step ----
+
+void Fmi3Unit::on_intermediate_update(fmi3InstanceEnvironment environment, fmi3Float64 time,
+                                      fmi3Boolean set_requested, fmi3Boolean, fmi3Boolean,
+                                      fmi3Boolean, fmi3Boolean* early_return_requested,
+                                      fmi3Float64*) {
+  if (early_return_requested != nullptr) *early_return_requested = fmi3False;
+  if (set_requested) static_cast<Fmi3Unit*>(environment)->update_inputs(time);
+}
+
+/// Nothing may cross the unit's C code: step() throws what goes wrong here.
+void Fmi3Unit::update_inputs(double time) noexcept {
+  if (!input_update_ || callback_failure_) return;
+  try {
+    input_update_(time - step_point_);
+  } catch (...) {
+    callback_failure_ = std::current_exception();
+  }
+}
+
+/// FMI 3.0, 4.2: a unit with a fixed internal step may stand elsewhere than where it was sent.
+void Fmi3Unit::compare_times(const core::StepInterval& interval, double last_successful) {
+  if (is_end(interval, last_successful)) return;
+  checked_time(last_successful, "lastSuccessfulTime");
+  if (std::exchange(has_time_warning_, true)) return;
+  const auto& internal_step = parts_.description->fixed_internal_step;
+  warn(
+      fmt::format("the step to {} s ended at the unit's own time {} s (lastSuccessfulTime) without "
+                  "an early return{}; its outputs are taken as those at {} s, here and in later "
+                  "steps",
+                  core::to_text(interval.to), last_successful,
+                  internal_step ? fmt::format(", since its fixedInternalStepSize is {} s",
+                                              core::to_text(Time(*internal_step)))
+                                : "",
+                  core::to_text(interval.to)));
+}
+
+Time Fmi3Unit::reached_early(const core::StepInterval& interval, double last_successful) const {
+  if (last_successful == interval.end_seconds)
+    return interval.to;  // which a double cannot always tell
+  if (!options_.early_return_allowed) {
+    fail("fmi3DoStep returned early, which was not allowed at its instantiation");
+  }
+  if (!is_within(interval, last_successful)) {
+    fail(fmt::format("fmi3DoStep returned early at {} s, which is outside of the step to {} s",
+                     last_successful, core::to_text(interval.to)));
+  }
+  return std::clamp(checked_time(last_successful, "lastSuccessfulTime"), interval.from,
+                    interval.to);
+}
+
+void Fmi3Unit::enter_event_mode() { call("fmi3EnterEventMode", fmi_.EnterEventMode); }
+
+void Fmi3Unit::enter_step_mode() { call("fmi3EnterStepMode", fmi_.EnterStepMode); }
+
+core::EventResult Fmi3Unit::update_discrete_states() {
+  bool iterate = false;
+  bool terminate = false;
+  bool nominals_changed = false;
+  bool values_changed = false;
+  bool has_next = false;
+  double next = 0;
+  call("fmi3UpdateDiscreteStates", fmi_.UpdateDiscreteStates, &iterate, &terminate,
+       &nominals_changed, &values_changed, &has_next, &next);
+  core::EventResult result{.iterate = iterate, .terminate = terminate, .next_event = {}};
+  // Some units say "never" by a time that no simulation reaches.
+  if (has_next && !(next > kMaxSeconds)) {
+    result.next_event = checked_time(next, "nextEventTime");
+    // a unit may compare: it is not entered a rounding error before the instant that it said
+    while (to_seconds(*result.next_event) < next) *result.next_event += Duration(1);
+  }
+  return result;
+}
+
+}  // namespace stride::fmi

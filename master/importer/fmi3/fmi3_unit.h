@@ -1,0 +1,142 @@
+// An instance of an FMI 3.0 Co-Simulation unit in this process.
+#ifndef STRIDE_MASTER_IMPORTER_FMI3_FMI3_UNIT_H
+#define STRIDE_MASTER_IMPORTER_FMI3_FMI3_UNIT_H
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <stride/fmi3.h>
+
+#include "master/importer/fmi3/fmi3_library.h"
+#include "master/importer/fmu_instance.h"
+#include "master/importer/saved_states.h"
+#include "master/util/error.h"
+
+namespace stride::fmi {
+
+/// See core::Unit for the order of calls, and FmuInstance for failures; terminate() does nothing
+/// after one.
+///
+/// A step that succeeds without an early return ends at its end, also where the unit's own time
+/// (lastSuccessfulTime) is another, as with a fixed internal step; the log says so once.
+///
+/// What an input update throws within a step is thrown by step(), which has ended then.
+///
+/// After the first exchange, get(), set(), step() and get_derivatives() do not allocate, except
+/// where a string or binary value outgrows the longest before it; idle_until() never does.
+class Fmi3Unit final : public FmuInstance {
+ public:
+  /// Throws core::Error of the kind Run, with the unit's messages, if it cannot be instantiated.
+  Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library, UnitParts parts,
+           InstanceOptions options = {});
+  ~Fmi3Unit() override;
+
+  void enter_configuration_mode() override;
+  void exit_configuration_mode() override;
+  void enter_initialization(Time start, std::optional<Time> stop) override;
+  void exit_initialization() override;
+  void get(std::span<const core::ValueReference> references, core::ValueBlock& values) override;
+  void set(std::span<const core::ValueReference> references,
+           const core::ValueBlock& values) override;
+  void get_directional_derivative(References unknowns, References knowns,
+                                  std::span<const double> seed,
+                                  std::span<double> sensitivity) override;
+  using FmuInstance::step;
+  core::StepResult step(const core::StepInterval& interval,
+                        const core::StepValues& values) override;
+  void save_state() override;
+  void restore_state() override;
+  void select_state(std::size_t slot) override;
+  std::vector<std::uint8_t> serialize_state() override;
+  void deserialize_state(std::span<const std::uint8_t> bytes) override;
+  void reset() override;
+  void enter_event_mode() override;
+  core::EventResult update_discrete_states() override;
+  void enter_step_mode() override;
+  core::ClockInterval clock_interval(const core::Variable& clock) override;
+  core::Interval clock_shift(const core::Variable& clock) override;
+  void set_input_update(core::InputUpdate update) override { input_update_ = std::move(update); }
+  void enable_idle_skipping(Duration max_skip) override;
+  void set_idle_tolerances(std::span<const core::ValueReference> outputs,
+                           std::span<const double> tolerances) override;
+  /// What was not enabled is not promised: Time::min().
+  Time idle_until() override;
+  void get_derivatives(std::span<const core::ValueReference> outputs,
+                       std::span<double> derivatives) override;
+  /// Of kLongestDescription bytes at most.
+  std::string describe_message(core::ValueReference variable, const core::Binary& value) override;
+  void terminate() override;
+
+  static constexpr std::size_t kLongestDescription = 1024;
+
+ private:
+  static void on_intermediate_update(fmi3InstanceEnvironment environment, fmi3Float64 time,
+                                     fmi3Boolean set_requested, fmi3Boolean get_allowed,
+                                     fmi3Boolean step_finished, fmi3Boolean can_return_early,
+                                     fmi3Boolean* early_return_requested,
+                                     fmi3Float64* early_return_time);
+  void update_inputs(double time) noexcept;
+
+  static void on_log(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category,
+                     fmi3String message);
+
+  void get(const core::BoundValues& values);
+  void set(const core::BoundValues& values);
+  void get_strings(References references, std::span<std::string> values);
+  void set_strings(References references, std::span<const std::string> values);
+  void get_binaries(References references, std::span<core::Binary> values);
+  void set_binaries(References references, std::span<const core::Binary> values);
+
+  /// What the unit was at some time.
+  struct SavedState {
+    fmi3FMUState state = nullptr;
+    std::optional<Time> time;
+  };
+  void free_state(SavedState& saved);
+
+  template <class Function, class... Arguments>
+  void call_clock(const char* name, Function* function, const core::Variable& clock,
+                  Arguments... arguments);
+  template <class Make>
+  core::Interval checked_interval(const char* function, const core::Variable& clock,
+                                  Make&& make) const;
+
+  /// An output with a tolerance.
+  struct TangentOutput {
+    core::ValueReference reference;
+    std::size_t size;
+    bool has_derivative;
+  };
+  static std::vector<TangentOutput> tangent_outputs(const core::UnitDescription& description);
+  void require_idle_functions() const;
+  const TangentOutput& tangent_output(core::ValueReference reference) const;
+
+  Time reached_early(const core::StepInterval& interval, double last_successful) const;
+  void compare_times(const core::StepInterval& interval, double last_successful);
+
+  const Fmi3Functions& fmi_;
+  double step_point_ = 0;  ///< where the present step began, as the unit knows it
+  bool has_time_warning_ = false;
+  std::shared_ptr<const Fmi3Library> library_;
+
+  core::InputUpdate input_update_;
+
+  SavedStates<SavedState> states_;
+
+  bool may_skip_ = false;
+  std::vector<TangentOutput> tangent_outputs_;  ///< in the order of their references
+  std::vector<core::ValueReference> derived_;   ///< of one call of get_derivatives()
+  std::vector<fmi3Int32> orders_;
+  std::vector<double> slopes_;
+
+  std::vector<fmi3String> texts_;
+  std::vector<fmi3Binary> bytes_;
+  std::vector<std::size_t> sizes_;
+};
+
+}  // namespace stride::fmi
+
+#endif

@@ -1,0 +1,56 @@
+// Kept states, states as bytes, and the way back to the beginning.
+#include "master/importer/fmi3/fmi3_unit.h"
+
+namespace stride::fmi {
+namespace {
+
+constexpr const char* kSaving = "canGetAndSetFMUState";
+constexpr const char* kSerializing = "canSerializeFMUState";
+
+}  // namespace
+
+void Fmi3Unit::save_state() {
+  require("fmi3GetFMUState", fmi_.GetFMUState, kSaving);
+  SavedState& saved = states_.chosen();
+  call("fmi3GetFMUState", fmi_.GetFMUState, &saved.state);  // the unit uses its memory again
+  saved.time = time_;
+}
+
+void Fmi3Unit::restore_state() {
+  const SavedState& saved = states_.chosen();
+  if (saved.state == nullptr) fail("no state of it has been saved that could be restored");
+  require("fmi3SetFMUState", fmi_.SetFMUState, kSaving);
+  call("fmi3SetFMUState", fmi_.SetFMUState, saved.state);
+  time_ = saved.time;
+}
+
+void Fmi3Unit::free_state(SavedState& saved) {
+  if (saved.state == nullptr || is_condemned_ || fmi_.FreeFMUState == nullptr) return;
+  if (fmi_.FreeFMUState(instance_, &saved.state) == fmi3Fatal) condemn();
+  saved = {};
+}
+
+void Fmi3Unit::select_state(std::size_t slot) { states_.choose(slot); }
+
+std::vector<std::uint8_t> Fmi3Unit::serialize_state() {
+  return serialized(states_.chosen().state, "fmi3SerializedFMUStateSize",
+                    fmi_.SerializedFMUStateSize, "fmi3SerializeFMUState", fmi_.SerializeFMUState,
+                    kSerializing);
+}
+
+/// The bytes do not tell the time.
+void Fmi3Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
+  require("fmi3DeserializeFMUState", fmi_.DeserializeFMUState, kSerializing);
+  SavedState& saved = states_.chosen();
+  free_state(saved);
+  call("fmi3DeserializeFMUState", fmi_.DeserializeFMUState, bytes.data(), bytes.size(),
+       &saved.state);
+}
+
+void Fmi3Unit::reset() {
+  reset_by("fmi3Reset", fmi_.Reset);
+  has_time_warning_ = false;
+  may_skip_ = false;
+}
+
+}  // namespace stride::fmi

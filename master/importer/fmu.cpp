@@ -1,0 +1,161 @@
+#include "master/importer/fmu.h"
+
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/importer/binaries.h"
+#include "master/importer/fmi2/fmi2_unit.h"
+#include "master/importer/fmi3/fmi3_unit.h"
+#include "master/importer/idle_manifest.h"
+#include "master/importer/model_description.h"
+
+namespace stride::fmi {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The units in use that allow one instance per process only, by their instantiation token: two
+/// copies of the same archive are the same unit.
+class SingleInstances {
+ public:
+  bool claim(const std::string& token) {
+    const std::lock_guard lock(mutex_);
+    return tokens_.insert(token).second;
+  }
+  void release(const std::string& token) {
+    const std::lock_guard lock(mutex_);
+    tokens_.erase(token);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::set<std::string> tokens_;
+};
+
+SingleInstances& single_instances() {
+  static SingleInstances instances;
+  return instances;
+}
+
+/// Keeps the FMU alive, and its claim to be the only instance if it needs one.
+class Tenancy {
+ public:
+  Tenancy(std::shared_ptr<const Fmu> fmu, const std::string& name, const core::Location& where)
+      : fmu_(std::move(fmu)) {
+    const core::UnitDescription& description = *fmu_->description();
+    if (!description.single_instance) return;
+    if (!single_instances().claim(description.instantiation_token)) {
+      core::fail_input({.where = where, .unit = name},
+                       fmt::format("'{}' can be instantiated only once per process, and an "
+                                   "instance of it is there already",
+                                   fmu_->path().string()),
+                       fmt::format("give this one a process of its own, <stride:Host "
+                                   "components=\"{}\"/>, or use it for one component only",
+                                   name));
+    }
+    token_ = description.instantiation_token;
+  }
+  ~Tenancy() {
+    if (token_) single_instances().release(*token_);
+  }
+  Tenancy(const Tenancy&) = delete;
+  Tenancy& operator=(const Tenancy&) = delete;
+
+ private:
+  std::shared_ptr<const Fmu> fmu_;
+  std::optional<std::string> token_;
+};
+
+}  // namespace
+
+std::shared_ptr<Fmu> Fmu::load(const fs::path& path, const core::Location& where) {
+  const std::shared_ptr<Fmu> fmu(new Fmu(path, where));
+  if (path.extension() == ".so" && fs::is_regular_file(path)) {
+    fmu->read_bare_library();
+  } else {
+    fmu->read_folder();
+  }
+  return fmu;
+}
+
+Fmu::Fmu(fs::path path, core::Location where) : path_(std::move(path)), where_(std::move(where)) {}
+
+void Fmu::read_folder() {
+  unpacked_.emplace(path_, where_);
+  resources_ = unpacked_->folder() / "resources";
+  const std::string shown_as = (path_ / "modelDescription.xml").string();
+  auto description = std::make_shared<ModelDescription>(
+      read_model_description(unpacked_->folder() / "modelDescription.xml", shown_as));
+  const fs::path manifest = unpacked_->folder() / STRIDE_IDLE_MANIFEST;
+  if (!description->fmi2 && fs::exists(manifest)) {  // its functions are in terms of FMI 3.0
+    read_idle_manifest(manifest, (path_ / STRIDE_IDLE_MANIFEST).string(), *description);
+  }
+  description_ = std::move(description);
+}
+
+void Fmu::read_bare_library() {
+  fmi3_library_ = std::make_shared<Fmi3Library>(path_, where_);
+  resources_ = fs::absolute(path_).parent_path() / "resources";
+  const std::string text = fmi3_library_->describe(resources_, where_);
+  auto description = std::make_shared<ModelDescription>(
+      parse_model_description(text, path_.string() + ": its own description"));
+  const std::string manifest = fmi3_library_->idle_manifest(resources_, where_);
+  if (!manifest.empty()) {
+    parse_idle_manifest(manifest, path_.string() + ": its own idle manifest", *description);
+  }
+  description_ = std::move(description);
+}
+
+fs::path Fmu::library_path() const {
+  return find_library(unpacked_->folder(), description_->fmi_version,
+                      description_->model_identifier, where_);
+}
+
+std::shared_ptr<const SharedLibrary> Fmu::load_library() {
+  if (description_->fmi2) return load_fmi2_library();
+  return load_fmi3_library();
+}
+
+std::shared_ptr<const Fmi2Library> Fmu::load_fmi2_library() {
+  const std::lock_guard lock(library_mutex_);
+  if (!fmi2_library_ && description_->fmi2) {
+    fmi2_library_ =
+        std::make_shared<Fmi2Library>(library_path(), description_->model_identifier, where_);
+  }
+  return fmi2_library_;
+}
+
+std::shared_ptr<const Fmi3Library> Fmu::load_fmi3_library() {
+  const std::lock_guard lock(library_mutex_);
+  if (!fmi3_library_ && !description_->fmi2) {
+    fmi3_library_ = std::make_shared<Fmi3Library>(library_path(), where_);
+    if (description_->promises_idle) fmi3_library_->require_idle_functions(where_);
+  }
+  return fmi3_library_;
+}
+
+std::unique_ptr<core::Unit> Fmu::instantiate(const std::string& name, InstanceOptions options) {
+  if (description_->needs_execution_tool && options.log) {
+    options.log(name, Status::Ok, "stride",
+                fmt::format("'{}' needs the tool that made it ({}) on this machine", path_.string(),
+                            description_->generation_tool.empty() ? "which it does not name"
+                                                                  : description_->generation_tool));
+  }
+  load_library();  // whose errors come before those of the instance
+  const auto tenancy = std::make_shared<Tenancy>(shared_from_this(), name, options.where);
+  UnitParts parts{options.description ? options.description : description_, "", tenancy};
+  if (description_->fmi2) {
+    parts.resources = resource_uri(resources_);
+    return std::make_unique<Fmi2Unit>(
+        name, load_fmi2_library(),
+        std::shared_ptr<const Fmi2Attributes>(description_, &*description_->fmi2), std::move(parts),
+        std::move(options));
+  }
+  parts.resources = resource_path(resources_);
+  return std::make_unique<Fmi3Unit>(name, load_fmi3_library(), std::move(parts),
+                                    std::move(options));
+}
+
+}  // namespace stride::fmi

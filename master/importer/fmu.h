@@ -1,0 +1,73 @@
+#ifndef STRIDE_MASTER_IMPORTER_FMU_H
+#define STRIDE_MASTER_IMPORTER_FMU_H
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "master/algorithm/unit.h"
+#include "master/importer/fmi2/fmi2_library.h"
+#include "master/importer/fmi3/fmi3_library.h"
+#include "master/importer/fmu_instance.h"
+#include "master/importer/model_description.h"
+#include "master/importer/unpacked_fmu.h"
+
+namespace stride::fmi {
+
+/// A unit on disk, of which instances can be made. Each of
+///
+/// - a `.fmu` archive,
+/// - the folder that such an archive unpacks to,
+/// - a bare library (`.so`) made with the unit kit, which describes itself; its resources are the
+///   folder `resources` beside it, if there is one.
+class Fmu : public std::enable_shared_from_this<Fmu> {
+ public:
+  /// Reads the description; the library of an archive or folder is not loaded yet, so units of
+  /// other platforms can be inspected. Throws core::Error of the kind Input; `where` is the place
+  /// that names the unit.
+  static std::shared_ptr<Fmu> load(const std::filesystem::path& path,
+                                   const core::Location& where = {});
+
+  const std::filesystem::path& path() const { return path_; }
+  std::shared_ptr<const core::UnitDescription> description() const { return description_; }
+
+  /// Where its files are: the unpacked archive, or the folder itself. Empty for a bare library.
+  std::filesystem::path folder() const {
+    return unpacked_ ? unpacked_->folder() : std::filesystem::path();
+  }
+
+  /// Where its resources are, if it has any: the folder need not exist.
+  const std::filesystem::path& resources() const { return resources_; }
+
+  /// Loads the library, if that has not happened yet. Throws core::Error of the kind Input.
+  std::shared_ptr<const SharedLibrary> load_library();
+  /// Likewise of a unit of this version; null if it is of the other.
+  std::shared_ptr<const Fmi2Library> load_fmi2_library();
+  std::shared_ptr<const Fmi3Library> load_fmi3_library();
+
+  /// Makes an instance, which keeps this object alive. Throws core::Error: Input if the library
+  /// does not load, or if a second instance of a unit is asked for that allows one per process
+  /// only; Run if the unit refuses.
+  std::unique_ptr<core::Unit> instantiate(const std::string& name, InstanceOptions options = {});
+
+ private:
+  Fmu(std::filesystem::path path, core::Location where);
+  void read_folder();
+  void read_bare_library();
+  std::filesystem::path library_path() const;
+
+  std::filesystem::path path_;
+  core::Location where_;
+  std::optional<UnpackedFmu> unpacked_;
+  std::filesystem::path resources_;
+  std::shared_ptr<const ModelDescription> description_;
+  std::mutex library_mutex_;
+  std::shared_ptr<const Fmi2Library> fmi2_library_;
+  std::shared_ptr<const Fmi3Library> fmi3_library_;
+};
+
+}  // namespace stride::fmi
+
+#endif

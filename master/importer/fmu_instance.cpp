@@ -1,0 +1,139 @@
+#include "master/importer/fmu_instance.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace stride::fmi {
+namespace {
+
+constexpr std::size_t kMaxMessages = 8;
+
+/// How far the unit's idea of where a step ended may be from ours.
+double time_tolerance(const core::StepInterval& interval) {
+  constexpr double kPicosecond = 1e-12;
+  constexpr double kShareOfStep = 1e-6;
+  const double end = interval.end_seconds;
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(end);
+  return kPicosecond + rounding + kShareOfStep * (end - interval.begin_seconds);
+}
+
+}  // namespace
+
+FmuInstance::FmuInstance(const char* prefix, std::shared_ptr<const SharedLibrary> library,
+                         std::string name, UnitParts parts, InstanceOptions options)
+    : call_note_(options.call_note),
+      is_condemned_(library->is_condemned()),
+      name_(std::move(name)),
+      parts_(std::move(parts)),
+      options_(std::move(options)),
+      prefix_(prefix),
+      library_(std::move(library)) {}
+
+// ---- Calls and failures ----
+
+Status FmuInstance::look_into(const char* name, Status status) {
+  if (status == Status::Discard || status == Status::Pending) return status;
+  if (status != Status::Ok && status != Status::Warning) fail_call(name, status);
+  if (has_messages_.load(std::memory_order_relaxed)) take_messages(name);
+  return status;
+}
+
+void FmuInstance::fail_not_callable(const char* name) const {
+  if (failed_in_ != nullptr) {
+    fail(fmt::format("{} cannot be called, because {} has failed before", name, failed_in_));
+  }
+  throw core::ConsequentError(
+      core::Error::Kind::Run, {.where = options_.where, .unit = name_, .time = time_},
+      fmt::format("{} cannot be called, because an instance of the same FMU has returned "
+                  "{}Fatal before",
+                  name, prefix_));
+}
+
+void FmuInstance::fail_call(const char* function, Status status) {
+  failed_in_ = function;
+  const bool is_fatal =
+      status != Status::Error && status != Status::Discard && status != Status::Pending;
+  if (is_fatal) condemn();
+  rethrow_callback_failure();  // it is the cause of what the unit answered
+  fail(fmt::format("{} returned {}: {}", function, status_name(status), take_messages(function)),
+       is_fatal ? "the unit may have damaged this process; save what you need and end it" : "");
+}
+
+std::string FmuInstance::status_name(Status status) const {
+  constexpr const char* kNames[] = {"OK", "Warning", "Discard", "Error", "Fatal", "Pending"};
+  const auto i = static_cast<std::size_t>(status);
+  const bool is_fmi2 = prefix_[3] == '2';
+  if (i < std::size(kNames) - (is_fmi2 ? 0 : 1)) return std::string(prefix_) + kNames[i];
+  return fmt::format("a status that FMI {}.0 does not have", prefix_[3]);
+}
+
+void FmuInstance::fail(const std::string& message, const std::string& hint) const {
+  core::fail_run({.where = options_.where, .unit = name_, .time = time_}, message, hint);
+}
+
+void FmuInstance::fail_missing(const char* name, const char* capability) const {
+  fail(fmt::format("its library does not export {}", name),
+       fmt::format("a unit with {} must export it", capability));
+}
+
+// ---- Messages ----
+
+void FmuInstance::receive(Status status, const char* category, const char* message) noexcept {
+  try {
+    const std::string text = message != nullptr ? message : "";
+    if (status == Status::Discard || status == Status::Error || status == Status::Fatal) {
+      const std::lock_guard lock(messages_mutex_);
+      if (messages_.size() < kMaxMessages) messages_.push_back(text);
+      has_messages_ = true;
+    }
+    if (options_.log) options_.log(name_, status, category != nullptr ? category : "", text);
+  } catch (...) {  // nothing may cross the unit's C code
+  }
+}
+
+std::string FmuInstance::take_messages(const std::string& function) {
+  const std::lock_guard lock(messages_mutex_);
+  has_messages_ = false;
+  std::vector<std::string> messages = std::exchange(messages_, {});
+  if (messages.empty()) return "the unit gives no reason";
+  const std::string prefix = function + ": ";
+  for (std::string& message : messages) {
+    if (message.starts_with(prefix)) message.erase(0, prefix.size());
+  }
+  return fmt::format("{}", fmt::join(messages, "; "));
+}
+
+void FmuInstance::take_rejection_reason(const char* function) {
+  rejection_reason_ = has_messages_ ? take_messages(function) : "";
+}
+
+void FmuInstance::warn(const std::string& message) const {
+  if (options_.log) options_.log(name_, Status::Warning, "stride", message);
+}
+
+// ---- Times ----
+
+Time FmuInstance::checked_time(double seconds, const char* what) const {
+  try {
+    return time_from_seconds(seconds);
+  } catch (const std::out_of_range& error) {
+    fail(fmt::format("{} is {}: {}", what, seconds, error.what()));
+  }
+}
+
+bool FmuInstance::is_within(const core::StepInterval& interval, double seconds) {
+  const double tolerance = time_tolerance(interval);
+  return seconds >= interval.begin_seconds - tolerance &&
+         seconds <= interval.end_seconds + tolerance;
+}
+
+bool FmuInstance::is_end(const core::StepInterval& interval, double seconds) {
+  return std::abs(seconds - interval.end_seconds) <= time_tolerance(interval);
+}
+
+}  // namespace stride::fmi

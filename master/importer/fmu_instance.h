@@ -1,0 +1,212 @@
+// What the instances of FMI 2.0 and of FMI 3.0 units have in common.
+#ifndef STRIDE_MASTER_IMPORTER_FMU_INSTANCE_H
+#define STRIDE_MASTER_IMPORTER_FMU_INSTANCE_H
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "master/algorithm/unit.h"
+#include "master/importer/call_note.h"
+#include "master/importer/shared_library.h"
+#include "master/importer/status.h"
+#include "master/util/error.h"
+
+namespace stride::fmi {
+
+struct InstanceOptions {
+  bool early_return_allowed = false;
+  /// Whether the unit may ask for its inputs within a step, where it can (set_input_update()).
+  bool intermediate_update = false;
+  /// Whether states from before the present communication point may be restored; else the unit may
+  /// forget what it would need for that.
+  bool may_go_back = false;
+  bool debug_logging = false;  ///< everything that the unit can log, not only warnings and errors
+  /// The log says it when an asynchronous step takes longer (FMI 2.0, fmi2Pending).
+  std::chrono::milliseconds patience = std::chrono::seconds(10);
+  LogSink log{};
+  core::Location where{};  ///< the component's place in the scenario, for errors
+  /// With the array sizes that its structural parameters give; nothing = as the FMU says.
+  std::shared_ptr<const core::UnitDescription> description{};
+  /// Where the name of each function is noted before it is called; null = nowhere.
+  CallNote* call_note = nullptr;
+};
+
+/// What an instance is made of, beside its library.
+struct UnitParts {
+  std::shared_ptr<const core::UnitDescription> description;
+  std::string resources;            ///< where they are, in the form that the unit's version wants
+  std::shared_ptr<const void> fmu;  ///< kept alive as long as the instance
+};
+
+/// Calls functions of a unit, and turns what they answer into results and errors. A status Error or
+/// Fatal, and Discard of any function but those that may answer it, becomes a core::Error of the
+/// kind Run, with the name of the function, the simulated time and the unit's own messages. After
+/// it the instance is freed, and no other function of it is called; after Fatal none of any
+/// instance of the FMU, so they are not freed either, and the library stays loaded.
+class FmuInstance : public core::Unit {
+ public:
+  FmuInstance(const FmuInstance&) = delete;
+  FmuInstance& operator=(const FmuInstance&) = delete;
+
+  using core::Unit::step;
+  core::StepResult step(const core::StepInterval& interval) final {
+    return step(interval, core::StepValues{});
+  }
+  std::string rejection_reason() const override { return rejection_reason_; }
+  std::uint64_t calls() const override { return calls_; }
+
+ protected:
+  using References = std::span<const core::ValueReference>;
+
+  /// `prefix` of what has a name in the unit's version: "fmi2", "fmi3".
+  FmuInstance(const char* prefix, std::shared_ptr<const SharedLibrary> library, std::string name,
+              UnitParts parts, InstanceOptions options);
+  ~FmuInstance() override = default;
+
+  /// Calls function(instance, arguments...).
+  template <class Function, class... Arguments>
+  void call(const char* name, Function* function, Arguments... arguments);
+  /// Likewise one that may answer Discard, or Pending.
+  template <class Function, class... Arguments>
+  Status call_discardable(const char* name, Function* function, Arguments... arguments);
+
+  /// To be said before each call.
+  void note_call(const char* name) {
+    ++calls_;
+    if (call_note_ != nullptr) [[unlikely]]
+      call_note_->write(name);
+  }
+  void check_callable(const char* name) const {
+    if (failed_in_ != nullptr || is_condemned_.load(std::memory_order_relaxed)) [[unlikely]]
+      fail_not_callable(name);
+  }
+  /// Whether there is nothing left that could be called.
+  bool has_failed() const { return failed_in_ != nullptr || is_condemned_; }
+  /// What a status other than OK, or a message of a failure, means for the call that has just
+  /// ended.
+  Status look_into(const char* name, Status status);
+  [[noreturn]] void fail_call(const char* function, Status status);
+  [[noreturn]] void fail(const std::string& message, const std::string& hint = "") const;
+  /// Throws what a callback could not throw across the unit's C code.
+  void rethrow_callback_failure() {
+    if (callback_failure_) [[unlikely]]
+      std::rethrow_exception(std::exchange(callback_failure_, nullptr));
+  }
+  void condemn() const { library_->condemn(); }
+
+  /// For functions that a library exports only if the unit has the capability.
+  template <class Function>
+  void require(const char* name, Function* function, const char* capability) const {
+    if (function == nullptr) [[unlikely]]
+      fail_missing(name, capability);
+  }
+
+  /// Calls the unit's function for it, also after a failure, and forgets the life that it had.
+  template <class Function>
+  void reset_by(const char* name, Function* function);
+  /// The bytes of a kept state. `size_of` and `write` are the unit's functions for them.
+  template <class SizeOf, class Answer, class Byte>
+  std::vector<std::uint8_t> serialized(void* state, const char* size_name, SizeOf* size_of,
+                                       const char* name,
+                                       Answer (*write)(void*, void*, Byte*, std::size_t),
+                                       const char* capability);
+
+  /// Of a message of the unit; may be called on any thread, throws nothing.
+  void receive(Status status, const char* category, const char* message) noexcept;
+  /// The failure messages of the call that has just ended, for one line of text.
+  std::string take_messages(const std::string& function);
+  /// The same of a rejected step; empty if the unit said nothing.
+  void take_rejection_reason(const char* function);
+  /// Tells the log something of our own.
+  void warn(const std::string& message) const;
+
+  Time checked_time(double seconds, const char* what) const;
+  /// Whether a time that the unit names is one of the step, the rounding of doubles aside, and what
+  /// a unit that adds up its own internal steps may have drifted.
+  static bool is_within(const core::StepInterval& interval, double seconds);
+  static bool is_end(const core::StepInterval& interval, double seconds);
+
+  // What each call and each step need comes first, and close together.
+  void* instance_ = nullptr;         ///< as the unit calls it
+  const char* failed_in_ = nullptr;  ///< the function after whose status nothing goes on
+  std::uint64_t calls_ = 0;
+  CallNote* const call_note_;
+  std::optional<Time> time_;
+  const std::atomic<bool>& is_condemned_;  ///< the library
+  std::atomic<bool> has_messages_ = false;
+  std::exception_ptr callback_failure_;
+
+  std::string name_;
+  UnitParts parts_;
+  InstanceOptions options_;
+  std::string rejection_reason_;
+
+ private:
+  [[noreturn]] void fail_not_callable(const char* name) const;
+  [[noreturn]] void fail_missing(const char* name, const char* capability) const;
+  std::string status_name(Status status) const;
+
+  const char* prefix_;
+  std::shared_ptr<const SharedLibrary> library_;
+  std::mutex messages_mutex_;
+  std::vector<std::string> messages_;  ///< those of the present call that report a failure
+};
+
+template <class Function, class... Arguments>
+[[gnu::always_inline]] inline Status FmuInstance::call_discardable(const char* name,
+                                                                   Function* function,
+                                                                   Arguments... arguments) {
+  check_callable(name);
+  note_call(name);
+  const auto status = static_cast<Status>(function(instance_, arguments...));
+  const bool is_quiet = !has_messages_.load(std::memory_order_relaxed);
+  if (status == Status::Ok && is_quiet) [[likely]]
+    return status;
+  return look_into(name, status);
+}
+
+template <class Function, class... Arguments>
+[[gnu::always_inline]] inline void FmuInstance::call(const char* name, Function* function,
+                                                     Arguments... arguments) {
+  const Status status = call_discardable(name, function, arguments...);
+  if (status == Status::Discard || status == Status::Pending) [[unlikely]]
+    fail_call(name, status);
+}
+
+template <class Function>
+void FmuInstance::reset_by(const char* name, Function* function) {
+  if (function == nullptr) fail(std::string("its library does not export ") + name);
+  failed_in_ = nullptr;
+  call(name, function);
+  time_.reset();
+  rejection_reason_.clear();
+}
+
+template <class SizeOf, class Answer, class Byte>
+std::vector<std::uint8_t> FmuInstance::serialized(void* state, const char* size_name,
+                                                  SizeOf* size_of, const char* name,
+                                                  Answer (*write)(void*, void*, Byte*, std::size_t),
+                                                  const char* capability) {
+  if (state == nullptr) fail("no state of it has been saved that could be serialised");
+  require(size_name, size_of, capability);
+  require(name, write, capability);
+  std::size_t size = 0;
+  call(size_name, size_of, state, &size);
+  std::vector<std::uint8_t> bytes(size);
+  call(name, write, state, reinterpret_cast<Byte*>(bytes.data()), size);
+  return bytes;
+}
+
+}  // namespace stride::fmi
+
+#endif

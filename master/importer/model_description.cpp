@@ -1,0 +1,46 @@
+#include "master/importer/model_description.h"
+
+#include <fmt/format.h>
+
+#include "master/importer/common_description.h"
+#include "master/importer/fmi2/fmi2_description.h"
+#include "master/importer/fmi3/fmi3_description.h"
+#include "master/util/xml/document.h"
+
+namespace stride::fmi {
+namespace {
+
+[[noreturn]] void fail_version(const xml::Element& root, const std::string& version) {
+  root.fail(fmt::format("fmiVersion=\"{}\" is not supported; expected 2.0 or 3.0", version),
+            "export the unit as FMI 3.0 or FMI 2.0 Co-Simulation");
+}
+
+ModelDescription read(const xml::Element& root) {
+  if (root.name().local != "fmiModelDescription") {
+    root.fail(fmt::format("the document is a {}; expected <fmiModelDescription>", root.tag()));
+  }
+  ModelDescription unit;
+  unit.fmi_version = root.required("fmiVersion");
+  const bool is_fmi2 = unit.fmi_version.starts_with("2.");
+  if (!is_fmi2 && !unit.fmi_version.starts_with("3.")) fail_version(root, unit.fmi_version);
+  unit.model_name = root.given("modelName");
+  unit.description = root.attribute_or("description");
+  unit.generation_tool = root.attribute_or("generationTool");
+  read_units(root, unit);
+  is_fmi2 ? read_fmi2_description(root, unit) : read_fmi3_description(root, unit);
+  read_default_experiment(root, unit);
+  return unit;
+}
+
+}  // namespace
+
+ModelDescription parse_model_description(const std::string& text, const std::string& shown_as) {
+  return read(xml::Document::parse(text, shown_as).root());
+}
+
+ModelDescription read_model_description(const std::filesystem::path& file,
+                                        const std::string& shown_as) {
+  return read(xml::Document(file, shown_as).root());
+}
+
+}  // namespace stride::fmi

@@ -1,0 +1,93 @@
+#include "master/importer/pack.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include "master/importer/binaries.h"
+#include "master/importer/fmi3/fmi3_library.h"
+#include "master/importer/idle_manifest.h"
+#include "master/importer/model_description.h"
+#include "master/importer/unpacked_fmu.h"
+#include "master/util/archive/zip.h"
+#include "master/util/error.h"
+
+namespace stride::fmi {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The bundled libraries do not lie beside the unit's yet; once loaded, the loader knows them by
+/// their names.
+class Preloaded {
+ public:
+  explicit Preloaded(const std::vector<fs::path>& libraries) {
+    for (const fs::path& library : libraries) {
+      void* const handle = ::dlopen(fs::absolute(library).c_str(), RTLD_NOW | RTLD_LOCAL);
+      if (handle == nullptr) {
+        core::fail_input({},
+                         fmt::format("the library to bundle cannot be loaded: {}", ::dlerror()));
+      }
+      handles_.emplace_back(handle, &::dlclose);
+    }
+  }
+
+ private:
+  std::vector<std::unique_ptr<void, int (*)(void*)>> handles_;
+};
+
+archive::Contents collect(const PackRequest& request) {
+  const Preloaded bundled(request.bundled);
+  const Fmi3Library library(request.library);
+  const std::string xml = library.describe(request.resources);
+  auto description = parse_model_description(xml, request.library.string());
+  const std::string binaries = fmt::format("binaries/{}/", platform());
+  archive::Contents contents;
+  contents["modelDescription.xml"].text = xml;
+  const std::string manifest = library.idle_manifest(request.resources);
+  if (!manifest.empty()) {
+    parse_idle_manifest(manifest, request.library.string(), description);
+    contents[STRIDE_IDLE_MANIFEST].text = manifest;
+  }
+  archive::add_file(contents, binaries + description.model_identifier + ".so", request.library,
+                    true);
+  for (const fs::path& library : request.bundled) {
+    archive::add_file(contents, binaries + library.filename().string(), library, true);
+  }
+  if (!request.resources.empty()) {
+    archive::add_folder(contents, "resources/", request.resources);
+  }
+  return contents;
+}
+
+/// The same for the library in an unpacked FMU, with what lies beside it.
+PackRequest with_library_of(const fs::path& fmu, PackRequest request) {
+  if (request.resources.empty()) {
+    core::fail_input({}, fmt::format("'{}' is packed already", request.library.string()),
+                     "name the folder that it is to be packed again with: --resources FOLDER");
+  }
+  const auto description = read_model_description(fmu / "modelDescription.xml");
+  request.library = find_library(fmu, description.fmi_version, description.model_identifier);
+  std::vector<fs::path> beside;
+  for (const fs::directory_entry& entry : fs::directory_iterator(request.library.parent_path())) {
+    if (entry.path() != request.library) beside.push_back(entry.path());
+  }
+  std::sort(beside.begin(), beside.end());  // the order in which they are loaded
+  request.bundled.insert(request.bundled.begin(), beside.begin(), beside.end());
+  return request;
+}
+
+}  // namespace
+
+void pack(const PackRequest& request) {
+  if (request.library.extension() != ".fmu") {
+    return archive::write_zip(request.output, collect(request));
+  }
+  const UnpackedFmu fmu(request.library);
+  archive::write_zip(request.output, collect(with_library_of(fmu.folder(), request)));
+}
+
+}  // namespace stride::fmi

@@ -1,0 +1,27 @@
+// Packs a library made with the unit kit into a .fmu archive, or a .fmu again with other resources.
+#ifndef STRIDE_MASTER_IMPORTER_PACK_H
+#define STRIDE_MASTER_IMPORTER_PACK_H
+
+#include <filesystem>
+#include <vector>
+
+namespace stride::fmi {
+
+struct PackRequest {
+  std::filesystem::path library;               ///< or a .fmu that has one
+  std::filesystem::path resources;             ///< a folder, or empty
+  std::vector<std::filesystem::path> bundled;  ///< shared libraries that go beside the unit's own
+  std::filesystem::path output;
+};
+
+/// Asks the library for its model description with these resources and writes the archive:
+/// modelDescription.xml, binaries/<platform>/<modelIdentifier>.so and the bundled libraries,
+/// resources/, and extra/org.stride.idle/ if the unit can promise to be idle. From a .fmu it takes
+/// the library for this platform and those beside it; its own resources stay behind, so there must
+/// be others. The same input gives the same bytes, and the output is replaced only when it is
+/// complete. Throws core::Error: Input for what is given wrongly, Run if it cannot be written.
+void pack(const PackRequest& request);
+
+}  // namespace stride::fmi
+
+#endif

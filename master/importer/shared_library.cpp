@@ -1,0 +1,95 @@
+#include "master/importer/shared_library.h"
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include "master/importer/binaries.h"
+
+namespace stride::fmi {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What stands between two texts, or nothing.
+std::string_view between(std::string_view text, std::string_view before, std::string_view after) {
+  const std::size_t first = text.find(before);
+  if (first == std::string_view::npos) return {};
+  text.remove_prefix(first + before.size());
+  return text.substr(0, text.find(after));
+}
+
+constexpr const char* kSymbolHint =
+    "link the unit with the library that defines it (the linker option --no-undefined finds this "
+    "when the unit is built)";
+constexpr const char* kPythonHint =
+    "the unit embeds Python, and expects its library in the process: start stride with "
+    "LD_PRELOAD=libpython3.x.so.1.0, of the Python that the unit is for";
+
+/// Py_IsInitialized, PyExc_RuntimeError, _Py_NoneStruct, …: units of PythonFMU are not linked with
+/// what defines them.
+bool is_of_python(std::string_view symbol) {
+  symbol.remove_prefix(std::min(symbol.find_first_not_of('_'), symbol.size()));
+  const auto is_upper = [](char c) { return c == '_' || (c >= 'A' && c <= 'Z'); };
+  return symbol.size() > 2 && symbol.substr(0, 2) == "Py" && is_upper(symbol[2]);
+}
+
+/// Turns the loader's message (glibc's dlerror) into what is missing and how to get it.
+[[noreturn]] void fail_to_load(const fs::path& path, const std::string& reason,
+                               const core::Location& where) {
+  const core::Context context{.where = where};
+  const std::string head = fmt::format("the library '{}' cannot be loaded: ", path.string());
+  constexpr std::string_view kNotFound = ": cannot open shared object file";
+  const std::string missing = reason.substr(0, reason.find(kNotFound));
+  if (missing.size() != reason.size() && missing != path.string()) {
+    core::fail_input(
+        context,
+        fmt::format("{}it needs the shared library '{}', which was not found", head, missing),
+        "install the package that provides it, put it beside the unit's library "
+        "(pack --bundle), or name its folder in LD_LIBRARY_PATH");
+  }
+  std::string_view symbol = between(reason, "undefined symbol: ", " ");
+  if (!symbol.empty()) {
+    symbol = symbol.substr(0, symbol.find(','));
+    core::fail_input(context,
+                     fmt::format("{}it needs the symbol '{}', which no library that it is linked "
+                                 "with has",
+                                 head, symbol),
+                     is_of_python(symbol) ? kPythonHint : kSymbolHint);
+  }
+  core::fail_input(context, head + reason,
+                   fmt::format("expected a shared library for {}", platform()));
+}
+
+/// One flag per library in the process: dlopen gives the same handle however often it is opened.
+/// Lives as long as the process, since a condemned library does.
+std::atomic<bool>& condemned_flag(void* handle) {
+  static std::mutex mutex;
+  static auto& flags = *new std::map<void*, std::atomic<bool>>;
+  const std::lock_guard lock(mutex);
+  return flags[handle];
+}
+
+}  // namespace
+
+void SharedLibrary::Closer::operator()(void* handle) const { ::dlclose(handle); }
+
+SharedLibrary::SharedLibrary(const fs::path& path, const core::Location& where)
+    : path_(fs::absolute(path)) {
+  handle_.reset(::dlopen(path_.c_str(), RTLD_NOW | RTLD_LOCAL));
+  if (!handle_) fail_to_load(path_, ::dlerror(), where);
+  is_condemned_ = &condemned_flag(handle_.get());
+}
+
+SharedLibrary::~SharedLibrary() {
+  if (is_condemned()) static_cast<void>(handle_.release());
+}
+
+void* SharedLibrary::address(const std::string& symbol) const {
+  return ::dlsym(handle_.get(), symbol.c_str());
+}
+
+}  // namespace stride::fmi

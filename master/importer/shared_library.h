@@ -1,0 +1,64 @@
+// A unit's shared library, of whatever version of FMI.
+#ifndef STRIDE_MASTER_IMPORTER_SHARED_LIBRARY_H
+#define STRIDE_MASTER_IMPORTER_SHARED_LIBRARY_H
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "master/util/error.h"
+
+namespace stride::fmi {
+
+/// A loaded library; unloaded with the object, unless it is condemned.
+class SharedLibrary {
+ public:
+  /// Loads it with all its symbols resolved and kept to itself (RTLD_NOW, RTLD_LOCAL). Throws
+  /// core::Error of the kind Input that names the shared library or the symbol that is missing.
+  explicit SharedLibrary(const std::filesystem::path& path, const core::Location& where = {});
+  SharedLibrary(const SharedLibrary&) = delete;
+  SharedLibrary& operator=(const SharedLibrary&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+  /// To be said when an instance has returned the status Fatal: after it no function of any
+  /// instance may be called (FMI 3.0, 2.2.3; FMI 2.0, 2.1.3). Holds for all objects of the same
+  /// library, until the process ends.
+  void condemn() const { *is_condemned_ = true; }
+  const std::atomic<bool>& is_condemned() const { return *is_condemned_; }
+
+ protected:
+  ~SharedLibrary();
+
+  /// Makes `function` that of this name, null if there is none.
+  template <class Function>
+  void find(Function*& function, const std::string& symbol) {
+    function = reinterpret_cast<Function*>(address(symbol));
+  }
+  bool has(const std::string& symbol) const { return address(symbol) != nullptr; }
+
+ private:
+  struct Closer {
+    void operator()(void* handle) const;
+  };
+  void* address(const std::string& symbol) const;
+
+  std::filesystem::path path_;
+  std::unique_ptr<void, Closer> handle_;
+  std::atomic<bool>* is_condemned_ = nullptr;
+};
+
+/// A list of function names, for compile time.
+template <std::size_t kSize>
+constexpr bool contains(const std::string_view (&names)[kSize], std::string_view name) {
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+}  // namespace stride::fmi
+
+#endif

@@ -1,0 +1,31 @@
+// What a function of a unit answers, and whom a unit's messages go to, whatever its version of FMI.
+#ifndef STRIDE_MASTER_IMPORTER_STATUS_H
+#define STRIDE_MASTER_IMPORTER_STATUS_H
+
+#include <functional>
+#include <string>
+
+#include <stride/fmi2.h>
+#include <stride/fmi3.h>
+
+namespace stride::fmi {
+
+/// The status codes of both versions; Pending is FMI 2.0's alone.
+enum class Status { Ok, Warning, Discard, Error, Fatal, Pending };
+
+static_assert(static_cast<int>(Status::Ok) == fmi3OK && fmi3OK + 0 == fmi2OK + 0);
+static_assert(static_cast<int>(Status::Warning) == fmi3Warning &&
+              fmi3Warning + 0 == fmi2Warning + 0);
+static_assert(static_cast<int>(Status::Discard) == fmi3Discard &&
+              fmi3Discard + 0 == fmi2Discard + 0);
+static_assert(static_cast<int>(Status::Error) == fmi3Error && fmi3Error + 0 == fmi2Error + 0);
+static_assert(static_cast<int>(Status::Fatal) == fmi3Fatal && fmi3Fatal + 0 == fmi2Fatal + 0);
+static_assert(static_cast<int>(Status::Pending) == fmi2Pending);
+
+/// Receives what units log. It may be called from any thread that a unit has.
+using LogSink = std::function<void(const std::string& unit, Status status,
+                                   const std::string& category, const std::string& message)>;
+
+}  // namespace stride::fmi
+
+#endif

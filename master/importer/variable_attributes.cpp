@@ -1,0 +1,133 @@
+#include "master/importer/variable_attributes.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace stride::fmi {
+namespace {
+
+using core::Causality;
+using core::Initial;
+using core::ValueType;
+using core::Variability;
+
+template <class Enum>
+Enum read_word(const xml::Element& element, const char* attribute, Enum otherwise,
+               std::size_t count) {
+  const auto word = element.attribute(attribute);
+  if (!word) return otherwise;
+  if (const auto found = find_named<Enum>(*word, count)) return *found;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < count; ++i) names.emplace_back(core::name(static_cast<Enum>(i)));
+  element.fail(fmt::format("{}=\"{}\" of {}: expected one of {}", attribute, *word, element.tag(),
+                           fmt::join(names, ", ")));
+}
+
+Variability default_variability(ValueType type, Causality causality) {
+  switch (causality) {
+    case Causality::Parameter:
+    case Causality::CalculatedParameter:
+    case Causality::StructuralParameter:
+      return Variability::Fixed;
+    default:
+      break;
+  }
+  return core::is_real(type) ? Variability::Continuous : Variability::Discrete;
+}
+
+/// FMI 3.0, 2.4.7.5, the table that defines `initial`: what it may be, its default first. Nothing
+/// for what cannot have the attribute.
+std::vector<Initial> possible_initials(const core::Variable& variable) {
+  if (variable.type == ValueType::Clock) return {};
+  switch (variable.causality) {
+    case Causality::Independent:
+      return {};
+    case Causality::Parameter:
+    case Causality::StructuralParameter:
+    case Causality::Input:
+      return {Initial::Exact};
+    default:
+      break;
+  }
+  switch (variable.variability) {
+    case Variability::Constant:
+      return {Initial::Exact};
+    case Variability::Fixed:
+    case Variability::Tunable:
+      return {Initial::Calculated, Initial::Approx};
+    default:
+      return {Initial::Calculated, Initial::Exact, Initial::Approx};
+  }
+}
+
+}  // namespace
+
+void VariableNames::add(const std::string& name, const xml::Element& place) {
+  const auto [same, is_new] = lines_.emplace(name, place.where().line);
+  if (is_new) return;
+  place.fail(
+      fmt::format("the variable name '{}' is used twice, first in line {}", name, same->second));
+}
+
+void TypeDefinitions::add(const xml::Element& definition, const xml::Element& type) {
+  const std::string name = definition.required("name");
+  if (types_.emplace(name, type).second) return;
+  definition.fail(fmt::format("the type '{}' is defined twice", name));
+}
+
+std::optional<xml::Element> TypeDefinitions::declared(const xml::Element& element) const {
+  const auto name = element.attribute("declaredType");
+  if (!name) return std::nullopt;
+  if (const auto found = types_.find(*name); found != types_.end()) return found->second;
+  element.fail(
+      fmt::format("declaredType=\"{}\": there is no such type in <TypeDefinitions>", *name));
+}
+
+core::Causality read_causality(const xml::Element& variable) {
+  return read_word(variable, "causality", Causality::Local, 7);
+}
+
+core::Variability read_variability(const xml::Element& variable, core::ValueType type,
+                                   core::Causality causality) {
+  return read_word(variable, "variability", default_variability(type, causality), 5);
+}
+
+Initial read_initial(const xml::Element& element, const core::Variable& variable) {
+  const std::vector<Initial> possible = possible_initials(variable);
+  const auto word = element.attribute("initial");
+  if (!word) return possible.empty() ? Initial::None : possible.front();
+  for (const Initial initial : possible) {
+    if (*word == core::name(initial)) return initial;
+  }
+  std::vector<std::string> names;
+  for (const Initial initial : possible) names.emplace_back(core::name(initial));
+  element.fail(fmt::format("initial=\"{}\" of the {} {} '{}': expected {}", *word,
+                           core::name(variable.variability), core::name(variable.causality),
+                           variable.name,
+                           names.empty() ? "none" : fmt::format("{}", fmt::join(names, " or "))));
+}
+
+std::string inherited(const xml::Element& element, const std::optional<xml::Element>& type,
+                      const char* attribute) {
+  return element.attribute_or(attribute, type ? type->attribute_or(attribute) : "");
+}
+
+double read_nominal(const xml::Element& element, ValueType type,
+                    const std::optional<xml::Element>& declared) {
+  if (!core::is_real(type)) return 0;
+  const auto own = element.number<double>("nominal");
+  const auto nominal = own || !declared ? own : declared->number<double>("nominal");
+  return std::isfinite(nominal.value_or(0)) ? std::abs(nominal.value_or(0)) : 0;
+}
+
+std::vector<std::pair<std::string, std::int64_t>> read_items(const xml::Element& type) {
+  std::vector<std::pair<std::string, std::int64_t>> items;
+  for (const xml::Element& item : type.children("Item")) {
+    items.emplace_back(item.given("name"), item.required_number<std::int64_t>("value"));
+  }
+  return items;
+}
+
+}  // namespace stride::fmi

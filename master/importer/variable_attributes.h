@@ -1,0 +1,73 @@
+// What the descriptions of both versions of FMI say of a variable in the same words.
+#ifndef STRIDE_MASTER_IMPORTER_VARIABLE_ATTRIBUTES_H
+#define STRIDE_MASTER_IMPORTER_VARIABLE_ATTRIBUTES_H
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "master/model/description.h"
+#include "master/util/xml/element.h"
+
+namespace stride::fmi {
+
+/// The enumerator of this name, of the first `count`.
+template <class Enum>
+std::optional<Enum> find_named(std::string_view word, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (word == core::name(static_cast<Enum>(i))) return static_cast<Enum>(i);
+  }
+  return std::nullopt;
+}
+
+/// The names of the variables and aliases of a description.
+class VariableNames {
+ public:
+  /// Throws core::Error of the kind Input at `place` for a name that is there already.
+  void add(const std::string& name, const xml::Element& place);
+
+ private:
+  std::map<std::string, int> lines_;
+};
+
+/// The types that are declared by name, each by the element that says what it is.
+class TypeDefinitions {
+ public:
+  /// Throws core::Error of the kind Input at the definition whose name is there already.
+  void add(const xml::Element& definition, const xml::Element& type);
+  /// The `declaredType` of an element, if it has one, which must be there.
+  std::optional<xml::Element> declared(const xml::Element& element) const;
+
+ private:
+  std::map<std::string, xml::Element> types_;
+};
+
+// Each throws core::Error of the kind Input where the attribute has another value than it may.
+
+/// Local if it is not said.
+core::Causality read_causality(const xml::Element& variable);
+/// If it is not said, fixed for parameters, else continuous for floating-point numbers, else
+/// discrete (FMI 3.0, 2.4.7.4).
+core::Variability read_variability(const xml::Element& variable, core::ValueType type,
+                                   core::Causality causality);
+/// From its causality and variability, if it is not said (FMI 3.0, 2.4.7.5; FMI 2.0, 2.2.7). Inputs
+/// are exact.
+core::Initial read_initial(const xml::Element& element, const core::Variable& variable);
+
+/// An attribute of the variable, or else of its declared type.
+std::string inherited(const xml::Element& element, const std::optional<xml::Element>& type,
+                      const char* attribute);
+/// Likewise the magnitude of a floating-point number; 0 if it is not said.
+double read_nominal(const xml::Element& element, core::ValueType type,
+                    const std::optional<xml::Element>& declared);
+/// The items of an enumeration's type.
+std::vector<std::pair<std::string, std::int64_t>> read_items(const xml::Element& type);
+
+}  // namespace stride::fmi
+
+#endif

@@ -1,0 +1,105 @@
+// What a unit's process and the master have in common: requests, replies, and what is said besides.
+#ifndef STRIDE_MASTER_ISOLATION_CHANNEL_H
+#define STRIDE_MASTER_ISOLATION_CHANNEL_H
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+#include <sys/types.h>
+
+#include "master/importer/call_note.h"
+#include "master/isolation/byte_ring.h"
+#include "master/isolation/process/bell.h"
+#include "master/isolation/process/shared_memory.h"
+#include "master/isolation/snapshot_board.h"
+
+namespace stride::host {
+
+/// What the master asks for: the functions of core::Unit, and what they need besides.
+enum class Request : std::uint32_t {
+  Instantiate,
+  EnterConfigurationMode,
+  ExitConfigurationMode,
+  EnterInitialization,
+  ExitInitialization,
+  Get,
+  Set,
+  MakePlan,
+  Step,  ///< by such a plan
+  SaveState,
+  RestoreState,
+  SelectState,
+  SerializeState,
+  DeserializeState,
+  Reset,
+  EnterEventMode,
+  UpdateDiscreteStates,
+  EnterStepMode,
+  GetClockInterval,
+  GetClockShift,
+  GetDirectionalDerivative,
+  SetInputUpdate,
+  EnableIdleSkipping,
+  SetIdleTolerances,
+  GetIdleUntil,
+  GetDerivatives,
+  DescribeMessage,
+  Terminate,
+  Free,              ///< destroys the unit; the process ends afterwards
+  InputsUpdated,     ///< in answer to AskInputs: the inputs are set
+  InputsNotUpdated,  ///< likewise: that has failed
+};
+
+/// What the unit's process says to a request.
+enum class Reply : std::uint32_t {
+  Done,
+  Failed,          ///< a core::Error
+  CallbackFailed,  ///< what failed is what the master did within the call
+  AskInputs,       ///< a question within a step; the reply to the step's request comes later
+};
+
+/// How a process ended, as its keeper saw it.
+enum class End : std::uint32_t { None, NotStarted, Exited, Killed };
+
+/// One direction. Who writes sets what and size first, then the number, then rings.
+struct alignas(64) Turn {
+  std::atomic<std::uint32_t> number = 0;
+  std::atomic<std::uint32_t> what = 0;  ///< a Request or a Reply
+  std::atomic<std::uint64_t> size = 0;  ///< of the message [byte]
+  process::Bell bell;                   ///< for who waits for it
+};
+
+/// In shared memory. The messages themselves stand in a GrowingMemory beside it, where each takes
+/// the place of the one before. Replies have the number of the request that they are for, so nobody
+/// has to remember anything, and whoever is in charge of the unit may go on with it.
+///
+/// The unit's process may write anything here: sizes are checked, and what is no such value is an
+/// error.
+struct ChannelMemory {
+  Turn request;  ///< the unit's process waits for it
+  Turn reply;    ///< the master waits for it, for the end, and for logged lines that do not fit
+  std::atomic<std::uint64_t> calls = 0;  ///< of functions of the unit
+
+  /// The process in charge of the unit. The end of any other does not matter.
+  std::atomic<pid_t> active = 0;
+  std::atomic<End> end = End::None;  ///< of that one; written by the keeper
+  std::atomic<int> end_code = 0;     ///< the error of the start, the exit code, or the signal
+
+  std::atomic<std::uint64_t> most_memory = 0;  ///< resident, of those that have ended [byte]
+  SnapshotBoard snapshots;
+
+  fmi::CallNote call_note;  ///< which function of the unit is being called
+  ByteRing logged;          ///< messages of the unit, see log_message.h; written by its process
+  ByteRing printed;         ///< standard output and error; written by the keeper
+};
+
+/// Both kinds of memory. Made by the master, inherited by the others.
+struct Channel {
+  process::Shared<ChannelMemory> memory;
+  process::GrowingMemory messages{"stride-unit", std::size_t{1} << 16};
+};
+
+}  // namespace stride::host
+
+#endif

@@ -1,0 +1,169 @@
+#include "master/isolation/codec.h"
+
+#include <string>
+#include <type_traits>
+
+namespace stride::host {
+namespace {
+
+constexpr bool is_number(core::ValueType type) {
+  return type != core::ValueType::String && type != core::ValueType::Binary;
+}
+
+std::size_t byte_count(const core::ValueBlock& values) {
+  return values.size() * core::element_size(values.type());
+}
+
+}  // namespace
+
+// ---- Values ----
+
+void put_values(MessageWriter& to, const core::ValueBlock& values) {
+  if (is_number(values.type())) return to.put_bytes(values.bytes(), byte_count(values));
+  core::visit(values, [&]<class T>(std::span<const T> elements) {
+    if constexpr (!std::is_arithmetic_v<T>) {
+      for (const T& element : elements) {
+        to.put(element.size());
+        to.put_bytes(element.data(), element.size());
+      }
+    }
+  });
+}
+
+void take_values(MessageReader& from, core::ValueBlock& values) {
+  if (is_number(values.type())) return from.take_into(values.bytes(), byte_count(values));
+  core::visit(values, [&]<class T>(std::span<T> elements) {
+    if constexpr (!std::is_arithmetic_v<T>) {
+      using Element = typename T::value_type;
+      for (T& element : elements) {
+        const std::size_t size = from.take_count(1);
+        const auto* const bytes = reinterpret_cast<const Element*>(from.take_bytes(size));
+        element.assign(bytes, bytes + size);
+      }
+    }
+  });
+}
+
+void put_shape(MessageWriter& to, const core::ValueBlock& values) {
+  to.put(values.type());
+  to.put(values.size());
+}
+
+core::ValueBlock take_shape(MessageReader& from) {
+  const auto type = from.take<core::ValueType>();
+  return {type, from.take<std::size_t>()};
+}
+
+// ---- Results ----
+
+void put_time(MessageWriter& to, std::optional<Time> time) {
+  to.put(time.has_value());
+  to.put(time.value_or(Time{}).time_since_epoch().count());
+}
+
+std::optional<Time> take_time(MessageReader& from) {
+  const bool is_there = from.take<bool>();
+  const Time time{Duration(from.take<Duration::rep>())};
+  return is_there ? std::optional(time) : std::nullopt;
+}
+
+namespace {
+
+enum Flag : std::uint8_t { kRejected = 1, kEarlyReturn = 2, kEventNeeded = 4, kTerminate = 8 };
+
+}  // namespace
+
+void put_step(MessageWriter& to, const core::StepResult& result) {
+  to.put(static_cast<std::uint8_t>(
+      (result.rejected ? kRejected : 0) | (result.early_return ? kEarlyReturn : 0) |
+      (result.event_needed ? kEventNeeded : 0) | (result.terminate ? kTerminate : 0)));
+  to.put(result.reached.time_since_epoch().count());
+}
+
+core::StepResult take_step(MessageReader& from) {
+  const auto flags = from.take<std::uint8_t>();
+  return {.rejected = (flags & kRejected) != 0,
+          .early_return = (flags & kEarlyReturn) != 0,
+          .event_needed = (flags & kEventNeeded) != 0,
+          .terminate = (flags & kTerminate) != 0,
+          .reached = Time(Duration(from.take<Duration::rep>()))};
+}
+
+void put_events(MessageWriter& to, const core::EventResult& result) {
+  to.put(result.iterate);
+  to.put(result.terminate);
+  put_time(to, result.next_event);
+}
+
+core::EventResult take_events(MessageReader& from) {
+  core::EventResult result;
+  result.iterate = from.take<bool>();
+  result.terminate = from.take<bool>();
+  result.next_event = take_time(from);
+  return result;
+}
+
+// ---- Errors ----
+
+void put_error(MessageWriter& to, const std::exception& error, const core::Context& context,
+               const std::string& hint) {
+  const auto* const own = dynamic_cast<const core::Error*>(&error);
+  if (own == nullptr) {
+    return put_error(to, core::Error(core::Error::Kind::Run, context, error.what(), hint), context);
+  }
+  to.put(own->kind());
+  to.put(dynamic_cast<const core::ConsequentError*>(own) != nullptr);
+  to.put(own->context().where.file);
+  to.put(own->context().where.line);
+  to.put(own->context().unit);
+  to.put(own->context().variable);
+  put_time(to, own->context().time);
+  to.put(own->message());
+  to.put(own->hint().empty() ? hint : own->hint());
+}
+
+void throw_error(MessageReader& from) {
+  const auto kind = from.take<core::Error::Kind>();
+  const bool is_consequent = from.take<bool>();
+  core::Context context;
+  context.where.file = from.take_text();
+  context.where.line = from.take<int>();
+  context.unit = from.take_text();
+  context.variable = from.take_text();
+  context.time = take_time(from);
+  const std::string message = from.take_text();
+  const std::string hint = from.take_text();
+  if (is_consequent) throw core::ConsequentError(kind, std::move(context), message, hint);
+  throw core::Error(kind, std::move(context), message, hint);
+}
+
+// ---- Protections ----
+
+namespace {
+
+void put_lines(MessageWriter& to, const std::vector<std::string>& lines) {
+  to.put(lines.size());
+  for (const std::string& line : lines) to.put(line);
+}
+
+std::vector<std::string> take_lines(MessageReader& from) {
+  std::vector<std::string> lines(from.take_count(sizeof(std::size_t)));
+  for (std::string& line : lines) line = from.take_text();
+  return lines;
+}
+
+}  // namespace
+
+void put_protections(MessageWriter& to, const process::Protections& protections) {
+  put_lines(to, protections.in_force);
+  put_lines(to, protections.missing);
+}
+
+process::Protections take_protections(MessageReader& from) {
+  process::Protections protections;
+  protections.in_force = take_lines(from);
+  protections.missing = take_lines(from);
+  return protections;
+}
+
+}  // namespace stride::host

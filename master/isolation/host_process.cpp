@@ -1,0 +1,125 @@
+#include "master/isolation/host_process.h"
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <iostream>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "master/isolation/process/signal_name.h"
+
+namespace stride::host {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct Line {
+  process::Descriptor ours, theirs;
+
+  // a socket, since nobody wants SIGPIPE
+  Line() {
+    std::array<int, 2> ends{};
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+      process::fail("socketpair");
+    }
+    ours = process::Descriptor(ends[0]);
+    theirs = process::Descriptor(ends[1]);
+  }
+};
+
+/// What waits in this process to be written would be written by its forks, too.
+void flush_standard_files() {
+  std::cout.flush();
+  std::cerr.flush();
+  std::clog.flush();
+  std::fflush(nullptr);
+}
+
+}  // namespace
+
+HostProcess::HostProcess(Channel& channel, const std::function<void(pid_t)>& serve)
+    : channel_(*channel.memory) {
+  Line line;
+  flush_standard_files();
+  const pid_t master = ::getpid();
+  keeper_ = ::fork();
+  if (keeper_ < 0) process::fail("fork");
+  if (keeper_ == 0) {
+    line.ours.close();
+    keep(channel, std::move(line.theirs), master, serve);
+  }
+  ::setpgid(keeper_, keeper_);  // whoever of the two comes first
+  line_ = std::move(line.ours);
+  channel.memory.hide_from_children();
+  channel.messages.hide_from_children();
+}
+
+bool HostProcess::look_for_end() {
+  if (has_ended()) return true;
+  if (!is_keeper_gone()) return false;
+  ::kill(-keeper_, SIGKILL);
+  is_keeper_lost_ = true;
+  channel_.end = End::Killed;
+  channel_.end_code = SIGKILL;
+  return true;
+}
+
+void HostProcess::kill() {
+  tell(Command::Kill);
+  for (auto patience = 2000ms; !look_for_end() && patience > 0ms; patience -= 1ms) {
+    std::this_thread::sleep_for(1ms);
+  }
+}
+
+void HostProcess::finish(const std::function<void()>& meanwhile) {
+  if (keeper_ <= 0) return;
+  tell(Command::Finish);
+  line_.close();
+  while (!is_keeper_gone()) {
+    const std::uint32_t rings = channel_.reply.bell.rings();
+    meanwhile();
+    channel_.reply.bell.sleep(rings, 1ms);
+  }
+  ::kill(-keeper_, SIGKILL);  // in vain, unless something has ended the keeper
+  int status = 0;
+  while (::waitpid(keeper_, &status, 0) < 0 && errno == EINTR) {
+  }
+  keeper_ = 0;
+}
+
+/// Nobody has waited for it yet, so its group has its number.
+bool HostProcess::is_keeper_gone() const {
+  siginfo_t info{};
+  const int options = WEXITED | WNOWAIT | WNOHANG;
+  return ::waitid(P_PID, static_cast<id_t>(keeper_), &info, options) == 0 && info.si_pid == keeper_;
+}
+
+void HostProcess::tell(Command command) const {
+  ::send(line_.number(), &command, sizeof command, MSG_NOSIGNAL);
+}
+
+std::string HostProcess::how_it_ended() const {
+  if (is_keeper_lost_) return "its process was killed, since something has ended its keeper";
+  const int code = channel_.end_code;
+  switch (channel_.end.load()) {
+    case End::NotStarted:
+      return fmt::format("its process cannot be started: {}", std::strerror(code));
+    case End::Exited:
+      return fmt::format("it ended its process with exit code {}", code);
+    case End::Killed:
+    case End::None:
+      break;
+  }
+  return fmt::format("its process was ended by signal {} ({})", code, process::signal_name(code));
+}
+
+}  // namespace stride::host

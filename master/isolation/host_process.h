@@ -1,0 +1,53 @@
+// A unit's process, as the master sees it.
+#ifndef STRIDE_MASTER_ISOLATION_HOST_PROCESS_H
+#define STRIDE_MASTER_ISOLATION_HOST_PROCESS_H
+
+#include <functional>
+#include <string>
+
+#include <sys/types.h>
+
+#include "master/isolation/channel.h"
+#include "master/isolation/keeper.h"
+#include "master/isolation/process/descriptor.h"
+
+namespace stride::host {
+
+/// A keeper and the process that it keeps. Nothing of them stays when the object is destroyed.
+class HostProcess {
+ public:
+  /// Forks. `serve` is called in the unit's process, with the process id of its parent; that
+  /// process ends when it returns. Throws std::system_error if there can be no process.
+  HostProcess(Channel& channel, const std::function<void(pid_t)>& serve);
+  ~HostProcess() {
+    finish([] {});
+  }
+  HostProcess(const HostProcess&) = delete;
+  HostProcess& operator=(const HostProcess&) = delete;
+
+  /// Whether there is nobody in charge of the unit any longer. Cheap.
+  bool has_ended() const { return channel_.end.load(std::memory_order_acquire) != End::None; }
+  /// Likewise; also looks whether the keeper lives, and ends the unit's process if it does not.
+  bool look_for_end();
+  /// Ends the unit's process.
+  void kill();
+  /// Ends everything and waits for it; calls `meanwhile` again and again, which may read what is
+  /// printed.
+  void finish(const std::function<void()>& meanwhile);
+
+  /// "its process was killed by SIGSEGV (signal 11)"
+  std::string how_it_ended() const;
+
+ private:
+  void tell(Command command) const;
+  bool is_keeper_gone() const;
+
+  ChannelMemory& channel_;
+  process::Descriptor line_;
+  pid_t keeper_ = 0;
+  bool is_keeper_lost_ = false;
+};
+
+}  // namespace stride::host
+
+#endif

@@ -1,0 +1,15 @@
+#include "master/isolation/hosted_unit.h"
+
+#include <utility>
+
+#include "master/isolation/unit_proxy.h"
+
+namespace stride::host {
+
+std::unique_ptr<core::Unit> instantiate(std::shared_ptr<fmi::Fmu> fmu, const std::string& name,
+                                        fmi::InstanceOptions options, HostOptions host) {
+  return std::make_unique<UnitProxy>(
+      Recipe{std::move(fmu), name, std::move(options), std::move(host)});
+}
+
+}  // namespace stride::host

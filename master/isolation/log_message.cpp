@@ -1,0 +1,49 @@
+#include "master/isolation/log_message.h"
+
+#include <chrono>
+#include <cstring>
+#include <thread>
+
+namespace stride::host {
+namespace {
+
+struct Head {
+  std::uint32_t status, category_size;
+  std::uint64_t text_size;
+};
+
+}  // namespace
+
+void LogWriter::write(const LogMessage& message) {
+  const Head head{static_cast<std::uint32_t>(message.status),
+                  static_cast<std::uint32_t>(message.category.size()), message.text.size()};
+  const std::lock_guard lock(mutex_);
+  write({reinterpret_cast<const char*>(&head), sizeof head});
+  write(message.category);
+  write(message.text);
+}
+
+void LogWriter::write(std::string_view bytes) {
+  for (;;) {
+    bytes.remove_prefix(channel_.logged.write(bytes));
+    if (bytes.empty()) return;
+    channel_.reply.bell.ring();
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
+}
+
+bool LogReader::next(LogMessage& message) {
+  Head head{};
+  if (bytes_.size() < sizeof head) return false;
+  std::memcpy(&head, bytes_.data(), sizeof head);
+  const std::size_t rest = bytes_.size() - sizeof head;
+  if (rest < head.category_size || rest - head.category_size < head.text_size) return false;
+  const auto last = static_cast<std::uint32_t>(fmi::Status::Pending);
+  message.status = static_cast<fmi::Status>(head.status <= last ? head.status : last);
+  message.category = bytes_.substr(sizeof head, head.category_size);
+  message.text = bytes_.substr(sizeof head + head.category_size, head.text_size);
+  bytes_.erase(0, sizeof head + head.category_size + head.text_size);
+  return true;
+}
+
+}  // namespace stride::host

@@ -1,0 +1,55 @@
+// What a unit logs, on its way to the master.
+#ifndef STRIDE_MASTER_ISOLATION_LOG_MESSAGE_H
+#define STRIDE_MASTER_ISOLATION_LOG_MESSAGE_H
+
+#include <mutex>
+#include <string>
+
+#include "master/importer/status.h"
+#include "master/isolation/channel.h"
+
+namespace stride::host {
+
+struct LogMessage {
+  fmi::Status status = fmi::Status::Ok;
+  std::string category, text;
+};
+
+/// In the unit's process; any of its threads may use it. Where there is no room it waits until the
+/// master has read.
+class LogWriter {
+ public:
+  explicit LogWriter(ChannelMemory& channel) : channel_(channel) {}
+  void write(const LogMessage& message);
+
+ private:
+  void write(std::string_view bytes);
+
+  ChannelMemory& channel_;
+  std::mutex mutex_;
+};
+
+/// In the master.
+class LogReader {
+ public:
+  explicit LogReader(ChannelMemory& channel) : channel_(channel) {}
+
+  bool is_empty() const { return channel_.logged.is_empty(); }
+  /// Calls take(LogMessage&&) for each message that is there as a whole.
+  template <class Take>
+  void read(Take&& take) {
+    channel_.logged.read(bytes_);
+    LogMessage message;
+    while (next(message)) take(std::move(message));
+  }
+
+ private:
+  bool next(LogMessage& message);
+
+  ChannelMemory& channel_;
+  std::string bytes_;  ///< read, and not taken yet
+};
+
+}  // namespace stride::host
+
+#endif

@@ -1,0 +1,147 @@
+#include "master/isolation/process/child.h"
+
+#include <array>
+#include <cerrno>
+#include <exception>
+#include <utility>
+
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "master/isolation/process/descriptor.h"
+#include "master/isolation/process/surroundings.h"
+
+namespace stride::process {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using End = ChildOutcome::End;
+
+constexpr std::size_t kPrintedKept = 4096;
+/// How often a child is looked at whose pipes somebody else may hold open.
+constexpr std::chrono::milliseconds kGlance{20};
+
+/// What stands before the child's text.
+constexpr char kAnswer = 'A';
+constexpr char kException = 'E';
+
+/// The child's surroundings: a library may have the habits of a program of its own.
+void settle(pid_t parent, int output) {
+  ::setpgid(0, 0);
+  die_with(parent);
+  forget_signal_handlers();
+  redirect_standard_files(output);
+}
+
+[[noreturn]] void be_child(const std::function<std::string()>& work, int answer) {
+  char kind = kAnswer;
+  std::string text;
+  try {
+    text = work();
+  } catch (const std::exception& error) {
+    kind = kException;
+    text = error.what();
+  } catch (...) {
+    kind = kException;
+    text = "something was thrown that is no std::exception";
+  }
+  write_all(answer, &kind, 1);
+  write_all(answer, text.data(), text.size());
+  ::_exit(0);
+}
+
+bool has_ended(pid_t child) {
+  siginfo_t info{};
+  return ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT | WNOHANG) == 0 &&
+         info.si_pid == child;
+}
+
+/// Ends all of the child's group and takes the child's status away.
+int reap(pid_t child) {
+  ::kill(-child, SIGKILL);
+  ::kill(child, SIGKILL);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+class Watch {
+ public:
+  Watch(pid_t child, Descriptor answer, Descriptor output, const ChildOptions& options)
+      : child_(child),
+        answer_(std::move(answer)),
+        output_(std::move(output)),
+        options_(options),
+        begin_(Clock::now()) {}
+
+  ChildOutcome run() {
+    std::optional<End> cut_off;
+    while (!has_ended(child_) && !cut_off) {
+      wait();
+      read();
+      cut_off = reason_to_stop();
+    }
+    const int status = reap(child_);
+    read();
+    ChildOutcome outcome = cut_off ? ChildOutcome{*cut_off, 0, {}, {}} : judge(status);
+    outcome.printed = std::move(printed_);
+    return outcome;
+  }
+
+ private:
+  void wait() const {
+    std::array<pollfd, 2> files{{{answer_.number(), POLLIN, 0}, {output_.number(), POLLIN, 0}}};
+    const bool is_over = !answer_.is_open() && !output_.is_open();
+    // when its pipes are closed it is about to end
+    ::poll(files.data(), files.size(), is_over ? 1 : static_cast<int>(kGlance.count()));
+  }
+
+  void read() {
+    drain(answer_, text_);
+    drain(output_, printed_);
+    if (printed_.size() > kPrintedKept) printed_.erase(0, printed_.size() - kPrintedKept);
+  }
+
+  std::optional<End> reason_to_stop() const {
+    if (options_.interrupted != nullptr && *options_.interrupted != 0) return End::Interrupted;
+    if (options_.limit && Clock::now() - begin_ > *options_.limit) return End::TimedOut;
+    return std::nullopt;
+  }
+
+  ChildOutcome judge(int status) {
+    if (WIFSIGNALED(status)) return {End::Killed, WTERMSIG(status), {}, {}};
+    if (WEXITSTATUS(status) != 0 || text_.empty()) {
+      return {End::Exited, WEXITSTATUS(status), {}, {}};
+    }
+    const End end = text_.front() == kAnswer ? End::Answered : End::Threw;
+    return {end, 0, text_.substr(1), {}};
+  }
+
+  pid_t child_;
+  Descriptor answer_, output_;
+  const ChildOptions& options_;
+  Clock::time_point begin_;
+  std::string text_, printed_;
+};
+
+}  // namespace
+
+ChildOutcome run_in_child(const std::function<std::string()>& work, const ChildOptions& options) {
+  Pipe answer;
+  Pipe output;
+  const pid_t parent = ::getpid();
+  const pid_t child = ::fork();
+  if (child < 0) fail("fork");
+  if (child == 0) {
+    settle(parent, output.write.number());
+    be_child(work, answer.write.number());
+  }
+  ::setpgid(child, child);  // whoever of the two comes first
+  answer.write.close();
+  output.write.close();
+  return Watch(child, std::move(answer.read), std::move(output.read), options).run();
+}
+
+}  // namespace stride::process

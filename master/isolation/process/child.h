@@ -1,0 +1,45 @@
+// Work in a process of its own: what goes wrong there, goes wrong there only.
+#ifndef STRIDE_MASTER_ISOLATION_PROCESS_CHILD_H
+#define STRIDE_MASTER_ISOLATION_PROCESS_CHILD_H
+
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace stride::process {
+
+/// How a child ended.
+struct ChildOutcome {
+  enum class End {
+    Answered,     ///< `text` is what the work returned
+    Threw,        ///< `text` is the message of the exception that left it
+    Exited,       ///< something in it ended the process; `code` is the exit code
+    Killed,       ///< by the signal `code`
+    TimedOut,     ///< it was killed, because its time was over
+    Interrupted,  ///< likewise, because the user wanted so
+  };
+  End end = End::Answered;
+  int code = 0;
+  std::string text;
+  std::string printed;  ///< the last 4 KiB that it wrote to its standard output and error
+};
+
+struct ChildOptions {
+  std::optional<std::chrono::milliseconds> limit{};  ///< nothing = it may run for ever
+  /// Looked at while the child runs; a signal handler sets it to end the child.
+  const volatile std::sig_atomic_t* interrupted = nullptr;
+};
+
+/// Runs the work in a fork of this process and waits for its end. The child has its own process
+/// group, which is killed as a whole when the child has ended, and it is killed when the thread
+/// that called this ends; nothing of it stays. Its standard input is empty, it leaves no core dump,
+/// and no destructor of its runs after the work. It may itself call this function. Throws
+/// std::system_error if there can be no child.
+ChildOutcome run_in_child(const std::function<std::string()>& work,
+                          const ChildOptions& options = {});
+
+}  // namespace stride::process
+
+#endif

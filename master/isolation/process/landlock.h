@@ -1,0 +1,26 @@
+// The kernel's Landlock: a file system that is read-only but for some folders.
+#ifndef STRIDE_MASTER_ISOLATION_PROCESS_LANDLOCK_H
+#define STRIDE_MASTER_ISOLATION_PROCESS_LANDLOCK_H
+
+#include <span>
+
+#include "master/isolation/process/descriptor.h"
+
+namespace stride::process {
+
+/// The version of Landlock's interface (kernel documentation, userspace-api/landlock). Throws
+/// std::system_error if the kernel has none, if it is switched off, or not allowed here.
+int landlock_version();
+
+/// From these versions on.
+constexpr int kLandlockTruncates = 3;  ///< truncation without writing is seen, too
+constexpr int kLandlockSignals = 6;    ///< signals stay within
+
+/// Leaves to this thread, and to all that it starts, no way to change the file system but in these
+/// folders (opened with O_PATH), in the files among them, and in a few devices. Needs no_new_privs.
+/// Throws std::system_error; then nothing has changed.
+void forbid_writing_outside(std::span<const Descriptor> writable, int version);
+
+}  // namespace stride::process
+
+#endif

@@ -1,0 +1,23 @@
+// What the kernel says of a process's memory (proc(5)).
+#ifndef STRIDE_MASTER_ISOLATION_PROCESS_PROCESS_MEMORY_H
+#define STRIDE_MASTER_ISOLATION_PROCESS_PROCESS_MEMORY_H
+
+#include <cstdint>
+
+#include <sys/types.h>
+
+namespace stride::process {
+
+/// The most that was resident so far [byte]; 0 if it is not said.
+std::uint64_t most_memory(pid_t process);
+
+/// What is resident and no other process has [byte]; 0 if it is not said. It goes through all pages
+/// of the process.
+std::uint64_t private_memory(pid_t process);
+
+/// What it has allocated, and may write to alone, resident or not [byte]; 0 if it is not said.
+std::uint64_t data_memory(pid_t process);
+
+}  // namespace stride::process
+
+#endif

@@ -1,0 +1,44 @@
+// What a process gives up for good, before it loads code that nobody here has written.
+#ifndef STRIDE_MASTER_ISOLATION_PROCESS_SANDBOX_H
+#define STRIDE_MASTER_ISOLATION_PROCESS_SANDBOX_H
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace stride::process {
+
+/// What is in force and what is not, each in words, for a person to read.
+struct Protections {
+  std::vector<std::string> in_force;  ///< "no network: seccomp"
+  std::vector<std::string> missing;   ///< what this kernel or container does not offer, and why
+};
+
+/// Where files may still be changed.
+struct WritableFolder {
+  std::filesystem::path path;
+  std::string name;  ///< what the protections call it
+};
+
+/// Takes from this process, and from all that it will ever start, what a unit has no need of. No
+/// root is needed, and nothing is ended: what is denied fails with EACCES (or EPERM, a signal).
+///
+/// - no new privileges: a set-user-ID program gains nothing; of root's own privileges only those
+///   stay that give access to files;
+/// - no core dump, and as many open files as a program uses, so that one which leaks them fails
+///   before the machine does. The number of processes is not limited: the kernel counts those of
+///   the user, not those of a unit;
+/// - files are only read and executed, but for what stands in the folders `writable` and below, and
+///   /dev/null and its like. Nothing is made, removed, renamed, truncated or mounted elsewhere. Not
+///   covered are the owners, modes and times of files, and what is open already (Landlock);
+/// - signals reach, and debuggers attach to, those only who are in the same sandbox;
+/// - no socket but AF_UNIX, and no typing into somebody's terminal (seccomp).
+///
+/// What the kernel lacks stands in the answer, and the rest is put on. To be called while this
+/// process has one thread. Throws std::system_error if a folder cannot be opened.
+Protections enter_sandbox(std::span<const WritableFolder> writable);
+
+}  // namespace stride::process
+
+#endif

@@ -1,0 +1,52 @@
+#include "master/isolation/process/surroundings.h"
+
+#include <algorithm>
+#include <csignal>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "master/isolation/process/descriptor.h"
+
+namespace stride::process {
+
+void forget_signal_handlers() {
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS, SIGHUP,
+                           SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGCHLD, SIGUSR1, SIGUSR2}) {
+    ::signal(signal, SIG_DFL);
+  }
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  const rlimit nothing{0, 0};
+  ::setrlimit(RLIMIT_CORE, &nothing);
+}
+
+void redirect_standard_files(int output) {
+  const Descriptor empty(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+  ::dup2(empty.number(), STDIN_FILENO);
+  ::dup2(output, STDOUT_FILENO);
+  ::dup2(output, STDERR_FILENO);
+}
+
+void die_with(pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);
+}
+
+void close_other_files(std::initializer_list<int> kept) {
+  std::vector<int> sorted = kept;
+  std::sort(sorted.begin(), sorted.end());
+  unsigned first = STDERR_FILENO + 1;
+  for (const int file : sorted) {
+    if (file < static_cast<int>(first)) continue;
+    if (file > static_cast<int>(first)) ::close_range(first, static_cast<unsigned>(file) - 1, 0);
+    first = static_cast<unsigned>(file) + 1;
+  }
+  ::close_range(first, ~0U, 0);
+}
+
+}  // namespace stride::process

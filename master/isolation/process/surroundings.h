@@ -1,0 +1,27 @@
+// What a forked process has to put in order before it does anything else.
+#ifndef STRIDE_MASTER_ISOLATION_PROCESS_SURROUNDINGS_H
+#define STRIDE_MASTER_ISOLATION_PROCESS_SURROUNDINGS_H
+
+#include <initializer_list>
+
+#include <sys/types.h>
+
+namespace stride::process {
+
+/// Signals do what they do in a new program, whatever the parent has made of them, and none is
+/// blocked; there is no core dump.
+void forget_signal_handlers();
+
+/// Standard input is empty; standard output and error go to this file.
+void redirect_standard_files(int output);
+
+/// This process is killed when the thread that has forked it ends; it ends at once if that has
+/// happened already.
+void die_with(pid_t parent);
+
+/// Closes all files but the standard ones and these.
+void close_other_files(std::initializer_list<int> kept);
+
+}  // namespace stride::process
+
+#endif

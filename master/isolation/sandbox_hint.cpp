@@ -1,0 +1,33 @@
+#include "master/isolation/sandbox_hint.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+namespace stride::host {
+namespace {
+
+/// EACCES and EPERM, as programs in various languages put them.
+constexpr std::array<std::string_view, 6> kDenied{
+    "ermission denied", "not permitted", "EACCES", "EPERM", "rrno 13", "rrno 1]"};
+
+bool looks_denied(std::string_view said) {
+  return std::ranges::any_of(
+      kDenied, [&](std::string_view words) { return said.find(words) != std::string_view::npos; });
+}
+
+}  // namespace
+
+std::string sandbox_hint(std::string_view said, const std::string& unit, const HostOptions& host) {
+  if (!host.is_sandboxed || !looks_denied(said)) return {};
+  std::string folders;
+  for (const std::filesystem::path& folder : host.writable) folders += folder.string() + ", ";
+  return fmt::format(
+      "it runs in a sandbox: it has no network, and can write to {}its resources and a temporary "
+      "folder only; whether that is why, it shows with --no-sandbox, or "
+      "<stride:Host components=\"{}\" sandbox=\"false\"/>",
+      folders, unit);
+}
+
+}  // namespace stride::host

@@ -1,0 +1,17 @@
+#ifndef STRIDE_MASTER_ISOLATION_SANDBOX_HINT_H
+#define STRIDE_MASTER_ISOLATION_SANDBOX_HINT_H
+
+#include <string>
+#include <string_view>
+
+#include "master/isolation/hosted_unit.h"
+
+namespace stride::host {
+
+/// How to find out whether a unit has failed because it is in a sandbox; empty if it is in none, or
+/// if what was said of the failure does not look like it.
+std::string sandbox_hint(std::string_view said, const std::string& unit, const HostOptions& host);
+
+}  // namespace stride::host
+
+#endif

@@ -1,0 +1,342 @@
+#include "master/isolation/server.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include "master/isolation/codec.h"
+#include "master/isolation/memory_limit.h"
+#include "master/isolation/process/surroundings.h"
+#include "master/isolation/sandbox_hint.h"
+
+namespace stride::host {
+namespace {
+
+/// Where the master is so long in coming, nothing is lost by another look.
+constexpr std::chrono::seconds kLook{10};
+
+/// What the master did within a call has failed; it knows how.
+struct CallbackFailure {};
+
+/// First among the functions that exit() calls, but for the unit's own: those of the master are not
+/// for this process.
+void on_exit_called(int status, void*) {
+  std::fflush(nullptr);
+  ::_exit(status);
+}
+
+std::vector<process::WritableFolder> writable_folders(const Recipe& recipe) {
+  std::vector<process::WritableFolder> folders;
+  for (const std::filesystem::path& folder : recipe.host.writable) {
+    folders.push_back({folder, folder.string()});
+  }
+  if (std::filesystem::is_directory(recipe.fmu->resources())) {
+    folders.push_back({recipe.fmu->resources(), "its resources"});
+  }
+  folders.push_back({recipe.temporary->path(), "a temporary folder"});
+  return folders;
+}
+
+}  // namespace
+
+void serve(Channel& channel, const Recipe& recipe, pid_t keeper) noexcept {
+  process::forget_signal_handlers();
+  ::prctl(PR_SET_NAME, recipe.name.c_str());
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a crash loses no line
+  ::on_exit(&on_exit_called, nullptr);
+  Server(channel, recipe, keeper).run();
+  ::_exit(0);
+}
+
+Server::Server(Channel& channel, const Recipe& recipe, pid_t keeper)
+    : channel_(channel), memory_(*channel.memory), recipe_(recipe), log_(*channel.memory) {
+  if (!recipe.has_snapshots()) return;
+  snapshots_.emplace(
+      memory_.snapshots, memory_.active, keeper,
+      SnapshotOptions{context(), {channel.messages.file().number()}, recipe.host.memory_limit});
+}
+
+void Server::run() {
+  while (!is_over_) {
+    await_request();
+    serve();
+  }
+}
+
+process::Protections Server::prepare() {
+  if (recipe_.host.memory_limit) limit_memory(*recipe_.host.memory_limit);
+  if (!recipe_.host.is_sandboxed) return {};
+  ::setenv("TMPDIR", recipe_.temporary->path().c_str(), 1);
+  return process::enter_sandbox(writable_folders(recipe_));
+}
+
+// ---- Requests and replies ----
+
+void Server::await_request() {
+  const auto is_there = [&] {
+    return memory_.request.number.load(std::memory_order_acquire) !=
+           memory_.reply.number.load(std::memory_order_relaxed);
+  };
+  while (!waiter_.wait(memory_.request.bell, kLook, is_there)) {
+  }
+}
+
+Request Server::requested() const { return static_cast<Request>(memory_.request.what.load()); }
+
+void Server::serve() {
+  channel_.messages.follow(memory_.request.size);
+  MessageReader in({channel_.messages.data(), memory_.request.size});
+  MessageWriter out(channel_.messages);
+  Reply what = Reply::Done;
+  const auto fail = [&](const std::exception& error) {
+    what = Reply::Failed;
+    out.clear();
+    put_error(out, error, context(), sandbox_hint(error.what(), recipe_.name, recipe_.host));
+  };
+  try {
+    handle(requested(), in, out);
+  } catch (const CallbackFailure&) {
+    what = Reply::CallbackFailed;
+  } catch (const core::Error& error) {
+    fail(error);
+  } catch (const std::exception& error) {
+    fail(core::Error(core::Error::Kind::Run, context(), origin() + error.what()));
+  } catch (...) {
+    fail(core::Error(core::Error::Kind::Run, context(),
+                     origin() + "something was thrown that is no std::exception"));
+  }
+  reply(what, out);
+}
+
+void Server::reply(Reply what, const MessageWriter& message) {
+  memory_.call_note.clear();
+  if (unit_) memory_.calls.store(undone_calls_ + unit_->calls(), std::memory_order_relaxed);
+  memory_.reply.what.store(static_cast<std::uint32_t>(what), std::memory_order_relaxed);
+  memory_.reply.size.store(message.size(), std::memory_order_relaxed);
+  memory_.reply.number.store(memory_.request.number.load(std::memory_order_relaxed),
+                             std::memory_order_release);
+  memory_.reply.bell.ring();
+}
+
+void Server::handle(Request request, MessageReader& in, MessageWriter& out) {
+  switch (request) {
+    case Request::Instantiate:
+      return instantiate(out);
+    case Request::EnterConfigurationMode:
+      return unit_->enter_configuration_mode();
+    case Request::ExitConfigurationMode:
+      return unit_->exit_configuration_mode();
+    case Request::EnterInitialization: {
+      time_ = take_time(in).value();
+      return unit_->enter_initialization(*time_, take_time(in));
+    }
+    case Request::ExitInitialization:
+      return unit_->exit_initialization();
+    case Request::Get:
+      return get(in, out);
+    case Request::Set:
+      return set(in);
+    case Request::MakePlan:
+      return make_plan(in);
+    case Request::Step:
+      return step(in, out);
+    case Request::SaveState:
+      return save_state(in);
+    case Request::RestoreState:
+      return restore_state(in);
+    case Request::SelectState:
+      return select_state(in.take<std::size_t>());
+    case Request::SerializeState:
+      return out.put_all(std::span<const std::uint8_t>(unit_->serialize_state()));
+    case Request::DeserializeState:
+      return unit_->deserialize_state(in.take_all<std::uint8_t>());
+    case Request::Reset:
+      return unit_->reset();
+    case Request::EnterEventMode:
+      return unit_->enter_event_mode();
+    case Request::UpdateDiscreteStates:
+      return put_events(out, unit_->update_discrete_states());
+    case Request::EnterStepMode:
+      return unit_->enter_step_mode();
+    case Request::GetClockInterval: {
+      const core::ClockInterval said =
+          unit_->clock_interval(variable(in.take<core::ValueReference>()));
+      out.put(said.state);
+      return out.put(said.interval);
+    }
+    case Request::GetClockShift:
+      return out.put(unit_->clock_shift(variable(in.take<core::ValueReference>())));
+    case Request::GetDirectionalDerivative:
+      return get_directional_derivative(in, out);
+    case Request::SetInputUpdate:
+      return set_input_update(in.take<bool>());
+    case Request::EnableIdleSkipping:
+      return unit_->enable_idle_skipping(Duration(in.take<Duration::rep>()));
+    case Request::SetIdleTolerances:
+      return set_idle_tolerances(in);
+    case Request::GetIdleUntil:
+      return put_time(out, unit_->idle_until());
+    case Request::GetDerivatives:
+      return get_derivatives(in, out);
+    case Request::DescribeMessage:
+      return describe_message(in, out);
+    case Request::Terminate:
+      return unit_->terminate();
+    case Request::Free:
+      return free();
+    case Request::InputsUpdated:
+    case Request::InputsNotUpdated:
+      break;
+  }
+  throw std::logic_error(fmt::format("request {} came out of order", static_cast<int>(request)));
+}
+
+core::Context Server::context() const {
+  return {.where = recipe_.options.where, .unit = recipe_.name, .variable = {}, .time = time_};
+}
+
+/// Of an exception that has crossed the unit's interface, which none may; nothing otherwise.
+std::string Server::origin() const {
+  const std::string function = memory_.call_note.read();
+  return function.empty() ? "" : function + " let an exception out: ";
+}
+
+// ---- Life and death ----
+
+void Server::instantiate(MessageWriter& out) {
+  put_protections(out, prepare());
+  fmi::InstanceOptions options = recipe_.options;
+  options.call_note = &memory_.call_note;
+  options.log = [this](const std::string&, fmi::Status status, const std::string& category,
+                       const std::string& text) {
+    log_.write({status, category, text});
+  };
+  memory_.call_note.write("the loading of its library");
+  unit_ = recipe_.fmu->instantiate(recipe_.name, std::move(options));
+}
+
+void Server::free() {
+  unit_.reset();
+  std::fflush(nullptr);
+  is_over_ = true;
+}
+
+// ---- Values ----
+
+void Server::get(MessageReader& in, MessageWriter& out) {
+  const auto references = in.take_all<core::ValueReference>();
+  core::ValueBlock values = take_shape(in);
+  unit_->get(references, values);
+  put_values(out, values);
+}
+
+void Server::set(MessageReader& in) {
+  const auto references = in.take_all<core::ValueReference>();
+  core::ValueBlock values = take_shape(in);
+  take_values(in, values);
+  unit_->set(references, values);
+}
+
+void Server::get_directional_derivative(MessageReader& in, MessageWriter& out) {
+  const auto unknowns = in.take_all<core::ValueReference>();
+  const auto knowns = in.take_all<core::ValueReference>();
+  const auto seed = in.take_all<double>();
+  std::vector<double> sensitivity(in.take<std::size_t>());
+  unit_->get_directional_derivative(unknowns, knowns, seed, sensitivity);
+  out.put_bytes(sensitivity.data(), sensitivity.size() * sizeof(double));
+}
+
+const core::Variable& Server::variable(core::ValueReference reference) const {
+  const core::UnitDescription& description =
+      recipe_.options.description ? *recipe_.options.description : *recipe_.fmu->description();
+  return description.variables.at(description.find(reference).value());
+}
+
+// ---- Steps ----
+
+void Server::make_plan(MessageReader& in) {
+  const auto number = in.take<std::uint32_t>();
+  plans_.at(number) = ServedPlan(in);
+}
+
+void Server::step(MessageReader& in, MessageWriter& out) {
+  ServedPlan& plan = plans_.at(in.take<std::uint32_t>());
+  const auto interval = in.take<core::StepInterval>();
+  plan.take_inputs(in);
+  time_ = interval.from;
+  const core::StepResult result = unit_->step(interval, plan.values());
+  if (!result.rejected) time_ = result.reached;
+  put_step(out, result);
+  if (result.rejected) {
+    out.put(unit_->rejection_reason());
+  } else {
+    plan.put_outputs(out);
+  }
+}
+
+void Server::set_input_update(bool is_set) {
+  core::InputUpdate update;
+  if (is_set) update = [this](double seconds) { ask_inputs(seconds); };
+  unit_->set_input_update(std::move(update));
+}
+
+/// The master may get and set before it answers.
+void Server::ask_inputs(double seconds_into_step) {
+  const fmi::CallNote asking = memory_.call_note;
+  MessageWriter question(channel_.messages);
+  question.put(seconds_into_step);
+  reply(Reply::AskInputs, question);
+  for (await_request(); requested() != Request::InputsUpdated; await_request()) {
+    if (requested() == Request::InputsNotUpdated) throw CallbackFailure();
+    serve();
+  }
+  memory_.call_note = asking;
+}
+
+// ---- States ----
+
+/// With snapshots it returns once more for each restored state, in the process that goes on then,
+/// and the request is one to restore.
+void Server::save_state(MessageReader& in) {
+  if (!snapshots_) return unit_->save_state();
+  memory_.call_note.write("the snapshot of its process");
+  if (snapshots_->save(slot_, take_time(in))) undone_calls_ = memory_.calls - unit_->calls();
+}
+
+void Server::restore_state(MessageReader& in) {
+  if (!snapshots_) return unit_->restore_state();
+  memory_.call_note.write("the return to a snapshot of its process");
+  snapshots_->restore(slot_, take_time(in));
+}
+
+void Server::select_state(std::size_t slot) {
+  if (!snapshots_) return unit_->select_state(slot);
+  slot_ = slot;
+}
+
+// ---- Idle time ----
+
+void Server::set_idle_tolerances(MessageReader& in) {
+  const auto outputs = in.take_all<core::ValueReference>();
+  unit_->set_idle_tolerances(outputs, in.take_all<double>());
+}
+
+void Server::get_derivatives(MessageReader& in, MessageWriter& out) {
+  const auto outputs = in.take_all<core::ValueReference>();
+  std::vector<double> derivatives(in.take<std::size_t>());
+  unit_->get_derivatives(outputs, derivatives);
+  out.put_bytes(derivatives.data(), derivatives.size() * sizeof(double));
+}
+
+void Server::describe_message(MessageReader& in, MessageWriter& out) {
+  const auto variable = in.take<core::ValueReference>();
+  const core::Binary value = in.take_all<core::Binary::value_type>();
+  out.put(unit_->describe_message(variable, value));
+}
+
+}  // namespace stride::host

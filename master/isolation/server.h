@@ -1,0 +1,97 @@
+#ifndef STRIDE_MASTER_ISOLATION_SERVER_H
+#define STRIDE_MASTER_ISOLATION_SERVER_H
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <sys/types.h>
+
+#include "master/algorithm/unit.h"
+#include "master/importer/fmu.h"
+#include "master/isolation/channel.h"
+#include "master/isolation/hosted_unit.h"
+#include "master/isolation/log_message.h"
+#include "master/isolation/message.h"
+#include "master/isolation/process/bell.h"
+#include "master/isolation/process/sandbox.h"
+#include "master/isolation/snapshots.h"
+#include "master/isolation/step_plan.h"
+#include "master/util/archive/temporary_folder.h"
+
+namespace stride::host {
+
+/// What a unit is made from.
+struct Recipe {
+  std::shared_ptr<fmi::Fmu> fmu;
+  std::string name;
+  fmi::InstanceOptions options;
+  HostOptions host;
+  /// For a unit in a sandbox: $TMPDIR, since that of others is closed to it.
+  std::unique_ptr<archive::TemporaryFolder> temporary{};
+
+  /// Whether its states are snapshots of its process.
+  bool has_snapshots() const { return host.takes_snapshots && !fmu->description()->can_save_state; }
+};
+
+/// The process in which a unit lives: does what the master asks for, one request after the other.
+class Server {
+ public:
+  Server(Channel& channel, const Recipe& recipe, pid_t keeper);
+
+  /// Returns when the unit was destroyed, because the master wanted it.
+  void run();
+
+ private:
+  /// All that has to be so before code of the unit runs in this process.
+  process::Protections prepare();
+
+  void await_request();
+  /// Does what the present request wants, and replies.
+  void serve();
+  void handle(Request request, MessageReader& in, MessageWriter& out);
+  void reply(Reply what, const MessageWriter& message);
+
+  void instantiate(MessageWriter& out);
+  void free();
+  void get(MessageReader& in, MessageWriter& out);
+  void set(MessageReader& in);
+  void make_plan(MessageReader& in);
+  void step(MessageReader& in, MessageWriter& out);
+  void save_state(MessageReader& in);
+  void restore_state(MessageReader& in);
+  void select_state(std::size_t slot);
+  void get_directional_derivative(MessageReader& in, MessageWriter& out);
+  void set_input_update(bool is_set);
+  void ask_inputs(double seconds_into_step);
+  void set_idle_tolerances(MessageReader& in);
+  void get_derivatives(MessageReader& in, MessageWriter& out);
+  void describe_message(MessageReader& in, MessageWriter& out);
+  const core::Variable& variable(core::ValueReference reference) const;
+
+  Request requested() const;
+  core::Context context() const;
+  std::string origin() const;
+
+  Channel& channel_;
+  ChannelMemory& memory_;
+  const Recipe& recipe_;
+  LogWriter log_;
+  process::Waiter waiter_;
+  std::optional<Snapshots> snapshots_;  ///< in place of the unit's own states
+  std::size_t slot_ = 0;                ///< of them
+  std::uint64_t undone_calls_ = 0;      ///< of functions of the unit, by processes taken back
+  std::unique_ptr<core::Unit> unit_;
+  std::array<ServedPlan, ToldPlans::kMost> plans_;
+  std::optional<Time> time_;  ///< where the unit stands
+  bool is_over_ = false;
+};
+
+/// Runs a server in a fresh fork: its surroundings first.
+void serve(Channel& channel, const Recipe& recipe, pid_t keeper) noexcept;
+
+}  // namespace stride::host
+
+#endif

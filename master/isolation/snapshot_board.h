@@ -1,0 +1,59 @@
+#ifndef STRIDE_MASTER_ISOLATION_SNAPSHOT_BOARD_H
+#define STRIDE_MASTER_ISOLATION_SNAPSHOT_BOARD_H
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+#include <sys/types.h>
+
+#include "master/isolation/process/bell.h"
+
+namespace stride::host {
+
+/// Only ever called by one process at a time for the same number.
+inline void raise_to(std::atomic<std::uint64_t>& most, std::uint64_t value) {
+  if (value > most) most = value;
+}
+
+/// Which snapshots of a unit's process there are, and what they are told. In shared memory, since
+/// whoever is in charge of the unit has to know it, however far it was taken back.
+struct SnapshotBoard {
+  static constexpr std::size_t kSlots = 16;
+  /// Those that have been told to end have theirs until the keeper has seen that they did.
+  static constexpr std::size_t kPlaces = 2 * kSlots;
+
+  enum class State : std::uint32_t {
+    Free,
+    Frozen,
+    TakesOver,  ///< it has been told to go on in place of the process in charge
+    Ends,       ///< it has been told to end
+    Lost,       ///< it has ended untold
+  };
+  /// Of one snapshot.
+  struct Place {
+    std::atomic<State> state = State::Free;
+    std::atomic<pid_t> process = 0;
+    std::atomic<std::uint64_t> memory = 0;  ///< what it had to itself when it was last measured
+    process::Bell bell;                     ///< for when its state has changed
+  };
+
+  std::array<Place, kPlaces> places;
+  std::array<std::atomic<std::uint32_t>, kSlots> place_of;  ///< counted from 1; 0: nothing is kept
+  std::atomic<std::uint64_t> snapshots = 0;                 ///< that were made
+  std::atomic<std::uint64_t> restores = 0;
+  std::atomic<std::uint64_t> most_kept = 0;
+  std::atomic<std::uint64_t> most_memory = 0;  ///< of all that were kept at a time [byte]
+
+  SnapshotBoard() {
+    for (auto& place : place_of) place = 0;
+  }
+
+  /// For the keeper: a process that is not in charge has ended.
+  void note_end(pid_t process);
+};
+
+}  // namespace stride::host
+
+#endif

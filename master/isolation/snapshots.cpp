@@ -1,0 +1,205 @@
+#include "master/isolation/snapshots.h"
+
+#include <algorithm>
+#include <exception>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "master/isolation/process/process_memory.h"
+#include "master/isolation/process/sibling.h"
+#include "master/isolation/process/surroundings.h"
+
+namespace stride::host {
+namespace {
+
+using State = SnapshotBoard::State;
+
+/// A measurement goes through all pages of a process: it may take this share of the time.
+constexpr int kMeasuredShare = 100;
+/// For how long a snapshot sleeps, if nobody wakes it.
+constexpr std::chrono::hours kAWhile{1};
+
+State wait_while_frozen(SnapshotBoard::Place& place) {
+  for (;;) {
+    const std::uint32_t rings = place.bell.rings();
+    if (const State state = place.state; state != State::Frozen) return state;
+    place.bell.sleep(rings, kAWhile);
+  }
+}
+
+}  // namespace
+
+void SnapshotBoard::note_end(pid_t process) {
+  for (Place& place : places) {
+    if (place.process != process) continue;
+    place.state = place.state == State::Frozen ? State::Lost : State::Free;
+  }
+}
+
+Snapshots::Snapshots(SnapshotBoard& board, std::atomic<pid_t>& active, pid_t keeper,
+                     SnapshotOptions options)
+    : board_(board),
+      active_(active),
+      keeper_(keeper),
+      options_(std::move(options)),
+      files_(options_.own_files) {}
+
+bool Snapshots::save(std::size_t slot, std::optional<Time> time) {
+  options_.context.time = time;
+  check(slot);
+  refuse_company();
+  const std::uint32_t number = find_free_place();
+  Place& place = board_.places[number];
+  pid_t process = 0;
+  try {
+    files_.note();
+    place.memory = 0;
+    place.process = 0;
+    place.state = State::Frozen;
+    process = process::fork_sibling();
+  } catch (const std::exception& failure) {
+    place.state = State::Free;
+    fail(fmt::format("its process cannot be saved: {}", failure.what()));
+  }
+  if (process == 0) return freeze(place);
+  place.process = process;
+  measure_sometimes();
+  discard(slot);
+  board_.place_of[slot] = number + 1;
+  count();
+  return false;
+}
+
+void Snapshots::restore(std::size_t slot, std::optional<Time> time) {
+  options_.context.time = time;
+  check(slot);
+  const std::uint32_t number = board_.place_of[slot];
+  if (number == 0) fail(fmt::format("it is to be restored, but nothing was saved ({})", slot));
+  Place& place = board_.places[number - 1];
+  active_ = place.process.load();
+  State expected = State::Frozen;
+  if (!place.state.compare_exchange_strong(expected, State::TakesOver)) {
+    active_ = ::getpid();
+    fail("the snapshot of its process that is to be restored has been ended by something",
+         "look whether the machine was short of memory");
+  }
+  place.bell.ring();
+  ::_exit(0);
+}
+
+/// In the snapshot: sleeps until it is told what to do.
+bool Snapshots::freeze(Place& place) {
+  process::die_with(keeper_);
+  place.process = ::getpid();
+  for (;;) {
+    if (wait_while_frozen(place) == State::Ends) ::_exit(0);
+    place.state = State::Frozen;
+    pid_t process = 0;
+    try {
+      process = process::fork_sibling();
+    } catch (const std::system_error& failure) {
+      place.state = State::Lost;  // it is in charge itself now
+      fail(fmt::format("its process cannot be restored: {}", failure.what()));
+    }
+    if (process == 0) return take_over();
+  }
+}
+
+bool Snapshots::take_over() {
+  process::die_with(keeper_);
+  active_ = ::getpid();
+  ++board_.restores;
+  try {
+    files_.set_back();
+  } catch (const std::exception& failure) {
+    fail(fmt::format("its process cannot be restored: {}", failure.what()));
+  }
+  return true;
+}
+
+void Snapshots::discard(std::size_t slot) {
+  const std::uint32_t number = board_.place_of[slot].exchange(0);
+  if (number == 0) return;
+  Place& place = board_.places[number - 1];
+  State expected = State::Frozen;
+  if (place.state.compare_exchange_strong(expected, State::Ends)) {
+    place.bell.ring();
+  } else {
+    place.state = State::Free;
+  }
+}
+
+void Snapshots::check(std::size_t slot) const {
+  if (slot < SnapshotBoard::kSlots) return;
+  fail(
+      fmt::format("{} states of it are to be kept, and there are {} snapshots of a process at most",
+                  slot + 1, SnapshotBoard::kSlots));
+}
+
+/// What a fork would leave behind.
+void Snapshots::refuse_company() const {
+  const std::string hint =
+      "use a unit that can save its state (canGetAndSetFMUState), or see that it need not be "
+      "rolled "
+      "back: `stride check` says why it is";
+  if (const std::size_t threads = process::thread_count(); threads > 1) {
+    fail(fmt::format("the unit runs {} threads, and a snapshot of its process holds one only",
+                     threads),
+         "let it run on one thread (with OpenMP: OMP_NUM_THREADS=1), or " + hint);
+  }
+  if (process::has_children()) {
+    fail("the unit has started another process, which a snapshot of its own does not hold", hint);
+  }
+}
+
+/// Snapshots that have been told to end do so at once, and the keeper sees it, so one is found
+/// soon.
+std::uint32_t Snapshots::find_free_place() {
+  for (;;) {
+    for (std::uint32_t i = 0; i < board_.places.size(); ++i) {
+      if (board_.places[i].state == State::Free) return i;
+    }
+    ::usleep(100);
+  }
+}
+
+void Snapshots::count() {
+  ++board_.snapshots;
+  const auto kept = std::count_if(board_.place_of.begin(), board_.place_of.end(),
+                                  [](const auto& place) { return place != 0; });
+  raise_to(board_.most_kept, static_cast<std::uint64_t>(kept));
+}
+
+void Snapshots::measure_sometimes() {
+  const auto began = Clock::now();
+  if (began < next_measurement_) return;
+  measure();
+  const auto end = Clock::now();
+  next_measurement_ = end + kMeasuredShare * (end - began);
+}
+
+void Snapshots::measure() {
+  std::uint64_t sum = 0;
+  for (const auto& number : board_.place_of) {
+    if (number == 0) continue;
+    Place& place = board_.places[number - 1];
+    if (place.state == State::Frozen) place.memory = process::private_memory(place.process);
+    sum += place.memory;
+  }
+  raise_to(board_.most_memory, sum);
+  if (!options_.memory_limit || sum <= *options_.memory_limit) return;
+  fail(fmt::format("the snapshots of its process have {} MiB to themselves, more than its limit of "
+                   "{} MiB",
+                   sum >> 20, *options_.memory_limit >> 20),
+       "raise the limit (memoryLimit), or use a unit that can save its state "
+       "(canGetAndSetFMUState)");
+}
+
+void Snapshots::fail(const std::string& message, const std::string& hint) const {
+  core::fail_run(options_.context, message, hint);
+}
+
+}  // namespace stride::host

@@ -1,0 +1,96 @@
+#include "master/isolation/step_plan.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "master/isolation/codec.h"
+
+namespace stride::host {
+namespace {
+
+using Bound = std::span<const core::BoundValues>;
+
+std::vector<StepShape::Part> shape(Bound values) {
+  std::vector<StepShape::Part> parts;
+  for (const core::BoundValues& part : values) {
+    parts.push_back(
+        {part.block->type(), part.block->size(), {part.references.begin(), part.references.end()}});
+  }
+  return parts;
+}
+
+bool fits(const std::vector<StepShape::Part>& shape, Bound values) {
+  return std::ranges::equal(
+      shape, values, [](const StepShape::Part& part, const core::BoundValues& bound) {
+        return part.type == bound.block->type() && part.size == bound.block->size() &&
+               std::ranges::equal(part.references, bound.references);
+      });
+}
+
+void put_parts(MessageWriter& to, Bound values) {
+  to.put(values.size());
+  for (const core::BoundValues& part : values) {
+    to.put_all(part.references);
+    put_shape(to, *part.block);
+  }
+}
+
+}  // namespace
+
+// ---- In the master ----
+
+StepShape::StepShape(const core::StepValues& values)
+    : inputs(shape(values.inputs)), outputs(shape(values.outputs)) {}
+
+bool StepShape::fits(const core::StepValues& values) const {
+  return host::fits(inputs, values.inputs) && host::fits(outputs, values.outputs);
+}
+
+std::optional<std::uint32_t> ToldPlans::find(const core::StepValues& values) {
+  if (latest_ < shapes_.size() && shapes_[latest_].fits(values)) return latest_;
+  for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
+    if (shapes_[i].fits(values)) return latest_ = i;
+  }
+  return std::nullopt;
+}
+
+std::uint32_t ToldPlans::add(const core::StepValues& values) {
+  if (shapes_.size() < kMost) {
+    shapes_.emplace_back(values);
+    return latest_ = static_cast<std::uint32_t>(shapes_.size()) - 1;
+  }
+  latest_ = next_++ % kMost;
+  shapes_[latest_] = StepShape(values);
+  return latest_;
+}
+
+void put_shape(MessageWriter& to, const core::StepValues& values) {
+  put_parts(to, values.inputs);
+  put_parts(to, values.outputs);
+}
+
+// ---- In the unit's process ----
+
+ServedPlan::ServedPlan(MessageReader& from)
+    : inputs_(take_parts(from)), outputs_(take_parts(from)) {}
+
+std::vector<core::BoundValues> ServedPlan::take_parts(MessageReader& from) {
+  std::vector<core::BoundValues> bound;
+  const std::size_t count = from.take_count(1);
+  for (std::size_t i = 0; i < count; ++i) {
+    auto references = from.take_all<core::ValueReference>();
+    Part& part = parts_.emplace_back(Part{std::move(references), take_shape(from)});
+    bound.emplace_back(part.references, part.block);
+  }
+  return bound;
+}
+
+void ServedPlan::take_inputs(MessageReader& from) {
+  for (const core::BoundValues& input : inputs_) take_values(from, *input.block);
+}
+
+void ServedPlan::put_outputs(MessageWriter& to) const {
+  for (const core::BoundValues& output : outputs_) put_values(to, *output.block);
+}
+
+}  // namespace stride::host

@@ -1,0 +1,73 @@
+// The values that go with a step, told once, so that a step sends elements only.
+#ifndef STRIDE_MASTER_ISOLATION_STEP_PLAN_H
+#define STRIDE_MASTER_ISOLATION_STEP_PLAN_H
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "master/algorithm/unit.h"
+#include "master/isolation/message.h"
+
+namespace stride::host {
+
+/// What a step's values are made of, without the values.
+struct StepShape {
+  struct Part {
+    core::ValueType type;
+    std::size_t size;
+    std::vector<core::ValueReference> references;
+  };
+  std::vector<Part> inputs, outputs;
+
+  explicit StepShape(const core::StepValues& values);
+  bool fits(const core::StepValues& values) const;
+};
+
+/// In the master: the shapes that the unit's process knows, by their numbers.
+class ToldPlans {
+ public:
+  static constexpr std::uint32_t kMost = 16;
+
+  /// The number of the values' shape; nothing if the process does not know it.
+  std::optional<std::uint32_t> find(const core::StepValues& values);
+  /// A number for a shape that is about to be told; an older one may lose it.
+  std::uint32_t add(const core::StepValues& values);
+  /// The process has forgotten them.
+  void forget() { shapes_.clear(); }
+
+ private:
+  std::vector<StepShape> shapes_;
+  std::uint32_t latest_ = 0;  ///< used; most likely the next one, too
+  std::uint32_t next_ = 0;    ///< to be replaced when there is no room
+};
+
+/// In the unit's process: memory for the values of a step.
+class ServedPlan {
+ public:
+  ServedPlan() = default;
+  explicit ServedPlan(MessageReader& from);
+
+  void take_inputs(MessageReader& from);
+  void put_outputs(MessageWriter& to) const;
+  core::StepValues values() const { return {inputs_, outputs_}; }
+
+ private:
+  struct Part {
+    std::vector<core::ValueReference> references;
+    core::ValueBlock block;
+  };
+  std::vector<core::BoundValues> take_parts(MessageReader& from);
+
+  std::deque<Part> parts_;  // whose elements stay where they are
+  std::vector<core::BoundValues> inputs_, outputs_;
+};
+
+/// What ServedPlan is made of.
+void put_shape(MessageWriter& to, const core::StepValues& values);
+
+}  // namespace stride::host
+
+#endif

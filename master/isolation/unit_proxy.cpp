@@ -1,0 +1,317 @@
+#include "master/isolation/unit_proxy.h"
+
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/isolation/codec.h"
+
+namespace stride::host {
+
+// ---- Life and death ----
+
+UnitProxy::UnitProxy(Recipe recipe) : recipe_(std::move(recipe)) {
+  if (recipe_.host.is_sandboxed) {
+    recipe_.temporary = std::make_unique<archive::TemporaryFolder>();
+  }
+  try {
+    conversation_ = std::make_unique<Conversation>(recipe_);
+  } catch (const std::system_error& failure) {
+    core::fail_run({.where = recipe_.options.where, .unit = recipe_.name},
+                   fmt::format("there can be no process for it: {}", failure.what()));
+  }
+  call(
+      Request::Instantiate, [](MessageWriter&) {},
+      [&](MessageReader& from) { protections_ = take_protections(from); });
+}
+
+UnitProxy::~UnitProxy() {
+  try {
+    if (!conversation_->has_failed()) call(Request::Free);
+  } catch (const std::exception& failure) {
+    conversation_->log(fmi::Status::Warning, "stride",
+                       fmt::format("its end failed: {}", failure.what()));
+  }
+  conversation_->finish();
+}
+
+void UnitProxy::terminate() {
+  if (!conversation_->has_failed()) call(Request::Terminate);
+}
+
+std::optional<core::HostStatistics> UnitProxy::host_statistics() const {
+  core::HostStatistics statistics = conversation_->statistics();
+  statistics.protections = protections_.in_force;
+  statistics.missing_protections = protections_.missing;
+  return statistics;
+}
+
+// ---- Requests ----
+
+template <class Put, class Take>
+void UnitProxy::call(Request request, Put&& put, Take&& take) {
+  try {
+    MessageWriter message = conversation_->write();
+    put(message);
+    Reply reply = conversation_->send(request, message, time_);
+    if (reply != Reply::Done) [[unlikely]] {
+      reply = answer_questions(reply);
+      if (reply != Reply::Done) throw_reply(reply);
+    }
+    MessageReader answer = conversation_->read();
+    take(answer);
+  } catch (const BadMessage&) {
+    conversation_->fail_nonsense(time_);
+  } catch (const std::system_error& failure) {
+    core::fail_run({.where = recipe_.options.where, .unit = recipe_.name, .time = time_},
+                   failure.what());
+  }
+}
+
+template <class Put>
+void UnitProxy::call(Request request, Put&& put) {
+  call(request, put, [](MessageReader&) {});
+}
+
+void UnitProxy::call(Request request) {
+  call(request, [](MessageWriter&) {});
+}
+
+Reply UnitProxy::answer_questions(Reply reply) {
+  while (reply == Reply::AskInputs) {
+    const Request answer = update_inputs(conversation_->read().take<double>());
+    if (conversation_->has_failed()) return Reply::CallbackFailed;
+    reply = conversation_->send(answer, conversation_->write(), time_);
+  }
+  return reply;
+}
+
+Request UnitProxy::update_inputs(double seconds_into_step) noexcept {
+  try {
+    if (input_update_) input_update_(seconds_into_step);
+    return Request::InputsUpdated;
+  } catch (...) {
+    callback_failure_ = std::current_exception();
+    return Request::InputsNotUpdated;
+  }
+}
+
+void UnitProxy::throw_reply(Reply reply) {
+  if (reply == Reply::CallbackFailed && callback_failure_) {
+    std::rethrow_exception(std::exchange(callback_failure_, nullptr));
+  }
+  if (reply != Reply::Failed) throw BadMessage();
+  MessageReader error = conversation_->read();
+  throw_error(error);
+}
+
+// ---- Modes ----
+
+void UnitProxy::enter_configuration_mode() { call(Request::EnterConfigurationMode); }
+
+void UnitProxy::exit_configuration_mode() { call(Request::ExitConfigurationMode); }
+
+void UnitProxy::enter_initialization(Time start, std::optional<Time> stop) {
+  time_ = start;
+  call(Request::EnterInitialization, [&](MessageWriter& to) {
+    put_time(to, start);
+    put_time(to, stop);
+  });
+}
+
+void UnitProxy::exit_initialization() { call(Request::ExitInitialization); }
+
+void UnitProxy::enter_event_mode() { call(Request::EnterEventMode); }
+
+void UnitProxy::enter_step_mode() { call(Request::EnterStepMode); }
+
+core::EventResult UnitProxy::update_discrete_states() {
+  core::EventResult result;
+  call(
+      Request::UpdateDiscreteStates, [](MessageWriter&) {},
+      [&](MessageReader& from) { result = take_events(from); });
+  return result;
+}
+
+// ---- Values ----
+
+void UnitProxy::get(References references, core::ValueBlock& values) {
+  call(
+      Request::Get,
+      [&](MessageWriter& to) {
+        to.put_all(references);
+        put_shape(to, values);
+      },
+      [&](MessageReader& from) { take_values(from, values); });
+}
+
+void UnitProxy::set(References references, const core::ValueBlock& values) {
+  call(Request::Set, [&](MessageWriter& to) {
+    to.put_all(references);
+    put_shape(to, values);
+    put_values(to, values);
+  });
+}
+
+void UnitProxy::get_directional_derivative(References unknowns, References knowns,
+                                           std::span<const double> seed,
+                                           std::span<double> sensitivity) {
+  call(
+      Request::GetDirectionalDerivative,
+      [&](MessageWriter& to) {
+        to.put_all(unknowns);
+        to.put_all(knowns);
+        to.put_all(seed);
+        to.put(sensitivity.size());
+      },
+      [&](MessageReader& from) { from.take_into(sensitivity.data(), sensitivity.size_bytes()); });
+}
+
+// ---- Steps ----
+
+core::StepResult UnitProxy::step(const core::StepInterval& interval) {
+  return step(interval, core::StepValues{});
+}
+
+core::StepResult UnitProxy::step(const core::StepInterval& interval,
+                                 const core::StepValues& values) {
+  const std::uint32_t plan = plan_number(values);
+  time_ = interval.from;
+  core::StepResult result;
+  call(
+      Request::Step,
+      [&](MessageWriter& to) {
+        to.put(plan);
+        to.put(interval);
+        for (const core::BoundValues& input : values.inputs) put_values(to, *input.block);
+      },
+      [&](MessageReader& from) {
+        result = take_step(from);
+        if (result.rejected) {
+          rejection_reason_ = from.take_text();
+        } else {
+          for (const core::BoundValues& output : values.outputs) take_values(from, *output.block);
+        }
+      });
+  if (!result.rejected) time_ = result.reached;
+  return result;
+}
+
+std::uint32_t UnitProxy::plan_number(const core::StepValues& values) {
+  if (const auto known = plans_.find(values)) return *known;
+  const std::uint32_t number = plans_.add(values);
+  call(Request::MakePlan, [&](MessageWriter& to) {
+    to.put(number);
+    put_shape(to, values);
+  });
+  return number;
+}
+
+void UnitProxy::set_input_update(core::InputUpdate update) {
+  input_update_ = std::move(update);
+  call(Request::SetInputUpdate,
+       [&](MessageWriter& to) { to.put(static_cast<bool>(input_update_)); });
+}
+
+// ---- States ----
+
+void UnitProxy::save_state() {
+  call(Request::SaveState, [&](MessageWriter& to) { put_time(to, time_); });
+}
+
+/// A process that is taken back knows the plans of its time only.
+void UnitProxy::restore_state() {
+  if (recipe_.has_snapshots()) plans_.forget();
+  call(Request::RestoreState, [&](MessageWriter& to) { put_time(to, time_); });
+}
+
+void UnitProxy::select_state(std::size_t slot) {
+  call(Request::SelectState, [&](MessageWriter& to) { to.put(slot); });
+}
+
+std::vector<std::uint8_t> UnitProxy::serialize_state() {
+  std::vector<std::uint8_t> bytes;
+  call(
+      Request::SerializeState, [](MessageWriter&) {},
+      [&](MessageReader& from) { bytes = from.take_all<std::uint8_t>(); });
+  return bytes;
+}
+
+void UnitProxy::deserialize_state(std::span<const std::uint8_t> bytes) {
+  call(Request::DeserializeState, [&](MessageWriter& to) { to.put_all(bytes); });
+}
+
+void UnitProxy::reset() {
+  call(Request::Reset);
+  time_.reset();
+  rejection_reason_.clear();
+}
+
+// ---- Clocks ----
+
+core::ClockInterval UnitProxy::clock_interval(const core::Variable& clock) {
+  core::ClockInterval said;
+  call(
+      Request::GetClockInterval, [&](MessageWriter& to) { to.put(clock.reference); },
+      [&](MessageReader& from) {
+        said.state = from.take<core::ClockInterval::State>();
+        said.interval = from.take<core::Interval>();
+      });
+  return said;
+}
+
+core::Interval UnitProxy::clock_shift(const core::Variable& clock) {
+  core::Interval shift;
+  call(
+      Request::GetClockShift, [&](MessageWriter& to) { to.put(clock.reference); },
+      [&](MessageReader& from) { shift = from.take<core::Interval>(); });
+  return shift;
+}
+
+// ---- Idle time ----
+
+void UnitProxy::enable_idle_skipping(Duration max_skip) {
+  call(Request::EnableIdleSkipping, [&](MessageWriter& to) { to.put(max_skip.count()); });
+}
+
+void UnitProxy::set_idle_tolerances(References outputs, std::span<const double> tolerances) {
+  call(Request::SetIdleTolerances, [&](MessageWriter& to) {
+    to.put_all(outputs);
+    to.put_all(tolerances);
+  });
+}
+
+Time UnitProxy::idle_until() {
+  Time until = Time::min();
+  call(
+      Request::GetIdleUntil, [](MessageWriter&) {},
+      [&](MessageReader& from) { until = take_time(from).value_or(Time::min()); });
+  return until;
+}
+
+void UnitProxy::get_derivatives(References outputs, std::span<double> derivatives) {
+  call(
+      Request::GetDerivatives,
+      [&](MessageWriter& to) {
+        to.put_all(outputs);
+        to.put(derivatives.size());
+      },
+      [&](MessageReader& from) { from.take_into(derivatives.data(), derivatives.size_bytes()); });
+}
+
+// ---- Messages in words ----
+
+std::string UnitProxy::describe_message(core::ValueReference variable, const core::Binary& value) {
+  std::string text;
+  call(
+      Request::DescribeMessage,
+      [&](MessageWriter& to) {
+        to.put(variable);
+        to.put_all(std::span(value));
+      },
+      [&](MessageReader& from) { text = from.take_text(); });
+  return text;
+}
+
+}  // namespace stride::host

@@ -1,0 +1,86 @@
+#ifndef STRIDE_MASTER_ISOLATION_UNIT_PROXY_H
+#define STRIDE_MASTER_ISOLATION_UNIT_PROXY_H
+
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "master/algorithm/unit.h"
+#include "master/isolation/conversation.h"
+#include "master/isolation/server.h"
+#include "master/isolation/step_plan.h"
+
+namespace stride::host {
+
+/// Stands for a unit in another process: each function is a request, and what the unit answers or
+/// throws is answered and thrown here.
+class UnitProxy final : public core::Unit {
+ public:
+  using References = std::span<const core::ValueReference>;
+
+  /// Throws what the unit's own constructor throws.
+  explicit UnitProxy(Recipe recipe);
+  ~UnitProxy() override;
+
+  void enter_configuration_mode() override;
+  void exit_configuration_mode() override;
+  void enter_initialization(Time start, std::optional<Time> stop) override;
+  void exit_initialization() override;
+  void get(References references, core::ValueBlock& values) override;
+  void set(References references, const core::ValueBlock& values) override;
+  core::StepResult step(const core::StepInterval& interval) override;
+  core::StepResult step(const core::StepInterval& interval,
+                        const core::StepValues& values) override;
+  std::string rejection_reason() const override { return rejection_reason_; }
+  void save_state() override;
+  void restore_state() override;
+  void select_state(std::size_t slot) override;
+  std::vector<std::uint8_t> serialize_state() override;
+  void deserialize_state(std::span<const std::uint8_t> bytes) override;
+  void reset() override;
+  void enter_event_mode() override;
+  core::EventResult update_discrete_states() override;
+  void enter_step_mode() override;
+  core::ClockInterval clock_interval(const core::Variable& clock) override;
+  core::Interval clock_shift(const core::Variable& clock) override;
+  void get_directional_derivative(References unknowns, References knowns,
+                                  std::span<const double> seed,
+                                  std::span<double> sensitivity) override;
+  void set_input_update(core::InputUpdate update) override;
+  void enable_idle_skipping(Duration max_skip) override;
+  void set_idle_tolerances(References outputs, std::span<const double> tolerances) override;
+  Time idle_until() override;
+  void get_derivatives(References outputs, std::span<double> derivatives) override;
+  std::string describe_message(core::ValueReference variable, const core::Binary& value) override;
+  void terminate() override;
+  std::uint64_t calls() const override { return conversation_->calls(); }
+  std::optional<core::HostStatistics> host_statistics() const override;
+
+ private:
+  /// Sends put(MessageWriter&) and takes the answer with take(MessageReader&).
+  template <class Put, class Take>
+  void call(Request request, Put&& put, Take&& take);
+  template <class Put>
+  void call(Request request, Put&& put);
+  void call(Request request);
+  /// Serves what the unit asks for until it has replied.
+  Reply answer_questions(Reply reply);
+  void throw_reply(Reply reply);
+  Request update_inputs(double seconds_into_step) noexcept;
+  std::uint32_t plan_number(const core::StepValues& values);
+
+  Recipe recipe_;
+  std::unique_ptr<Conversation> conversation_;
+  process::Protections protections_;
+  std::optional<Time> time_;
+  ToldPlans plans_;
+  core::InputUpdate input_update_;
+  std::exception_ptr callback_failure_;
+  std::string rejection_reason_;
+};
+
+}  // namespace stride::host
+
+#endif

@@ -1,0 +1,63 @@
+#include "master/importer/binaries.h"
+
+#include "tests/master/importer/support.h"
+
+using namespace stride;
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::string find_error(const Scratch& scratch, const std::string& version) {
+  return input_error([&] {
+    fmi::find_library(scratch.path(), version, "tank", {"system.ssd", 4});
+  });
+}
+
+}  // namespace
+
+TEST_CASE("the library of an FMU stands in the folder of this platform, by its version's name") {
+  const Scratch scratch;
+  const std::string fmi3 = std::string("binaries/") + fmi::platform() + "/tank.so";
+  const std::string fmi2 = std::string("binaries/") + fmi::fmi2_platform() + "/tank.so";
+  scratch.write(fmi3, "");
+  CHECK_THAT(find_error(scratch, "2.0"),
+             Contains("no binaries for " + std::string(fmi::fmi2_platform())));
+  scratch.write(fmi2, "");
+  CHECK(fmi::find_library(scratch.path(), "3.0", "tank") == scratch / fmi3);
+  CHECK(fmi::find_library(scratch.path(), "2.0", "tank") == scratch / fmi2);
+  CHECK_THAT(input_error([&] { fmi::find_library(scratch.path(), "3.0", "other"); }),
+             Contains("other.so' is missing") && Contains("modelIdentifier"));
+}
+
+TEST_CASE("an FMU for other platforms says which") {
+  const Scratch scratch;
+  CHECK_THAT(find_error(scratch, "3.0"), Contains("system.ssd:4: unit 'tank': ") &&
+                                             Contains("it has none at all") &&
+                                             Contains("export the unit for this platform"));
+  scratch.write("binaries/x86_64-windows/tank.dll", "");
+  scratch.write("binaries/riscv64-linux/tank.so", "");
+  CHECK_THAT(find_error(scratch, "3.0"), Contains("it has riscv64-linux, x86_64-windows") &&
+                                             Contains("hint: export the unit for this platform"));
+}
+
+TEST_CASE("an FMU for Windows, or for 32 bits, says that this cannot be loaded") {
+  const Scratch windows;
+  windows.write("binaries/win32/tank.dll", "");
+  windows.write("binaries/win64/tank.dll", "");
+  CHECK_THAT(
+      find_error(windows, "2.0"),
+      Contains("it has win32, win64") && Contains("a Windows library cannot be loaded on Linux"));
+  const Scratch narrow;
+  narrow.write("binaries/linux32/tank.so", "");
+  CHECK_THAT(find_error(narrow, "2.0"), Contains("it has linux32") && Contains("64-bit Linux"));
+}
+
+TEST_CASE("a source-code FMU says how to compile it") {
+  const Scratch scratch;
+  scratch.write("sources/tank.c", "");
+  CHECK_THAT(find_error(scratch, "2.0"),
+             Contains("it has its source code only") &&
+                 Contains("/tank.so' (cc -shared -fPIC -DFMI2_OVERRIDE_FUNCTION_PREFIX)"));
+  CHECK_THAT(find_error(scratch, "3.0"), Contains("/tank.so' (cc -shared -fPIC)"));
+}

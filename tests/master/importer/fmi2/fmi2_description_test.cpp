@@ -1,0 +1,239 @@
+#include "master/importer/fmi2/fmi2_description.h"
+
+#include "master/model/values.h"
+#include "tests/master/importer/support.h"
+
+using namespace stride;
+using namespace stride::tests;
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+using core::Causality;
+using core::Initial;
+using core::ValueType;
+using core::Variability;
+
+namespace {
+
+constexpr const char* kTank = R"(<?xml version="1.0" encoding="UTF-8"?>
+<fmiModelDescription fmiVersion="2.0" modelName="Tank 2" guid="{8c4e810f}" description="A tank"
+    generationTool="a tool" numberOfEventIndicators="2" variableNamingConvention="structured">
+  <ModelExchange modelIdentifier="tank_me"/>
+  <CoSimulation modelIdentifier="tank" needsExecutionTool="true" canInterpolateInputs="true"
+      canHandleVariableCommunicationStepSize="true" maxOutputDerivativeOrder="3"
+      canRunAsynchronuously="true" canBeInstantiatedOnlyOncePerProcess="true"
+      canNotUseMemoryManagementFunctions="true" canGetAndSetFMUstate="true"
+      canSerializeFMUstate="1" providesDirectionalDerivative="true">
+    <SourceFiles><File name="tank.c"/></SourceFiles>
+  </CoSimulation>
+  <UnitDefinitions>
+    <Unit name="degC"><BaseUnit K="1" offset="273.15"/><DisplayUnit name="K"/></Unit>
+    <Unit name="mm/s"><BaseUnit m="1" s="-1" factor="0.001"/></Unit>
+  </UnitDefinitions>
+  <TypeDefinitions>
+    <SimpleType name="Temperature"><Real unit="degC" min="-273.15" max="1000" nominal="-300"/></SimpleType>
+    <SimpleType name="Mode"><Enumeration><Item name="off" value="1"/><Item name="on" value="7"/></Enumeration></SimpleType>
+    <SimpleType name="Switch"><Boolean/></SimpleType>
+  </TypeDefinitions>
+  <LogCategories><Category name="logAll"/></LogCategories>
+  <DefaultExperiment startTime="0" stopTime="12.5" tolerance="1e-4" stepSize="0.01"/>
+  <VendorAnnotations><Tool name="a tool"/></VendorAnnotations>
+  <ModelVariables>
+    <ScalarVariable name="time" valueReference="0" causality="independent"><Real/></ScalarVariable>
+    <ScalarVariable name="inflow[1]" valueReference="536870912" causality="input" description="in">
+      <Real unit="mm/s" start="0.5" min="0"/></ScalarVariable>
+    <ScalarVariable name="on" valueReference="536870912" causality="input" variability="discrete">
+      <Boolean declaredType="Switch" start="true"/></ScalarVariable>
+    <ScalarVariable name="mode" valueReference="4294967295" causality="parameter" variability="tunable">
+      <Enumeration declaredType="Mode" start="7"/></ScalarVariable>
+    <ScalarVariable name="count" valueReference="0" causality="output"><Integer/></ScalarVariable>
+    <ScalarVariable name="T" valueReference="2" causality="output">
+      <Real declaredType="Temperature" max="99"/></ScalarVariable>
+    <ScalarVariable name="T2" valueReference="2" causality="local" initial="approx">
+      <Real declaredType="Temperature" start="20"/></ScalarVariable>
+    <ScalarVariable name="label" valueReference="0" causality="parameter"><String start=" a b "/></ScalarVariable>
+    <ScalarVariable name="heat" valueReference="5" causality="calculatedParameter"
+        variability="fixed"><Real/><Annotations/></ScalarVariable>
+    <ScalarVariable name="pi" valueReference="6" variability="constant"><Real start="3.14"/></ScalarVariable>
+  </ModelVariables>
+  <ModelStructure>
+    <Outputs><Unknown index="5" dependencies="2 3" dependenciesKind="dependent fixed"/><Unknown index="6"/></Outputs>
+    <Derivatives><Unknown index="7"/></Derivatives>
+    <InitialUnknowns><Unknown index="5" dependencies=""/><Unknown index="9" dependencies="4"/></InitialUnknowns>
+  </ModelStructure>
+</fmiModelDescription>
+)";
+
+fmi::ModelDescription tank() { return fmi::parse_model_description(kTank, "unit.xml"); }
+
+core::Variable variable(const std::string& name) {
+  const auto unit = tank();
+  return unit.variables[unit.find(name).value()];
+}
+
+/// The error of the description with a part replaced.
+std::string error_with(const std::string& part, const std::string& replacement) {
+  std::string text = kTank;
+  const std::size_t at = text.find(part);
+  REQUIRE(at != std::string::npos);
+  text.replace(at, part.size(), replacement);
+  return input_error([&] { fmi::parse_model_description(text, "unit.xml"); });
+}
+
+}  // namespace
+
+TEST_CASE("an FMI 2.0 unit's attributes and capabilities") {
+  const auto unit = tank();
+  CHECK(unit.fmi_version == "2.0");
+  CHECK(unit.model_name == "Tank 2");
+  CHECK(unit.model_identifier == "tank");
+  CHECK(unit.instantiation_token == "{8c4e810f}");
+  CHECK(unit.description == "A tank");
+  CHECK(unit.generation_tool == "a tool");
+  CHECK((unit.can_save_state && unit.can_serialize_state && unit.can_vary_step));
+  CHECK((unit.single_instance && unit.needs_execution_tool && unit.may_reject));
+  CHECK(unit.provides_intermediate_update);
+  CHECK_FALSE((unit.has_event_mode || unit.may_return_early || unit.promises_idle));
+  CHECK(unit.max_output_derivative_order == 3);
+  CHECK(unit.default_step == 10ms);
+  CHECK(unit.default_stop == Time(12'500ms));
+  CHECK(unit.units.at("degC").offset == 273.15);
+  CHECK(unit.units.at("mm/s").exponents == std::array<int, 8>{0, 1, -1, 0, 0, 0, 0, 0});
+  REQUIRE(unit.fmi2);
+  CHECK(unit.fmi2->can_run_asynchronously);
+  const auto plain = fmi::parse_model_description(
+      R"(<fmiModelDescription fmiVersion="2.0" modelName="x" guid="x"><CoSimulation
+      modelIdentifier="x"/><ModelVariables/><ModelStructure/></fmiModelDescription>)",
+      "unit.xml");
+  CHECK_FALSE((plain.can_save_state || plain.can_vary_step || plain.single_instance));
+  CHECK_FALSE((plain.provides_intermediate_update || plain.fmi2->can_run_asynchronously));
+}
+
+TEST_CASE("core's references are places; the unit's are kept beside them") {
+  const auto unit = tank();
+  REQUIRE(unit.variables.size() == 10);
+  for (std::size_t i = 0; i < unit.variables.size(); ++i) CHECK(unit.variables[i].reference == i);
+  CHECK(unit.fmi2->references ==
+        std::vector<fmi2ValueReference>{0, 536870912, 536870912, 4294967295, 0, 2, 2, 0, 5, 6});
+}
+
+TEST_CASE("an FMI 2.0 unit's variables") {
+  const core::Variable inflow = variable("inflow[1]");
+  CHECK(inflow.type == ValueType::Float64);
+  CHECK(inflow.causality == Causality::Input);
+  CHECK(inflow.variability == Variability::Continuous);
+  CHECK(inflow.initial == Initial::Exact);
+  CHECK((inflow.dimensions.empty() && inflow.size == 1));
+  CHECK(
+      (inflow.unit == "mm/s" && inflow.start == "0.5" && inflow.min == "0" && inflow.max.empty()));
+  CHECK(inflow.description == "in");
+  CHECK(variable("time").causality == Causality::Independent);
+  CHECK(variable("on").type == ValueType::Boolean);
+  CHECK(variable("count").type == ValueType::Int32);
+  CHECK(variable("label").type == ValueType::String);
+  CHECK(variable("label").start == " a b ");
+  CHECK(variable("label").variability == Variability::Fixed);
+  CHECK(variable("heat").initial == Initial::Calculated);
+  CHECK(variable("pi").initial == Initial::Exact);
+  CHECK(variable("T2").initial == Initial::Approx);
+}
+
+TEST_CASE("what a variable leaves out stands in its declared type") {
+  const core::Variable t = variable("T");
+  CHECK((t.unit == "degC" && t.min == "-273.15" && t.max == "99" && t.nominal == 300));
+  const core::Variable mode = variable("mode");
+  CHECK(mode.type == ValueType::Enumeration);
+  CHECK(mode.items == std::vector<std::pair<std::string, std::int64_t>>{{"off", 1}, {"on", 7}});
+  CHECK(core::parse(mode, mode.start).numbers<std::int64_t>()[0] == 7);
+}
+
+TEST_CASE("aliases are variables of their own, which differ in what may be done with them") {
+  const auto unit = tank();
+  const auto output = unit.find("T").value();
+  const auto local = unit.find("T2").value();
+  CHECK(output != local);
+  CHECK(unit.fmi2->references[output] == unit.fmi2->references[local]);
+  CHECK(unit.variables[output].causality == Causality::Output);
+  CHECK(unit.variables[local].causality == Causality::Local);
+}
+
+TEST_CASE("two inputs cannot be aliases") {
+  CHECK_THAT(
+      error_with(R"(name="T2" valueReference="2" causality="local" initial="approx")",
+                 R"(name="T2" valueReference="536870912" causality="input")"),
+      Contains("unit.xml:") &&
+          Contains("the input 'T2' has the value reference 536870912 of the input 'inflow[1]'"));
+}
+
+TEST_CASE("only floating-point numbers are continuous, whatever the default") {
+  CHECK(variable("count").variability == Variability::Discrete);
+  CHECK(variable("T").variability == Variability::Continuous);
+  std::string text = kTank;
+  const std::string name = "name=\"count\"";
+  text.replace(text.find(name), name.size(), name + " variability=\"continuous\"");
+  const auto unit = fmi::parse_model_description(text, "unit.xml");
+  CHECK(unit.variables[*unit.find("count")].variability == Variability::Discrete);
+}
+
+TEST_CASE("only continuous inputs of a unit that interpolates change within a step") {
+  for (const core::Variable& v : tank().variables) {
+    CAPTURE(v.name);
+    CHECK(v.intermediate_update == (v.name == "inflow[1]"));
+  }
+  std::string text = kTank;
+  const std::string can = "canInterpolateInputs=\"true\"";
+  text.erase(text.find(can), can.size());
+  const auto unit = fmi::parse_model_description(text, "unit.xml");
+  CHECK_FALSE(unit.provides_intermediate_update);
+  CHECK_FALSE(unit.variables[*unit.find("inflow[1]")].intermediate_update);
+}
+
+TEST_CASE("the indices of ModelStructure count from 1, in lists of knowns, too") {
+  const auto unit = tank();
+  REQUIRE(unit.outputs.size() == 2);
+  CHECK(unit.outputs[0].reference == 4);
+  CHECK(unit.outputs[0].dependencies == std::vector<core::ValueReference>{1, 2});
+  CHECK(unit.outputs[1].reference == 5);
+  CHECK_FALSE(unit.outputs[1].dependencies);
+  REQUIRE(unit.initial_unknowns.size() == 2);
+  CHECK(unit.initial_unknowns[0].dependencies == std::vector<core::ValueReference>{});
+  CHECK(unit.initial_unknowns[1].reference == 8);
+  CHECK(unit.initial_unknowns[1].dependencies == std::vector<core::ValueReference>{3});
+  CHECK_THAT(
+      error_with("index=\"6\"", "index=\"0\""),
+      Contains("<Unknown> refers to the variable with the index 0; expected one from 1 to 10"));
+  CHECK_THAT(error_with("dependencies=\"2 3\"", "dependencies=\"2 11\""),
+             Contains("with the index 11; expected one from 1 to 10"));
+}
+
+TEST_CASE("broken FMI 2.0 descriptions say where") {
+  CHECK_THAT(error_with("guid=\"{8c4e810f}\"", ""), Contains("unit.xml:2: ") && Contains("'guid'"));
+  CHECK_THAT(error_with("declaredType=\"Mode\"", "declaredType=\"Mood\""),
+             Contains("declaredType=\"Mood\": there is no such type"));
+  CHECK_THAT(error_with("declaredType=\"Mode\"", "declaredType=\"Temperature\""),
+             Contains("declaredType=\"Temperature\" is a <Real>; expected a <Enumeration>"));
+  CHECK_THAT(error_with("declaredType=\"Mode\"", ""), Contains("'declaredType'"));
+  CHECK_THAT(error_with("<Integer/>", "<Int32/>"),
+             Contains("<ScalarVariable> has none of <Real>, <Integer>"));
+  CHECK_THAT(error_with("<Boolean/></SimpleType>", "</SimpleType>"),
+             Contains("<SimpleType> has none of"));
+  CHECK_THAT(error_with("SimpleType name=\"Switch\"", "SimpleType name=\"Mode\""),
+             Contains("the type 'Mode' is defined twice"));
+  CHECK_THAT(error_with("name=\"T2\"", "name=\"T\""),
+             Contains("the variable name 'T' is used twice"));
+  CHECK_THAT(error_with("causality=\"local\"", "causality=\"structuralParameter\""),
+             Contains("there are none in FMI 2.0"));
+  CHECK_THAT(error_with("valueReference=\"5\"", "valueReference=\"-5\""), Contains("\"-5\""));
+  CHECK_THAT(error_with("initial=\"approx\"", "initial=\"guessed\""),
+             Contains("expected calculated or exact or approx"));
+  CHECK_THAT(error_with("ModelVariables>", "Variables>"), Contains("unit.xml"));
+}
+
+TEST_CASE("a unit for Model Exchange only says so") {
+  std::string text = kTank;
+  const auto first = text.find("<CoSimulation");
+  const std::string last = "</CoSimulation>";
+  text.erase(first, text.find(last) + last.size() - first);
+  CHECK_THAT(input_error([&] { fmi::parse_model_description(text, "unit.xml"); }),
+             Contains("no Co-Simulation interface") && Contains("it has ModelExchange only") &&
+                 Contains("hint: export the unit for Co-Simulation"));
+}

@@ -1,0 +1,58 @@
+#include "master/importer/fmi2/fmi2_library.h"
+
+#include "master/importer/fmu.h"
+#include "tests/master/importer/support.h"
+
+using namespace stride;
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::string load_error(const std::string& name) {
+  const auto fmu = fmi::Fmu::load(test_fmu(name), {"system.ssd", 3});
+  return input_error([&] { fmu->load_library(); });
+}
+
+}  // namespace
+
+TEST_CASE("a unit's functions are found") {
+  const auto fmu = fmi::Fmu::load(test_fmu("fmi2_relaxation"));
+  const auto library = fmu->load_fmi2_library();
+  REQUIRE(library);
+  CHECK(fmu->load_library() == library);
+  CHECK_FALSE(fmu->load_fmi3_library());
+  CHECK(std::string(library->functions().GetVersion()) == "2.0");
+  CHECK(library->functions().DoStep != nullptr);
+  CHECK(library->functions().GetFMUstate != nullptr);
+  CHECK(library->functions().SetContinuousStates == nullptr);
+  const auto fmi3 = fmi::Fmu::load(test_fmu("types"));
+  CHECK_FALSE(fmi3->load_fmi2_library());
+}
+
+TEST_CASE("a missing function is named") {
+  CHECK_THAT(load_error("fmi2_without_do_step"),
+             Contains("system.ssd:3: ") &&
+                 Contains("does not export fmi2DoStep, which an FMI 2.0") &&
+                 Contains("hint: export it with C linkage"));
+}
+
+TEST_CASE("functions with the prefix of a static library say how to get rid of it") {
+  CHECK_THAT(load_error("fmi2_with_prefix"), Contains("does not export fmi2DoStep") &&
+                                                 Contains("the prefix 'fmi2_with_prefix_'") &&
+                                                 Contains("FMI2_OVERRIDE_FUNCTION_PREFIX"));
+}
+
+TEST_CASE("a library of other platform types is refused") {
+  CHECK_THAT(load_error("fmi2_of_other_platform"),
+             Contains("the platform types 'other'; expected 'default'"));
+}
+
+TEST_CASE("a folder of resources is a URI with the scheme file, absolute and escaped") {
+  CHECK(fmi::resource_uri("/tmp/unit/resources") == "file:///tmp/unit/resources");
+  CHECK(fmi::resource_uri("/tmp/x/../unit/resources") == "file:///tmp/unit/resources");
+  CHECK(fmi::resource_uri("/a b/50%/ü#?/-._~") == "file:///a%20b/50%25/%C3%BC%23%3F/-._~");
+  const std::string here = fs::current_path().string();
+  CHECK_THAT(fmi::resource_uri("resources"),
+             Catch::Matchers::StartsWith("file:///") && Catch::Matchers::EndsWith("/resources"));
+}

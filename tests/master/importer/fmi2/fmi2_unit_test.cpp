@@ -1,0 +1,524 @@
+#include "master/importer/fmi2/fmi2_unit.h"
+
+#include <cmath>
+
+#include <dlfcn.h>
+
+#include "master/importer/fmu.h"
+#include "tests/counting_allocator.h"
+#include "tests/master/importer/support.h"
+
+using namespace stride;
+using namespace stride::tests;
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+using core::ValueBlock;
+using core::ValueReference;
+using core::ValueType;
+
+namespace {
+
+struct Line {
+  std::string unit, category, message;
+  fmi::Status status;
+};
+
+/// An instance of one of the FMI 2.0 units, and what it logs.
+class Fixture {
+ public:
+  explicit Fixture(const std::string& name, fmi::InstanceOptions options = {})
+      : Fixture(fmi::Fmu::load(test_fmu(name)), std::move(options)) {}
+  explicit Fixture(std::shared_ptr<fmi::Fmu> fmu, fmi::InstanceOptions options = {})
+      : fmu_(std::move(fmu)) {
+    if (!options.log) {
+      options.log = [this](const std::string& unit, fmi::Status status, const std::string& category,
+                           const std::string& message) {
+        lines.push_back({unit, category, message, status});
+      };
+    }
+    unit_ = make_unit(fmu_, "u1", std::move(options));
+  }
+
+  core::Unit& operator*() { return *unit_; }
+  core::Unit* operator->() { return unit_.get(); }
+
+  ValueReference reference(const std::string& name) const {
+    const auto& description = *fmu_->description();
+    return description.variables[description.find(name).value()].reference;
+  }
+  void set(const std::string& name, const ValueBlock& values) {
+    const ValueReference r = reference(name);
+    unit_->set({&r, 1}, values);
+  }
+  template <class T>
+  void set(ValueType type, const std::string& name, T value) {
+    ValueBlock block(type, 1);
+    block.numbers<T>()[0] = value;
+    set(name, block);
+  }
+  void set(const std::string& name, double value) { set(ValueType::Float64, name, value); }
+  void set_flag(const std::string& name) { set(ValueType::Boolean, name, true); }
+  void set_number(const std::string& name, std::int32_t value) {
+    set(ValueType::Int32, name, value);
+  }
+  ValueBlock get(ValueType type, const std::string& name) {
+    const ValueReference r = reference(name);
+    ValueBlock block(type, 1);
+    unit_->get({&r, 1}, block);
+    return block;
+  }
+  double get(const std::string& name) { return get(ValueType::Float64, name).numbers<double>()[0]; }
+
+  Fixture& start(Time time = {}) {
+    unit_->enter_initialization(time, time + 10s);
+    unit_->exit_initialization();
+    return *this;
+  }
+  core::StepResult step(Time from, Time to) { return unit_->step({from, to}); }
+
+  template <class T>
+  T global(const char* name) const {
+    return *static_cast<T*>(symbol(name));
+  }
+  void* symbol(const char* name) const {
+    void* handle = dlopen(fmu_->load_library()->path().c_str(), RTLD_NOW | RTLD_NOLOAD);
+    REQUIRE(handle != nullptr);
+    void* const address = dlsym(handle, name);
+    dlclose(handle);
+    REQUIRE(address != nullptr);
+    return address;
+  }
+  void free() { unit_.reset(); }
+
+  std::vector<Line> lines;
+
+ private:
+  std::shared_ptr<fmi::Fmu> fmu_;
+  std::unique_ptr<core::Unit> unit_;
+};
+
+Time at(double seconds) { return time_from_seconds(seconds); }
+
+}  // namespace
+
+// ---- Life ----
+
+TEST_CASE("an FMI 2.0 unit lives from its instantiation to its end", "[here]") {
+  Fixture unit("fmi2_relaxation");
+  CHECK(unit.global<int>("fmi2_living_units") == 1);
+  unit.set("k", 3);
+  unit.set("x", 5);
+  unit.set("u", 1);
+  unit.start(Time(1s));
+  CHECK(unit.get("x") == 5);
+  const core::StepResult result = unit.step(Time(1s), at(1.5));
+  CHECK(result.went_through(at(1.5)));
+  CHECK(unit.global<double>("fmi2_step_begin") == 1);
+  CHECK(unit.global<double>("fmi2_step_size") == 0.5);
+  CHECK(unit.global<fmi2Boolean>("fmi2_no_restore") == fmi2True);
+  CHECK(unit.get("x") == Approx(1 + 4 * std::exp(-1.5)).epsilon(1e-14));
+  CHECK(unit->calls() == 11);
+  CHECK_NOTHROW(unit->terminate());
+}
+
+TEST_CASE("instances and states are freed", "[here]") {
+  const auto fmu = fmi::Fmu::load(test_fmu("fmi2_relaxation"));
+  Fixture keeper(fmu);
+  {
+    Fixture unit(fmu);
+    unit.start();
+    unit.step({}, Time(1s));
+    unit->save_state();
+    CHECK(unit.global<int>("fmi2_living_units") == 2);
+    CHECK(unit.global<int>("fmi2_living_states") == 2);
+  }
+  CHECK(keeper.global<int>("fmi2_living_units") == 1);
+  CHECK(keeper.global<int>("fmi2_living_states") == 0);
+}
+
+TEST_CASE("start values of inputs wait for Initialization Mode") {
+  Fixture unit("fmi2_types");
+  ValueBlock text(ValueType::String, 1);
+  text.strings()[0] = "hello";
+  CHECK_NOTHROW(unit.set("real", 0.5));  // the unit refuses it at this time
+  CHECK_NOTHROW(unit.set("string", text));
+  CHECK_NOTHROW(unit.set("gain", 4));
+  unit.start();
+  CHECK(unit.get("real.echo") == 2);
+  CHECK(unit.get(ValueType::String, "string.echo").strings()[0] == "hello");
+}
+
+TEST_CASE("an FMI 2.0 unit that cannot be instantiated says why") {
+  const Scratch scratch;
+  const fmi::UnpackedFmu unpacked(test_fmu("fmi2_types"));
+  fs::copy(unpacked.folder(), scratch / "unit", fs::copy_options::recursive);
+  std::string text = read(scratch / "unit/modelDescription.xml");
+  const std::string guid = "{fmi2_types}";
+  text.replace(text.find(guid), guid.size(), "{another}");
+  scratch.write("unit/modelDescription.xml", text);
+  const auto fmu = fmi::Fmu::load(scratch / "unit");
+  CHECK_THAT(run_error([&] {
+               make_unit(fmu, "u1", {.where = {"system.ssd", 7}});
+             }),
+             Contains("system.ssd:7: unit 'u1': fmi2Instantiate failed: the GUID is {another}"));
+}
+
+TEST_CASE("the resources are named by a URI") {
+  Fixture unit("fmi2_types");
+  unit.start();
+  const std::string uri = unit.get(ValueType::String, "resources").strings()[0];
+  CHECK_THAT(uri,
+             Catch::Matchers::StartsWith("file:///") && Catch::Matchers::EndsWith("/resources"));
+}
+
+TEST_CASE("there is no Event Mode") {
+  Fixture unit("fmi2_types");
+  unit.start();
+  CHECK_THAT(run_error([&] { unit->enter_event_mode(); }), Contains("has no Event Mode"));
+  CHECK_THAT(run_error([&] { unit->update_discrete_states(); }), Contains("has no Event Mode"));
+  CHECK_THAT(run_error([&] { unit->enter_step_mode(); }), Contains("has no Event Mode"));
+}
+
+TEST_CASE("an FMI 2.0 unit that allows one instance gets one", "[here]") {
+  Fixture first("fmi2_grumbler");
+  CHECK_THAT(input_error([] { Fixture second("fmi2_grumbler"); }),
+             Contains("can be instantiated only once per process"));
+}
+
+// ---- Values ----
+
+TEST_CASE("values of all types of FMI 2.0 go in and out, whatever value references they share") {
+  Fixture unit("fmi2_types");
+  unit.start();
+  ValueBlock text(ValueType::String, 1);
+  text.strings()[0] = "grüß Gott";
+  unit.set("real", -0.25);
+  unit.set("string", text);
+  unit.set<std::int32_t>(ValueType::Int32, "integer", -7);
+  unit.set<std::int64_t>(ValueType::Enumeration, "mode", 5);
+  unit.set<bool>(ValueType::Boolean, "boolean", true);
+  unit.step({}, Time(1s));
+  CHECK(unit.get("real.echo") == -0.75);
+  CHECK(unit.get(ValueType::String, "string.echo") == text);
+  CHECK(unit.get(ValueType::Int32, "integer.echo").numbers<std::int32_t>()[0] == -7);
+  CHECK(unit.get(ValueType::Enumeration, "mode.echo").numbers<std::int64_t>()[0] == 5);
+  CHECK(unit.get(ValueType::Boolean, "boolean.echo").numbers<bool>()[0]);
+}
+
+TEST_CASE("aliases have the same value") {
+  Fixture unit("fmi2_types");
+  unit.set("gain", 7);
+  unit.start();
+  CHECK(unit.get("gain.out") == 7);
+  CHECK(unit.get("gain.local") == 7);
+}
+
+TEST_CASE("directional derivatives of an FMI 2.0 unit") {
+  Fixture unit("fmi2_types");
+  unit.set("gain", 7);
+  unit.start();
+  const std::vector knowns{unit.reference("gain"), unit.reference("real")};
+  const std::vector unknowns{unit.reference("real.echo")};
+  double sensitivity = 0;
+  unit->get_directional_derivative(unknowns, knowns, std::vector{1.0, 0.5}, {&sensitivity, 1});
+  CHECK(sensitivity == 3.5);
+}
+
+TEST_CASE("an enumeration of FMI 2.0 has 32 bits") {
+  Fixture unit("fmi2_types");
+  unit.start();
+  const std::int64_t value = GENERATE(std::int64_t{1} << 31, -(std::int64_t{1} << 31) - 1);
+  CHECK_THAT(run_error([&] { unit.set<std::int64_t>(ValueType::Enumeration, "mode", value); }),
+             Contains("does not fit into an Enumeration of FMI 2.0"));
+}
+
+TEST_CASE("after the first exchange an FMI 2.0 unit is stepped without allocating") {
+  Fixture unit("fmi2_types");
+  unit.start();
+  const std::vector<ValueReference> reals = {unit.reference("real")};
+  const std::vector<ValueReference> flags = {unit.reference("boolean")};
+  const std::vector<ValueReference> modes = {unit.reference("mode")};
+  const std::vector<ValueReference> texts = {unit.reference("string")};
+  const std::vector<ValueReference> outputs = {unit.reference("real.echo"),
+                                               unit.reference("gain.out")};
+  ValueBlock real(ValueType::Float64, 1), flag(ValueType::Boolean, 1);
+  ValueBlock mode(ValueType::Enumeration, 1), text(ValueType::String, 1);
+  ValueBlock output(ValueType::Float64, 2);
+  text.strings()[0] = std::string(60, 'x');
+  const core::BoundValues inputs[] = {{reals, real}, {flags, flag}, {modes, mode}, {texts, text}};
+  const core::BoundValues read[] = {{outputs, output}};
+  const auto step = [&](int k) {
+    return unit->step({Time(k * 1ms), Time((k + 1) * 1ms)}, {inputs, read});
+  };
+  CHECK(step(0).went_through(Time(1ms)));
+  const auto before = allocations.load();
+  for (int k = 1; k < 100; ++k) step(k);
+  CHECK(allocations.load() == before);
+  CHECK(output.numbers<double>()[1] == 3);
+}
+
+// ---- Steps ----
+
+TEST_CASE("instants that are one double are one to the unit") {
+  Fixture unit("fmi2_relaxation");
+  unit.start();
+  const Time late(std::chrono::seconds(9'000'000));
+  CHECK(unit.step(late, late + Duration(1)).went_through(late + Duration(1)));
+  CHECK(unit.global<double>("fmi2_step_size") == 0);
+}
+
+TEST_CASE("a step that ends early is undone where the state was saved, and says how far it came") {
+  Fixture unit("fmi2_turner");
+  unit.start();
+  const core::StepResult result = unit.step({}, Time(1s));
+  CHECK(result.rejected);
+  CHECK(result.reached == at(0.25));
+  CHECK(unit->rejection_reason() == "there is a turn at 0.25 s");
+  CHECK(unit.get("y") == 0);
+  CHECK(unit.step({}, at(0.25)).went_through(at(0.25)));
+  CHECK(unit.get("y") == 0.25);
+  CHECK(unit.step(at(0.25), Time(1s)).went_through(Time(1s)));
+  CHECK(unit.get("y") == Approx(-0.5));
+}
+
+TEST_CASE("the inputs of a step that is undone stay set") {
+  Fixture unit("fmi2_turner");
+  unit.start();
+  unit->save_state();
+  for (int i = 0; i < 3; ++i) CHECK(unit.step({}, Time(1s)).rejected);
+  unit->restore_state();
+  CHECK(unit.step({}, Time(1s)).reached == at(0.25));
+  CHECK(unit.get("y") == 0);
+}
+
+TEST_CASE("a state that was just saved for core is not saved again", "[here]") {
+  Fixture unit("fmi2_turner");
+  unit.start();
+  const int before = unit.global<int>("fmi2_saved_states");
+  unit->save_state();
+  CHECK(unit.step({}, Time(1s)).rejected);
+  CHECK(unit.get("y") == 0);
+  CHECK(unit.step({}, at(0.125)).went_through(at(0.125)));
+  CHECK(unit.global<int>("fmi2_saved_states") == before + 1);
+  unit.step(at(0.125), at(0.2));
+  CHECK(unit.global<int>("fmi2_saved_states") == before + 2);
+  unit->restore_state();
+  CHECK(unit.step({}, Time(1s)).rejected);
+  CHECK(unit.global<int>("fmi2_saved_states") == before + 2);
+  CHECK(unit.get("y") == 0);
+}
+
+TEST_CASE("a unit that does not say how far it came is undone all the same") {
+  Fixture unit("fmi2_turner");
+  unit.set_flag("mute");
+  unit.start();
+  const core::StepResult result = unit.step({}, Time(1s));
+  CHECK(result.rejected);
+  CHECK(result.reached == Time{});
+  CHECK(unit->rejection_reason() == "there is a turn at 0.25 s");
+  CHECK(unit.step({}, at(0.125)).went_through(at(0.125)));
+}
+
+TEST_CASE("a unit without a state stands where it came to, which the log says once") {
+  Fixture unit("fmi2_turner_without_state");
+  unit.start();
+  const core::StepResult result = unit.step({}, Time(1s));
+  CHECK((result.early_return && !result.rejected && !result.terminate));
+  CHECK(result.reached == at(0.25));
+  CHECK(unit.get("y") == 0.25);
+  std::vector<Line> warnings;
+  for (const Line& line : unit.lines) {
+    if (line.status == fmi::Status::Warning) warnings.push_back(line);
+  }
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0].message, Contains("the step to 1 s ended at 0.25 s (fmi2Discard)") &&
+                                      Contains("canGetAndSetFMUstate"));
+}
+
+TEST_CASE("a unit without a state must say where it stands") {
+  const bool is_mute = GENERATE(true, false);
+  Fixture unit("fmi2_turner_without_state");
+  unit.set_flag(is_mute ? "mute" : "stays");
+  unit.start();
+  CHECK_THAT(
+      run_error([&] { unit.step({}, Time(1s)); }),
+      Contains("unit 'u1', at 0 s: fmi2DoStep returned fmi2Discard in the step to 1 s") &&
+          Contains(is_mute ? "does not say how far it came" : "came no further than where") &&
+          Contains("it says: there is a turn at 0.25 s") && Contains("hint: try a smaller step"));
+}
+
+TEST_CASE("a unit may end the simulation within a step") {
+  const bool has_state = GENERATE(true, false);
+  Fixture unit(has_state ? "fmi2_turner" : "fmi2_turner_without_state");
+  unit.set_flag("ends");
+  unit.start();
+  const core::StepResult result = unit.step({}, Time(1s));
+  CHECK((result.terminate && result.early_return && !result.rejected));
+  CHECK(result.reached == at(0.25));
+  CHECK(unit.get("y") == 0.25);
+  CHECK_NOTHROW(unit->terminate());
+}
+
+TEST_CASE("a unit that ends the simulation and does not say when") {
+  const bool has_state = GENERATE(true, false);
+  Fixture unit(has_state ? "fmi2_turner" : "fmi2_turner_without_state");
+  unit.set_flag("ends");
+  unit.set_flag("mute");
+  unit.start();
+  if (!has_state) {
+    CHECK_THAT(run_error([&] { unit.step({}, Time(1s)); }), Contains("does not say when"));
+    return;
+  }
+  const core::StepResult result = unit.step({}, Time(1s));
+  CHECK((result.terminate && result.early_return));
+  CHECK(result.reached == Time{});
+  CHECK(unit.get("y") == 0);
+}
+
+// ---- Steps that are pending ----
+
+TEST_CASE("a pending step ends by a callback, or when the unit is asked") {
+  const int how = GENERATE(0, 1, 3);
+  const bool has_state = GENERATE(true, false);
+  CAPTURE(how, has_state);
+  Fixture unit(has_state ? "fmi2_sleeper" : "fmi2_sleeper_without_state");
+  unit.set_number("how", how);
+  unit.start();
+  for (int k = 0; k < 20; ++k) {
+    const Time from(k * 50ms), to((k + 1) * 50ms);
+    CHECK(unit.step(from, to).went_through(to));
+    CHECK(unit.get("y") == Approx(to_seconds(to)));
+  }
+  CHECK_NOTHROW(unit->terminate());
+}
+
+TEST_CASE("the status of a pending step is that of the step") {
+  const int how = GENERATE(0, 1, 3);
+  CAPTURE(how);
+  Fixture discards("fmi2_sleeper");
+  discards.set_number("how", how);
+  discards.set_number("result", fmi2Discard);
+  discards.start();
+  const core::StepResult result = discards.step({}, Time(1s));
+  CHECK(result.rejected);
+  CHECK(result.reached == at(0.5));
+  CHECK(discards->rejection_reason() == "the night was short");
+  CHECK(discards.get("y") == 0);
+
+  Fixture fails("fmi2_sleeper");
+  fails.set_number("how", how);
+  fails.set_number("result", fmi2Error);
+  fails.start();
+  CHECK_THAT(run_error([&] { fails.step({}, Time(1s)); }),
+             Contains("fmi2DoStep returned fmi2Error: the night was short"));
+}
+
+TEST_CASE("a step that takes long is told once, with what the unit says of it", "[here]") {
+  std::vector<std::string> told;
+  std::function<void()> release;
+  Fixture unit("fmi2_sleeper", {.patience = 0ms,
+                                .log = [&](const std::string&, fmi::Status status,
+                                           const std::string&, const std::string& message) {
+                                  CHECK(status == fmi::Status::Warning);
+                                  told.push_back(message);
+                                  release();
+                                }});
+  const auto wake = reinterpret_cast<void (*)()>(unit.symbol("sleeper_release"));
+  release = wake;
+  unit.set_number("how", 2);
+  unit.start();
+  CHECK(unit.step({}, Time(1s)).went_through(Time(1s)));
+  REQUIRE(told.size() == 1);
+  CHECK_THAT(told[0], Contains("has not finished its step from 0 s yet (fmi2Pending); it says: "
+                               "asleep; stride waits for it"));
+}
+
+// ---- Inputs within a step ----
+
+TEST_CASE("a unit that interpolates is given the derivatives of its inputs") {
+  Fixture unit("fmi2_integrator");
+  unit.start();
+  const ValueReference u = unit.reference("u");
+  Time begin{};
+  const auto input = [](double t) { return 1 + 2 * t + 3 * t * t; };
+  unit->set_input_update([&](double seconds) {
+    ValueBlock block(ValueType::Float64, 1);
+    block.numbers<double>()[0] = input(to_seconds(begin) + seconds);
+    unit->set({&u, 1}, block);
+  });
+  for (const double end : {0.1, 0.35, 1.0}) {
+    unit.set("u", input(to_seconds(begin)));
+    CHECK(unit.step(begin, at(end)).went_through(at(end)));
+    begin = at(end);
+  }
+  CHECK(unit.get("x") == Approx(1 + 1 + 1).epsilon(1e-13));
+}
+
+TEST_CASE("what an input update throws, step() throws") {
+  Fixture unit("fmi2_integrator");
+  unit.start();
+  unit->set_input_update([](double) { throw std::runtime_error("no inputs today"); });
+  CHECK_THROWS_WITH(unit.step({}, Time(1s)), "no inputs today");
+  unit->set_input_update({});
+  unit.set("u", 2);
+  unit.step({}, Time(1s));
+  CHECK(unit.get("x") == 2);
+}
+
+// ---- Failures ----
+
+TEST_CASE("a failure of an FMI 2.0 unit gives its message, with numbers and names") {
+  Fixture unit("fmi2_grumbler");
+  unit.set_number("mood", 3);
+  unit.start(Time(2s));
+  CHECK_THAT(run_error([&] { unit.step(Time(2s), Time(3s)); }),
+             Contains("unit 'u1', at 2 s: fmi2DoStep returned fmi2Error: mood of 3 in channel #4, "
+                      "not #r99#"));
+  CHECK_THAT(run_error([&] { unit.get("tank.level"); }),
+             Contains("fmi2GetReal cannot be called, because fmi2DoStep has failed before"));
+  CHECK_NOTHROW(unit->terminate());
+}
+
+TEST_CASE("a failure without a word, with a long one and with one that must not be formatted") {
+  const auto [mood, expected] = GENERATE(table<int, std::string>(
+      {{5, "the unit gives no reason"}, {6, std::string(999, ' ') + "6"}, {7, "100%n"}}));
+  Fixture unit("fmi2_grumbler");
+  unit.set_number("mood", mood);
+  unit.start();
+  CHECK_THAT(run_error([&] { unit.step({}, Time(1s)); }), Contains("fmi2Error: " + expected));
+}
+
+TEST_CASE("a warning of an FMI 2.0 unit is logged and the step stands") {
+  Fixture unit("fmi2_grumbler");
+  unit.set_number("mood", 1);
+  unit.start();
+  CHECK(unit.step({}, Time(1s)).went_through(Time(1s)));
+  REQUIRE(unit.lines.size() == 1);
+  CHECK(unit.lines[0].unit == "u1");
+  CHECK(unit.lines[0].status == fmi::Status::Warning);
+  CHECK(unit.lines[0].category == "logStatus");
+  CHECK(unit.lines[0].message == "tank.level is 0.5 m, 50 %");
+}
+
+TEST_CASE("a call that the unit does not allow is a failure") {
+  Fixture unit("fmi2_relaxation");
+  unit.start();
+  CHECK_THAT(run_error([&] { unit.set("k", 1); }),
+             Contains("fmi2SetReal returned fmi2Error: fmi2SetReal is not allowed in mode 2"));
+}
+
+// Last, since nothing of this library can be called after it.
+TEST_CASE("after fmi2Fatal nothing of the library is called", "[here]") {
+  const auto fmu = fmi::Fmu::load(test_fmu("fmi2_grumbler"));
+  Fixture unit(fmu);
+  unit.set_number("mood", 4);
+  unit.start();
+  CHECK_THAT(run_error([&] { unit.step({}, Time(1s)); }),
+             Contains("fmi2DoStep returned fmi2Fatal: the heap is gone") &&
+                 Contains("may have damaged this process"));
+  const int* const living = static_cast<int*>(unit.symbol("fmi2_living_units"));
+  unit.free();
+  CHECK(*living == 1);
+  CHECK_THAT(run_error([&] { Fixture another(fmu); }),
+             Contains("fmi2Instantiate cannot be called") && Contains("returned fmi2Fatal before"));
+}

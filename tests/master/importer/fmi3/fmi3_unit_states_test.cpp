@@ -1,0 +1,113 @@
+// Several kept states, states as bytes, and the way back to the beginning.
+#include "master/importer/fmu.h"
+#include "tests/master/importer/support.h"
+
+using namespace stride;
+using namespace stride::tests;
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+using core::ValueType;
+
+namespace {
+
+/// An instance of `stepper`, which counts its steps, at 0 s in Step Mode.
+class Stepper {
+ public:
+  explicit Stepper(const std::string& fmu = "stepper")
+      : fmu_(fmi::Fmu::load(test_fmu(fmu))), unit_(make_unit(fmu_, "unit")) {}
+
+  core::Unit* operator->() { return unit_.get(); }
+  void start() {
+    unit_->enter_initialization({}, std::nullopt);
+    unit_->exit_initialization();
+    unit_->update_discrete_states();
+    unit_->enter_step_mode();
+  }
+  void step(int count, Time from = {}) {
+    for (int i = 0; i < count; ++i) unit_->step({from + i * 10ms, from + (i + 1) * 10ms});
+  }
+  int steps() {
+    const auto& description = *fmu_->description();
+    core::ValueBlock block(ValueType::Int32, 1);
+    unit_->get({&description.variables[*description.find("steps")].reference, 1}, block);
+    return block.numbers<std::int32_t>()[0];
+  }
+
+ private:
+  std::shared_ptr<fmi::Fmu> fmu_;
+  std::unique_ptr<core::Unit> unit_;
+};
+
+}  // namespace
+
+TEST_CASE("several states are kept at once, each in its slot") {
+  Stepper unit;
+  unit.start();
+  for (std::size_t slot : {0, 5, 2}) {
+    unit.step(1, Time(unit.steps() * 10ms));
+    unit->select_state(slot);
+    unit->save_state();
+  }
+  const auto restored = [&](std::size_t slot) {
+    unit->select_state(slot);
+    unit->restore_state();
+    return unit.steps();
+  };
+  CHECK(restored(0) == 1);
+  CHECK(restored(2) == 3);
+  CHECK(restored(5) == 2);
+  CHECK(restored(0) == 1);
+  unit->select_state(7);
+  CHECK_THAT(run_error([&] { unit->restore_state(); }), Contains("no state of it has been saved"));
+}
+
+TEST_CASE("bytes of a state continue in another instance that was never started") {
+  Stepper unit;
+  unit.start();
+  unit.step(3);
+  unit->save_state();
+  const std::vector<std::uint8_t> bytes = unit->serialize_state();
+  Stepper other;
+  other->deserialize_state(bytes);
+  other->restore_state();
+  CHECK(other.steps() == 3);
+  other.step(1, Time(30ms));
+  CHECK(other.steps() == 4);
+  other->save_state();
+  CHECK(other->serialize_state().size() == bytes.size());
+}
+
+TEST_CASE("bytes that are no state, and a state that is not there, are errors") {
+  Stepper unit;
+  CHECK_THAT(run_error([&] { unit->serialize_state(); }),
+             Contains("no state of it has been saved"));
+  CHECK_THAT(run_error([&] { unit->deserialize_state({}); }),
+             Contains("fmi3DeserializeFMUState returned fmi3Error"));
+}
+
+TEST_CASE("after a reset the unit is new, and keeps its states") {
+  Stepper unit;
+  unit.start();
+  unit.step(3);
+  unit->save_state();
+  unit->reset();
+  unit.start();
+  CHECK(unit.steps() == 0);
+  unit.step(1);
+  CHECK(unit.steps() == 1);
+  unit->restore_state();
+  CHECK(unit.steps() == 3);
+}
+
+TEST_CASE("a failed unit can be reset, and a terminated one") {
+  Stepper unit;
+  CHECK_THROWS_AS(unit->exit_initialization(), core::Error);
+  CHECK_THROWS_AS(unit->exit_initialization(), core::Error);
+  unit->reset();
+  unit.start();
+  unit.step(2);
+  unit->terminate();
+  unit->reset();
+  unit.start();
+  CHECK(unit.steps() == 0);
+}

@@ -1,0 +1,678 @@
+#include "master/importer/fmi3/fmi3_unit.h"
+
+#include <limits>
+
+#include <dlfcn.h>
+
+#include "master/importer/fmu.h"
+#include "tests/counting_allocator.h"
+#include "tests/master/importer/support.h"
+
+using namespace stride;
+using namespace stride::tests;
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+using core::ValueBlock;
+using core::ValueType;
+
+namespace {
+
+Time at(double seconds) { return time_from_seconds(seconds); }
+
+/// An instance of a unit made for tests, with access by name.
+class Fixture {
+ public:
+  explicit Fixture(const std::string& unit, fmi::InstanceOptions options = {})
+      : fmu_(fmi::Fmu::load(test_fmu(unit))), unit_(make_unit(fmu_, "unit", std::move(options))) {}
+
+  core::Unit& operator*() { return *unit_; }
+  core::Unit* operator->() { return unit_.get(); }
+
+  core::ValueReference reference(const std::string& name) const {
+    const auto place = fmu_->description()->find(name);
+    REQUIRE(place);
+    return fmu_->description()->variables[*place].reference;
+  }
+  ValueBlock get(const std::string& name) {
+    const auto& variable = fmu_->description()->variables[*fmu_->description()->find(name)];
+    ValueBlock block(variable.type, variable.size);
+    unit_->get(std::span(&variable.reference, 1), block);
+    return block;
+  }
+  void set(const std::string& name, const ValueBlock& block) {
+    const core::ValueReference r = reference(name);
+    unit_->set(std::span(&r, 1), block);
+  }
+  /// The value from its text, as a scenario gives it.
+  void set(const std::string& name, const std::string& text) {
+    set(name, core::parse(fmu_->description()->variables[*fmu_->description()->find(name)], text));
+  }
+  template <class T>
+  T number(const std::string& name) {
+    return get(name).template numbers<T>()[0];
+  }
+  void initialize(Time start = {}) {
+    unit_->enter_initialization(start, std::nullopt);
+    unit_->exit_initialization();
+    unit_->update_discrete_states();
+    unit_->enter_step_mode();
+  }
+
+ private:
+  std::shared_ptr<fmi::Fmu> fmu_;
+  std::unique_ptr<core::Unit> unit_;
+};
+
+/// A raw unit, whose instance's name chooses what it does.
+struct Raw {
+  explicit Raw(const std::string& name, fmi::InstanceOptions options = {},
+               const std::string& library = "raw",
+               const std::string& flags = "hasEventMode=\"true\"")
+      : fmu(fmi::Fmu::load(make_raw_fmu(scratch, library, flags))),
+        unit(make_unit(fmu, name, std::move(options))) {
+    unit->enter_initialization({}, Time(1s));
+    unit->exit_initialization();
+    unit->enter_step_mode();
+  }
+  template <class T>
+  T global(const char* name) const {
+    void* handle = dlopen(fmu->load_library()->path().c_str(), RTLD_NOW | RTLD_NOLOAD);
+    REQUIRE(handle != nullptr);
+    const T value = *static_cast<T*>(dlsym(handle, name));
+    dlclose(handle);
+    return value;
+  }
+  Scratch scratch;
+  std::shared_ptr<fmi::Fmu> fmu;
+  std::unique_ptr<core::Unit> unit;
+};
+
+template <class T>
+void check_numbers(Fixture& unit, ValueType type, const std::string& name,
+                   const std::vector<T>& values) {
+  for (const T value : values) {
+    CAPTURE(name, value);
+    ValueBlock block(type, 1);
+    block.numbers<T>()[0] = value;
+    unit.set(name, block);
+    CHECK(unit.number<T>(name + ".echo") == value);
+  }
+}
+
+template <class T>
+std::vector<T> extremes() {
+  return {std::numeric_limits<T>::lowest(), T{0}, T{1}, std::numeric_limits<T>::max()};
+}
+
+}  // namespace
+
+TEST_CASE("numbers of every type go in and come out unchanged") {
+  Fixture unit("types");
+  unit->enter_initialization({}, std::nullopt);
+  check_numbers<float>(unit, ValueType::Float32, "float32", extremes<float>());
+  check_numbers<double>(unit, ValueType::Float64, "float64", extremes<double>());
+  check_numbers<std::int8_t>(unit, ValueType::Int8, "int8", extremes<std::int8_t>());
+  check_numbers<std::uint8_t>(unit, ValueType::UInt8, "uint8", extremes<std::uint8_t>());
+  check_numbers<std::int16_t>(unit, ValueType::Int16, "int16", extremes<std::int16_t>());
+  check_numbers<std::uint16_t>(unit, ValueType::UInt16, "uint16", extremes<std::uint16_t>());
+  check_numbers<std::int32_t>(unit, ValueType::Int32, "int32", extremes<std::int32_t>());
+  check_numbers<std::uint32_t>(unit, ValueType::UInt32, "uint32", extremes<std::uint32_t>());
+  check_numbers<std::int64_t>(unit, ValueType::Int64, "int64", extremes<std::int64_t>());
+  check_numbers<std::uint64_t>(unit, ValueType::UInt64, "uint64", extremes<std::uint64_t>());
+  check_numbers<bool>(unit, ValueType::Boolean, "boolean", {true, false});
+  check_numbers<std::int64_t>(unit, ValueType::Enumeration, "colour", {4, 2, 1});
+}
+
+TEST_CASE("strings and binary values are copied") {
+  Fixture unit("types");
+  unit->enter_initialization({}, std::nullopt);
+  for (const std::string& text : {std::string("grüße"), std::string(), std::string(5000, 'x')}) {
+    ValueBlock block(ValueType::String, 1);
+    block.strings()[0] = text;
+    unit.set("string", block);
+    CHECK(unit.get("string.echo").strings()[0] == text);
+  }
+  for (const core::Binary& bytes : {core::Binary{0, 255, 0}, core::Binary{}, core::Binary{7}}) {
+    ValueBlock block(ValueType::Binary, 1);
+    block.binaries()[0] = bytes;
+    unit.set("binary", block);
+    CHECK(unit.get("binary.echo").binaries()[0] == bytes);
+  }
+}
+
+TEST_CASE("arrays and several variables go in one call, element by element") {
+  Fixture unit("types");
+  unit->enter_initialization({}, std::nullopt);
+  const core::ValueReference inputs[] = {unit.reference("float64"), unit.reference("matrix")};
+  const core::ValueReference outputs[] = {unit.reference("matrix.echo"),
+                                          unit.reference("float64.echo")};
+  ValueBlock values(ValueType::Float64, 7);
+  for (std::size_t i = 0; i < 7; ++i) values.numbers<double>()[i] = static_cast<double>(i) + 0.5;
+  unit->set(inputs, values);
+  ValueBlock echo(ValueType::Float64, 7);
+  unit->get(outputs, echo);
+  const std::vector<double> read(echo.numbers<double>().begin(), echo.numbers<double>().end());
+  CHECK(read == std::vector<double>{1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 0.5});
+
+  ValueBlock words(ValueType::String, 2);
+  words.strings()[0] = "one";
+  words.strings()[1] = "two";
+  unit.set("words", words);
+  CHECK(unit.get("words.echo") == words);
+  ValueBlock blobs(ValueType::Binary, 2);
+  blobs.binaries()[1] = {1, 2, 3};
+  unit.set("blobs", blobs);
+  CHECK(unit.get("blobs.echo") == blobs);
+  ValueBlock flags(ValueType::Boolean, 3);
+  flags.numbers<bool>()[1] = true;
+  unit.set("flags", flags);
+  CHECK(unit.get("flags.echo") == flags);
+}
+
+TEST_CASE("a message travels with its clock through Event Mode") {
+  Fixture unit("types");
+  unit.initialize();
+  unit->enter_event_mode();
+  ValueBlock active(ValueType::Clock, 1);
+  active.numbers<bool>()[0] = true;
+  ValueBlock frame(ValueType::Binary, 1);
+  frame.binaries()[0] = {0xca, 0xfe};
+  unit.set("receive.clock", active);
+  unit.set("receive.frame", frame);
+  CHECK_FALSE(unit.number<bool>("send.clock"));
+  CHECK(unit->update_discrete_states().iterate);
+  CHECK(unit.number<bool>("send.clock"));
+  CHECK(unit.get("send.frame") == frame);
+  CHECK_FALSE(unit->update_discrete_states().iterate);
+  CHECK_FALSE(unit.number<bool>("send.clock"));
+  unit->enter_step_mode();
+}
+
+TEST_CASE("the loop of values, steps and events does not allocate after its first round") {
+  Fixture unit("types");
+  unit.initialize();
+  const core::ValueReference reals[] = {unit.reference("float64"), unit.reference("matrix")};
+  const core::ValueReference texts[] = {unit.reference("words")};
+  const core::ValueReference frame[] = {unit.reference("receive.frame")};
+  const core::ValueReference clock[] = {unit.reference("receive.clock")};
+  const core::ValueReference echoes[] = {unit.reference("send.frame")};
+  ValueBlock numbers(ValueType::Float64, 7);
+  ValueBlock words(ValueType::String, 2);
+  words.strings()[0] = std::string(100, 'x');
+  ValueBlock bytes(ValueType::Binary, 1);
+  bytes.binaries()[0] = core::Binary(200, 7);
+  ValueBlock ticks(ValueType::Clock, 1);
+  ticks.numbers<bool>()[0] = true;
+  Time time{};
+  const auto round = [&] {
+    unit->set(reals, numbers);
+    unit->set(texts, words);
+    unit->step({time, time + Duration(1ms)});
+    time += 1ms;
+    unit->get(reals, numbers);
+    unit->get(texts, words);
+    unit->enter_event_mode();
+    unit->set(clock, ticks);
+    unit->set(frame, bytes);
+    unit->update_discrete_states();
+    unit->get(echoes, bytes);
+    unit->enter_step_mode();
+  };
+  round();
+  const long before = allocations;
+  for (int i = 0; i < 100; ++i) round();
+  CHECK(allocations - before == 0);
+  CHECK(before > 0);
+}
+
+TEST_CASE("steps from exact time meet the doubles of the next communication point", "[here]") {
+  Raw raw("unit");
+  Time time{};
+  for (int i = 0; i < 1000; ++i) {
+    const Time next = time + 333'333'333ns + Duration(i);
+    const core::StepResult result = raw.unit->step({time, next});
+    CHECK(result.reached == next);
+    CHECK_FALSE(result.early_return);
+    const auto point = raw.global<double>("raw_point");
+    CHECK(point == to_seconds(time));
+    CHECK(point + raw.global<double>("raw_size") == to_seconds(next));
+    time = next;
+  }
+}
+
+TEST_CASE("no state from before the current communication point is restored", "[here]") {
+  Raw raw("unit");
+  raw.unit->step({{}, Time(1ms)});
+  CHECK(raw.global<bool>("raw_no_restore"));
+}
+
+TEST_CASE("fmi3Discard is a rejected step") {
+  Raw raw("discard");
+  const core::StepResult result = raw.unit->step({Time(1s), Time(2s)});
+  CHECK(result.rejected);
+  CHECK(result.reached == Time(1s));
+  Fixture stepper("stepper");
+  stepper.set("largest_step", "0.01");
+  stepper.initialize();
+  CHECK(stepper->step({{}, Time(20ms)}).rejected);
+  CHECK_FALSE(stepper->step({{}, Time(10ms)}).rejected);
+  CHECK(stepper.number<std::int32_t>("steps") == 1);
+}
+
+TEST_CASE("what a unit says when it rejects a step is kept until it rejects another") {
+  CHECK(Raw("unit").unit->rejection_reason().empty());
+  Raw silent("discard");
+  silent.unit->step({{}, Time(1s)});
+  CHECK(silent.unit->rejection_reason().empty());
+  Raw coarse("coarse", {}, "raw_extended");
+  CHECK(coarse.unit->step({{}, Time(1s)}).rejected);
+  CHECK(coarse.unit->rejection_reason() == "the mesh is too coarse");
+  CHECK_FALSE(coarse.unit->step({{}, Time(500ms)}).rejected);
+  CHECK(coarse.unit->rejection_reason() == "the mesh is too coarse");
+}
+
+TEST_CASE("fmi3Discard is an error for every function but fmi3DoStep", "[here]") {
+  Raw raw("sets", {}, "raw_extended");
+  const core::ValueReference any = 1;
+  const ValueBlock value(ValueType::Float64, 1);
+  CHECK_THAT(run_error([&] { raw.unit->set(std::span(&any, 1), value); }),
+             Contains("fmi3SetFloat64 returned fmi3Discard: the value is out of range"));
+  CHECK_THAT(run_error([&] {
+               raw.unit->step({{}, Time(1ms)});
+             }),
+             Contains("cannot be called, because fmi3SetFloat64 has failed before"));
+  raw.unit.reset();
+  CHECK(raw.global<int>("raw_living") == 0);
+}
+
+TEST_CASE("events, next events and the end of the run are passed on") {
+  Fixture unit("stepper", {.early_return_allowed = true});
+  unit.set("event_at", "0.015");
+  unit.set("early_at", "0.0123");
+  unit.set("tick_at", "0.03");
+  unit.set("end_at", "0.04");
+  unit->enter_initialization({}, Time(1s));
+  unit->exit_initialization();
+  const core::EventResult first = unit->update_discrete_states();
+  CHECK(first.next_event == Time(15ms));
+  CHECK_FALSE(first.iterate);
+  unit->enter_step_mode();
+  const core::StepResult early = unit->step({{}, Time(15ms)});
+  CHECK(early.early_return);
+  CHECK(early.event_needed);
+  CHECK(early.reached == at(0.0123));
+  CHECK_FALSE(unit->step({early.reached, Time(15ms)}).early_return);
+  unit->enter_event_mode();
+  const core::EventResult second = unit->update_discrete_states();
+  CHECK(second.iterate);
+  CHECK_FALSE(second.next_event);
+  unit->enter_step_mode();
+  CHECK(unit->step({Time(15ms), Time(30ms)}).event_needed);
+  CHECK(unit->step({Time(30ms), Time(40ms)}).terminate);
+  unit->terminate();
+}
+
+TEST_CASE("an instant that no simulation reaches is no next event") {
+  Raw raw("unit");
+  raw.unit->enter_event_mode();
+  CHECK_FALSE(raw.unit->update_discrete_states().next_event);
+}
+
+TEST_CASE("a small drift of a unit's own time is tolerated") {
+  Raw raw("drifts");
+  CHECK(raw.unit->step({Time(1s), Time(2s)}).reached == Time(2s));
+}
+
+TEST_CASE("a unit's own time may differ from the end of the step, which the log says once") {
+  std::vector<std::string> logged;
+  const fmi::LogSink log = [&](const std::string& unit, fmi::Status status, const std::string&,
+                               const std::string& message) {
+    CHECK(unit == "lies");
+    CHECK(status == fmi::Status::Warning);
+    logged.push_back(message);
+  };
+  Raw fixed("lies", {.log = log}, "raw", "hasEventMode=\"true\" fixedInternalStepSize=\"0.5\"");
+  const core::StepResult result = fixed.unit->step({{}, Time(1s)});
+  CHECK(result.reached == Time(1s));
+  CHECK_FALSE(result.early_return);
+  CHECK(fixed.unit->step({Time(1s), Time(2s)}).reached == Time(2s));
+  REQUIRE(logged.size() == 1);
+  CHECK_THAT(logged[0], Contains("the step to 1 s ended at the unit's own time 0.5 s") &&
+                            Contains("its fixedInternalStepSize is 0.5 s"));
+
+  Raw plain("lies", {.log = log});
+  plain.unit->step({{}, Time(1s)});
+  REQUIRE(logged.size() == 2);
+  CHECK_THAT(logged[1], !Contains("fixedInternalStepSize"));
+  CHECK(Raw("lies").unit->step({{}, Time(1s)}).reached == Time(1s));
+}
+
+TEST_CASE("a time of a unit's own that is no time is an error") {
+  Raw endless("endless", {}, "raw_extended");
+  CHECK_THAT(run_error([&] {
+               endless.unit->step({{}, Time(1s)});
+             }),
+             Contains("lastSuccessfulTime is inf"));
+}
+
+TEST_CASE("a unit that returns early without leave is an error") {
+  Raw eager("early");
+  CHECK_THAT(run_error([&] { eager.unit->step({{}, Time(1s)}); }), Contains("was not allowed"));
+  Raw allowed("early", {.early_return_allowed = true});
+  CHECK(allowed.unit->step({{}, Time(1s)}).reached == Time(500ms));
+}
+
+TEST_CASE("fmi3Error is an error with function, time and the unit's own words") {
+  Fixture unit("thrower", {.where = {"system.ssd", 4}});
+  unit.set("throw_at", "0.002");
+  unit.initialize();
+  unit->step({{}, Time(1ms)});
+  const std::string error = run_error([&] { unit->step({Time(1ms), Time(2ms)}); });
+  CHECK(error ==
+        "system.ssd:4: unit 'unit', at 0.001 s: fmi3DoStep returned fmi3Error: the fuse has blown");
+  CHECK_THAT(run_error([&] {
+               unit->step({Time(2ms), Time(3ms)});
+             }),
+             Contains("cannot be called, because fmi3DoStep has failed before"));
+  CHECK_NOTHROW(unit->terminate());
+}
+
+TEST_CASE("an exception that is no std::exception does not cross the unit's border") {
+  Fixture unit("thrower");
+  unit.set("odd", "true");
+  unit.initialize();
+  CHECK_THAT(run_error([&] {
+               unit->step({{}, Time(1ms)});
+             }),
+             Contains("fmi3DoStep returned fmi3Error: the unit threw something"));
+}
+
+TEST_CASE("a silent error is an error") {
+  Raw raw("error");
+  CHECK_THAT(run_error([&] {
+               raw.unit->step({{}, Time(1ms)});
+             }),
+             Contains("fmi3DoStep returned fmi3Error: the unit gives no reason"));
+}
+
+TEST_CASE("after fmi3Error the instance is freed, after fmi3Fatal it is not touched again",
+          "[here]") {
+  Raw error("error");
+  CHECK_THROWS_AS(error.unit->step({{}, Time(1ms)}), core::Error);
+  CHECK(error.global<int>("raw_living") == 1);
+  error.unit.reset();
+  CHECK(error.global<int>("raw_living") == 0);
+
+  Raw fatal("fatal");
+  CHECK_THAT(run_error([&] {
+               fatal.unit->step({{}, Time(1ms)});
+             }),
+             Contains("returned fmi3Fatal: the heap is gone") && Contains("hint: "));
+  CHECK_NOTHROW(fatal.unit->terminate());
+  fatal.unit.reset();
+  CHECK(fatal.global<int>("raw_living") == 1);
+}
+
+TEST_CASE("after fmi3Fatal no other instance of the FMU is touched, and its library stays",
+          "[here]") {
+  Scratch scratch;
+  auto fmu = fmi::Fmu::load(make_raw_fmu(scratch, "raw"));
+  const std::string path = fmu->load_library()->path();
+  const auto again = fmi::Fmu::load(scratch / "raw");  // the same library by another object
+  auto fatal = make_unit(fmu, "fatal");
+  auto same = make_unit(fmu, "same");
+  auto other = make_unit(again, "other");
+  CHECK_THROWS_AS(fatal->step({{}, Time(1ms)}), core::Error);
+  for (core::Unit* unit : {same.get(), other.get()}) {
+    CHECK_THAT(run_error([&] {
+                 unit->step({{}, Time(1ms)});
+               }),
+               Contains("fmi3DoStep cannot be called, because an instance of the same FMU has "
+                        "returned fmi3Fatal before"));
+    CHECK_THROWS_AS(unit->step({{}, Time(1ms)}), core::ConsequentError);
+    CHECK_NOTHROW(unit->terminate());
+  }
+  CHECK_THAT(run_error([&] { make_unit(fmu, "another"); }),
+             Contains("unit 'another': fmi3InstantiateCoSimulation cannot be called"));
+  fatal.reset();
+  same.reset();
+  other.reset();
+  fmu.reset();
+  void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_NOLOAD);
+  REQUIRE(handle != nullptr);
+  CHECK(*static_cast<int*>(dlsym(handle, "raw_living")) == 3);
+  dlclose(handle);
+}
+
+TEST_CASE("a library whose instances do well is unloaded with the last of them", "[here]") {
+  Scratch scratch;
+  auto fmu = fmi::Fmu::load(make_raw_fmu(scratch, "raw"));
+  const std::string path = fmu->load_library()->path();
+  auto unit = make_unit(fmu, "unit");
+  fmu.reset();
+  unit.reset();
+  CHECK(dlopen(path.c_str(), RTLD_NOW | RTLD_NOLOAD) == nullptr);
+}
+
+TEST_CASE("a saved state comes back any number of times, and is replaced by the next one") {
+  Fixture unit("stepper");
+  unit.initialize();
+  unit->step({{}, Time(10ms)});
+  unit->save_state();
+  for (int i = 0; i < 3; ++i) {
+    unit->step({Time(10ms), Time(30ms)});
+    CHECK(unit.number<std::int32_t>("steps") == 2);
+    CHECK(unit.number<double>("position") == Approx(0.06));
+    unit->restore_state();
+    CHECK(unit.number<std::int32_t>("steps") == 1);
+    CHECK(unit.number<double>("position") == Approx(0.02));
+  }
+  unit->step({Time(10ms), Time(20ms)});
+  unit->save_state();
+  unit->step({Time(20ms), Time(30ms)});
+  unit->restore_state();
+  CHECK(unit.number<std::int32_t>("steps") == 2);
+  unit->step({Time(20ms), Time(30ms)});
+  unit->terminate();
+}
+
+TEST_CASE("after a restore errors speak of the restored time") {
+  Raw raw("sets", {}, "raw_extended");
+  raw.unit->step({{}, Time(1s)});
+  raw.unit->save_state();
+  raw.unit->step({Time(1s), Time(2s)});
+  raw.unit->restore_state();
+  const core::ValueReference any = 1;
+  const ValueBlock value(ValueType::Float64, 1);
+  CHECK_THAT(run_error([&] { raw.unit->set(std::span(&any, 1), value); }),
+             Contains("unit 'sets', at 1 s: "));
+}
+
+TEST_CASE("the memory of a state is used again, and freed with the instance", "[here]") {
+  Raw raw("unit", {}, "raw_extended");
+  for (int i = 0; i < 5; ++i) raw.unit->save_state();
+  CHECK(raw.global<int>("raw_states_made") == 1);
+  CHECK(raw.global<int>("raw_states_living") == 1);
+  raw.unit.reset();
+  CHECK(raw.global<int>("raw_states_living") == 0);
+
+  Raw fatal("fatal", {}, "raw_extended");
+  fatal.unit->save_state();
+  CHECK_THROWS_AS(fatal.unit->step({{}, Time(1ms)}), core::Error);
+  fatal.unit.reset();
+  CHECK(fatal.global<int>("raw_states_living") == 1);
+}
+
+TEST_CASE("a state that cannot be saved or restored is an error") {
+  Raw without("unit");
+  CHECK_THAT(
+      run_error([&] { without.unit->save_state(); }),
+      Contains("its library does not export fmi3GetFMUState") && Contains("canGetAndSetFMUState"));
+  Fixture stateless("stateless");
+  CHECK_THAT(run_error([&] { stateless->save_state(); }),
+             Contains("fmi3GetFMUState returned fmi3Error"));
+  Raw early("unit", {}, "raw_extended");
+  CHECK_THAT(run_error([&] { early.unit->restore_state(); }), Contains("no state of it has been"));
+  Raw forgetful("forgetful", {}, "raw_extended");
+  forgetful.unit->save_state();
+  CHECK_THAT(run_error([&] { forgetful.unit->restore_state(); }),
+             Contains("fmi3SetFMUState returned fmi3Discard"));
+}
+
+TEST_CASE("a warning is logged and the step stands") {
+  std::vector<std::string> logged;
+  Raw raw("warning", {.log = [&](const std::string& unit, fmi::Status status,
+                                 const std::string& category, const std::string& message) {
+            logged.push_back(unit + "/" + std::to_string(static_cast<int>(status)) + "/" +
+                             category + "/" + message);
+          }});
+  CHECK(raw.unit->step({{}, Time(1ms)}).reached == Time(1ms));
+  CHECK(logged == std::vector<std::string>{"warning/1/logStatusWarning/it gets hot"});
+}
+
+TEST_CASE("a log sink that throws does no harm") {
+  Raw raw("warning", {.log = [](auto&&...) { throw std::runtime_error("the disk is full"); }});
+  CHECK_NOTHROW(raw.unit->step({{}, Time(1ms)}));
+}
+
+TEST_CASE("a unit that refuses to be instantiated gives its reason") {
+  CHECK_THAT(run_error([] { Raw("refuses"); }),
+             Contains("unit 'refuses': fmi3InstantiateCoSimulation failed: there is no licence"));
+}
+
+TEST_CASE("a wrong value is refused by the kit, with the variable's name") {
+  Fixture unit("types");
+  unit.set("gain", "11");
+  unit->enter_initialization({}, std::nullopt);
+  CHECK_THAT(run_error([&] { unit->exit_initialization(); }),
+             Contains("fmi3ExitInitializationMode returned fmi3Error: parameter 'gain' is 11, "
+                      "expected at most 10"));
+}
+
+TEST_CASE("binary values at NULL are an error, not a crash") {
+  Raw raw("unit");
+  const core::ValueReference any = 1;
+  ValueBlock block(ValueType::Binary, 1);
+  CHECK_THAT(run_error([&] { raw.unit->get(std::span(&any, 1), block); }),
+             Contains("3 bytes at the address NULL"));
+}
+
+TEST_CASE("a unit without resources gets none") {
+  Raw raw("unit");
+  const core::ValueReference any = 1;
+  ValueBlock path(ValueType::String, 1);
+  raw.unit->get(std::span(&any, 1), path);
+  CHECK(path.strings()[0] == "NULL");
+
+  fs::create_directory(raw.scratch / "raw/resources");
+  const auto unit = make_unit(fmi::Fmu::load(raw.scratch / "raw"), "unit");
+  unit->get(std::span(&any, 1), path);
+  CHECK(path.strings()[0] == (raw.scratch / "raw/resources").string() + "/");
+}
+
+TEST_CASE("the next event is not before the instant that the unit said") {
+  Raw raw("thirds");
+  raw.unit->enter_event_mode();
+  const auto next = raw.unit->update_discrete_states().next_event;
+  REQUIRE(next);
+  CHECK(to_seconds(*next) >= 1.0 / 3);
+  CHECK(to_seconds(*next - Duration(1)) < 1.0 / 3);
+}
+
+TEST_CASE("picoseconds that a double does not tell apart are one instant to the unit") {
+  const Time point = at(8192.001);
+  Raw raw("fine");
+  Time from = point;
+  while (to_seconds(from + Duration(1)) != to_seconds(from)) from += Duration(1);
+  const core::StepResult result = raw.unit->step({from, from + Duration(1)});
+  CHECK(result.reached == from + Duration(1));
+}
+
+TEST_CASE("who returns early at the end of the step has reached it") {
+  Raw raw("arrives", {.early_return_allowed = true});
+  Time end = at(8192.001);
+  while (time_from_seconds(to_seconds(end)) == end) end += Duration(1);
+  CHECK(raw.unit->step({end - 1ms, end}).reached == end);
+}
+
+TEST_CASE("Event Mode is not wanted by who has none") {
+  Raw raw("needs", {}, "raw", "");
+  CHECK_THROWS_WITH(raw.unit->step({Time(), Time(1ms)}),
+                    Contains("eventHandlingNeeded") && Contains("hasEventMode"));
+}
+
+TEST_CASE("structural parameters are set in Configuration Mode, before all others") {
+  const auto fmu = fmi::Fmu::load(test_fmu("resizable"));
+  const auto unit = make_unit(fmu, "unit");
+  const auto reference = [&](const char* name) {
+    return fmu->description()->variables[*fmu->description()->find(name)].reference;
+  };
+  const std::vector n{reference("n")}, gain{reference("gain")}, u{reference("u")},
+      y{reference("y")};
+  core::ValueBlock three(core::ValueType::UInt64, 1);
+  three.numbers<std::uint64_t>()[0] = 3;
+  core::ValueBlock values(core::ValueType::Float64, 3);
+  std::ranges::copy(std::vector{2.0, 3.0, 4.0}, values.numbers<double>().begin());
+  unit->enter_configuration_mode();
+  unit->set(n, three);
+  unit->exit_configuration_mode();
+  unit->set(gain, values);
+  unit->enter_initialization({}, {});
+  unit->set(u, values);
+  core::ValueBlock result(core::ValueType::Float64, 3);
+  unit->get(y, result);
+  CHECK(std::ranges::equal(result.numbers<double>(), std::vector{4.0, 9.0, 16.0}));
+
+  std::vector<double> sensitivity(3);
+  unit->get_directional_derivative(y, u, std::vector{1.0, 0.5, -1.0}, sensitivity);
+  CHECK(sensitivity == std::vector{2.0, 1.5, -4.0});
+}
+
+TEST_CASE("what a library does not export for structure and derivatives is named") {
+  const Scratch scratch;
+  const auto fmu = fmi::Fmu::load(make_raw_fmu(scratch, "raw"));
+  const auto unit = make_unit(fmu, "unit");
+  CHECK_THAT(run_error([&] { unit->enter_configuration_mode(); }),
+             Contains("does not export fmi3EnterConfigurationMode"));
+  CHECK_THAT(run_error([&] { unit->get_directional_derivative({}, {}, {}, {}); }),
+             Contains("does not export fmi3GetDirectionalDerivative"));
+}
+
+// ---- Messages in words ----
+
+TEST_CASE("a unit says what a message says") {
+  Fixture unit("types");
+  const core::ValueReference frame = unit.reference("receive.frame");
+  CHECK(unit->describe_message(frame, {0x26, 0x27}) == "2 bytes in receive.frame");
+  unit.initialize();
+  CHECK(unit->describe_message(frame, core::Binary(1'000'000, 0x26)) ==
+        "1000000 bytes in receive.frame");
+  CHECK(unit->describe_message(frame, {}) == "");
+  CHECK(unit->describe_message(frame, {0}) == "");
+  const std::string longest = unit->describe_message(frame, {2});
+  CHECK(longest.size() == fmi::Fmi3Unit::kLongestDescription);
+  CHECK(longest.substr(longest.size() - 2) == "é");
+  CHECK_THAT(run_error([&] { unit->describe_message(unit.reference("float64"), {1}); }),
+             Contains("strideDescribeMessage returned fmi3Error: ") && Contains("not Binary"));
+}
+
+TEST_CASE("a unit of another tool says what a message says") {
+  const auto say = [](const char* behaviour, const core::Binary& value,
+                      const char* library = "raw_extended") {
+    return Raw(behaviour, {}, library).unit->describe_message(7, value);
+  };
+  CHECK(say("plain", {1, 2}) == "7: 2 bytes, somewhere");
+  CHECK(say("plain", {}) == "7: 0 bytes, somewhere");
+  CHECK(say("mute", {1}) == "");
+  CHECK(say("plain", {1}, "raw") == "");  // it does not have the function
+  CHECK_THAT(run_error([&] { say("babbles", {1}); }),
+             Contains("strideDescribeMessage says that it has written 1025 bytes where 1024 fit"));
+  CHECK_THAT(run_error([&] { say("refuses_it", {1}); }),
+             Contains("strideDescribeMessage returned fmi3Error: no comment"));
+}
+
+TEST_CASE("why a unit has nothing to say is not the reason of a later failure") {
+  Raw raw("mute", {}, "raw_extended");
+  CHECK(raw.unit->describe_message(7, {1}) == "");
+  raw.unit->step({Time(0s), Time(500ms)});
+}

@@ -1,0 +1,27 @@
+#include "master/importer/unpacked_fmu.h"
+
+#include "tests/master/importer/support.h"
+
+using namespace stride;
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::string unpack_error(const fs::path& path) {
+  return input_error([&] { fmi::UnpackedFmu(path, {"system.ssd", 7}); });
+}
+
+}  // namespace
+
+TEST_CASE("an FMU has a description at its top") {
+  const Scratch scratch;
+  const auto path = make_zip(scratch / "unit.fmu", {{"modelDescription.xml", "<x/>"}});
+  CHECK(read(fmi::UnpackedFmu(path).folder() / "modelDescription.xml") == "<x/>");
+  CHECK_THAT(unpack_error(make_zip(scratch / "other.fmu", {{"readme", "x"}})),
+             Contains("no modelDescription.xml"));
+  CHECK_THAT(unpack_error(make_zip(scratch / "nested.fmu", {{"top/modelDescription.xml", "x"}})),
+             Contains("it stands in the folder 'top'"));
+  const std::string text = unpack_error(scratch.write("text.fmu", "This is no archive at all."));
+  CHECK_THAT(text, Contains("system.ssd:7: ") && Contains("hint: expected an FMU"));
+}

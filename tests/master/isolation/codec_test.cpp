@@ -1,0 +1,118 @@
+#include "master/isolation/codec.h"
+
+#include <catch2/catch.hpp>
+
+using namespace stride;
+using namespace stride::host;
+using core::ValueBlock;
+using core::ValueType;
+
+namespace {
+
+/// Puts something and hands over a reader of it.
+class There {
+ public:
+  template <class Put>
+  explicit There(Put&& put) {
+    MessageWriter out(memory_);
+    put(out);
+    size_ = out.size();
+  }
+  MessageReader read() const { return MessageReader({memory_.data(), size_}); }
+  MessageReader read_all_but(std::size_t bytes) const {
+    return MessageReader({memory_.data(), size_ - bytes});
+  }
+
+ private:
+  process::GrowingMemory memory_{"test", 16};
+  std::size_t size_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("blocks of all types come over") {
+  for (std::size_t i = 0; i < core::kValueTypeCount; ++i) {
+    const auto type = static_cast<ValueType>(i);
+    CAPTURE(core::name(type));
+    ValueBlock values(type, 3);
+    core::visit(values, [](auto elements) {
+      using T = typename decltype(elements)::value_type;
+      if constexpr (std::is_arithmetic_v<T>) {
+        elements[0] = T(1);
+        elements[2] = T(17);
+      } else {
+        elements[0] = T(3, 'a');
+        elements[2] = T(1000, 'b');
+      }
+    });
+    const There there([&](MessageWriter& to) {
+      put_shape(to, values);
+      put_values(to, values);
+    });
+    MessageReader from = there.read();
+    ValueBlock copy = take_shape(from);
+    CHECK(copy.type() == type);
+    take_values(from, copy);
+    CHECK(copy == values);
+    MessageReader less = there.read_all_but(1);
+    ValueBlock other = take_shape(less);
+    CHECK_THROWS_AS(take_values(less, other), BadMessage);
+  }
+}
+
+TEST_CASE("results of steps and events come over") {
+  for (int flags = 0; flags < 16; ++flags) {
+    const core::StepResult result{.rejected = (flags & 1) != 0,
+                                  .early_return = (flags & 2) != 0,
+                                  .event_needed = (flags & 4) != 0,
+                                  .terminate = (flags & 8) != 0,
+                                  .reached = Time(Duration(flags - 5))};
+    const There there([&](MessageWriter& to) { put_step(to, result); });
+    MessageReader from = there.read();
+    const core::StepResult copy = take_step(from);
+    CHECK(copy.rejected == result.rejected);
+    CHECK(copy.early_return == result.early_return);
+    CHECK(copy.event_needed == result.event_needed);
+    CHECK(copy.terminate == result.terminate);
+    CHECK(copy.reached == result.reached);
+  }
+  for (const auto next : {std::optional<Time>(), std::optional(Time(Duration(12)))}) {
+    const There there([&](MessageWriter& to) { put_events(to, {true, false, next}); });
+    MessageReader from = there.read();
+    const core::EventResult copy = take_events(from);
+    CHECK(copy.iterate);
+    CHECK_FALSE(copy.terminate);
+    CHECK(copy.next_event == next);
+  }
+}
+
+TEST_CASE("an error comes over with all its parts") {
+  const core::Error error(core::Error::Kind::Input,
+                          {{"system.ssd", 12}, "unit", "variable", Time(Duration(5))}, "message",
+                          "hint");
+  const There there([&](MessageWriter& to) { put_error(to, error, {}); });
+  MessageReader from = there.read();
+  try {
+    throw_error(from);
+  } catch (const core::Error& copy) {
+    CHECK(std::string(copy.what()) == error.what());
+    CHECK(copy.kind() == core::Error::Kind::Input);
+    CHECK(copy.context().where.line == 12);
+    CHECK(copy.context().variable == "variable");
+    CHECK(copy.context().time == Time(Duration(5)));
+    CHECK(dynamic_cast<const core::ConsequentError*>(&copy) == nullptr);
+  }
+}
+
+TEST_CASE("what is no error of core's becomes one of the unit, and consequent ones stay it") {
+  const There plain([](MessageWriter& to) {
+    put_error(to, std::runtime_error("no"), {.where = {"system.ssd", 3}, .unit = "u"});
+  });
+  MessageReader from = plain.read();
+  CHECK_THROWS_WITH(throw_error(from), "system.ssd:3: unit 'u': no");
+  const There consequent([](MessageWriter& to) {
+    put_error(to, core::ConsequentError(core::Error::Kind::Run, {}, "later"), {});
+  });
+  from = consequent.read();
+  CHECK_THROWS_AS(throw_error(from), core::ConsequentError);
+}

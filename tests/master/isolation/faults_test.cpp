@@ -1,0 +1,179 @@
+// What a unit may do to its process is an error that tells it, and nothing is left of it.
+#include <csignal>
+
+#include "master/isolation/process/child.h"
+#include "master/isolation/process/shared_note.h"
+#include "tests/master/isolation/support.h"
+
+using namespace stride;
+using namespace stride::tests;
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// The error of the step to 2 s, in which the unit does it.
+std::string error_of_fault(Fixture& unit, const std::string& fault) {
+  unit.start({{"fault", fault}, {"at", "1.5"}});
+  unit.step(0, 1);
+  return run_error([&] { unit.step(1, 2); });
+}
+
+constexpr const char* kHead = "system.ssd:7: unit 'u', at 1 s: ";
+
+}  // namespace
+
+TEST_CASE("however the process of a unit ends, it is an error that tells how") {
+  const auto [fault, says] = GENERATE(table<std::string, std::string>({
+      {"segfault", "its process was ended by signal 11 (SIGSEGV) in fmi3DoStep"},
+      {"abort", "its process was ended by signal 6 (SIGABRT) in fmi3DoStep"},
+      {"kill", "its process was ended by signal 9 (SIGKILL) in fmi3DoStep"},
+      {"exit", "it ended its process with exit code 3 in fmi3DoStep"},
+      {"_exit", "it ended its process with exit code 4 in fmi3DoStep"},
+      {"exit in a thread", "it ended its process with exit code 5 in fmi3DoStep"},
+      {"throw in a thread", "its process was ended by signal 6 (SIGABRT) in fmi3DoStep"},
+  }));
+  CAPTURE(fault);
+  const Belongings before;
+  {
+    Fixture unit("faulty");
+    CHECK_THAT(error_of_fault(unit, fault),
+               Catch::StartsWith(kHead + says) && Contains("\n  it printed: now comes: " + fault));
+    CHECK_THAT(run_error([&] { unit.step(1, 2); }),
+               Contains("it cannot be called, because " + says));
+    CHECK_THROWS_AS(unit->save_state(), core::Error);
+    CHECK_NOTHROW(unit->terminate());
+  }
+  CHECK(Belongings() == before);
+}
+
+TEST_CASE("what a unit said last stands in the error") {
+  Fixture unit("faulty");
+  const std::string error = error_of_fault(unit, "abort");
+  CHECK_THAT(error, Contains("\n  it printed: now comes: abort\n"
+                             "  it printed: the model is inconsistent"));
+}
+
+TEST_CASE("a unit that dies at birth is an error") {
+  const Belongings before;
+  CHECK_THAT(run_error([] { Fixture("faulty", true, {}, {}, "dies_at_birth"); }),
+             Contains("unit 'dies_at_birth': its process was ended by signal 6 (SIGABRT) in "
+                      "fmi3InstantiateCoSimulation"));
+  CHECK(Belongings() == before);
+}
+
+TEST_CASE("a call that takes longer than its limit ends") {
+  const std::string fault = GENERATE("loop", "stop");
+  CAPTURE(fault);
+  const Belongings before;
+  {
+    Fixture unit("faulty", true, {.call_limit = 300ms});
+    CHECK_THAT(error_of_fault(unit, fault),
+               Catch::StartsWith(kHead + std::string("it took longer than 0.3 s in fmi3DoStep, so "
+                                                     "its process was ended")) &&
+                   Contains("it printed: now comes: " + fault));
+    CHECK_THROWS_AS(unit.number("y"), core::Error);
+  }
+  CHECK(Belongings() == before);
+}
+
+TEST_CASE("without a limit the log tells that a call takes long") {
+  Fixture unit("faulty", true, {}, {.patience = 20ms});
+  unit.start({{"fault", "loop"}});
+  const pid_t server = Fixture::server();
+  std::thread user([&] {  // who loses patience, too
+    std::this_thread::sleep_for(500ms);
+    ::kill(server, SIGKILL);
+  });
+  CHECK_THROWS_AS(unit.step(0, 1), core::Error);
+  user.join();
+  std::size_t told = 0;
+  for (const Fixture::Line& line : unit.log) {
+    told += line.text.find("it has taken more than 0.02 s in fmi3DoStep") == 0;
+  }
+  CHECK(told == 1);
+}
+
+TEST_CASE("a killed process is noticed at the next call, and between calls") {
+  Fixture unit("faulty");
+  unit.start();
+  unit.step(0, 1);
+  ::kill(Fixture::server(), SIGKILL);
+  CHECK_THAT(run_error([&] { unit.step(1, 2); }), Contains("signal 9 (SIGKILL)"));
+}
+
+TEST_CASE("without its keeper a unit's process ends, and the master notices") {
+  const Belongings before;
+  {
+    Fixture unit("faulty");
+    unit.start();
+    const pid_t server = Fixture::server();
+    ::kill(Fixture::keeper(), SIGKILL);
+    CHECK_THAT(run_error([&] {
+                 for (int i = 0; i < 100'000; ++i) unit.number("y");
+               }),
+               Contains("something has ended its keeper"));
+    CHECK(has_ended(server));
+  }
+  CHECK(Belongings() == before);
+}
+
+TEST_CASE("when the master is killed nothing of it is left") {
+  const Scratch scratch;
+  process::SharedNote note;
+  process::run_in_child([&] {
+    Fixture unit("faulty");
+    const Fixture other("faulty");  // whose processes do not keep those of the first
+    unit.start({{"fault", "daemon"}});
+    unit.step(0, 1);
+    note.write("", (std::int64_t{Fixture::keeper()} << 32) + Fixture::server());
+    std::raise(SIGKILL);
+    return std::string();
+  });
+  CHECK(has_ended(static_cast<pid_t>(note.picoseconds() >> 32)));
+  CHECK(has_ended(static_cast<pid_t>(note.picoseconds())));
+  CHECK(left_folders(scratch).empty());
+}
+
+TEST_CASE("what a unit prints reaches the log, line by line") {
+  Fixture unit("faulty");
+  unit.start({{"fault", "print"}, {"at", "0.5"}});
+  unit.step(0, 1);
+  unit->terminate();
+  unit.destroy();
+  std::size_t lines = 0;
+  for (const Fixture::Line& line : unit.log) {
+    lines +=
+        line.category == host::kPrinted && line.text.find("line ") == 0 && line.text.size() == 62;
+  }
+  CHECK(lines == 16384);
+}
+
+TEST_CASE("a unit that overwrites what it shares with others harms itself only") {
+  const Belongings before;
+  {
+    Fixture other("faulty");
+    Fixture unit("faulty", true, {.call_limit = 20s});
+    other.start();
+    unit.start({{"fault", "overwrite"}});
+    try {
+      unit.step(0, 1);
+    } catch (const core::Error&) {
+    }
+    other.step(0, 1);
+    CHECK(other.number("y") == 1);
+  }
+  CHECK(Belongings() == before);
+}
+
+TEST_CASE("a unit that prints without end is ended as any other that does not come to an end") {
+  Fixture unit("faulty", true, {.call_limit = 300ms});
+  CHECK_THAT(error_of_fault(unit, "print for ever"), Contains("it took longer than 0.3 s"));
+}
+
+#ifndef __SANITIZE_ADDRESS__  // which needs memory of its own without end
+TEST_CASE("a unit that takes more memory than it may have is an error") {
+  Fixture unit("faulty", true, {.memory_limit = std::uint64_t{64} << 20});
+  CHECK_THAT(error_of_fault(unit, "allocate"), Contains(kHead) && Contains("bad_alloc"));
+}
+#endif

@@ -1,0 +1,64 @@
+#include "master/isolation/log_message.h"
+
+#include <memory>
+#include <thread>
+
+#include <catch2/catch.hpp>
+
+using namespace stride;
+using namespace stride::host;
+
+namespace {
+
+std::vector<LogMessage> read(LogReader& reader) {
+  std::vector<LogMessage> messages;
+  reader.read([&](LogMessage&& message) { messages.push_back(std::move(message)); });
+  return messages;
+}
+
+}  // namespace
+
+TEST_CASE("messages come over one by one") {
+  const process::Shared<ChannelMemory> channel;
+  LogWriter writer(*channel);
+  LogReader reader(*channel);
+  CHECK(reader.is_empty());
+  writer.write({fmi::Status::Warning, "category", "text"});
+  writer.write({fmi::Status::Pending, "", ""});
+  CHECK_FALSE(reader.is_empty());
+  const auto messages = read(reader);
+  REQUIRE(messages.size() == 2);
+  CHECK(messages[0].status == fmi::Status::Warning);
+  CHECK(messages[0].category == "category");
+  CHECK(messages[0].text == "text");
+  CHECK(messages[1].status == fmi::Status::Pending);
+  CHECK(messages[1].text.empty());
+}
+
+TEST_CASE("messages of several threads, longer than there is room for, come over whole") {
+  const process::Shared<ChannelMemory> channel;
+  LogWriter writer(*channel);
+  LogReader reader(*channel);
+  const auto write = [&](char letter) {
+    for (int i = 0; i < 5; ++i) writer.write({fmi::Status::Ok, "", std::string(200'000, letter)});
+  };
+  std::thread first(write, 'a');
+  std::thread second(write, 'b');
+  std::size_t whole = 0;
+  while (whole < 10) {
+    for (const LogMessage& message : read(reader)) {
+      CHECK(message.text == std::string(200'000, message.text[0]));
+      ++whole;
+    }
+  }
+  first.join();
+  second.join();
+}
+
+TEST_CASE("nonsense is no status, and no message without end takes memory") {
+  const process::Shared<ChannelMemory> channel;
+  LogReader reader(*channel);
+  channel->logged.write(std::string(16, '\xff'));
+  channel->logged.write(std::string(1000, 'x'));
+  CHECK(read(reader).empty());
+}
