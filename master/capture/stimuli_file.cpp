@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "master/io/signal_text.h"
+#include "master/recorders/signal_text.h"
 
 namespace stride::capture {
 namespace {

@@ -10,9 +10,9 @@
 
 #include <stride/time.h>
 
-#include "master/io/output_file.h"
 #include "master/model/description.h"
 #include "master/model/values.h"
+#include "master/util/output_file.h"
 
 namespace stride::capture {
 

@@ -8,9 +8,9 @@
 #include "master/algorithm/stepping/step_order.h"
 #include "master/cli/commands.h"
 #include "master/cli/evaluation_text.h"
-#include "master/cli/loaded_scenario.h"
 #include "master/cli/scenario_options.h"
 #include "master/cli/table.h"
+#include "master/scenario/loaded_scenario.h"
 
 namespace stride::cli {
 namespace {

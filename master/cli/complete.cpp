@@ -1,5 +1,5 @@
 // stride complete: writes into a scenario what its author left out.
-#include "master/io/complete.h"
+#include "master/ssp/complete.h"
 
 #include <memory>
 
@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "master/cli/commands.h"
-#include "master/cli/loaded_scenario.h"
-#include "master/cli/unit_path.h"
-#include "master/io/replacement.h"
+#include "master/scenario/loaded_scenario.h"
+#include "master/scenario/unit_path.h"
 #include "master/util/archive/zip.h"
+#include "master/util/replacement.h"
 
 namespace stride::cli {
 namespace {

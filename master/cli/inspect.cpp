@@ -6,8 +6,8 @@
 
 #include "master/cli/commands.h"
 #include "master/cli/table.h"
-#include "master/cli/unit_path.h"
 #include "master/importer/fmu.h"
+#include "master/scenario/unit_path.h"
 
 namespace stride::cli {
 namespace {

@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 
 #include "master/cli/commands.h"
-#include "master/cli/file_units.h"
-#include "master/cli/unit_path.h"
-#include "master/io/package.h"
-#include "master/io/scenario.h"
+#include "master/scenario/file_units.h"
+#include "master/scenario/scenario.h"
+#include "master/scenario/unit_path.h"
+#include "master/ssp/package.h"
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/archive/zip.h"
 

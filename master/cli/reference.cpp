@@ -10,9 +10,9 @@
 #include "master/cli/commands.h"
 #include "master/cli/reference/command_tree.h"
 #include "master/cli/reference/writers.h"
-#include "master/cli/unit_path.h"
-#include "master/io/output_file.h"
-#include "master/io/scenario.h"
+#include "master/scenario/scenario.h"
+#include "master/scenario/unit_path.h"
+#include "master/util/output_file.h"
 
 namespace stride::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "master/io/annotation.h"
+#include "master/recorders/result_files.h"
 
 namespace stride::cli {
 

@@ -1,7 +1,7 @@
 #ifndef STRIDE_MASTER_CLI_SCENARIO_OPTIONS_H
 #define STRIDE_MASTER_CLI_SCENARIO_OPTIONS_H
 
-#include "master/cli/loaded_scenario.h"
+#include "master/scenario/loaded_scenario.h"
 
 namespace CLI {
 class App;

@@ -9,9 +9,9 @@
 #include <fmt/ranges.h>
 
 #include "master/cli/table.h"
-#include "master/io/message_text.h"
-#include "master/io/time_text.h"
+#include "master/recorders/message_text.h"
 #include "master/util/error.h"
+#include "master/util/time_text.h"
 
 namespace stride::cli {
 namespace {

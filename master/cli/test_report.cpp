@@ -5,7 +5,7 @@
 
 #include <unistd.h>
 
-#include "master/io/scenario.h"
+#include "master/scenario/scenario.h"
 #include "master/util/error.h"
 
 namespace stride::cli {

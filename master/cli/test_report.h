@@ -11,7 +11,7 @@
 #include "master/algorithm/run_options.h"
 #include "master/algorithm/statistics.h"
 #include "master/algorithm/verdict.h"
-#include "master/io/junit.h"
+#include "master/recorders/junit.h"
 
 namespace stride::cli {
 

@@ -9,11 +9,11 @@
 
 #include "master/cli/commands.h"
 #include "master/cli/table.h"
-#include "master/io/time_text.h"
 #include "master/trace/compress.h"
 #include "master/trace/expand.h"
 #include "master/trace/info.h"
 #include "master/util/error.h"
+#include "master/util/time_text.h"
 
 namespace stride::cli {
 namespace {

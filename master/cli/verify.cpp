@@ -14,11 +14,11 @@
 #include "master/cli/commands.h"
 #include "master/cli/interruption.h"
 #include "master/cli/table.h"
-#include "master/cli/unit_path.h"
-#include "master/io/number_text.h"
-#include "master/io/output_file.h"
-#include "master/io/time_text.h"
+#include "master/scenario/unit_path.h"
 #include "master/util/error.h"
+#include "master/util/number_text.h"
+#include "master/util/output_file.h"
+#include "master/util/time_text.h"
 #include "master/verify/checks.h"
 
 namespace stride::cli {

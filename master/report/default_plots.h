@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "master/io/plot_selection.h"
+#include "master/recorders/result_files.h"
 #include "master/report/column.h"
 #include "master/report/run_file.h"
 

@@ -8,12 +8,12 @@
 
 #include <fmt/format.h>
 
-#include "master/io/replacement.h"
 #include "master/report/blob.h"
 #include "master/report/default_plots.h"
 #include "master/report/json_text.h"
 #include "master/report/page.h"
 #include "master/util/error.h"
+#include "master/util/replacement.h"
 
 namespace stride::report {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "master/io/results_folder.h"
+#include "master/recorders/results_folder.h"
 #include "master/report/notes.h"
 #include "master/report/signals_file.h"
 #include "master/report/table.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "master/io/annotation.h"
+#include "master/recorders/result_files.h"
 #include "master/report/column.h"
 #include "master/report/run_file.h"
 

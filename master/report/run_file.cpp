@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "master/io/results_folder.h"
+#include "master/recorders/results_folder.h"
 #include "master/util/error.h"
 
 namespace stride::report {

@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "master/io/annotation.h"
-#include "master/io/plot_selection.h"
+#include "master/recorders/result_files.h"
 #include "master/report/column.h"
 #include "master/report/json_text.h"
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "master/io/time_text.h"
+#include "master/util/time_text.h"
 
 namespace stride::report {
 

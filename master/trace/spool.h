@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "master/io/output_file.h"
+#include "master/util/output_file.h"
 
 namespace stride::trace {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string_view>
 
-#include "master/io/replacement.h"
 #include "master/trace/instants.h"
+#include "master/util/replacement.h"
 
 namespace stride::trace {
 

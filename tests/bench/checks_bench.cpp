@@ -11,7 +11,7 @@
 
 #include "master/checks/checks.h"
 #include "master/importer/fmu.h"
-#include "master/io/check_selection.h"
+#include "master/scenario/check_selection.h"
 #include "tests/bench/stopwatch.h"
 
 namespace {

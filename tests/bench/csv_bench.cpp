@@ -13,7 +13,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "master/io/csv_recorder.h"
+#include "master/recorders/csv_recorder.h"
 #include "tests/bench/stopwatch.h"
 
 namespace {

@@ -8,7 +8,7 @@
 #include "master/report/results.h"
 #include "master/util/error.h"
 #include "tests/fuzz/mutator.h"
-#include "tests/master/io/support.h"
+#include "tests/master/ssp/support.h"
 
 using namespace stride;
 using tests::Mutator;

@@ -6,13 +6,13 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/io/complete.h"
-#include "master/io/package.h"
-#include "master/io/scenario.h"
+#include "master/scenario/scenario.h"
+#include "master/ssp/complete.h"
+#include "master/ssp/package.h"
 #include "master/util/archive/zip.h"
 #include "master/util/error.h"
 #include "tests/fuzz/mutator.h"
-#include "tests/master/io/support.h"
+#include "tests/master/ssp/support.h"
 
 using namespace stride;
 using namespace stride::io;

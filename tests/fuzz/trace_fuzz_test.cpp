@@ -7,7 +7,7 @@
 #include "master/trace/info.h"
 #include "master/util/error.h"
 #include "tests/fuzz/mutator.h"
-#include "tests/master/io/support.h"
+#include "tests/master/ssp/support.h"
 #include "tests/master/trace/random_trace.h"
 
 using namespace stride;

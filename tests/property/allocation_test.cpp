@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "master/checks/checks.h"
-#include "master/io/check_selection.h"
+#include "master/scenario/check_selection.h"
 #include "tests/counting_allocator.h"
 #include "tests/property/assembly.h"
 

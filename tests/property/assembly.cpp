@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "master/io/csv_recorder.h"
-#include "master/io/event_recorder.h"
 #include "master/isolation/hosted_unit.h"
+#include "master/recorders/csv_recorder.h"
+#include "master/recorders/event_recorder.h"
 #include "tests/master/importer/support.h"
 
 namespace stride::tests {

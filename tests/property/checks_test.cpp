@@ -9,7 +9,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "master/io/check_selection.h"
+#include "master/scenario/check_selection.h"
 #include "tests/property/random_system.h"
 
 using namespace stride;

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/io/signal_text.h"
+#include "master/recorders/signal_text.h"
 #include "tests/master/report/support.h"
 
 using namespace stride::report;

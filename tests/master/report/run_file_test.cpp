@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/io/run_json.h"
+#include "master/recorders/run_json.h"
 #include "tests/master/report/support.h"
 
 using namespace stride;

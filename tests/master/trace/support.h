@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "master/trace/reader.h"
-#include "tests/master/io/support.h"
+#include "tests/master/ssp/support.h"
 
 namespace stride::trace {
 

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/master/io/support.h"
+#include "tests/master/ssp/support.h"
 
 using namespace stride::xml;
 

@@ -1,0 +1,37 @@
+#ifndef STRIDE_MASTER_RECORDERS_ACTIVITY_RECORDER_H
+#define STRIDE_MASTER_RECORDERS_ACTIVITY_RECORDER_H
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "master/algorithm/observer.h"
+#include "master/model/system.h"
+#include "master/util/output_file.h"
+
+namespace stride::io {
+
+/// The word of activity.csv: "early return".
+const char* name(core::Activity::Kind kind);
+
+/// activity.csv: "time,until,component,kind", a row for each thing that a component did beside
+/// ordinary steps, in the order in which they ended. Times are exact.
+class ActivityRecorder : public core::Observer {
+ public:
+  /// As CsvRecorder.
+  ActivityRecorder(const core::System& system, std::filesystem::path file);
+
+  void on_start(std::span<const core::Signal> signals) override;
+  bool watches_activities() const override { return true; }
+  void on_activity(const core::Activity& activity) override;
+  void on_finish() override;
+
+ private:
+  const core::System& system_;
+  OutputFile file_;
+  std::vector<std::string> fields_;  ///< ",component," by place
+};
+
+}  // namespace stride::io
+
+#endif

@@ -1,0 +1,38 @@
+#ifndef STRIDE_MASTER_RECORDERS_CSV_RECORDER_H
+#define STRIDE_MASTER_RECORDERS_CSV_RECORDER_H
+
+#include <filesystem>
+#include <vector>
+
+#include "master/algorithm/observer.h"
+#include "master/model/system.h"
+#include "master/util/output_file.h"
+
+namespace stride::io {
+
+/// signals.csv: the header "time,component.variable [unit],…" (each element of an array in a column
+/// of its own), then a row for each communication point. Times are exact, numbers read back as the
+/// same bits, so equal runs make equal files.
+class CsvRecorder : public core::Observer {
+ public:
+  /// The system must outlive the recorder. Throws core::Error if the file cannot be created; later
+  /// calls throw it if it cannot be written.
+  CsvRecorder(const core::System& system, std::filesystem::path file);
+
+  void on_start(std::span<const core::Signal> signals) override;
+  void on_communication_point(Time time) override;
+  void on_finish() override;
+
+ private:
+  struct Column {
+    const core::ValueBlock* block;
+    std::size_t element;
+  };
+  const core::System& system_;
+  OutputFile file_;
+  std::vector<Column> columns_;
+};
+
+}  // namespace stride::io
+
+#endif

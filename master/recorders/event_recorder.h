@@ -1,0 +1,38 @@
+#ifndef STRIDE_MASTER_RECORDERS_EVENT_RECORDER_H
+#define STRIDE_MASTER_RECORDERS_EVENT_RECORDER_H
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "master/algorithm/observer.h"
+#include "master/model/system.h"
+#include "master/util/output_file.h"
+
+namespace stride::io {
+
+/// events.csv: "time,index,component,variable,direction,payload,content", a row for each message
+/// that a component sends or receives, at its exact time. The payload of Binary is written in
+/// hexadecimal digits, the elements of an array are separated by blanks; a bare clock has none. The
+/// content is what the component says that the payload means; empty where it says nothing.
+class EventRecorder : public core::Observer {
+ public:
+  /// As CsvRecorder.
+  EventRecorder(const core::System& system, std::filesystem::path file);
+
+  void on_start(std::span<const core::Signal> signals) override;
+  bool wants_content() const override { return true; }
+  void on_message(const core::Message& message) override;
+  void on_finish() override;
+
+ private:
+  void write_payload(const core::Message& message);
+
+  const core::System& system_;
+  OutputFile file_;
+  std::vector<std::vector<std::string>> fields_;  ///< ",component,variable," by place
+};
+
+}  // namespace stride::io
+
+#endif

@@ -1,0 +1,41 @@
+#include "master/recorders/message_text.h"
+
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "master/util/readable_text.h"
+
+namespace stride::io {
+namespace {
+
+template <class T>
+std::string brief_text(const T& value) {
+  if constexpr (std::is_same_v<T, core::Binary>) {
+    return fmt::format("{} {}", value.size(), value.size() == 1 ? "byte" : "bytes");
+  } else if constexpr (std::is_floating_point_v<T>) {
+    return fmt::format("{:.6g}", value);
+  } else {
+    return fmt::format("{}", value);
+  }
+}
+
+}  // namespace
+
+std::string message_text(const core::System& system, const core::Message& message,
+                         std::size_t most) {
+  if (message.block == nullptr) return {};
+  if (!message.content.empty()) return core::readable_text(message.content, most);
+  const core::Variable& variable = system.variable(message.id);
+  std::string text;
+  core::visit(*message.block, [&](auto values) {
+    for (const auto& value : values.subspan(message.first, variable.size)) {
+      text += (text.empty() ? "" : ", ") + brief_text(value);
+      if (text.size() > 4 * most) break;  // no character has more bytes
+    }
+  });
+  if (!variable.unit.empty()) text += " " + variable.unit;
+  return core::readable_text(text, most);
+}
+
+}  // namespace stride::io

@@ -1,0 +1,20 @@
+#ifndef STRIDE_MASTER_RECORDERS_MESSAGE_TEXT_H
+#define STRIDE_MASTER_RECORDERS_MESSAGE_TEXT_H
+
+#include <cstddef>
+#include <string>
+
+#include "master/algorithm/observer.h"
+#include "master/model/system.h"
+
+namespace stride::io {
+
+/// What a message says, for people, in a line of `most` characters at most: its content in its
+/// component's words, else the text of a String, numbers with their unit of measure, the size of
+/// bytes. Empty for a bare clock.
+std::string message_text(const core::System& system, const core::Message& message,
+                         std::size_t most);
+
+}  // namespace stride::io
+
+#endif

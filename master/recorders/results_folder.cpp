@@ -1,0 +1,77 @@
+#include "master/recorders/results_folder.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <iterator>
+#include <string>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "master/util/error.h"
+
+namespace stride::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_picture(const fs::path& file) {
+  const std::string number = file.stem().string();
+  return file.extension() == ".jpg" && number.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// Nothing but what a film consists of: the folder may be a user's own.
+void remove_films(const fs::path& folder) {
+  std::error_code ignored;  // what cannot be removed fails where it is to be replaced
+  std::vector<fs::path> goes;
+  for (const fs::path& film : folder_entries(folder / kFilmFolder)) {
+    if (!fs::exists(film / kFilmList, ignored)) continue;
+    std::ranges::copy_if(folder_entries(film), std::back_inserter(goes), is_picture);
+    goes.push_back(film / kFilmList);
+    goes.push_back(film);
+  }
+  if (!goes.empty()) goes.push_back(folder / kFilmFolder);
+  for (const fs::path& path : goes) fs::remove(path, ignored);
+}
+
+}  // namespace
+
+std::vector<fs::path> folder_entries(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    paths.push_back(entry->path());
+  }
+  std::ranges::sort(paths);
+  return paths;
+}
+
+void make_results_folder(const fs::path& folder) {
+  const auto fail = [&](const std::string& reason) {
+    core::fail_input({.where = {folder.string(), 0}},
+                     fmt::format("cannot write results into this folder: {}", reason),
+                     "choose another results folder");
+  };
+  if (folder.empty()) fail("its name is empty");
+  std::error_code error;
+  const auto status = fs::status(folder, error);
+  if (fs::exists(status) && !fs::is_directory(status)) {
+    fail("it is a file");
+  }
+  fs::create_directories(folder, error);
+  if (error) fail(error.message());
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(std::generic_category().message(errno));
+}
+
+void remove_results(const fs::path& folder, const ResultFiles& files) {
+  remove_films(folder);
+  for (const auto& [what, member] : kResultFiles) {
+    std::error_code ignored;  // what cannot be removed fails where it is to be replaced
+    const fs::path file = folder / (files.*member);
+    if (fs::is_regular_file(fs::symlink_status(file, ignored))) fs::remove(file, ignored);
+  }
+}
+
+}  // namespace stride::io

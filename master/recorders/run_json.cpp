@@ -1,0 +1,216 @@
+#include "master/recorders/run_json.h"
+
+#include <cmath>
+#include <type_traits>
+
+#include <nlohmann/json.hpp>
+
+#include "master/recorders/signal_text.h"
+#include "master/util/output_file.h"
+
+namespace stride::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double seconds(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+Json unit_entry(const core::Component& component) {
+  return {{"name", component.name},
+          {"model", component.description->model_name},
+          {"fmi_version", component.description->fmi_version}};
+}
+
+Json host_entry(const core::HostStatistics& host) {
+  Json entry = {{"memory", host.most_memory}};
+  if (host.snapshots > 0) {
+    entry["snapshots"] = {{"made", host.snapshots},
+                          {"restored", host.restores},
+                          {"most_kept", host.most_snapshots},
+                          {"memory", host.most_snapshot_memory}};
+  }
+  entry["protections"] = host.protections;
+  entry["missing_protections"] = host.missing_protections;
+  return entry;
+}
+
+void add(Json& entry, const core::UnitStatistics& unit) {
+  entry["calls"] = unit.calls;
+  entry["steps"] = unit.steps;
+  entry["early_returns"] = unit.early_returns;
+  entry["rejections"] = unit.rejections;
+  entry["rollbacks"] = unit.rollbacks;
+  entry["saves"] = unit.saves;
+  entry["events"] = unit.events;
+  entry["messages_sent"] = unit.messages_sent;
+  entry["messages_received"] = unit.messages_received;
+  if (unit.rests > 0) {
+    entry["idle"] = {{"rests", unit.rests},
+                     {"skipped", to_seconds(unit.rested)},
+                     {"longest", to_seconds(unit.longest_rest)}};
+  }
+  entry["wall_time"] = {{"initialization", seconds(unit.initialization_time)},
+                        {"steps", seconds(unit.step_time)},
+                        {"events", seconds(unit.event_time)}};
+  if (unit.host) entry["host"] = host_entry(*unit.host);
+}
+
+Json step_entry(const core::RunOptions& options) {
+  Json entry = {{"policy", name(options.step.policy)},
+                {"size", to_seconds(options.step.size)},
+                {"minimum", to_seconds(options.step.minimum)}};
+  if (options.step.maximum) entry["maximum"] = to_seconds(*options.step.maximum);
+  if (options.step.policy == core::StepPolicy::ErrorControlled) {
+    entry["relative_tolerance"] = options.step.relative_tolerance;
+    entry["absolute_tolerance"] = options.step.absolute_tolerance;
+  }
+  entry["coupling"] = name(options.coupling);
+  entry["extrapolation"] = name(options.extrapolation);
+  return entry;
+}
+
+/// Those that were written.
+Json file_entries(const ResultFiles& files) {
+  Json entries = Json::object();
+  for (const auto& [what, member] : kResultFiles) {
+    if (!(files.*member).empty()) entries[what] = files.*member;
+  }
+  return entries;
+}
+
+/// Of the columns of signals.csv, but for the time.
+Json signal_entries(const core::System& system, std::span<const core::VariableId> recorded) {
+  Json entries = Json::array();
+  for (const core::VariableId id : recorded) {
+    const core::Variable& variable = system.variable(id);
+    for (std::size_t i = 0; i < variable.size; ++i) {
+      entries.push_back({{"name", column_name(system, id, i)},
+                         {"unit", variable.unit},
+                         {"type", name(variable.type)},
+                         {"variability", name(variable.variability)}});
+    }
+  }
+  return entries;
+}
+
+/// What goes along it.
+const char* kind(const core::System& system, const core::Connection& connection) {
+  const core::Variable& variable = system.variable(connection.from);
+  if (variable.type == core::ValueType::Clock) return "clock";
+  return variable.is_clocked() && !system.is_sampled(connection.from) ? "message" : "value";
+}
+
+Json connection_entries(const core::System& system) {
+  Json entries = Json::array();
+  for (const core::Connection& connection : system.connections()) {
+    entries.push_back({{"from", system.full_name(connection.from)},
+                       {"to", system.full_name(connection.to)},
+                       {"kind", kind(system, connection)}});
+  }
+  return entries;
+}
+
+Json plot_entries(std::span<const Plot> plots) {
+  Json entries = Json::array();
+  for (const Plot& plot : plots) {
+    entries.push_back({{"title", plot.title}, {"signals", plot.signals}});
+  }
+  return entries;
+}
+
+Json unit_entries(const core::System& system, const core::RunStatistics& statistics) {
+  Json entries = Json::array();
+  for (std::size_t i = 0; i < system.components().size(); ++i) {
+    Json& entry = entries.emplace_back(unit_entry(system.components()[i]));
+    // there is none where a run failed before it began
+    if (i < statistics.units.size()) add(entry, statistics.units[i]);
+  }
+  return entries;
+}
+
+Json phase_entry(const core::PhaseTimes& phases) {
+  return {{"initialization", seconds(phases.initialization)},
+          {"steps", seconds(phases.steps)},
+          {"instants", seconds(phases.instants)},
+          {"observers", seconds(phases.observers)}};
+}
+
+Json value_entry(const core::ValueBlock& value) {
+  return core::visit(value, [&](auto values) -> Json {
+    using T = typename decltype(values)::value_type;
+    if constexpr (std::is_floating_point_v<T>) {
+      if (!std::isfinite(values[0])) return core::element_text(value, 0);
+    }
+    if constexpr (std::is_same_v<T, core::Binary>) {
+      return core::to_hex(values[0]);
+    } else {
+      return values[0];
+    }
+  });
+}
+
+Json passed_entry(std::optional<bool> passed) { return passed ? Json(*passed) : Json(); }
+
+Json check_entry(const core::Verdict& check) {
+  Json entry = {{"name", check.name},
+                {"kind", check.kind},
+                {"passed", passed_entry(check.passed)},
+                {"text", check.text},
+                {"time", check.time ? Json(to_seconds(*check.time)) : Json()},
+                {"line", check.where.line},
+                {"values", Json::array()}};
+  for (const core::Witness& witness : check.values) {
+    entry["values"].push_back({{"signal", witness.signal},
+                               {"value", value_entry(witness.value)},
+                               {"unit", witness.unit}});
+  }
+  return entry;
+}
+
+void add_verdicts(Json& run, std::span<const core::Verdict> verdicts) {
+  run["verdicts"] = Json::array();
+  run["checks"] = Json::array();
+  for (const core::Verdict& verdict : verdicts) {
+    if (!verdict.kind.empty()) {
+      run["checks"].push_back(check_entry(verdict));
+      continue;
+    }
+    run["verdicts"].push_back({{"component", verdict.name},
+                               {"passed", passed_entry(verdict.passed)},
+                               {"text", verdict.text}});
+  }
+}
+
+}  // namespace
+
+void write_run_json(const std::filesystem::path& file, const RunRecord& record) {
+  const auto& [scenario, system, options, statistics, verdicts, error, files, plots] = record;
+  Json run = {
+      {"scenario", scenario.string()},      {"system", system.name()},
+      {"start", to_seconds(options.start)}, {"stop", to_seconds(options.stop)},
+      {"step", step_entry(options)},        {"outcome", error ? "failed" : name(statistics.end)}};
+  if (error) run["error"] = *error;
+  add_verdicts(run, verdicts);
+  run["reached"] = to_seconds(statistics.reached);
+  run["communication_steps"] = statistics.communication_steps;
+  run["undone_steps"] = statistics.undone_steps;
+  run["event_iterations"] = statistics.event_iterations;
+  run["threads"] = options.threads.count;
+  run["parallel_steps"] = statistics.parallel_steps;
+  run["recorded_signals"] = options.recorded.size();
+  run["wall_time"] = seconds(statistics.wall_time);
+  run["phases"] = phase_entry(statistics.phases);
+  run["units"] = unit_entries(system, statistics);
+  run["connections"] = connection_entries(system);
+  run["files"] = file_entries(files);
+  run["signals"] = signal_entries(system, options.recorded);
+  run["plots"] = plot_entries(plots);
+  OutputFile output(file);
+  output.write(run.dump(2, ' ', false, Json::error_handler_t::replace));
+  output.write('\n');
+  output.close();
+}
+
+}  // namespace stride::io

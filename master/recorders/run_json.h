@@ -1,0 +1,36 @@
+#ifndef STRIDE_MASTER_RECORDERS_RUN_JSON_H
+#define STRIDE_MASTER_RECORDERS_RUN_JSON_H
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "master/algorithm/simulation.h"
+#include "master/algorithm/statistics.h"
+#include "master/algorithm/verdict.h"
+#include "master/model/system.h"
+#include "master/recorders/result_files.h"
+
+namespace stride::io {
+
+/// What there is to tell of a run.
+struct RunRecord {
+  std::filesystem::path scenario;
+  const core::System& system;
+  const core::RunOptions& options;
+  const core::RunStatistics& statistics;
+  std::span<const core::Verdict> verdicts{};
+  std::optional<std::string> error{};  ///< that ended the run, if one did
+  ResultFiles files{};
+  std::span<const Plot> plots{};
+};
+
+/// run.json: what was run, how far it came, what each unit did and cost, and what the other results
+/// hold. Times are in seconds. The wall-clock times differ from run to run, so unlike the other
+/// results this file does, too. Throws core::Error.
+void write_run_json(const std::filesystem::path& file, const RunRecord& record);
+
+}  // namespace stride::io
+
+#endif

@@ -1,0 +1,58 @@
+#include "master/recorders/signal_text.h"
+
+#include <type_traits>
+
+#include <fmt/format.h>
+
+namespace stride::io {
+namespace {
+
+void write_quoted(OutputFile& file, std::string_view text) {
+  file.write('"');
+  for (const char c : text) {
+    if (c == '"') file.write('"');
+    file.write(c);
+  }
+  file.write('"');
+}
+
+}  // namespace
+
+std::string element_name(const core::Variable& variable, std::size_t element) {
+  if (variable.dimensions.empty()) return variable.name;
+  std::string indices;
+  for (auto it = variable.dimensions.rbegin(); it != variable.dimensions.rend(); ++it) {
+    indices = fmt::format("{}{}{}", element % it->size + 1, indices.empty() ? "" : ",", indices);
+    element /= it->size;
+  }
+  return fmt::format("{}[{}]", variable.name, indices);
+}
+
+std::string column_name(const core::System& system, core::VariableId id, std::size_t element) {
+  return system.prefix(id) + element_name(system.variable(id), element);
+}
+
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string field = "\"";
+  for (const char c : text) field.append(c == '"' ? 2 : 1, c);
+  return field + '"';
+}
+
+void write_csv(OutputFile& file, const core::ValueBlock& block, std::size_t element) {
+  core::visit(block, [&](auto values) {
+    const auto& value = values[element];
+    using T = std::remove_cvref_t<decltype(value)>;
+    if constexpr (std::is_same_v<T, std::string>) {
+      write_quoted(file, value);
+    } else if constexpr (std::is_same_v<T, core::Binary>) {
+      file.write_hex(value);
+    } else if constexpr (std::is_same_v<T, bool>) {
+      file.write(value ? std::string_view("true") : std::string_view("false"));
+    } else {
+      file.write_number(value);
+    }
+  });
+}
+
+}  // namespace stride::io

@@ -1,0 +1,30 @@
+// How the recorders write names and fields.
+#ifndef STRIDE_MASTER_RECORDERS_SIGNAL_TEXT_H
+#define STRIDE_MASTER_RECORDERS_SIGNAL_TEXT_H
+
+#include <string>
+#include <string_view>
+
+#include "master/model/system.h"
+#include "master/model/values.h"
+#include "master/util/output_file.h"
+
+namespace stride::io {
+
+/// The name of an element: that of a scalar variable, else "name[1]" or "name[2,1]", counted from 1
+/// in row-major order.
+std::string element_name(const core::Variable& variable, std::size_t element);
+
+/// That of the column which the element has in signals.csv, without its unit: "component.name[1]".
+std::string column_name(const core::System& system, core::VariableId id, std::size_t element);
+
+/// A field of a CSV file (RFC 4180): in quotation marks where its text demands it.
+std::string csv_field(std::string_view text);
+
+/// One element as a field of a CSV file: numbers in their shortest form, true or false, text in
+/// quotation marks, bytes as hexadecimal digits.
+void write_csv(OutputFile& file, const core::ValueBlock& block, std::size_t element);
+
+}  // namespace stride::io
+
+#endif

@@ -1,0 +1,207 @@
+#include "master/recorders/vcd_recorder.h"
+
+#include <bit>
+#include <cctype>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "master/recorders/signal_text.h"
+
+namespace stride::io {
+namespace {
+
+template <class T>
+constexpr bool is_text = std::is_same_v<T, std::string> || std::is_same_v<T, core::Binary>;
+
+/// The bits by which two values are told apart: NaN is equal to itself, -0 is not 0.
+template <class T>
+std::uint64_t bits_of(T value) {
+  if constexpr (std::is_same_v<T, double>) {
+    return std::bit_cast<std::uint64_t>(value);
+  } else if constexpr (std::is_same_v<T, float>) {
+    return std::bit_cast<std::uint32_t>(value);
+  } else {
+    return static_cast<std::uint64_t>(value);
+  }
+}
+
+/// A negative number stands in two's complement of its type's width.
+template <class Integer>
+void write_binary_digits(OutputFile& file, Integer value) {
+  auto rest = static_cast<std::make_unsigned_t<Integer>>(value);
+  char digits[64];
+  std::size_t first = sizeof digits;
+  do {
+    digits[--first] = static_cast<char>('0' + (rest & 1));
+    rest = static_cast<decltype(rest)>(rest >> 1);
+  } while (rest != 0);
+  file.write('b');
+  file.write(std::string_view(digits + first, sizeof digits - first));
+}
+
+/// GTKWave takes what is no printable character as an octal escape.
+void write_escaped(OutputFile& file, std::string_view text) {
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte > ' ' && byte < 127 && c != '\\') {
+      file.write(c);
+      continue;
+    }
+    file.write('\\');
+    for (const int shift : {6, 3, 0}) file.write(static_cast<char>('0' + ((byte >> shift) & 7)));
+  }
+}
+
+template <class T>
+void write_change(OutputFile& file, const T& value, std::string_view code) {
+  if constexpr (std::is_same_v<T, bool>) {
+    file.write(value ? '1' : '0');
+  } else if constexpr (std::is_floating_point_v<T>) {
+    file.write('r');
+    file.write_number(value);
+    file.write(' ');
+  } else if constexpr (std::is_same_v<T, core::Binary>) {
+    file.write('s');
+    file.write_hex(value);
+    file.write(' ');
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    file.write('s');
+    write_escaped(file, value);
+    file.write(' ');
+  } else {
+    write_binary_digits(file, value);
+    file.write(' ');
+  }
+  file.write(code);
+  file.write('\n');
+}
+
+/// What travels as a message; a clock that the master ticks, and what it samples, does not.
+bool is_message_variable(const core::UnitDescription& unit, const core::Variable& variable) {
+  const bool is_connector =
+      variable.causality == core::Causality::Input || variable.causality == core::Causality::Output;
+  if (!is_connector || variable.is_time_based_clock()) return false;
+  return variable.type == core::ValueType::Clock ||
+         (variable.is_clocked() && !unit.is_sampled(variable));
+}
+
+}  // namespace
+
+VcdRecorder::VcdRecorder(const core::System& system, std::filesystem::path file)
+    : system_(system), file_(std::move(file)) {}
+
+/// Codes are numbers to the base of the 94 printable characters.
+std::string VcdRecorder::next_code() {
+  std::string code;
+  std::uint64_t rest = codes_++;
+  do {
+    code += static_cast<char>('!' + rest % 94);
+    rest /= 94;
+  } while (rest != 0);
+  return code;
+}
+
+std::string VcdRecorder::declare(VcdScope& top, core::VariableId id, std::size_t element) {
+  const core::Variable& variable = system_.variable(id);
+  std::string code = next_code();
+  top.add(system_.prefix(id) + element_name(variable, element), variable.type, code);
+  return code;
+}
+
+void VcdRecorder::declare_signals(std::span<const core::Signal> signals, VcdScope& top) {
+  for (const core::Signal& signal : signals) {
+    for (std::size_t i = 0; i < system_.variable(signal.id).size; ++i) {
+      channels_.push_back({signal.block, signal.first + i, declare(top, signal.id, i)});
+    }
+  }
+}
+
+void VcdRecorder::declare_messages(VcdScope& top) {
+  for (std::size_t c = 0; c < system_.components().size(); ++c) {
+    const core::UnitDescription& description = *system_.components()[c].description;
+    std::vector<MessageCodes>& codes = messages_.emplace_back(description.variables.size());
+    for (std::size_t v = 0; v < codes.size(); ++v) {
+      const core::Variable& variable = description.variables[v];
+      if (!is_message_variable(description, variable)) continue;
+      const bool is_clock = variable.type == core::ValueType::Clock;
+      std::vector<std::string>& own = is_clock ? codes[v].clocks : codes[v].elements;
+      for (std::size_t i = 0; i < variable.size; ++i) own.push_back(declare(top, {c, v}, i));
+    }
+    for (std::size_t v = 0; v < codes.size(); ++v) {
+      for (const core::ValueReference reference : description.variables[v].clocks) {
+        const auto clock = description.find(reference);
+        if (!clock) continue;
+        const std::vector<std::string>& ticks = codes[*clock].clocks;
+        codes[v].clocks.insert(codes[v].clocks.end(), ticks.begin(), ticks.end());
+      }
+    }
+  }
+}
+
+void VcdRecorder::on_start(std::span<const core::Signal> signals) {
+  VcdScope top;
+  declare_signals(signals, top);
+  declare_messages(top);
+  file_.write("$version stride $end\n$timescale 1 ps $end\n");
+  top.write(file_);
+  file_.write("$enddefinitions $end\n");
+}
+
+void VcdRecorder::move_to(Time time) {
+  if (written_time_ == time) return;
+  written_time_ = time;
+  file_.write('#');
+  file_.write_number(time.time_since_epoch().count());
+  file_.write('\n');
+}
+
+void VcdRecorder::on_message(const core::Message& message) {
+  file_.set_time(message.time);
+  move_to(message.time);
+  const MessageCodes& codes = messages_[message.id.component][message.id.variable];
+  for (std::size_t i = 0; message.block != nullptr && i < codes.elements.size(); ++i) {
+    core::visit(*message.block, [&](auto values) {
+      write_change(file_, values[message.first + i], codes.elements[i]);
+    });
+  }
+  for (const std::string& clock : codes.clocks) write_change(file_, true, clock);
+}
+
+void VcdRecorder::write_changes(bool all) {
+  for (Channel& channel : channels_) {
+    core::visit(*channel.block, [&](auto values) {
+      const auto& value = values[channel.element];
+      using T = std::remove_cvref_t<decltype(value)>;
+      if constexpr (is_text<T>) {
+        const std::string_view text(reinterpret_cast<const char*>(value.data()), value.size());
+        if (!all && text == channel.text) return;
+        channel.text = text;
+      } else {
+        const std::uint64_t bits = bits_of(value);
+        if (!all && bits == channel.bits) return;
+        channel.bits = bits;
+      }
+      move_to(last_point_);
+      write_change(file_, value, channel.code);
+    });
+  }
+}
+
+void VcdRecorder::on_communication_point(Time time) {
+  file_.set_time(time);
+  last_point_ = time;
+  if (!is_first_point_) return write_changes(false);
+  is_first_point_ = false;
+  move_to(time);
+  file_.write("$dumpvars\n");
+  write_changes(true);
+  file_.write("$end\n");
+}
+
+void VcdRecorder::on_finish() {
+  if (written_time_ && *written_time_ < last_point_) move_to(last_point_);
+  file_.close();
+}
+
+}  // namespace stride::io

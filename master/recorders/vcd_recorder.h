@@ -1,0 +1,65 @@
+#ifndef STRIDE_MASTER_RECORDERS_VCD_RECORDER_H
+#define STRIDE_MASTER_RECORDERS_VCD_RECORDER_H
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "master/algorithm/observer.h"
+#include "master/model/system.h"
+#include "master/recorders/vcd_scope.h"
+#include "master/util/output_file.h"
+
+namespace stride::io {
+
+/// signals.vcd: a value change dump (IEEE 1364) with a time scale of 1 ps, for GTKWave and others.
+/// The parts of a structured name are scopes. The recorded signals are written at communication
+/// points, where they changed; each clock is an event at its exact time, and what it carries is
+/// written with it (Binary as a string of hexadecimal digits; strings are GTKWave's extension).
+/// Equal runs make equal files: there is no date in it.
+class VcdRecorder : public core::Observer {
+ public:
+  /// As CsvRecorder.
+  VcdRecorder(const core::System& system, std::filesystem::path file);
+
+  void on_start(std::span<const core::Signal> signals) override;
+  void on_message(const core::Message& message) override;
+  void on_communication_point(Time time) override;
+  void on_finish() override;
+
+ private:
+  struct Channel {
+    const core::ValueBlock* block;
+    std::size_t element;
+    std::string code;
+    std::uint64_t bits = 0;  ///< the value last written
+    std::string text{};      ///< likewise, of String and Binary
+  };
+  /// How a message of a clocked variable or of a clock is written.
+  struct MessageCodes {
+    std::vector<std::string> clocks;
+    std::vector<std::string> elements;
+  };
+
+  std::string next_code();
+  void declare_signals(std::span<const core::Signal> signals, VcdScope& top);
+  void declare_messages(VcdScope& top);
+  std::string declare(VcdScope& top, core::VariableId id, std::size_t element);
+  void move_to(Time time);
+  void write_changes(bool all);
+
+  const core::System& system_;
+  OutputFile file_;
+  std::uint64_t codes_ = 0;
+  std::vector<Channel> channels_;
+  std::vector<std::vector<MessageCodes>> messages_;  ///< by component and variable
+  std::optional<Time> written_time_;
+  Time last_point_{};
+  bool is_first_point_ = true;
+};
+
+}  // namespace stride::io
+
+#endif

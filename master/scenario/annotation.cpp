@@ -1,0 +1,276 @@
+#include "master/scenario/annotation.h"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/ssp/ssp.h"
+#include "master/util/number_text.h"
+#include "master/util/xml/element.h"
+
+namespace stride::io {
+namespace {
+
+constexpr const char* kType = "org.stride";
+
+void collect(const xml::Element& element, std::vector<xml::Element>& found) {
+  if (element.is(kSsc, "Annotation") && element.attribute("type") == kType) {
+    found.push_back(element);
+    return;
+  }
+  for (const xml::Element& child : element.children()) collect(child, found);
+}
+
+bool is_of_root_or_system(const xml::Element& annotation, const xml::Element& root) {
+  const auto annotations = annotation.parent();
+  const auto owner = annotations ? annotations->parent() : std::nullopt;
+  if (!owner) return false;
+  if (owner->index() == root.index()) return true;
+  const auto above = owner->parent();
+  return owner->is(kSsd, "System") && above && above->index() == root.index();
+}
+
+/// What `parse` makes of the attribute, which is there; a std::invalid_argument is its mistake.
+template <class Parse>
+auto parse_attribute(const xml::Element& element, const char* name, Parse&& parse) {
+  try {
+    return parse(element.required(name));
+  } catch (const std::invalid_argument& mistake) {
+    element.fail(fmt::format("{}: {}", name, mistake.what()));
+  }
+}
+
+using SetChoice = void (StepChoice::*)(std::string_view);
+
+/// Attributes that each set a part of the choice.
+void read_choices(const xml::Element& element, StepChoice& choice,
+                  std::initializer_list<std::pair<const char*, SetChoice>> attributes) {
+  for (const auto& [name, set] : attributes) {
+    if (!element.attribute(name)) continue;
+    parse_attribute(element, name,
+                    [&, set = set](const std::string& text) { (choice.*set)(text); });
+  }
+}
+
+void read_step(const xml::Element& element, StepChoice& choice) {
+  element.allow_attributes(
+      {"policy", "size", "maximum", "minimum", "relativeTolerance", "absoluteTolerance"});
+  element.allow_children({});
+  read_choices(element, choice,
+               {{"policy", &StepChoice::set_policy},
+                {"size", &StepChoice::set_size},
+                {"maximum", &StepChoice::set_maximum},
+                {"minimum", &StepChoice::set_minimum},
+                {"relativeTolerance", &StepChoice::set_relative_tolerance},
+                {"absoluteTolerance", &StepChoice::set_absolute_tolerance}});
+}
+
+void read_exchange(const xml::Element& element, StepChoice& choice) {
+  element.allow_attributes({"coupling", "extrapolation"});
+  element.allow_children({});
+  read_choices(
+      element, choice,
+      {{"coupling", &StepChoice::set_coupling}, {"extrapolation", &StepChoice::set_extrapolation}});
+}
+
+/// What the attribute `signals` lists.
+std::vector<SignalPattern> read_signals(const xml::Element& element) {
+  std::vector<SignalPattern> patterns;
+  std::istringstream words(element.required("signals"));
+  for (std::string word; words >> word;) patterns.push_back({word, element.where()});
+  return patterns;
+}
+
+void read_record(const xml::Element& element, ScenarioAnnotation& annotation) {
+  element.allow_attributes({"signals"});
+  element.allow_children({});
+  for (auto& pattern : read_signals(element)) annotation.record.push_back(std::move(pattern));
+}
+
+void read_plot(const xml::Element& element, ScenarioAnnotation& annotation) {
+  element.allow_attributes({"title", "signals"});
+  element.allow_children({});
+  PlotPattern plot{element.required("title"), read_signals(element)};
+  if (plot.signals.empty()) element.fail("the plot shows nothing", "name its signals");
+  annotation.plots.push_back(std::move(plot));
+}
+
+std::vector<ComponentPattern> read_components(const xml::Element& element) {
+  std::vector<ComponentPattern> patterns;
+  std::istringstream words(element.required("components"));
+  for (std::string word; words >> word;) patterns.push_back({word, element.where()});
+  return patterns;
+}
+
+void read_main_thread(const xml::Element& element, ScenarioAnnotation& annotation) {
+  element.allow_attributes({"components"});
+  element.allow_children({});
+  for (auto& pattern : read_components(element)) annotation.main_thread.push_back(pattern);
+}
+
+void read_early_return(const xml::Element& element, ScenarioAnnotation& annotation) {
+  element.allow_attributes({"components", "allowed"});
+  element.allow_children({});
+  element.required("allowed");
+  const bool allowed = element.flag("allowed", true);
+  for (auto& pattern : read_components(element)) {
+    annotation.early_return.push_back({pattern, allowed});
+  }
+}
+
+void read_host(const xml::Element& element, HostChoice& choice) {
+  element.allow_attributes(
+      {"components", "process", "timeout", "memoryLimit", "sandbox", "snapshots"});
+  element.allow_children({});
+  HostSettings settings;
+  settings.process = element.flag("process", true);
+  settings.where = element.where();
+  for (const char* attribute : {"timeout", "memoryLimit", "sandbox", "snapshots"}) {
+    if (*settings.process || !element.attribute(attribute)) continue;
+    element.fail(fmt::format("{} is for a unit with a process of its own", attribute),
+                 "leave it out, or process=\"false\"");
+  }
+  if (element.attribute("timeout")) {
+    settings.call_limit = parse_attribute(element, "timeout", parse_call_limit);
+  }
+  if (element.attribute("memoryLimit")) {
+    settings.memory_limit = parse_attribute(element, "memoryLimit", parse_memory_limit);
+  }
+  if (element.attribute("sandbox")) settings.sandbox = element.flag("sandbox");
+  if (element.attribute("snapshots")) settings.snapshots = element.flag("snapshots");
+  for (auto& pattern : read_components(element)) choice.rules.push_back({pattern, settings});
+}
+
+void read_idle_skip(const xml::Element& element, IdleChoice& choice) {
+  element.allow_attributes({"components", "enabled", "maxSkip"});
+  element.allow_children({});
+  IdleRule rule{{}, element.flag("enabled", true), std::nullopt, element.where()};
+  if (element.attribute("maxSkip")) {
+    rule.max_skip = parse_attribute(element, "maxSkip", parse_max_skip);
+  }
+  std::vector<ComponentPattern> patterns{{"*", element.where()}};
+  if (element.attribute("components")) patterns = read_components(element);
+  for (ComponentPattern& pattern : patterns) {
+    rule.components = std::move(pattern);
+    choice.rules.push_back(rule);
+  }
+}
+
+/// <Deadband variable="…" value="…"/>, and the same for a tolerance.
+IdleNumber read_idle_number(const xml::Element& element, double (*parse)(std::string_view)) {
+  element.allow_attributes({"variable", "value"});
+  element.allow_children({});
+  return {element.required("variable"), parse_attribute(element, "value", parse), element.where()};
+}
+
+void check_file_name(const xml::Element& element, const char* attribute, const std::string& name) {
+  if (!is_plain_file_name(name)) {
+    element.fail(fmt::format("{}=\"{}\" is no plain file name", attribute, name),
+                 "the file goes into the results folder, so give its name only");
+  }
+}
+
+void read_results(const xml::Element& element, ScenarioAnnotation& annotation) {
+  element.allow_attributes({"signals", "events", "trace", "activity", "statistics", "report"});
+  element.allow_children({});
+  std::set<std::string> taken;
+  for (const auto& [attribute, member] : kResultFiles) {
+    std::string& file = annotation.results.*member;
+    if (element.attribute(attribute)) file = element.required(attribute);
+    if (file == "none") file.clear();
+    check_file_name(element, attribute, file);
+    if (file.empty() || taken.insert(file).second) continue;
+    element.fail(fmt::format("two results have the file name '{}'", file),
+                 "give each a name of its own, or write \"none\" to leave it out");
+  }
+}
+
+ScenarioAnnotation read_scenario_element(const xml::Element& scenario) {
+  scenario.allow_attributes({});
+  scenario.allow_children({{kStrideScenario, "Step"},
+                           {kStrideScenario, "Exchange"},
+                           {kStrideScenario, "Record"},
+                           {kStrideScenario, "Checks"},
+                           {kStrideScenario, "Results"},
+                           {kStrideScenario, "Plot"},
+                           {kStrideScenario, "MainThread"},
+                           {kStrideScenario, "EarlyReturn"},
+                           {kStrideScenario, "Host"},
+                           {kStrideScenario, "IdleSkip"},
+                           {kStrideScenario, "Deadband"},
+                           {kStrideScenario, "Tolerance"}});
+  ScenarioAnnotation annotation;
+  if (const auto step = scenario.child({kStrideScenario, "Step"}))
+    read_step(*step, annotation.step);
+  if (const auto exchange = scenario.child({kStrideScenario, "Exchange"})) {
+    read_exchange(*exchange, annotation.step);
+  }
+  for (const xml::Element& record : scenario.children({kStrideScenario, "Record"})) {
+    read_record(record, annotation);
+  }
+  for (const xml::Element& element : scenario.children({kStrideScenario, "Plot"})) {
+    read_plot(element, annotation);
+  }
+  if (const auto checks = scenario.child({kStrideScenario, "Checks"})) {
+    annotation.checks = read_checks(*checks);
+  }
+  for (const xml::Element& element : scenario.children({kStrideScenario, "MainThread"})) {
+    read_main_thread(element, annotation);
+  }
+  for (const xml::Element& element : scenario.children({kStrideScenario, "EarlyReturn"})) {
+    read_early_return(element, annotation);
+  }
+  for (const xml::Element& element : scenario.children({kStrideScenario, "Host"})) {
+    read_host(element, annotation.hosts);
+  }
+  for (const xml::Element& element : scenario.children({kStrideScenario, "IdleSkip"})) {
+    read_idle_skip(element, annotation.idle);
+  }
+  for (const xml::Element& element : scenario.children({kStrideScenario, "Deadband"})) {
+    annotation.idle.deadbands.push_back(read_idle_number(element, parse_at_least_zero));
+  }
+  for (const xml::Element& element : scenario.children({kStrideScenario, "Tolerance"})) {
+    annotation.idle.tolerances.push_back(read_idle_number(element, parse_above_zero));
+  }
+  if (const auto results = scenario.child({kStrideScenario, "Results"})) {
+    read_results(*results, annotation);
+  }
+  return annotation;
+}
+
+}  // namespace
+
+bool is_plain_file_name(const std::string& name) {
+  return name != "." && name != ".." && name.find('/') == std::string::npos;
+}
+
+ScenarioAnnotation read_annotation(const xml::Element& root) {
+  std::vector<xml::Element> found;
+  collect(root, found);
+  for (const xml::Element& annotation : found) {
+    if (is_of_root_or_system(annotation, root)) continue;
+    annotation.fail(fmt::format("an annotation of the type '{}' does not belong here", kType),
+                    "move it to the <Annotations> at the end of <SystemStructureDescription>");
+  }
+  if (found.empty()) return {};
+  if (found.size() > 1) {
+    found[1].fail(fmt::format("a second annotation of the type '{}'; the first is in line {}",
+                              kType, found[0].where().line),
+                  "put everything into one <stride:Scenario>");
+  }
+  found[0].allow_attributes({"type"});
+  found[0].allow_children({{kStrideScenario, "Scenario"}});
+  const auto scenario = found[0].child({kStrideScenario, "Scenario"});
+  if (!scenario) {
+    found[0].fail(
+        fmt::format("the annotation of the type '{}' holds no <stride:Scenario>", kType),
+        fmt::format("write <stride:Scenario xmlns:stride=\"{}\"> into it", kStrideScenario));
+  }
+  return read_scenario_element(*scenario);
+}
+
+}  // namespace stride::io

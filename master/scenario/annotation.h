@@ -1,0 +1,62 @@
+// What SSP has no word for: the annotation of the type org.stride.
+#ifndef STRIDE_MASTER_SCENARIO_ANNOTATION_H
+#define STRIDE_MASTER_SCENARIO_ANNOTATION_H
+
+#include <string>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/recorders/result_files.h"
+#include "master/scenario/check_declaration.h"
+#include "master/scenario/component_selection.h"
+#include "master/scenario/host_choice.h"
+#include "master/scenario/idle_choice.h"
+#include "master/scenario/step_choice.h"
+#include "master/util/error.h"
+#include "master/util/xml/element.h"
+
+namespace stride::io {
+
+/// A glob over "component.variable", and where it was written (an empty Location: nowhere).
+struct SignalPattern {
+  std::string text;
+  core::Location where{};
+};
+
+/// Signals that are to share a diagram.
+struct PlotPattern {
+  std::string title;
+  std::vector<SignalPattern> signals;
+};
+
+/// Whether components may return early from their steps; a later rule goes before an earlier one.
+struct EarlyReturnRule {
+  ComponentPattern components;
+  bool allowed = true;
+};
+
+/// All of it is optional.
+struct ScenarioAnnotation {
+  StepChoice step;
+  std::vector<SignalPattern> record;  ///< none: every output
+  std::vector<PlotPattern> plots;
+  std::vector<CheckDeclaration> checks;
+  ResultFiles results;
+  std::vector<ComponentPattern> main_thread;  ///< who steps on the simulation's own thread only
+  std::vector<EarlyReturnRule> early_return;  ///< without one: allowed
+  HostChoice hosts;
+  IdleChoice idle;
+};
+
+/// Whether it names a file in the results folder itself.
+bool is_plain_file_name(const std::string& name);
+
+/// Reads the <stride:Scenario> of a <ssd:SystemStructureDescription>, which stands in the root's
+/// annotations or in those of its system. Throws core::Error (Input) for what is unknown, doubled
+/// or in another place.
+ScenarioAnnotation read_annotation(const xml::Element& root);
+
+}  // namespace stride::io
+
+#endif

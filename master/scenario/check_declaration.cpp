@@ -1,0 +1,124 @@
+#include "master/scenario/check_declaration.h"
+
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/ssp/ssp.h"
+#include "master/util/time_text.h"
+
+namespace stride::io {
+namespace {
+
+std::optional<Duration> read_time(const xml::Element& element, const char* attribute) {
+  const auto text = element.attribute(attribute);
+  if (!text) return std::nullopt;
+  try {
+    return parse_seconds(*text);
+  } catch (const std::invalid_argument& mistake) {
+    element.fail(fmt::format("{}: {}", attribute, mistake.what()));
+  }
+}
+
+checks::Window read_window(const xml::Element& element) {
+  checks::Window window;
+  if (const auto from = read_time(element, "from")) window.from = Time(*from);
+  if (const auto to = read_time(element, "to")) window.to = Time(*to);
+  if (window.from && window.to && *window.from > *window.to) {
+    element.fail(fmt::format("the interval ends at {} s, before it begins at {} s",
+                             core::to_text(*window.to), core::to_text(*window.from)));
+  }
+  return window;
+}
+
+void read_condition(const xml::Element& element, CheckDeclaration& check) {
+  check.subject = element.required("signal");
+  checks::ConditionText& condition = check.condition;
+  condition.min = element.attribute("min");
+  condition.max = element.attribute("max");
+  condition.above = element.attribute("above");
+  condition.below = element.attribute("below");
+  condition.equals = element.attribute("equals");
+  condition.tolerance = element.attribute("tolerance");
+}
+
+void read_lasting(const xml::Element& element, CheckDeclaration& check) {
+  element.allow_attributes(
+      {"name", "signal", "min", "max", "above", "below", "equals", "tolerance", "from", "to"});
+  read_condition(element, check);
+  check.window = read_window(element);
+}
+
+void read_final(const xml::Element& element, CheckDeclaration& check) {
+  element.allow_attributes(
+      {"name", "signal", "min", "max", "above", "below", "equals", "tolerance"});
+  read_condition(element, check);
+}
+
+void read_count(const xml::Element& element, CheckDeclaration& check) {
+  element.allow_attributes({"name", "event", "min", "max", "equals", "from", "to"});
+  check.subject = element.required("event");
+  check.window = read_window(element);
+  check.min = element.number<std::uint64_t>("min");
+  check.max = element.number<std::uint64_t>("max");
+  const auto equals = element.number<std::uint64_t>("equals");
+  if (equals && (check.min || check.max)) {
+    element.fail("equals and limits exclude each other");
+  }
+  if (equals) check.min = check.max = equals;
+  if (!check.min && !check.max) element.fail("it has no limit; expected min, max or equals");
+  if (check.min && check.max && *check.min > *check.max) {
+    element.fail(fmt::format("no count is {} at least and {} at most", *check.min, *check.max));
+  }
+}
+
+void read_answer(const xml::Element& element, CheckDeclaration& check) {
+  element.allow_attributes({"name", "request", "reply", "within", "repeats", "from", "to"});
+  check.subject = element.required("request");
+  check.reply = element.required("reply");
+  element.required("within");
+  check.within = *read_time(element, "within");
+  check.repeats = element.flag("repeats");
+  check.window = read_window(element);
+}
+
+struct Word {
+  const char* element;
+  checks::Kind kind;
+  void (*read)(const xml::Element& element, CheckDeclaration& check);
+};
+constexpr std::array kWords{Word{"Always", checks::Kind::Always, read_lasting},
+                            Word{"Never", checks::Kind::Never, read_lasting},
+                            Word{"Eventually", checks::Kind::Eventually, read_lasting},
+                            Word{"Final", checks::Kind::Final, read_final},
+                            Word{"Count", checks::Kind::Count, read_count},
+                            Word{"Answer", checks::Kind::Answer, read_answer}};
+
+}  // namespace
+
+std::vector<CheckDeclaration> read_checks(const xml::Element& checks) {
+  checks.allow_attributes({});
+  checks.allow_children({{kStrideScenario, "Always"},
+                         {kStrideScenario, "Never"},
+                         {kStrideScenario, "Eventually"},
+                         {kStrideScenario, "Final"},
+                         {kStrideScenario, "Count"},
+                         {kStrideScenario, "Answer"}});
+  std::vector<CheckDeclaration> found;
+  for (const xml::Element& element : checks.children()) {
+    for (const Word& word : kWords) {
+      if (!element.is(kStrideScenario, word.element)) continue;
+      element.allow_children({});
+      CheckDeclaration& check = found.emplace_back();
+      check.kind = word.kind;
+      if (element.attribute("name")) check.name = element.required("name");
+      check.where = element.where();
+      word.read(element, check);
+    }
+  }
+  return found;
+}
+
+}  // namespace stride::io

@@ -1,0 +1,42 @@
+// The checks of a scenario as they are written.
+#ifndef STRIDE_MASTER_SCENARIO_CHECK_DECLARATION_H
+#define STRIDE_MASTER_SCENARIO_CHECK_DECLARATION_H
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/checks/condition.h"
+#include "master/checks/definition.h"
+#include "master/util/error.h"
+#include "master/util/xml/element.h"
+
+namespace stride::io {
+
+/// One element in <stride:Checks>; which of the members it has depends on its kind.
+struct CheckDeclaration {
+  checks::Kind kind = checks::Kind::Always;
+  std::string name;  ///< empty: to be made from the rest
+  /// A name or a glob of signals (Always, Never, Eventually, Final) or messages (Count), or the
+  /// name of the request (Answer).
+  std::string subject;
+  checks::ConditionText condition{};
+  checks::Window window{};
+  std::optional<std::uint64_t> min{};  ///< Count
+  std::optional<std::uint64_t> max{};
+  std::string reply{};  ///< Answer
+  Duration within{};
+  bool repeats = false;
+  core::Location where{};
+};
+
+/// Reads <stride:Checks>. Throws core::Error (Input) for what is unknown, missing or no number, and
+/// for an interval or a count that ends before it begins.
+std::vector<CheckDeclaration> read_checks(const xml::Element& checks);
+
+}  // namespace stride::io
+
+#endif

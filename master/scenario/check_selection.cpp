@@ -1,0 +1,287 @@
+#include "master/scenario/check_selection.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/recorders/signal_text.h"
+#include "master/scenario/signal_names.h"
+#include "master/util/glob.h"
+#include "master/util/mistakes.h"
+#include "master/util/suggest.h"
+
+namespace stride::io {
+namespace {
+
+using checks::Definition;
+using checks::Kind;
+
+struct Element {
+  const NamedVariable* variable;
+  std::size_t element;
+  std::string name;
+};
+
+class Selection {
+ public:
+  Selection(const core::System& system, const ScenarioTimes& times)
+      : system_(system), times_(times), variables_(named_variables(system)) {}
+
+  std::vector<Definition> select(const CheckDeclaration& check) const {
+    check_window(check);
+    switch (check.kind) {
+      case Kind::Count:
+        return counts(check);
+      case Kind::Answer:
+        return {answer(check)};
+      default:
+        return signals(check);
+    }
+  }
+
+ private:
+  void check_window(const CheckDeclaration& check) const;
+  std::vector<Definition> signals(const CheckDeclaration& check) const;
+  Definition signal(const CheckDeclaration& check, const Element& element) const;
+  std::vector<Definition> counts(const CheckDeclaration& check) const;
+  Definition answer(const CheckDeclaration& check) const;
+
+  std::vector<Element> find_elements(const CheckDeclaration& check) const;
+  std::vector<core::VariableId> find_messages(const CheckDeclaration& check,
+                                              const std::string& pattern) const;
+  core::VariableId find_message(const CheckDeclaration& check, const std::string& name) const;
+  /// Whether it is a message, and its ticks are told of: not where they carry values, which are
+  /// told of instead.
+  bool is_told(const NamedVariable& variable) const;
+  bool is_triggered(const NamedVariable& clock) const;
+  /// The first one; null if it is a bare clock.
+  const NamedVariable* carried_by(const NamedVariable& clock) const;
+  [[noreturn]] void fail_unsuitable(const CheckDeclaration& check, const NamedVariable& named,
+                                    bool wants_message) const;
+  [[noreturn]] void fail_unknown(const CheckDeclaration& check, const std::string& pattern,
+                                 bool wants_message) const;
+
+  const core::System& system_;
+  const ScenarioTimes& times_;
+  std::vector<NamedVariable> variables_;
+};
+
+void Selection::check_window(const CheckDeclaration& check) const {
+  const auto fail = [&](const char* attribute, Time time, const char* side, Time limit) {
+    core::fail_input({.where = check.where},
+                     fmt::format("{}: {} s is {} the run, at {} s", attribute, core::to_text(time),
+                                 side, core::to_text(limit)),
+                     fmt::format("leave '{}' out for an interval that is not limited", attribute));
+  };
+  const auto& [from, to] = check.window;
+  if (to && *to < times_.start) fail("to", *to, "before the beginning of", times_.start);
+  if (!times_.stop) return;
+  if (from && *from > *times_.stop) fail("from", *from, "behind the end of", *times_.stop);
+  if (to && *to > *times_.stop) fail("to", *to, "behind the end of", *times_.stop);
+}
+
+/// What is named exists, but has not what a check of this kind needs.
+[[noreturn]] void Selection::fail_unsuitable(const CheckDeclaration& check,
+                                             const NamedVariable& named, bool wants_message) const {
+  const core::Context context{.where = check.where};
+  if (!wants_message) {
+    core::fail_input(
+        context,
+        fmt::format("'{}' belongs to a clock and has a value only when that ticks", named.name),
+        "count its messages with <stride:Count event=\"…\"/>, or wait for them with "
+        "<stride:Answer/>");
+  }
+  if (!named.is_message) {
+    core::fail_input(context,
+                     fmt::format("'{}' is no message, but has a value at each time", named.name),
+                     "compare it with <stride:Always>, <stride:Never>, <stride:Eventually> or "
+                     "<stride:Final>");
+  }
+  const NamedVariable* const carried = carried_by(named);
+  core::fail_input(context, fmt::format("the ticks of '{}' are not told of", named.name),
+                   carried == nullptr || !is_triggered(named)
+                       ? "it ticks by the time alone"
+                       : fmt::format("name what it carries: '{}'", carried->name));
+}
+
+[[noreturn]] void Selection::fail_unknown(const CheckDeclaration& check, const std::string& pattern,
+                                          bool wants_message) const {
+  std::vector<std::string> names;
+  for (const NamedVariable& variable : variables_) {
+    if (!is_glob(pattern) && is_meant(system_, variable.id, pattern)) {
+      fail_unsuitable(check, variable, wants_message);
+    }
+    const bool fits = wants_message ? is_told(variable) : !variable.is_message;
+    if (fits) names.push_back(variable.name);
+  }
+  core::fail_input(
+      {.where = check.where},
+      fmt::format("there is no {} '{}'", wants_message ? "message" : "signal", pattern),
+      core::suggestion(pattern, names));
+}
+
+bool Selection::is_triggered(const NamedVariable& clock) const {
+  const core::Variable& variable = system_.variable(clock.id);
+  return variable.clock && variable.clock->variability == core::IntervalVariability::Triggered;
+}
+
+const NamedVariable* Selection::carried_by(const NamedVariable& clock) const {
+  const core::Variable& variable = system_.variable(clock.id);
+  const auto carried = std::ranges::find_if(variables_, [&](const NamedVariable& other) {
+    const core::Variable& candidate = system_.variable(other.id);
+    return other.id.component == clock.id.component && candidate.causality == variable.causality &&
+           std::ranges::find(candidate.clocks, variable.reference) != candidate.clocks.end();
+  });
+  return carried == variables_.end() ? nullptr : &*carried;
+}
+
+bool Selection::is_told(const NamedVariable& variable) const {
+  if (!variable.is_message) return false;
+  const bool is_clock = system_.variable(variable.id).clock.has_value();
+  return !is_clock || (is_triggered(variable) && carried_by(variable) == nullptr);
+}
+
+std::vector<Element> Selection::find_elements(const CheckDeclaration& check) const {
+  const std::string& pattern = check.subject;
+  std::vector<Element> found;
+  for (const NamedVariable& variable : variables_) {
+    if (variable.is_message) continue;
+    const core::Variable& described = system_.variable(variable.id);
+    const bool is_whole = is_meant(system_, variable.id, pattern);
+    for (std::size_t i = 0; i < described.size; ++i) {
+      std::string name = system_.prefix(variable.id) + element_name(described, i);
+      const bool is_one = name == pattern || matches_glob(pattern, name);
+      if (is_whole || is_one) found.push_back({&variable, i, std::move(name)});
+    }
+  }
+  if (found.empty()) fail_unknown(check, pattern, false);
+  return found;
+}
+
+std::vector<core::VariableId> Selection::find_messages(const CheckDeclaration& check,
+                                                       const std::string& pattern) const {
+  std::vector<core::VariableId> found;
+  for (const NamedVariable& variable : variables_) {
+    if (!variable.is_message || !is_told(variable)) continue;
+    if (is_meant(system_, variable.id, pattern)) found.push_back(variable.id);
+  }
+  if (found.empty()) fail_unknown(check, pattern, true);
+  return found;
+}
+
+core::VariableId Selection::find_message(const CheckDeclaration& check,
+                                         const std::string& name) const {
+  const auto found = find_messages(check, name);
+  if (found.size() == 1) return found.front();
+  core::fail_input({.where = check.where},
+                   fmt::format("'{}' stands for {} messages; expected one", name, found.size()));
+}
+
+/// The name that was given, with what it is about where it stands for several.
+std::string name_of(const CheckDeclaration& check, const std::string& subject,
+                    const std::string& demand, bool is_alone) {
+  if (check.name.empty()) return demand;
+  return is_alone ? check.name : fmt::format("{}: {}", check.name, subject);
+}
+
+Definition Selection::signal(const CheckDeclaration& check, const Element& element) const {
+  const core::Variable& variable = system_.variable(element.variable->id);
+  try {
+    const checks::Condition condition(variable, check.condition);
+    const std::string demand = fmt::format("{} {} {}{}", element.name, name(check.kind),
+                                           condition.text(), check.window.text());
+    return {check.kind,
+            "",
+            demand,
+            check.window,
+            check.where,
+            checks::SignalDemand{element.variable->id, element.element, element.name, variable.unit,
+                                 condition}};
+  } catch (const std::invalid_argument& mistake) {
+    core::fail_input({.where = check.where}, fmt::format("'{}': {}", element.name, mistake.what()));
+  }
+}
+
+std::vector<Definition> Selection::signals(const CheckDeclaration& check) const {
+  std::vector<Definition> definitions;
+  const std::vector<Element> elements = find_elements(check);
+  for (const Element& element : elements) {
+    Definition& definition = definitions.emplace_back(signal(check, element));
+    definition.name = name_of(check, element.name, definition.demand, elements.size() == 1);
+  }
+  return definitions;
+}
+
+std::string limits_text(const CheckDeclaration& check) {
+  if (check.min && check.max && *check.min == *check.max) return fmt::format("= {}", *check.min);
+  std::string text;
+  if (check.min) text += fmt::format(">= {}", *check.min);
+  if (check.max) text += fmt::format("{}<= {}", text.empty() ? "" : " and ", *check.max);
+  return text;
+}
+
+std::vector<Definition> Selection::counts(const CheckDeclaration& check) const {
+  std::vector<Definition> definitions;
+  const auto messages = find_messages(check, check.subject);
+  for (const core::VariableId id : messages) {
+    const std::string subject = system_.full_name(id);
+    const std::string demand =
+        fmt::format("{} count {}{}", subject, limits_text(check), check.window.text());
+    definitions.push_back({check.kind, name_of(check, subject, demand, messages.size() == 1),
+                           demand, check.window, check.where,
+                           checks::CountDemand{id, check.min, check.max}});
+  }
+  return definitions;
+}
+
+Definition Selection::answer(const CheckDeclaration& check) const {
+  const core::VariableId request = find_message(check, check.subject);
+  const core::VariableId reply = find_message(check, check.reply);
+  if (request == reply) {
+    core::fail_input({.where = check.where},
+                     fmt::format("'{}' cannot answer itself", check.subject));
+  }
+  const std::string demand =
+      fmt::format("{} answered by {} within {} s{}", system_.full_name(request),
+                  system_.full_name(reply), core::to_text(Time(check.within)), check.window.text());
+  return {check.kind,  name_of(check, "", demand, true),
+          demand,      check.window,
+          check.where, checks::AnswerDemand{request, reply, check.within, check.repeats}};
+}
+
+void check_names(const std::vector<Definition>& definitions) {
+  std::map<std::string, const Definition*> known;
+  for (const Definition& definition : definitions) {
+    const auto [first, is_new] = known.emplace(definition.name, &definition);
+    if (is_new) continue;
+    core::fail_input({.where = definition.where},
+                     fmt::format("a second check '{}'; the first is in line {}", definition.name,
+                                 first->second->where.line),
+                     "give each a name of its own");
+  }
+}
+
+}  // namespace
+
+std::vector<Definition> select_checks(const core::System& system,
+                                      std::span<const CheckDeclaration> declarations,
+                                      const ScenarioTimes& times) {
+  const Selection selection(system, times);
+  std::vector<Definition> definitions;
+  core::Mistakes mistakes;
+  for (const CheckDeclaration& check : declarations) {
+    mistakes.attempt([&] {
+      for (Definition& definition : selection.select(check)) {
+        definitions.push_back(std::move(definition));
+      }
+    });
+  }
+  mistakes.raise();
+  check_names(definitions);
+  return definitions;
+}
+
+}  // namespace stride::io

@@ -1,0 +1,34 @@
+// What the checks of a scenario are about.
+#ifndef STRIDE_MASTER_SCENARIO_CHECK_SELECTION_H
+#define STRIDE_MASTER_SCENARIO_CHECK_SELECTION_H
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/checks/definition.h"
+#include "master/model/system.h"
+#include "master/scenario/check_declaration.h"
+
+namespace stride::io {
+
+/// When a scenario begins, and when it ends as far as it says so itself.
+struct ScenarioTimes {
+  Time start{};
+  std::optional<Time> stop{};
+};
+
+/// The declared checks with their places in the system; a glob, and an array that is named as a
+/// whole, become a check for each signal and element. Throws core::Error (Input), which tells of
+/// all mistakes at once: a name that stands for nothing, with the nearest one; a signal where a
+/// message is wanted, and the other way round; a condition that does not fit its signal; an
+/// interval that is not in the run; two checks of one name.
+std::vector<checks::Definition> select_checks(const core::System& system,
+                                              std::span<const CheckDeclaration> declarations,
+                                              const ScenarioTimes& times);
+
+}  // namespace stride::io
+
+#endif

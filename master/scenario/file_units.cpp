@@ -1,0 +1,78 @@
+#include "master/scenario/file_units.h"
+
+#include <fstream>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "master/importer/binaries.h"
+#include "master/importer/unpacked_fmu.h"
+#include "master/scenario/program_files.h"
+#include "master/scenario/unit_path.h"
+#include "master/util/archive/temporary_folder.h"
+#include "master/util/error.h"
+
+namespace stride::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the unit says of the file that it was given, with the file as the user knows it.
+std::string shown(std::string text, const fs::path& file, const fs::path& shown_as) {
+  const std::size_t at = text.find(file.string());
+  if (at == std::string::npos) return text;
+  return text.replace(0, at + file.string().size(), shown_as.string());
+}
+
+void require_no_resources(const fmi::PackRequest& request, const std::string& what,
+                          const std::string& unit) {
+  if (request.resources.empty() && request.bundled.empty()) return;
+  core::fail_input({}, "--resources and --bundle are for the library of a unit",
+                   fmt::format("{} packed with the unit {}", what, unit));
+}
+
+/// The unit with these resources, of which `file` is what the user has given.
+void pack_unit(const std::string& unit, const fs::path& resources, const fs::path& file,
+               const fmi::PackRequest& request) {
+  const fmi::UnpackedFmu unpacked(find_unit(unit + ".fmu", {}));
+  try {
+    fmi::pack({fmi::find_library(unpacked.folder(), "3.0", unit), resources, {}, request.output});
+  } catch (const core::Error& failure) {
+    core::fail_input({}, shown(failure.what(), file, request.library));
+  }
+}
+
+}  // namespace
+
+bool is_stimuli(const fs::path& path) {
+  constexpr const char* kBegin = "stride stimuli,";
+  std::string line;
+  std::getline(std::ifstream(path), line);
+  return path.extension() == ".csv" || line.rfind(kBegin, 0) == 0;
+}
+
+void pack_stimuli(const fmi::PackRequest& request) {
+  require_no_resources(request, "stimuli are", "player");
+  const archive::TemporaryFolder resources;
+  const fs::path copy = resources.path() / "stimuli.csv";
+  fs::copy_file(request.library, copy);
+  pack_unit("player", resources.path(), copy, request);
+}
+
+bool is_program(const fs::path& path) { return path.extension() == ".xml"; }
+
+void pack_program(const fmi::PackRequest& request) {
+  require_no_resources(request, "a program is", "process");
+  const io::ProgramFiles files = io::program_files(request.library);
+  const archive::TemporaryFolder resources;
+  for (const auto& [name, path] : files.packed) fs::copy_file(path, resources.path() / name);
+  if (files.has_outside) {
+    std::ofstream(resources.path() / "origin.txt")
+        << fs::absolute(request.library).lexically_normal().parent_path().string() << '\n';
+  }
+  const fs::path copy = resources.path() / "process.xml";
+  fs::copy_file(request.library, copy);
+  pack_unit("process", resources.path(), copy, request);
+}
+
+}  // namespace stride::cli

@@ -1,0 +1,24 @@
+// --film: the components that can make pictures of themselves do so.
+#ifndef STRIDE_MASTER_SCENARIO_FILM_H
+#define STRIDE_MASTER_SCENARIO_FILM_H
+
+#include <string>
+
+#include "master/model/system.h"
+
+namespace stride::cli {
+
+/// The parameter [s] by which a unit can be told to make a film (units/mujoco_world).
+inline constexpr const char* kFilmInterval = "film.interval";
+
+/// The interval that the system gives, or else 0.1 s.
+inline constexpr const char* kFilmAsItIs = "as it is";
+
+/// Sets it for each component that has it; `interval` is in seconds, or kFilmAsItIs. The components
+/// have their descriptions. Throws core::Error (Input) for an interval that is not a positive
+/// number, and if no component has the parameter.
+void switch_film_on(core::SystemDeclaration& system, const std::string& interval);
+
+}  // namespace stride::cli
+
+#endif

@@ -1,0 +1,91 @@
+#include "master/scenario/hosting.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "master/algorithm/stepping/step_order.h"
+#include "master/util/error.h"
+
+namespace stride::cli {
+namespace {
+
+/// Rules that come after those of the scenario.
+void add_rules(const HostRequest& request, std::vector<io::HostRule>& rules) {
+  for (const std::string& glob : request.isolated) {
+    const core::Location where{glob == "*" ? "--isolate" : "--isolate=" + glob, 0};
+    rules.push_back({{glob, where}, {.process = true, .where = where}});
+  }
+  if (!request.unit_timeout.empty()) {
+    const std::string option = fmt::format("--unit-timeout {}", request.unit_timeout);
+    try {
+      const auto limit = io::parse_call_limit(request.unit_timeout);
+      rules.push_back({{"*", {option, 0}}, {.call_limit = limit}});
+    } catch (const std::invalid_argument& mistake) {
+      core::fail_input({}, fmt::format("{}: {}", option, mistake.what()));
+    }
+  }
+  if (request.no_sandbox) rules.push_back({{"*", {"--no-sandbox", 0}}, {.sandbox = false}});
+}
+
+std::string text(const core::Location& where) {
+  return where.line == 0 ? where.file : fmt::format("{}:{}", where.file, where.line);
+}
+
+host::HostOptions host_options(const core::UnitDescription& unit,
+                               const io::HostSettings& settings) {
+  host::HostOptions options;
+  options.call_limit = settings.call_limit;
+  options.memory_limit = settings.memory_limit;
+  options.is_sandboxed = settings.sandbox.value_or(true);
+  options.takes_snapshots = !unit.can_save_state && settings.snapshots.value_or(true);
+  return options;
+}
+
+}  // namespace
+
+std::vector<io::HostSettings> host_settings(std::span<const std::string> components,
+                                            io::HostChoice choice, const HostRequest& request) {
+  add_rules(request, choice.rules);
+  return choice.settings(components);
+}
+
+std::vector<std::optional<Hosting>> choose_hostings(
+    std::span<const core::ComponentDeclaration> components, core::StepPolicy policy,
+    std::span<const io::HostSettings> settings) {
+  std::vector<core::ComponentDeclaration> declared(components.begin(), components.end());
+  std::vector<std::optional<Hosting>> hostings(declared.size());
+  std::vector<bool> may_have;
+  for (std::size_t i = 0; i < declared.size(); ++i) {
+    may_have.push_back(settings[i].process.value_or(true) && settings[i].snapshots.value_or(true));
+    if (!settings[i].process.value_or(false)) continue;
+    hostings[i] = {text(settings[i].where), host_options(*declared[i].description, settings[i])};
+    declared[i].has_snapshots = hostings[i]->options.takes_snapshots;
+  }
+  for (const std::size_t i : core::missing_snapshots(declared, policy, may_have)) {
+    const char* reason = policy == core::StepPolicy::ErrorControlled
+                             ? "steps that were too long are undone, and it cannot save its state"
+                             : "it may return early, as others may, and cannot save its state";
+    spdlog::info("unit '{}' has a process of its own, whose snapshots roll it back: {}",
+                 declared[i].name, reason);
+    hostings[i] = {reason, host_options(*declared[i].description, settings[i])};
+  }
+  return hostings;
+}
+
+void check_unit_timeout(const HostRequest& request,
+                        std::span<const std::optional<Hosting>> hostings) {
+  const bool has_process = std::any_of(hostings.begin(), hostings.end(),
+                                       [](const auto& hosting) { return hosting.has_value(); });
+  if (request.unit_timeout.empty() || has_process) return;
+  core::fail_input({},
+                   fmt::format("--unit-timeout {}: no unit has a process of its own, and no other "
+                               "can be stopped",
+                               request.unit_timeout),
+                   "say --isolate as well, or --isolate=COMPONENT");
+}
+
+}  // namespace stride::cli

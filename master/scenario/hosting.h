@@ -1,0 +1,47 @@
+// Which components of a scenario have processes of their own, why, and on what terms.
+#ifndef STRIDE_MASTER_SCENARIO_HOSTING_H
+#define STRIDE_MASTER_SCENARIO_HOSTING_H
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "master/algorithm/run_options.h"
+#include "master/isolation/hosted_unit.h"
+#include "master/model/system.h"
+#include "master/scenario/host_choice.h"
+
+namespace stride::cli {
+
+/// What the command line says.
+struct HostRequest {
+  std::vector<std::string> isolated;  ///< globs over components
+  std::string unit_timeout;           ///< seconds, for all that have processes of their own
+  bool no_sandbox = false;
+};
+
+/// The process of a component.
+struct Hosting {
+  std::string reason;  ///< for people
+  host::HostOptions options;
+};
+
+/// What a scenario and a command line, which goes before it, say of each component. Throws
+/// core::Error (Input) for a pattern that matches none, and for a number that is none.
+std::vector<io::HostSettings> host_settings(std::span<const std::string> components,
+                                            io::HostChoice choice, const HostRequest& request);
+
+/// The processes that the settings ask for and, where they leave it open, those whose snapshots a
+/// run with this policy cannot do without; the log tells of these.
+std::vector<std::optional<Hosting>> choose_hostings(
+    std::span<const core::ComponentDeclaration> components, core::StepPolicy policy,
+    std::span<const io::HostSettings> settings);
+
+/// Throws core::Error (Input) where there is a time limit and nothing that it could end.
+void check_unit_timeout(const HostRequest& request,
+                        std::span<const std::optional<Hosting>> hostings);
+
+}  // namespace stride::cli
+
+#endif

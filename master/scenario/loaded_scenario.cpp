@@ -1,0 +1,315 @@
+#include "master/scenario/loaded_scenario.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "master/algorithm/stepping/step_size.h"
+#include "master/checks/checks.h"
+#include "master/scenario/check_selection.h"
+#include "master/scenario/component_selection.h"
+#include "master/scenario/film.h"
+#include "master/scenario/signal_selection.h"
+#include "master/scenario/unit_path.h"
+#include "master/util/suggest.h"
+#include "master/util/time_text.h"
+
+namespace stride::cli {
+namespace {
+
+constexpr Duration kDefaultStep = std::chrono::milliseconds(1);
+
+Duration parse_option(const std::string& option, const std::string& text,
+                      Duration (*parse)(std::string_view) = &io::parse_seconds) {
+  try {
+    return parse(text);
+  } catch (const std::invalid_argument& mistake) {
+    core::fail_input({}, fmt::format("{} {}: {}", option, text, mistake.what()));
+  }
+}
+
+/// The values of --set, which go before all others.
+std::vector<io::ParameterValue> set_values(const std::vector<std::string>& sets) {
+  std::vector<io::ParameterValue> values;
+  for (const std::string& text : sets) {
+    const auto [name, value] = split_option("--set", text, "component.variable=value");
+    io::ParameterValue& added = values.emplace_back();
+    added.name = name;
+    added.value = value;
+    added.where = {fmt::format("--set {}", text), 0};
+    added.is_required = true;
+  }
+  return values;
+}
+
+/// A step that is discarded is tried again, so it is no failure yet.
+spdlog::level::level_enum level(fmi::Status status) {
+  switch (status) {
+    case fmi::Status::Ok:
+    case fmi::Status::Discard:
+    case fmi::Status::Pending:
+      return spdlog::level::info;
+    case fmi::Status::Warning:
+      return spdlog::level::warn;
+    default:
+      return spdlog::level::err;
+  }
+}
+
+void log_message(const std::string& unit, fmi::Status status, const std::string& category,
+                 const std::string& message) {
+  spdlog::log(level(status), "unit '{}'{}: {}", unit, category == host::kPrinted ? " printed" : "",
+              message);
+}
+
+}  // namespace
+
+std::pair<std::string, std::string> split_option(const std::string& option, const std::string& text,
+                                                 const std::string& form) {
+  const std::size_t at = text.find('=');
+  if (at == std::string::npos || at == 0) {
+    core::fail_input({}, fmt::format("{} {}: expected {}", option, text, form));
+  }
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+std::vector<std::shared_ptr<fmi::Fmu>> load_fmus(const io::Scenario& scenario) {
+  std::map<std::filesystem::path, std::shared_ptr<fmi::Fmu>> loaded;
+  std::vector<std::shared_ptr<fmi::Fmu>> fmus;
+  for (std::size_t i = 0; i < scenario.sources.size(); ++i) {
+    const core::Location& where = scenario.system.components[i].where;
+    const std::filesystem::path& source = scenario.sources[i];
+    const std::filesystem::path path =
+        find_shown_unit(source, scenario.files->shown(source), where);
+    auto& fmu = loaded[path];
+    if (!fmu) fmu = fmi::Fmu::load(path, where);
+    fmus.push_back(fmu);
+  }
+  return fmus;
+}
+
+LoadedScenario::LoadedScenario(const ScenarioRequest& request)
+    : scenario_(io::read_scenario(request.scenario, {find_unit, set_values(request.sets)})) {
+  for (const std::string& text : request.swaps) swap(text);
+  load_units();
+  if (!request.film.empty()) switch_film_on(scenario_.system, request.film);
+  choose_early_returns();
+  system_.emplace(scenario_.system);
+  for (const auto& warnings : {scenario_.warnings, system_->warnings()}) {
+    for (const std::string& warning : warnings) spdlog::warn("{}", warning);
+  }
+  choose_times(request);
+  choose_steps(request.step);
+  choose_hosts(request.hosts);
+  check_steps();
+  choose_idle_skips(request);
+  choose_signals(request);
+  options_.threads.main_only =
+      io::select_components(component_names(), scenario_.annotation.main_thread);
+  choose_checks(request);
+}
+
+std::vector<std::string> LoadedScenario::component_names() const {
+  std::vector<std::string> names;
+  for (const auto& component : scenario_.system.components) names.push_back(component.name);
+  return names;
+}
+
+void LoadedScenario::swap(const std::string& text) {
+  const auto [name, file] = split_option("--swap", text, "component=FILE.fmu");
+  if (file.empty()) core::fail_input({}, fmt::format("--swap {}: no file is named", text));
+  const std::vector<std::string> names = component_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    core::fail_input({}, fmt::format("--swap {}: there is no component '{}'", text, name),
+                     core::suggestion(name, names));
+  }
+  const auto i = static_cast<std::size_t>(found - names.begin());
+  scenario_.sources[i] = file;
+  scenario_.system.components[i].where = {fmt::format("--swap {}", text), 0};
+}
+
+void LoadedScenario::load_units() {
+  fmus_ = load_fmus(scenario_);
+  for (std::size_t i = 0; i < fmus_.size(); ++i) {
+    scenario_.system.components[i].description = fmus_[i]->description();
+  }
+}
+
+void LoadedScenario::choose_early_returns() {
+  const std::vector<std::string> names = component_names();
+  for (const io::EarlyReturnRule& rule : scenario_.annotation.early_return) {
+    for (const std::size_t i : io::select_components(names, {&rule.components, 1})) {
+      scenario_.system.components[i].early_return_allowed = rule.allowed;
+    }
+  }
+}
+
+void LoadedScenario::choose_times(const ScenarioRequest& request) {
+  std::optional<Time> unit_stop;
+  for (const auto& fmu : fmus_) {
+    if (const auto& stop = fmu->description()->default_stop) {
+      unit_stop = std::max(unit_stop.value_or(*stop), *stop);
+    }
+  }
+  options_.start = scenario_.start.value_or(Time{});
+  if (!request.stop.empty()) {
+    options_.stop = Time(parse_option("--stop", request.stop));
+  } else if (scenario_.stop) {
+    options_.stop = *scenario_.stop;
+  } else if (unit_stop) {
+    options_.stop = *unit_stop;
+  } else {
+    core::fail_input({{scenario_.path.string(), 0}, {}, {}, {}}, "the scenario has no stop time",
+                     "say --stop SECONDS, or write <ssd:DefaultExperiment stopTime=\"…\"/>");
+  }
+  if (options_.stop < options_.start) {
+    core::fail_input({}, fmt::format("the stop time {} s is before the start time {} s",
+                                     core::to_text(options_.stop), core::to_text(options_.start)));
+  }
+}
+
+void LoadedScenario::choose_steps(const io::StepChoice& request) {
+  std::optional<Duration> unit_step;
+  for (const auto& fmu : fmus_) {
+    const core::UnitDescription& unit = *fmu->description();
+    const auto& step = unit.default_step ? unit.default_step : unit.fixed_internal_step;
+    if (step) unit_step = std::min(unit_step.value_or(*step), *step);
+  }
+  options_.step.size = unit_step.value_or(kDefaultStep);
+  scenario_.annotation.step.apply(options_);
+  request.apply(options_);
+  if (options_.step.maximum && *options_.step.maximum < options_.step.minimum) {
+    core::fail_input({}, fmt::format("the maximum step of {} s is below the minimum of {} s",
+                                     core::to_text(Time(*options_.step.maximum)),
+                                     core::to_text(Time(options_.step.minimum))));
+  }
+  const core::StepOptions& step = options_.step;
+  if (step.policy == core::StepPolicy::ErrorControlled && step.relative_tolerance == 0 &&
+      step.absolute_tolerance == 0) {
+    core::fail_input({}, "both tolerances are 0, so no step is good enough",
+                     "give a relative or an absolute tolerance above 0");
+  }
+}
+
+/// Their intervals are those of the scenario, whatever --stop says.
+void LoadedScenario::choose_checks(const ScenarioRequest& request) {
+  if (request.no_checks) return;
+  const std::optional<Time> stop = request.stop.empty() ? options_.stop : scenario_.stop;
+  checks_ = io::select_checks(*system_, scenario_.annotation.checks, {options_.start, stop});
+  options_.watched = checks::Checks(checks_).signals();
+}
+
+/// A component that is given snapshots can do more, and so its system is another one.
+void LoadedScenario::choose_hosts(const HostRequest& request) {
+  auto& components = scenario_.system.components;
+  hostings_ =
+      choose_hostings(components, options_.step.policy,
+                      host_settings(component_names(), scenario_.annotation.hosts, request));
+  check_unit_timeout(request, hostings_);
+  bool is_changed = false;
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    components[i].has_snapshots = hostings_[i] && hostings_[i]->options.takes_snapshots;
+    is_changed |= components[i].has_snapshots;
+  }
+  if (is_changed) system_.emplace(scenario_.system);
+}
+
+void LoadedScenario::check_steps() const {
+  core::StepSize(*system_, options_);  // throws where a unit cannot do what the policy needs
+  if (options_.step.policy != core::StepPolicy::Fixed) return;
+  check_fixed_steps();
+  warn_of_internal_steps();
+}
+
+void LoadedScenario::choose_idle_skips(const ScenarioRequest& request) {
+  if (request.no_idle_skip) {
+    if (!request.max_skip.empty()) {
+      core::fail_input({}, "--no-idle-skip and --max-skip contradict each other",
+                       "say one of them");
+    }
+    return;
+  }
+  io::IdleChoice choice = scenario_.annotation.idle;
+  if (!request.max_skip.empty()) {
+    const Duration skip(parse_option("--max-skip", request.max_skip, &io::parse_max_skip));
+    for (io::IdleRule& rule : choice.rules) rule.max_skip = skip;
+    choice.rules.insert(choice.rules.begin(), {{"*"}, true, skip, {"--max-skip", 0}});
+  }
+  options_.idle = choice.options(*system_, options_.step);
+}
+
+void LoadedScenario::choose_signals(const ScenarioRequest& request) {
+  const io::ScenarioAnnotation& chosen = scenario_.annotation;
+  if (request.signals.empty()) {
+    options_.recorded = io::select_signals(*system_, chosen.record);
+    plots_ = io::select_plots(*system_, options_.recorded, chosen.plots);
+    return;
+  }
+  std::vector<io::SignalPattern> patterns;
+  for (const std::string& text : request.signals) patterns.push_back({text, {"--signals", 0}});
+  options_.recorded = io::select_signals(*system_, patterns);
+  plots_ = io::remaining_plots(*system_, options_.recorded, chosen.plots);
+}
+
+void LoadedScenario::check_fixed_steps() const {
+  const Duration rest = (options_.stop - options_.start) % options_.step.size;
+  if (rest == Duration{}) return;
+  for (std::size_t i = 0; i < fmus_.size(); ++i) {
+    if (fmus_[i]->description()->can_vary_step) continue;
+    const auto& component = scenario_.system.components[i];
+    core::fail_input({component.where, component.name, {}, {}},
+                     fmt::format("the unit takes steps of one size only, and the run is no whole "
+                                 "number of steps of {} s",
+                                 core::to_text(Time(options_.step.size))),
+                     fmt::format("stop at {} s", core::to_text(options_.stop - rest)));
+  }
+}
+
+void LoadedScenario::warn_of_internal_steps() const {
+  for (std::size_t i = 0; i < fmus_.size(); ++i) {
+    const auto& internal = fmus_[i]->description()->fixed_internal_step;
+    if (!internal || *internal <= Duration{} || options_.step.size % *internal == Duration{}) {
+      continue;
+    }
+    spdlog::warn(
+        "unit '{}': its internal step of {} s is no part of the communication step of {} s, so it "
+        "is not always where the others are",
+        scenario_.system.components[i].name, core::to_text(Time(*internal)),
+        core::to_text(Time(options_.step.size)));
+  }
+}
+
+fmi::InstanceOptions LoadedScenario::instance_options(std::size_t component) const {
+  const core::ComponentDeclaration& declared = scenario_.system.components[component];
+  fmi::InstanceOptions options;
+  options.log = log_message;
+  options.debug_logging = true;  // the log's level decides what is shown
+  options.early_return_allowed = declared.early_return_allowed;
+  options.intermediate_update = options_.sets_inputs_in_steps();
+  options.where = declared.where;
+  options.description = system_->components()[component].description;
+  return options;
+}
+
+std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate(
+    const std::filesystem::path& results) const {
+  const auto& components = system_->components();
+  std::vector<std::unique_ptr<core::Unit>> units(components.size());
+  // processes first: they begin as copies of this one, which has no unit's library yet
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    if (!hostings_[i]) continue;
+    host::HostOptions host = hostings_[i]->options;
+    if (!results.empty()) host.writable.push_back(std::filesystem::absolute(results));
+    units[i] = host::instantiate(fmus_[i], components[i].name, instance_options(i), host);
+  }
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    if (!units[i]) units[i] = fmus_[i]->instantiate(components[i].name, instance_options(i));
+  }
+  return units;
+}
+
+}  // namespace stride::cli

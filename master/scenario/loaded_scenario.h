@@ -1,0 +1,95 @@
+// A scenario with its units: what `run` and `check` have in common.
+#ifndef STRIDE_MASTER_SCENARIO_LOADED_SCENARIO_H
+#define STRIDE_MASTER_SCENARIO_LOADED_SCENARIO_H
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "master/algorithm/simulation.h"
+#include "master/checks/definition.h"
+#include "master/importer/fmu.h"
+#include "master/model/system.h"
+#include "master/scenario/hosting.h"
+#include "master/scenario/plot_selection.h"
+#include "master/scenario/scenario.h"
+
+namespace stride::cli {
+
+/// What the command line says about a scenario.
+struct ScenarioRequest {
+  std::filesystem::path scenario;
+  std::vector<std::string> swaps;    ///< "component=FILE"
+  std::vector<std::string> sets;     ///< "component.variable=value"
+  std::vector<std::string> signals;  ///< globs that replace the scenario's
+  std::string stop;                  ///< seconds; empty = the scenario's
+  io::StepChoice step;               ///< replaces what the scenario says
+  bool no_idle_skip = false;
+  std::string max_skip;  ///< seconds, for all components; empty = the scenario's
+  bool no_checks = false;
+  HostRequest hosts;
+  std::string film;  ///< seconds between its pictures, or kFilmAsItIs; empty = none
+};
+
+/// The scenario with each component's FMU, and the system built from them. Throws core::Error
+/// (Input) for whatever is wrong with what the user gave.
+class LoadedScenario {
+ public:
+  explicit LoadedScenario(const ScenarioRequest& request);
+
+  const io::Scenario& scenario() const { return scenario_; }
+  const core::System& system() const { return *system_; }
+  /// In the order of system().components().
+  const std::vector<std::shared_ptr<fmi::Fmu>>& fmus() const { return fmus_; }
+  /// Likewise; nothing for a component that has no process of its own.
+  const std::vector<std::optional<Hosting>>& hostings() const { return hostings_; }
+  const core::RunOptions& options() const { return options_; }
+  /// As the scenario has them, of what is recorded.
+  const std::vector<io::Plot>& plots() const { return plots_; }
+  /// What the scenario demands of the run; options() let them be watched.
+  const std::vector<checks::Definition>& checks() const { return checks_; }
+
+  /// Fresh instances in the order of system().components(); what they log goes to the log. Those
+  /// with processes of their own may write to the folder `results`, if it is not empty.
+  std::vector<std::unique_ptr<core::Unit>> instantiate(
+      const std::filesystem::path& results = {}) const;
+
+ private:
+  void swap(const std::string& text);
+  void load_units();
+  void choose_early_returns();
+  void choose_times(const ScenarioRequest& request);
+  void choose_steps(const io::StepChoice& request);
+  void choose_checks(const ScenarioRequest& request);
+  void choose_hosts(const HostRequest& request);
+  void check_steps() const;
+  void choose_idle_skips(const ScenarioRequest& request);
+  void choose_signals(const ScenarioRequest& request);
+  void check_fixed_steps() const;
+  void warn_of_internal_steps() const;
+  std::vector<std::string> component_names() const;
+  fmi::InstanceOptions instance_options(std::size_t component) const;
+
+  io::Scenario scenario_;
+  std::vector<std::shared_ptr<fmi::Fmu>> fmus_;
+  std::optional<core::System> system_;
+  std::vector<std::optional<Hosting>> hostings_;
+  core::RunOptions options_;
+  std::vector<io::Plot> plots_;
+  std::vector<checks::Definition> checks_;
+};
+
+/// The two sides of "LEFT=RIGHT", which an option was given. Throws core::Error (Input) that says
+/// which `form` was expected.
+std::pair<std::string, std::string> split_option(const std::string& option, const std::string& text,
+                                                 const std::string& form);
+
+/// The descriptions of a scenario's units, by component; for `complete`, which wants no system yet.
+std::vector<std::shared_ptr<fmi::Fmu>> load_fmus(const io::Scenario& scenario);
+
+}  // namespace stride::cli
+
+#endif

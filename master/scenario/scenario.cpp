@@ -1,0 +1,71 @@
+#include "master/scenario/scenario.h"
+
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/ssp/flatten.h"
+#include "master/ssp/ssp.h"
+#include "master/ssp/system_reader.h"
+#include "master/util/time_text.h"
+#include "master/util/xml/document.h"
+
+namespace stride::io {
+namespace {
+
+std::optional<Time> read_time(const xml::Element& element, const char* attribute) {
+  const auto text = element.attribute(attribute);
+  if (!text) return std::nullopt;
+  try {
+    return Time(parse_seconds(*text));
+  } catch (const std::invalid_argument& mistake) {
+    element.fail(fmt::format("{}={}", attribute, mistake.what()));
+  }
+}
+
+void read_default_experiment(const xml::Element& root, Scenario& scenario) {
+  const auto experiment = root.child({kSsd, "DefaultExperiment"});
+  if (!experiment) return;
+  experiment->allow_attributes({"startTime", "stopTime"});
+  experiment->allow_children({{kSsd, "Annotations"}});
+  scenario.start = read_time(*experiment, "startTime");
+  scenario.stop = read_time(*experiment, "stopTime");
+  if (scenario.stop && *scenario.stop <= scenario.start.value_or(Time{})) {
+    experiment->fail(
+        fmt::format("the run would end at {} s, before or where it starts ({} s)",
+                    core::to_text(*scenario.stop), core::to_text(scenario.start.value_or(Time{}))),
+        "give a stopTime above the startTime");
+  }
+}
+
+}  // namespace
+
+std::string stem(const std::filesystem::path& path) {
+  if (std::error_code error; !std::filesystem::is_directory(path, error)) return path.stem();
+  return std::filesystem::canonical(path).filename();
+}
+
+Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& options) {
+  Scenario scenario;
+  scenario.path = path;
+  scenario.files = std::make_shared<Files>(options.find_unit);
+  const std::filesystem::path file = scenario.files->system_file(path);
+  const xml::Document document(file, scenario.files->shown(file));
+  const xml::Element root = document.root();
+  check_system_description(root);
+  scenario.name = root.required("name");
+  scenario.ssp_version = root.required("version");
+  SystemNode system = read_system(root, file, *scenario.files, scenario.warnings);
+  system.parameters.insert(system.parameters.end(), options.parameters.begin(),
+                           options.parameters.end());
+  FlatSystem flat = flatten(system, scenario.warnings);
+  scenario.system = std::move(flat.declaration);
+  scenario.sources = std::move(flat.sources);
+  read_default_experiment(root, scenario);
+  scenario.annotation = read_annotation(root);
+  return scenario;
+}
+
+}  // namespace stride::io

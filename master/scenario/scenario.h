@@ -1,0 +1,53 @@
+// A scenario: an SSP system file (.ssd), read and checked as far as it goes without its units.
+#ifndef STRIDE_MASTER_SCENARIO_SCENARIO_H
+#define STRIDE_MASTER_SCENARIO_SCENARIO_H
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/model/system.h"
+#include "master/scenario/annotation.h"
+#include "master/ssp/files.h"
+#include "master/ssp/system_tree.h"
+
+namespace stride::io {
+
+struct Scenario {
+  std::filesystem::path path;  ///< as it was given
+  std::string name;            ///< of the system structure description
+  std::string ssp_version;     ///< "1.0" or "2.0"
+  /// Made of components alone, see flatten.h, which have no description yet.
+  core::SystemDeclaration system;
+  /// The FMU of each of system.components: relative to the working directory or absolute.
+  std::vector<std::filesystem::path> sources;
+  std::optional<Time> start;  ///< of the DefaultExperiment
+  std::optional<Time> stop;
+  ScenarioAnnotation annotation;
+  std::vector<std::string> warnings;  ///< of what is odd, but no mistake
+  std::shared_ptr<Files> files;       ///< holds the folders that packages are unpacked to
+};
+
+/// A name for the results of a scenario: that of its file, or of its folder.
+std::string stem(const std::filesystem::path& scenario);
+
+/// What a scenario is read with.
+struct ReadOptions {
+  UnitFinder find_unit{};                    ///< says where the FMUs are that hold parameters
+  std::vector<ParameterValue> parameters{};  ///< bound to the root system behind all others
+};
+
+/// Reads a system of SSP 1.0 or 2.0: a .ssd, a package (.ssp), or the folder that one unpacks to;
+/// and what it names, but for its FMUs. Throws core::Error (Input) with file and line for what is
+/// missing, malformed or unknown, and for those parts of SSP that stride does not support: nothing
+/// is passed over, except what has no influence on a simulation (geometry, graphics, meta data,
+/// other tools' annotations).
+Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& options = {});
+
+}  // namespace stride::io
+
+#endif

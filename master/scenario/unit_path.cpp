@@ -1,0 +1,74 @@
+#include "master/scenario/unit_path.h"
+
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "master/util/suggest.h"
+
+namespace stride::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The FMUs in the folders, for suggestions.
+std::vector<std::string> known_units(const std::vector<fs::path>& folders) {
+  std::vector<std::string> names;
+  for (const fs::path& folder : folders) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+      names.push_back(entry.path().filename().string());
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+std::vector<fs::path> unit_folders() {
+  std::vector<fs::path> folders;
+  if (const char* const listed = std::getenv("STRIDE_UNITS")) {
+    std::string rest = listed;
+    while (!rest.empty()) {
+      const std::size_t end = std::min(rest.find(':'), rest.size());
+      if (end > 0) folders.emplace_back(rest.substr(0, end));
+      rest.erase(0, end + 1);
+    }
+  }
+  std::error_code unknown;
+  const fs::path program = fs::read_symlink("/proc/self/exe", unknown);
+  if (!unknown) {
+    const fs::path root = program.parent_path().parent_path();
+    folders.push_back(root / "units");
+    folders.push_back(root / "lib" / "stride" / "units");
+  }
+  return folders;
+}
+
+fs::path find_unit(const fs::path& path, const core::Location& where) {
+  return find_shown_unit(path, path.string(), where);
+}
+
+fs::path find_shown_unit(const fs::path& path, const std::string& shown_as,
+                         const core::Location& where) {
+  std::error_code unreadable;
+  if (fs::exists(path, unreadable)) return path;
+  if (path.filename().empty()) {
+    core::fail_input({where, {}, {}, {}}, fmt::format("there is no unit '{}'", shown_as));
+  }
+  const std::vector<fs::path> folders = unit_folders();
+  std::string searched;
+  for (const fs::path& folder : folders) {
+    const fs::path candidate = folder / path.filename();
+    if (fs::exists(candidate, unreadable)) return candidate;
+    searched += fmt::format("\n    {}", folder.string());
+  }
+  const std::vector<std::string> known = known_units(folders);
+  core::fail_input({where, {}, {}, {}},
+                   fmt::format("there is no unit '{}', and none named '{}' in{}", shown_as,
+                               path.filename().string(), searched),
+                   known.empty() ? "build the unit, or name its folder in STRIDE_UNITS"
+                                 : core::suggestion(path.filename().string(), known));
+}
+
+}  // namespace stride::cli

@@ -1,0 +1,243 @@
+#include "master/ssp/complete.h"
+
+#include <array>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "master/ssp/definitions.h"
+#include "master/ssp/ssp.h"
+#include "master/ssp/system_reader.h"
+#include "master/util/xml/document.h"
+#include "master/util/xml/editor.h"
+
+namespace stride::io {
+namespace {
+
+using core::ValueType;
+
+constexpr std::array<const char*, 8> kBaseUnits{"kg", "m", "s", "A", "K", "mol", "cd", "rad"};
+
+bool is_same(const core::BaseUnit& a, const core::BaseUnit& b) {
+  return a.exponents == b.exponents && a.factor == b.factor && a.offset == b.offset;
+}
+
+/// The namespace prefix, ready to be put before a name: "ssc:" or nothing.
+std::string head(const std::string& prefix) { return prefix.empty() ? "" : prefix + ":"; }
+
+class Completion {
+ public:
+  Completion(const xml::Document& document, const Descriptions& descriptions)
+      : root_(document.root()),
+        descriptions_(descriptions),
+        is_first_version_(root_.required("version") == "1.0"),
+        ssd_(head(root_.prefix_of(kSsd).value_or(""))),
+        editor_(document.text()) {
+    find_common_prefix();
+    const Definitions definitions = read_definitions(root_, kSsd);
+    units_ = definitions.units;
+    for (const auto& [name, items] : definitions.enumerations) enumerations_.insert(name);
+  }
+
+  std::string result() {
+    const xml::Element system = *root_.child({kSsd, "System"});
+    complete_elements(system, "");
+    add_list("Enumerations", new_enumerations_);
+    add_list("Units", new_units_);
+    return editor_.result();
+  }
+
+ private:
+  void find_common_prefix() {
+    if (const auto prefix = root_.prefix_of(kSsc)) {
+      ssc_ = head(*prefix);
+      return;
+    }
+    ssc_ = root_.attribute("xmlns:ssc") ? "stride_ssc:" : "ssc:";
+    needs_common_prefix_ = true;
+  }
+
+  /// Declares the prefix once, when something is written that uses it.
+  const std::string& ssc() {
+    if (needs_common_prefix_) {
+      editor_.add_attribute(root_.index(), "xmlns:" + ssc_.substr(0, ssc_.size() - 1), kSsc);
+    }
+    needs_common_prefix_ = false;
+    return ssc_;
+  }
+
+  void complete_elements(const xml::Element& system, const std::string& prefix) {
+    const auto elements = system.child({kSsd, "Elements"});
+    if (!elements) return;
+    for (const xml::Element& element : elements->children()) {
+      const std::string path = prefix + element.required("name");
+      if (element.is(kSsd, "System")) {
+        complete_elements(element, path + ".");
+      } else if (const auto found = descriptions_.find(path); found != descriptions_.end()) {
+        complete_component(element, path, *found->second);
+      }
+    }
+  }
+
+  void complete_component(const xml::Element& component, const std::string& path,
+                          const core::UnitDescription& description) {
+    const auto connectors = component.child({kSsd, "Connectors"});
+    std::set<std::string> declared;
+    if (connectors) {
+      for (const xml::Element& child : connectors->children())
+        declared.insert(child.required("name"));
+    }
+    std::vector<std::string> added;
+    for (const core::Variable& variable : description.variables) {
+      const bool is_connector = variable.causality == core::Causality::Input ||
+                                variable.causality == core::Causality::Output;
+      if (!is_connector || declared.contains(variable.name)) continue;
+      added.push_back(connector(component, path, description, variable));
+    }
+    if (added.empty()) return;
+    if (connectors) return editor_.append_children(connectors->index(), added);
+    std::string list = fmt::format("<{}Connectors>", ssd_);
+    for (const std::string& piece : added) list += "\n\t" + piece;
+    editor_.prepend_children(component.index(), {list + fmt::format("\n</{}Connectors>", ssd_)});
+  }
+
+  std::string connector(const xml::Element& component, const std::string& path,
+                        const core::UnitDescription& description, const core::Variable& variable) {
+    std::string content = type(component, path, description, variable);
+    if (!is_first_version_) content += dimensions(variable) + clocks(description, variable);
+    const std::string start = fmt::format("<{}Connector name=\"{}\" kind=\"{}\"", ssd_,
+                                          xml::escaped(variable.name), name(variable.causality));
+    if (content.empty()) return start + "/>";
+    return fmt::format("{}>{}</{}Connector>", start, content, ssd_);
+  }
+
+  std::string type(const xml::Element& component, const std::string& path,
+                   const core::UnitDescription& description, const core::Variable& variable) {
+    switch (variable.type) {
+      case ValueType::Float32:
+      case ValueType::Float64: {
+        const std::string unit = declared_unit(description, variable.unit);
+        const char* word = is_first_version_ ? "Real" : name(variable.type);
+        return unit.empty() ? fmt::format("<{}{}/>", ssc(), word)
+                            : fmt::format("<{}{} unit=\"{}\"/>", ssc(), word, xml::escaped(unit));
+      }
+      case ValueType::Enumeration:
+        return enumeration(path + "." + variable.name, variable);
+      case ValueType::Clock:
+        return clock(component, variable);
+      case ValueType::Boolean:
+      case ValueType::String:
+      case ValueType::Binary:
+        return fmt::format("<{}{}/>", ssc(), name(variable.type));
+      default:
+        return fmt::format("<{}{}/>", ssc(), is_first_version_ ? "Integer" : name(variable.type));
+    }
+  }
+
+  std::string clock(const xml::Element& component, const core::Variable& variable) {
+    if (is_first_version_) {
+      component.fail(fmt::format("SSP 1.0 has no clocks, so '{}.{}' cannot be declared",
+                                 component.required("name"), variable.name),
+                     "write version=\"2.0\" in the root element");
+    }
+    return !variable.clock ? fmt::format("<{}Clock/>", ssc())
+                           : fmt::format("<{}Clock intervalVariability=\"{}\"/>", ssc(),
+                                         name(variable.clock->variability));
+  }
+
+  std::string enumeration(const std::string& enumeration_name, const core::Variable& variable) {
+    if (variable.items.empty()) return "";
+    if (enumerations_.insert(enumeration_name).second) {
+      std::string text =
+          fmt::format("<{}Enumeration name=\"{}\">", ssc(), xml::escaped(enumeration_name));
+      for (const auto& [item, value] : variable.items) {
+        text +=
+            fmt::format("\n\t<{}Item name=\"{}\" value=\"{}\"/>", ssc(), xml::escaped(item), value);
+      }
+      new_enumerations_.push_back(text + fmt::format("\n</{}Enumeration>", ssc()));
+    }
+    return fmt::format("<{}Enumeration name=\"{}\"/>", ssc(), xml::escaped(enumeration_name));
+  }
+
+  /// The unit's name if the file can define it; otherwise nothing, and the FMU's own unit holds.
+  std::string declared_unit(const core::UnitDescription& description, const std::string& unit) {
+    const auto meaning = description.units.find(unit);
+    if (meaning == description.units.end()) return "";
+    const auto [known, is_new] = units_.emplace(unit, meaning->second);
+    if (is_new) new_units_.push_back(unit_definition(unit, meaning->second));
+    return is_same(known->second, meaning->second) ? unit : "";
+  }
+
+  std::string unit_definition(const std::string& unit, const core::BaseUnit& base) {
+    std::string attributes;
+    for (std::size_t i = 0; i < kBaseUnits.size(); ++i) {
+      if (base.exponents[i] == 0) continue;
+      attributes += fmt::format(" {}=\"{}\"", kBaseUnits[i], base.exponents[i]);
+    }
+    if (base.factor != 1) attributes += fmt::format(" factor=\"{}\"", base.factor);
+    if (base.offset != 0) attributes += fmt::format(" offset=\"{}\"", base.offset);
+    return fmt::format("<{0}Unit name=\"{1}\"><{0}BaseUnit{2}/></{0}Unit>", ssc(),
+                       xml::escaped(unit), attributes);
+  }
+
+  std::string dimensions(const core::Variable& variable) {
+    std::string text;
+    for (const core::Dimension& dimension : variable.dimensions) {
+      text += fmt::format("<{}Dimension size=\"{}\"/>", ssc(), dimension.size);
+    }
+    return text;
+  }
+
+  std::string clocks(const core::UnitDescription& description, const core::Variable& variable) {
+    std::string text;
+    for (const core::ValueReference reference : variable.clocks) {
+      const core::Variable& clock = description.variables[*description.find(reference)];
+      text += fmt::format("<{}Clock name=\"{}\"/>", ssd_, xml::escaped(clock.name));
+    }
+    return text;
+  }
+
+  /// Adds to a list below the root element, or makes it: behind <System>, and <Units> behind
+  /// <Enumerations>, as the schema wants it.
+  void add_list(const char* list, const std::vector<std::string>& pieces) {
+    if (pieces.empty()) return;
+    if (const auto found = root_.child({kSsd, list})) {
+      return editor_.append_children(found->index(), pieces);
+    }
+    std::string text = fmt::format("<{}{}>", ssd_, list);
+    for (const std::string& piece : pieces) {
+      text += "\n\t";
+      for (const char c : piece) text += c == '\n' ? "\n\t" : std::string(1, c);
+    }
+    const auto enumerations = root_.child({kSsd, "Enumerations"});
+    const xml::Element before = enumerations ? *enumerations : *root_.child({kSsd, "System"});
+    editor_.insert_behind(before.index(), text + fmt::format("\n</{}{}>", ssd_, list));
+  }
+
+  xml::Element root_;
+  const Descriptions& descriptions_;
+  bool is_first_version_;
+  std::string ssd_;
+  std::string ssc_;
+  bool needs_common_prefix_ = false;
+  xml::Editor editor_;
+  std::map<std::string, core::BaseUnit> units_;
+  std::set<std::string> enumerations_;
+  std::vector<std::string> new_units_;
+  std::vector<std::string> new_enumerations_;
+};
+
+}  // namespace
+
+std::string complete(const std::filesystem::path& path, const Descriptions& descriptions,
+                     const std::string& shown_as) {
+  const xml::Document document(path, shown_as);
+  const xml::Element root = document.root();
+  check_system_description(root);
+  if (!root.child({kSsd, "System"})) root.fail(fmt::format("{} holds no <System>", root.tag()));
+  return Completion(document, descriptions).result();
+}
+
+}  // namespace stride::io

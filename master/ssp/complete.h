@@ -1,0 +1,31 @@
+// Writes down the connectors that a scenario leaves to its units.
+#ifndef STRIDE_MASTER_SSP_COMPLETE_H
+#define STRIDE_MASTER_SSP_COMPLETE_H
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "master/model/description.h"
+
+namespace stride::io {
+
+/// By the component's name.
+using Descriptions = std::map<std::string, std::shared_ptr<const core::UnitDescription>>;
+
+/// The text of the .ssd with all inputs and outputs of its components declared, at any depth, so
+/// that tools which want connectors can read it. `descriptions` holds one for each component that
+/// is an FMU, by its path: "arm.motor". Complaints call the file `shown_as`, or by its path.
+///
+/// Added are, for each variable without a connector: the connector with its type, dimensions and
+/// clocks, the definition of its unit (where the description gives its meaning) and of its
+/// enumeration. Everything else stays as it is, byte for byte; completing twice changes nothing. In
+/// a file of SSP 1.0 the types are those of 1.0. The file is one that read_scenario() reads. Throws
+/// core::Error (Input) for a clock in a file of SSP 1.0, which has none.
+std::string complete(const std::filesystem::path& path, const Descriptions& descriptions,
+                     const std::string& shown_as = "");
+
+}  // namespace stride::io
+
+#endif

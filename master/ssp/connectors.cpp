@@ -1,0 +1,122 @@
+#include "master/ssp/connectors.h"
+
+#include <map>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/ssp/ssp.h"
+#include "master/util/suggest.h"
+
+namespace stride::io {
+namespace {
+
+using core::Causality;
+using core::ValueType;
+
+Flow flow_of(Causality causality) {
+  const bool is_in = causality == Causality::Input || causality == Causality::Parameter ||
+                     causality == Causality::StructuralParameter;
+  return is_in ? Flow::In : Flow::Out;
+}
+
+void read_kind(const xml::Element& element, Connector& connector) {
+  const std::string kind = element.required("kind");
+  for (const Causality causality :
+       {Causality::Input, Causality::Output, Causality::Parameter, Causality::CalculatedParameter,
+        Causality::StructuralParameter, Causality::Local}) {
+    if (kind != core::name(causality)) continue;
+    connector.declared.causality = causality;
+    connector.flow = flow_of(causality);
+    return;
+  }
+  if (kind == "constant") connector.flow = Flow::Out;
+  if (kind == "constant" || kind == "unspecified" || kind == "inout") return;
+  const std::vector<std::string> known{
+      "input",    "output", "parameter", "calculatedParameter", "structuralParameter",
+      "constant", "local",  "inout",     "unspecified"};
+  element.fail(fmt::format("the kind '{}' is not known", kind), core::suggestion(kind, known));
+}
+
+std::optional<ValueType> type_of(const xml::Element& type, const std::string& ssp_version) {
+  const std::string_view name = type.name().local;
+  const bool has_width = ssp_version != "1.0";
+  if (name == "Real") return has_width ? std::optional(ValueType::Float64) : std::nullopt;
+  if (name == "Integer") return has_width ? std::optional(ValueType::Int32) : std::nullopt;
+  std::vector<std::string> known{"Real", "Integer"};
+  for (std::size_t i = 0; i < core::kValueTypeCount; ++i) {
+    const auto candidate = static_cast<ValueType>(i);
+    if (name == core::name(candidate)) return candidate;
+    known.emplace_back(core::name(candidate));
+  }
+  type.fail(fmt::format("{} is no type of a connector", type.tag()),
+            core::suggestion(std::string(name), known));
+}
+
+void read_child(const xml::Element& child, const SspFile& file,
+                core::ConnectorDeclaration& connector, bool& has_type) {
+  const xml::Name name = child.name();
+  // a unit's own dimensions and clocks hold; geometry and annotations change nothing
+  if (name == xml::Name{kSsc, "Dimension"} || name == xml::Name{kSsd, "Clock"} ||
+      name == xml::Name{kSsd, "ConnectorGeometry"} || name == xml::Name{kSsd, "Annotations"} ||
+      name == xml::Name{kSsc, "MetaData"} || name == xml::Name{kSsc, "Signature"}) {
+    return;
+  }
+  if (!read_type(child, file, connector)) {
+    child.fail(fmt::format("{} is not known in a connector", child.tag()),
+               fmt::format("a type stands in the namespace '{}': <ssc:Float64/>", kSsc));
+  }
+  if (std::exchange(has_type, true)) {
+    child.fail(fmt::format("{} is a second type of this connector", child.tag()));
+  }
+}
+
+Connector read_connector(const xml::Element& element, const SspFile& file) {
+  element.allow_attributes({"name", "kind"});
+  Connector connector;
+  connector.declared.name = element.required("name");
+  connector.declared.where = element.where();
+  read_kind(element, connector);
+  bool has_type = false;
+  for (const xml::Element& child : element.children()) {
+    read_child(child, file, connector.declared, has_type);
+  }
+  return connector;
+}
+
+}  // namespace
+
+bool read_type(const xml::Element& child, const SspFile& file,
+               core::ConnectorDeclaration& connector) {
+  if (child.name().name_space != kSsc) return false;
+  connector.type = type_of(child, file.version);
+  connector.unit = file.definitions.unit(child.attribute_or("unit"));
+  if (connector.type == ValueType::Enumeration) {
+    const auto& enumerations = file.definitions.enumerations;
+    const auto found = enumerations.find(child.attribute_or("name"));
+    if (found != enumerations.end()) connector.items = found->second;
+  }
+  return true;
+}
+
+std::vector<Connector> read_connectors(const xml::Element& owner, const SspFile& file) {
+  std::vector<Connector> all;
+  const auto connectors = owner.child({kSsd, "Connectors"});
+  if (!connectors) return all;
+  connectors->allow_children({{kSsd, "Connector"}});
+  std::map<std::string, int> lines;
+  for (const xml::Element& element : connectors->children()) {
+    Connector connector = read_connector(element, file);
+    const core::ConnectorDeclaration& declared = connector.declared;
+    const auto [first, is_new] = lines.emplace(declared.name, declared.where.line);
+    if (!is_new) {
+      element.fail(fmt::format("two connectors are named '{}'; the first is in line {}",
+                               declared.name, first->second));
+    }
+    all.push_back(std::move(connector));
+  }
+  return all;
+}
+
+}  // namespace stride::io

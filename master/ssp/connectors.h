@@ -1,0 +1,32 @@
+// The connectors that a component or system declares.
+#ifndef STRIDE_MASTER_SSP_CONNECTORS_H
+#define STRIDE_MASTER_SSP_CONNECTORS_H
+
+#include <string>
+#include <vector>
+
+#include "master/model/system.h"
+#include "master/ssp/definitions.h"
+#include "master/ssp/system_tree.h"
+#include "master/util/xml/element.h"
+
+namespace stride::io {
+
+/// A file of SSP, as far as those who read its parts need to know it.
+struct SspFile {
+  std::string version;      ///< "1.0" or "2.0"
+  Definitions definitions;  ///< of units and enumerations
+};
+
+/// Reads <ssd:Connectors> of a component or system. In a file of SSP 1.0, Real and Integer leave
+/// the width open, so they set no type. Throws core::Error (Input).
+std::vector<Connector> read_connectors(const xml::Element& owner, const SspFile& file);
+
+/// Reads the type of a connector or dictionary entry from one of its children; false if the child
+/// is something else. Throws core::Error (Input).
+bool read_type(const xml::Element& child, const SspFile& file,
+               core::ConnectorDeclaration& connector);
+
+}  // namespace stride::io
+
+#endif

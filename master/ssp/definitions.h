@@ -1,0 +1,29 @@
+// The units and enumerations that a file of SSP defines for itself.
+#ifndef STRIDE_MASTER_SSP_DEFINITIONS_H
+#define STRIDE_MASTER_SSP_DEFINITIONS_H
+
+#include <map>
+#include <string>
+
+#include "master/model/conversion.h"
+#include "master/util/xml/element.h"
+
+namespace stride::io {
+
+struct Definitions {
+  std::map<std::string, core::BaseUnit> units;
+  std::map<std::string, core::EnumerationItems> enumerations;
+
+  /// The unit of this name, with its meaning if it is defined.
+  core::MeasureUnit unit(const std::string& name) const;
+  /// Likewise, where `otherwise` may define it, too.
+  core::MeasureUnit unit(const std::string& name, const Definitions& otherwise) const;
+};
+
+/// Reads <Units> and <Enumerations> below a root element of this namespace. Throws core::Error
+/// (Input).
+Definitions read_definitions(const xml::Element& root, const char* name_space);
+
+}  // namespace stride::io
+
+#endif

@@ -1,0 +1,112 @@
+#include "master/ssp/files.h"
+
+#include <algorithm>
+#include <fstream>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "master/util/suggest.h"
+
+namespace stride::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSystemFile = "SystemStructure.ssd";
+constexpr const char* kPackage =
+    "an SSP package (.ssp, zip), or the folder that such a package unpacks to";
+constexpr std::size_t kMostNames = 20;  // in a message
+
+/// As zip archives do.
+bool begins_as_archive(const fs::path& path) {
+  char head[4] = {};
+  std::ifstream(path, std::ios::binary).read(head, sizeof head);
+  return std::string_view(head, sizeof head) == std::string_view("PK\x03\x04", 4);
+}
+
+std::vector<std::string> files_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, ignored)) {
+    if (entry.is_regular_file()) names.push_back(entry.path().lexically_relative(folder).string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+[[noreturn]] void fail_without_file(const fs::path& folder, const std::string& shown,
+                                    const std::string& name, const core::Location& where) {
+  std::vector<std::string> names = files_in(folder);
+  const std::size_t more = names.size() > kMostNames ? names.size() - kMostNames : 0;
+  std::string hint = core::suggestion(name, names);
+  names.resize(names.size() - more);
+  std::string held = names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "));
+  if (more > 0) held += fmt::format(", and {} more files", more);
+  core::fail_input({where, {}, {}, {}},
+                   fmt::format("'{}' has no {}; it holds {}", shown, name, held), hint);
+}
+
+}  // namespace
+
+Files::Files(UnitFinder find_unit) : find_unit_(std::move(find_unit)) {}
+
+fs::path Files::system_file(const fs::path& path, const core::Location& where) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) return system_file(path, kSystemFile, where);
+  if (fs::is_regular_file(path, error)) {
+    return begins_as_archive(path) ? system_file(path, kSystemFile, where) : path;
+  }
+  for (fs::path package = path.parent_path(); package.has_filename();
+       package = package.parent_path()) {
+    if (!fs::is_regular_file(package, error) || !begins_as_archive(package)) continue;
+    return system_file(package, path.lexically_relative(package).string(), where);
+  }
+  return path;  // whoever reads it says that it is not there
+}
+
+fs::path Files::system_file(const fs::path& package, const std::string& name,
+                            const core::Location& where) {
+  if (fs::path(name).has_parent_path()) {
+    core::fail_input({where, {}, {}, {}},
+                     fmt::format("'{}' names '{}', and the systems of a package are at its top",
+                                 shown(package), name),
+                     "name a .ssd that stands there");
+  }
+  const fs::path folder = fs::is_directory(package) ? package : unpack(package, kPackage, where);
+  const fs::path file = folder / name;
+  if (!fs::is_regular_file(file)) fail_without_file(folder, shown(package), name, where);
+  return file;
+}
+
+fs::path Files::unit_folder(const fs::path& source, const core::Location& where) {
+  const fs::path path = find_unit_ ? find_unit_(source, where) : source;
+  if (fs::is_directory(path)) return path;
+  return unpack(path, "an FMU (.fmu, zip)", where);
+}
+
+const fs::path& Files::unpack(const fs::path& archive, const std::string& expected,
+                              const core::Location& where) {
+  auto& unpacked = archives_[archive];
+  if (!unpacked) unpacked = std::make_unique<archive::UnpackedArchive>(archive, expected, where);
+  return unpacked->folder();
+}
+
+std::optional<Files::Archive> Files::archive_of(const fs::path& file) const {
+  for (const auto& [archive, unpacked] : archives_) {
+    if (!unpacked) continue;
+    const fs::path inside = file.lexically_relative(unpacked->folder());
+    if (!inside.empty() && *inside.begin() != "..") return Archive{archive, unpacked->folder()};
+  }
+  return std::nullopt;
+}
+
+std::string Files::shown(const fs::path& path) const {
+  const auto archive = archive_of(path);
+  if (!archive) return path.string();
+  return shown(archive->path) + "/" + path.lexically_relative(archive->folder).string();
+}
+
+}  // namespace stride::io

@@ -1,0 +1,57 @@
+// The files that a scenario consists of, some of them packed in archives.
+#ifndef STRIDE_MASTER_SSP_FILES_H
+#define STRIDE_MASTER_SSP_FILES_H
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "master/util/archive/unpacked_archive.h"
+#include "master/util/error.h"
+
+namespace stride::io {
+
+/// Says where the FMU is that a scenario names by this path; throws core::Error (Input) if it is
+/// nowhere.
+using UnitFinder =
+    std::function<std::filesystem::path(const std::filesystem::path&, const core::Location&)>;
+
+/// Archives are unpacked once, into folders that go with this object.
+class Files {
+ public:
+  explicit Files(UnitFinder find_unit = {});
+
+  /// The .ssd that a path of the command line or a source names: itself, the SystemStructure.ssd of
+  /// a package (.ssp) or of the folder that one unpacks to, or what is named in one,
+  /// "FILE.ssp/Variant.ssd". Throws core::Error (Input).
+  std::filesystem::path system_file(const std::filesystem::path& path,
+                                    const core::Location& where = {});
+  /// Likewise, this .ssd in a package.
+  std::filesystem::path system_file(const std::filesystem::path& package, const std::string& name,
+                                    const core::Location& where);
+  /// The folder that an FMU, which a component names as its source, is unpacked to.
+  std::filesystem::path unit_folder(const std::filesystem::path& source,
+                                    const core::Location& where);
+  /// The archive that a file was unpacked from, and the folder that it was unpacked to.
+  struct Archive {
+    std::filesystem::path path;
+    std::filesystem::path folder;
+  };
+  std::optional<Archive> archive_of(const std::filesystem::path& file) const;
+  /// A path as its reader knows it: within an archive, "FILE.ssp/resources/a.ssv".
+  std::string shown(const std::filesystem::path& path) const;
+
+ private:
+  const std::filesystem::path& unpack(const std::filesystem::path& archive,
+                                      const std::string& expected, const core::Location& where);
+
+  UnitFinder find_unit_;
+  std::map<std::filesystem::path, std::unique_ptr<archive::UnpackedArchive>> archives_;
+};
+
+}  // namespace stride::io
+
+#endif

@@ -1,0 +1,257 @@
+#include "master/ssp/flatten.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/ssp/port_graph.h"
+#include "master/util/suggest.h"
+
+namespace stride::io {
+namespace {
+
+using core::ViaDeclaration;
+
+class Flattener {
+ public:
+  Flattener(const SystemNode& root, std::vector<std::string>& warnings)
+      : root_(root),
+        graph_(root),
+        ports_(graph_.ports()),
+        wires_(graph_.wires()),
+        warnings_(warnings) {}
+
+  FlatSystem run() {
+    flat_.declaration.name = root_.name;
+    if (graph_.components().empty()) {
+      core::fail_input({root_.where, {}, {}, {}},
+                       "the system has no component, so there is nothing to simulate");
+    }
+    for (const PortGraph::Component& component : graph_.components()) add_component(component);
+    for (std::size_t i = 0; i < ports_.size(); ++i) {
+      if (!ports_[i].is_component()) continue;
+      graph_.follow(i, [&](const PortGraph::Way& found) { add_connection(found); });
+    }
+    add_parameters(root_);
+    add_outputs();
+    return std::move(flat_);
+  }
+
+ private:
+  void add_component(const PortGraph::Component& component) {
+    core::ComponentDeclaration& declared = flat_.declaration.components.emplace_back();
+    declared.name = component.path;
+    declared.where = component.node->where;
+    for (const Connector& connector : component.node->connectors) {
+      declared.connectors.push_back(connector.declared);
+    }
+    flat_.sources.push_back(component.node->source);
+  }
+
+  ViaDeclaration via(std::size_t wire) const {
+    return {ports_[wires_[wire].to].waypoint, wires_[wire].passage};
+  }
+
+  void add_connection(const PortGraph::Way& way) {
+    const Wire& last = wires_[way.back()];
+    const Port& from = ports_[wires_[way.front()].from];
+    const Port& to = ports_[last.to];
+    core::ConnectionDeclaration connection;
+    connection.from_component = flat_.declaration.components[from.component].name;
+    connection.from_connector = from.connector;
+    connection.to_component = flat_.declaration.components[to.component].name;
+    connection.to_connector = to.connector;
+    connection.suppress_unit_conversion = last.passage.suppress_unit_conversion;
+    connection.transformation = last.passage.transformation;
+    connection.where = last.where;
+    for (std::size_t i = 0; i + 1 < way.size(); ++i) connection.via.push_back(via(way[i]));
+    flat_.declaration.connections.push_back(std::move(connection));
+  }
+
+  /// What comes out of the root system.
+  void add_outputs() {
+    for (const Connector& connector : root_.connectors) {
+      if (connector.flow != Flow::Out) continue;
+      const PortGraph::Way way =
+          graph_.way_to(graph_.connectors(root_).at(connector.declared.name));
+      if (way.empty() || !ports_[wires_[way.front()].from].is_component()) continue;
+      const Port& from = ports_[wires_[way.front()].from];
+      core::OutputDeclaration output;
+      output.component = flat_.declaration.components[from.component].name;
+      output.variable = from.connector;
+      output.where = connector.declared.where;
+      for (const std::size_t wire : way) output.via.push_back(via(wire));
+      flat_.declaration.outputs.push_back(std::move(output));
+    }
+  }
+
+  // ---- Parameters ----
+
+  /// What is inside goes first, since what is bound to the outside replaces it.
+  void add_parameters(const SystemNode& node) {
+    for (const ElementNode& element : node.elements) {
+      if (element.system) {
+        add_parameters(*element.system);
+        continue;
+      }
+      for (const ParameterValue& value : element.parameters) {
+        add_start(value, graph_.component(element), value.name);
+      }
+    }
+    for (const ParameterValue& value : node.parameters) {
+      const std::size_t first = flat_.declaration.start_values.size();
+      if (!apply(value, node, value.name)) tell_of_nobody(value, node);
+      group(first);
+    }
+  }
+
+  /// SSP 2.0, "ParameterBindings": the value is for all that has this name, and names may hold
+  /// dots. Returns whether there is any.
+  bool apply(const ParameterValue& value, const SystemNode& node, const std::string& name) {
+    bool is_found = false;
+    const auto& ports = graph_.connectors(node);
+    if (const auto port = ports.find(name); port != ports.end()) {
+      apply(value, port->second);
+      is_found = true;
+    }
+    for (const ElementNode& element : node.elements) {
+      if (!name.starts_with(element.name + ".")) continue;
+      const std::string rest = name.substr(element.name.size() + 1);
+      if (element.system) {
+        is_found |= apply(value, *element.system, rest);
+      } else if (element.dictionary.empty()) {
+        add_start(value, graph_.component(element), rest);
+        is_found = true;
+      }
+    }
+    return is_found;
+  }
+
+  /// Values that one name is for.
+  void group(std::size_t first) {
+    auto& values = flat_.declaration.start_values;
+    if (values.size() < first + 2) return;
+    ++groups_;
+    for (std::size_t i = first; i < values.size(); ++i) values[i].group = groups_;
+  }
+
+  core::StartDeclaration start(const ParameterValue& value, std::size_t component,
+                               const std::string& variable) const {
+    core::StartDeclaration start;
+    start.component = flat_.declaration.components[component].name;
+    start.variable = variable;
+    start.value = value.value;
+    start.unit = value.unit;
+    start.where = value.where;
+    start.suppress_unit_conversion = value.passage.suppress_unit_conversion;
+    start.transformation = value.passage.transformation;
+    start.is_optional = !value.is_required;
+    return start;
+  }
+
+  void add_start(const ParameterValue& value, std::size_t component, const std::string& variable) {
+    flat_.declaration.start_values.push_back(start(value, component, variable));
+  }
+
+  /// To whatever a connector of a system leads: an input to all that it feeds, an output to what
+  /// feeds it.
+  void apply(const ParameterValue& value, std::size_t port) {
+    if (ports_[port].flow == Flow::Out) return apply_backward(value, port);
+    const std::size_t before = flat_.declaration.start_values.size();
+    graph_.follow(port, [&](const PortGraph::Way& found) {
+      const Wire& last = wires_[found.back()];
+      const Port& to = ports_[last.to];
+      core::StartDeclaration start = this->start(value, to.component, to.connector);
+      start.via.push_back({ports_[port].waypoint, value.passage});
+      for (std::size_t i = 0; i + 1 < found.size(); ++i) start.via.push_back(via(found[i]));
+      start.suppress_unit_conversion = last.passage.suppress_unit_conversion;
+      start.transformation = last.passage.transformation;
+      flat_.declaration.start_values.push_back(std::move(start));
+    });
+    if (flat_.declaration.start_values.size() == before) warn_of_open(value, port);
+  }
+
+  void apply_backward(const ParameterValue& value, std::size_t port) {
+    std::vector<ViaDeclaration> via{{ports_[port].waypoint, value.passage}};
+    const PortGraph::Way way = graph_.way_to(port);
+    for (auto wire = way.rbegin(); wire != way.rend(); ++wire) {
+      const auto& [from, to, passage, where] = wires_[*wire];
+      if (passage.transformation.kind != core::Transformation::Kind::None) {
+        core::fail_input({value.where, {}, {}, {}},
+                         fmt::format("'{}' is an output behind a transformation (line {}), so it "
+                                     "cannot be given a start value",
+                                     value.name, passage.transformation.where.line),
+                         "give the value to the component's variable");
+      }
+      port = from;
+      via.push_back({ports_[port].waypoint, core::Passage{passage.suppress_unit_conversion, {}}});
+    }
+    if (!ports_[port].is_component()) return warn_of_open(value, port);
+    core::StartDeclaration start =
+        this->start(value, ports_[port].component, ports_[port].connector);
+    start.suppress_unit_conversion = via.back().passage.suppress_unit_conversion;
+    start.transformation = via.back().passage.transformation;
+    via.pop_back();
+    start.via = std::move(via);
+    flat_.declaration.start_values.push_back(std::move(start));
+  }
+
+  void warn(const ParameterValue& value, const std::string& message) {
+    warnings_.push_back(fmt::format("{}:{}: {}", value.where.file, value.where.line, message));
+  }
+
+  void warn_of_open(const ParameterValue& value, std::size_t port) {
+    warn(value, fmt::format("the parameter '{}' is for the connector '{}', which leads to no "
+                            "component",
+                            value.name, ports_[port].path));
+  }
+
+  /// Where a name leads as long as it names systems, and what is left of it then.
+  static std::pair<const SystemNode*, std::string> descend(const SystemNode& from,
+                                                           std::string name) {
+    const SystemNode* node = &from;
+    const auto leads_on = [&](const ElementNode& element) {
+      return element.system && name.starts_with(element.name + ".");
+    };
+    while (true) {
+      const auto next = std::find_if(node->elements.begin(), node->elements.end(), leads_on);
+      if (next == node->elements.end()) return {node, name};
+      name.erase(0, next->name.size() + 1);
+      node = next->system.get();
+    }
+  }
+
+  void tell_of_nobody(const ParameterValue& value, const SystemNode& node) {
+    const auto [at, rest] = descend(node, value.name);
+    std::vector<std::string> names;
+    for (const auto& [name, port] : graph_.connectors(*at)) names.push_back(name);
+    for (const ElementNode& element : at->elements) names.push_back(element.name);
+    const std::string head = rest.substr(0, rest.find('.'));
+    const std::string hint = core::suggestion(head, names);
+    if (value.is_required) {
+      const std::string before = value.name.substr(0, value.name.size() - rest.size());
+      core::fail_input({value.where, {}, {}, {}},
+                       fmt::format("there is no component '{}{}'", before, head), hint);
+    }
+    warn(value, fmt::format("the parameter '{}' belongs to no component and is passed over, as SSP "
+                            "wants it; names read component.variable{}",
+                            value.name, hint.empty() ? "" : "\n  hint: " + hint));
+  }
+
+  const SystemNode& root_;
+  PortGraph graph_;
+  const std::vector<Port>& ports_;
+  const std::vector<Wire>& wires_;
+  std::vector<std::string>& warnings_;
+  FlatSystem flat_;
+  std::size_t groups_ = 0;
+};
+
+}  // namespace
+
+FlatSystem flatten(const SystemNode& root, std::vector<std::string>& warnings) {
+  return Flattener(root, warnings).run();
+}
+
+}  // namespace stride::io

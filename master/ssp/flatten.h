@@ -1,0 +1,28 @@
+// Systems in systems become one system of components.
+#ifndef STRIDE_MASTER_SSP_FLATTEN_H
+#define STRIDE_MASTER_SSP_FLATTEN_H
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "master/model/system.h"
+#include "master/ssp/system_tree.h"
+
+namespace stride::io {
+
+struct FlatSystem {
+  core::SystemDeclaration declaration;
+  std::vector<std::filesystem::path> sources;  ///< of the components, in their order
+};
+
+/// A component is named by its path from the root system, which is left out itself:
+/// "arm.motor.controller". Connections lead from component to component, by way of the connectors
+/// of systems and the signals of dictionaries in between. Values bound to a system stand behind
+/// those bound to what is in it, so they replace them, and one for a connector of a system goes to
+/// all that it leads to. What leads nowhere is told in `warnings`. Throws core::Error (Input).
+FlatSystem flatten(const SystemNode& root, std::vector<std::string>& warnings);
+
+}  // namespace stride::io
+
+#endif

@@ -1,0 +1,115 @@
+#include "master/ssp/package.h"
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/ssp/ssp.h"
+#include "master/ssp/uri.h"
+#include "master/util/xml/document.h"
+#include "master/util/xml/editor.h"
+
+namespace stride::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Kind { Fmu, System, File };
+
+bool names_a_file(const xml::Element& element) {
+  const xml::Name name = element.name();
+  const bool may =
+      name == xml::Name{kSsd, "Component"} || name == xml::Name{kSsd, "ParameterBinding"} ||
+      name == xml::Name{kSsd, "ParameterMapping"} || name == xml::Name{kSsd, "SignalDictionary"} ||
+      name == xml::Name{kSsc, "MetaData"} || name == xml::Name{kSsc, "Signature"};
+  const std::string base = element.attribute_or("sourceBase", "SSD");
+  const std::string source = element.attribute_or("source");
+  return may && (base == "SSD" || base == "file") && !source.empty() && !source.starts_with('#');
+}
+
+Kind kind_of(const xml::Element& element, const fs::path& source) {
+  if (!element.is(kSsd, "Component")) return Kind::File;
+  if (source.extension() == ".ssd") return Kind::System;
+  return source.extension() == ".ssp" ? Kind::File : Kind::Fmu;
+}
+
+class Packer {
+ public:
+  Packer(Files& files, const FmuMaker& make_fmu) : files_(files), make_fmu_(make_fmu) {}
+
+  archive::Contents run(const fs::path& system) {
+    names_.emplace(fs::weakly_canonical(system), "SystemStructure.ssd");
+    contents_["SystemStructure.ssd"].text = packed(system, "resources/");
+    return std::move(contents_);
+  }
+
+ private:
+  /// The text of a .ssd whose resources are at `resources`, as seen from it.
+  std::string packed(const fs::path& path, const std::string& resources) {
+    const xml::Document document(path, files_.shown(path));
+    xml::Editor editor(document.text());
+    replace_sources(document.root(), path.parent_path(), resources, editor);
+    return editor.result();
+  }
+
+  void replace_sources(const xml::Element& element, const fs::path& folder,
+                       const std::string& resources, xml::Editor& editor) {
+    if (names_a_file(element)) {
+      const auto [source, fragment] = source_of(element, folder);
+      const std::string name = add(element, source);
+      const std::string uri = name == "SystemStructure.ssd" ? "../" + name : resources + name;
+      editor.set_attribute(element.index(), "source",
+                           uri_of(uri) + (fragment.empty() ? "" : "#" + uri_of(fragment)));
+    }
+    for (const xml::Element& child : element.children()) {
+      replace_sources(child, folder, resources, editor);
+    }
+  }
+
+  /// Its name in the package's resources.
+  std::string add(const xml::Element& element, const fs::path& source) {
+    const auto [entry, is_new] = names_.try_emplace(fs::weakly_canonical(source));
+    if (!is_new) return entry->second;
+    const Kind kind = kind_of(element, source);
+    const fs::path file = kind == Kind::Fmu ? make_fmu_(source, element.where()) : source;
+    if (!fs::is_regular_file(file)) {
+      element.fail(fmt::format("the file '{}' does not exist", files_.shown(source)),
+                   "its path is relative to this file");
+    }
+    const std::string name =
+        unique(kind == Kind::Fmu ? source.filename().replace_extension(".fmu") : source.filename());
+    entry->second = name;
+    archive::Content& content = contents_["resources/" + name];
+    if (kind == Kind::System) {
+      content.text = packed(file, "");
+    } else {
+      content.file = file;
+    }
+    return name;
+  }
+
+  std::string unique(const fs::path& wanted) {
+    std::string name = wanted.string();
+    for (int i = 2; !taken_.insert(name).second; ++i) {
+      name = fmt::format("{}_{}{}", wanted.stem().string(), i, wanted.extension().string());
+    }
+    return name;
+  }
+
+  Files& files_;
+  const FmuMaker& make_fmu_;
+  archive::Contents contents_;
+  std::map<fs::path, std::string> names_;  ///< of each file that is packed
+  std::set<std::string> taken_;
+};
+
+}  // namespace
+
+archive::Contents package_contents(const fs::path& system, Files& files, const FmuMaker& make_fmu) {
+  return Packer(files, make_fmu).run(system);
+}
+
+}  // namespace stride::io

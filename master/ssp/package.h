@@ -1,0 +1,28 @@
+// Makes a package (.ssp) of a scenario and all that it names.
+#ifndef STRIDE_MASTER_SSP_PACKAGE_H
+#define STRIDE_MASTER_SSP_PACKAGE_H
+
+#include <filesystem>
+#include <functional>
+
+#include "master/ssp/files.h"
+#include "master/util/archive/zip.h"
+#include "master/util/error.h"
+
+namespace stride::io {
+
+/// Says which .fmu archive to pack for the FMU that a source names; throws core::Error (Input) if
+/// there is none.
+using FmuMaker =
+    std::function<std::filesystem::path(const std::filesystem::path&, const core::Location&)>;
+
+/// The contents of a package with this .ssd as its SystemStructure.ssd, which must be one that
+/// read_scenario() reads. The files that it names, and those that they name, stand in resources/,
+/// each once, under their own names as far as they differ; the sources say so, and nothing else
+/// changes in the .ssd. Throws core::Error (Input).
+archive::Contents package_contents(const std::filesystem::path& system, Files& files,
+                                   const FmuMaker& make_fmu);
+
+}  // namespace stride::io
+
+#endif

@@ -1,0 +1,263 @@
+#include "master/ssp/parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "master/ssp/ssp.h"
+#include "master/ssp/transformation.h"
+#include "master/ssp/uri.h"
+#include "master/util/xml/document.h"
+
+namespace stride::io {
+namespace {
+
+constexpr const char* kParameterSetType = "application/x-ssp-parameter-set";
+constexpr const char* kMappingType = "application/x-ssp-parameter-mapping";
+
+/// Several elements, each in a <Value> of its own, as the text form of an array.
+std::string listed_value(const xml::Element& type, const std::vector<xml::Element>& values) {
+  std::string joined;
+  for (const xml::Element& value : values) {
+    value.allow_attributes({"value"});
+    const auto text = value.attribute("value");
+    if (!text) value.fail(fmt::format("{} needs the attribute 'value'", value.tag()));
+    if (values.size() > 1 && (text->empty() || text->find_first_of(" \t\r\n") != text->npos)) {
+      type.fail_unsupported(
+          fmt::format("an array with an element that is empty or has blanks: \"{}\"", *text));
+    }
+    joined += (joined.empty() ? "" : " ") + *text;
+  }
+  return joined;
+}
+
+ParameterValue read_value(const xml::Element& type, const Definitions& inside,
+                          const Definitions& around) {
+  constexpr std::array<std::string_view, 16> kTypes{
+      "Real",  "Float64", "Float32", "Integer", "Int8",    "UInt8",  "Int16",       "UInt16",
+      "Int32", "UInt32",  "Int64",   "UInt64",  "Boolean", "String", "Enumeration", "Binary"};
+  const std::string_view name = type.name().local;
+  if (type.name().name_space != kSsv ||
+      std::find(kTypes.begin(), kTypes.end(), name) == kTypes.end()) {
+    type.fail(fmt::format("{} is no type of a parameter", type.tag()),
+              "write one such as <ssv:Float64 value=\"…\"/>, <ssv:Int32 …/> or <ssv:Boolean …/>");
+  }
+  type.allow_attributes({"value", "unit", "name", "mime-type"});
+  type.allow_children({{kSsv, "Value"}});
+  ParameterValue parameter;
+  parameter.where = type.where();
+  parameter.unit = inside.unit(type.attribute_or("unit"), around);
+  const std::vector<xml::Element> values = type.children({kSsv, "Value"});
+  const auto value = type.attribute("value");
+  if (value && !values.empty()) {
+    type.fail(fmt::format("{} has both an attribute 'value' and elements <Value>", type.tag()),
+              "keep one of the two");
+  }
+  if (!value && values.empty())
+    type.fail(fmt::format("{} needs the attribute 'value'", type.tag()));
+  parameter.value = value ? *value : listed_value(type, values);
+  return parameter;
+}
+
+ParameterValue read_parameter(const xml::Element& parameter, const Definitions& inside,
+                              const Definitions& around) {
+  parameter.allow_attributes({"name"});
+  std::optional<ParameterValue> result;
+  for (const xml::Element& child : parameter.children()) {
+    if (child.is(kSsc, "Annotations") || child.is(kSsv, "Annotations")) continue;
+    if (child.is(kSsc, "MetaData") || child.is(kSsc, "Signature")) continue;
+    if (child.is(kSsc, "Dimension")) continue;  // the unit's own dimensions hold
+    if (result) child.fail(fmt::format("{} has two values", parameter.tag()));
+    result = read_value(child, inside, around);
+  }
+  if (!result) {
+    parameter.fail(fmt::format("{} holds no value", parameter.tag()),
+                   "write one such as <ssv:Float64 value=\"…\"/> into it");
+  }
+  result->name = parameter.required("name");
+  return *result;
+}
+
+void check_version(const xml::Element& root, const char* what) {
+  const std::string version = root.required("version");
+  if (version == "1.0" || version == "2.0") return;
+  root.fail(fmt::format("the version '{}' of {} is not known", version, what),
+            "stride reads 1.0 and 2.0");
+}
+
+std::vector<ParameterValue> read_set(const xml::Element& set, const Definitions& around) {
+  if (!set.is(kSsv, "ParameterSet")) {
+    set.fail(fmt::format("{} is no parameter set", set.tag()),
+             fmt::format("expected <ParameterSet> of the namespace '{}'", kSsv));
+  }
+  set.allow_attributes({"version", "name", "author", "fileversion", "copyright", "license",
+                        "generationTool", "generationDateAndTime"});
+  check_version(set, "parameter sets");
+  set.allow_children({{kSsv, "Parameters"},
+                      {kSsv, "Enumerations"},
+                      {kSsv, "Units"},
+                      {kSsc, "MetaData"},
+                      {kSsc, "Signature"},
+                      {kSsv, "Annotations"}});
+  const auto parameters = set.child({kSsv, "Parameters"});
+  if (!parameters) set.fail(fmt::format("{} holds no <Parameters>", set.tag()));
+  parameters->allow_children({{kSsv, "Parameter"}});
+  const Definitions inside = read_definitions(set, kSsv);
+  std::vector<ParameterValue> values;
+  for (const xml::Element& parameter : parameters->children()) {
+    values.push_back(read_parameter(parameter, inside, around));
+  }
+  return values;
+}
+
+/// What a binding or its mapping names, in a file or in a component.
+xml::Document open(const xml::Element& owner, const BindingContext& context, const char* what) {
+  const std::string base = owner.attribute_or("sourceBase", "SSD");
+  if (base != "SSD" && base != "component") {
+    owner.fail(fmt::format("the sourceBase '{}' is not known", base),
+               "it is SSD, or component for what is inside the component's FMU");
+  }
+  std::filesystem::path folder = context.folder;
+  if (base == "component") {
+    if (context.component.empty()) {
+      owner.fail("only a component that is an FMU can hold its own parameters",
+                 "name a file relative to this one, without sourceBase");
+    }
+    folder = context.files.unit_folder(context.component, owner.where());
+  }
+  const std::filesystem::path path = source_path(owner, folder);
+  if (std::error_code error; !std::filesystem::exists(path, error)) {
+    owner.fail(fmt::format("the {} '{}' does not exist", what, context.files.shown(path)),
+               base == "SSD" ? "its path is relative to this file"
+                             : "its path is relative to the top of the component's FMU");
+  }
+  return xml::Document(path, context.files.shown(path));
+}
+
+std::vector<ParameterValue> read_values(const xml::Element& binding,
+                                        const BindingContext& context) {
+  const auto inline_values = binding.child({kSsd, "ParameterValues"});
+  if (binding.attribute("source")) {
+    if (inline_values) {
+      inline_values->fail("a binding with a source cannot have values of its own, too",
+                          "split it into two bindings");
+    }
+    return read_set(open(binding, context, "parameter set").root(), {});
+  }
+  if (!inline_values) {
+    binding.fail(fmt::format("{} has neither a source nor <ParameterValues>", binding.tag()));
+  }
+  inline_values->allow_children({{kSsv, "ParameterSet"}});
+  const auto set = inline_values->child({kSsv, "ParameterSet"});
+  if (!set) inline_values->fail(fmt::format("{} holds no <ParameterSet>", inline_values->tag()));
+  return read_set(*set, context.definitions);
+}
+
+/// SSP 2.0, "ParameterMapping": what is not mapped is not applied, a parameter may get several
+/// names, and no name two parameters.
+std::vector<ParameterValue> map_values(const xml::Element& mapping,
+                                       const std::vector<ParameterValue>& values,
+                                       const BindingContext& context) {
+  if (!mapping.is(kSsm, "ParameterMapping")) {
+    mapping.fail(fmt::format("{} is no parameter mapping", mapping.tag()),
+                 fmt::format("expected <ParameterMapping> of the namespace '{}'", kSsm));
+  }
+  mapping.allow_attributes({"version", "author", "fileversion", "copyright", "license",
+                            "generationTool", "generationDateAndTime"});
+  check_version(mapping, "parameter mappings");
+  mapping.allow_children(
+      {{kSsm, "MappingEntry"}, {kSsc, "MetaData"}, {kSsc, "Signature"}, {kSsm, "Annotations"}});
+  std::vector<ParameterValue> mapped;
+  std::set<std::string> targets;
+  for (const xml::Element& entry : mapping.children({kSsm, "MappingEntry"})) {
+    entry.allow_attributes({"source", "target", "suppressUnitConversion"});
+    entry.allow_children({{kSsc, "LinearTransformation"},
+                          {kSsc, "BooleanMappingTransformation"},
+                          {kSsc, "IntegerMappingTransformation"},
+                          {kSsc, "EnumerationMappingTransformation"},
+                          {kSsm, "Annotations"}});
+    const std::string source = entry.given("source");
+    const std::string target = entry.required("target");
+    if (!targets.insert(target).second) {
+      entry.fail(fmt::format("two parameters are mapped to '{}'", target),
+                 "keep one of the two entries");
+    }
+    bool is_there = false;
+    for (const ParameterValue& value : values) {
+      if (value.name != source) continue;
+      is_there = true;
+      mapped.push_back(value);
+      mapped.back().name = target;
+      mapped.back().passage = read_passage(entry);
+    }
+    if (is_there) continue;
+    context.warnings.push_back(
+        fmt::format("{}:{}: the parameter set has no '{}' to be mapped to '{}'", entry.where().file,
+                    entry.where().line, source, target));
+  }
+  return mapped;
+}
+
+std::vector<ParameterValue> read_mapped(const xml::Element& mapping,
+                                        const std::vector<ParameterValue>& values,
+                                        const BindingContext& context) {
+  mapping.allow_attributes({"type", "source", "sourceBase"});
+  mapping.allow_children({{kSsm, "ParameterMapping"}});
+  const std::string type = mapping.attribute_or("type", kMappingType);
+  if (type != kMappingType) {
+    mapping.fail_unsupported(fmt::format("parameter mappings of the type '{}'", type),
+                             fmt::format("the type '{}' is read", kMappingType));
+  }
+  const auto inside = mapping.child({kSsm, "ParameterMapping"});
+  if (mapping.attribute("source")) {
+    if (inside) inside->fail("a mapping with a source cannot have entries of its own, too");
+    return map_values(open(mapping, context, "parameter mapping").root(), values, context);
+  }
+  if (!inside) {
+    mapping.fail(fmt::format("{} has neither a source nor <ssm:ParameterMapping>", mapping.tag()));
+  }
+  return map_values(*inside, values, context);
+}
+
+std::vector<ParameterValue> read_binding(const xml::Element& binding,
+                                         const BindingContext& context) {
+  binding.allow_attributes({"type", "source", "sourceBase", "prefix"});
+  binding.allow_children({{kSsd, "ParameterValues"},
+                          {kSsd, "ParameterMapping"},
+                          {kSsc, "MetaData"},
+                          {kSsc, "Signature"},
+                          {kSsd, "Annotations"}});
+  const std::string type = binding.attribute_or("type", kParameterSetType);
+  if (type != kParameterSetType) {
+    binding.fail_unsupported(fmt::format("parameters of the type '{}'", type),
+                             fmt::format("the type '{}' is read", kParameterSetType));
+  }
+  std::vector<ParameterValue> values = read_values(binding, context);
+  const std::string prefix = binding.attribute_or("prefix");
+  for (ParameterValue& value : values) value.name.insert(0, prefix);
+  const auto mapping = binding.child({kSsd, "ParameterMapping"});
+  return mapping ? read_mapped(*mapping, values, context) : values;
+}
+
+}  // namespace
+
+std::vector<ParameterValue> read_parameters(const xml::Element& owner,
+                                            const BindingContext& context) {
+  std::vector<ParameterValue> values;
+  const auto bindings = owner.child({kSsd, "ParameterBindings"});
+  if (!bindings) return values;
+  bindings->allow_children({{kSsd, "ParameterBinding"}});
+  for (const xml::Element& binding : bindings->children()) {
+    std::vector<ParameterValue> read = read_binding(binding, context);
+    values.insert(values.end(), std::make_move_iterator(read.begin()),
+                  std::make_move_iterator(read.end()));
+  }
+  return values;
+}
+
+}  // namespace stride::io

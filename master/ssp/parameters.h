@@ -1,0 +1,33 @@
+// Parameter bindings of SSP: sets (.ssv) and mappings (.ssm), inline or in files.
+#ifndef STRIDE_MASTER_SSP_PARAMETERS_H
+#define STRIDE_MASTER_SSP_PARAMETERS_H
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "master/ssp/definitions.h"
+#include "master/ssp/files.h"
+#include "master/ssp/system_tree.h"
+#include "master/util/xml/element.h"
+
+namespace stride::io {
+
+/// Where the bindings of a component or system stand.
+struct BindingContext {
+  Files& files;
+  std::filesystem::path folder;       ///< of the .ssd
+  const Definitions& definitions;     ///< of the .ssd
+  std::filesystem::path component{};  ///< the source of the component, if it is an FMU
+  std::vector<std::string>& warnings;
+};
+
+/// The values of all bindings of a component or system, in the order of the file: a later one
+/// replaces an earlier one. With a parameter mapping, those that it names, by their new names;
+/// a name that it maps and no set has is warned of. Throws core::Error (Input).
+std::vector<ParameterValue> read_parameters(const xml::Element& owner,
+                                            const BindingContext& context);
+
+}  // namespace stride::io
+
+#endif

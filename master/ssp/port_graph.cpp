@@ -1,0 +1,252 @@
+#include "master/ssp/port_graph.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "master/util/suggest.h"
+
+namespace stride::io {
+namespace {
+
+std::string joined(const std::string& prefix, const std::string& name) {
+  return prefix.empty() ? name : prefix + "." + name;
+}
+
+[[noreturn]] void fail_no_element(const SystemNode& node, const std::string& name,
+                                  const core::Location& where) {
+  std::vector<std::string> names;
+  for (const ElementNode& element : node.elements) names.push_back(element.name);
+  core::fail_input({where, {}, {}, {}}, fmt::format("there is no component '{}'", name),
+                   core::suggestion(name, names));
+}
+
+}  // namespace
+
+PortGraph::PortGraph(const SystemNode& root) {
+  add_system(root, "", nullptr);
+  for (std::size_t i = 0; i < wires_.size(); ++i) check_wire(i);
+}
+
+// ---- Ports ----
+
+void PortGraph::add_system(const SystemNode& node, const std::string& prefix,
+                           const SystemNode* around) {
+  System& system = systems_[&node];
+  system.prefix = prefix;
+  system.around = around;
+  for (const Connector& connector : node.connectors) {
+    const core::ConnectorDeclaration& declared = connector.declared;
+    Port port{joined(prefix, declared.name), connector.flow, Port::kNone, declared.name, {}};
+    port.waypoint = {port.path, declared.type, declared.unit, declared.items,
+                     connector.flow == Flow::In};
+    system.ports.emplace(declared.name, ports_.size());
+    ports_.push_back(std::move(port));
+  }
+  for (const ElementNode& element : node.elements) {
+    const std::string path = joined(prefix, element.name);
+    if (element.system) {
+      add_system(*element.system, path, &node);
+      check_connectors(element, path);
+    } else if (!element.dictionary.empty()) {
+      dictionaries_[&element] = &find_dictionary(node, element);
+    } else {
+      add_component(element, path);
+    }
+  }
+  for (const SystemConnection& connection : node.connections) add_wire(node, connection);
+}
+
+void PortGraph::add_component(const ElementNode& element, const std::string& path) {
+  const auto [twin, is_new] = names_.emplace(path, element.where);
+  if (!is_new) {
+    core::fail_input({element.where, {}, {}, {}},
+                     fmt::format("two components are named '{}'; the first is in line {}", path,
+                                 twin->second.line),
+                     "components in systems are named by their paths, and a name may hold dots, "
+                     "too; give one of them another name");
+  }
+  places_[&element] = components_.size();
+  components_.push_back({&element, path});
+}
+
+/// What a component declares that is a system must be there.
+void PortGraph::check_connectors(const ElementNode& element, const std::string& path) const {
+  const System& inside = systems_.at(element.system.get());
+  for (const Connector& connector : element.connectors) {
+    if (inside.ports.contains(connector.declared.name)) continue;
+    fail_unknown(inside, path, connector.declared.name, connector.declared.where);
+  }
+}
+
+void PortGraph::fail_unknown(const System& system, const std::string& path,
+                             const std::string& connector, const core::Location& where) {
+  std::vector<std::string> names;
+  for (const auto& [name, port] : system.ports) names.push_back(name);
+  core::fail_input(
+      {where, {}, {}, {}},
+      path.empty() ? fmt::format("the system itself has no connector '{}'", connector)
+                   : fmt::format("the system '{}' has no connector '{}'", path, connector),
+      names.empty() ? "declare it in its <ssd:Connectors>" : core::suggestion(connector, names));
+}
+
+/// The names of dictionaries are looked up from the inside to the outside.
+const SignalDictionary& PortGraph::find_dictionary(const SystemNode& system,
+                                                   const ElementNode& reference) const {
+  std::vector<std::string> names;
+  for (const SystemNode* at = &system; at != nullptr; at = systems_.at(at).around) {
+    const auto found = at->dictionaries.find(reference.dictionary);
+    if (found != at->dictionaries.end()) return found->second;
+    for (const auto& [name, dictionary] : at->dictionaries) names.push_back(name);
+  }
+  core::fail_input({reference.where, {}, {}, {}},
+                   fmt::format("there is no signal dictionary '{}' in this system or around it",
+                               reference.dictionary),
+                   core::suggestion(reference.dictionary, names));
+}
+
+/// The port of a connector, and its part within the system.
+std::pair<std::size_t, PortGraph::Role> PortGraph::find_end(const SystemNode& node,
+                                                            const ConnectionEnd& end,
+                                                            const core::Location& where) {
+  const System& system = systems_.at(&node);
+  if (end.element.empty()) {
+    const auto found = system.ports.find(end.connector);
+    if (found == system.ports.end()) fail_unknown(system, system.prefix, end.connector, where);
+    const Flow flow = ports_[found->second].flow;
+    return {found->second, flow == Flow::In    ? Role::Source
+                           : flow == Flow::Out ? Role::Sink
+                                               : Role::Either};
+  }
+  const auto element =
+      std::find_if(node.elements.begin(), node.elements.end(),
+                   [&](const ElementNode& other) { return other.name == end.element; });
+  if (element == node.elements.end()) fail_no_element(node, end.element, where);
+  const std::size_t port = find_port(*element, system, end.connector, where);
+  const Flow flow = ports_[port].flow;
+  return {port, flow == Flow::In ? Role::Sink : flow == Flow::Out ? Role::Source : Role::Either};
+}
+
+std::size_t PortGraph::find_port(const ElementNode& element, const System& system,
+                                 const std::string& connector, const core::Location& where) {
+  const std::string path = joined(system.prefix, element.name);
+  if (element.system) {
+    const System& inside = systems_.at(element.system.get());
+    const auto found = inside.ports.find(connector);
+    if (found == inside.ports.end()) fail_unknown(inside, path, connector, where);
+    return found->second;
+  }
+  if (!element.dictionary.empty()) return find_signal(element, path, connector, where);
+  const auto [entry, is_new] = shared_.try_emplace({&element, connector}, ports_.size());
+  if (!is_new) return entry->second;
+  Port port{joined(path, connector), Flow::Unsaid, places_.at(&element), connector, {}};
+  for (const Connector& declared : element.connectors) {
+    if (declared.declared.name == connector) port.flow = declared.flow;
+  }
+  ports_.push_back(std::move(port));
+  return entry->second;
+}
+
+/// All references to a dictionary share its signals.
+std::size_t PortGraph::find_signal(const ElementNode& reference, const std::string& path,
+                                   const std::string& name, const core::Location& where) {
+  const SignalDictionary& dictionary = *dictionaries_.at(&reference);
+  const auto entry = dictionary.entries.find(name);
+  if (entry == dictionary.entries.end()) {
+    std::vector<std::string> names;
+    for (const auto& [known, declared] : dictionary.entries) names.push_back(known);
+    core::fail_input({where, {}, {}, {}},
+                     fmt::format("the signal dictionary '{}', which '{}' refers to, has no "
+                                 "entry '{}'",
+                                 reference.dictionary, path, name),
+                     core::suggestion(name, names));
+  }
+  const auto [shared, is_new] = shared_.try_emplace({&dictionary, name}, ports_.size());
+  if (!is_new) return shared->second;
+  const core::ConnectorDeclaration& declared = entry->second;
+  Port port{joined(path, name), Flow::Unsaid, Port::kNone, name, {}};
+  port.waypoint = {port.path, declared.type, declared.unit, declared.items, false};
+  ports_.push_back(std::move(port));
+  return shared->second;
+}
+
+// ---- Wires ----
+
+/// In SSP, start and end do not say which way a value goes: the kinds of the connectors do. Where
+/// they are left out, the start is the source.
+void PortGraph::add_wire(const SystemNode& node, const SystemConnection& connection) {
+  auto [start, start_role] = find_end(node, connection.start, connection.where);
+  auto [end, end_role] = find_end(node, connection.end, connection.where);
+  const bool is_reversed = (start_role == Role::Sink && end_role != Role::Sink) ||
+                           (start_role == Role::Either && end_role == Role::Source);
+  if (start_role == end_role && start_role != Role::Either &&
+      !(ports_[start].is_component() && ports_[end].is_component())) {
+    core::fail_input(
+        {connection.where, {}, {}, {}},
+        fmt::format("cannot connect '{}' to '{}': a value {} both", ports_[start].path,
+                    ports_[end].path, start_role == Role::Source ? "comes from" : "goes to"),
+        "an input of a system leads to the inputs of its components, and their "
+        "outputs to its outputs");
+  }
+  if (is_reversed) std::swap(start, end);
+  ports_[start].outgoing.push_back(wires_.size());
+  ports_[end].incoming.push_back(wires_.size());
+  wires_.push_back({start, end, connection.passage, connection.where});
+}
+
+void PortGraph::check_wire(std::size_t wire) const {
+  const Port& port = ports_[wires_[wire].to];
+  if (port.is_component() || port.incoming.front() == wire) return;
+  const Wire& first = wires_[port.incoming.front()];
+  core::fail_input(
+      {wires_[wire].where, {}, {}, {}},
+      fmt::format("'{}' has two sources: '{}' here and '{}' in line {}", port.path,
+                  ports_[wires_[wire].from].path, ports_[first.from].path, first.where.line),
+      "remove one of the two connections");
+}
+
+// ---- Ways ----
+
+void PortGraph::follow(std::size_t port, const std::function<void(const Way&)>& found) const {
+  Way way;
+  follow(port, way, found);
+}
+
+void PortGraph::follow(std::size_t port, Way& way,
+                       const std::function<void(const Way&)>& found) const {
+  for (const std::size_t next : ports_[port].outgoing) {
+    const bool is_round = std::any_of(
+        way.begin(), way.end(), [&](std::size_t w) { return wires_[w].from == wires_[next].to; });
+    if (is_round) fail_round(wires_[next]);
+    way.push_back(next);
+    if (ports_[wires_[next].to].is_component()) {
+      found(way);
+    } else {
+      follow(wires_[next].to, way, found);
+    }
+    way.pop_back();
+  }
+}
+
+PortGraph::Way PortGraph::way_to(std::size_t port) const {
+  Way way;
+  std::set<std::size_t> seen;
+  while (!ports_[port].is_component() && !ports_[port].incoming.empty()) {
+    const std::size_t wire = ports_[port].incoming.front();
+    if (!seen.insert(wire).second) fail_round(wires_[wire]);
+    way.insert(way.begin(), wire);
+    port = wires_[wire].from;
+  }
+  return way;
+}
+
+void PortGraph::fail_round(const Wire& wire) const {
+  core::fail_input({wire.where, {}, {}, {}},
+                   fmt::format("this connection leads from '{}' back to '{}' through connectors "
+                               "of systems alone, so no component says what the value is",
+                               ports_[wire.from].path, ports_[wire.to].path),
+                   "remove one of the connections in the circle");
+}
+
+}  // namespace stride::io

@@ -1,0 +1,107 @@
+// The connectors of a tree of systems, and the connections between them.
+#ifndef STRIDE_MASTER_SSP_PORT_GRAPH_H
+#define STRIDE_MASTER_SSP_PORT_GRAPH_H
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "master/ssp/system_tree.h"
+
+namespace stride::io {
+
+/// Where connections meet: a component's connector, a system's, or a signal of a dictionary.
+struct Port {
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  std::string path;  ///< for people: "arm.motor.torque"
+  Flow flow = Flow::Unsaid;
+  std::size_t component = kNone;  ///< of a component's connector
+  std::string connector;
+  core::Waypoint waypoint{};            ///< of another
+  std::vector<std::size_t> outgoing{};  ///< wires
+  std::vector<std::size_t> incoming{};  ///< one at most, where it is no component's connector
+
+  bool is_component() const { return component != kNone; }
+};
+
+/// A connection that knows its direction.
+struct Wire {
+  std::size_t from, to;  ///< ports
+  core::Passage passage;
+  core::Location where;
+};
+
+/// Components and ports are known by their places in lists. The tree must outlive this object.
+class PortGraph {
+ public:
+  struct Component {
+    const ElementNode* node;
+    std::string path;  ///< from the root system, which is left out
+  };
+
+  /// Throws core::Error (Input) for names that are not there or twice, and for wiring that cannot
+  /// be meant.
+  explicit PortGraph(const SystemNode& root);
+
+  /// In the order of the files, those of a nested system where it stands.
+  const std::vector<Component>& components() const { return components_; }
+  const std::vector<Port>& ports() const { return ports_; }
+  const std::vector<Wire>& wires() const { return wires_; }
+  /// The place of an FMU of the tree.
+  std::size_t component(const ElementNode& node) const { return places_.at(&node); }
+  /// The ports of a system's own connectors, by name.
+  const std::map<std::string, std::size_t>& connectors(const SystemNode& system) const {
+    return systems_.at(&system).ports;
+  }
+
+  using Way = std::vector<std::size_t>;  ///< wires, one behind the other
+  /// Calls `found` with the way to each component's connector behind the port.
+  void follow(std::size_t port, const std::function<void(const Way&)>& found) const;
+  /// The way from what feeds the port, another than a component's connector; empty if nothing does.
+  Way way_to(std::size_t port) const;
+
+ private:
+  /// The part that a port plays within a system.
+  enum class Role { Source, Sink, Either };
+  struct System {
+    std::string prefix;
+    const SystemNode* around = nullptr;
+    std::map<std::string, std::size_t> ports;  ///< of its connectors
+  };
+
+  void add_system(const SystemNode& node, const std::string& prefix, const SystemNode* around);
+  void add_component(const ElementNode& element, const std::string& path);
+  void check_connectors(const ElementNode& element, const std::string& path) const;
+  const SignalDictionary& find_dictionary(const SystemNode& system,
+                                          const ElementNode& reference) const;
+  std::pair<std::size_t, Role> find_end(const SystemNode& node, const ConnectionEnd& end,
+                                        const core::Location& where);
+  std::size_t find_port(const ElementNode& element, const System& system,
+                        const std::string& connector, const core::Location& where);
+  std::size_t find_signal(const ElementNode& reference, const std::string& path,
+                          const std::string& name, const core::Location& where);
+  void add_wire(const SystemNode& node, const SystemConnection& connection);
+  void check_wire(std::size_t wire) const;
+  void follow(std::size_t port, Way& way, const std::function<void(const Way&)>& found) const;
+  [[noreturn]] static void fail_unknown(const System& system, const std::string& path,
+                                        const std::string& connector, const core::Location& where);
+  [[noreturn]] void fail_round(const Wire& wire) const;
+
+  std::vector<Component> components_;
+  std::vector<Port> ports_;
+  std::vector<Wire> wires_;
+  std::map<std::string, core::Location> names_;  ///< of the components
+  std::map<const ElementNode*, std::size_t> places_;
+  std::map<const SystemNode*, System> systems_;
+  std::map<const ElementNode*, const SignalDictionary*> dictionaries_;
+  /// Of components' connectors and of the signals of dictionaries.
+  std::map<std::pair<const void*, std::string>, std::size_t> shared_;
+};
+
+}  // namespace stride::io
+
+#endif

@@ -1,0 +1,23 @@
+// Signal dictionaries of SSP (.ssb): names for signals that systems share.
+#ifndef STRIDE_MASTER_SSP_SIGNAL_DICTIONARY_H
+#define STRIDE_MASTER_SSP_SIGNAL_DICTIONARY_H
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "master/ssp/connectors.h"
+#include "master/ssp/files.h"
+#include "master/ssp/system_tree.h"
+#include "master/util/xml/element.h"
+
+namespace stride::io {
+
+/// Reads <ssd:SignalDictionaries>, inline or from files relative to `folder`. Throws core::Error
+/// (Input).
+std::map<std::string, SignalDictionary> read_signal_dictionaries(
+    const xml::Element& dictionaries, const std::filesystem::path& folder, const Files& files);
+
+}  // namespace stride::io
+
+#endif

@@ -1,0 +1,16 @@
+// The namespaces of SSP, and of our annotation. They are the same for SSP 1.0 and 2.0.
+#ifndef STRIDE_MASTER_SSP_SSP_H
+#define STRIDE_MASTER_SSP_SSP_H
+
+namespace stride::io {
+
+inline constexpr const char* kSsd = "http://ssp-standard.org/SSP1/SystemStructureDescription";
+inline constexpr const char* kSsc = "http://ssp-standard.org/SSP1/SystemStructureCommon";
+inline constexpr const char* kSsv = "http://ssp-standard.org/SSP1/SystemStructureParameterValues";
+inline constexpr const char* kSsm = "http://ssp-standard.org/SSP1/SystemStructureParameterMapping";
+inline constexpr const char* kSsb = "http://ssp-standard.org/SSP1/SystemStructureSignalDictionary";
+inline constexpr const char* kStrideScenario = "urn:org.stride:scenario:1";
+
+}  // namespace stride::io
+
+#endif

@@ -1,0 +1,324 @@
+#include "master/ssp/system_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/ssp/connectors.h"
+#include "master/ssp/parameters.h"
+#include "master/ssp/signal_dictionary.h"
+#include "master/ssp/ssp.h"
+#include "master/ssp/transformation.h"
+#include "master/ssp/uri.h"
+#include "master/util/suggest.h"
+#include "master/util/xml/document.h"
+
+namespace stride::io {
+namespace {
+
+constexpr const char* kFmuType = "application/x-fmu-sharedlibrary";
+constexpr const char* kSystemType = "application/x-ssp-definition";
+constexpr const char* kPackageType = "application/x-ssp-package";
+constexpr std::size_t kMostNested = 64;
+constexpr std::size_t kMostSystems = 10'000;
+
+/// What a file of another kind is, so that the error can say so.
+std::string kind_of(const xml::Name& root) {
+  constexpr std::array<std::pair<xml::Name, const char*>, 4> kKinds{
+      {{{kSsv, "ParameterSet"}, "a parameter set (.ssv)"},
+       {{kSsm, "ParameterMapping"}, "a parameter mapping (.ssm)"},
+       {{kSsb, "SignalDictionary"}, "a signal dictionary (.ssb)"},
+       {{"", "fmiModelDescription"}, "the model description of an FMU"}}};
+  for (const auto& [name, kind] : kKinds) {
+    if (name == root) return kind;
+  }
+  if (root.local == "SystemStructureDescription") {
+    return fmt::format("a <SystemStructureDescription> of the namespace '{}'", root.name_space);
+  }
+  return fmt::format("an XML file with the root element <{}>", root.local);
+}
+
+/// What all files have in common that one .ssd leads to.
+struct Reading {
+  Files& files;
+  std::vector<std::string>& warnings;
+  std::vector<core::Location> open{};  ///< the components that are systems, from the root on
+  std::size_t systems = 0;
+};
+
+/// The systems of one .ssd.
+class SystemReader {
+ public:
+  SystemReader(const xml::Element& root, const std::filesystem::path& path, Reading& reading)
+      : root_(root),
+        folder_(path.parent_path()),
+        file_{root.required("version"), read_definitions(root, kSsd)},
+        reading_(reading) {}
+
+  SystemNode read() {
+    const auto system = root_.child({kSsd, "System"});
+    if (!system) root_.fail(fmt::format("{} holds no <System>", root_.tag()));
+    return read_system(*system);
+  }
+
+ private:
+  SystemNode read_system(const xml::Element& element) {
+    if (++reading_.systems > kMostSystems) {
+      element.fail(fmt::format("there are more than {} systems", kMostSystems));
+    }
+    element.allow_attributes({"name"});
+    element.allow_children({{kSsd, "Connectors"},
+                            {kSsd, "ElementGeometry"},
+                            {kSsd, "ParameterBindings"},
+                            {kSsc, "MetaData"},
+                            {kSsc, "Signature"},
+                            {kSsd, "Elements"},
+                            {kSsd, "Connections"},
+                            {kSsd, "SignalDictionaries"},
+                            {kSsd, "SystemGeometry"},
+                            {kSsd, "GraphicalElements"},
+                            {kSsd, "Annotations"}});
+    SystemNode system;
+    system.name = element.required("name");
+    system.where = element.where();
+    system.connectors = read_connectors(element, file_);
+    if (const auto dictionaries = element.child({kSsd, "SignalDictionaries"})) {
+      system.dictionaries = read_signal_dictionaries(*dictionaries, folder_, reading_.files);
+    }
+    if (const auto elements = element.child({kSsd, "Elements"})) read_elements(*elements, system);
+    if (const auto connections = element.child({kSsd, "Connections"})) {
+      connections->allow_children({{kSsd, "Connection"}});
+      for (const xml::Element& connection : connections->children()) {
+        system.connections.push_back(read_connection(connection));
+      }
+    }
+    system.parameters = read_bindings(element, {});
+    return system;
+  }
+
+  std::vector<ParameterValue> read_bindings(const xml::Element& owner,
+                                            const std::filesystem::path& component) const {
+    return read_parameters(
+        owner, {reading_.files, folder_, file_.definitions, component, reading_.warnings});
+  }
+
+  void read_elements(const xml::Element& elements, SystemNode& system) {
+    elements.allow_children(
+        {{kSsd, "Component"}, {kSsd, "SignalDictionaryReference"}, {kSsd, "System"}});
+    for (const xml::Element& element : elements.children()) {
+      ElementNode node = read_element(element);
+      const auto twin = std::find_if(system.elements.begin(), system.elements.end(),
+                                     [&](const auto& other) { return other.name == node.name; });
+      if (twin != system.elements.end()) {
+        element.fail(fmt::format("two components are named '{}'; the first is in line {}",
+                                 node.name, twin->where.line),
+                     "give one of them another name");
+      }
+      system.elements.push_back(std::move(node));
+    }
+  }
+
+  ElementNode read_element(const xml::Element& element) {
+    if (element.is(kSsd, "System")) {
+      ElementNode node;
+      node.name = element.required("name");
+      node.where = element.where();
+      node.system = std::make_unique<SystemNode>(read_system(element));
+      return node;
+    }
+    if (element.is(kSsd, "SignalDictionaryReference")) return read_reference(element);
+    return read_component(element);
+  }
+
+  /// What a component and a reference have in common.
+  ElementNode read_leaf(const xml::Element& element) {
+    element.allow_children({{kSsd, "Connectors"},
+                            {kSsd, "ElementGeometry"},
+                            {kSsd, "ParameterBindings"},
+                            {kSsc, "MetaData"},
+                            {kSsc, "Signature"},
+                            {kSsd, "Annotations"}});
+    ElementNode node;
+    node.name = element.required("name");
+    node.where = element.where();
+    node.connectors = read_connectors(element, file_);
+    return node;
+  }
+
+  ElementNode read_reference(const xml::Element& element) {
+    element.allow_attributes({"name", "dictionary"});
+    ElementNode node = read_leaf(element);
+    node.dictionary = element.required("dictionary");
+    return node;
+  }
+
+  ElementNode read_component(const xml::Element& element) {
+    element.allow_attributes({"name", "type", "source", "implementation"});
+    ElementNode node = read_leaf(element);
+    if (!element.attribute("source")) {
+      element.fail(fmt::format("the component '{}' has no source", node.name),
+                   "name its FMU: source=\"unit.fmu\"");
+    }
+    if (is_system(element)) {
+      node.system = std::make_unique<SystemNode>(read_component_system(element));
+      for (ParameterValue& value : read_bindings(element, {})) {
+        node.system->parameters.push_back(std::move(value));
+      }
+      return node;
+    }
+    check_implementation(element);
+    check_kinds(element, node);
+    node.source = source_path(element, folder_);
+    node.parameters = read_bindings(element, node.source);
+    return node;
+  }
+
+  /// FMI has no such variables.
+  static void check_kinds(const xml::Element& component, const ElementNode& node) {
+    const auto connectors = component.child({kSsd, "Connectors"});
+    for (std::size_t i = 0; i < node.connectors.size(); ++i) {
+      const xml::Element connector = connectors->children()[i];
+      if (connector.required("kind") != "inout") continue;
+      connector.fail("no variable of an FMU is of the kind 'inout'", "write input or output");
+    }
+  }
+
+  static std::string type_of(const xml::Element& component) {
+    if (const auto type = component.attribute("type")) return *type;
+    const std::string source = component.required("source");
+    if (source.starts_with('#') || source.ends_with(".ssd")) return kSystemType;
+    if (source.ends_with(".ssp")) return kPackageType;
+    return kFmuType;
+  }
+
+  static bool is_system(const xml::Element& component) {
+    const std::string type = type_of(component);
+    return type == kSystemType || type == kPackageType;
+  }
+
+  static void check_implementation(const xml::Element& component) {
+    const std::string type = type_of(component);
+    if (type != kFmuType) {
+      component.fail_unsupported(fmt::format("components of the type '{}'", type),
+                                 fmt::format("the types '{}', '{}' and '{}' are read", kFmuType,
+                                             kSystemType, kPackageType));
+    }
+    const std::string implementation = component.attribute_or("implementation", "any");
+    if (implementation != "any" && implementation != "CoSimulation") {
+      component.fail_unsupported(fmt::format("FMUs for '{}'", implementation),
+                                 "only FMUs for Co-Simulation are run");
+    }
+  }
+
+  SystemNode read_component_system(const xml::Element& component) {
+    if (reading_.open.size() >= kMostNested) {
+      const core::Location& first = reading_.open.front();
+      component.fail(fmt::format("more than {} systems inside each other, begun in {}:{}; one of "
+                                 "them is a part of itself",
+                                 kMostNested, first.file, first.line),
+                     "take the component out that leads back");
+    }
+    reading_.open.push_back(component.where());
+    SystemNode system = component.required("source").starts_with('#') ? read_own_system(component)
+                                                                      : read_other_file(component);
+    reading_.open.pop_back();
+    return system;
+  }
+
+  /// A system in this file, used once more: source="#id".
+  SystemNode read_own_system(const xml::Element& component) {
+    const std::string id = component.required("source").substr(1);
+    const auto found = find_system(root_, id);
+    if (!found) {
+      component.fail(fmt::format("no <ssd:System> of this file has the id '{}'", id),
+                     "write the id of a system behind the '#'");
+    }
+    return read_system(*found);
+  }
+
+  static std::optional<xml::Element> find_system(const xml::Element& below, const std::string& id) {
+    for (const xml::Element& child : below.children()) {
+      if (child.is(kSsd, "System") && child.attribute("id") == id) return child;
+      if (const auto found = find_system(child, id)) return found;
+    }
+    return std::nullopt;
+  }
+
+  SystemNode read_other_file(const xml::Element& component) {
+    const auto [source, variant] = source_of(component, folder_);
+    if (!std::filesystem::exists(source)) {
+      component.fail(fmt::format("the system '{}' does not exist", reading_.files.shown(source)),
+                     "its path is relative to this file");
+    }
+    const std::filesystem::path path =
+        variant.empty() ? reading_.files.system_file(source, component.where())
+                        : reading_.files.system_file(source, variant, component.where());
+    const xml::Document document(path, reading_.files.shown(path));
+    const xml::Element root = document.root();
+    check_system_description(root);
+    return SystemReader(root, path, reading_).read();
+  }
+
+  static SystemConnection read_connection(const xml::Element& element) {
+    element.allow_attributes({"startElement", "startConnector", "startIndices", "endElement",
+                              "endConnector", "endIndices", "suppressUnitConversion"});
+    element.allow_children({{kSsc, "LinearTransformation"},
+                            {kSsc, "BooleanMappingTransformation"},
+                            {kSsc, "IntegerMappingTransformation"},
+                            {kSsc, "EnumerationMappingTransformation"},
+                            {kSsd, "ConnectionGeometry"},
+                            {kSsc, "MetaData"},
+                            {kSsc, "Signature"},
+                            {kSsd, "Annotations"}});
+    if (element.attribute("startIndices") || element.attribute("endIndices")) {
+      element.fail_unsupported("connections of parts of an array (startIndices, endIndices)",
+                               "connect the whole array");
+    }
+    return {{element.attribute_or("startElement"), element.required("startConnector")},
+            {element.attribute_or("endElement"), element.required("endConnector")},
+            read_passage(element),
+            element.where()};
+  }
+
+  xml::Element root_;
+  std::filesystem::path folder_;
+  SspFile file_;
+  Reading& reading_;
+};
+
+}  // namespace
+
+void check_system_description(const xml::Element& root) {
+  if (!root.is(kSsd, "SystemStructureDescription")) {
+    root.fail(fmt::format("this is {}, expected a system structure description (.ssd)",
+                          kind_of(root.name())),
+              fmt::format("its root element is <SystemStructureDescription> of the namespace '{}'",
+                          kSsd));
+  }
+  root.allow_attributes({"version", "name", "author", "fileversion", "copyright", "license",
+                         "generationTool", "generationDateAndTime"});
+  const std::string version = root.required("version");
+  if (version != "1.0" && version != "2.0") {
+    root.fail(fmt::format("the SSP version '{}' is not known", version),
+              "stride reads 1.0 and 2.0");
+  }
+  root.allow_children({{kSsd, "System"},
+                       {kSsd, "Enumerations"},
+                       {kSsd, "Units"},
+                       {kSsd, "DefaultExperiment"},
+                       {kSsc, "MetaData"},
+                       {kSsc, "Signature"},
+                       {kSsd, "Annotations"}});
+}
+
+SystemNode read_system(const xml::Element& root, const std::filesystem::path& path, Files& files,
+                       std::vector<std::string>& warnings) {
+  Reading reading{files, warnings};
+  return SystemReader(root, path, reading).read();
+}
+
+}  // namespace stride::io

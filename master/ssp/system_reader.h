@@ -1,0 +1,28 @@
+// The <ssd:System> of a scenario, with all that it names in other files of SSP.
+#ifndef STRIDE_MASTER_SSP_SYSTEM_READER_H
+#define STRIDE_MASTER_SSP_SYSTEM_READER_H
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "master/ssp/files.h"
+#include "master/ssp/system_tree.h"
+#include "master/util/xml/element.h"
+
+namespace stride::io {
+
+/// Checks the root element of a .ssd. Throws core::Error (Input), also for a file of another kind,
+/// which it calls by its name.
+void check_system_description(const xml::Element& root);
+
+/// Reads the system below a root element that was checked, and the .ssd and .ssp files that are
+/// components of it. `path` is where it stands; what is odd, but no mistake, is told in `warnings`.
+/// Throws core::Error (Input).
+SystemNode read_system(const xml::Element& root, const std::filesystem::path& path, Files& files,
+                       std::vector<std::string>& warnings);
+
+}  // namespace stride::io
+
+#endif

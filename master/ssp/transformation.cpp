@@ -1,0 +1,96 @@
+#include "master/ssp/transformation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/ssp/ssp.h"
+
+namespace stride::io {
+namespace {
+
+using core::Transformation;
+using Kind = core::Transformation::Kind;
+
+double finite(const xml::Element& element, const char* attribute, double otherwise) {
+  const double number = element.number<double>(attribute).value_or(otherwise);
+  if (std::isfinite(number)) return number;
+  element.fail(fmt::format("{}=\"{}\" is no finite number", attribute, number));
+}
+
+void read_linear(const xml::Element& element, Transformation& transformation) {
+  element.allow_attributes({"factor", "offset"});
+  transformation.linear = {finite(element, "factor", 1), finite(element, "offset", 0)};
+}
+
+/// Refuses a second entry for one source.
+template <class Entries, class Source, class Target>
+void add_entry(const xml::Element& element, Entries& entries, Source source, Target target) {
+  const auto twin = std::find_if(entries.begin(), entries.end(),
+                                 [&](const auto& entry) { return entry.first == source; });
+  if (twin != entries.end()) {
+    element.fail(fmt::format("the source \"{}\" is mapped twice", element.given("source")),
+                 "keep one of the two entries");
+  }
+  entries.emplace_back(std::move(source), std::move(target));
+}
+
+void read_entry(const xml::Element& element, Transformation& transformation) {
+  element.allow_attributes({"source", "target"});
+  switch (transformation.kind) {
+    case Kind::BooleanMapping:
+      element.given("source");
+      element.given("target");
+      return add_entry(element, transformation.numbers, std::int64_t{element.flag("source")},
+                       std::int64_t{element.flag("target")});
+    case Kind::IntegerMapping:
+      return add_entry(element, transformation.numbers,
+                       element.required_number<std::int64_t>("source"),
+                       element.required_number<std::int64_t>("target"));
+    default:
+      return add_entry(element, transformation.names, element.given("source"),
+                       element.given("target"));
+  }
+}
+
+void read_mapping(const xml::Element& element, Transformation& transformation) {
+  element.allow_attributes({});
+  element.allow_children({{kSsc, "MapEntry"}});
+  for (const xml::Element& entry : element.children()) read_entry(entry, transformation);
+  std::sort(transformation.numbers.begin(), transformation.numbers.end());
+  if (transformation.numbers.empty() && transformation.names.empty()) {
+    element.fail(fmt::format("{} holds no <MapEntry>", element.tag()),
+                 "write one such as <ssc:MapEntry source=\"…\" target=\"…\"/>");
+  }
+}
+
+}  // namespace
+
+core::Passage read_passage(const xml::Element& owner) {
+  core::Passage passage;
+  passage.suppress_unit_conversion = owner.flag("suppressUnitConversion");
+  Transformation& transformation = passage.transformation;
+  for (const Kind kind :
+       {Kind::Linear, Kind::BooleanMapping, Kind::IntegerMapping, Kind::EnumerationMapping}) {
+    const auto element = owner.child({kSsc, core::name(kind)});
+    if (!element) continue;
+    if (transformation.kind != Kind::None) {
+      element->fail(fmt::format("{} is a second transformation; the first is in line {}",
+                                element->tag(), transformation.where.line),
+                    "keep one of the two");
+    }
+    transformation.kind = kind;
+    transformation.where = element->where();
+    if (kind == Kind::Linear) {
+      read_linear(*element, transformation);
+    } else {
+      read_mapping(*element, transformation);
+    }
+  }
+  return passage;
+}
+
+}  // namespace stride::io

@@ -1,0 +1,17 @@
+// What SSP lets be done to a value between two connectors, or on its way to a parameter.
+#ifndef STRIDE_MASTER_SSP_TRANSFORMATION_H
+#define STRIDE_MASTER_SSP_TRANSFORMATION_H
+
+#include "master/model/conversion.h"
+#include "master/util/xml/element.h"
+
+namespace stride::io {
+
+/// Reads the attribute suppressUnitConversion and the transformation of an <ssd:Connection> or an
+/// <ssm:MappingEntry>, whose other attributes and children are the caller's. Throws core::Error
+/// (Input).
+core::Passage read_passage(const xml::Element& owner);
+
+}  // namespace stride::io
+
+#endif

@@ -1,0 +1,30 @@
+// Files that a scenario names.
+#ifndef STRIDE_MASTER_SSP_URI_H
+#define STRIDE_MASTER_SSP_URI_H
+
+#include <filesystem>
+#include <string>
+
+#include "master/util/xml/element.h"
+
+namespace stride::io {
+
+/// What the attribute `source` of an element names.
+struct Source {
+  std::filesystem::path path;
+  std::string fragment;  ///< what stands behind a '#', a part of the file
+};
+
+/// A URI (RFC 3986) relative to `folder`, or with the scheme file. Throws core::Error (Input) for
+/// any other scheme, a query or a malformed escape.
+Source source_of(const xml::Element& element, const std::filesystem::path& folder);
+
+/// Likewise, where a fragment is refused, too.
+std::filesystem::path source_path(const xml::Element& element, const std::filesystem::path& folder);
+
+/// A relative path as a URI: what is neither a letter, a digit nor one of "-._~/" is escaped.
+std::string uri_of(const std::filesystem::path& path);
+
+}  // namespace stride::io
+
+#endif

@@ -1,0 +1,15 @@
+#include "master/util/glob.h"
+
+#include <fnmatch.h>
+
+namespace stride::io {
+
+bool matches_glob(const std::string& pattern, const std::string& text) {
+  return ::fnmatch(pattern.c_str(), text.c_str(), 0) == 0;
+}
+
+bool is_glob(const std::string& pattern) {
+  return pattern.find_first_of("*?[\\") != std::string::npos;
+}
+
+}  // namespace stride::io

@@ -1,0 +1,17 @@
+#ifndef STRIDE_MASTER_UTIL_GLOB_H
+#define STRIDE_MASTER_UTIL_GLOB_H
+
+#include <string>
+
+namespace stride::io {
+
+/// Whether the whole text matches the pattern: `*` stands for any characters (dots, too), `?` for
+/// one, `[a-c]` and `[!a-c]` for one within or outside the set, `\` takes away a special meaning.
+bool matches_glob(const std::string& pattern, const std::string& text);
+
+/// Whether the pattern has any of these special characters.
+bool is_glob(const std::string& pattern);
+
+}  // namespace stride::io
+
+#endif

@@ -1,0 +1,114 @@
+#include "master/util/output_file.h"
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "master/util/error.h"
+
+namespace stride::io {
+namespace {
+
+const char* hint_for(int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+      return "make room on the disk, or record fewer signals; the lines before are complete";
+    case EFBIG:
+      return "raise the limit of file sizes (ulimit -f), or record fewer signals; the lines before "
+             "are complete";
+    default:
+      return "check the disk that the results folder is on; the lines before are complete";
+  }
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::filesystem::path path, Hints hints)
+    : path_(std::move(path)), hints_(hints), buffer_(std::make_unique<char[]>(kCapacity)) {
+  constexpr mode_t kEverybodyMayRead = 0666;  // less the umask
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kEverybodyMayRead);
+  if (descriptor_ >= 0) return;
+  core::fail_input(
+      {.where = {path_.string(), 0}},
+      fmt::format("cannot create the file: {}", std::generic_category().message(errno)),
+      hints_.create);
+}
+
+OutputFile::~OutputFile() {
+  try {
+    close();
+  } catch (const core::Error&) {  // a destructor cannot tell
+  }
+}
+
+void OutputFile::write_slowly(std::string_view text) {
+  while (!text.empty()) {
+    if (room() == 0) flush();
+    const std::string_view piece = text.substr(0, room());
+    write(piece);
+    text.remove_prefix(piece.size());
+  }
+}
+
+void OutputFile::write_seconds(Time time) {
+  constexpr std::int64_t kPerSecond = 1'000'000'000'000;
+  const std::int64_t ticks = time.time_since_epoch().count();
+  if (ticks < 0) return write(core::to_text(time));  // no run begins before 0
+  write_number(ticks / kPerSecond);
+  std::int64_t fraction = ticks % kPerSecond;
+  if (fraction == 0) return;
+  char digits[13] = {'.'};
+  for (int i = 12; i > 0; --i, fraction /= 10) digits[i] = static_cast<char>('0' + fraction % 10);
+  std::size_t length = sizeof digits;
+  while (digits[length - 1] == '0') --length;
+  write(std::string_view(digits, length));
+}
+
+void OutputFile::write_hex(std::span<const std::uint8_t> bytes) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  for (const std::uint8_t byte : bytes) {
+    write(kDigits[byte >> 4]);
+    write(kDigits[byte & 15]);
+  }
+}
+
+void OutputFile::flush() {
+  std::size_t done = 0;
+  int error = 0;
+  while (!has_failed_ && error == 0 && done < used_) {
+    const ssize_t count = ::write(descriptor_, buffer_.get() + done, used_ - done);
+    if (count >= 0) {
+      done += static_cast<std::size_t>(count);
+    } else if (errno != EINTR) {
+      error = errno;
+    }
+  }
+  const std::size_t last = std::string_view(buffer_.get(), done).rfind('\n');
+  if (last != std::string_view::npos) line_end_ = taken_ + static_cast<std::int64_t>(last) + 1;
+  taken_ += static_cast<std::int64_t>(done);
+  used_ = 0;
+  if (error != 0) fail(error);
+}
+
+void OutputFile::close() {
+  if (descriptor_ < 0) return;
+  flush();
+  const int result = ::close(std::exchange(descriptor_, -1));
+  if (result != 0 && !has_failed_) fail(errno);
+}
+
+void OutputFile::fail(int error) {
+  has_failed_ = true;
+  // fails for what is no regular file, where there is nothing to cut
+  if (descriptor_ >= 0 && taken_ > line_end_) (void)!::ftruncate(descriptor_, line_end_);
+  core::fail_run({.where = {path_.string(), 0}, .time = time_},
+                 fmt::format("cannot write the file: {}", std::generic_category().message(error)),
+                 hints_.write != nullptr ? hints_.write : hint_for(error));
+}
+
+}  // namespace stride::io

@@ -1,0 +1,88 @@
+// A text file that is written from start to end, fast, and loses nothing unnoticed.
+#ifndef STRIDE_MASTER_UTIL_OUTPUT_FILE_H
+#define STRIDE_MASTER_UTIL_OUTPUT_FILE_H
+
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include <stride/time.h>
+
+namespace stride::io {
+
+/// Collects what is written in a buffer and hands it to the system in large pieces. When that fails
+/// (the disk is full), the file is cut behind its last whole line and core::Error (Run) is thrown,
+/// which names the file and the simulated time; nothing is written from then on.
+class OutputFile {
+ public:
+  /// What to do about failures.
+  struct Hints {
+    const char* create = "choose a results folder in which you may write";
+    const char* write = nullptr;  ///< what suits the error, for results, where there is none
+  };
+
+  /// Creates the file or empties it. Throws core::Error (Input) if that is not possible.
+  explicit OutputFile(std::filesystem::path path) : OutputFile(std::move(path), Hints{}) {}
+  OutputFile(std::filesystem::path path, Hints hints);
+  /// Closes the file; a failure is lost then, so call close() where it matters.
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  /// The simulated time that an error names.
+  void set_time(Time time) { time_ = time; }
+
+  void write(std::string_view text) {
+    if (text.size() > room()) return write_slowly(text);
+    std::memcpy(buffer_.get() + used_, text.data(), text.size());
+    used_ += text.size();
+  }
+  void write(char c) {
+    if (room() == 0) flush();
+    buffer_[used_++] = c;
+  }
+  /// The shortest decimal text that reads back as the same number.
+  template <class Number>
+  void write_number(Number value) {
+    constexpr std::size_t kLongest = 32;
+    if (room() < kLongest) flush();
+    char* const at = buffer_.get() + used_;
+    used_ += static_cast<std::size_t>(std::to_chars(at, at + kLongest, value).ptr - at);
+  }
+  /// Exact decimal seconds without trailing zeros.
+  void write_seconds(Time time);
+  void write_hex(std::span<const std::uint8_t> bytes);
+
+  /// Hands everything to the system.
+  void flush();
+  /// Flushes and closes. Does nothing if it was closed, or failed, before.
+  void close();
+
+ private:
+  static constexpr std::size_t kCapacity = std::size_t{1} << 16;
+
+  std::size_t room() const { return kCapacity - used_; }
+  void write_slowly(std::string_view text);
+  [[noreturn]] void fail(int error);
+
+  std::filesystem::path path_;
+  Hints hints_;
+  std::optional<Time> time_;
+  std::unique_ptr<char[]> buffer_;
+  std::size_t used_ = 0;
+  std::int64_t line_end_ = 0;  ///< behind the last line feed that the system has taken
+  std::int64_t taken_ = 0;     ///< bytes that the system has taken
+  int descriptor_ = -1;
+  bool has_failed_ = false;
+};
+
+}  // namespace stride::io
+
+#endif

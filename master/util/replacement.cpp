@@ -1,0 +1,76 @@
+#include "master/util/replacement.h"
+
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/util/error.h"
+
+namespace stride::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr OutputFile::Hints kHints = {
+    "choose a file in a folder in which you may write",
+    "check the disk that this file is on, and that there is room on it; nothing is left of it"};
+
+/// Pipes, terminals, and names of what is open already, such as /dev/stdout.
+bool is_device(const fs::path& path) {
+  const std::string folder = fs::absolute(path).lexically_normal().parent_path();
+  return folder == "/dev" || folder == "/dev/fd" || folder.starts_with("/proc/") ||
+         (fs::exists(path) && !fs::is_regular_file(path));
+}
+
+/// The file that is to be replaced.
+fs::path target_of(const fs::path& path) {
+  if (path.empty()) core::fail_input({}, "no file is named to write to");
+  std::error_code error;
+  if (is_device(path)) return path;
+  if (fs::is_symlink(path, error)) {
+    const fs::path target = fs::weakly_canonical(path, error);
+    if (!error) return target;
+  }
+  return path;
+}
+
+void check(const fs::path& path) {
+  const core::Context where{.where = {path.string(), 0}};
+  if (fs::is_directory(path)) {
+    core::fail_input(where, "this is a folder; expected a file to write to");
+  }
+  if (!path.parent_path().empty() && !fs::is_directory(path.parent_path())) {
+    core::fail_input(where, "the folder of this file does not exist",
+                     "make the folder, or choose another output file");
+  }
+}
+
+}  // namespace
+
+Replacement::Replacement(const fs::path& path) : target_(target_of(path)) {
+  check(target_);
+  const bool at_once = is_device(target_);
+  if (!at_once) fresh_ = target_.string() + ".new";
+  file_.emplace(at_once ? target_ : fresh_, kHints);
+}
+
+Replacement::~Replacement() {
+  file_.reset();
+  std::error_code ignored;
+  if (!fresh_.empty()) fs::remove(fresh_, ignored);
+}
+
+void Replacement::commit() {
+  file_->close();
+  if (fresh_.empty()) return;
+  std::error_code error;
+  fs::rename(fresh_, target_, error);
+  if (error) {
+    core::fail_run({.where = {target_.string(), 0}},
+                   fmt::format("cannot replace the file: {}", error.message()));
+  }
+  fresh_.clear();
+}
+
+}  // namespace stride::io

@@ -1,0 +1,37 @@
+// A file that is written as a whole or not at all.
+#ifndef STRIDE_MASTER_UTIL_REPLACEMENT_H
+#define STRIDE_MASTER_UTIL_REPLACEMENT_H
+
+#include <filesystem>
+#include <optional>
+
+#include "master/util/output_file.h"
+
+namespace stride::io {
+
+/// Writes "FILE.new" beside a file and puts it in its place at the end, so that nobody ever sees a
+/// half of it, and a failure leaves the old file as it was. What is no regular file, such as a
+/// pipe, and whatever stands for an open one, such as /dev/stdout, is written at once. A symbolic
+/// link stays; the file that it leads to is replaced.
+class Replacement {
+ public:
+  /// Throws core::Error (Input) if the file cannot be written.
+  explicit Replacement(const std::filesystem::path& path);
+  /// Without commit(), nothing is left of what was written.
+  ~Replacement();
+  Replacement(const Replacement&) = delete;
+  Replacement& operator=(const Replacement&) = delete;
+
+  OutputFile& file() { return *file_; }
+  /// Throws core::Error (Run) if the file cannot be written whole.
+  void commit();
+
+ private:
+  std::filesystem::path target_;
+  std::filesystem::path fresh_;  ///< empty where the target is written at once
+  std::optional<OutputFile> file_;
+};
+
+}  // namespace stride::io
+
+#endif

@@ -1,0 +1,74 @@
+#include "master/recorders/results_folder.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/master/ssp/support.h"
+
+using namespace stride::io;
+using Catch::Contains;
+
+TEST_CASE("The folder is made with those above it, and may exist") {
+  const TemporaryFolder folder;
+  make_results_folder(folder / "a/b/c");
+  CHECK(std::filesystem::is_directory(folder / "a/b/c"));
+  CHECK_NOTHROW(make_results_folder(folder / "a/b/c"));
+}
+
+TEST_CASE("What cannot be a results folder is named with the reason") {
+  const TemporaryFolder folder;
+  folder.write("file", "");
+  CHECK_THROWS_WITH(make_results_folder(folder / "file"),
+                    Contains((folder / "file").string() + ": cannot write results") &&
+                        Contains("it is a file") && Contains("choose another results folder"));
+  CHECK_THROWS_WITH(make_results_folder(folder / "file/b"), Contains("Not a directory"));
+  CHECK_THROWS_WITH(make_results_folder("/proc/stride"), Contains("cannot write results"));
+  CHECK_THROWS_WITH(make_results_folder(""), Contains("its name is empty"));
+}
+
+TEST_CASE("The files of an earlier run go, and nothing else") {
+  const TemporaryFolder folder;
+  for (const char* file : {"run.json", "page.html", "report.html", "signals.csv"}) {
+    folder.write(file, "");
+  }
+  ResultFiles files;
+  files.report = "page.html";
+  remove_results(folder / "", files);
+  CHECK_FALSE(std::filesystem::exists(folder / "run.json"));
+  CHECK_FALSE(std::filesystem::exists(folder / "page.html"));
+  CHECK_FALSE(std::filesystem::exists(folder / "signals.csv"));
+  CHECK(std::filesystem::exists(folder / "report.html"));
+  std::filesystem::create_symlink("signals.csv", folder / "run.json");
+  files.report.clear();
+  remove_results(folder / "", files);
+  CHECK(std::filesystem::is_symlink(folder / "run.json"));
+}
+
+TEST_CASE("Of a film of an earlier run nothing else goes") {
+  const TemporaryFolder folder;
+  for (const char* file :
+       {"film/world/frames.csv", "film/world/00000.jpg", "film/arm/frames.csv",
+        "film/arm/00000.jpg", "film/arm/notes.jpg", "film/mine/00001.jpg", "signals.csv"}) {
+    std::filesystem::create_directories((folder / file).parent_path());
+    folder.write(file, "");
+  }
+  remove_results(folder / "", {});
+  CHECK_FALSE(std::filesystem::exists(folder / "film/world"));
+  CHECK_FALSE(std::filesystem::exists(folder / "film/arm/frames.csv"));
+  CHECK_FALSE(std::filesystem::exists(folder / "film/arm/00000.jpg"));
+  CHECK(std::filesystem::exists(folder / "film/arm/notes.jpg"));
+  CHECK(std::filesystem::exists(folder / "film/mine/00001.jpg"));
+  CHECK_FALSE(std::filesystem::exists(folder / "signals.csv"));
+  std::filesystem::remove_all(folder / "film/arm");
+  std::filesystem::remove_all(folder / "film/mine");
+  folder.write("film/x", "");
+  CHECK_NOTHROW(remove_results(folder / "", {}));
+}
+
+TEST_CASE("What is in a folder comes sorted, and a folder that is none has nothing") {
+  const TemporaryFolder folder;
+  folder.write("b", "");
+  folder.write("a", "");
+  CHECK(folder_entries(folder / "") ==
+        std::vector<std::filesystem::path>{folder / "a", folder / "b"});
+  CHECK(folder_entries(folder / "none").empty());
+}

@@ -1,0 +1,267 @@
+#include "master/recorders/run_json.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/master/ssp/support.h"
+
+using namespace stride;
+using namespace stride::io;
+using Catch::Contains;
+using std::chrono::milliseconds;
+
+namespace {
+
+/// The sample system with a connection.
+core::System wired_system() {
+  auto description = sample_description();
+  description->variables.push_back(
+      variable("warmth", 13, core::ValueType::Float64, core::Causality::Output, "degC"));
+  core::SystemDeclaration declaration;
+  declaration.name = "sample";
+  declaration.components = {{"a", description, {}, {}}, {"b, c", description, {}, {}}};
+  declaration.connections = {{"a", "warmth", "b, c", "temperature", false, {}}};
+  return core::System(declaration);
+}
+
+/// run.json of this much of a run of the sample system.
+std::string written(const core::RunStatistics& statistics, std::optional<std::string> error = {}) {
+  const TemporaryFolder folder;
+  const core::System system = sample_system();
+  write_run_json(folder / "run.json", {.scenario = "x.ssd",
+                                       .system = system,
+                                       .options = {},
+                                       .statistics = statistics,
+                                       .error = std::move(error)});
+  return content(folder / "run.json");
+}
+
+}  // namespace
+
+TEST_CASE("run.json tells what was run and how far it came") {
+  const TemporaryFolder folder;
+  core::RunOptions options;
+  options.stop = Time(milliseconds(14'200));
+  options.step.size = milliseconds(1);
+  options.threads.count = 4;
+  core::RunStatistics statistics;
+  statistics.reached = options.stop;
+  statistics.communication_steps = 14'200;
+  statistics.event_iterations = 3;
+  statistics.parallel_steps = 14'000;
+  statistics.wall_time = milliseconds(250);
+  statistics.phases = {milliseconds(10), milliseconds(200), milliseconds(30), milliseconds(5)};
+  statistics.units = {
+      {71'000, 14'200, 5, 3, 8, 14'190, 2, 4, milliseconds(2500), milliseconds(1000), 1, 0,
+       milliseconds(1), milliseconds(2), milliseconds(3)},
+      {0,
+       14'201,
+       0,
+       0,
+       0,
+       0,
+       0,
+       0,
+       {},
+       {},
+       0,
+       1,
+       milliseconds(0),
+       milliseconds(0),
+       milliseconds(0)},
+  };
+  core::HostStatistics& host = statistics.units[1].host.emplace();
+  host.most_memory = 4096;
+  host.protections = {"no network", "seccomp"};
+  host.missing_protections = {"landlock"};
+  const std::vector<core::Verdict> verdicts = {{"b, c", false, "too \"late\""}};
+  options.recorded = {{0, 1}, {1, 4}};
+  const std::vector<Plot> plots = {{"Height", {"a.distance"}}};
+  ResultFiles files;
+  files.trace.clear();
+  const core::System system = wired_system();
+  write_run_json(folder / "run.json", {.scenario = "scenarios/x.ssd",
+                                       .system = system,
+                                       .options = options,
+                                       .statistics = statistics,
+                                       .verdicts = verdicts,
+                                       .files = files,
+                                       .plots = plots});
+  CHECK(content(folder / "run.json") == R"({
+  "scenario": "scenarios/x.ssd",
+  "system": "sample",
+  "start": 0.0,
+  "stop": 14.2,
+  "step": {
+    "policy": "fixed",
+    "size": 0.001,
+    "minimum": 1e-09,
+    "coupling": "jacobi",
+    "extrapolation": "hold"
+  },
+  "outcome": "completed",
+  "verdicts": [
+    {
+      "component": "b, c",
+      "passed": false,
+      "text": "too \"late\""
+    }
+  ],
+  "checks": [],
+  "reached": 14.2,
+  "communication_steps": 14200,
+  "undone_steps": 0,
+  "event_iterations": 3,
+  "threads": 4,
+  "parallel_steps": 14000,
+  "recorded_signals": 2,
+  "wall_time": 0.25,
+  "phases": {
+    "initialization": 0.01,
+    "steps": 0.2,
+    "instants": 0.03,
+    "observers": 0.005
+  },
+  "units": [
+    {
+      "name": "a",
+      "model": "Sample",
+      "fmi_version": "3.0",
+      "calls": 71000,
+      "steps": 14200,
+      "early_returns": 5,
+      "rejections": 3,
+      "rollbacks": 8,
+      "saves": 14190,
+      "events": 2,
+      "messages_sent": 1,
+      "messages_received": 0,
+      "idle": {
+        "rests": 4,
+        "skipped": 2.5,
+        "longest": 1.0
+      },
+      "wall_time": {
+        "initialization": 0.001,
+        "steps": 0.002,
+        "events": 0.003
+      }
+    },
+    {
+      "name": "b, c",
+      "model": "Sample",
+      "fmi_version": "3.0",
+      "calls": 0,
+      "steps": 14201,
+      "early_returns": 0,
+      "rejections": 0,
+      "rollbacks": 0,
+      "saves": 0,
+      "events": 0,
+      "messages_sent": 0,
+      "messages_received": 1,
+      "wall_time": {
+        "initialization": 0.0,
+        "steps": 0.0,
+        "events": 0.0
+      },
+      "host": {
+        "memory": 4096,
+        "protections": [
+          "no network",
+          "seccomp"
+        ],
+        "missing_protections": [
+          "landlock"
+        ]
+      }
+    }
+  ],
+  "connections": [
+    {
+      "from": "a.warmth",
+      "to": "b, c.temperature",
+      "kind": "value"
+    }
+  ],
+  "files": {
+    "signals": "signals.csv",
+    "events": "events.csv",
+    "activity": "activity.csv",
+    "statistics": "run.json",
+    "report": "report.html"
+  },
+  "signals": [
+    {
+      "name": "a.distance",
+      "unit": "m",
+      "type": "Float64",
+      "variability": "continuous"
+    },
+    {
+      "name": "b, c.position[1]",
+      "unit": "m",
+      "type": "Float64",
+      "variability": "continuous"
+    },
+    {
+      "name": "b, c.position[2]",
+      "unit": "m",
+      "type": "Float64",
+      "variability": "continuous"
+    },
+    {
+      "name": "b, c.position[3]",
+      "unit": "m",
+      "type": "Float64",
+      "variability": "continuous"
+    }
+  ],
+  "plots": [
+    {
+      "title": "Height",
+      "signals": [
+        "a.distance"
+      ]
+    }
+  ]
+}
+)");
+}
+
+TEST_CASE("An error is told, also when the run never began") {
+  const std::string text = written({}, "unit 'a': it said \"no\"\xff");
+  CHECK_THAT(text,
+             Contains("\"outcome\": \"failed\",\n  \"error\": \"unit 'a': it said \\\"no\\\""));
+  CHECK_THAT(text, Contains("\"name\": \"b, c\"") && !Contains("messages_sent"));
+}
+
+TEST_CASE("The snapshots of a process are told where there were some") {
+  core::RunStatistics statistics;
+  statistics.units.resize(2);
+  core::HostStatistics& host = statistics.units[0].host.emplace();
+  host.snapshots = 14;
+  host.restores = 3;
+  host.most_snapshots = 2;
+  host.most_snapshot_memory = 8192;
+  CHECK_THAT(written(statistics), Contains(R"(
+        "snapshots": {
+          "made": 14,
+          "restored": 3,
+          "most_kept": 2,
+          "memory": 8192
+        },)"));
+}
+
+TEST_CASE("A unit may end the run") {
+  core::RunStatistics statistics;
+  statistics.end = core::RunEnd::EndedByUnit;
+  CHECK_THAT(written(statistics), Contains("\"outcome\": \"ended by a unit\""));
+}
+
+TEST_CASE("A full disk is noticed") {
+  const core::System system = sample_system();
+  CHECK_THROWS_WITH(
+      write_run_json("/dev/full",
+                     {.scenario = "x.ssd", .system = system, .options = {}, .statistics = {}}),
+      Contains("/dev/full: cannot write the file"));
+}

@@ -1,0 +1,29 @@
+#include "master/scenario/component_selection.h"
+
+#include <catch2/catch.hpp>
+
+using namespace stride::io;
+using Catch::Contains;
+
+namespace {
+
+std::vector<std::size_t> selected(const std::vector<std::string>& patterns) {
+  std::vector<ComponentPattern> wanted;
+  for (const std::string& pattern : patterns) wanted.push_back({pattern, {"x.ssd", 7}});
+  const std::vector<std::string> names = {"a", "b, c"};
+  return select_components(names, wanted);
+}
+
+using Places = std::vector<std::size_t>;
+
+}  // namespace
+
+TEST_CASE("Components are selected by name or glob, each once and in their order") {
+  CHECK(selected({}) == Places{});
+  CHECK(selected({"a"}) == Places{0});
+  CHECK(selected({"*c", "?", "a"}) == Places{0, 1});
+}
+
+TEST_CASE("A pattern that matches no component is refused with its place") {
+  CHECK_THROWS_WITH(selected({"a", "x*"}), Contains("x.ssd:7: 'x*' matches no component"));
+}

@@ -1,0 +1,121 @@
+#include "master/scenario/idle_choice.h"
+
+#include <memory>
+
+#include <catch2/catch.hpp>
+
+using namespace stride;
+using namespace stride::io;
+using Catch::Matchers::Contains;
+using namespace std::chrono_literals;
+
+namespace {
+
+core::Variable variable(const char* name, core::ValueReference reference, core::Causality causality,
+                        std::optional<double> tolerance = std::nullopt) {
+  core::Variable variable;
+  variable.name = name;
+  variable.reference = reference;
+  variable.causality = causality;
+  variable.tolerance = tolerance;
+  return variable;
+}
+
+/// Two units with an input `u` and an output `y`, of which `idler` can promise to be idle.
+core::System make_system() {
+  core::SystemDeclaration declaration;
+  for (const bool promises : {true, false}) {
+    auto unit = std::make_shared<core::UnitDescription>();
+    unit->promises_idle = promises;
+    unit->variables = {variable("u", 0, core::Causality::Input),
+                       variable("y", 1, core::Causality::Output,
+                                promises ? std::optional<double>(0.1) : std::nullopt)};
+    declaration.components.push_back({promises ? "idler" : "busy", unit, {}, {}});
+  }
+  return core::System(declaration);
+}
+
+IdleRule rule(const char* pattern, bool enabled, std::optional<Duration> skip) {
+  return {{pattern, {"x.ssd", 7}}, enabled, skip, {"x.ssd", 7}};
+}
+
+core::StepOptions step(Duration size) {
+  core::StepOptions options;
+  options.size = size;
+  return options;
+}
+
+template <class Change>
+std::string refusal(Change&& change) {
+  IdleChoice choice;
+  change(choice);
+  const core::System system = make_system();
+  try {
+    choice.options(system, step(1ms));
+  } catch (const core::Error& error) {
+    CHECK(error.kind() == core::Error::Kind::Input);
+    return error.what();
+  }
+  return "none";
+}
+
+}  // namespace
+
+TEST_CASE("without a word every unit may be left alone for a second") {
+  const core::System system = make_system();
+  const core::IdleOptions options = IdleChoice().options(system, step(1ms));
+  CHECK(options.max_skip == std::vector<std::optional<Duration>>{Duration(1s), Duration(1s)});
+  CHECK(options.least == Duration(1ms));
+}
+
+TEST_CASE("a later rule goes before an earlier one") {
+  const core::System system = make_system();
+  IdleChoice choice;
+  choice.rules = {rule("*", true, Duration(3s)), rule("busy", false, std::nullopt)};
+  using Skips = std::vector<std::optional<Duration>>;
+  CHECK(choice.options(system, step(1ms)).max_skip == Skips{Duration(3s), std::nullopt});
+  choice.rules.push_back(rule("b*", true, std::nullopt));
+  CHECK(choice.options(system, step(1ms)).max_skip == Skips{Duration(3s), Duration(1s)});
+}
+
+TEST_CASE("deadbands and tolerances find their variables") {
+  const core::System system = make_system();
+  IdleChoice choice;
+  choice.deadbands = {{"idler.u", 0.5, {}}};
+  choice.tolerances = {{"idler.y", 0.25, {}}};
+  const core::IdleOptions options = choice.options(system, step(1ms));
+  REQUIRE(options.deadbands.size() == 1);
+  CHECK(options.deadbands[0].id == core::VariableId{0, 0});
+  CHECK(options.deadbands[0].value == 0.5);
+  REQUIRE(options.tolerances.size() == 1);
+  CHECK(options.tolerances[0].id == core::VariableId{0, 1});
+}
+
+TEST_CASE("what does not fit is refused where it stands") {
+  CHECK_THAT(
+      refusal([](IdleChoice& c) {
+        c.deadbands = {{"idler.v", 1, {"x.ssd", 3}}};
+      }),
+      Contains("x.ssd:3") && Contains("'idler.v' is no Float64 input") && Contains("idler.u"));
+  CHECK_THAT(refusal([](IdleChoice& c) {
+               c.deadbands = {{"busy.u", 1, {}}};
+             }),
+             Contains("can promise to be idle"));
+  CHECK_THAT(refusal([](IdleChoice& c) {
+               c.tolerances = {{"busy.y", 1, {}}};
+             }),
+             Contains("no output with a tolerance"));
+  CHECK_THAT(refusal([](IdleChoice& c) { c.rules = {rule("idle", true, std::nullopt)}; }),
+             Contains("x.ssd:7") && Contains("matches no component"));
+  CHECK_THAT(
+      refusal([](IdleChoice& c) { c.rules = {rule("*", true, Duration(500us))}; }),
+      Contains("x.ssd:7") && Contains("0.0005 s is below the communication step of 0.001 s"));
+  CHECK(refusal([](IdleChoice& c) { c.rules = {rule("*", true, Duration(1ms))}; }) == "none");
+}
+
+TEST_CASE("a skip is above 0 s") {
+  CHECK(parse_max_skip("0.25") == Duration(250ms));
+  for (const char* text : {"0", "-1", "x", ""}) {
+    CHECK_THROWS_AS(parse_max_skip(text), std::invalid_argument);
+  }
+}

@@ -1,0 +1,57 @@
+#include "master/ssp/definitions.h"
+
+#include <catch2/catch.hpp>
+
+#include "master/ssp/ssp.h"
+#include "master/util/xml/document.h"
+#include "tests/master/ssp/support.h"
+
+using namespace stride::io;
+using Catch::Contains;
+
+namespace {
+
+Definitions read(const std::string& inside) {
+  return read_definitions(stride::xml::Document::parse(ssd(inside), "x.ssd").root(), kSsd);
+}
+
+}  // namespace
+
+TEST_CASE("units and enumerations are known by their names") {
+  const Definitions definitions = read(
+      "<ssd:Enumerations><ssc:Enumeration name='Mode'><ssc:Item name='off' value='-1'/>"
+      "<ssc:Item name='on' value='9223372036854775807'/></ssc:Enumeration></ssd:Enumerations>"
+      "<ssd:Units><ssc:Unit name='degC'><ssc:BaseUnit K='1' offset='273.15'/></ssc:Unit>"
+      "<ssc:Unit name='1/min'><ssc:BaseUnit s='-1' factor='0.1'/></ssc:Unit></ssd:Units>");
+  const auto celsius = definitions.unit("degC").meaning.value();
+  CHECK(celsius.exponents == std::array<int, 8>{0, 0, 0, 0, 1, 0, 0, 0});
+  CHECK(celsius.factor == 1);
+  CHECK(celsius.offset == 273.15);
+  CHECK(definitions.unit("1/min").meaning->exponents[2] == -1);
+  CHECK(definitions.unit("1/min").meaning->factor == 0.1);
+  CHECK(definitions.unit("rpm").name == "rpm");
+  CHECK_FALSE(definitions.unit("rpm").meaning);
+  CHECK(definitions.enumerations.at("Mode") ==
+        stride::core::EnumerationItems{{"off", -1}, {"on", 9223372036854775807}});
+}
+
+TEST_CASE("what a file does not define another may") {
+  const Definitions inside =
+      read("<ssd:Units><ssc:Unit name='a'><ssc:BaseUnit m='1'/></ssc:Unit></ssd:Units>");
+  const Definitions around = read(
+      "<ssd:Units><ssc:Unit name='a'><ssc:BaseUnit s='1'/></ssc:Unit>"
+      "<ssc:Unit name='b'><ssc:BaseUnit s='1'/></ssc:Unit></ssd:Units>");
+  CHECK(inside.unit("a", around).meaning->exponents[1] == 1);
+  CHECK(inside.unit("b", around).meaning->exponents[2] == 1);
+}
+
+TEST_CASE("malformed definitions are refused") {
+  const auto unit = [](const std::string& base) {
+    return "<ssd:Units><ssc:Unit name='a'>\n<ssc:BaseUnit " + base + "/></ssc:Unit></ssd:Units>";
+  };
+  CHECK_THROWS_WITH(read(unit("m='1.5'")), Contains("x.ssd:4: ") && Contains("m=\"1.5\""));
+  CHECK_THROWS_WITH(read(unit("factor='0'")), Contains("a unit with the factor 0"));
+  CHECK_THROWS_WITH(read("<ssd:Enumerations><ssc:Enumeration name='M'><ssc:Item name='i'/>"
+                         "</ssc:Enumeration></ssd:Enumerations>"),
+                    Contains("needs the attribute 'value'"));
+}

@@ -1,0 +1,90 @@
+#include "master/ssp/files.h"
+
+#include <catch2/catch.hpp>
+
+#include "master/scenario/scenario.h"
+#include "master/util/archive/zip.h"
+#include "tests/master/ssp/support.h"
+
+using namespace stride;
+using namespace stride::io;
+using Catch::Contains;
+
+namespace {
+
+std::string system_named(const std::string& name) {
+  return ssd_with("<ssd:Component name='" + name + "' source='resources/a.fmu'/>");
+}
+
+std::filesystem::path package(const TemporaryFolder& folder, const archive::Contents& contents,
+                              const std::string& name = "p.ssp") {
+  archive::write_zip(folder / name, contents);
+  return folder / name;
+}
+
+archive::Contents two_variants() {
+  return {{"SystemStructure.ssd", {system_named("one"), {}, false}},
+          {"Variant.ssd", {system_named("two"), {}, false}}};
+}
+
+std::string first_component(const std::filesystem::path& path) {
+  return read_scenario(path).system.components.at(0).name;
+}
+
+}  // namespace
+
+TEST_CASE("a package is read by its SystemStructure.ssd, or the one that is named in it") {
+  const TemporaryFolder folder;
+  const auto file = package(folder, two_variants());
+  CHECK(first_component(file) == "one");
+  CHECK(first_component(file / "Variant.ssd") == "two");
+  CHECK_THROWS_WITH(
+      read_scenario(file / "Varian.ssd"),
+      Contains("p.ssp' has no Varian.ssd; it holds SystemStructure.ssd, Variant.ssd") &&
+          Contains("did you mean 'Variant.ssd'?"));
+}
+
+TEST_CASE("the folder that a package unpacks to is read like it") {
+  const TemporaryFolder folder;
+  folder.write("SystemStructure.ssd", system_named("one"));
+  CHECK(first_component(folder / "") == "one");
+}
+
+TEST_CASE("an archive or folder without a system says what it holds") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH(read_scenario(package(folder, {{"resources/a.fmu", {"x", {}, false}}})),
+                    Contains("p.ssp' has no SystemStructure.ssd; it holds resources/a.fmu"));
+  CHECK_THROWS_WITH(read_scenario(folder / ""), Contains("has no SystemStructure.ssd"));
+}
+
+TEST_CASE("what is unpacked goes with the scenario, and complaints name the package") {
+  const TemporaryFolder folder;
+  const auto file = package(folder, two_variants());
+  std::filesystem::path unpacked;
+  {
+    const Scenario scenario = read_scenario(file);
+    unpacked = scenario.sources.at(0).parent_path().parent_path();
+    CHECK(std::filesystem::exists(unpacked / "SystemStructure.ssd"));
+    CHECK(scenario.system.components.at(0).where.file == file.string() + "/SystemStructure.ssd");
+    CHECK(stem(scenario.path) == "p");
+  }
+  CHECK_FALSE(std::filesystem::exists(unpacked));
+}
+
+TEST_CASE("a package can be a component, by one of its variants") {
+  const TemporaryFolder folder;
+  package(folder, two_variants(), "inner.ssp");
+  const auto [source, name] = GENERATE(table<std::string, std::string>(
+      {{"inner.ssp", "sub.one"}, {"inner.ssp#Variant.ssd", "sub.two"}}));
+  const auto file = folder.write(
+      "x.ssd", ssd_with("<ssd:Component name='sub' type='application/x-ssp-package' source='" +
+                        source + "'/>"));
+  CHECK(first_component(file) == name);
+  CHECK_THROWS_WITH(
+      read_scenario(folder.write("y.ssd", ssd_with("<ssd:Component name='sub' source='no.ssp'/>"))),
+      Contains("y.ssd:5: the system '") && Contains("no.ssp' does not exist"));
+  CHECK_THROWS_WITH(
+      read_scenario(folder.write(
+          "z.ssd", ssd_with("<ssd:Component name='sub' source='inner.ssp#../x.ssd'/>"))),
+      Contains("z.ssd:5:") && Contains("at its top"));
+}

@@ -1,0 +1,263 @@
+#include "master/ssp/flatten.h"
+
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+#include "master/scenario/scenario.h"
+#include "tests/master/ssp/support.h"
+
+using namespace stride;
+using namespace stride::io;
+using Catch::Contains;
+
+namespace {
+
+Scenario read(const std::string& text) {
+  const TemporaryFolder folder;
+  return read_scenario(folder.write("x.ssd", text));
+}
+
+std::string component(const std::string& name) {
+  return "<ssd:Component name='" + name + "' source='" + name + ".fmu'/>\n";
+}
+
+std::string connector(const std::string& name, const std::string& kind,
+                      const std::string& type = "") {
+  return "<ssd:Connector name='" + name + "' kind='" + kind + "'>" + type + "</ssd:Connector>\n";
+}
+
+/// "a.x", "y": ends of a connection; without a dot, of the system itself.
+std::string wire(const std::string& start, const std::string& end, const std::string& inside = "",
+                 const std::string& attributes = "") {
+  const auto of = [](const std::string& word, const std::string& name) {
+    const std::size_t dot = name.find('.');
+    const std::string element =
+        dot == std::string::npos ? "" : word + "Element='" + name.substr(0, dot) + "' ";
+    return element + word + "Connector='" +
+           (dot == std::string::npos ? name : name.substr(dot + 1)) + "' ";
+  };
+  return "<ssd:Connection " + of("start", start) + of("end", end) + attributes + ">" + inside +
+         "</ssd:Connection>\n";
+}
+
+std::string system(const std::string& name, const std::string& connectors,
+                   const std::string& elements, const std::string& connections,
+                   const std::string& attributes = "", const std::string& before = "") {
+  return "<ssd:System name='" + name + "' " + attributes + "><ssd:Connectors>\n" + connectors +
+         "</ssd:Connectors>" + before + "<ssd:Elements>\n" + elements +
+         "</ssd:Elements><ssd:Connections>\n" + connections + "</ssd:Connections></ssd:System>\n";
+}
+
+std::string parameters(const std::string& name, const std::string& value) {
+  return "<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues><ssv:ParameterSet "
+         "version='2.0' name='p'><ssv:Parameters><ssv:Parameter name='" +
+         name + "'>" + value +
+         "</ssv:Parameter></ssv:Parameters></ssv:ParameterSet></ssd:ParameterValues>"
+         "</ssd:ParameterBinding></ssd:ParameterBindings>";
+}
+
+/// "a.y > s.y > b.u", the path of each connection, sorted.
+std::vector<std::string> paths(const Scenario& scenario) {
+  std::vector<std::string> paths;
+  for (const core::ConnectionDeclaration& connection : scenario.system.connections) {
+    std::string path = connection.from_component + "." + connection.from_connector;
+    for (const auto& via : connection.via) path += " > " + via.connector.name;
+    paths.push_back(path + " > " + connection.to_component + "." + connection.to_connector);
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+/// "a.u = 1", the text and the target of each value.
+std::vector<std::string> values(const Scenario& scenario) {
+  std::vector<std::string> values;
+  for (const core::StartDeclaration& start : scenario.system.start_values) {
+    values.push_back(start.component + "." + start.variable + " = " + start.value);
+  }
+  return values;
+}
+
+using Strings = std::vector<std::string>;
+
+/// A system with an input u and an output y, with what stands for it in between.
+std::string filter(const std::string& name, const std::string& element = component("core"),
+                   const std::string& inner = "core") {
+  return system(name, connector("u", "input") + connector("y", "output"), element,
+                wire("u", inner + ".u") + wire(inner + ".y", "y"));
+}
+
+}  // namespace
+
+TEST_CASE("systems in systems become components that are named by their paths") {
+  const Scenario scenario = read(
+      ssd(system("root", "", component("first") + filter("s", filter("t"), "t") + component("z"),
+                 wire("first.y", "s.u") + wire("s.y", "z.u"))));
+  Strings names;
+  for (const auto& component : scenario.system.components) names.push_back(component.name);
+  CHECK(names == Strings{"first", "s.t.core", "z"});
+  CHECK(scenario.sources[1].filename() == "core.fmu");
+  CHECK(paths(scenario) ==
+        Strings{"first.y > s.u > s.t.u > s.t.core.u", "s.t.core.y > s.t.y > s.y > z.u"});
+}
+
+TEST_CASE(
+    "the direction of a connection follows from the kinds on the way, however it is written") {
+  const std::string s = system("s", connector("u", "input") + connector("y", "output"),
+                               component("c"), wire("c.u", "u") + wire("y", "c.y"));
+  const Scenario scenario = read(ssd(system("root", "", component("a") + s + component("b"),
+                                            wire("s.u", "a.y") + wire("b.u", "s.y"))));
+  CHECK(paths(scenario) == Strings{"a.y > s.u > s.c.u", "s.c.y > s.y > b.u"});
+}
+
+TEST_CASE("one connector of a system may lead to many, and straight through it") {
+  const std::string s =
+      system("s", connector("u", "input") + connector("y", "output"),
+             component("c") + component("d"), wire("u", "c.u") + wire("u", "d.u") + wire("u", "y"));
+  const Scenario scenario = read(ssd(system("root", "", component("a") + s + component("b"),
+                                            wire("a.y", "s.u") + wire("s.y", "b.u"))));
+  CHECK(paths(scenario) ==
+        Strings{"a.y > s.u > s.c.u", "a.y > s.u > s.d.u", "a.y > s.u > s.y > b.u"});
+}
+
+TEST_CASE("what is done to a value on its way stays with the way") {
+  const std::string s =
+      system("s", connector("u", "input", "<ssc:Float64 unit='cm'/>"), component("c"),
+             wire("u", "c.u", "<ssc:LinearTransformation factor='3'/>"));
+  const Scenario scenario = read(ssd(
+      system("root", "", component("a") + s,
+             wire("a.y", "s.u", "<ssc:LinearTransformation offset='2'/>",
+                  "suppressUnitConversion='true'")) +
+      "<ssd:Units><ssc:Unit name='cm'><ssc:BaseUnit m='1' factor='0.01'/></ssc:Unit></ssd:Units>"));
+  const core::ConnectionDeclaration& connection = scenario.system.connections.at(0);
+  CHECK(connection.transformation.linear.factor == 3);
+  CHECK_FALSE(connection.suppress_unit_conversion);
+  REQUIRE(connection.via.size() == 1);
+  CHECK(connection.via[0].passage.suppress_unit_conversion);
+  CHECK(connection.via[0].passage.transformation.linear.offset == 2);
+  CHECK(connection.via[0].connector.unit.name == "cm");
+  CHECK(connection.via[0].connector.unit.meaning->factor == 0.01);
+  CHECK(connection.via[0].connector.type == core::ValueType::Float64);
+  CHECK(connection.via[0].connector.takes_after_next);
+}
+
+TEST_CASE(
+    "values are for what has their name, those of outer systems replace those of inner ones") {
+  const std::string inner =
+      system("s", "", component("c"), "", "", parameters("c.k", "<ssv:Real value='2'/>"));
+  const Scenario scenario =
+      read(ssd(system("root", "", inner, "", "", parameters("s.c.k", "<ssv:Real value='3'/>"))));
+  CHECK(values(scenario) == Strings{"s.c.k = 2", "s.c.k = 3"});
+}
+
+TEST_CASE("a value for a connector of a system goes where the connector leads") {
+  const auto with = [](const std::string& name, const std::string& inner_wire) {
+    const std::string s =
+        system("s", connector("u", "input") + connector("y", "output"),
+               component("c") + component("d"), inner_wire + wire("u", "d.v") + wire("c.y", "y"));
+    return read(ssd(system("root", connector("x", "parameter") + connector("open", "input"), s,
+                           wire("x", "s.u"), "", parameters(name, "<ssv:Real value='7'/>"))));
+  };
+  CHECK(values(with("x", wire("u", "c.u"))) == Strings{"s.c.u = 7", "s.d.v = 7"});
+  CHECK(values(with("s.u", wire("u", "c.u"))) == Strings{"s.c.u = 7", "s.d.v = 7"});
+  CHECK(values(with("s.y", "")) == Strings{"s.c.y = 7"});
+  const Scenario transformed =
+      with("s.u", wire("u", "c.u", "<ssc:LinearTransformation factor='2'/>"));
+  CHECK(transformed.system.start_values.at(0).transformation.linear.factor == 2);
+  CHECK(transformed.system.start_values.at(0).via.size() == 1);
+  const Scenario open = with("open", "");
+  CHECK(open.system.start_values.empty());
+  CHECK_THAT(open.warnings.at(0), Contains("'open', which leads to no component"));
+}
+
+TEST_CASE("the start value of an output behind a transformation cannot be said") {
+  const std::string s = system("s", connector("y", "output"), component("c"),
+                               wire("c.y", "y", "<ssc:LinearTransformation factor='2'/>"));
+  CHECK_THROWS_WITH(
+      read(ssd(system("root", "", s, "", "", parameters("s.y", "<ssv:Real value='7'/>")))),
+      Contains("'s.y' is an output behind a transformation"));
+}
+
+TEST_CASE("a system in a file of its own is a component") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "sub");
+  folder.write("sub/s.ssd", ssd(filter("any", component("core")), "1.0"));
+  const std::string binding = parameters("core.k", "<ssv:Real value='5'/>");
+  const Scenario scenario = read_scenario(
+      folder.write("x.ssd", ssd(system("root", "",
+                                       component("a") +
+                                           "<ssd:Component name='s' source='sub/s.ssd' "
+                                           "type='application/x-ssp-definition'>" +
+                                           binding + "</ssd:Component>",
+                                       wire("a.y", "s.u")))));
+  CHECK(paths(scenario) == Strings{"a.y > s.u > s.core.u"});
+  CHECK(scenario.sources.at(1) == folder / "sub/core.fmu");
+  CHECK(values(scenario) == Strings{"s.core.k = 5"});
+}
+
+TEST_CASE("a system of the same file can be used more than once") {
+  const Scenario scenario = read(ssd(
+      system("root", "",
+             system("s", connector("u", "input"), component("c"), wire("u", "c.u"), "id='once'") +
+                 "<ssd:Component name='again' source='#once' type='application/x-ssp-definition'/>",
+             "")));
+  REQUIRE(scenario.system.components.size() == 2);
+  CHECK(scenario.system.components[1].name == "again.c");
+  CHECK_THROWS_WITH(read(ssd(system("root", "", "<ssd:Component name='a' source='#two'/>", ""))),
+                    Contains("no <ssd:System> of this file has the id 'two'"));
+  CHECK_THROWS_WITH(
+      read(ssd(system("root", "", "<ssd:Component name='a' source='#me'/>", "", "id='me'"))),
+      Contains("x.ssd:5: more than 64 systems inside each other") && Contains("a part of itself"));
+}
+
+TEST_CASE("references to a signal dictionary share its signals, across systems") {
+  const std::string dictionary =
+      "<ssd:SignalDictionaries><ssd:SignalDictionary name='bus'><ssb:SignalDictionary "
+      "version='2.0' "
+      "xmlns:ssb='http://ssp-standard.org/SSP1/SystemStructureSignalDictionary'>"
+      "<ssb:DictionaryEntry name='speed'><ssc:Float64 unit='m/s'/></ssb:DictionaryEntry>"
+      "</ssb:SignalDictionary></ssd:SignalDictionary></ssd:SignalDictionaries>";
+  const std::string reference = "<ssd:SignalDictionaryReference name='link' dictionary='bus'/>";
+  const auto with = [&](const std::string& inner_wire) {
+    const std::string s = system("s", "", component("c") + reference, inner_wire);
+    std::string root =
+        system("root", "", component("a") + reference + s, wire("a.y", "link.speed"));
+    return ssd(root.insert(root.rfind("</ssd:System>"), dictionary));
+  };
+  const Scenario scenario = read(with(wire("link.speed", "c.u")));
+  CHECK(paths(scenario) == Strings{"a.y > s.link.speed > s.c.u"});
+  CHECK(scenario.system.connections[0].via[0].connector.unit.name == "m/s");
+  CHECK_THROWS_WITH(read(with(wire("link.sped", "c.u"))),
+                    Contains("has no entry 'sped'") && Contains("did you mean 'speed'?"));
+  CHECK_THROWS_WITH(read(ssd(system("root", "", component("a") + reference, ""))),
+                    Contains("there is no signal dictionary 'bus'"));
+}
+
+TEST_CASE("wiring that leads nowhere says where") {
+  const std::string s = filter("s");
+  const auto with = [&](const std::string& connections) {
+    return ssd(system("root", connector("x", "input") + connector("y", "output"),
+                      component("a") + s, connections));
+  };
+  const auto [text, message] = GENERATE_COPY(table<std::string, std::string>({
+      {with(wire("a.y", "s.v")), "the system 's' has no connector 'v'"},
+      {with(wire("z", "a.u")), "the system itself has no connector 'z'"},
+      {with(wire("b.y", "s.u")), "there is no component 'b'"},
+      {with(wire("x", "s.y")), "cannot connect 'x' to 's.y': a value comes from both"},
+      {with(wire("s.u", "y")), "cannot connect 's.u' to 'y': a value goes to both"},
+      {with(wire("a.y", "s.u") + wire("a.z", "s.u")),
+       "'s.u' has two sources: 'a.z' here and 'a.y' in line"},
+      {ssd(system("root", "", component("s.core") + s, "")), "two components are named 's.core'"},
+      {ssd(system(
+           "root", "",
+           system("s", connector("u", "input") + connector("y", "output"), "", wire("u", "y")) +
+               component("a"),
+           wire("s.y", "s.u") + wire("a.y", "a.u"))),
+       "(accepted)"},
+  }));
+  if (message == "(accepted)") {
+    CHECK(paths(read(text)) == Strings{"a.y > a.u"});  // a circle without a component has no value
+  } else {
+    CHECK_THROWS_WITH(read(text), Contains("x.ssd:") && Contains(message));
+  }
+}

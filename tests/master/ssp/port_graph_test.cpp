@@ -1,0 +1,84 @@
+#include "master/ssp/port_graph.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/master/ssp/support.h"
+
+using namespace stride;
+using namespace stride::io;
+using Catch::Contains;
+
+namespace {
+
+Connector connector(const std::string& name, Flow flow) {
+  Connector made;
+  made.declared.name = name;
+  made.flow = flow;
+  return made;
+}
+
+ElementNode unit(const std::string& name) {
+  ElementNode element;
+  element.name = name;
+  return element;
+}
+
+SystemConnection wire(ConnectionEnd start, ConnectionEnd end) {
+  return {std::move(start), std::move(end), {}, {"x.ssd", 1}};
+}
+
+/// root: a.y -> s.u, and in s: u -> c.u, u -> d.u, c.y -> y.
+SystemNode tree() {
+  SystemNode inner;
+  inner.connectors = {connector("u", Flow::In), connector("y", Flow::Out)};
+  inner.elements.push_back(unit("c"));
+  inner.elements.push_back(unit("d"));
+  inner.connections = {wire({"", "u"}, {"c", "u"}), wire({"d", "u"}, {"", "u"}),
+                       wire({"c", "y"}, {"", "y"})};
+  SystemNode root;
+  root.elements.push_back(unit("a"));
+  root.elements.push_back(unit("s"));
+  root.elements[1].system = std::make_unique<SystemNode>(std::move(inner));
+  root.connections = {wire({"a", "y"}, {"s", "u"})};
+  return root;
+}
+
+std::vector<std::string> names(const PortGraph& graph, const PortGraph::Way& way) {
+  std::vector<std::string> names{graph.ports()[graph.wires()[way.front()].from].path};
+  for (const std::size_t wire : way) names.push_back(graph.ports()[graph.wires()[wire].to].path);
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("ways lead from a port to all components behind it, and from what feeds it") {
+  const SystemNode root = tree();
+  const PortGraph graph(root);
+  REQUIRE(graph.components().size() == 3);
+  CHECK(graph.components()[1].path == "s.c");
+  CHECK(graph.component(root.elements[0]) == 0);
+  const auto& connectors = graph.connectors(*root.elements[1].system);
+
+  std::vector<std::vector<std::string>> found;
+  graph.follow(connectors.at("u"), [&](const auto& way) { found.push_back(names(graph, way)); });
+  CHECK(found == std::vector<std::vector<std::string>>{{"s.u", "s.c.u"}, {"s.u", "s.d.u"}});
+  CHECK(names(graph, graph.way_to(connectors.at("y"))) == std::vector<std::string>{"s.c.y", "s.y"});
+  CHECK(names(graph, graph.way_to(connectors.at("u"))) == std::vector<std::string>{"a.y", "s.u"});
+}
+
+TEST_CASE("a circle of connectors without a component is found where it is followed") {
+  SystemNode root = tree();
+  SystemNode& inner = *root.elements[1].system;
+  inner.connections = {wire({"", "u"}, {"", "y"})};
+  root.connections = {wire({"s", "y"}, {"s", "u"})};
+  const PortGraph graph(root);
+  const std::size_t u = graph.connectors(inner).at("u");
+  CHECK_THROWS_WITH(graph.way_to(u), Contains("x.ssd:1: this connection leads from"));
+  CHECK_THROWS_WITH(graph.follow(u, [](const auto&) {}), Contains("through connectors of systems"));
+}
+
+TEST_CASE("two values cannot go to one connector of a system") {
+  SystemNode root = tree();
+  root.connections.push_back(wire({"a", "z"}, {"s", "u"}));
+  CHECK_THROWS_WITH(PortGraph(root), Contains("x.ssd:1: 's.u' has two sources: 'a.z' here"));
+}

@@ -1,0 +1,66 @@
+#include "master/ssp/signal_dictionary.h"
+
+#include <catch2/catch.hpp>
+
+#include "master/ssp/ssp.h"
+#include "master/util/xml/document.h"
+#include "tests/master/ssp/support.h"
+
+using namespace stride::io;
+using Catch::Contains;
+
+namespace {
+
+const std::string kNamespaces =
+    " xmlns:ssb='http://ssp-standard.org/SSP1/SystemStructureSignalDictionary' "
+    "xmlns:ssc='http://ssp-standard.org/SSP1/SystemStructureCommon'";
+
+std::string dictionary(const std::string& entries, const std::string& version = "2.0") {
+  return "<ssb:SignalDictionary version='" + version + "'" + kNamespaces + ">" + entries +
+         "</ssb:SignalDictionary>";
+}
+
+std::map<std::string, SignalDictionary> read(const std::string& inside,
+                                             const std::filesystem::path& folder = {}) {
+  const auto document = stride::xml::Document::parse(
+      ssd("<ssd:SignalDictionaries>" + inside + "</ssd:SignalDictionaries>"), "x.ssd");
+  return read_signal_dictionaries(*document.root().child({kSsd, "SignalDictionaries"}), folder,
+                                  Files());
+}
+
+const std::string kSpeed =
+    "<ssb:DictionaryEntry name='speed'><ssc:Real unit='rpm'/></ssb:DictionaryEntry>"
+    "<ssb:Units><ssc:Unit name='rpm'><ssc:BaseUnit s='-1'/></ssc:Unit></ssb:Units>";
+
+}  // namespace
+
+TEST_CASE("a dictionary stands inline or in a file, with units of its own") {
+  const TemporaryFolder folder;
+  folder.write("bus.ssb", dictionary(kSpeed, "1.0"));
+  const bool is_inline = GENERATE(true, false);
+  const auto all = is_inline
+                       ? read("<ssd:SignalDictionary name='bus'>" + dictionary(kSpeed) +
+                              "</ssd:SignalDictionary>")
+                       : read("<ssd:SignalDictionary name='bus' source='bus.ssb'/>", folder / "");
+  const auto& speed = all.at("bus").entries.at("speed");
+  CHECK(speed.unit.name == "rpm");
+  CHECK(speed.unit.meaning->exponents[2] == -1);
+  CHECK(speed.type.has_value() == is_inline);  // SSP 1.0 says nothing of the width
+}
+
+TEST_CASE("dictionaries that cannot be meant are refused") {
+  const auto with = [](const std::string& entries) {
+    return "<ssd:SignalDictionary name='bus'>" + dictionary(entries) + "</ssd:SignalDictionary>";
+  };
+  const std::string entry = "<ssb:DictionaryEntry name='a'><ssc:Boolean/></ssb:DictionaryEntry>";
+  const auto [text, message] = GENERATE_COPY(table<std::string, std::string>({
+      {with(entry + entry), "two entries are named 'a'"},
+      {with(entry) + with(entry), "two signal dictionaries are named 'bus'"},
+      {with("<ssb:DictionaryEntry name='a'><ssb:Boolean/></ssb:DictionaryEntry>"), "is not known"},
+      {"<ssd:SignalDictionary name='bus'/>", "neither a source nor <ssb:SignalDictionary>"},
+      {"<ssd:SignalDictionary name='bus' type='text/csv' source='a.csv'/>",
+       "does not support signal dictionaries of the type 'text/csv'"},
+      {"<ssd:SignalDictionary name='bus' source='none.ssb'/>", "the file does not exist"},
+  }));
+  CHECK_THROWS_WITH(read(text), Contains(message));
+}

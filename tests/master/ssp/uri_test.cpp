@@ -1,0 +1,54 @@
+#include "master/ssp/uri.h"
+
+#include <catch2/catch.hpp>
+
+#include "master/util/xml/document.h"
+#include "tests/master/ssp/support.h"
+
+using namespace stride::io;
+using Catch::Contains;
+
+namespace {
+
+std::filesystem::path resolve(const std::string& source, const std::string& base = "runs") {
+  const TemporaryFolder folder;
+  const stride::xml::Document document(folder.write("x.ssd", "<a source='" + source + "'/>"));
+  return source_path(document.root(), base);
+}
+
+}  // namespace
+
+TEST_CASE("A source is a path relative to the scenario's folder") {
+  CHECK(resolve("unit.fmu") == "runs/unit.fmu");
+  CHECK(resolve("unit.fmu", "") == "unit.fmu");
+  CHECK(resolve("./a/../unit.fmu") == "runs/unit.fmu");
+  CHECK(resolve("../units/unit.fmu") == "units/unit.fmu");
+  CHECK(resolve("/opt/unit.fmu") == "/opt/unit.fmu");
+  CHECK(resolve("my%20unit%2b.fmu") == "runs/my unit+.fmu");
+}
+
+TEST_CASE("The scheme file is understood") {
+  CHECK(resolve("file:///opt/unit.fmu") == "/opt/unit.fmu");
+  CHECK(resolve("file://localhost/opt/unit.fmu") == "/opt/unit.fmu");
+  CHECK(resolve("FILE:/opt/unit.fmu") == "/opt/unit.fmu");
+  CHECK(resolve("file:unit.fmu") == "runs/unit.fmu");
+}
+
+TEST_CASE("What names no file here is refused") {
+  CHECK_THROWS_WITH(resolve("https://example.org/unit.fmu"),
+                    Contains("only files can be read, not 'https:'") && Contains("download it"));
+  CHECK_THROWS_WITH(resolve("file://server/unit.fmu"), Contains("on another machine"));
+  CHECK_THROWS_WITH(resolve("//server/unit.fmu"), Contains("on another machine"));
+  CHECK_THROWS_WITH(resolve("file://server"), Contains("on another machine"));
+  CHECK_THROWS_WITH(resolve("a.ssp#b.ssd"), Contains("does not support a source with a fragment"));
+  CHECK_THROWS_WITH(resolve("a.fmu?b"), Contains("has a query") && Contains("%3F"));
+  CHECK_THROWS_WITH(resolve("50%.fmu"), Contains("not followed by two hexadecimal digits"));
+  CHECK_THROWS_WITH(resolve("a%2"), Contains("not followed by two hexadecimal digits"));
+  CHECK_THROWS_WITH(resolve("a%00b"), Contains("not followed by two hexadecimal digits"));
+  CHECK_THROWS_WITH(resolve(""), Contains("'source' of <a> is empty"));
+}
+
+TEST_CASE("A path becomes a URI that leads back to it") {
+  CHECK(uri_of("resources/a b#%ä.fmu") == "resources/a%20b%23%25%C3%A4.fmu");
+  CHECK(uri_of("plain-1_2~3.ssv") == "plain-1_2~3.ssv");
+}

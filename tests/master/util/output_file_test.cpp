@@ -1,0 +1,115 @@
+#include "master/util/output_file.h"
+
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+#include "master/util/error.h"
+#include "tests/master/ssp/support.h"
+#include "tests/master/util/file_size_limit.h"
+
+using namespace stride;
+using namespace stride::io;
+using Catch::Contains;
+
+namespace {
+
+std::string text_of(Time time) {
+  const TemporaryFolder folder;
+  OutputFile file(folder / "x");
+  file.write_seconds(time);
+  file.close();
+  return content(folder / "x");
+}
+
+}  // namespace
+
+TEST_CASE("What is written is in the file after close()") {
+  const TemporaryFolder folder;
+  folder.write("x", "something older and longer than what comes now, which has to go");
+  OutputFile file(folder / "x");
+  file.write("text ");
+  file.write('c');
+  file.write(' ');
+  file.write_number(0.1);
+  file.write(' ');
+  file.write_number(std::int64_t{-7});
+  file.write(' ');
+  file.write_number(std::numeric_limits<double>::lowest());
+  file.write(' ');
+  const std::uint8_t bytes[] = {0x00, 0x9f, 0xff};
+  file.write_hex(bytes);
+  file.close();
+  file.close();
+  CHECK(content(folder / "x") == "text c 0.1 -7 -1.7976931348623157e+308 009fff");
+}
+
+TEST_CASE("Texts larger than the buffer arrive whole") {
+  const TemporaryFolder folder;
+  std::string large;
+  for (int i = 0; i < 60'000; ++i) large += std::to_string(i) + "\n";
+  OutputFile file(folder / "x");
+  file.write("head\n");
+  file.write(large);
+  for (int i = 0; i < 200'000; ++i) file.write('x');
+  file.close();
+  CHECK(content(folder / "x") == "head\n" + large + std::string(200'000, 'x'));
+}
+
+TEST_CASE("Seconds are written as core writes them") {
+  const auto ticks = GENERATE(std::int64_t{0}, 1, 1'000'000'000'000, 14'200'000'000'000,
+                              1'500'000'000'001, 9'200'000'000'000'000'000, -1'500'000'000'000);
+  CHECK(text_of(Time(Duration(ticks))) == core::to_text(Time(Duration(ticks))));
+}
+
+TEST_CASE("A file that cannot be created is named, with the reason") {
+  CHECK_THROWS_WITH(OutputFile("/nowhere/x.csv"),
+                    Contains("/nowhere/x.csv: cannot create the file: No such file or directory") &&
+                        Contains("choose a results folder"));
+}
+
+TEST_CASE("A full disk is an error that names the file and the simulated time") {
+  OutputFile file("/dev/full");
+  file.set_time(Time(Duration(14'200'000'000'000)));
+  file.write("row\n");
+  CHECK_THROWS_WITH(file.close(), Contains("/dev/full: at 14.2 s: cannot write the file: "
+                                           "No space left on device") &&
+                                      Contains("make room on the disk"));
+  CHECK_NOTHROW(file.close());  // it was told once
+}
+
+TEST_CASE("A full disk is noticed as soon as the buffer is full, and only once") {
+  OutputFile file("/dev/full");
+  const auto write_much = [&] {
+    for (int i = 0; i < 100'000; ++i) file.write("0123456789\n");
+  };
+  CHECK_THROWS_AS(write_much(), core::Error);
+  CHECK_NOTHROW(write_much());
+  CHECK_NOTHROW(file.close());
+}
+
+TEST_CASE("After a failure the file ends with its last whole line") {
+  const TemporaryFolder folder;
+  const FileSizeLimit limit(100'000);
+  OutputFile file(folder / "x");
+  const auto write_much = [&] {
+    for (int i = 0; i < 100'000; ++i) file.write("0123456\n");
+  };
+  CHECK_THROWS_WITH(write_much(), Contains("File too large") && Contains("ulimit -f") &&
+                                      Contains("the lines before are complete"));
+  file.close();
+  const std::string text = content(folder / "x");
+  CHECK(text.size() == 100'000);
+  CHECK(text.substr(text.size() - 8) == "0123456\n");
+}
+
+TEST_CASE("A line that was begun is cut off, even when an earlier piece of it was taken") {
+  const TemporaryFolder folder;
+  const FileSizeLimit limit(100'000);
+  OutputFile file(folder / "x");
+  const std::string endless(80'000, 'x');
+  file.write("whole\n");
+  CHECK_THROWS_AS((file.write(endless), file.write(endless)), core::Error);
+  file.close();
+  CHECK(content(folder / "x") == "whole\n");
+}

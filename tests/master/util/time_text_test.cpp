@@ -1,0 +1,77 @@
+#include "master/util/time_text.h"
+
+#include <stdexcept>
+
+#include <catch2/catch.hpp>
+
+#include "tests/master/ssp/support.h"
+
+using stride::Duration;
+using stride::io::parse_seconds;
+
+TEST_CASE("A decimal text becomes the exact count of picoseconds") {
+  const auto [text, ticks] = GENERATE(table<const char*, std::int64_t>({
+      {"0.001", 1'000'000'000},
+      {"14.2", 14'200'000'000'000},
+      {"30", 30'000'000'000'000},
+      {" 30\n", 30'000'000'000'000},
+      {"+1.", 1'000'000'000'000},
+      {".5", 500'000'000'000},
+      {"0", 0},
+      {"-0.0", 0},
+      {"0.000000000001", 1},
+      {"1e-12", 1},
+      {"1E+3", 1'000'000'000'000'000},
+      {"123.456e-3", 123'456'000'000},
+      {"0000.1000", 100'000'000'000},
+      {"9200000", 9'200'000'000'000'000'000},
+      {"4611686.018427387905", 4'611'686'018'427'387'905},  // no double holds this
+  }));
+  CAPTURE(text);
+  CHECK(parse_seconds(text) == Duration(ticks));
+}
+
+TEST_CASE("More than twelve decimals are rounded to the picosecond") {
+  const auto [text, ticks] = GENERATE(table<const char*, std::int64_t>({
+      {"0.0000000000014", 1},
+      {"0.0000000000015", 2},
+      {"0.9999999999999", 1'000'000'000'000},
+      {"4.9e-13", 0},
+      {"5e-13", 1},
+      {"9e-14", 0},
+      {"1e-999999999999999999999", 0},
+  }));
+  CAPTURE(text);
+  CHECK(parse_seconds(text) == Duration(ticks));
+}
+
+TEST_CASE("What is no time is refused, and the text says what was expected") {
+  const auto [text, reason] = GENERATE(table<const char*, const char*>({
+      {"", "is no number"},
+      {" ", "is no number"},
+      {".", "is no number"},
+      {"-", "is no number"},
+      {"1 s", "is no number"},
+      {"1,5", "is no number"},
+      {"0x10", "is no number"},
+      {"1e", "is no number"},
+      {"1e+", "is no number"},
+      {"nan", "is no number"},
+      {"INF", "is no number"},
+      {"1.2.3", "is no number"},
+      {"-1", "is negative"},
+      {"-1e-12", "is negative"},
+      {"9200000.000000000001", "is beyond 9.2e6 s"},
+      {"1e7", "is beyond 9.2e6 s"},
+      {"1e99999999999999999999", "is beyond 9.2e6 s"},
+  }));
+  CAPTURE(text);
+  CHECK_THROWS_AS(parse_seconds(text), std::invalid_argument);
+  CHECK_THROWS_WITH(parse_seconds(text), Catch::Contains(reason) &&
+                                             Catch::Contains("a number of seconds such as 0.001"));
+}
+
+TEST_CASE("what a computation took is told to the millisecond") {
+  CHECK(stride::io::wall_seconds(std::chrono::nanoseconds(1'234'567'890)) == "1.235");
+  CHECK(stride::io::wall_seconds({}) == "0.000");
+}
