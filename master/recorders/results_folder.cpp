@@ -48,6 +48,10 @@ std::vector<fs::path> folder_entries(const fs::path& folder) {
   return paths;
 }
 
+bool is_plain_file_name(const std::string& name) {
+  return name != "." && name != ".." && name.find('/') == std::string::npos;
+}
+
 void make_results_folder(const fs::path& folder) {
   const auto fail = [&](const std::string& reason) {
     core::fail_input({.where = {folder.string(), 0}},

@@ -2,6 +2,7 @@
 #define STRIDE_MASTER_RECORDERS_RESULTS_FOLDER_H
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "master/recorders/result_files.h"
@@ -11,6 +12,9 @@ namespace stride::io {
 /// Where units put their films, each into a folder of its own, and the list of its pictures there.
 inline constexpr const char* kFilmFolder = "film";
 inline constexpr const char* kFilmList = "frames.csv";
+
+/// Whether it names a file in the results folder itself.
+bool is_plain_file_name(const std::string& name);
 
 /// Makes the folder, and those above it, where they do not exist. Throws core::Error (Input) if
 /// that is not possible, or if it is no folder in which files can be written.

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "master/recorders/results_folder.h"
 #include "master/ssp/ssp.h"
 #include "master/util/number_text.h"
 #include "master/util/xml/element.h"
@@ -243,10 +244,6 @@ ScenarioAnnotation read_scenario_element(const xml::Element& scenario) {
 }
 
 }  // namespace
-
-bool is_plain_file_name(const std::string& name) {
-  return name != "." && name != ".." && name.find('/') == std::string::npos;
-}
 
 ScenarioAnnotation read_annotation(const xml::Element& root) {
   std::vector<xml::Element> found;

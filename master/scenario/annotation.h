@@ -49,9 +49,6 @@ struct ScenarioAnnotation {
   IdleChoice idle;
 };
 
-/// Whether it names a file in the results folder itself.
-bool is_plain_file_name(const std::string& name);
-
 /// Reads the <stride:Scenario> of a <ssd:SystemStructureDescription>, which stands in the root's
 /// annotations or in those of its system. Throws core::Error (Input) for what is unknown, doubled
 /// or in another place.
