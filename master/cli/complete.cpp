@@ -15,32 +15,32 @@
 namespace stride::cli {
 namespace {
 
-struct Request {
+struct CompleteArguments {
   std::filesystem::path scenario;
   std::filesystem::path output;
 };
 
 /// A package is packed again, with the one file changed.
-void write_package(const Request& request, const io::Files::Archive& package,
+void write_package(const CompleteArguments& arguments, const io::Files::Archive& package,
                    const std::filesystem::path& file, const std::string& text) {
   archive::Contents contents;
   archive::add_folder(contents, "", package.folder);
   contents[file.lexically_relative(package.folder).string()] = {text, {}, false};
-  archive::write_zip(request.output.empty() ? package.path : request.output, contents);
+  archive::write_zip(arguments.output.empty() ? package.path : arguments.output, contents);
 }
 
-void complete(const Request& request) {
-  const io::Scenario scenario = io::read_scenario(request.scenario, {find_unit, {}});
+void complete(const CompleteArguments& arguments) {
+  const io::Scenario scenario = io::read_scenario(arguments.scenario, {find_unit, {}});
   io::Descriptions descriptions;
   const auto fmus = load_fmus(scenario);
   for (std::size_t i = 0; i < fmus.size(); ++i) {
     descriptions[scenario.system.components[i].name] = fmus[i]->description();
   }
-  const std::filesystem::path file = scenario.files->system_file(request.scenario);
+  const std::filesystem::path file = scenario.files->system_file(arguments.scenario);
   const std::string text = io::complete(file, descriptions, scenario.files->shown(file));
   const auto archive = scenario.files->archive_of(file);
-  if (archive) return write_package(request, *archive, file, text);
-  io::Replacement output(request.output.empty() ? file : request.output);
+  if (archive) return write_package(arguments, *archive, file, text);
+  io::Replacement output(arguments.output.empty() ? file : arguments.output);
   output.file().write(text);
   output.commit();
 }
@@ -51,15 +51,15 @@ void add_complete(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "complete",
       "Write the connectors that a scenario leaves out into it, as other SSP tools want them");
-  const auto request = std::make_shared<Request>();
+  const auto arguments = std::make_shared<CompleteArguments>();
   command
-      ->add_option("FILE", request->scenario,
+      ->add_option("FILE", arguments->scenario,
                    "The scenario: an SSP system file (.ssd) or package (.ssp)")
       ->required()
       ->type_name("");
-  command->add_option("--output,-o", request->output, "Write there instead of into FILE itself")
+  command->add_option("--output,-o", arguments->output, "Write there instead of into FILE itself")
       ->type_name("FILE");
-  command->callback([request] { complete(*request); });
+  command->callback([arguments] { complete(*arguments); });
 }
 
 }  // namespace stride::cli

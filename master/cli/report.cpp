@@ -13,21 +13,22 @@
 namespace stride::cli {
 namespace {
 
-struct Request {
+struct ReportArguments {
   std::filesystem::path folder;
   std::filesystem::path out;
   bool open = false;
 };
 
-void make_report(const Request& request) {
-  const io::ResultFiles files = report::result_files(request.folder);
+void make_report(const ReportArguments& arguments) {
+  const io::ResultFiles files = report::result_files(arguments.folder);
   const std::string& name = files.report.empty() ? io::ResultFiles().report : files.report;
-  const std::filesystem::path file = request.out.empty() ? request.folder / name : request.out;
-  for (const std::string& note : write_report(request.folder, files, file)) {
+  const std::filesystem::path file =
+      arguments.out.empty() ? arguments.folder / name : arguments.out;
+  for (const std::string& note : write_report(arguments.folder, files, file)) {
     spdlog::warn("{}", note);
   }
   fmt::print("Report in {}\n", file.string());
-  if (request.open) open_in_browser(file);
+  if (arguments.open) open_in_browser(file);
 }
 
 }  // namespace
@@ -35,12 +36,14 @@ void make_report(const Request& request) {
 void add_report(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("report", "Make the page that shows what happened in a run");
-  const auto request = std::make_shared<Request>();
-  command->add_option("FOLDER", request->folder, "The results of a run")->required()->type_name("");
-  command->add_option("--output,-o", request->out, "Write there instead of into the folder")
+  const auto arguments = std::make_shared<ReportArguments>();
+  command->add_option("FOLDER", arguments->folder, "The results of a run")
+      ->required()
+      ->type_name("");
+  command->add_option("--output,-o", arguments->out, "Write there instead of into the folder")
       ->type_name("FILE");
-  command->add_flag("--open", request->open, "Open the page in a browser");
-  command->callback([request] { make_report(*request); });
+  command->add_flag("--open", arguments->open, "Open the page in a browser");
+  command->callback([arguments] { make_report(*arguments); });
 }
 
 }  // namespace stride::cli

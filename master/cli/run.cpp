@@ -35,7 +35,7 @@ namespace {
 
 constexpr int kMostThreads = 1024;
 
-struct Request {
+struct RunArguments {
   ScenarioRequest scenario;
   std::filesystem::path out;
   std::vector<std::string> captures;  ///< "component=FILE"
@@ -71,10 +71,10 @@ struct Recorders {
   }
 };
 
-std::filesystem::path make_folder(const Request& request, const io::Scenario& scenario) {
-  std::filesystem::path folder = request.out.empty()
+std::filesystem::path make_folder(const RunArguments& arguments, const io::Scenario& scenario) {
+  std::filesystem::path folder = arguments.out.empty()
                                      ? std::filesystem::path("results") / io::stem(scenario.path)
-                                     : request.out;
+                                     : arguments.out;
   io::make_results_folder(folder);
   io::remove_results(folder, scenario.annotation.results);
   // where units put the files that they write themselves
@@ -82,31 +82,31 @@ std::filesystem::path make_folder(const Request& request, const io::Scenario& sc
   return folder;
 }
 
-io::ResultFiles chosen_files(const Request& request, const io::Scenario& scenario) {
+io::ResultFiles chosen_files(const RunArguments& arguments, const io::Scenario& scenario) {
   io::ResultFiles files = scenario.annotation.results;
-  if (request.no_trace) files.trace.clear();
-  if (request.no_report || !has_reports()) files.report.clear();
-  if (request.open && files.report.empty()) {
+  if (arguments.no_trace) files.trace.clear();
+  if (arguments.no_report || !has_reports()) files.report.clear();
+  if (arguments.open && files.report.empty()) {
     core::fail_input({}, "--open: this run writes no report",
                      "leave --open out, or let the run write its report");
   }
   return files;
 }
 
-core::RunOptions run_options(const Request& request, const LoadedScenario& loaded) {
+core::RunOptions run_options(const RunArguments& arguments, const LoadedScenario& loaded) {
   core::RunOptions options = loaded.options();
-  options.threads.count = request.threads;
+  options.threads.count = arguments.threads;
   options.interrupted = &Interruption::flag();
   return options;
 }
 
-ProgressStyle progress_style(const Request& request) {
-  return request.progress.value_or(request.quiet ? ProgressStyle::None : ProgressStyle::Auto);
+ProgressStyle progress_style(const RunArguments& arguments) {
+  return arguments.progress.value_or(arguments.quiet ? ProgressStyle::None : ProgressStyle::Auto);
 }
 
-std::vector<capture::Request> captures(const Request& request) {
+std::vector<capture::Request> captures(const RunArguments& arguments) {
   std::vector<capture::Request> captures;
-  for (const std::string& text : request.captures) {
+  for (const std::string& text : arguments.captures) {
     auto [component, file] = split_option("--capture", text, "COMPONENT=FILE");
     if (file.empty()) core::fail_input({}, fmt::format("--capture {}: no file is named", text));
     captures.push_back({std::move(component), std::move(file)});
@@ -118,24 +118,24 @@ std::vector<capture::Request> captures(const Request& request) {
 class RecordedRun {
  public:
   /// Both must outlive it.
-  RecordedRun(const Request& request, TestReport& report)
-      : request_(request),
+  RecordedRun(const RunArguments& arguments, TestReport& report)
+      : request_(arguments),
         report_(report),
-        loaded_(request.scenario),
-        files_(chosen_files(request, loaded_.scenario())),
-        folder_(make_folder(request, loaded_.scenario())),
-        options_(run_options(request, loaded_)),
-        capture_(loaded_.system(), loaded_.scenario().name, options_, captures(request)),
+        loaded_(arguments.scenario),
+        files_(chosen_files(arguments, loaded_.scenario())),
+        folder_(make_folder(arguments, loaded_.scenario())),
+        options_(run_options(arguments, loaded_)),
+        capture_(loaded_.system(), loaded_.scenario().name, options_, captures(arguments)),
         simulation_(loaded_.system(), captured_units(), options_),
         recorders_(loaded_.system(), files_, folder_),
         checks_(loaded_.checks()),
         summary_(loaded_.system()),
-        progress_(progress_style(request), options_.start, options_.stop, simulation_) {
+        progress_(progress_style(arguments), options_.start, options_.stop, simulation_) {
     capture_.follow(simulation_);
     recorders_.add_to(simulation_);
     if (!checks_.is_empty()) simulation_.add_observer(checks_, checks_.signals());
     if (!capture_.is_empty()) simulation_.add_observer(capture_);
-    if (!request.quiet) simulation_.add_observer(summary_);
+    if (!arguments.quiet) simulation_.add_observer(summary_);
     simulation_.add_observer(progress_);
   }
 
@@ -254,7 +254,7 @@ class RecordedRun {
   }
 
   Interruption interruption_;
-  const Request& request_;
+  const RunArguments& request_;
   TestReport& report_;
   LoadedScenario loaded_;
   io::ResultFiles files_;
@@ -269,10 +269,10 @@ class RecordedRun {
   Progress progress_;
 };
 
-void run(const Request& request) {
-  TestReport report(request.junit, request.scenario.scenario);
+void run(const RunArguments& arguments) {
+  TestReport report(arguments.junit, arguments.scenario.scenario);
   try {
-    RecordedRun(request, report).run();
+    RecordedRun(arguments, report).run();
   } catch (const std::exception& failure) {
     if (!report.is_written()) report.write(failure.what());
     throw;
@@ -283,47 +283,47 @@ void run(const Request& request) {
 
 void add_run(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "Run a scenario and record what happens");
-  const auto request = std::make_shared<Request>();
-  add_scenario_options(*command, request->scenario);
+  const auto arguments = std::make_shared<RunArguments>();
+  add_scenario_options(*command, arguments->scenario);
   command
-      ->add_option("--out,-o", request->out,
+      ->add_option("--out,-o", arguments->out,
                    "Results folder; otherwise results/ and the scenario's name")
       ->type_name("FOLDER");
   command
-      ->add_option("--threads", request->threads,
+      ->add_option("--threads", arguments->threads,
                    "Step units on up to N threads where that is faster; the results are the same")
       ->type_name("N")
       ->check(CLI::Range(1, kMostThreads));
   command
-      ->add_option("--capture", request->captures,
+      ->add_option("--capture", arguments->captures,
                    "Write all that a component receives into a file, to be played to it alone; may "
                    "be given several times")
       ->type_name("COMPONENT=FILE")
       ->allow_extra_args(false);
   // a flag, so that what follows a blank is the scenario; without a value it is "true"
   command
-      ->add_flag("--film", request->scenario.film,
+      ->add_flag("--film", arguments->scenario.film,
                  "Pictures of the MuJoCo worlds in film/, 0.1 s of simulated time from one to the "
                  "next, or as in --film=SECONDS")
       ->transform([](const std::string& value) { return value == "true" ? kFilmAsItIs : value; });
   command
-      ->add_option("--junit", request->junit,
+      ->add_option("--junit", arguments->junit,
                    "Write a test report in the XML of JUnit, with a test case for the run, each "
                    "check and each unit's verdict")
       ->type_name("FILE");
-  command->add_flag("--no-trace", request->no_trace, "Write no signals.vcd");
+  command->add_flag("--no-trace", arguments->no_trace, "Write no signals.vcd");
   command
       ->add_option_function<std::string>(
           "--progress",
-          [request](const std::string& text) { request->progress = read_progress_style(text); },
+          [arguments](const std::string& text) { arguments->progress = read_progress_style(text); },
           "How to show how far the run is: by itself (on a terminal a line that is rewritten, "
           "elsewhere a line now and then), in plain lines, in an object a line for programs, or "
           "not at all")
       ->type_name("auto|plain|json|none");
-  command->add_flag("--no-report", request->no_report, "Write no report.html");
-  command->add_flag("--open", request->open, "Open the report in a browser when the run is over");
-  command->add_flag("--quiet,-q", request->quiet, "Print nothing but errors");
-  command->callback([request] { run(*request); });
+  command->add_flag("--no-report", arguments->no_report, "Write no report.html");
+  command->add_flag("--open", arguments->open, "Open the report in a browser when the run is over");
+  command->add_flag("--quiet,-q", arguments->quiet, "Print nothing but errors");
+  command->callback([arguments] { run(*arguments); });
 }
 
 }  // namespace stride::cli

@@ -18,7 +18,7 @@
 namespace stride::cli {
 namespace {
 
-struct Request {
+struct TraceArguments {
   std::filesystem::path from;
   std::filesystem::path to;
   std::optional<Duration> min_gap;
@@ -70,10 +70,10 @@ std::string gaps(const trace::Info& info) {
   return table.text();
 }
 
-void show(const Request& request) {
-  const trace::Info info = trace::info(request.from, request.min_gap, request.cut_off());
-  warn_of(request.from, info.cut);
-  fmt::print("{}: {}\n{}", request.from.string(),
+void show(const TraceArguments& arguments) {
+  const trace::Info info = trace::info(arguments.from, arguments.min_gap, arguments.cut_off());
+  warn_of(arguments.from, info.cut);
+  fmt::print("{}: {}\n{}", arguments.from.string(),
              info.has_advance_time ? "idle time is left out (advanceTime)"
                                    : "no advanceTime, so its time is true",
              facts(info));
@@ -81,43 +81,43 @@ void show(const Request& request) {
   fmt::print("\nLongest gaps\n{}", gaps(info));
 }
 
-void expand(const Request& request) {
-  warn_of(request.from, trace::expand(request.from, request.to, request.cut_off()));
+void expand(const TraceArguments& arguments) {
+  warn_of(arguments.from, trace::expand(arguments.from, arguments.to, arguments.cut_off()));
 }
 
-void compress(const Request& request) {
-  warn_of(request.from,
-          trace::compress(request.from, request.to, request.min_gap, request.cut_off()));
+void compress(const TraceArguments& arguments) {
+  warn_of(arguments.from,
+          trace::compress(arguments.from, arguments.to, arguments.min_gap, arguments.cut_off()));
 }
 
 /// A command with the options that all of them have.
 CLI::App& add_command(CLI::App& group, const std::string& name, const std::string& meaning,
-                      const std::shared_ptr<Request>& request,
-                      const std::function<void(const Request&)>& work) {
+                      const std::shared_ptr<TraceArguments>& arguments,
+                      const std::function<void(const TraceArguments&)>& work) {
   CLI::App* command = group.add_subcommand(name, meaning);
-  command->add_option("IN.vcd", request->from, "The value change dump to read")
+  command->add_option("IN.vcd", arguments->from, "The value change dump to read")
       ->required()
       ->type_name("");
-  command->add_flag("--cut-off", request->is_cut_off,
+  command->add_flag("--cut-off", arguments->is_cut_off,
                     "Take a file that ends anywhere, as a run that crashed leaves it: all "
                     "instants but the last");
-  command->callback([request, work] { work(*request); });
+  command->callback([arguments, work] { work(*arguments); });
   return *command;
 }
 
-void add_output(CLI::App& command, const std::shared_ptr<Request>& request) {
-  command.add_option("OUT.vcd", request->to, "The file to write; one that exists is replaced")
+void add_output(CLI::App& command, const std::shared_ptr<TraceArguments>& arguments) {
+  command.add_option("OUT.vcd", arguments->to, "The file to write; one that exists is replaced")
       ->required()
       ->type_name("");
 }
 
-void add_min_gap(CLI::App& command, const std::shared_ptr<Request>& request) {
+void add_min_gap(CLI::App& command, const std::shared_ptr<TraceArguments>& arguments) {
   command
       .add_option_function<std::string>(
           "--min-gap",
-          [request](const std::string& text) {
+          [arguments](const std::string& text) {
             try {
-              request->min_gap = io::parse_seconds(text);
+              arguments->min_gap = io::parse_seconds(text);
             } catch (const std::invalid_argument& mistake) {
               core::fail_input({}, fmt::format("--min-gap {}: {}", text, mistake.what()));
             }
@@ -132,18 +132,18 @@ void add_trace(CLI::App& app) {
   CLI::App* group = app.add_subcommand(
       "trace", "Show the idle time in a value change dump, take it out, or put it in again");
   group->require_subcommand(1);
-  const auto request = std::make_shared<Request>();
+  const auto arguments = std::make_shared<TraceArguments>();
   CLI::App& info =
-      add_command(*group, "info", "Show what a trace holds, and its gaps", request, show);
-  add_min_gap(info, request);
+      add_command(*group, "info", "Show what a trace holds, and its gaps", arguments, show);
+  add_min_gap(info, arguments);
   CLI::App& to_true = add_command(
-      *group, "expand", "Restore the true time of a trace with advanceTime", request, expand);
-  add_output(to_true, request);
+      *group, "expand", "Restore the true time of a trace with advanceTime", arguments, expand);
+  add_output(to_true, arguments);
   CLI::App& to_short =
       add_command(*group, "compress", "Shorten the gaps of a trace, which 'expand' can restore",
-                  request, compress);
-  add_output(to_short, request);
-  add_min_gap(to_short, request);
+                  arguments, compress);
+  add_output(to_short, arguments);
+  add_min_gap(to_short, arguments);
 }
 
 }  // namespace stride::cli

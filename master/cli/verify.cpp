@@ -30,7 +30,7 @@ struct Options {
 };
 
 /// Which check is at work, on a terminal, where the next one and the table take its place.
-void show(const char* check) {
+void show_progress(const char* check) {
   if (::isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[Kchecking {} …", check);
 }
 
@@ -73,7 +73,7 @@ void run(const Options& options) {
   std::fflush(stdout);
   const Interruption interruption;
   const auto results =
-      verify::verify(subject, {.on_begin = show, .interrupted = &Interruption::flag()});
+      verify::verify(subject, {.on_begin = show_progress, .interrupted = &Interruption::flag()});
   if (::isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K");
   fmt::print("{}\n{}\n", table_text(results), conclusion(results));
   if (json) {

@@ -12,9 +12,9 @@ namespace {
 using core::Interval;
 using core::IntervalVariability;
 
-class Reader {
+class ClockReader {
  public:
-  Reader(const xml::Element& clock, const std::optional<xml::Element>& type)
+  ClockReader(const xml::Element& clock, const std::optional<xml::Element>& type)
       : clock_(clock), type_(type) {}
 
   core::ClockAttributes read(core::Causality causality) const {
@@ -106,7 +106,7 @@ class Reader {
 core::ClockAttributes read_clock_attributes(const xml::Element& clock,
                                             const std::optional<xml::Element>& declared_type,
                                             core::Causality causality) {
-  return Reader(clock, declared_type).read(causality);
+  return ClockReader(clock, declared_type).read(causality);
 }
 
 }  // namespace stride::fmi

@@ -37,9 +37,9 @@ bool check_head(const xml::Element& root) {
   return !version.starts_with("1.0");
 }
 
-class Reader {
+class ManifestReader {
  public:
-  explicit Reader(core::UnitDescription& unit) : unit_(unit) {}
+  explicit ManifestReader(core::UnitDescription& unit) : unit_(unit) {}
 
   void read(const xml::Element& root) {
     const bool is_later = check_head(root);
@@ -110,12 +110,12 @@ class Reader {
 
 void parse_idle_manifest(const std::string& text, const std::string& shown_as,
                          core::UnitDescription& unit) {
-  Reader(unit).read(xml::Document::parse(text, shown_as).root());
+  ManifestReader(unit).read(xml::Document::parse(text, shown_as).root());
 }
 
 void read_idle_manifest(const std::filesystem::path& file, const std::string& shown_as,
                         core::UnitDescription& unit) {
-  Reader(unit).read(xml::Document(file, shown_as).root());
+  ManifestReader(unit).read(xml::Document(file, shown_as).root());
 }
 
 }  // namespace stride::fmi

@@ -15,7 +15,7 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 /// How often is looked whether the keeper is still there.
-constexpr std::chrono::milliseconds kLook{50};
+constexpr std::chrono::milliseconds kProcessCheckInterval{50};
 
 double seconds(std::chrono::milliseconds time) {
   return std::chrono::duration<double>(time).count();
@@ -73,7 +73,9 @@ void Conversation::await_reply(std::optional<Time> time) {
            time);
     }
     if (!limit && waited > recipe_.options.patience) complain_of_waiting();
-    bell.sleep(rings, limit ? std::min<std::chrono::nanoseconds>(kLook, *limit - waited) : kLook);
+    bell.sleep(rings,
+               limit ? std::min<std::chrono::nanoseconds>(kProcessCheckInterval, *limit - waited)
+                     : kProcessCheckInterval);
   }
 }
 

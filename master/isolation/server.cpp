@@ -18,7 +18,7 @@ namespace stride::host {
 namespace {
 
 /// Where the master is so long in coming, nothing is lost by another look.
-constexpr std::chrono::seconds kLook{10};
+constexpr std::chrono::seconds kMasterCheckInterval{10};
 
 /// What the master did within a call has failed; it knows how.
 struct CallbackFailure {};
@@ -82,7 +82,7 @@ void Server::await_request() {
     return memory_.request.number.load(std::memory_order_acquire) !=
            memory_.reply.number.load(std::memory_order_relaxed);
   };
-  while (!waiter_.wait(memory_.request.bell, kLook, is_there)) {
+  while (!waiter_.wait(memory_.request.bell, kMasterCheckInterval, is_there)) {
   }
 }
 

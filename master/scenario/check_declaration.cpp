@@ -12,7 +12,7 @@
 namespace stride::io {
 namespace {
 
-std::optional<Duration> read_time(const xml::Element& element, const char* attribute) {
+std::optional<Duration> read_duration(const xml::Element& element, const char* attribute) {
   const auto text = element.attribute(attribute);
   if (!text) return std::nullopt;
   try {
@@ -24,8 +24,8 @@ std::optional<Duration> read_time(const xml::Element& element, const char* attri
 
 checks::Window read_window(const xml::Element& element) {
   checks::Window window;
-  if (const auto from = read_time(element, "from")) window.from = Time(*from);
-  if (const auto to = read_time(element, "to")) window.to = Time(*to);
+  if (const auto from = read_duration(element, "from")) window.from = Time(*from);
+  if (const auto to = read_duration(element, "to")) window.to = Time(*to);
   if (window.from && window.to && *window.from > *window.to) {
     element.fail(fmt::format("the interval ends at {} s, before it begins at {} s",
                              core::to_text(*window.to), core::to_text(*window.from)));
@@ -79,7 +79,7 @@ void read_answer(const xml::Element& element, CheckDeclaration& check) {
   check.subject = element.required("request");
   check.reply = element.required("reply");
   element.required("within");
-  check.within = *read_time(element, "within");
+  check.within = *read_duration(element, "within");
   check.repeats = element.flag("repeats");
   check.window = read_window(element);
 }

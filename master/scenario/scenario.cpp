@@ -15,7 +15,7 @@
 namespace stride::io {
 namespace {
 
-std::optional<Time> read_time(const xml::Element& element, const char* attribute) {
+std::optional<Time> read_instant(const xml::Element& element, const char* attribute) {
   const auto text = element.attribute(attribute);
   if (!text) return std::nullopt;
   try {
@@ -30,8 +30,8 @@ void read_default_experiment(const xml::Element& root, Scenario& scenario) {
   if (!experiment) return;
   experiment->allow_attributes({"startTime", "stopTime"});
   experiment->allow_children({{kSsd, "Annotations"}});
-  scenario.start = read_time(*experiment, "startTime");
-  scenario.stop = read_time(*experiment, "stopTime");
+  scenario.start = read_instant(*experiment, "startTime");
+  scenario.stop = read_instant(*experiment, "stopTime");
   if (scenario.stop && *scenario.stop <= scenario.start.value_or(Time{})) {
     experiment->fail(
         fmt::format("the run would end at {} s, before or where it starts ({} s)",

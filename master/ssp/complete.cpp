@@ -18,8 +18,6 @@ namespace {
 
 using core::ValueType;
 
-constexpr std::array<const char*, 8> kBaseUnits{"kg", "m", "s", "A", "K", "mol", "cd", "rad"};
-
 bool is_same(const core::BaseUnit& a, const core::BaseUnit& b) {
   return a.exponents == b.exponents && a.factor == b.factor && a.offset == b.offset;
 }

@@ -1,6 +1,5 @@
 #include "master/ssp/definitions.h"
 
-#include <array>
 #include <cstdint>
 
 #include <fmt/format.h>
@@ -9,8 +8,6 @@
 
 namespace stride::io {
 namespace {
-
-constexpr std::array<const char*, 8> kBaseUnits{"kg", "m", "s", "A", "K", "mol", "cd", "rad"};
 
 core::BaseUnit read_base_unit(const xml::Element& element) {
   core::BaseUnit unit;

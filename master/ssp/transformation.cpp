@@ -13,7 +13,7 @@ namespace stride::io {
 namespace {
 
 using core::Transformation;
-using Kind = core::Transformation::Kind;
+using TransformationKind = core::Transformation::Kind;
 
 double finite(const xml::Element& element, const char* attribute, double otherwise) {
   const double number = element.number<double>(attribute).value_or(otherwise);
@@ -41,12 +41,12 @@ void add_entry(const xml::Element& element, Entries& entries, Source source, Tar
 void read_entry(const xml::Element& element, Transformation& transformation) {
   element.allow_attributes({"source", "target"});
   switch (transformation.kind) {
-    case Kind::BooleanMapping:
+    case TransformationKind::BooleanMapping:
       element.given("source");
       element.given("target");
       return add_entry(element, transformation.numbers, std::int64_t{element.flag("source")},
                        std::int64_t{element.flag("target")});
-    case Kind::IntegerMapping:
+    case TransformationKind::IntegerMapping:
       return add_entry(element, transformation.numbers,
                        element.required_number<std::int64_t>("source"),
                        element.required_number<std::int64_t>("target"));
@@ -73,18 +73,19 @@ core::Passage read_passage(const xml::Element& owner) {
   core::Passage passage;
   passage.suppress_unit_conversion = owner.flag("suppressUnitConversion");
   Transformation& transformation = passage.transformation;
-  for (const Kind kind :
-       {Kind::Linear, Kind::BooleanMapping, Kind::IntegerMapping, Kind::EnumerationMapping}) {
+  for (const TransformationKind kind :
+       {TransformationKind::Linear, TransformationKind::BooleanMapping,
+        TransformationKind::IntegerMapping, TransformationKind::EnumerationMapping}) {
     const auto element = owner.child({kSsc, core::name(kind)});
     if (!element) continue;
-    if (transformation.kind != Kind::None) {
+    if (transformation.kind != TransformationKind::None) {
       element->fail(fmt::format("{} is a second transformation; the first is in line {}",
                                 element->tag(), transformation.where.line),
                     "keep one of the two");
     }
     transformation.kind = kind;
     transformation.where = element->where();
-    if (kind == Kind::Linear) {
+    if (kind == TransformationKind::Linear) {
       read_linear(*element, transformation);
     } else {
       read_mapping(*element, transformation);

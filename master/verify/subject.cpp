@@ -14,7 +14,7 @@ using core::Variable;
 
 constexpr Duration kDefaultStep = std::chrono::milliseconds(1);
 constexpr std::int64_t kDefaultSteps = 200;
-constexpr std::int64_t kMostSteps = 1000;
+constexpr std::int64_t kMostSimulatedSteps = 1000;
 /// Values that are kept of one run, so that a unit with many variables is not verified for ever.
 constexpr std::int64_t kMostValues = 500'000;
 constexpr std::int64_t kFewestSteps = 20;
@@ -98,7 +98,8 @@ void Subject::choose_times() {
           "choose a smaller --step or a later --stop");
     }
   } else if (unit.default_stop) {
-    steps = std::clamp(unit.default_stop->time_since_epoch() / step_, kFewestSteps, kMostSteps);
+    steps = std::clamp(unit.default_stop->time_since_epoch() / step_, kFewestSteps,
+                       kMostSimulatedSteps);
   }
   if (!request_.stop) steps = std::min(steps, std::max(kFewestSteps, kMostValues / values));
   steps_ = static_cast<std::size_t>(steps);

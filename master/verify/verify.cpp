@@ -16,11 +16,11 @@
 namespace stride::verify {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 using End = process::ChildOutcome::End;
 
-std::string dump(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+std::string dump(const OrderedJson& json) {
+  return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 std::string to_text(const Finding& finding) {
@@ -28,7 +28,7 @@ std::string to_text(const Finding& finding) {
 }
 
 Finding finding_from_text(const std::string& text) {
-  const Json json = Json::parse(text);
+  const OrderedJson json = OrderedJson::parse(text);
   return {static_cast<Verdict>(json[0].get<int>()), json[1], json[2]};
 }
 
@@ -111,14 +111,14 @@ bool all_good(const std::vector<Result>& results) {
 
 std::string json_text(const Subject& subject, const std::vector<Result>& results) {
   const core::UnitDescription& unit = subject.description();
-  Json json = {{"file", subject.request().file.string()},
-               {"model", unit.model_name},
-               {"fmi_version", unit.fmi_version},
-               {"step", to_seconds(subject.step())},
-               {"stop", to_seconds(subject.point(subject.steps()))},
-               {"seed", subject.request().seed},
-               {"good", all_good(results)},
-               {"checks", Json::array()}};
+  OrderedJson json = {{"file", subject.request().file.string()},
+                      {"model", unit.model_name},
+                      {"fmi_version", unit.fmi_version},
+                      {"step", to_seconds(subject.step())},
+                      {"stop", to_seconds(subject.point(subject.steps()))},
+                      {"seed", subject.request().seed},
+                      {"good", all_good(results)},
+                      {"checks", OrderedJson::array()}};
   for (const auto& [check, finding, seconds] : results) {
     json["checks"].push_back({{"name", check},
                               {"verdict", name(finding.verdict)},

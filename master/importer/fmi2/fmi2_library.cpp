@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 /// What Fmi2Unit may call for any Co-Simulation unit. What depends on a capability flag of the
 /// description, or is asked only where a unit knows more, is not here.
-constexpr std::string_view kNeeded[] = {
+constexpr std::string_view kFmi2Needed[] = {
     "Instantiate",
     "FreeInstance",
     "SetupExperiment",
@@ -31,12 +31,13 @@ constexpr std::string_view kNeeded[] = {
     "DoStep",
 };
 
-constexpr std::size_t kNeededFound = 0
-#define STRIDE_COUNT(name) +(contains(kNeeded, #name) ? 1 : 0)
+constexpr std::size_t kFmi2NeededFound = 0
+#define STRIDE_COUNT(name) +(contains(kFmi2Needed, #name) ? 1 : 0)
     FMI2_FUNCTIONS(STRIDE_COUNT)
 #undef STRIDE_COUNT
     ;
-static_assert(kNeededFound == std::size(kNeeded), "a name in kNeeded is misspelt or there twice");
+static_assert(kFmi2NeededFound == std::size(kFmi2Needed),
+              "a name in kFmi2Needed is misspelt or there twice");
 
 bool is_unreserved(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
@@ -49,10 +50,10 @@ Fmi2Library::Fmi2Library(const fs::path& path, const std::string& model_identifi
                          const core::Location& where)
     : SharedLibrary(path, where) {
   std::vector<std::string> missing;
-#define STRIDE_FIND(name)                                       \
-  find(functions_.name, "fmi2" #name);                          \
-  if (functions_.name == nullptr && contains(kNeeded, #name)) { \
-    missing.emplace_back("fmi2" #name);                         \
+#define STRIDE_FIND(name)                                           \
+  find(functions_.name, "fmi2" #name);                              \
+  if (functions_.name == nullptr && contains(kFmi2Needed, #name)) { \
+    missing.emplace_back("fmi2" #name);                             \
   }
   FMI2_FUNCTIONS(STRIDE_FIND)
 #undef STRIDE_FIND

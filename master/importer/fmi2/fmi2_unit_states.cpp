@@ -4,8 +4,8 @@
 namespace stride::fmi {
 namespace {
 
-constexpr const char* kSaving = "canGetAndSetFMUstate";
-constexpr const char* kSerializing = "canSerializeFMUstate";
+constexpr const char* kFmi2Saving = "canGetAndSetFMUstate";
+constexpr const char* kFmi2Serializing = "canSerializeFMUstate";
 
 }  // namespace
 
@@ -20,7 +20,7 @@ void Fmi2Unit::restore_state() {
 }
 
 void Fmi2Unit::save(SavedState& saved) {
-  require("fmi2GetFMUstate", fmi_.GetFMUstate, kSaving);
+  require("fmi2GetFMUstate", fmi_.GetFMUstate, kFmi2Saving);
   call("fmi2GetFMUstate", fmi_.GetFMUstate, &saved.state);  // the unit uses its memory again
   saved.time = time_;
   saved.is_instantiated_only = is_instantiated_only_;
@@ -28,7 +28,7 @@ void Fmi2Unit::save(SavedState& saved) {
 
 void Fmi2Unit::restore(const SavedState& saved) {
   if (saved.state == nullptr) fail("no state of it has been saved that could be restored");
-  require("fmi2SetFMUstate", fmi_.SetFMUstate, kSaving);
+  require("fmi2SetFMUstate", fmi_.SetFMUstate, kFmi2Saving);
   call("fmi2SetFMUstate", fmi_.SetFMUstate, saved.state);
   time_ = saved.time;
   is_instantiated_only_ = saved.is_instantiated_only;
@@ -48,12 +48,12 @@ void Fmi2Unit::select_state(std::size_t slot) {
 std::vector<std::uint8_t> Fmi2Unit::serialize_state() {
   return serialized(states_.chosen().state, "fmi2SerializedFMUstateSize",
                     fmi_.SerializedFMUstateSize, "fmi2SerializeFMUstate", fmi_.SerializeFMUstate,
-                    kSerializing);
+                    kFmi2Serializing);
 }
 
 /// The bytes do not tell the time.
 void Fmi2Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
-  require("fmi2DeSerializeFMUstate", fmi_.DeSerializeFMUstate, kSerializing);
+  require("fmi2DeSerializeFMUstate", fmi_.DeSerializeFMUstate, kFmi2Serializing);
   SavedState& saved = states_.chosen();
   free_state(saved);
   is_as_saved_ = false;

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 /// What Fmi3Unit may call for any Co-Simulation unit. What depends on a capability flag of the
 /// description, and what belongs to another interface type, is not here.
-constexpr std::string_view kNeeded[] = {
+constexpr std::string_view kFmi3Needed[] = {
     "GetVersion",    "InstantiateCoSimulation",
     "FreeInstance",  "EnterInitializationMode",
     "DoStep",        "ExitInitializationMode",
@@ -35,22 +35,23 @@ constexpr std::string_view kNeeded[] = {
     "GetClock",      "SetClock",
 };
 
-constexpr std::size_t kNeededFound = 0
-#define STRIDE_COUNT(name) +(contains(kNeeded, #name) ? 1 : 0)
+constexpr std::size_t kFmi3NeededFound = 0
+#define STRIDE_COUNT(name) +(contains(kFmi3Needed, #name) ? 1 : 0)
     FMI3_FUNCTIONS(STRIDE_COUNT)
 #undef STRIDE_COUNT
     ;
-static_assert(kNeededFound == std::size(kNeeded), "a name in kNeeded is misspelt or there twice");
+static_assert(kFmi3NeededFound == std::size(kFmi3Needed),
+              "a name in kFmi3Needed is misspelt or there twice");
 
 }  // namespace
 
 Fmi3Library::Fmi3Library(const fs::path& path, const core::Location& where)
     : SharedLibrary(path, where) {
   std::vector<std::string> missing;
-#define STRIDE_FIND(name)                                       \
-  find(functions_.name, "fmi3" #name);                          \
-  if (functions_.name == nullptr && contains(kNeeded, #name)) { \
-    missing.emplace_back("fmi3" #name);                         \
+#define STRIDE_FIND(name)                                           \
+  find(functions_.name, "fmi3" #name);                              \
+  if (functions_.name == nullptr && contains(kFmi3Needed, #name)) { \
+    missing.emplace_back("fmi3" #name);                             \
   }
   FMI3_FUNCTIONS(STRIDE_FIND)
 #undef STRIDE_FIND

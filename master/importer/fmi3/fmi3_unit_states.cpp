@@ -4,13 +4,13 @@
 namespace stride::fmi {
 namespace {
 
-constexpr const char* kSaving = "canGetAndSetFMUState";
-constexpr const char* kSerializing = "canSerializeFMUState";
+constexpr const char* kFmi3Saving = "canGetAndSetFMUState";
+constexpr const char* kFmi3Serializing = "canSerializeFMUState";
 
 }  // namespace
 
 void Fmi3Unit::save_state() {
-  require("fmi3GetFMUState", fmi_.GetFMUState, kSaving);
+  require("fmi3GetFMUState", fmi_.GetFMUState, kFmi3Saving);
   SavedState& saved = states_.chosen();
   call("fmi3GetFMUState", fmi_.GetFMUState, &saved.state);  // the unit uses its memory again
   saved.time = time_;
@@ -19,7 +19,7 @@ void Fmi3Unit::save_state() {
 void Fmi3Unit::restore_state() {
   const SavedState& saved = states_.chosen();
   if (saved.state == nullptr) fail("no state of it has been saved that could be restored");
-  require("fmi3SetFMUState", fmi_.SetFMUState, kSaving);
+  require("fmi3SetFMUState", fmi_.SetFMUState, kFmi3Saving);
   call("fmi3SetFMUState", fmi_.SetFMUState, saved.state);
   time_ = saved.time;
 }
@@ -35,12 +35,12 @@ void Fmi3Unit::select_state(std::size_t slot) { states_.choose(slot); }
 std::vector<std::uint8_t> Fmi3Unit::serialize_state() {
   return serialized(states_.chosen().state, "fmi3SerializedFMUStateSize",
                     fmi_.SerializedFMUStateSize, "fmi3SerializeFMUState", fmi_.SerializeFMUState,
-                    kSerializing);
+                    kFmi3Serializing);
 }
 
 /// The bytes do not tell the time.
 void Fmi3Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
-  require("fmi3DeserializeFMUState", fmi_.DeserializeFMUState, kSerializing);
+  require("fmi3DeserializeFMUState", fmi_.DeserializeFMUState, kFmi3Serializing);
   SavedState& saved = states_.chosen();
   free_state(saved);
   call("fmi3DeserializeFMUState", fmi_.DeserializeFMUState, bytes.data(), bytes.size(),
