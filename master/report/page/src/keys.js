@@ -1,11 +1,11 @@
-// What the keys do. Which key means what is a table, so that the help is made of the same.
+// The actions of the keys. The bindings are a table, from which the help is also made.
 
-/** As many samples at once with Shift. */
+/** The number of samples with Shift. */
 export const kManySamples = 10;
 
 /**
  * @typedef {object} Binding
- * @property {string[]} keys as events name them
+ * @property {string[]} keys as named in events
  * @property {string} shown in the help
  * @property {string} text
  * @property {string} action
@@ -31,7 +31,7 @@ export const kBindings = [
 ];
 
 /**
- * What a key means, if anything: an action and its argument.
+ * The binding of a key, if there is one: an action and its argument.
  * @param {{key: string, shiftKey?: boolean, ctrlKey?: boolean, altKey?: boolean, metaKey?: boolean}} event
  */
 export function actionOf({ key, shiftKey, ctrlKey, altKey, metaKey }) {
