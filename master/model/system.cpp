@@ -84,13 +84,13 @@ struct Way {
 
 /// What is wrong is told at once, as far as it does not follow from something else.
 System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
-  Mistakes mistakes;
-  add_components(declaration, mistakes);
-  const std::vector<Target> targets = find_targets(declaration, mistakes);
-  if (!mistakes.attempt([&] { add_structural_values(targets); })) mistakes.raise();
-  add_connections(declaration, mistakes);
-  add_start_values(targets, mistakes);
-  mistakes.raise();
+  Diagnostics diagnostics;
+  add_components(declaration, diagnostics);
+  const std::vector<Target> targets = find_targets(declaration, diagnostics);
+  if (!diagnostics.attempt([&] { add_structural_values(targets); })) diagnostics.raise();
+  add_connections(declaration, diagnostics);
+  add_start_values(targets, diagnostics);
+  diagnostics.raise();
   add_outputs(declaration);
 }
 
@@ -98,7 +98,7 @@ std::string System::prefix(VariableId id) const {
   return is_output(id) ? "" : components_[id.component].name + ".";
 }
 
-void System::add_components(const SystemDeclaration& declaration, Mistakes& mistakes) {
+void System::add_components(const SystemDeclaration& declaration, Diagnostics& diagnostics) {
   if (declaration.components.empty()) {
     fail_input({}, "the system has no component, so there is nothing to simulate");
   }
@@ -109,7 +109,7 @@ void System::add_components(const SystemDeclaration& declaration, Mistakes& mist
                  "give one of them another name");
     }
     for (const ConnectorDeclaration& connector : component.connectors) {
-      mistakes.attempt([&] { check_connector(declaration, component, connector); });
+      diagnostics.attempt([&] { check_connector(declaration, component, connector); });
     }
     check_clocks(component);
     components_.push_back({component.name, component.description, component.early_return_allowed,
@@ -207,7 +207,7 @@ void System::note_missing(const StartDeclaration& wanted) {
 
 /// Of those that are there; of the others, what is not meant to be passed over is an error.
 std::vector<System::Target> System::find_targets(const SystemDeclaration& declaration,
-                                                 Mistakes& mistakes) {
+                                                 Diagnostics& diagnostics) {
   std::vector<Target> targets;
   std::vector<const StartDeclaration*> missing;
   std::set<std::size_t> found_groups;
@@ -220,14 +220,14 @@ std::vector<System::Target> System::find_targets(const SystemDeclaration& declar
     }
     const VariableId id{component, *place};
     found_groups.insert(wanted.group);
-    mistakes.attempt([&] {
+    diagnostics.attempt([&] {
       check_settable(variable(id), {wanted.where, wanted.component, wanted.variable, {}});
       targets.push_back({&wanted, id});
     });
   }
   for (const StartDeclaration* wanted : missing) {
     if (wanted->group != 0 && found_groups.contains(wanted->group)) continue;
-    mistakes.attempt([&] { note_missing(*wanted); });
+    diagnostics.attempt([&] { note_missing(*wanted); });
   }
   return targets;
 }
@@ -280,12 +280,12 @@ void System::add_structural_values(const std::vector<Target>& targets) {
   for (auto& [id, value] : values) structural_values_.push_back({id, std::move(value)});
 }
 
-void System::add_start_values(const std::vector<Target>& targets, Mistakes& mistakes) {
+void System::add_start_values(const std::vector<Target>& targets, Diagnostics& diagnostics) {
   std::map<VariableId, ValueBlock> values;
   for (const Target& target : targets) {
     const VariableId id = target.id;
     if (variable(id).causality == Causality::StructuralParameter) continue;
-    mistakes.attempt([&] { values.insert_or_assign(id, start_value(*target.declaration, id)); });
+    diagnostics.attempt([&] { values.insert_or_assign(id, start_value(*target.declaration, id)); });
   }
   for (auto& [id, value] : values) start_values_.push_back({id, std::move(value)});
 }

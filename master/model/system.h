@@ -140,8 +140,8 @@ class System {
   std::string prefix(VariableId id) const;
 
  private:
-  void add_components(const SystemDeclaration& declaration, Mistakes& mistakes);
-  void add_connections(const SystemDeclaration& declaration, Mistakes& mistakes);
+  void add_components(const SystemDeclaration& declaration, Diagnostics& diagnostics);
+  void add_connections(const SystemDeclaration& declaration, Diagnostics& diagnostics);
   void add_outputs(const SystemDeclaration& declaration);
   void add_output(const OutputDeclaration& declaration);
   /// A start value and what it is for.
@@ -149,9 +149,9 @@ class System {
     const StartDeclaration* declaration;
     VariableId id;
   };
-  std::vector<Target> find_targets(const SystemDeclaration& declaration, Mistakes& mistakes);
+  std::vector<Target> find_targets(const SystemDeclaration& declaration, Diagnostics& diagnostics);
   void add_structural_values(const std::vector<Target>& targets);
-  void add_start_values(const std::vector<Target>& targets, Mistakes& mistakes);
+  void add_start_values(const std::vector<Target>& targets, Diagnostics& diagnostics);
   void resize(const StartDeclaration& declaration, VariableId structural_parameter,
               std::size_t size);
   std::size_t find_component(const std::string& name, const Location& where) const;
@@ -167,7 +167,8 @@ class System {
   void check_message(const ConnectionDeclaration& declaration, const Connection& connection) const;
   using Ends = std::pair<VariableId, VariableId>;
   std::optional<Ends> find_ends(const SystemDeclaration& declaration,
-                                const ConnectionDeclaration& wanted, Mistakes& mistakes) const;
+                                const ConnectionDeclaration& wanted,
+                                Diagnostics& diagnostics) const;
   static void check_only(const ConnectionDeclaration& declaration,
                          const ConnectionDeclaration* first);
   Connection connect(const ConnectionDeclaration& declaration, const Ends& ends) const;

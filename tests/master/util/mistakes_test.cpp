@@ -7,14 +7,14 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-void keep(Mistakes& mistakes, const Context& context, const std::string& message,
+void keep(Diagnostics& diagnostics, const Context& context, const std::string& message,
           const std::string& hint = "") {
-  CHECK_FALSE(mistakes.attempt([&] { fail_input(context, message, hint); }));
+  CHECK_FALSE(diagnostics.attempt([&] { fail_input(context, message, hint); }));
 }
 
-std::string told(const Mistakes& mistakes) {
+std::string told(const Diagnostics& diagnostics) {
   try {
-    mistakes.raise();
+    diagnostics.raise();
   } catch (const Error& error) {
     CHECK(error.kind() == Error::Kind::Input);
     return error.what();
@@ -25,58 +25,59 @@ std::string told(const Mistakes& mistakes) {
 }  // namespace
 
 TEST_CASE("nothing is raised where nothing went wrong") {
-  Mistakes mistakes;
+  Diagnostics diagnostics;
   bool is_called = false;
-  CHECK(mistakes.attempt([&] { is_called = true; }));
+  CHECK(diagnostics.attempt([&] { is_called = true; }));
   CHECK(is_called);
-  CHECK_FALSE(mistakes.any());
-  CHECK_NOTHROW(mistakes.raise());
+  CHECK_FALSE(diagnostics.any());
+  CHECK_NOTHROW(diagnostics.raise());
 }
 
 TEST_CASE("a single mistake is raised as it is") {
-  Mistakes mistakes;
-  keep(mistakes, {{"a.ssd", 7}, "sensor", "led", {}}, "it is wrong", "mend it");
-  CHECK(mistakes.any());
-  CHECK(told(mistakes) == "a.ssd:7: unit 'sensor', variable 'led': it is wrong\n  hint: mend it");
+  Diagnostics diagnostics;
+  keep(diagnostics, {{"a.ssd", 7}, "sensor", "led", {}}, "it is wrong", "mend it");
+  CHECK(diagnostics.any());
+  CHECK(told(diagnostics) ==
+        "a.ssd:7: unit 'sensor', variable 'led': it is wrong\n  hint: mend it");
 }
 
 TEST_CASE("several mistakes have a line each, those about one unit together") {
-  Mistakes mistakes;
-  keep(mistakes, {{"a.ssd", 7}, "sensor", "led", {}}, "first");
-  keep(mistakes, {{"a.ssd", 8}, "world", "x", {}}, "second", "mend x");
-  keep(mistakes, {{"a.ssd", 9}, {}, {}, {}}, "third", "look");
-  keep(mistakes, {{"a.ssd", 5}, "sensor", "adc", {}}, "fourth", "look");
-  CHECK(told(mistakes) ==
+  Diagnostics diagnostics;
+  keep(diagnostics, {{"a.ssd", 7}, "sensor", "led", {}}, "first");
+  keep(diagnostics, {{"a.ssd", 8}, "world", "x", {}}, "second", "mend x");
+  keep(diagnostics, {{"a.ssd", 9}, {}, {}, {}}, "third", "look");
+  keep(diagnostics, {{"a.ssd", 5}, "sensor", "adc", {}}, "fourth", "look");
+  CHECK(told(diagnostics) ==
         "there are 4 mistakes:\n"
         "  a.ssd:7: unit 'sensor', variable 'led': first\n"
         "  a.ssd:5: unit 'sensor', variable 'adc': fourth\n"
         "  a.ssd:8: unit 'world', variable 'x': second (mend x)\n"
         "  a.ssd:9: third\n"
         "  hint: look");
-  CHECK(mistakes.tell_of("sensor", "adc"));
-  CHECK_FALSE(mistakes.tell_of("world", "adc"));
+  CHECK(diagnostics.mentions("sensor", "adc"));
+  CHECK_FALSE(diagnostics.mentions("world", "adc"));
 }
 
 TEST_CASE("where all are about one unit it is named once") {
-  Mistakes mistakes;
-  keep(mistakes, {{"a.ssd", 7}, "sensor", "led", {}}, "first");
-  keep(mistakes, {{"a.ssd", 8}, "sensor", "adc", {}}, "second");
-  CHECK(told(mistakes) ==
+  Diagnostics diagnostics;
+  keep(diagnostics, {{"a.ssd", 7}, "sensor", "led", {}}, "first");
+  keep(diagnostics, {{"a.ssd", 8}, "sensor", "adc", {}}, "second");
+  CHECK(told(diagnostics) ==
         "unit 'sensor': 2 things do not fit:\n"
         "  a.ssd:7: variable 'led': first\n"
         "  a.ssd:8: variable 'adc': second");
 }
 
 TEST_CASE("very many mistakes are counted") {
-  Mistakes mistakes;
-  for (int i = 0; i < 100; ++i) keep(mistakes, {{"a.ssd", i}, "sensor", "led", {}}, "wrong");
-  CHECK_THAT(told(mistakes), Contains("100 things") && Contains("a.ssd:59") &&
-                                 !Contains("a.ssd:60") && Contains("… and 40 more"));
+  Diagnostics diagnostics;
+  for (int i = 0; i < 100; ++i) keep(diagnostics, {{"a.ssd", i}, "sensor", "led", {}}, "wrong");
+  CHECK_THAT(told(diagnostics), Contains("100 things") && Contains("a.ssd:59") &&
+                                    !Contains("a.ssd:60") && Contains("… and 40 more"));
 }
 
 TEST_CASE("only what the user gave is kept") {
-  Mistakes mistakes;
-  CHECK_THROWS_AS(mistakes.attempt([] { fail_run({}, "it broke"); }), Error);
-  CHECK_THROWS_AS(mistakes.attempt([] { throw std::logic_error("a bug"); }), std::logic_error);
-  CHECK_FALSE(mistakes.any());
+  Diagnostics diagnostics;
+  CHECK_THROWS_AS(diagnostics.attempt([] { fail_run({}, "it broke"); }), Error);
+  CHECK_THROWS_AS(diagnostics.attempt([] { throw std::logic_error("a bug"); }), std::logic_error);
+  CHECK_FALSE(diagnostics.any());
 }
