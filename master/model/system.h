@@ -13,8 +13,8 @@
 #include "master/model/description.h"
 #include "master/model/values.h"
 #include "master/model/variable_id.h"
+#include "master/util/diagnostics.h"
 #include "master/util/error.h"
-#include "master/util/mistakes.h"
 
 namespace stride::core {
 

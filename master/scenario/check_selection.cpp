@@ -9,8 +9,8 @@
 
 #include "master/recorders/signal_text.h"
 #include "master/scenario/signal_names.h"
+#include "master/util/diagnostics.h"
 #include "master/util/glob.h"
-#include "master/util/mistakes.h"
 #include "master/util/suggest.h"
 
 namespace stride::io {

@@ -1,6 +1,6 @@
 // Mistakes in the input, collected and reported together.
-#ifndef STRIDE_MASTER_UTIL_MISTAKES_H
-#define STRIDE_MASTER_UTIL_MISTAKES_H
+#ifndef STRIDE_MASTER_UTIL_DIAGNOSTICS_H
+#define STRIDE_MASTER_UTIL_DIAGNOSTICS_H
 
 #include <string>
 #include <utility>

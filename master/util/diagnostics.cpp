@@ -1,4 +1,4 @@
-#include "master/util/mistakes.h"
+#include "master/util/diagnostics.h"
 
 #include <algorithm>
 #include <map>
