@@ -355,18 +355,18 @@ std::int64_t mapped(const NumberMap& map, std::int64_t value) {
   return found != map.end() && found->first == value ? found->second : value;
 }
 
-std::optional<LinearConversion> convert(const MeasureUnit& from, const MeasureUnit& to) {
+std::optional<LinearConversion> convert(const UnitOfMeasure& from, const UnitOfMeasure& to) {
   if (from.name.empty() || to.name.empty()) return LinearConversion{};
   if (!from.meaning || !to.meaning) {
     return from.name == to.name ? std::optional(LinearConversion{}) : std::nullopt;
   }
-  const BaseUnit& a = *from.meaning;
-  const BaseUnit& b = *to.meaning;
+  const BaseUnitOfMeasure& a = *from.meaning;
+  const BaseUnitOfMeasure& b = *to.meaning;
   if (a.exponents != b.exponents) return std::nullopt;
   return LinearConversion{a.factor / b.factor, (a.offset - b.offset) / b.factor};
 }
 
-MeasureUnit known_unit(MeasureUnit unit, const UnitDescription& description) {
+UnitOfMeasure known_unit(UnitOfMeasure unit, const UnitDescription& description) {
   if (unit.meaning) return unit;
   const auto found = description.units.find(unit.name);
   if (found != description.units.end()) unit.meaning = found->second;

@@ -30,19 +30,19 @@ struct Conversion {
 /// The number that it becomes.
 std::int64_t mapped(const NumberMap& map, std::int64_t value);
 
-/// A unit of measurement by its name; empty: none is said. What has no meaning equals what has the
-/// same name.
-struct MeasureUnit {
+/// A unit of measure by its name; an empty name: none is declared. Without a meaning it equals
+/// those of the same name only.
+struct UnitOfMeasure {
   std::string name{};
   std::optional<BaseUnit> meaning{};
 };
 
 /// How values in one unit become values in another. Where one side has none they are taken as they
 /// are; nothing if they cannot be converted into each other.
-std::optional<LinearConversion> convert(const MeasureUnit& from, const MeasureUnit& to);
+std::optional<LinearConversion> convert(const UnitOfMeasure& from, const UnitOfMeasure& to);
 
 /// The unit, with what the description says of it, where the unit itself says nothing.
-MeasureUnit known_unit(MeasureUnit unit, const UnitDescription& description);
+UnitOfMeasure known_unit(UnitOfMeasure unit, const UnitDescription& description);
 
 using EnumerationItems = std::vector<std::pair<std::string, std::int64_t>>;
 
@@ -70,7 +70,7 @@ struct Passage {
 struct Waypoint {
   std::string name{};  ///< for people
   std::optional<ValueType> type{};
-  MeasureUnit unit{};
+  UnitOfMeasure unit{};
   EnumerationItems items{};
   /// What is not declared is that of the connector before it (an output of a system) or behind it.
   bool takes_after_next = false;

@@ -79,7 +79,7 @@ const char* name(Initial initial);
 const char* name(IntervalVariability variability);
 
 /// value in SI base units = factor * value + offset. exponents of kg, m, s, A, K, mol, cd, rad.
-struct BaseUnit {
+struct BaseUnitOfMeasure {
   std::array<int, 8> exponents{};
   double factor = 1;
   double offset = 0;

@@ -136,7 +136,7 @@ void System::check_connector(const SystemDeclaration& declaration,
                                     core::name(*connector.type), core::name(variable.type)));
   }
   if (connector.unit.name.empty()) return;
-  const MeasureUnit unit = known_unit(connector.unit, *component.description);
+  const UnitOfMeasure unit = known_unit(connector.unit, *component.description);
   if (!convert(unit, known_unit({variable.unit}, *component.description))) {
     fail_input(context, fmt::format("the connector is in '{}', the unit's variable in '{}'",
                                     unit.name, variable.unit));
@@ -236,7 +236,7 @@ ValueBlock System::start_value(const StartDeclaration& wanted, VariableId id) co
   const Variable& target = variable(id);
   const UnitDescription& description = *components_[id.component].description;
   const Context context{wanted.where, wanted.component, wanted.variable, {}};
-  const MeasureUnit unit = known_unit(wanted.unit, description);
+  const UnitOfMeasure unit = known_unit(wanted.unit, description);
   if (wanted.via.empty() && !wanted.suppress_unit_conversion && !convert(unit, waypoint(id).unit)) {
     fail_input(context,
                fmt::format("the value is in '{}', the variable in '{}'", unit.name,

@@ -23,7 +23,7 @@ struct ConnectorDeclaration {
   std::string name;
   std::optional<ValueType> type;
   std::optional<Causality> causality;
-  MeasureUnit unit;
+  UnitOfMeasure unit;
   Location where{};
   EnumerationItems items{};  ///< of its Enumeration, if that is declared
 };
@@ -57,7 +57,7 @@ struct OutputDeclaration {
 struct StartDeclaration {
   std::string component, variable;
   std::string value;
-  MeasureUnit unit;  ///< in which the value is given; no name = the variable's own
+  UnitOfMeasure unit;  ///< in which the value is given; no name = the variable's own
   Location where{};
   bool suppress_unit_conversion = false;
   Transformation transformation{};
@@ -184,7 +184,7 @@ class System {
   std::vector<SystemOutput> outputs_;
   std::vector<StartValue> structural_values_;
   std::vector<std::string> warnings_;
-  std::map<VariableId, MeasureUnit> connector_units_;  ///< those that connectors declare
+  std::map<VariableId, UnitOfMeasure> connector_units_;  ///< those that connectors declare
 };
 
 }  // namespace stride::core

@@ -11,12 +11,12 @@ using Kind = Transformation::Kind;
 
 namespace {
 
-const MeasureUnit kMetre{"m", BaseUnit{{0, 1, 0, 0, 0, 0, 0, 0}, 1, 0}};
-const MeasureUnit kCentimetre{"cm", BaseUnit{{0, 1, 0, 0, 0, 0, 0, 0}, 0.01, 0}};
-const MeasureUnit kSecond{"s", BaseUnit{{0, 0, 1, 0, 0, 0, 0, 0}, 1, 0}};
+const UnitOfMeasure kMetre{"m", BaseUnitOfMeasure{{0, 1, 0, 0, 0, 0, 0, 0}, 1, 0}};
+const UnitOfMeasure kCentimetre{"cm", BaseUnitOfMeasure{{0, 1, 0, 0, 0, 0, 0, 0}, 0.01, 0}};
+const UnitOfMeasure kSecond{"s", BaseUnitOfMeasure{{0, 0, 1, 0, 0, 0, 0, 0}, 1, 0}};
 
-Waypoint point(const std::string& name, std::optional<ValueType> type, const MeasureUnit& unit = {},
-               bool takes_after_next = false) {
+Waypoint point(const std::string& name, std::optional<ValueType> type,
+               const UnitOfMeasure& unit = {}, bool takes_after_next = false) {
   return {name, type, unit, {}, takes_after_next};
 }
 
@@ -56,8 +56,8 @@ const EnumerationItems kSignal{{"red", 3}, {"green", 4}};
 }  // namespace
 
 TEST_CASE("units with the same base are converted, also those with an offset") {
-  const MeasureUnit kelvin{"K", BaseUnit{{0, 0, 0, 0, 1, 0, 0, 0}, 1, 0}};
-  const MeasureUnit celsius{"degC", BaseUnit{{0, 0, 0, 0, 1, 0, 0, 0}, 1, 273.15}};
+  const UnitOfMeasure kelvin{"K", BaseUnitOfMeasure{{0, 0, 0, 0, 1, 0, 0, 0}, 1, 0}};
+  const UnitOfMeasure celsius{"degC", BaseUnitOfMeasure{{0, 0, 0, 0, 1, 0, 0, 0}, 1, 273.15}};
   CHECK(convert(kCentimetre, kMetre)->factor == Approx(1e-2));
   CHECK(convert(kMetre, kCentimetre)->factor == Approx(1e2));
   const auto to_kelvin = convert(celsius, kelvin);
@@ -68,7 +68,7 @@ TEST_CASE("units with the same base are converted, also those with an offset") {
 
 TEST_CASE(
     "units of another kind are not, and those that are missing or alike are taken as they are") {
-  const MeasureUnit furlong{"furlong", {}};
+  const UnitOfMeasure furlong{"furlong", {}};
   CHECK_FALSE(convert(kCentimetre, kSecond));
   CHECK_FALSE(convert(kCentimetre, furlong));
   CHECK(convert({}, kCentimetre)->is_identity());
