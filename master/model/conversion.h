@@ -60,14 +60,14 @@ struct Transformation {
 /// "LinearTransformation", the name of its element.
 const char* name(Transformation::Kind kind);
 
-/// Between two connectors: an ssd:Connection or an ssm:MappingEntry.
-struct Passage {
+/// Between two connectors of a path: an ssd:Connection or an ssm:MappingEntry.
+struct PathSegment {
   bool suppress_unit_conversion = false;
   Transformation transformation{};
 };
 
-/// A connector that a value comes through, as far as it is declared.
-struct Waypoint {
+/// A connector on the path of a value, as far as it is declared.
+struct PathConnector {
   std::string name{};  ///< for people
   std::optional<ValueType> type{};
   UnitOfMeasure unit{};
@@ -76,13 +76,14 @@ struct Waypoint {
   bool takes_after_next = false;
 };
 
-/// The waypoints with what they take after others. The type of the first or the last is known.
-std::vector<Waypoint> completed(std::vector<Waypoint> waypoints);
+/// The path with what its connectors take after others. The type of the first or the last is known.
+std::vector<PathConnector> completed(std::vector<PathConnector> path);
 
-/// Composes the passages between waypoints, of which there is one more. Throws Error (Input) at
-/// `context`, or at the transformation that is wrong, for units that cannot be converted into each
-/// other, types that cannot or could lose something, and transformations that do not fit the types.
-Conversion compose(const std::vector<Waypoint>& waypoints, std::span<const Passage> passages,
+/// Composes the segments between the connectors of a path, of which there is one more. Throws Error
+/// (Input) at `context`, or at the transformation that is wrong, for units that cannot be converted
+/// into each other, types that cannot or could lose something, and transformations that do not fit
+/// the types.
+Conversion compose(const std::vector<PathConnector>& path, std::span<const PathSegment> segments,
                    const Context& context);
 
 /// Likewise for a value that is given as text, whose type and enumeration need not be known: the
@@ -91,8 +92,8 @@ struct TextConversion {
   std::string text;
   LinearConversion linear;
 };
-TextConversion compose_text(const std::string& text, const std::vector<Waypoint>& waypoints,
-                            std::span<const Passage> passages, const Context& context);
+TextConversion compose_text(const std::string& text, const std::vector<PathConnector>& path,
+                            std::span<const PathSegment> segments, const Context& context);
 
 /// Whether each value of a type is one of the other. An Enumeration is seen as an Int64, and fits
 /// wherever all of its items do.

@@ -64,19 +64,19 @@ void convert_start(ValueBlock& value, const LinearConversion& conversion) {
 
 /// What a value comes through, from its beginning on.
 struct Way {
-  std::vector<Waypoint> waypoints;
-  std::vector<Passage> passages{};
+  std::vector<PathConnector> path;
+  std::vector<PathSegment> segments{};
 
-  explicit Way(Waypoint first) : waypoints{std::move(first)} {}
+  explicit Way(PathConnector first) : path{std::move(first)} {}
 
   template <class Declaration>
-  void go(const Declaration& wanted, Waypoint last) {
-    for (const ViaDeclaration& via : wanted.via) go(via.connector, via.passage);
-    go(std::move(last), Passage{wanted.suppress_unit_conversion, wanted.transformation});
+  void go(const Declaration& wanted, PathConnector last) {
+    for (const ViaDeclaration& via : wanted.via) go(via.connector, via.segment);
+    go(std::move(last), PathSegment{wanted.suppress_unit_conversion, wanted.transformation});
   }
-  void go(Waypoint next, Passage passage) {
-    waypoints.push_back(std::move(next));
-    passages.push_back(std::move(passage));
+  void go(PathConnector next, PathSegment segment) {
+    path.push_back(std::move(next));
+    segments.push_back(std::move(segment));
   }
 };
 
@@ -176,7 +176,7 @@ VariableId System::find_variable(const std::string& component, const std::string
 }
 
 /// In the unit that the variable has, or else in the one that its connector declares.
-Waypoint System::waypoint(VariableId id) const {
+PathConnector System::path_connector(VariableId id) const {
   const Variable& end = variable(id);
   const auto declared = connector_units_.find(id);
   const bool is_declared = end.unit.empty() && declared != connector_units_.end();
@@ -189,9 +189,9 @@ Waypoint System::waypoint(VariableId id) const {
 Connection System::connect(const ConnectionDeclaration& wanted, const Ends& ends) const {
   const auto [from, to] = ends;
   check_ends(wanted, from, to);
-  Way way(waypoint(from));
-  way.go(wanted, waypoint(to));
-  return {from, to, compose(way.waypoints, way.passages, {wanted.where, {}, {}, {}})};
+  Way way(path_connector(from));
+  way.go(wanted, path_connector(to));
+  return {from, to, compose(way.path, way.segments, {wanted.where, {}, {}, {}})};
 }
 
 /// Nothing, and a warning, where a parameter set holds a value for nobody, as SSP allows it to.
@@ -237,15 +237,16 @@ ValueBlock System::start_value(const StartDeclaration& wanted, VariableId id) co
   const UnitDescription& description = *components_[id.component].description;
   const Context context{wanted.where, wanted.component, wanted.variable, {}};
   const UnitOfMeasure unit = known_unit(wanted.unit, description);
-  if (wanted.via.empty() && !wanted.suppress_unit_conversion && !convert(unit, waypoint(id).unit)) {
+  if (wanted.via.empty() && !wanted.suppress_unit_conversion &&
+      !convert(unit, path_connector(id).unit)) {
     fail_input(context,
                fmt::format("the value is in '{}', the variable in '{}'", unit.name,
-                           waypoint(id).unit.name),
+                           path_connector(id).unit.name),
                "give the value in the variable's unit");
   }
   Way way({"the value", {}, unit, {}, true});
-  way.go(wanted, waypoint(id));
-  const auto [text, linear] = compose_text(wanted.value, way.waypoints, way.passages, context);
+  way.go(wanted, path_connector(id));
+  const auto [text, linear] = compose_text(wanted.value, way.path, way.segments, context);
   try {
     ValueBlock value = parse(target, text);
     convert_start(value, linear);
@@ -308,11 +309,11 @@ void System::add_output(const OutputDeclaration& wanted) {
   const bool is_message =
       source.type == ValueType::Clock || (source.is_clocked() && !is_sampled(from));
   if (is_message) return;  // it is seen where it is sent
-  Way way(waypoint(from));
-  for (const ViaDeclaration& via : wanted.via) way.go(via.connector, via.passage);
-  const std::vector<Waypoint> waypoints = completed(way.waypoints);
-  const Waypoint& end = waypoints.back();
-  SystemOutput output{from, compose(waypoints, way.passages, {wanted.where, {}, {}, {}}), source};
+  Way way(path_connector(from));
+  for (const ViaDeclaration& via : wanted.via) way.go(via.connector, via.segment);
+  const std::vector<PathConnector> path = completed(way.path);
+  const PathConnector& end = path.back();
+  SystemOutput output{from, compose(path, way.segments, {wanted.where, {}, {}, {}}), source};
   output.variable.name = end.name;
   output.variable.aliases.clear();
   output.variable.type = *end.type;

@@ -37,8 +37,8 @@ struct ComponentDeclaration {
 };
 /// A connector of a system that a value comes through, and what is done to it on the way there.
 struct ViaDeclaration {
-  Waypoint connector;
-  Passage passage;
+  PathConnector connector;
+  PathSegment segment;
 };
 struct ConnectionDeclaration {
   std::string from_component, from_connector;
@@ -173,7 +173,7 @@ class System {
                          const ConnectionDeclaration* first);
   Connection connect(const ConnectionDeclaration& declaration, const Ends& ends) const;
   void check_ends(const ConnectionDeclaration& declaration, VariableId from, VariableId to) const;
-  Waypoint waypoint(VariableId id) const;
+  PathConnector path_connector(VariableId id) const;
   void note_missing(const StartDeclaration& declaration);
   ValueBlock start_value(const StartDeclaration& declaration, VariableId id) const;
 

@@ -50,7 +50,7 @@ class Flattener {
   }
 
   ViaDeclaration via(std::size_t wire) const {
-    return {ports_[wires_[wire].to].waypoint, wires_[wire].passage};
+    return {ports_[wires_[wire].to].path_connector, wires_[wire].segment};
   }
 
   void add_connection(const PortGraph::Way& way) {
@@ -62,8 +62,8 @@ class Flattener {
     connection.from_connector = from.connector;
     connection.to_component = flat_.declaration.components[to.component].name;
     connection.to_connector = to.connector;
-    connection.suppress_unit_conversion = last.passage.suppress_unit_conversion;
-    connection.transformation = last.passage.transformation;
+    connection.suppress_unit_conversion = last.segment.suppress_unit_conversion;
+    connection.transformation = last.segment.transformation;
     connection.where = last.where;
     for (std::size_t i = 0; i + 1 < way.size(); ++i) connection.via.push_back(via(way[i]));
     flat_.declaration.connections.push_back(std::move(connection));
@@ -144,8 +144,8 @@ class Flattener {
     start.value = value.value;
     start.unit = value.unit;
     start.where = value.where;
-    start.suppress_unit_conversion = value.passage.suppress_unit_conversion;
-    start.transformation = value.passage.transformation;
+    start.suppress_unit_conversion = value.segment.suppress_unit_conversion;
+    start.transformation = value.segment.transformation;
     start.is_optional = !value.is_required;
     return start;
   }
@@ -163,35 +163,36 @@ class Flattener {
       const Wire& last = wires_[found.back()];
       const Port& to = ports_[last.to];
       core::StartDeclaration start = this->start(value, to.component, to.connector);
-      start.via.push_back({ports_[port].waypoint, value.passage});
+      start.via.push_back({ports_[port].path_connector, value.segment});
       for (std::size_t i = 0; i + 1 < found.size(); ++i) start.via.push_back(via(found[i]));
-      start.suppress_unit_conversion = last.passage.suppress_unit_conversion;
-      start.transformation = last.passage.transformation;
+      start.suppress_unit_conversion = last.segment.suppress_unit_conversion;
+      start.transformation = last.segment.transformation;
       flat_.declaration.start_values.push_back(std::move(start));
     });
     if (flat_.declaration.start_values.size() == before) warn_of_open(value, port);
   }
 
   void apply_backward(const ParameterValue& value, std::size_t port) {
-    std::vector<ViaDeclaration> via{{ports_[port].waypoint, value.passage}};
+    std::vector<ViaDeclaration> via{{ports_[port].path_connector, value.segment}};
     const PortGraph::Way way = graph_.way_to(port);
     for (auto wire = way.rbegin(); wire != way.rend(); ++wire) {
-      const auto& [from, to, passage, where] = wires_[*wire];
-      if (passage.transformation.kind != core::Transformation::Kind::None) {
+      const auto& [from, to, segment, where] = wires_[*wire];
+      if (segment.transformation.kind != core::Transformation::Kind::None) {
         core::fail_input({value.where, {}, {}, {}},
                          fmt::format("'{}' is an output behind a transformation (line {}), so it "
                                      "cannot be given a start value",
-                                     value.name, passage.transformation.where.line),
+                                     value.name, segment.transformation.where.line),
                          "give the value to the component's variable");
       }
       port = from;
-      via.push_back({ports_[port].waypoint, core::Passage{passage.suppress_unit_conversion, {}}});
+      via.push_back(
+          {ports_[port].path_connector, core::PathSegment{segment.suppress_unit_conversion, {}}});
     }
     if (!ports_[port].is_component()) return warn_of_open(value, port);
     core::StartDeclaration start =
         this->start(value, ports_[port].component, ports_[port].connector);
-    start.suppress_unit_conversion = via.back().passage.suppress_unit_conversion;
-    start.transformation = via.back().passage.transformation;
+    start.suppress_unit_conversion = via.back().segment.suppress_unit_conversion;
+    start.transformation = via.back().segment.transformation;
     via.pop_back();
     start.via = std::move(via);
     flat_.declaration.start_values.push_back(std::move(start));

@@ -39,8 +39,8 @@ void PortGraph::add_system(const SystemNode& node, const std::string& prefix,
   for (const Connector& connector : node.connectors) {
     const core::ConnectorDeclaration& declared = connector.declared;
     Port port{joined(prefix, declared.name), connector.flow, Port::kNone, declared.name, {}};
-    port.waypoint = {port.path, declared.type, declared.unit, declared.items,
-                     connector.flow == Flow::In};
+    port.path_connector = {port.path, declared.type, declared.unit, declared.items,
+                           connector.flow == Flow::In};
     system.ports.emplace(declared.name, ports_.size());
     ports_.push_back(std::move(port));
   }
@@ -166,7 +166,7 @@ std::size_t PortGraph::find_signal(const ElementNode& reference, const std::stri
   if (!is_new) return shared->second;
   const core::ConnectorDeclaration& declared = entry->second;
   Port port{joined(path, name), Flow::Unsaid, Port::kNone, name, {}};
-  port.waypoint = {port.path, declared.type, declared.unit, declared.items, false};
+  port.path_connector = {port.path, declared.type, declared.unit, declared.items, false};
   ports_.push_back(std::move(port));
   return shared->second;
 }
@@ -192,7 +192,7 @@ void PortGraph::add_wire(const SystemNode& node, const SystemConnection& connect
   if (is_reversed) std::swap(start, end);
   ports_[start].outgoing.push_back(wires_.size());
   ports_[end].incoming.push_back(wires_.size());
-  wires_.push_back({start, end, connection.passage, connection.where});
+  wires_.push_back({start, end, connection.segment, connection.where});
 }
 
 void PortGraph::check_wire(std::size_t wire) const {

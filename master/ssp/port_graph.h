@@ -21,9 +21,9 @@ struct Port {
   Flow flow = Flow::Unsaid;
   std::size_t component = kNone;  ///< of a component's connector
   std::string connector;
-  core::Waypoint waypoint{};            ///< of another
-  std::vector<std::size_t> outgoing{};  ///< wires
-  std::vector<std::size_t> incoming{};  ///< one at most, where it is no component's connector
+  core::PathConnector path_connector{};  ///< of another
+  std::vector<std::size_t> outgoing{};   ///< wires
+  std::vector<std::size_t> incoming{};   ///< one at most, where it is no component's connector
 
   bool is_component() const { return component != kNone; }
 };
@@ -31,7 +31,7 @@ struct Port {
 /// A connection that knows its direction.
 struct Wire {
   std::size_t from, to;  ///< ports
-  core::Passage passage;
+  core::PathSegment segment;
   core::Location where;
 };
 
