@@ -19,7 +19,7 @@ class Flattener {
       : root_(root),
         graph_(root),
         ports_(graph_.ports()),
-        wires_(graph_.wires()),
+        connections_(graph_.connections()),
         warnings_(warnings) {}
 
   FlatSystem run() {
@@ -49,13 +49,13 @@ class Flattener {
     flat_.sources.push_back(component.node->source);
   }
 
-  ViaDeclaration via(std::size_t wire) const {
-    return {ports_[wires_[wire].to].path_connector, wires_[wire].segment};
+  ViaDeclaration via(std::size_t connection) const {
+    return {ports_[connections_[connection].to].path_connector, connections_[connection].segment};
   }
 
   void add_connection(const PortGraph::Way& way) {
-    const Wire& last = wires_[way.back()];
-    const Port& from = ports_[wires_[way.front()].from];
+    const PortConnection& last = connections_[way.back()];
+    const Port& from = ports_[connections_[way.front()].from];
     const Port& to = ports_[last.to];
     core::ConnectionDeclaration connection;
     connection.from_component = flat_.declaration.components[from.component].name;
@@ -75,13 +75,13 @@ class Flattener {
       if (connector.flow != Flow::Out) continue;
       const PortGraph::Way way =
           graph_.way_to(graph_.connectors(root_).at(connector.declared.name));
-      if (way.empty() || !ports_[wires_[way.front()].from].is_component()) continue;
-      const Port& from = ports_[wires_[way.front()].from];
+      if (way.empty() || !ports_[connections_[way.front()].from].is_component()) continue;
+      const Port& from = ports_[connections_[way.front()].from];
       core::OutputDeclaration output;
       output.component = flat_.declaration.components[from.component].name;
       output.variable = from.connector;
       output.where = connector.declared.where;
-      for (const std::size_t wire : way) output.via.push_back(via(wire));
+      for (const std::size_t connection : way) output.via.push_back(via(connection));
       flat_.declaration.outputs.push_back(std::move(output));
     }
   }
@@ -160,7 +160,7 @@ class Flattener {
     if (ports_[port].flow == Flow::Out) return apply_backward(value, port);
     const std::size_t before = flat_.declaration.start_values.size();
     graph_.follow(port, [&](const PortGraph::Way& found) {
-      const Wire& last = wires_[found.back()];
+      const PortConnection& last = connections_[found.back()];
       const Port& to = ports_[last.to];
       core::StartDeclaration start = this->start(value, to.component, to.connector);
       start.via.push_back({ports_[port].path_connector, value.segment});
@@ -175,8 +175,8 @@ class Flattener {
   void apply_backward(const ParameterValue& value, std::size_t port) {
     std::vector<ViaDeclaration> via{{ports_[port].path_connector, value.segment}};
     const PortGraph::Way way = graph_.way_to(port);
-    for (auto wire = way.rbegin(); wire != way.rend(); ++wire) {
-      const auto& [from, to, segment, where] = wires_[*wire];
+    for (auto connection = way.rbegin(); connection != way.rend(); ++connection) {
+      const auto& [from, to, segment, where] = connections_[*connection];
       if (segment.transformation.kind != core::Transformation::Kind::None) {
         core::fail_input({value.where, {}, {}, {}},
                          fmt::format("'{}' is an output behind a transformation (line {}), so it "
@@ -243,7 +243,7 @@ class Flattener {
   const SystemNode& root_;
   PortGraph graph_;
   const std::vector<Port>& ports_;
-  const std::vector<Wire>& wires_;
+  const std::vector<PortConnection>& connections_;
   std::vector<std::string>& warnings_;
   FlatSystem flat_;
   std::size_t groups_ = 0;
