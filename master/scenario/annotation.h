@@ -38,15 +38,15 @@ struct EarlyReturnRule {
 
 /// All of it is optional.
 struct ScenarioAnnotation {
-  StepChoice step;
+  StepSettings step;
   std::vector<SignalPattern> record;  ///< none: every output
   std::vector<PlotPattern> plots;
   std::vector<CheckDeclaration> checks;
   ResultFiles results;
   std::vector<ComponentPattern> main_thread;  ///< who steps on the simulation's own thread only
   std::vector<EarlyReturnRule> early_return;  ///< without one: allowed
-  HostChoice hosts;
-  IdleChoice idle;
+  HostRules hosts;
+  IdleSettings idle;
 };
 
 /// Reads the <stride:Scenario> of a <ssd:SystemStructureDescription>, which stands in the root's

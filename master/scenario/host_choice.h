@@ -33,7 +33,7 @@ struct HostRule {
   HostSettings settings;
 };
 
-struct HostChoice {
+struct HostRules {
   std::vector<HostRule> rules;  ///< a later one goes before an earlier one
 
   /// For each of the components. Throws core::Error (Input) for a pattern that matches none.

@@ -30,7 +30,7 @@ struct IdleNumber {
   core::Location where{};
 };
 
-struct IdleChoice {
+struct IdleSettings {
   static constexpr Duration kDefaultMaxSkip = std::chrono::seconds(1);
 
   std::vector<IdleRule> rules;  ///< a later one goes before an earlier one; without one: enabled

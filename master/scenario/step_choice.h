@@ -9,7 +9,7 @@
 
 namespace stride::io {
 
-struct StepChoice {
+struct StepSettings {
   std::optional<core::StepPolicy> policy;
   std::optional<Duration> size;
   std::optional<Duration> maximum;
