@@ -1,6 +1,6 @@
 // What a scenario or a command line says about the processes that components run in.
-#ifndef STRIDE_MASTER_SCENARIO_HOST_CHOICE_H
-#define STRIDE_MASTER_SCENARIO_HOST_CHOICE_H
+#ifndef STRIDE_MASTER_SCENARIO_HOST_SETTINGS_H
+#define STRIDE_MASTER_SCENARIO_HOST_SETTINGS_H
 
 #include <chrono>
 #include <cstdint>

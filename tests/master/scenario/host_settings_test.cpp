@@ -1,4 +1,4 @@
-#include "master/scenario/host_choice.h"
+#include "master/scenario/host_settings.h"
 
 #include <stdexcept>
 

@@ -1,4 +1,4 @@
-#include "master/scenario/step_choice.h"
+#include "master/scenario/step_settings.h"
 
 #include <stdexcept>
 #include <string>

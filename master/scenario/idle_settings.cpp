@@ -1,4 +1,4 @@
-#include "master/scenario/idle_choice.h"
+#include "master/scenario/idle_settings.h"
 
 #include <cmath>
 #include <stdexcept>
