@@ -47,11 +47,11 @@ core::StepOptions step(Duration size) {
 
 template <class Change>
 std::string refusal(Change&& change) {
-  IdleSettings choice;
-  change(choice);
+  IdleSettings settings;
+  change(settings);
   const core::System system = make_system();
   try {
-    choice.options(system, step(1ms));
+    settings.options(system, step(1ms));
   } catch (const core::Error& error) {
     CHECK(error.kind() == core::Error::Kind::Input);
     return error.what();
@@ -70,20 +70,20 @@ TEST_CASE("without a word every unit may be left alone for a second") {
 
 TEST_CASE("a later rule goes before an earlier one") {
   const core::System system = make_system();
-  IdleSettings choice;
-  choice.rules = {rule("*", true, Duration(3s)), rule("busy", false, std::nullopt)};
+  IdleSettings settings;
+  settings.rules = {rule("*", true, Duration(3s)), rule("busy", false, std::nullopt)};
   using Skips = std::vector<std::optional<Duration>>;
-  CHECK(choice.options(system, step(1ms)).max_skip == Skips{Duration(3s), std::nullopt});
-  choice.rules.push_back(rule("b*", true, std::nullopt));
-  CHECK(choice.options(system, step(1ms)).max_skip == Skips{Duration(3s), Duration(1s)});
+  CHECK(settings.options(system, step(1ms)).max_skip == Skips{Duration(3s), std::nullopt});
+  settings.rules.push_back(rule("b*", true, std::nullopt));
+  CHECK(settings.options(system, step(1ms)).max_skip == Skips{Duration(3s), Duration(1s)});
 }
 
 TEST_CASE("deadbands and tolerances find their variables") {
   const core::System system = make_system();
-  IdleSettings choice;
-  choice.deadbands = {{"idler.u", 0.5, {}}};
-  choice.tolerances = {{"idler.y", 0.25, {}}};
-  const core::IdleOptions options = choice.options(system, step(1ms));
+  IdleSettings settings;
+  settings.deadbands = {{"idler.u", 0.5, {}}};
+  settings.tolerances = {{"idler.y", 0.25, {}}};
+  const core::IdleOptions options = settings.options(system, step(1ms));
   REQUIRE(options.deadbands.size() == 1);
   CHECK(options.deadbands[0].id == core::VariableId{0, 0});
   CHECK(options.deadbands[0].value == 0.5);
