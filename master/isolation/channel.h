@@ -17,7 +17,7 @@
 namespace stride::host {
 
 /// What the master asks for: the functions of core::Unit, and what they need besides.
-enum class Request : std::uint32_t {
+enum class RequestCode : std::uint32_t {
   Instantiate,
   EnterConfigurationMode,
   ExitConfigurationMode,
@@ -52,7 +52,7 @@ enum class Request : std::uint32_t {
 };
 
 /// What the unit's process says to a request.
-enum class Reply : std::uint32_t {
+enum class ReplyCode : std::uint32_t {
   Done,
   Failed,          ///< a core::Error
   CallbackFailed,  ///< what failed is what the master did within the call
@@ -65,7 +65,7 @@ enum class End : std::uint32_t { None, NotStarted, Exited, Killed };
 /// One direction. Who writes sets what and size first, then the number, then rings.
 struct alignas(64) Turn {
   std::atomic<std::uint32_t> number = 0;
-  std::atomic<std::uint32_t> what = 0;  ///< a Request or a Reply
+  std::atomic<std::uint32_t> what = 0;  ///< a RequestCode or a ReplyCode
   std::atomic<std::uint64_t> size = 0;  ///< of the message [byte]
   process::Bell bell;                   ///< for who waits for it
 };

@@ -30,7 +30,8 @@ Conversation::Conversation(const Recipe& recipe)
 
 // ---- To and fro ----
 
-Reply Conversation::send(Request request, const MessageWriter& message, std::optional<Time> time) {
+ReplyCode Conversation::send(RequestCode request, const MessageWriter& message,
+                             std::optional<Time> time) {
   if (has_failed()) [[unlikely]]
     core::fail_run(context(time), "it cannot be called, because " + failure_);
   Turn& turn = channel_.memory->request;
@@ -41,7 +42,7 @@ Reply Conversation::send(Request request, const MessageWriter& message, std::opt
   if (!waiter_.spin([&] { return has_reply(); })) await_reply(time);
   if (!log_.is_empty()) [[unlikely]]
     take_lines();
-  return static_cast<Reply>(channel_.memory->reply.what.load(std::memory_order_relaxed));
+  return static_cast<ReplyCode>(channel_.memory->reply.what.load(std::memory_order_relaxed));
 }
 
 MessageReader Conversation::read() {

@@ -28,7 +28,7 @@ class Conversation {
   MessageWriter write() { return MessageWriter(channel_.messages); }
   /// Sends a request and waits for what is said to it. Throws core::Error of the kind Run, at
   /// `time`, if the process ends before, or is ended because its time is over.
-  Reply send(Request request, const MessageWriter& message, std::optional<Time> time);
+  ReplyCode send(RequestCode request, const MessageWriter& message, std::optional<Time> time);
   /// What was said, until the next message is written.
   MessageReader read();
 

@@ -86,22 +86,24 @@ void Server::await_request() {
   }
 }
 
-Request Server::requested() const { return static_cast<Request>(memory_.request.what.load()); }
+RequestCode Server::requested() const {
+  return static_cast<RequestCode>(memory_.request.what.load());
+}
 
 void Server::serve() {
   channel_.messages.follow(memory_.request.size);
   MessageReader in({channel_.messages.data(), memory_.request.size});
   MessageWriter out(channel_.messages);
-  Reply what = Reply::Done;
+  ReplyCode what = ReplyCode::Done;
   const auto fail = [&](const std::exception& error) {
-    what = Reply::Failed;
+    what = ReplyCode::Failed;
     out.clear();
     put_error(out, error, context(), sandbox_hint(error.what(), recipe_.name, recipe_.host));
   };
   try {
     handle(requested(), in, out);
   } catch (const CallbackFailure&) {
-    what = Reply::CallbackFailed;
+    what = ReplyCode::CallbackFailed;
   } catch (const core::Error& error) {
     fail(error);
   } catch (const std::exception& error) {
@@ -113,7 +115,7 @@ void Server::serve() {
   reply(what, out);
 }
 
-void Server::reply(Reply what, const MessageWriter& message) {
+void Server::reply(ReplyCode what, const MessageWriter& message) {
   memory_.call_note.clear();
   if (unit_) memory_.calls.store(undone_calls_ + unit_->calls(), std::memory_order_relaxed);
   memory_.reply.what.store(static_cast<std::uint32_t>(what), std::memory_order_relaxed);
@@ -123,74 +125,74 @@ void Server::reply(Reply what, const MessageWriter& message) {
   memory_.reply.bell.ring();
 }
 
-void Server::handle(Request request, MessageReader& in, MessageWriter& out) {
+void Server::handle(RequestCode request, MessageReader& in, MessageWriter& out) {
   switch (request) {
-    case Request::Instantiate:
+    case RequestCode::Instantiate:
       return instantiate(out);
-    case Request::EnterConfigurationMode:
+    case RequestCode::EnterConfigurationMode:
       return unit_->enter_configuration_mode();
-    case Request::ExitConfigurationMode:
+    case RequestCode::ExitConfigurationMode:
       return unit_->exit_configuration_mode();
-    case Request::EnterInitialization: {
+    case RequestCode::EnterInitialization: {
       time_ = take_time(in).value();
       return unit_->enter_initialization(*time_, take_time(in));
     }
-    case Request::ExitInitialization:
+    case RequestCode::ExitInitialization:
       return unit_->exit_initialization();
-    case Request::Get:
+    case RequestCode::Get:
       return get(in, out);
-    case Request::Set:
+    case RequestCode::Set:
       return set(in);
-    case Request::MakePlan:
+    case RequestCode::MakePlan:
       return make_plan(in);
-    case Request::Step:
+    case RequestCode::Step:
       return step(in, out);
-    case Request::SaveState:
+    case RequestCode::SaveState:
       return save_state(in);
-    case Request::RestoreState:
+    case RequestCode::RestoreState:
       return restore_state(in);
-    case Request::SelectState:
+    case RequestCode::SelectState:
       return select_state(in.take<std::size_t>());
-    case Request::SerializeState:
+    case RequestCode::SerializeState:
       return out.put_all(std::span<const std::uint8_t>(unit_->serialize_state()));
-    case Request::DeserializeState:
+    case RequestCode::DeserializeState:
       return unit_->deserialize_state(in.take_all<std::uint8_t>());
-    case Request::Reset:
+    case RequestCode::Reset:
       return unit_->reset();
-    case Request::EnterEventMode:
+    case RequestCode::EnterEventMode:
       return unit_->enter_event_mode();
-    case Request::UpdateDiscreteStates:
+    case RequestCode::UpdateDiscreteStates:
       return put_events(out, unit_->update_discrete_states());
-    case Request::EnterStepMode:
+    case RequestCode::EnterStepMode:
       return unit_->enter_step_mode();
-    case Request::GetClockInterval: {
+    case RequestCode::GetClockInterval: {
       const core::ClockInterval said =
           unit_->clock_interval(variable(in.take<core::ValueReference>()));
       out.put(said.state);
       return out.put(said.interval);
     }
-    case Request::GetClockShift:
+    case RequestCode::GetClockShift:
       return out.put(unit_->clock_shift(variable(in.take<core::ValueReference>())));
-    case Request::GetDirectionalDerivative:
+    case RequestCode::GetDirectionalDerivative:
       return get_directional_derivative(in, out);
-    case Request::SetInputUpdate:
+    case RequestCode::SetInputUpdate:
       return set_input_update(in.take<bool>());
-    case Request::EnableIdleSkipping:
+    case RequestCode::EnableIdleSkipping:
       return unit_->enable_idle_skipping(Duration(in.take<Duration::rep>()));
-    case Request::SetIdleTolerances:
+    case RequestCode::SetIdleTolerances:
       return set_idle_tolerances(in);
-    case Request::GetIdleUntil:
+    case RequestCode::GetIdleUntil:
       return put_time(out, unit_->idle_until());
-    case Request::GetDerivatives:
+    case RequestCode::GetDerivatives:
       return get_derivatives(in, out);
-    case Request::DescribeMessage:
+    case RequestCode::DescribeMessage:
       return describe_message(in, out);
-    case Request::Terminate:
+    case RequestCode::Terminate:
       return unit_->terminate();
-    case Request::Free:
+    case RequestCode::Free:
       return free();
-    case Request::InputsUpdated:
-    case Request::InputsNotUpdated:
+    case RequestCode::InputsUpdated:
+    case RequestCode::InputsNotUpdated:
       break;
   }
   throw std::logic_error(fmt::format("request {} came out of order", static_cast<int>(request)));
@@ -290,9 +292,9 @@ void Server::ask_inputs(double seconds_into_step) {
   const fmi::CallNote asking = memory_.call_note;
   MessageWriter question(channel_.messages);
   question.put(seconds_into_step);
-  reply(Reply::AskInputs, question);
-  for (await_request(); requested() != Request::InputsUpdated; await_request()) {
-    if (requested() == Request::InputsNotUpdated) throw CallbackFailure();
+  reply(ReplyCode::AskInputs, question);
+  for (await_request(); requested() != RequestCode::InputsUpdated; await_request()) {
+    if (requested() == RequestCode::InputsNotUpdated) throw CallbackFailure();
     serve();
   }
   memory_.call_note = asking;

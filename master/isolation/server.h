@@ -51,8 +51,8 @@ class Server {
   void await_request();
   /// Does what the present request wants, and replies.
   void serve();
-  void handle(Request request, MessageReader& in, MessageWriter& out);
-  void reply(Reply what, const MessageWriter& message);
+  void handle(RequestCode request, MessageReader& in, MessageWriter& out);
+  void reply(ReplyCode what, const MessageWriter& message);
 
   void instantiate(MessageWriter& out);
   void free();
@@ -71,7 +71,7 @@ class Server {
   void describe_message(MessageReader& in, MessageWriter& out);
   const core::Variable& variable(core::ValueReference reference) const;
 
-  Request requested() const;
+  RequestCode requested() const;
   core::Context context() const;
   std::string origin() const;
 

@@ -61,14 +61,14 @@ class UnitProxy final : public core::Unit {
  private:
   /// Sends put(MessageWriter&) and takes the answer with take(MessageReader&).
   template <class Put, class Take>
-  void call(Request request, Put&& put, Take&& take);
+  void call(RequestCode request, Put&& put, Take&& take);
   template <class Put>
-  void call(Request request, Put&& put);
-  void call(Request request);
+  void call(RequestCode request, Put&& put);
+  void call(RequestCode request);
   /// Serves what the unit asks for until it has replied.
-  Reply answer_questions(Reply reply);
-  void throw_reply(Reply reply);
-  Request update_inputs(double seconds_into_step) noexcept;
+  ReplyCode answer_questions(ReplyCode reply);
+  void throw_reply(ReplyCode reply);
+  RequestCode update_inputs(double seconds_into_step) noexcept;
   std::uint32_t plan_number(const core::StepValues& values);
 
   Recipe recipe_;
