@@ -18,8 +18,8 @@ void add_gap(Info& info, const Gap& gap) {
   constexpr std::size_t kMost = 10;
   if (gap.length() <= info.min_gap) return;
   ++info.gaps;
-  const auto times = std::upper_bound(info.longest.begin(), info.longest.end(), gap, is_before);
-  info.longest.insert(times, gap);
+  const auto place = std::upper_bound(info.longest.begin(), info.longest.end(), gap, is_before);
+  info.longest.insert(place, gap);
   if (info.longest.size() > kMost) info.longest.pop_back();
 }
 
