@@ -67,7 +67,7 @@ struct alignas(64) Turn {
   std::atomic<std::uint32_t> number = 0;
   std::atomic<std::uint32_t> what = 0;  ///< a RequestCode or a ReplyCode
   std::atomic<std::uint64_t> size = 0;  ///< of the message [byte]
-  process::Bell bell;                   ///< for who waits for it
+  process::Doorbell doorbell;           ///< for who waits for it
 };
 
 /// In shared memory. The messages themselves stand in a GrowingMemory beside it, where each takes

@@ -38,7 +38,7 @@ ReplyCode Conversation::send(RequestCode request, const MessageWriter& message,
   turn.what.store(static_cast<std::uint32_t>(request), std::memory_order_relaxed);
   turn.size.store(message.size(), std::memory_order_relaxed);
   turn.number.store(++number_, std::memory_order_release);
-  turn.bell.ring();
+  turn.doorbell.ring();
   if (!waiter_.spin([&] { return has_reply(); })) await_reply(time);
   if (!log_.is_empty()) [[unlikely]]
     take_lines();
@@ -54,9 +54,9 @@ MessageReader Conversation::read() {
 void Conversation::await_reply(std::optional<Time> time) {
   const auto begin = Clock::now();
   const auto limit = recipe_.host.call_limit;
-  process::Bell& bell = channel_.memory->reply.bell;
+  process::Doorbell& doorbell = channel_.memory->reply.doorbell;
   for (;;) {
-    const std::uint32_t rings = bell.rings();
+    const std::uint32_t rings = doorbell.rings();
     take_lines();
     if (has_reply()) return;
     if (process_.look_for_end()) {
@@ -74,8 +74,8 @@ void Conversation::await_reply(std::optional<Time> time) {
            time);
     }
     if (!limit && waited > recipe_.options.patience) complain_of_waiting();
-    bell.sleep(rings,
-               limit ? std::min<std::chrono::nanoseconds>(kProcessCheckInterval, *limit - waited)
+    doorbell.sleep(
+        rings, limit ? std::min<std::chrono::nanoseconds>(kProcessCheckInterval, *limit - waited)
                      : kProcessCheckInterval);
   }
 }

@@ -85,9 +85,9 @@ void HostProcess::finish(const std::function<void()>& meanwhile) {
   tell(Command::Finish);
   line_.close();
   while (!is_keeper_gone()) {
-    const std::uint32_t rings = channel_.reply.bell.rings();
+    const std::uint32_t rings = channel_.reply.doorbell.rings();
     meanwhile();
-    channel_.reply.bell.sleep(rings, 1ms);
+    channel_.reply.doorbell.sleep(rings, 1ms);
   }
   ::kill(-keeper_, SIGKILL);  // in vain, unless something has ended the keeper
   int status = 0;

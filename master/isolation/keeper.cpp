@@ -110,7 +110,7 @@ class Keeper {
   bool pass_on() {
     if (pending_.empty() && !process::read_some(output_, pending_)) return false;
     pending_.erase(0, channel_.printed.write(pending_));
-    channel_.reply.bell.ring();
+    channel_.reply.doorbell.ring();
     return true;
   }
 
@@ -132,7 +132,7 @@ class Keeper {
     pass_on_all(100ms);  // what it has said comes first
     channel_.end_code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
     channel_.end = WIFSIGNALED(status) ? End::Killed : End::Exited;
-    channel_.reply.bell.ring();
+    channel_.reply.doorbell.ring();
   }
 
   ChannelMemory& channel_;
@@ -175,7 +175,7 @@ void keep(Channel& channel, process::Descriptor line, pid_t master,
   if (server < 0) {
     channel.memory->end_code = errno;
     channel.memory->end = End::NotStarted;
-    channel.memory->reply.bell.ring();
+    channel.memory->reply.doorbell.ring();
   }
   Keeper keeper(*channel.memory, std::move(line), std::move(output.read));
   const bool is_wanted = keeper.run();

@@ -82,7 +82,7 @@ void Server::await_request() {
     return memory_.request.number.load(std::memory_order_acquire) !=
            memory_.reply.number.load(std::memory_order_relaxed);
   };
-  while (!waiter_.wait(memory_.request.bell, kMasterCheckInterval, is_there)) {
+  while (!waiter_.wait(memory_.request.doorbell, kMasterCheckInterval, is_there)) {
   }
 }
 
@@ -122,7 +122,7 @@ void Server::reply(ReplyCode what, const MessageWriter& message) {
   memory_.reply.size.store(message.size(), std::memory_order_relaxed);
   memory_.reply.number.store(memory_.request.number.load(std::memory_order_relaxed),
                              std::memory_order_release);
-  memory_.reply.bell.ring();
+  memory_.reply.doorbell.ring();
 }
 
 void Server::handle(RequestCode request, MessageReader& in, MessageWriter& out) {

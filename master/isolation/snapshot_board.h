@@ -36,7 +36,7 @@ struct SnapshotBoard {
     std::atomic<State> state = State::Free;
     std::atomic<pid_t> process = 0;
     std::atomic<std::uint64_t> memory = 0;  ///< what it had to itself when it was last measured
-    process::Bell bell;                     ///< for when its state has changed
+    process::Doorbell doorbell;             ///< for when its state has changed
   };
 
   std::array<Place, kPlaces> places;

@@ -24,9 +24,9 @@ constexpr std::chrono::hours kAWhile{1};
 
 State wait_while_frozen(SnapshotBoard::Place& place) {
   for (;;) {
-    const std::uint32_t rings = place.bell.rings();
+    const std::uint32_t rings = place.doorbell.rings();
     if (const State state = place.state; state != State::Frozen) return state;
-    place.bell.sleep(rings, kAWhile);
+    place.doorbell.sleep(rings, kAWhile);
   }
 }
 
@@ -86,7 +86,7 @@ void Snapshots::restore(std::size_t slot, std::optional<Time> time) {
     fail("the snapshot of its process that is to be restored has been ended by something",
          "look whether the machine was short of memory");
   }
-  place.bell.ring();
+  place.doorbell.ring();
   ::_exit(0);
 }
 
@@ -126,7 +126,7 @@ void Snapshots::discard(std::size_t slot) {
   Place& place = board_.places[number - 1];
   State expected = State::Frozen;
   if (place.state.compare_exchange_strong(expected, State::Ends)) {
-    place.bell.ring();
+    place.doorbell.ring();
   } else {
     place.state = State::Free;
   }
