@@ -10,7 +10,7 @@
 
 #include "master/importer/call_note.h"
 #include "master/isolation/byte_ring.h"
-#include "master/isolation/process/bell.h"
+#include "master/isolation/process/doorbell.h"
 #include "master/isolation/process/shared_memory.h"
 #include "master/isolation/snapshot_board.h"
 

@@ -12,7 +12,7 @@
 #include "master/isolation/host_process.h"
 #include "master/isolation/last_words.h"
 #include "master/isolation/message.h"
-#include "master/isolation/process/bell.h"
+#include "master/isolation/process/doorbell.h"
 #include "master/isolation/server.h"
 
 namespace stride::host {

@@ -15,7 +15,7 @@
 #include "master/isolation/hosted_unit.h"
 #include "master/isolation/log_message.h"
 #include "master/isolation/message.h"
-#include "master/isolation/process/bell.h"
+#include "master/isolation/process/doorbell.h"
 #include "master/isolation/process/sandbox.h"
 #include "master/isolation/snapshots.h"
 #include "master/isolation/step_plan.h"

@@ -8,7 +8,7 @@
 
 #include <sys/types.h>
 
-#include "master/isolation/process/bell.h"
+#include "master/isolation/process/doorbell.h"
 
 namespace stride::host {
 

@@ -1,6 +1,6 @@
 // How one process waits for another.
-#ifndef STRIDE_MASTER_ISOLATION_PROCESS_BELL_H
-#define STRIDE_MASTER_ISOLATION_PROCESS_BELL_H
+#ifndef STRIDE_MASTER_ISOLATION_PROCESS_DOORBELL_H
+#define STRIDE_MASTER_ISOLATION_PROCESS_DOORBELL_H
 
 #include <atomic>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "master/isolation/process/bell.h"
+#include "master/isolation/process/doorbell.h"
 
 #include <algorithm>
 #include <ctime>
