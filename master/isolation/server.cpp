@@ -263,11 +263,11 @@ const core::Variable& Server::variable(core::ValueReference reference) const {
 
 void Server::make_plan(MessageReader& in) {
   const auto number = in.take<std::uint32_t>();
-  plans_.at(number) = ServedPlan(in);
+  plans_.at(number) = StepBuffers(in);
 }
 
 void Server::step(MessageReader& in, MessageWriter& out) {
-  ServedPlan& plan = plans_.at(in.take<std::uint32_t>());
+  StepBuffers& plan = plans_.at(in.take<std::uint32_t>());
   const auto interval = in.take<core::StepInterval>();
   plan.take_inputs(in);
   time_ = interval.from;

@@ -84,7 +84,7 @@ class Server {
   std::size_t slot_ = 0;                ///< of them
   std::uint64_t undone_calls_ = 0;      ///< of functions of the unit, by processes taken back
   std::unique_ptr<core::Unit> unit_;
-  std::array<ServedPlan, ToldPlans::kMost> plans_;
+  std::array<StepBuffers, KnownStepShapes::kMost> plans_;
   std::optional<Time> time_;  ///< where the unit stands
   bool is_over_ = false;
 };

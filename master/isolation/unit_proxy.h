@@ -75,7 +75,7 @@ class UnitProxy final : public core::Unit {
   std::unique_ptr<Conversation> conversation_;
   process::Protections protections_;
   std::optional<Time> time_;
-  ToldPlans plans_;
+  KnownStepShapes plans_;
   core::InputUpdate input_update_;
   std::exception_ptr callback_failure_;
   std::string rejection_reason_;
