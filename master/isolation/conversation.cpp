@@ -23,9 +23,9 @@ double seconds(std::chrono::milliseconds time) {
 
 }  // namespace
 
-Conversation::Conversation(const Recipe& recipe)
-    : recipe_(recipe),
-      process_(channel_, [&](pid_t keeper) { serve(channel_, recipe, keeper); }),
+Conversation::Conversation(const HostedUnitSpec& spec)
+    : spec_(spec),
+      process_(channel_, [&](pid_t keeper) { serve(channel_, spec, keeper); }),
       log_(*channel_.memory) {}
 
 // ---- To and fro ----
@@ -53,7 +53,7 @@ MessageReader Conversation::read() {
 
 void Conversation::await_reply(std::optional<Time> time) {
   const auto begin = Clock::now();
-  const auto limit = recipe_.host.call_limit;
+  const auto limit = spec_.host.call_limit;
   process::Doorbell& doorbell = channel_.memory->reply.doorbell;
   for (;;) {
     const std::uint32_t rings = doorbell.rings();
@@ -73,7 +73,7 @@ void Conversation::await_reply(std::optional<Time> time) {
                        call),
            time);
     }
-    if (!limit && waited > recipe_.options.patience) complain_of_waiting();
+    if (!limit && waited > spec_.options.patience) complain_of_waiting();
     doorbell.sleep(
         rings, limit ? std::min<std::chrono::nanoseconds>(kProcessCheckInterval, *limit - waited)
                      : kProcessCheckInterval);
@@ -84,7 +84,7 @@ void Conversation::complain_of_waiting() {
   if (std::exchange(has_complained_, true)) return;
   log(fmi::Status::Warning, "stride",
       fmt::format("it has taken more than {} s{}, and there is no limit (--unit-timeout)",
-                  seconds(recipe_.options.patience), present_call()));
+                  seconds(spec_.options.patience), present_call()));
 }
 
 core::HostStatistics Conversation::statistics() const {
@@ -132,7 +132,7 @@ void Conversation::take_last_line() {
 void Conversation::log(fmi::Status status, const std::string& category,
                        const std::string& text) const noexcept {
   try {
-    if (recipe_.options.log) recipe_.options.log(recipe_.name, status, category, text);
+    if (spec_.options.log) spec_.options.log(spec_.name, status, category, text);
   } catch (...) {  // as in the unit's own process, where nothing may cross its C code
   }
 }
@@ -142,10 +142,10 @@ void Conversation::log(fmi::Status status, const std::string& category,
 void Conversation::fail(const std::string& what, std::optional<Time> time) {
   failure_ = what;
   if (process_.has_ended()) take_last_line();
-  std::string hint = sandbox_hint(last_words_.text(), recipe_.name, recipe_.host);
-  if (hint.empty() && recipe_.host.memory_limit) {
+  std::string hint = sandbox_hint(last_words_.text(), spec_.name, spec_.host);
+  if (hint.empty() && spec_.host.memory_limit) {
     hint = fmt::format("its memory is limited to {} MiB (memoryLimit); it may need more",
-                       *recipe_.host.memory_limit >> 20);
+                       *spec_.host.memory_limit >> 20);
   }
   core::fail_run(context(time), failure_ + last_words_.text(), hint);
 }
@@ -164,7 +164,7 @@ std::string Conversation::present_call() const {
 }
 
 core::Context Conversation::context(std::optional<Time> time) const {
-  return {.where = recipe_.options.where, .unit = recipe_.name, .variable = {}, .time = time};
+  return {.where = spec_.options.where, .unit = spec_.name, .variable = {}, .time = time};
 }
 
 }  // namespace stride::host

@@ -22,7 +22,7 @@ namespace stride::host {
 class Conversation {
  public:
   /// Starts the process. Throws std::system_error if there can be none.
-  explicit Conversation(const Recipe& recipe);
+  explicit Conversation(const HostedUnitSpec& spec);
 
   /// A message to be written and sent; it takes the place of whatever came before.
   MessageWriter write() { return MessageWriter(channel_.messages); }
@@ -57,7 +57,7 @@ class Conversation {
   std::string present_call() const;
   core::Context context(std::optional<Time> time) const;
 
-  const Recipe& recipe_;
+  const HostedUnitSpec& spec_;
   Channel channel_;
   HostProcess process_;
   process::Waiter waiter_;

@@ -30,35 +30,35 @@ void on_exit_called(int status, void*) {
   ::_exit(status);
 }
 
-std::vector<process::WritableFolder> writable_folders(const Recipe& recipe) {
+std::vector<process::WritableFolder> writable_folders(const HostedUnitSpec& spec) {
   std::vector<process::WritableFolder> folders;
-  for (const std::filesystem::path& folder : recipe.host.writable) {
+  for (const std::filesystem::path& folder : spec.host.writable) {
     folders.push_back({folder, folder.string()});
   }
-  if (std::filesystem::is_directory(recipe.fmu->resources())) {
-    folders.push_back({recipe.fmu->resources(), "its resources"});
+  if (std::filesystem::is_directory(spec.fmu->resources())) {
+    folders.push_back({spec.fmu->resources(), "its resources"});
   }
-  folders.push_back({recipe.temporary->path(), "a temporary folder"});
+  folders.push_back({spec.temporary->path(), "a temporary folder"});
   return folders;
 }
 
 }  // namespace
 
-void serve(Channel& channel, const Recipe& recipe, pid_t keeper) noexcept {
+void serve(Channel& channel, const HostedUnitSpec& spec, pid_t keeper) noexcept {
   process::forget_signal_handlers();
-  ::prctl(PR_SET_NAME, recipe.name.c_str());
+  ::prctl(PR_SET_NAME, spec.name.c_str());
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a crash loses no line
   ::on_exit(&on_exit_called, nullptr);
-  Server(channel, recipe, keeper).run();
+  Server(channel, spec, keeper).run();
   ::_exit(0);
 }
 
-Server::Server(Channel& channel, const Recipe& recipe, pid_t keeper)
-    : channel_(channel), memory_(*channel.memory), recipe_(recipe), log_(*channel.memory) {
-  if (!recipe.has_snapshots()) return;
+Server::Server(Channel& channel, const HostedUnitSpec& spec, pid_t keeper)
+    : channel_(channel), memory_(*channel.memory), spec_(spec), log_(*channel.memory) {
+  if (!spec.has_snapshots()) return;
   snapshots_.emplace(
       memory_.snapshots, memory_.active, keeper,
-      SnapshotOptions{context(), {channel.messages.file().number()}, recipe.host.memory_limit});
+      SnapshotOptions{context(), {channel.messages.file().number()}, spec.host.memory_limit});
 }
 
 void Server::run() {
@@ -69,10 +69,10 @@ void Server::run() {
 }
 
 process::Protections Server::prepare() {
-  if (recipe_.host.memory_limit) limit_memory(*recipe_.host.memory_limit);
-  if (!recipe_.host.is_sandboxed) return {};
-  ::setenv("TMPDIR", recipe_.temporary->path().c_str(), 1);
-  return process::enter_sandbox(writable_folders(recipe_));
+  if (spec_.host.memory_limit) limit_memory(*spec_.host.memory_limit);
+  if (!spec_.host.is_sandboxed) return {};
+  ::setenv("TMPDIR", spec_.temporary->path().c_str(), 1);
+  return process::enter_sandbox(writable_folders(spec_));
 }
 
 // ---- Requests and replies ----
@@ -98,7 +98,7 @@ void Server::serve() {
   const auto fail = [&](const std::exception& error) {
     what = ReplyCode::Failed;
     out.clear();
-    put_error(out, error, context(), sandbox_hint(error.what(), recipe_.name, recipe_.host));
+    put_error(out, error, context(), sandbox_hint(error.what(), spec_.name, spec_.host));
   };
   try {
     handle(requested(), in, out);
@@ -199,7 +199,7 @@ void Server::handle(RequestCode request, MessageReader& in, MessageWriter& out) 
 }
 
 core::Context Server::context() const {
-  return {.where = recipe_.options.where, .unit = recipe_.name, .variable = {}, .time = time_};
+  return {.where = spec_.options.where, .unit = spec_.name, .variable = {}, .time = time_};
 }
 
 /// Of an exception that has crossed the unit's interface, which none may; nothing otherwise.
@@ -212,14 +212,14 @@ std::string Server::origin() const {
 
 void Server::instantiate(MessageWriter& out) {
   put_protections(out, prepare());
-  fmi::InstanceOptions options = recipe_.options;
+  fmi::InstanceOptions options = spec_.options;
   options.call_note = &memory_.call_note;
   options.log = [this](const std::string&, fmi::Status status, const std::string& category,
                        const std::string& text) {
     log_.write({status, category, text});
   };
   memory_.call_note.write("the loading of its library");
-  unit_ = recipe_.fmu->instantiate(recipe_.name, std::move(options));
+  unit_ = spec_.fmu->instantiate(spec_.name, std::move(options));
 }
 
 void Server::free() {
@@ -255,7 +255,7 @@ void Server::get_directional_derivative(MessageReader& in, MessageWriter& out) {
 
 const core::Variable& Server::variable(core::ValueReference reference) const {
   const core::UnitDescription& description =
-      recipe_.options.description ? *recipe_.options.description : *recipe_.fmu->description();
+      spec_.options.description ? *spec_.options.description : *spec_.fmu->description();
   return description.variables.at(description.find(reference).value());
 }
 

@@ -23,8 +23,8 @@
 
 namespace stride::host {
 
-/// What a unit is made from.
-struct Recipe {
+/// What a hosted unit is instantiated from.
+struct HostedUnitSpec {
   std::shared_ptr<fmi::Fmu> fmu;
   std::string name;
   fmi::InstanceOptions options;
@@ -39,7 +39,7 @@ struct Recipe {
 /// The process in which a unit lives: does what the master asks for, one request after the other.
 class Server {
  public:
-  Server(Channel& channel, const Recipe& recipe, pid_t keeper);
+  Server(Channel& channel, const HostedUnitSpec& spec, pid_t keeper);
 
   /// Returns when the unit was destroyed, because the master wanted it.
   void run();
@@ -77,7 +77,7 @@ class Server {
 
   Channel& channel_;
   ChannelMemory& memory_;
-  const Recipe& recipe_;
+  const HostedUnitSpec& spec_;
   LogWriter log_;
   process::Waiter waiter_;
   std::optional<Snapshots> snapshots_;  ///< in place of the unit's own states
@@ -90,7 +90,7 @@ class Server {
 };
 
 /// Runs a server in a fresh fork: its surroundings first.
-void serve(Channel& channel, const Recipe& recipe, pid_t keeper) noexcept;
+void serve(Channel& channel, const HostedUnitSpec& spec, pid_t keeper) noexcept;
 
 }  // namespace stride::host
 

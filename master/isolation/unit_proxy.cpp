@@ -11,14 +11,14 @@ namespace stride::host {
 
 // ---- Life and death ----
 
-UnitProxy::UnitProxy(Recipe recipe) : recipe_(std::move(recipe)) {
-  if (recipe_.host.is_sandboxed) {
-    recipe_.temporary = std::make_unique<archive::TemporaryFolder>();
+UnitProxy::UnitProxy(HostedUnitSpec spec) : spec_(std::move(spec)) {
+  if (spec_.host.is_sandboxed) {
+    spec_.temporary = std::make_unique<archive::TemporaryFolder>();
   }
   try {
-    conversation_ = std::make_unique<Conversation>(recipe_);
+    conversation_ = std::make_unique<Conversation>(spec_);
   } catch (const std::system_error& failure) {
-    core::fail_run({.where = recipe_.options.where, .unit = recipe_.name},
+    core::fail_run({.where = spec_.options.where, .unit = spec_.name},
                    fmt::format("there can be no process for it: {}", failure.what()));
   }
   call(
@@ -64,7 +64,7 @@ void UnitProxy::call(RequestCode request, Put&& put, Take&& take) {
   } catch (const BadMessage&) {
     conversation_->fail_nonsense(time_);
   } catch (const std::system_error& failure) {
-    core::fail_run({.where = recipe_.options.where, .unit = recipe_.name, .time = time_},
+    core::fail_run({.where = spec_.options.where, .unit = spec_.name, .time = time_},
                    failure.what());
   }
 }
@@ -222,7 +222,7 @@ void UnitProxy::save_state() {
 
 /// A process that is taken back knows the plans of its time only.
 void UnitProxy::restore_state() {
-  if (recipe_.has_snapshots()) plans_.forget();
+  if (spec_.has_snapshots()) plans_.forget();
   call(RequestCode::RestoreState, [&](MessageWriter& to) { put_time(to, time_); });
 }
 

@@ -21,7 +21,7 @@ class UnitProxy final : public core::Unit {
   using References = std::span<const core::ValueReference>;
 
   /// Throws what the unit's own constructor throws.
-  explicit UnitProxy(Recipe recipe);
+  explicit UnitProxy(HostedUnitSpec spec);
   ~UnitProxy() override;
 
   void enter_configuration_mode() override;
@@ -71,7 +71,7 @@ class UnitProxy final : public core::Unit {
   RequestCode update_inputs(double seconds_into_step) noexcept;
   std::uint32_t plan_number(const core::StepValues& values);
 
-  Recipe recipe_;
+  HostedUnitSpec spec_;
   std::unique_ptr<Conversation> conversation_;
   process::Protections protections_;
   std::optional<Time> time_;
