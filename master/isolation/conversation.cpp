@@ -112,7 +112,7 @@ void Conversation::finish() {
 
 void Conversation::take_lines() {
   log_.read([&](LogMessage&& message) {
-    last_words_.add_logged(message.text);
+    output_tail_.add_logged(message.text);
     log(message.status, message.category, message.text);
   });
   channel_.memory->printed.read(printed_.bytes());
@@ -120,7 +120,7 @@ void Conversation::take_lines() {
 }
 
 void Conversation::tell_printed(std::string_view line) {
-  last_words_.add_printed(line);
+  output_tail_.add_printed(line);
   log(fmi::Status::Ok, kPrinted, std::string(line));
 }
 
@@ -142,12 +142,12 @@ void Conversation::log(fmi::Status status, const std::string& category,
 void Conversation::fail(const std::string& what, std::optional<Time> time) {
   failure_ = what;
   if (process_.has_ended()) take_last_line();
-  std::string hint = sandbox_hint(last_words_.text(), spec_.name, spec_.host);
+  std::string hint = sandbox_hint(output_tail_.text(), spec_.name, spec_.host);
   if (hint.empty() && spec_.host.memory_limit) {
     hint = fmt::format("its memory is limited to {} MiB (memoryLimit); it may need more",
                        *spec_.host.memory_limit >> 20);
   }
-  core::fail_run(context(time), failure_ + last_words_.text(), hint);
+  core::fail_run(context(time), failure_ + output_tail_.text(), hint);
 }
 
 void Conversation::fail_nonsense(std::optional<Time> time) {

@@ -64,7 +64,7 @@ class Conversation {
   std::uint32_t number_ = 0;  ///< of the latest request
   LogReader log_;
   PrintedLines printed_;
-  LastWords last_words_;
+  OutputTail output_tail_;
   bool has_complained_ = false;
   std::string failure_;  ///< why nothing can be sent any longer
 };
