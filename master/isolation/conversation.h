@@ -10,8 +10,8 @@
 #include "master/algorithm/statistics.h"
 #include "master/isolation/channel.h"
 #include "master/isolation/host_process.h"
-#include "master/isolation/last_words.h"
 #include "master/isolation/message.h"
+#include "master/isolation/output_tail.h"
 #include "master/isolation/process/doorbell.h"
 #include "master/isolation/server.h"
 

@@ -1,4 +1,4 @@
-#include "master/isolation/last_words.h"
+#include "master/isolation/output_tail.h"
 
 #include <fmt/format.h>
 
