@@ -23,15 +23,15 @@ double seconds(std::chrono::milliseconds time) {
 
 }  // namespace
 
-Conversation::Conversation(const HostedUnitSpec& spec)
+HostClient::HostClient(const HostedUnitSpec& spec)
     : spec_(spec),
       process_(channel_, [&](pid_t keeper) { serve(channel_, spec, keeper); }),
       log_(*channel_.memory) {}
 
 // ---- To and fro ----
 
-ReplyCode Conversation::send(RequestCode request, const MessageWriter& message,
-                             std::optional<Time> time) {
+ReplyCode HostClient::send(RequestCode request, const MessageWriter& message,
+                           std::optional<Time> time) {
   if (has_failed()) [[unlikely]]
     core::fail_run(context(time), "it cannot be called, because " + failure_);
   Turn& turn = channel_.memory->request;
@@ -45,13 +45,13 @@ ReplyCode Conversation::send(RequestCode request, const MessageWriter& message,
   return static_cast<ReplyCode>(channel_.memory->reply.what.load(std::memory_order_relaxed));
 }
 
-MessageReader Conversation::read() {
+MessageReader HostClient::read() {
   const std::size_t size = channel_.memory->reply.size.load(std::memory_order_relaxed);
   if (!channel_.messages.follow(size)) throw BadMessage();
   return MessageReader({channel_.messages.data(), size});
 }
 
-void Conversation::await_reply(std::optional<Time> time) {
+void HostClient::await_reply(std::optional<Time> time) {
   const auto begin = Clock::now();
   const auto limit = spec_.host.call_limit;
   process::Doorbell& doorbell = channel_.memory->reply.doorbell;
@@ -80,14 +80,14 @@ void Conversation::await_reply(std::optional<Time> time) {
   }
 }
 
-void Conversation::complain_of_waiting() {
+void HostClient::complain_of_waiting() {
   if (std::exchange(has_complained_, true)) return;
   log(fmi::Status::Warning, "stride",
       fmt::format("it has taken more than {} s{}, and there is no limit (--unit-timeout)",
                   seconds(spec_.options.patience), present_call()));
 }
 
-core::HostStatistics Conversation::statistics() const {
+core::HostStatistics HostClient::statistics() const {
   const SnapshotBoard& snapshots = channel_.memory->snapshots;
   core::HostStatistics statistics;
   statistics.snapshots = snapshots.snapshots;
@@ -102,7 +102,7 @@ core::HostStatistics Conversation::statistics() const {
   return statistics;
 }
 
-void Conversation::finish() {
+void HostClient::finish() {
   process_.finish([&] { take_lines(); });
   take_lines();
   take_last_line();
@@ -110,7 +110,7 @@ void Conversation::finish() {
 
 // ---- What is said besides ----
 
-void Conversation::take_lines() {
+void HostClient::take_lines() {
   log_.read([&](LogMessage&& message) {
     output_tail_.add_logged(message.text);
     log(message.status, message.category, message.text);
@@ -119,18 +119,18 @@ void Conversation::take_lines() {
   printed_.take([&](std::string_view line) { tell_printed(line); });
 }
 
-void Conversation::tell_printed(std::string_view line) {
+void HostClient::tell_printed(std::string_view line) {
   output_tail_.add_printed(line);
   log(fmi::Status::Ok, kPrinted, std::string(line));
 }
 
 /// A line without an end, when nothing comes behind it.
-void Conversation::take_last_line() {
+void HostClient::take_last_line() {
   printed_.take_rest([&](std::string_view line) { tell_printed(line); });
 }
 
-void Conversation::log(fmi::Status status, const std::string& category,
-                       const std::string& text) const noexcept {
+void HostClient::log(fmi::Status status, const std::string& category,
+                     const std::string& text) const noexcept {
   try {
     if (spec_.options.log) spec_.options.log(spec_.name, status, category, text);
   } catch (...) {  // as in the unit's own process, where nothing may cross its C code
@@ -139,7 +139,7 @@ void Conversation::log(fmi::Status status, const std::string& category,
 
 // ---- Failures ----
 
-void Conversation::fail(const std::string& what, std::optional<Time> time) {
+void HostClient::fail(const std::string& what, std::optional<Time> time) {
   failure_ = what;
   if (process_.has_ended()) take_last_line();
   std::string hint = sandbox_hint(output_tail_.text(), spec_.name, spec_.host);
@@ -150,20 +150,20 @@ void Conversation::fail(const std::string& what, std::optional<Time> time) {
   core::fail_run(context(time), failure_ + output_tail_.text(), hint);
 }
 
-void Conversation::fail_nonsense(std::optional<Time> time) {
+void HostClient::fail_nonsense(std::optional<Time> time) {
   process_.kill();
   take_lines();
   fail(BadMessage().what() + present_call(), time);
 }
 
-std::string Conversation::present_call() const {
+std::string HostClient::present_call() const {
   constexpr std::size_t kLongest = 100;
   const std::string function =
       core::readable_text(channel_.memory->call_note.read(), kLongest);  // the unit can write there
   return function.empty() ? "" : " in " + function;
 }
 
-core::Context Conversation::context(std::optional<Time> time) const {
+core::Context HostClient::context(std::optional<Time> time) const {
   return {.where = spec_.options.where, .unit = spec_.name, .variable = {}, .time = time};
 }
 

@@ -19,10 +19,10 @@ namespace stride::host {
 
 /// The master's side of requests and replies, and of the process that replies. What the unit logs
 /// and prints meanwhile reaches the log.
-class Conversation {
+class HostClient {
  public:
   /// Starts the process. Throws std::system_error if there can be none.
-  explicit Conversation(const HostedUnitSpec& spec);
+  explicit HostClient(const HostedUnitSpec& spec);
 
   /// A message to be written and sent; it takes the place of whatever came before.
   MessageWriter write() { return MessageWriter(channel_.messages); }

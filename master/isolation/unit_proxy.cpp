@@ -16,7 +16,7 @@ UnitProxy::UnitProxy(HostedUnitSpec spec) : spec_(std::move(spec)) {
     spec_.temporary = std::make_unique<archive::TemporaryFolder>();
   }
   try {
-    conversation_ = std::make_unique<Conversation>(spec_);
+    client_ = std::make_unique<HostClient>(spec_);
   } catch (const std::system_error& failure) {
     core::fail_run({.where = spec_.options.where, .unit = spec_.name},
                    fmt::format("there can be no process for it: {}", failure.what()));
@@ -28,20 +28,19 @@ UnitProxy::UnitProxy(HostedUnitSpec spec) : spec_(std::move(spec)) {
 
 UnitProxy::~UnitProxy() {
   try {
-    if (!conversation_->has_failed()) call(RequestCode::Free);
+    if (!client_->has_failed()) call(RequestCode::Free);
   } catch (const std::exception& failure) {
-    conversation_->log(fmi::Status::Warning, "stride",
-                       fmt::format("its end failed: {}", failure.what()));
+    client_->log(fmi::Status::Warning, "stride", fmt::format("its end failed: {}", failure.what()));
   }
-  conversation_->finish();
+  client_->finish();
 }
 
 void UnitProxy::terminate() {
-  if (!conversation_->has_failed()) call(RequestCode::Terminate);
+  if (!client_->has_failed()) call(RequestCode::Terminate);
 }
 
 std::optional<core::HostStatistics> UnitProxy::host_statistics() const {
-  core::HostStatistics statistics = conversation_->statistics();
+  core::HostStatistics statistics = client_->statistics();
   statistics.protections = protections_.in_force;
   statistics.missing_protections = protections_.missing;
   return statistics;
@@ -52,17 +51,17 @@ std::optional<core::HostStatistics> UnitProxy::host_statistics() const {
 template <class Put, class Take>
 void UnitProxy::call(RequestCode request, Put&& put, Take&& take) {
   try {
-    MessageWriter message = conversation_->write();
+    MessageWriter message = client_->write();
     put(message);
-    ReplyCode reply = conversation_->send(request, message, time_);
+    ReplyCode reply = client_->send(request, message, time_);
     if (reply != ReplyCode::Done) [[unlikely]] {
       reply = answer_questions(reply);
       if (reply != ReplyCode::Done) throw_reply(reply);
     }
-    MessageReader answer = conversation_->read();
+    MessageReader answer = client_->read();
     take(answer);
   } catch (const BadMessage&) {
-    conversation_->fail_nonsense(time_);
+    client_->fail_nonsense(time_);
   } catch (const std::system_error& failure) {
     core::fail_run({.where = spec_.options.where, .unit = spec_.name, .time = time_},
                    failure.what());
@@ -80,9 +79,9 @@ void UnitProxy::call(RequestCode request) {
 
 ReplyCode UnitProxy::answer_questions(ReplyCode reply) {
   while (reply == ReplyCode::AskInputs) {
-    const RequestCode answer = update_inputs(conversation_->read().take<double>());
-    if (conversation_->has_failed()) return ReplyCode::CallbackFailed;
-    reply = conversation_->send(answer, conversation_->write(), time_);
+    const RequestCode answer = update_inputs(client_->read().take<double>());
+    if (client_->has_failed()) return ReplyCode::CallbackFailed;
+    reply = client_->send(answer, client_->write(), time_);
   }
   return reply;
 }
@@ -102,7 +101,7 @@ void UnitProxy::throw_reply(ReplyCode reply) {
     std::rethrow_exception(std::exchange(callback_failure_, nullptr));
   }
   if (reply != ReplyCode::Failed) throw BadMessage();
-  MessageReader error = conversation_->read();
+  MessageReader error = client_->read();
   throw_error(error);
 }
 

@@ -55,7 +55,7 @@ class UnitProxy final : public core::Unit {
   void get_derivatives(References outputs, std::span<double> derivatives) override;
   std::string describe_message(core::ValueReference variable, const core::Binary& value) override;
   void terminate() override;
-  std::uint64_t calls() const override { return conversation_->calls(); }
+  std::uint64_t calls() const override { return client_->calls(); }
   std::optional<core::HostStatistics> host_statistics() const override;
 
  private:
@@ -72,7 +72,7 @@ class UnitProxy final : public core::Unit {
   std::uint32_t plan_number(const core::StepValues& values);
 
   HostedUnitSpec spec_;
-  std::unique_ptr<Conversation> conversation_;
+  std::unique_ptr<HostClient> client_;
   process::Protections protections_;
   std::optional<Time> time_;
   KnownStepShapes plans_;
