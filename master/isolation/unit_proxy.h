@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "master/algorithm/unit.h"
-#include "master/isolation/conversation.h"
+#include "master/isolation/host_client.h"
 #include "master/isolation/server.h"
 #include "master/isolation/step_plan.h"
 

@@ -1,4 +1,4 @@
-#include "master/isolation/conversation.h"
+#include "master/isolation/host_client.h"
 
 #include <algorithm>
 
