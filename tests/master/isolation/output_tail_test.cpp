@@ -7,7 +7,7 @@
 using namespace stride::host;
 
 TEST_CASE("the last lines are kept, as one said them") {
-  OutputTail words;
+  OutputTail tail;
   CHECK(tail.text().empty());
   tail.add_logged("first\tthing");
   tail.add_printed(std::string(1000, 'x'));
