@@ -59,7 +59,7 @@ enum class ReplyCode : std::uint32_t {
   AskInputs,       ///< a question within a step; the reply to the step's request comes later
 };
 
-/// How a process ended, as its keeper saw it.
+/// How a process ended, as its supervisor saw it.
 enum class End : std::uint32_t { None, NotStarted, Exited, Killed };
 
 /// One direction. Who writes sets what and size first, then the number, then rings.
@@ -83,7 +83,7 @@ struct ChannelMemory {
 
   /// The process in charge of the unit. The end of any other does not matter.
   std::atomic<pid_t> active = 0;
-  std::atomic<End> end = End::None;  ///< of that one; written by the keeper
+  std::atomic<End> end = End::None;  ///< of that one; written by the supervisor
   std::atomic<int> end_code = 0;     ///< the error of the start, the exit code, or the signal
 
   std::atomic<std::uint64_t> most_memory = 0;  ///< resident, of those that have ended [byte]
@@ -91,7 +91,7 @@ struct ChannelMemory {
 
   fmi::CallNote call_note;  ///< which function of the unit is being called
   ByteRing logged;          ///< messages of the unit, see log_message.h; written by its process
-  ByteRing printed;         ///< standard output and error; written by the keeper
+  ByteRing printed;         ///< standard output and error; written by the supervisor
 };
 
 /// Both kinds of memory. Made by the master, inherited by the others.

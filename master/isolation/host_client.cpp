@@ -14,7 +14,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-/// How often is looked whether the keeper is still there.
+/// How often is looked whether the supervisor is still there.
 constexpr std::chrono::milliseconds kProcessCheckInterval{50};
 
 double seconds(std::chrono::milliseconds time) {
@@ -25,7 +25,7 @@ double seconds(std::chrono::milliseconds time) {
 
 HostClient::HostClient(const HostedUnitSpec& spec)
     : spec_(spec),
-      process_(channel_, [&](pid_t keeper) { serve(channel_, spec, keeper); }),
+      process_(channel_, [&](pid_t supervisor) { serve(channel_, spec, supervisor); }),
       log_(*channel_.memory) {}
 
 // ---- To and fro ----

@@ -49,9 +49,9 @@ std::vector<pid_t> children() {
   return found;
 }
 
-class Keeper {
+class Supervisor {
  public:
-  Keeper(ChannelMemory& channel, process::Descriptor line, process::Descriptor output)
+  Supervisor(ChannelMemory& channel, process::Descriptor line, process::Descriptor output)
       : channel_(channel),
         line_(std::move(line)),
         output_(std::move(output)),
@@ -148,8 +148,8 @@ void clean_up_after(pid_t master) {
 
 }  // namespace
 
-void keep(Channel& channel, process::Descriptor line, pid_t master,
-          const std::function<void(pid_t)>& serve) noexcept {
+void supervise(Channel& channel, process::Descriptor line, pid_t master,
+               const std::function<void(pid_t)>& serve) noexcept {
   ::setpgid(0, 0);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
   ::prctl(PR_SET_NAME, "stride-keeper");
@@ -177,11 +177,11 @@ void keep(Channel& channel, process::Descriptor line, pid_t master,
     channel.memory->end = End::NotStarted;
     channel.memory->reply.doorbell.ring();
   }
-  Keeper keeper(*channel.memory, std::move(line), std::move(output.read));
-  const bool is_wanted = keeper.run();
-  keeper.kill_children();
+  Supervisor supervisor(*channel.memory, std::move(line), std::move(output.read));
+  const bool is_wanted = supervisor.run();
+  supervisor.kill_children();
   if (is_wanted) {
-    keeper.pass_on_all(1000ms);
+    supervisor.pass_on_all(1000ms);
   } else {
     clean_up_after(master);
   }

@@ -10,7 +10,8 @@
 
 namespace stride::host {
 
-/// What the master tells a keeper through its line; the end of the line is the end of the master.
+/// What the master tells a supervisor through its line; the end of the line is the end of the
+/// master.
 enum class Command : char {
   Kill = 'K',    ///< end the unit's process, and tell how it ended
   Finish = 'F',  ///< end, and leave nothing
@@ -20,9 +21,9 @@ enum class Command : char {
 /// passes on what that prints, tells how it ends, and ends all that comes from it when the master
 /// is gone, whose temporary folders it then removes. To be called in a fresh fork of the master.
 ///
-/// `serve` is called in the unit's process, with the keeper's process id.
-[[noreturn]] void keep(Channel& channel, process::Descriptor line, pid_t master,
-                       const std::function<void(pid_t)>& serve) noexcept;
+/// `serve` is called in the unit's process, with the supervisor's process id.
+[[noreturn]] void supervise(Channel& channel, process::Descriptor line, pid_t master,
+                            const std::function<void(pid_t)>& serve) noexcept;
 
 }  // namespace stride::host
 

@@ -44,20 +44,20 @@ std::vector<process::WritableFolder> writable_folders(const HostedUnitSpec& spec
 
 }  // namespace
 
-void serve(Channel& channel, const HostedUnitSpec& spec, pid_t keeper) noexcept {
+void serve(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor) noexcept {
   process::forget_signal_handlers();
   ::prctl(PR_SET_NAME, spec.name.c_str());
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a crash loses no line
   ::on_exit(&on_exit_called, nullptr);
-  Server(channel, spec, keeper).run();
+  Server(channel, spec, supervisor).run();
   ::_exit(0);
 }
 
-Server::Server(Channel& channel, const HostedUnitSpec& spec, pid_t keeper)
+Server::Server(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor)
     : channel_(channel), memory_(*channel.memory), spec_(spec), log_(*channel.memory) {
   if (!spec.has_snapshots()) return;
   snapshots_.emplace(
-      memory_.snapshots, memory_.active, keeper,
+      memory_.snapshots, memory_.active, supervisor,
       SnapshotOptions{context(), {channel.messages.file().number()}, spec.host.memory_limit});
 }
 

@@ -39,7 +39,7 @@ struct HostedUnitSpec {
 /// The process in which a unit lives: does what the master asks for, one request after the other.
 class Server {
  public:
-  Server(Channel& channel, const HostedUnitSpec& spec, pid_t keeper);
+  Server(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor);
 
   /// Returns when the unit was destroyed, because the master wanted it.
   void run();
@@ -90,7 +90,7 @@ class Server {
 };
 
 /// Runs a server in a fresh fork: its surroundings first.
-void serve(Channel& channel, const HostedUnitSpec& spec, pid_t keeper) noexcept;
+void serve(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor) noexcept;
 
 }  // namespace stride::host
 

@@ -21,7 +21,7 @@ inline void raise_to(std::atomic<std::uint64_t>& most, std::uint64_t value) {
 /// whoever is in charge of the unit has to know it, however far it was taken back.
 struct SnapshotBoard {
   static constexpr std::size_t kSlots = 16;
-  /// Those that have been told to end have theirs until the keeper has seen that they did.
+  /// Those that have been told to end have theirs until the supervisor has seen that they did.
   static constexpr std::size_t kPlaces = 2 * kSlots;
 
   enum class State : std::uint32_t {
@@ -50,7 +50,7 @@ struct SnapshotBoard {
     for (auto& place : place_of) place = 0;
   }
 
-  /// For the keeper: a process that is not in charge has ended.
+  /// For the supervisor: a process that is not in charge has ended.
   void note_end(pid_t process);
 };
 

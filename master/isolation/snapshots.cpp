@@ -39,11 +39,11 @@ void SnapshotBoard::note_end(pid_t process) {
   }
 }
 
-Snapshots::Snapshots(SnapshotBoard& board, std::atomic<pid_t>& active, pid_t keeper,
+Snapshots::Snapshots(SnapshotBoard& board, std::atomic<pid_t>& active, pid_t supervisor,
                      SnapshotOptions options)
     : board_(board),
       active_(active),
-      keeper_(keeper),
+      supervisor_(supervisor),
       options_(std::move(options)),
       files_(options_.own_files) {}
 
@@ -92,7 +92,7 @@ void Snapshots::restore(std::size_t slot, std::optional<Time> time) {
 
 /// In the snapshot: sleeps until it is told what to do.
 bool Snapshots::freeze(Place& place) {
-  process::die_with(keeper_);
+  process::die_with(supervisor_);
   place.process = ::getpid();
   for (;;) {
     if (wait_while_frozen(place) == State::Ends) ::_exit(0);
@@ -109,7 +109,7 @@ bool Snapshots::freeze(Place& place) {
 }
 
 bool Snapshots::take_over() {
-  process::die_with(keeper_);
+  process::die_with(supervisor_);
   active_ = ::getpid();
   ++board_.restores;
   try {
@@ -155,7 +155,7 @@ void Snapshots::refuse_company() const {
   }
 }
 
-/// Snapshots that have been told to end do so at once, and the keeper sees it, so one is found
+/// Snapshots that have been told to end do so at once, and the supervisor sees it, so one is found
 /// soon.
 std::uint32_t Snapshots::find_free_place() {
   for (;;) {
