@@ -8,8 +8,8 @@
 #include <sys/types.h>
 
 #include "master/isolation/channel.h"
-#include "master/isolation/keeper.h"
 #include "master/isolation/process/descriptor.h"
+#include "master/isolation/supervisor.h"
 
 namespace stride::host {
 

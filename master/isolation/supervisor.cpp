@@ -1,4 +1,4 @@
-#include "master/isolation/keeper.h"
+#include "master/isolation/supervisor.h"
 
 #include <array>
 #include <cerrno>
