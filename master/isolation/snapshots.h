@@ -53,13 +53,13 @@ class Snapshots {
   void measure();
 
  private:
-  using Place = SnapshotBoard::Place;
+  using Entry = SnapshotBoard::Entry;
   using Clock = std::chrono::steady_clock;
 
   void check(std::size_t slot) const;
   void refuse_company() const;
-  std::uint32_t find_free_place();
-  bool freeze(Place& place);
+  std::uint32_t find_free_entry();
+  bool freeze(Entry& entry);
   bool take_over();
   void discard(std::size_t slot);
   void count();

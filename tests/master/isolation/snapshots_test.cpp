@@ -149,7 +149,7 @@ TEST_CASE("of many snapshots in a slot the last one stays") {
   CHECK(world->board.snapshots == 300);
   CHECK(world->board.most_kept == 1);
   // Those that were in charge before a restore may not have been waited for yet.
-  CHECK(world->most_processes <= static_cast<int>(SnapshotBoard::kPlaces) + kPasses);
+  CHECK(world->most_processes <= static_cast<int>(SnapshotBoard::kEntries) + kPasses);
 }
 
 TEST_CASE("more states than there can be are refused, and so is what was never kept") {
@@ -194,8 +194,8 @@ TEST_CASE("a snapshot that was killed is missed where it is needed") {
   SharedWorld world;
   const auto error = run(world, [](World& w, Snapshots& snapshots) {
     snapshots.save(0);
-    ::kill(w.board.places[0].process, SIGKILL);
-    while (w.board.places[0].state != SnapshotBoard::State::Lost) ::usleep(100);
+    ::kill(w.board.entries[0].process, SIGKILL);
+    while (w.board.entries[0].state != SnapshotBoard::State::Lost) ::usleep(100);
     snapshots.save(1);
     try {
       snapshots.restore(0);
