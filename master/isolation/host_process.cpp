@@ -22,11 +22,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-struct Line {
+struct ControlSocket {
   process::Descriptor ours, theirs;
 
-  // a socket, since nobody wants SIGPIPE
-  Line() {
+  // a socket, since a write to a closed pipe raises SIGPIPE
+  ControlSocket() {
     std::array<int, 2> ends{};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
       process::fail("socketpair");
@@ -48,17 +48,17 @@ void flush_standard_files() {
 
 HostProcess::HostProcess(Channel& channel, const std::function<void(pid_t)>& serve)
     : channel_(*channel.memory) {
-  Line line;
+  ControlSocket control;
   flush_standard_files();
   const pid_t master = ::getpid();
   supervisor_ = ::fork();
   if (supervisor_ < 0) process::fail("fork");
   if (supervisor_ == 0) {
-    line.ours.close();
-    supervise(channel, std::move(line.theirs), master, serve);
+    control.ours.close();
+    supervise(channel, std::move(control.theirs), master, serve);
   }
   ::setpgid(supervisor_, supervisor_);  // whoever of the two comes first
-  line_ = std::move(line.ours);
+  control_ = std::move(control.ours);
   channel.memory.hide_from_children();
   channel.messages.hide_from_children();
 }
@@ -83,7 +83,7 @@ void HostProcess::kill() {
 void HostProcess::finish(const std::function<void()>& meanwhile) {
   if (supervisor_ <= 0) return;
   tell(Command::Finish);
-  line_.close();
+  control_.close();
   while (!is_supervisor_gone()) {
     const std::uint32_t rings = channel_.reply.doorbell.rings();
     meanwhile();
@@ -105,7 +105,7 @@ bool HostProcess::is_supervisor_gone() const {
 }
 
 void HostProcess::tell(Command command) const {
-  ::send(line_.number(), &command, sizeof command, MSG_NOSIGNAL);
+  ::send(control_.number(), &command, sizeof command, MSG_NOSIGNAL);
 }
 
 std::string HostProcess::how_it_ended() const {

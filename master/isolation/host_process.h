@@ -43,7 +43,7 @@ class HostProcess {
   bool is_supervisor_gone() const;
 
   ChannelMemory& channel_;
-  process::Descriptor line_;
+  process::Descriptor control_;
   pid_t supervisor_ = 0;
   bool is_supervisor_lost_ = false;
 };

@@ -51,9 +51,9 @@ std::vector<pid_t> children() {
 
 class Supervisor {
  public:
-  Supervisor(ChannelMemory& channel, process::Descriptor line, process::Descriptor output)
+  Supervisor(ChannelMemory& channel, process::Descriptor control, process::Descriptor output)
       : channel_(channel),
-        line_(std::move(line)),
+        control_(std::move(control)),
         output_(std::move(output)),
         ends_(watch_children()) {}
 
@@ -64,7 +64,7 @@ class Supervisor {
       pass_on();
       bury();
       char command = 0;
-      const ssize_t size = ::recv(line_.number(), &command, 1, MSG_DONTWAIT);
+      const ssize_t size = ::recv(control_.number(), &command, 1, MSG_DONTWAIT);
       if (size < 0 && (errno == EAGAIN || errno == EINTR)) continue;
       if (size <= 0) return false;
       kill_children();
@@ -100,7 +100,7 @@ class Supervisor {
  private:
   void wait() const {
     const bool has_room = pending_.empty();
-    std::array<pollfd, 3> files{{{line_.number(), POLLIN, 0},
+    std::array<pollfd, 3> files{{{control_.number(), POLLIN, 0},
                                  {ends_.number(), POLLIN, 0},
                                  {has_room ? output_.number() : -1, POLLIN, 0}}};
     ::poll(files.data(), files.size(), has_room ? -1 : kNoRoomPause);
@@ -136,7 +136,7 @@ class Supervisor {
   }
 
   ChannelMemory& channel_;
-  process::Descriptor line_, output_, ends_;
+  process::Descriptor control_, output_, ends_;
   std::string pending_;  ///< printed, and there was no room for it
 };
 
@@ -148,7 +148,7 @@ void clean_up_after(pid_t master) {
 
 }  // namespace
 
-void supervise(Channel& channel, process::Descriptor line, pid_t master,
+void supervise(Channel& channel, process::Descriptor control, pid_t master,
                const std::function<void(pid_t)>& serve) noexcept {
   ::setpgid(0, 0);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
@@ -157,7 +157,7 @@ void supervise(Channel& channel, process::Descriptor line, pid_t master,
   const process::Descriptor nowhere(::open("/dev/null", O_RDWR | O_CLOEXEC));
   process::redirect_standard_files(nowhere.number());
   const int messages = channel.messages.file().number();
-  process::close_other_files({line.number(), messages});
+  process::close_other_files({control.number(), messages});
   process::Pipe output;
   const pid_t self = ::getpid();
   const pid_t server = ::fork();
@@ -177,7 +177,7 @@ void supervise(Channel& channel, process::Descriptor line, pid_t master,
     channel.memory->end = End::NotStarted;
     channel.memory->reply.doorbell.ring();
   }
-  Supervisor supervisor(*channel.memory, std::move(line), std::move(output.read));
+  Supervisor supervisor(*channel.memory, std::move(control), std::move(output.read));
   const bool is_wanted = supervisor.run();
   supervisor.kill_children();
   if (is_wanted) {
