@@ -13,23 +13,23 @@ constexpr int kDoublings = 12;
 constexpr std::size_t kMostRejections = 20;
 
 /// What can be told of a unit in Step Mode.
-struct Portrait {
+struct Fingerprint {
   Row row;
   std::vector<std::uint8_t> bytes;  ///< of its state, where it can be serialised
 };
 
-Portrait portrait(const Trial& trial, Life& life) {
-  Portrait picture{{life.now().time_since_epoch().count(), life.observe(), false}, {}};
-  if (!trial.subject.description().can_serialize_state) return picture;
+Fingerprint fingerprint(const Trial& trial, Life& life) {
+  Fingerprint print{{life.now().time_since_epoch().count(), life.observe(), false}, {}};
+  if (!trial.subject.description().can_serialize_state) return print;
   life.unit().save_state();
-  picture.bytes = life.unit().serialize_state();
-  return picture;
+  print.bytes = life.unit().serialize_state();
+  return print;
 }
 
 /// Tries longer and longer steps, and after each rejection shorter ones.
-class Daring {
+class RejectionProbe {
  public:
-  Daring(const Trial& trial, Life& life) : trial_(trial), life_(life) {}
+  RejectionProbe(const Trial& trial, Life& life) : trial_(trial), life_(life) {}
 
   void run() {
     Duration size = trial_.subject.step();
@@ -50,7 +50,7 @@ class Daring {
   }
 
   void attempt(Duration size) {
-    const Portrait before = portrait(trial_, life_);
+    const Fingerprint before = fingerprint(trial_, life_);
     const Time begin = life_.now();
     while (!make(begin + size)) {
       if (!error_.empty()) return;
@@ -75,8 +75,8 @@ class Daring {
     }
   }
 
-  void compare(const Portrait& before, Time to) {
-    const Portrait after = portrait(trial_, life_);
+  void compare(const Fingerprint& before, Time to) {
+    const Fingerprint after = fingerprint(trial_, life_);
     const std::string when = fmt::format("after it has rejected a step to {} s", core::to_text(to));
     const auto differs = difference(trial_.subject, {before.row}, {after.row}, "before", when);
     if (differs) throw Failure(*differs);
@@ -136,25 +136,25 @@ Finding check_rejection(const Trial& trial) {
   Life life = trial.live();
   life.start();
   life.run_to(from, false);
-  Daring daring(trial, life);
-  daring.run();
-  fail_if_denied(daring.rejections());
+  RejectionProbe probe(trial, life);
+  probe.run();
+  fail_if_denied(probe.rejections());
   std::vector<std::string> notes;
-  if (!daring.error().empty()) notes.push_back("a longer step is an error: " + daring.error());
-  if (daring.rejections() == 0) {
+  if (!probe.error().empty()) notes.push_back("a longer step is an error: " + probe.error());
+  if (probe.rejections() == 0) {
     return passed(
-        fmt::format("no step is rejected, up to {} s", core::to_text(Time(daring.longest()))),
+        fmt::format("no step is rejected, up to {} s", core::to_text(Time(probe.longest()))),
         std::move(notes));
   }
-  if (daring.error().empty()) {
-    const auto twin = values_without_rejections(trial, from, daring.reached());
+  if (probe.error().empty()) {
+    const auto twin = values_without_rejections(trial, from, probe.reached());
     const std::int64_t now = life.now().time_since_epoch().count();
     const auto differs = difference(subject, {{now, twin, false}}, {{now, life.observe(), false}},
                                     "without rejected steps", "with them");
     if (differs) throw Failure(*differs);
   }
   return passed(fmt::format("{} steps rejected, nothing changed; shorter ones are accepted",
-                            daring.rejections() + run.rejections),
+                            probe.rejections() + run.rejections),
                 std::move(notes));
 }
 
