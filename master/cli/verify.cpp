@@ -25,7 +25,7 @@ namespace stride::cli {
 namespace {
 
 struct Options {
-  verify::Request request;
+  verify::VerifyRequest request;
   std::string json;  ///< a file, or empty
 };
 
@@ -59,7 +59,7 @@ std::string failed_checks(const std::vector<verify::Result>& results) {
 }
 
 void run(const Options& options) {
-  verify::Request request = options.request;
+  verify::VerifyRequest request = options.request;
   request.file = find_unit(request.file, {});
   const verify::Subject subject(std::move(request));
   std::optional<io::OutputFile> json;
@@ -108,13 +108,13 @@ Duration parse_step(const std::string& text) {
 
 std::string check_list() {
   std::string text = "Checks:\n";
-  for (const verify::Check& check : verify::checks()) {
+  for (const verify::UnitCheck& check : verify::checks()) {
     text += fmt::format("  {:<14} {}\n", check.name, check.summary);
   }
   return text;
 }
 
-void add_times(CLI::App& command, verify::Request& request) {
+void add_times(CLI::App& command, verify::VerifyRequest& request) {
   add_parsed(
       command, "--step", [&request](const std::string& text) { request.step = parse_step(text); },
       "Size of the communication steps; the unit's own if left out, or 0.001")
@@ -140,7 +140,7 @@ void add_verify(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "verify", "Put a single unit through its paces, to see whether it keeps what it declares");
   const auto options = std::make_shared<Options>();
-  verify::Request& request = options->request;
+  verify::VerifyRequest& request = options->request;
   command->add_option("FILE", request.file, "An FMU: a .fmu, or its unpacked folder")
       ->required()
       ->type_name("");

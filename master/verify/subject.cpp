@@ -25,7 +25,7 @@ bool is_observed(const Variable& variable) {
          variable.causality == Causality::CalculatedParameter;
 }
 
-core::SystemDeclaration declaration(const Request& request, const fmi::Fmu& fmu) {
+core::SystemDeclaration declaration(const VerifyRequest& request, const fmi::Fmu& fmu) {
   core::SystemDeclaration system{"verify", {}, {}, {}};
   system.components.push_back({"unit", fmu.description(), {}, {}});
   for (const std::string& text : request.settings) {
@@ -44,7 +44,7 @@ core::SystemDeclaration declaration(const Request& request, const fmi::Fmu& fmu)
 
 }  // namespace
 
-Subject::Subject(Request request) : request_(std::move(request)) {
+Subject::Subject(VerifyRequest request) : request_(std::move(request)) {
   const auto& file = request_.file;
   if (file.extension() == ".so") {
     core::fail_input({},

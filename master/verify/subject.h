@@ -18,7 +18,7 @@
 namespace stride::verify {
 
 /// What the user asks for.
-struct Request {
+struct VerifyRequest {
   std::filesystem::path file{};  ///< a .fmu or its unpacked folder
   std::vector<std::string>
       settings{};                     ///< "variable=value"; an input that is set is not stimulated
@@ -42,9 +42,9 @@ class Subject {
   };
 
   /// Throws core::Error (Input) for what cannot be verified as asked.
-  explicit Subject(Request request);
+  explicit Subject(VerifyRequest request);
 
-  const Request& request() const { return request_; }
+  const VerifyRequest& request() const { return request_; }
   fmi::Fmu& fmu() const { return *fmu_; }
   /// With the array sizes that the user has set by structural parameters.
   const core::UnitDescription& description() const { return *system_->components()[0].description; }
@@ -69,7 +69,7 @@ class Subject {
   void choose_times();
   void choose_observed();
 
-  Request request_;
+  VerifyRequest request_;
   std::shared_ptr<fmi::Fmu> fmu_;
   std::optional<core::System> system_;
   Duration step_{};

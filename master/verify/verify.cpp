@@ -34,7 +34,7 @@ Finding finding_from_text(const std::string& text) {
 
 void check_names(const std::vector<std::string>& wanted) {
   std::vector<std::string> known;
-  for (const Check& check : checks()) known.emplace_back(check.name);
+  for (const UnitCheck& check : checks()) known.emplace_back(check.name);
   for (const std::string& name : wanted) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     core::fail_input(
@@ -43,11 +43,11 @@ void check_names(const std::vector<std::string>& wanted) {
   }
 }
 
-bool is_wanted(const Check& check, const std::vector<std::string>& wanted) {
+bool is_wanted(const UnitCheck& check, const std::vector<std::string>& wanted) {
   return wanted.empty() || std::find(wanted.begin(), wanted.end(), check.name) != wanted.end();
 }
 
-Finding run_isolated(const Check& check, const Subject& subject, const Hooks& hooks) {
+Finding run_isolated(const UnitCheck& check, const Subject& subject, const Hooks& hooks) {
   process::SharedNote note;
   const auto work = [&] {
     const Trial trial{subject, note};
@@ -88,7 +88,7 @@ std::vector<Result> verify(const Subject& subject, const Hooks& hooks) {
   check_names(subject.request().checks);
   std::vector<Result> results;
   bool has_loaded = true;
-  for (const Check& check : checks()) {
+  for (const UnitCheck& check : checks()) {
     if (!is_wanted(check, subject.request().checks)) continue;
     hooks.on_begin(check.name);
     const auto begin = std::chrono::steady_clock::now();

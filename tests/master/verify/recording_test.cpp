@@ -10,7 +10,7 @@ namespace {
 
 const Subject& subject() {
   static const Subject subject(
-      Request{.file = std::filesystem::path(STRIDE_FMU_DIR) / "minimal.fmu"});
+      VerifyRequest{.file = std::filesystem::path(STRIDE_FMU_DIR) / "minimal.fmu"});
   return subject;
 }
 

@@ -13,7 +13,7 @@ using core::Variable;
 namespace {
 
 Subject types(const std::vector<std::string>& settings = {}) {
-  return Subject(Request{.file = tests::test_fmu("types"), .settings = settings});
+  return Subject(VerifyRequest{.file = tests::test_fmu("types"), .settings = settings});
 }
 
 std::string name_of(const Subject& subject, const Stimulus::Input& input) {

@@ -14,13 +14,13 @@ fs::path minimal() { return fs::path(STRIDE_FMU_DIR) / "minimal.fmu"; }
 
 /// A unit that declares these.
 Subject declaring(const std::string& flags, const std::string& experiment,
-                  const Request& request = {}) {
+                  const VerifyRequest& request = {}) {
   const Scratch scratch;
   make_raw_fmu(scratch, "raw", flags);
   std::string text = read(scratch / "raw/modelDescription.xml");
   text.insert(text.find("<ModelVariables>"), experiment);
   scratch.write("raw/modelDescription.xml", text);
-  Request asked = request;
+  VerifyRequest asked = request;
   asked.file = scratch / "raw";
   return Subject(asked);
 }
@@ -28,11 +28,11 @@ Subject declaring(const std::string& flags, const std::string& experiment,
 }  // namespace
 
 TEST_CASE("step and stop are the user's, else the unit's, else 1 ms and 200 steps") {
-  const Subject plain(Request{.file = minimal()});
+  const Subject plain(VerifyRequest{.file = minimal()});
   CHECK(plain.step() == 1ms);
   CHECK(plain.steps() == 200);
   CHECK(plain.point(3) == Time(3ms));
-  const Subject asked(Request{.file = minimal(), .step = 10ms, .stop = 1s});
+  const Subject asked(VerifyRequest{.file = minimal(), .step = 10ms, .stop = 1s});
   CHECK(asked.step() == 10ms);
   CHECK(asked.steps() == 100);
 
@@ -45,7 +45,7 @@ TEST_CASE("step and stop are the user's, else the unit's, else 1 ms and 200 step
 }
 
 TEST_CASE("what is observed are outputs and locals without a clock") {
-  const Subject subject(Request{.file = test_fmu("types")});
+  const Subject subject(VerifyRequest{.file = test_fmu("types")});
   std::size_t count = 0;
   for (const Subject::Group& group : subject.observed()) {
     std::size_t size = 0;
@@ -65,11 +65,11 @@ TEST_CASE("what is observed are outputs and locals without a clock") {
 }
 
 TEST_CASE("functions have the prefix of the unit's version") {
-  CHECK(Subject(Request{.file = minimal()}).function("DoStep") == "fmi3DoStep");
+  CHECK(Subject(VerifyRequest{.file = minimal()}).function("DoStep") == "fmi3DoStep");
 }
 
 TEST_CASE("a request that makes no sense is refused") {
-  const auto mistake = [](const Request& request) {
+  const auto mistake = [](const VerifyRequest& request) {
     return input_error([&] { const Subject refused(request); });
   };
   CHECK_THAT(mistake({.file = "unit.so"}),
