@@ -61,23 +61,23 @@ std::string failed_checks(const std::vector<verify::Result>& results) {
 void run(const Options& options) {
   verify::VerifyRequest request = options.request;
   request.file = find_unit(request.file, {});
-  const verify::Subject subject(std::move(request));
+  const verify::TestedUnit tested(std::move(request));
   std::optional<io::OutputFile> json;
   if (!options.json.empty()) {
     json.emplace(options.json, io::OutputFile::Hints{"name a file where you may write"});
   }
-  const core::UnitDescription& unit = subject.description();
+  const core::UnitDescription& unit = tested.description();
   fmt::print("{}: FMI {}, steps of {} s to {} s, seed {}\n\n", unit.model_name, unit.fmi_version,
-             core::to_text(Time(subject.step())), core::to_text(subject.point(subject.steps())),
-             subject.request().seed);
+             core::to_text(Time(tested.step())), core::to_text(tested.point(tested.steps())),
+             tested.request().seed);
   std::fflush(stdout);
   const Interruption interruption;
   const auto results =
-      verify::verify(subject, {.on_begin = show_progress, .interrupted = &Interruption::flag()});
+      verify::verify(tested, {.on_begin = show_progress, .interrupted = &Interruption::flag()});
   if (::isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K");
   fmt::print("{}\n{}\n", table_text(results), conclusion(results));
   if (json) {
-    json->write(verify::json_text(subject, results));
+    json->write(verify::json_text(tested, results));
     json->close();
   }
   const std::string failures = failed_checks(results);

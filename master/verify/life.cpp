@@ -48,21 +48,21 @@ std::string text_of(const ValueBlock& block, std::size_t first, std::size_t size
 
 }  // namespace
 
-Life::Life(const Subject& subject, process::SharedNote& note, LifeOptions options)
-    : subject_(subject),
+Life::Life(const TestedUnit& tested, process::SharedNote& note, LifeOptions options)
+    : tested_(tested),
       options_(std::move(options)),
-      stimulus_(subject, options_.seed != 0 ? options_.seed : subject.request().seed),
+      stimulus_(tested, options_.seed != 0 ? options_.seed : tested.request().seed),
       units_([&] {
         std::vector<std::unique_ptr<core::Unit>> units;
         units.push_back(std::make_unique<WatchedUnit>(
-            subject, note, options_.name,
+            tested, note, options_.name,
             fmi::InstanceOptions{.early_return_allowed = options_.early_return_allowed,
                                  .may_go_back = true,
-                                 .description = subject.system().components()[0].description}));
+                                 .description = tested.system().components()[0].description}));
         return units;
       }()) {
-  clocks_.emplace(subject_.system(), units_);
-  for (const Subject::Group& group : subject.observed()) {
+  clocks_.emplace(tested_.system(), units_);
+  for (const TestedUnit::Group& group : tested.observed()) {
     blocks_.emplace_back(group.type, group.size);
   }
 }
@@ -76,7 +76,7 @@ void Life::start() {
 }
 
 void Life::set_start_values() {
-  const core::System& system = subject_.system();
+  const core::System& system = tested_.system();
   const auto set_all = [&](std::span<const core::StartValue> values) {
     for (const core::StartValue& start : values) set(system.variable(start.id), start.value);
   };
@@ -96,10 +96,10 @@ void Life::enter_initialization() {
 }
 
 void Life::exit_initialization() {
-  clocks_.emplace(subject_.system(), units_);
+  clocks_.emplace(tested_.system(), units_);
   clocks_->begin(position_.now);
   unit().exit_initialization();
-  if (subject_.description().has_event_mode) finish_events();
+  if (tested_.description().has_event_mode) finish_events();
 }
 
 void Life::reset() {
@@ -121,13 +121,13 @@ void Life::set(const Variable& variable, const ValueBlock& value) {
 
 std::vector<std::string> Life::observe() {
   std::vector<std::string> texts;
-  texts.reserve(subject_.observed_count());
+  texts.reserve(tested_.observed_count());
   for (std::size_t g = 0; g < blocks_.size(); ++g) {
-    const Subject::Group& group = subject_.observed()[g];
+    const TestedUnit::Group& group = tested_.observed()[g];
     unit().get(group.references, blocks_[g]);
     std::size_t first = 0;
     for (const std::size_t i : group.places) {
-      const std::size_t size = subject_.description().variables[i].size;
+      const std::size_t size = tested_.description().variables[i].size;
       texts.push_back(text_of(blocks_[g], first, size));
       first += size;
     }
@@ -144,7 +144,7 @@ void Life::set_inputs(std::size_t k, bool continuous_only) {
 
 void Life::set_clocked_inputs(std::size_t k) {
   for (const Stimulus::Input& input : stimulus_.inputs()) {
-    const Variable& variable = subject_.description().variables[input.variable];
+    const Variable& variable = tested_.description().variables[input.variable];
     const bool is_due = std::any_of(variable.clocks.begin(), variable.clocks.end(),
                                     [&](ValueReference clock) { return ticks(clock); });
     if (is_due) unit().set({&input.reference, 1}, stimulus_.value(input, k));
@@ -154,8 +154,8 @@ void Life::set_clocked_inputs(std::size_t k) {
 // ---- Steps ----
 
 std::vector<Time> Life::targets(std::size_t k) const {
-  const Time end = subject_.point(k + 1);
-  const Time begin = subject_.point(k);
+  const Time end = tested_.point(k + 1);
+  const Time begin = tested_.point(k);
   const Duration size = end - begin;
   switch (options_.split) {
     case Split::None:
@@ -183,7 +183,7 @@ void Life::run_to(std::size_t k, bool records) {
 }
 
 void Life::enter_grid_step(std::size_t k) {
-  const bool has_event_mode = subject_.description().has_event_mode;
+  const bool has_event_mode = tested_.description().has_event_mode;
   if (has_event_mode && (is_event_due() || stimulus_.changes_at(k) || k % kPointsPerTick == 3)) {
     handle_events(k);
   } else {
@@ -239,7 +239,7 @@ bool Life::try_step(Time to) {
 // ---- Events ----
 
 bool Life::is_event_due() {
-  if (!subject_.description().has_event_mode) return false;
+  if (!tested_.description().has_event_mode) return false;
   const bool is_announced = position_.next_event && *position_.next_event <= position_.now;
   return is_announced || !clocks_->due(position_.now).empty();
 }
@@ -259,9 +259,9 @@ void Life::handle_events(std::optional<std::size_t> k) {
 
 void Life::tick_triggered(std::size_t k) {
   if (k % kPointsPerTick != 3) return;
-  for (const Variable& variable : subject_.description().variables) {
+  for (const Variable& variable : tested_.description().variables) {
     const bool can_tick = is_triggered_input(variable) &&
-                          !carries_messages(subject_.description(), variable.reference);
+                          !carries_messages(tested_.description(), variable.reference);
     if (!can_tick) continue;
     ValueBlock tick(ValueType::Clock, variable.size);
     std::ranges::fill(tick.numbers<bool>(), true);
@@ -302,7 +302,7 @@ void Life::finish_events() {
 
 /// The output clocks that tick, and what has the time of a clock that ticks.
 void Life::record_ticks() {
-  const core::UnitDescription& description = subject_.description();
+  const core::UnitDescription& description = tested_.description();
   std::vector<ValueReference> active = ticking_;
   Row row{position_.now.time_since_epoch().count(), {}, true};
   for (const Variable& variable : description.variables) {

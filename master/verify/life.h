@@ -29,7 +29,7 @@ struct LifeOptions {
 /// where the unit does what no unit may, core::Error where it fails.
 class Life {
  public:
-  Life(const Subject& subject, process::SharedNote& note, LifeOptions options = {});
+  Life(const TestedUnit& tested, process::SharedNote& note, LifeOptions options = {});
 
   core::Unit& unit() { return *units_.front(); }
   Time now() const { return position_.now; }
@@ -97,12 +97,12 @@ class Life {
   bool ticks(core::ValueReference clock) const;
   void record_ticks();
 
-  const Subject& subject_;
+  const TestedUnit& tested_;
   LifeOptions options_;
   Stimulus stimulus_;
   std::vector<std::unique_ptr<core::Unit>> units_;  ///< one
   std::optional<core::Clocks> clocks_;              ///< new with each start
-  std::vector<core::ValueBlock> blocks_;            ///< for the groups of Subject::observed()
+  std::vector<core::ValueBlock> blocks_;            ///< for the groups of TestedUnit::observed()
   std::vector<core::ValueReference> ticking_;       ///< input clocks in this super-dense instant
   Position position_;
   Recording recording_;

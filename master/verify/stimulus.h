@@ -18,7 +18,7 @@ namespace stride::verify {
 /// clocked inputs but at the ticks of their clock.
 class Stimulus {
  public:
-  Stimulus(const Subject& subject, std::uint64_t seed);
+  Stimulus(const TestedUnit& tested, std::uint64_t seed);
 
   struct Input {
     std::size_t variable;  ///< its place in the description

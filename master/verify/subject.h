@@ -31,7 +31,7 @@ struct VerifyRequest {
 };
 
 /// A unit with the choices that the checks share. Its library is not loaded by this.
-class Subject {
+class TestedUnit {
  public:
   /// Variables of one type that are read by one call.
   struct Group {
@@ -42,7 +42,7 @@ class Subject {
   };
 
   /// Throws core::Error (Input) for what cannot be verified as asked.
-  explicit Subject(VerifyRequest request);
+  explicit TestedUnit(VerifyRequest request);
 
   const VerifyRequest& request() const { return request_; }
   fmi::Fmu& fmu() const { return *fmu_; }

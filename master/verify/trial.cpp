@@ -70,7 +70,7 @@ Recording Trial::record(const LifeOptions& options, std::size_t to) const {
   return recording_from_text(in_child([&] {
     Life life = live(options);
     life.start();
-    life.run_to(to == 0 ? subject.steps() : to);
+    life.run_to(to == 0 ? tested.steps() : to);
     return to_text(life.recording());
   }));
 }

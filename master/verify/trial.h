@@ -14,11 +14,11 @@ namespace stride::verify {
 /// What a check works with. It runs in a process of its own, in which the unit's library was not
 /// loaded before.
 struct Trial {
-  const Subject& subject;
+  const TestedUnit& tested;
   process::SharedNote& note;
 
   /// A life in this process.
-  Life live(LifeOptions options = {}) const { return Life(subject, note, std::move(options)); }
+  Life live(LifeOptions options = {}) const { return Life(tested, note, std::move(options)); }
 
   /// Does the work in a further process, which begins as this one did if no library is loaded here.
   /// Throws Failure with what the work has thrown, or with how it ended otherwise.
@@ -29,7 +29,7 @@ struct Trial {
 
   /// The points of the grid that stand at these shares of it.
   std::size_t point_at(double share) const {
-    return static_cast<std::size_t>(share * static_cast<double>(subject.steps()));
+    return static_cast<std::size_t>(share * static_cast<double>(tested.steps()));
   }
 };
 

@@ -46,8 +46,8 @@ ValueReference unused_reference(const core::UnitDescription& unit) {
 
 void step(Life& life) { life.unit().step({life.now(), life.now() + std::chrono::milliseconds(1)}); }
 
-std::vector<Offence> offences(const Subject& subject) {
-  const core::UnitDescription& unit = subject.description();
+std::vector<Offence> offences(const TestedUnit& tested) {
+  const core::UnitDescription& unit = tested.description();
   std::vector<Offence> list = {
       {"DoStep", State::Instantiated, step},
       {"DoStep", State::Initialization, step},
@@ -106,7 +106,7 @@ std::size_t end_everywhere(const Trial& trial) {
   std::size_t count = 0;
   for (const State state : {State::Instantiated, State::Initialization, State::StepMode,
                             State::EventMode, State::Terminated}) {
-    if (state == State::EventMode && !trial.subject.description().has_event_mode) continue;
+    if (state == State::EventMode && !trial.tested.description().has_event_mode) continue;
     trial.in_child([&] {
       live_until(trial, state);
       return std::string();
@@ -122,16 +122,16 @@ Finding check_calls(const Trial& trial) {
   const std::size_t ends = end_everywhere(trial);
   // the standard wants an error from who detects it, so only our own kit, which does, can fail
   const bool is_of_kit = trial.in_child([&] {
-    const auto library = trial.subject.fmu().load_fmi3_library();
+    const auto library = trial.tested.fmu().load_fmi3_library();
     return std::string(library && library->describes_itself() ? "yes" : "no");
   }) == "yes";
   std::vector<std::string> notes;
-  const std::vector<Offence> list = offences(trial.subject);
+  const std::vector<Offence> list = offences(trial.tested);
   for (const Offence& offence : list) {
     const std::string seen = consequence(trial, offence);
     if (seen == "refused") continue;
     std::string text =
-        fmt::format("{} in the state {}: {}", trial.subject.function(offence.function),
+        fmt::format("{} in the state {}: {}", trial.tested.function(offence.function),
                     kStateNames[static_cast<std::size_t>(offence.state)], seen);
     if (is_of_kit) return failed(std::move(text));
     notes.push_back(std::move(text));

@@ -42,7 +42,7 @@ class Prober {
 
   /// The unit is where inputs may be set and outputs read at once: Initialization or Event Mode.
   void probe(Life& life, const std::vector<Declared>& outputs, const std::string& element) {
-    const auto& variables = trial_.subject.description().variables;
+    const auto& variables = trial_.tested.description().variables;
     for (const Variable& input : variables) {
       const bool is_probed = input.causality == Causality::Input &&
                              input.type != ValueType::Clock && !input.is_clocked();
@@ -82,7 +82,7 @@ class Prober {
 }  // namespace
 
 Finding check_dependencies(const Trial& trial) {
-  const core::UnitDescription& unit = trial.subject.description();
+  const core::UnitDescription& unit = trial.tested.description();
   const std::vector<Declared> initial = declared(unit, unit.initial_unknowns);
   const std::vector<Declared> later = declared(unit, unit.outputs);
   if (initial.empty() && later.empty()) return skipped("it declares no dependencies of outputs");

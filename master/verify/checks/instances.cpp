@@ -6,7 +6,7 @@ namespace stride::verify {
 namespace {
 
 void compare(const Trial& trial, const Recording& alone, const Life& life, const char* which) {
-  const auto differs = difference(trial.subject, alone.rows, life.recording().rows,
+  const auto differs = difference(trial.tested, alone.rows, life.recording().rows,
                                   "in an instance that is alone", which);
   if (differs) throw Failure(*differs);
 }
@@ -14,14 +14,14 @@ void compare(const Trial& trial, const Recording& alone, const Life& life, const
 }  // namespace
 
 Finding check_instances(const Trial& trial) {
-  const Subject& subject = trial.subject;
-  if (subject.description().single_instance) {
+  const TestedUnit& tested = trial.tested;
+  if (tested.description().single_instance) {
     return skipped("it declares canBeInstantiatedOnlyOncePerProcess");
   }
   const Recording alone = trial.record();
-  const std::size_t steps = subject.steps();
+  const std::size_t steps = tested.steps();
   std::optional<Life> first(trial.live({.name = "first"}));
-  std::optional<Life> second(trial.live({.name = "second", .seed = subject.request().seed + 1}));
+  std::optional<Life> second(trial.live({.name = "second", .seed = tested.request().seed + 1}));
   std::optional<Life> third;
   first->start();
   second->start();

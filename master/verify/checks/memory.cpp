@@ -109,14 +109,14 @@ constexpr bool kIsSanitized = false;
 
 Finding check_memory(const Trial& trial) {
   if (kIsSanitized) return skipped("memory cannot be measured in a build with sanitizers");
-  const Subject& subject = trial.subject;
-  const auto share = subject.request().limit / 5;  // each of two growths may be measured twice
-  subject.fmu().load_library();
+  const TestedUnit& tested = trial.tested;
+  const auto share = tested.request().limit / 5;  // each of two growths may be measured twice
+  tested.fmu().load_library();
   const std::size_t files_before = open_files();
   const std::size_t threads_before = threads();
-  const std::size_t few_steps = std::min<std::size_t>(5, subject.steps());
+  const std::size_t few_steps = std::min<std::size_t>(5, tested.steps());
 
-  const Growth lives = measure_surely(subject.request().lives, share, [&] {
+  const Growth lives = measure_surely(tested.request().lives, share, [&] {
     Life life = trial.live();
     life.start();
     life.run_to(few_steps, false);

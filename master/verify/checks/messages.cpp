@@ -30,7 +30,7 @@ std::vector<const Variable*> binaries(const core::UnitDescription& unit) {
 class Asker {
  public:
   explicit Asker(const Trial& trial)
-      : variables_(binaries(trial.subject.description())), random_(trial.subject.request().seed) {}
+      : variables_(binaries(trial.tested.description())), random_(trial.tested.request().seed) {}
 
   void ask(Life& life) {
     for (const Variable* variable : variables_) {
@@ -81,7 +81,7 @@ Finding check_messages(const Trial& trial) {
   Asker asker(trial);
   if (asker.variables() == 0) return skipped("it has no Binary variable");
   const Recording expected = trial.record();
-  const auto library = trial.subject.fmu().load_fmi3_library();
+  const auto library = trial.tested.fmu().load_fmi3_library();
   if (library == nullptr || library->describe_functions().DescribeMessage == nullptr) {
     return skipped("its library does not export strideDescribeMessage");
   }
@@ -93,7 +93,7 @@ Finding check_messages(const Trial& trial) {
     asker.ask(life);
   }
   if (const auto differs =
-          difference(trial.subject, expected.rows, life.recording().rows,
+          difference(trial.tested, expected.rows, life.recording().rows,
                      "in an instance that is never asked what messages say", "in one that is")) {
     throw Failure(*differs);
   }

@@ -20,7 +20,7 @@ struct Fingerprint {
 
 Fingerprint fingerprint(const Trial& trial, Life& life) {
   Fingerprint print{{life.now().time_since_epoch().count(), life.observe(), false}, {}};
-  if (!trial.subject.description().can_serialize_state) return print;
+  if (!trial.tested.description().can_serialize_state) return print;
   life.unit().save_state();
   print.bytes = life.unit().serialize_state();
   return print;
@@ -32,10 +32,9 @@ class RejectionProbe {
   RejectionProbe(const Trial& trial, Life& life) : trial_(trial), life_(life) {}
 
   void run() {
-    Duration size = trial_.subject.step();
+    Duration size = trial_.tested.step();
     for (int i = 0; i < kDoublings && !is_over(); ++i, size *= 2) {
-      if (const auto& most = trial_.subject.description().maximum_step)
-        size = std::min(size, *most);
+      if (const auto& most = trial_.tested.description().maximum_step) size = std::min(size, *most);
       attempt(size);
     }
   }
@@ -78,7 +77,7 @@ class RejectionProbe {
   void compare(const Fingerprint& before, Time to) {
     const Fingerprint after = fingerprint(trial_, life_);
     const std::string when = fmt::format("after it has rejected a step to {} s", core::to_text(to));
-    const auto differs = difference(trial_.subject, {before.row}, {after.row}, "before", when);
+    const auto differs = difference(trial_.tested, {before.row}, {after.row}, "before", when);
     if (differs) throw Failure(*differs);
     if (before.bytes == after.bytes) return;
     throw Failure(fmt::format("at {} s its serialised state is another one {}",
@@ -116,8 +115,8 @@ std::vector<std::string> values_without_rejections(const Trial& trial, std::size
 }  // namespace
 
 Finding check_rejection(const Trial& trial) {
-  const Subject& subject = trial.subject;
-  const core::UnitDescription& unit = subject.description();
+  const TestedUnit& tested = trial.tested;
+  const core::UnitDescription& unit = tested.description();
   const Recording run = trial.record();
   const auto fail_if_denied = [&](std::size_t rejections) {
     if (unit.may_reject || rejections == 0) return;
@@ -149,7 +148,7 @@ Finding check_rejection(const Trial& trial) {
   if (probe.error().empty()) {
     const auto twin = values_without_rejections(trial, from, probe.reached());
     const std::int64_t now = life.now().time_since_epoch().count();
-    const auto differs = difference(subject, {{now, twin, false}}, {{now, life.observe(), false}},
+    const auto differs = difference(tested, {{now, twin, false}}, {{now, life.observe(), false}},
                                     "without rejected steps", "with them");
     if (differs) throw Failure(*differs);
   }

@@ -32,9 +32,9 @@ void compare_beginning(const core::UnitDescription& unit, Life& life,
 }  // namespace
 
 Finding check_reset(const Trial& trial) {
-  const Subject& subject = trial.subject;
+  const TestedUnit& tested = trial.tested;
   const Recording fresh = trial.record();
-  const core::UnitDescription& unit = subject.description();
+  const core::UnitDescription& unit = tested.description();
   Life life = trial.live();
   const std::vector<core::ValueBlock> values = beginning(unit, life);
   life.reset();
@@ -44,8 +44,8 @@ Finding check_reset(const Trial& trial) {
                       fmt::format("in Initialization Mode after a reset {}", state));
     life.reset();
     life.start();
-    life.run_to(subject.steps());
-    const auto differs = difference(subject, fresh.rows, life.recording().rows, "in a new instance",
+    life.run_to(tested.steps());
+    const auto differs = difference(tested, fresh.rows, life.recording().rows, "in a new instance",
                                     fmt::format("after a reset {}", state));
     if (differs) throw Failure(*differs);
   };
@@ -59,7 +59,7 @@ Finding check_reset(const Trial& trial) {
   life.enter_initialization();
   compare("in Initialization Mode");
   return passed(fmt::format("three runs of {} steps after a reset are like that of a new instance",
-                            subject.steps()));
+                            tested.steps()));
 }
 
 }  // namespace stride::verify

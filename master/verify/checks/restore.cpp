@@ -40,7 +40,7 @@ class Restorer {
 
   void compare(const std::vector<Row>& expected, const std::vector<Row>& seen,
                const std::string& expected_when, const std::string& seen_when) {
-    const auto differs = difference(trial_.subject, expected, seen, expected_when, seen_when);
+    const auto differs = difference(trial_.tested, expected, seen, expected_when, seen_when);
     if (differs) throw Failure(*differs);
   }
 
@@ -52,8 +52,8 @@ class Restorer {
 }  // namespace
 
 Finding check_restore(const Trial& trial) {
-  const Subject& subject = trial.subject;
-  if (!subject.description().can_save_state) return skipped("it has no canGetAndSetFMUState");
+  const TestedUnit& tested = trial.tested;
+  if (!tested.description().can_save_state) return skipped("it has no canGetAndSetFMUState");
   Life life = trial.live();
   Restorer restorer(trial, life);
   const std::size_t early = trial.point_at(0.3);
@@ -63,14 +63,14 @@ Finding check_restore(const Trial& trial) {
   restorer.save(kEarly, late);
   restorer.restore(kEarly, "");
   restorer.restore(kEarly, " for the second time");
-  restorer.save(kLate, subject.steps());
+  restorer.save(kLate, tested.steps());
   restorer.restore(kEarly, " from a later instant, with another state saved meanwhile");
   restorer.restore(kLate, " from an earlier instant");
   restorer.restore(kBeginning, " of the beginning");
   return passed(
       fmt::format("three states alive at once, five restores, each followed by {} to {} "
                   "steps",
-                  std::min(early, late - early), subject.steps() - early));
+                  std::min(early, late - early), tested.steps() - early));
 }
 
 }  // namespace stride::verify

@@ -73,7 +73,7 @@ bool has_schedule(const core::UnitDescription& unit) {
 /// time-based clocks is not in them: a second life, which makes the same way, has it.
 Recording continue_from(const Trial& trial, const Serialized& made) {
   std::optional<core::Clocks> clocks;
-  if (has_schedule(trial.subject.description())) {
+  if (has_schedule(trial.tested.description())) {
     Life guide = trial.live({.name = "guide"});
     guide.start();
     guide.run_to(made.position.point, false);
@@ -90,7 +90,7 @@ Recording continue_from(const Trial& trial, const Serialized& made) {
 void compare(const Trial& trial, const Serialized& made, const Recording& seen,
              const std::string& where) {
   const auto differs =
-      difference(trial.subject, made.rows, seen.rows, "in the instance that was serialised", where);
+      difference(trial.tested, made.rows, seen.rows, "in the instance that was serialised", where);
   if (differs) throw Failure(*differs);
 }
 
@@ -115,11 +115,11 @@ std::string reaction(const Trial& trial, const Bytes& bytes) {
 }  // namespace
 
 Finding check_serialization(const Trial& trial) {
-  const core::UnitDescription& unit = trial.subject.description();
+  const core::UnitDescription& unit = trial.tested.description();
   if (!unit.can_serialize_state) return skipped("it has no canSerializeFMUState");
   const Serialized made = serialized_from_text(trial.in_child([&] {
     const Serialized own = serialize(trial);
-    if (!trial.subject.description().single_instance) {
+    if (!trial.tested.description().single_instance) {
       compare(trial, own, continue_from(trial, own), "in another one of the same process");
     }
     return to_text(own);

@@ -18,7 +18,7 @@ using core::Variable;
 
 /// Sets each start value that can be set, reads them back, before and after the initialization.
 void examine_start(const Trial& trial) {
-  const core::UnitDescription& unit = trial.subject.description();
+  const core::UnitDescription& unit = trial.tested.description();
   Life life = trial.live();
   const bool is_readable_at_once = !unit.fmi_version.starts_with("2");
   if (is_readable_at_once) expect_start_values(unit, life, "in a new instance");
@@ -56,11 +56,11 @@ struct Range {
   double low, high;
 };
 
-std::vector<Range> ranges(const Subject& subject) {
+std::vector<Range> ranges(const TestedUnit& tested) {
   std::vector<Range> ranges;
-  for (const Subject::Group& group : subject.observed()) {
+  for (const TestedUnit::Group& group : tested.observed()) {
     for (const std::size_t i : group.places) {
-      const Variable& variable = subject.description().variables[i];
+      const Variable& variable = tested.description().variables[i];
       const bool is_number = variable.type != ValueType::String &&
                              variable.type != ValueType::Binary &&
                              variable.type != ValueType::Boolean;
@@ -94,15 +94,15 @@ void examine_row(const std::vector<Range>& ranges, const Row& row) {
 Finding check_values(const Trial& trial) {
   examine_start(trial);
   const Recording run = trial.record();
-  const std::vector<Range> declared = ranges(trial.subject);
+  const std::vector<Range> declared = ranges(trial.tested);
   for (const Row& row : run.rows) {
     if (!row.is_event) examine_row(declared, row);
   }
-  const auto& variables = trial.subject.description().variables;
+  const auto& variables = trial.tested.description().variables;
   const auto starts = std::count_if(variables.begin(), variables.end(), has_exact_start);
   return passed(fmt::format("{} start values, {} values in {} steps to {} s{}", starts,
-                            trial.subject.observed_count(), trial.subject.steps(),
-                            core::to_text(trial.subject.point(trial.subject.steps())),
+                            trial.tested.observed_count(), trial.tested.steps(),
+                            core::to_text(trial.tested.point(trial.tested.steps())),
                             run.has_ended ? "; it ended the run before" : ""));
 }
 
