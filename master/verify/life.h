@@ -10,7 +10,7 @@
 #include "master/algorithm/events/clocks.h"
 #include "master/verify/recording.h"
 #include "master/verify/stimulus.h"
-#include "master/verify/subject.h"
+#include "master/verify/tested_unit.h"
 #include "master/verify/watched_unit.h"
 
 namespace stride::verify {

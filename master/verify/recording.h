@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "master/verify/subject.h"
+#include "master/verify/tested_unit.h"
 
 namespace stride::verify {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "master/verify/finding.h"
-#include "master/verify/subject.h"
+#include "master/verify/tested_unit.h"
 
 namespace stride::verify {
 

@@ -7,7 +7,7 @@
 
 #include "master/algorithm/unit.h"
 #include "master/isolation/process/shared_note.h"
-#include "master/verify/subject.h"
+#include "master/verify/tested_unit.h"
 
 namespace stride::verify {
 

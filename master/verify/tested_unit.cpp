@@ -1,4 +1,4 @@
-#include "master/verify/subject.h"
+#include "master/verify/tested_unit.h"
 
 #include <algorithm>
 #include <map>

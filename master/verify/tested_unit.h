@@ -1,6 +1,6 @@
 // What is verified, and how.
-#ifndef STRIDE_MASTER_VERIFY_SUBJECT_H
-#define STRIDE_MASTER_VERIFY_SUBJECT_H
+#ifndef STRIDE_MASTER_VERIFY_TESTED_UNIT_H
+#define STRIDE_MASTER_VERIFY_TESTED_UNIT_H
 
 #include <chrono>
 #include <cstdint>
