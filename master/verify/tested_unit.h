@@ -26,7 +26,7 @@ struct VerifyRequest {
   std::optional<Duration> step{};     ///< nothing = the unit's own, or 1 ms
   std::optional<Duration> stop{};     ///< nothing = the unit's own, within reason
   std::uint64_t seed = 1;             ///< of the stimulus
-  unsigned lives = 1000;              ///< of the check of memory
+  unsigned instances = 1000;          ///< of the check of memory
   std::chrono::milliseconds limit{60'000};  ///< for each check
 };
 

@@ -17,15 +17,17 @@ struct Trial {
   const TestedUnit& tested;
   process::SharedNote& note;
 
-  /// A life in this process.
-  Life live(LifeOptions options = {}) const { return Life(tested, note, std::move(options)); }
+  /// An instance in this process.
+  TestInstance make_instance(TestInstanceOptions options = {}) const {
+    return TestInstance(tested, note, std::move(options));
+  }
 
   /// Does the work in a further process, which begins as this one did if no library is loaded here.
   /// Throws Failure with what the work has thrown, or with how it ended otherwise.
   std::string in_child(const std::function<std::string()>& work) const;
 
-  /// A whole life, to point `to` of the grid (0 = to its end), in a further process.
-  Recording record(const LifeOptions& options = {}, std::size_t to = 0) const;
+  /// A whole run of an instance, to point `to` of the grid (0 = to its end), in a further process.
+  Recording record(const TestInstanceOptions& options = {}, std::size_t to = 0) const;
 
   /// The points of the grid that stand at these shares of it.
   std::size_t point_at(double share) const {

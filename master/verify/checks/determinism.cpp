@@ -48,10 +48,10 @@ Finding check_determinism(const Trial& trial) {
   const Recording first = trial.record();
   const Recording second = recording_from_text(trial.in_child([&] {
     disturb();
-    Life life = trial.live();
-    life.start();
-    life.run_to(tested.steps());
-    return to_text(life.recording());
+    TestInstance instance = trial.make_instance();
+    instance.start();
+    instance.run_to(tested.steps());
+    return to_text(instance.recording());
   }));
   const auto differs = difference(tested, first.rows, second.rows, "in one process",
                                   "in another, whose memory is not zero and stands elsewhere");

@@ -52,7 +52,8 @@ std::string version_of(const Trial& trial, void* library) {
   return version != nullptr ? version : "";
 }
 
-/// A whole life with its own copy of the description, so that the library is unloaded at the end.
+/// A whole run of an instance with its own copy of the description, so that the library is unloaded
+/// at the end.
 void load_and_unload(const Trial& trial, const std::filesystem::path& folder) {
   trial.in_child([&] {
     {

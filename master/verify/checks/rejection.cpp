@@ -18,18 +18,18 @@ struct Fingerprint {
   std::vector<std::uint8_t> bytes;  ///< of its state, where it can be serialised
 };
 
-Fingerprint fingerprint(const Trial& trial, Life& life) {
-  Fingerprint print{{life.now().time_since_epoch().count(), life.observe(), false}, {}};
+Fingerprint fingerprint(const Trial& trial, TestInstance& instance) {
+  Fingerprint print{{instance.now().time_since_epoch().count(), instance.observe(), false}, {}};
   if (!trial.tested.description().can_serialize_state) return print;
-  life.unit().save_state();
-  print.bytes = life.unit().serialize_state();
+  instance.unit().save_state();
+  print.bytes = instance.unit().serialize_state();
   return print;
 }
 
 /// Tries longer and longer steps, and after each rejection shorter ones.
 class RejectionProbe {
  public:
-  RejectionProbe(const Trial& trial, Life& life) : trial_(trial), life_(life) {}
+  RejectionProbe(const Trial& trial, TestInstance& instance) : trial_(trial), instance_(instance) {}
 
   void run() {
     Duration size = trial_.tested.step();
@@ -45,12 +45,12 @@ class RejectionProbe {
 
  private:
   bool is_over() const {
-    return life_.recording().has_ended || rejections_ >= kMostRejections || !error_.empty();
+    return instance_.recording().has_ended || rejections_ >= kMostRejections || !error_.empty();
   }
 
   void attempt(Duration size) {
-    const Fingerprint before = fingerprint(trial_, life_);
-    const Time begin = life_.now();
+    const Fingerprint before = fingerprint(trial_, instance_);
+    const Time begin = instance_.now();
     while (!make(begin + size)) {
       if (!error_.empty()) return;
       ++rejections_;
@@ -61,13 +61,13 @@ class RejectionProbe {
       }
     }
     longest_ = std::max(longest_, size);
-    reached_.push_back(life_.now());
+    reached_.push_back(instance_.now());
   }
 
-  /// An error is a way to refuse a step, too, but it ends the life.
+  /// An error is a way to refuse a step, too, but it ends the run.
   bool make(Time to) {
     try {
-      return life_.try_step(to);
+      return instance_.try_step(to);
     } catch (const core::Error& error) {
       error_ = error.what();
       return false;
@@ -75,39 +75,40 @@ class RejectionProbe {
   }
 
   void compare(const Fingerprint& before, Time to) {
-    const Fingerprint after = fingerprint(trial_, life_);
+    const Fingerprint after = fingerprint(trial_, instance_);
     const std::string when = fmt::format("after it has rejected a step to {} s", core::to_text(to));
     const auto differs = difference(trial_.tested, {before.row}, {after.row}, "before", when);
     if (differs) throw Failure(*differs);
     if (before.bytes == after.bytes) return;
     throw Failure(fmt::format("at {} s its serialised state is another one {}",
-                              core::to_text(life_.now()), when));
+                              core::to_text(instance_.now()), when));
   }
 
   const Trial& trial_;
-  Life& life_;
+  TestInstance& instance_;
   std::vector<Time> reached_;
   std::size_t rejections_ = 0;
   Duration longest_{};
   std::string error_;
 };
 
-/// The values of a life that makes the accepted steps alone.
+/// The values of an instance that makes the accepted steps alone.
 std::vector<std::string> values_without_rejections(const Trial& trial, std::size_t from,
                                                    const std::vector<Time>& steps) {
   const Recording twin = recording_from_text(trial.in_child([&] {
-    Life life = trial.live();
-    life.start();
-    life.run_to(from, false);
+    TestInstance instance = trial.make_instance();
+    instance.start();
+    instance.run_to(from, false);
     for (const Time to : steps) {
-      if (!life.try_step(to)) {
+      if (!instance.try_step(to)) {
         throw Failure(
             fmt::format("a step to {} s that it accepted after a rejection it rejects "
                         "without one",
                         core::to_text(to)));
       }
     }
-    return to_text(Recording{{{life.now().time_since_epoch().count(), life.observe(), false}}});
+    return to_text(
+        Recording{{{instance.now().time_since_epoch().count(), instance.observe(), false}}});
   }));
   return twin.rows.front().values;
 }
@@ -132,10 +133,10 @@ Finding check_rejection(const Trial& trial) {
                : passed(fmt::format("{} steps are rejected, and made in parts", run.rejections));
   }
   const std::size_t from = trial.point_at(0.2);
-  Life life = trial.live();
-  life.start();
-  life.run_to(from, false);
-  RejectionProbe probe(trial, life);
+  TestInstance instance = trial.make_instance();
+  instance.start();
+  instance.run_to(from, false);
+  RejectionProbe probe(trial, instance);
   probe.run();
   fail_if_denied(probe.rejections());
   std::vector<std::string> notes;
@@ -147,9 +148,10 @@ Finding check_rejection(const Trial& trial) {
   }
   if (probe.error().empty()) {
     const auto twin = values_without_rejections(trial, from, probe.reached());
-    const std::int64_t now = life.now().time_since_epoch().count();
-    const auto differs = difference(tested, {{now, twin, false}}, {{now, life.observe(), false}},
-                                    "without rejected steps", "with them");
+    const std::int64_t now = instance.now().time_since_epoch().count();
+    const auto differs =
+        difference(tested, {{now, twin, false}}, {{now, instance.observe(), false}},
+                   "without rejected steps", "with them");
     if (differs) throw Failure(*differs);
   }
   return passed(fmt::format("{} steps rejected, nothing changed; shorter ones are accepted",

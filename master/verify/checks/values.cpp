@@ -19,32 +19,32 @@ using core::Variable;
 /// Sets each start value that can be set, reads them back, before and after the initialization.
 void examine_start(const Trial& trial) {
   const core::UnitDescription& unit = trial.tested.description();
-  Life life = trial.live();
+  TestInstance instance = trial.make_instance();
   const bool is_readable_at_once = !unit.fmi_version.starts_with("2");
-  if (is_readable_at_once) expect_start_values(unit, life, "in a new instance");
+  if (is_readable_at_once) expect_start_values(unit, instance, "in a new instance");
   for (const Variable& variable : unit.variables) {
     const bool is_set =
         has_exact_start(variable) && variable.variability != core::Variability::Constant;
-    if (is_set) life.set(variable, start_value(variable));
+    if (is_set) instance.set(variable, start_value(variable));
   }
-  life.enter_initialization();
-  expect_start_values(unit, life, "in Initialization Mode");
+  instance.enter_initialization();
+  expect_start_values(unit, instance, "in Initialization Mode");
   for (const Variable& variable : unit.variables) {
     if (variable.causality != Causality::Input || !has_exact_start(variable)) continue;
     const ValueBlock other = other_value(variable, start_value(variable));
-    life.set(variable, other);
-    expect_value(life, variable, other, "in Initialization Mode", "it was set to");
-    life.set(variable, start_value(variable));
+    instance.set(variable, other);
+    expect_value(instance, variable, other, "in Initialization Mode", "it was set to");
+    instance.set(variable, start_value(variable));
   }
-  life.exit_initialization();
+  instance.exit_initialization();
   for (const Variable& variable : unit.variables) {
     const bool is_kept =
         variable.causality == Causality::Input || variable.causality == Causality::Parameter;
     if (is_kept && has_exact_start(variable)) {
-      expect_value(life, variable, start_value(variable), "after the initialization",
+      expect_value(instance, variable, start_value(variable), "after the initialization",
                    "it was set to");
     } else if (is_readable(variable)) {
-      life.get(variable);
+      instance.get(variable);
     }
   }
 }
