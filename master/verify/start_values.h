@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "master/verify/life.h"
+#include "master/verify/test_instance.h"
 
 namespace stride::verify {
 

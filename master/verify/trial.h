@@ -6,7 +6,7 @@
 
 #include "master/isolation/process/child.h"
 #include "master/isolation/process/shared_note.h"
-#include "master/verify/life.h"
+#include "master/verify/test_instance.h"
 #include "master/verify/tested_unit.h"
 
 namespace stride::verify {

@@ -1,6 +1,6 @@
 // One instance of the unit, simulated from point to point of the grid with a stimulus.
-#ifndef STRIDE_MASTER_VERIFY_LIFE_H
-#define STRIDE_MASTER_VERIFY_LIFE_H
+#ifndef STRIDE_MASTER_VERIFY_TEST_INSTANCE_H
+#define STRIDE_MASTER_VERIFY_TEST_INSTANCE_H
 
 #include <memory>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "master/verify/life.h"
+#include "master/verify/test_instance.h"
 
 #include <algorithm>
 
