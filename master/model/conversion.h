@@ -34,7 +34,7 @@ std::int64_t mapped(const NumberMap& map, std::int64_t value);
 /// those of the same name only.
 struct UnitOfMeasure {
   std::string name{};
-  std::optional<BaseUnit> meaning{};
+  std::optional<BaseUnitOfMeasure> meaning{};
 };
 
 /// How values in one unit become values in another. Where one side has none they are taken as they

@@ -221,7 +221,7 @@ class Completion {
   std::string ssc_;
   bool needs_common_prefix_ = false;
   xml::Editor editor_;
-  std::map<std::string, core::BaseUnit> units_;
+  std::map<std::string, core::BaseUnitOfMeasure> units_;
   std::set<std::string> enumerations_;
   std::vector<std::string> new_units_;
   std::vector<std::string> new_enumerations_;

@@ -16,7 +16,7 @@ inline constexpr std::array<const char*, 8> kBaseUnits{"kg", "m",   "s",  "A",
                                                        "K",  "mol", "cd", "rad"};
 
 struct Definitions {
-  std::map<std::string, core::BaseUnit> units;
+  std::map<std::string, core::BaseUnitOfMeasure> units;
   std::map<std::string, core::EnumerationItems> enumerations;
 
   /// The unit of this name, with its meaning if it is defined.
