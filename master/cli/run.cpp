@@ -72,8 +72,8 @@ ProgressStyle progress_style(const RunArguments& arguments) {
   return arguments.progress.value_or(arguments.quiet ? ProgressStyle::None : ProgressStyle::Auto);
 }
 
-std::vector<capture::Request> captures(const RunArguments& arguments) {
-  std::vector<capture::Request> captures;
+std::vector<capture::CaptureRequest> captures(const RunArguments& arguments) {
+  std::vector<capture::CaptureRequest> captures;
   for (const std::string& text : arguments.captures) {
     auto [component, file] = split_option("--capture", text, "COMPONENT=FILE");
     if (file.empty()) core::fail_input({}, fmt::format("--capture {}: no file is named", text));

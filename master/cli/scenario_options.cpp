@@ -11,13 +11,13 @@ namespace stride::cli {
 namespace {
 
 /// An option whose text the setter takes.
-CLI::Option* add_choice(CLI::App& command, const std::string& name, io::StepChoice& choice,
-                        void (io::StepChoice::*set)(std::string_view), const std::string& help) {
+CLI::Option* add_setting(CLI::App& command, const std::string& name, io::StepSettings& settings,
+                         void (io::StepSettings::*set)(std::string_view), const std::string& help) {
   return command.add_option_function<std::string>(
       name,
-      [&choice, name, set](const std::string& text) {
+      [&settings, name, set](const std::string& text) {
         try {
-          (choice.*set)(text);
+          (settings.*set)(text);
         } catch (const std::invalid_argument& mistake) {
           core::fail_input({}, fmt::format("{} {}: {}", name, text, mistake.what()));
         }
@@ -25,31 +25,31 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, io::StepChoi
       help);
 }
 
-void add_step_options(CLI::App& command, io::StepChoice& choice) {
-  using io::StepChoice;
-  add_choice(command, "--step", choice, &StepChoice::set_size,
-             "Length of the communication steps; of the first one where the error controls them")
+void add_step_options(CLI::App& command, io::StepSettings& settings) {
+  using io::StepSettings;
+  add_setting(command, "--step", settings, &StepSettings::set_size,
+              "Length of the communication steps; of the first one where the error controls them")
       ->type_name("SECONDS");
-  add_choice(command, "--policy", choice, &StepChoice::set_policy, "What decides on the steps")
+  add_setting(command, "--policy", settings, &StepSettings::set_policy, "What decides on the steps")
       ->type_name("fixed|event-driven|error-controlled");
-  add_choice(command, "--max-step", choice, &StepChoice::set_maximum, "No step is longer")
+  add_setting(command, "--max-step", settings, &StepSettings::set_maximum, "No step is longer")
       ->type_name("SECONDS");
-  add_choice(command, "--min-step", choice, &StepChoice::set_minimum,
-             "No shorter one is tried after a rejection")
+  add_setting(command, "--min-step", settings, &StepSettings::set_minimum,
+              "No shorter one is tried after a rejection")
       ->type_name("SECONDS");
-  add_choice(command, "--relative-tolerance", choice, &StepChoice::set_relative_tolerance,
-             "Of the inputs, where their error controls the steps")
+  add_setting(command, "--relative-tolerance", settings, &StepSettings::set_relative_tolerance,
+              "Of the inputs, where their error controls the steps")
       ->type_name("NUMBER");
-  add_choice(command, "--absolute-tolerance", choice, &StepChoice::set_absolute_tolerance,
-             "Likewise, in the unit of the output that feeds the input")
+  add_setting(command, "--absolute-tolerance", settings, &StepSettings::set_absolute_tolerance,
+              "Likewise, in the unit of the output that feeds the input")
       ->type_name("NUMBER");
-  add_choice(
-      command, "--coupling", choice, &StepChoice::set_coupling,
+  add_setting(
+      command, "--coupling", settings, &StepSettings::set_coupling,
       "What a unit sees of the others during a step: what they were at its begin, or, of those "
       "that have stepped before it, where they are")
       ->type_name("jacobi|gauss-seidel");
-  add_choice(command, "--extrapolation", choice, &StepChoice::set_extrapolation,
-             "How inputs go on during a step")
+  add_setting(command, "--extrapolation", settings, &StepSettings::set_extrapolation,
+              "How inputs go on during a step")
       ->type_name("hold|linear|quadratic");
 }
 

@@ -79,7 +79,7 @@ const char* name(Initial initial);
 const char* name(IntervalVariability variability);
 
 /// value in SI base units = factor * value + offset. exponents of kg, m, s, A, K, mol, cd, rad.
-struct BaseUnit {
+struct BaseUnitOfMeasure {
   std::array<int, 8> exponents{};
   double factor = 1;
   double offset = 0;
@@ -165,7 +165,7 @@ struct UnitDescription {
   std::string description;
   std::string generation_tool;
   std::vector<Variable> variables;        ///< in the order of the description
-  std::map<std::string, BaseUnit> units;  ///< those whose meaning is given
+  std::map<std::string, BaseUnitOfMeasure> units;  ///< those whose meaning is given
   std::vector<Unknown> outputs;
   std::vector<Unknown> initial_unknowns;
 

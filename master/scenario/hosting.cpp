@@ -48,9 +48,9 @@ host::HostOptions host_options(const core::UnitDescription& unit,
 }  // namespace
 
 std::vector<io::HostSettings> host_settings(std::span<const std::string> components,
-                                            io::HostChoice choice, const HostRequest& request) {
-  add_rules(request, choice.rules);
-  return choice.settings(components);
+                                            io::HostRules rules, const HostRequest& request) {
+  add_rules(request, rules.rules);
+  return rules.settings(components);
 }
 
 std::vector<std::optional<Hosting>> choose_hostings(

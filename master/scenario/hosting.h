@@ -10,7 +10,7 @@
 #include "master/algorithm/run_options.h"
 #include "master/isolation/hosted_unit.h"
 #include "master/model/system.h"
-#include "master/scenario/host_choice.h"
+#include "master/scenario/host_settings.h"
 
 namespace stride::cli {
 
@@ -30,7 +30,7 @@ struct Hosting {
 /// What a scenario and a command line, which goes before it, say of each component. Throws
 /// core::Error (Input) for a pattern that matches none, and for a number that is none.
 std::vector<io::HostSettings> host_settings(std::span<const std::string> components,
-                                            io::HostChoice choice, const HostRequest& request);
+                                            io::HostRules rules, const HostRequest& request);
 
 /// The processes that the settings ask for and, where they leave it open, those whose snapshots a
 /// run with this policy cannot do without; the log tells of these.

@@ -172,7 +172,7 @@ void LoadedScenario::choose_times(const ScenarioRequest& request) {
   }
 }
 
-void LoadedScenario::choose_steps(const io::StepChoice& request) {
+void LoadedScenario::choose_steps(const io::StepSettings& request) {
   std::optional<Duration> unit_step;
   for (const auto& fmu : fmus_) {
     const core::UnitDescription& unit = *fmu->description();
@@ -233,13 +233,13 @@ void LoadedScenario::choose_idle_skips(const ScenarioRequest& request) {
     }
     return;
   }
-  io::IdleChoice choice = scenario_.annotation.idle;
+  io::IdleSettings settings = scenario_.annotation.idle;
   if (!request.max_skip.empty()) {
     const Duration skip(parse_option("--max-skip", request.max_skip, &io::parse_max_skip));
-    for (io::IdleRule& rule : choice.rules) rule.max_skip = skip;
-    choice.rules.insert(choice.rules.begin(), {{"*"}, true, skip, {"--max-skip", 0}});
+    for (io::IdleRule& rule : settings.rules) rule.max_skip = skip;
+    settings.rules.insert(settings.rules.begin(), {{"*"}, true, skip, {"--max-skip", 0}});
   }
-  options_.idle = choice.options(*system_, options_.step);
+  options_.idle = settings.options(*system_, options_.step);
 }
 
 void LoadedScenario::choose_signals(const ScenarioRequest& request) {

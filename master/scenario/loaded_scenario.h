@@ -26,7 +26,7 @@ struct ScenarioRequest {
   std::vector<std::string> sets;     ///< "component.variable=value"
   std::vector<std::string> signals;  ///< globs that replace the scenario's
   std::string stop;                  ///< seconds; empty = the scenario's
-  io::StepChoice step;               ///< replaces what the scenario says
+  io::StepSettings step;             ///< replaces what the scenario says
   bool no_idle_skip = false;
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
   bool no_checks = false;
@@ -62,7 +62,7 @@ class LoadedScenario {
   void load_units();
   void choose_early_returns();
   void choose_times(const ScenarioRequest& request);
-  void choose_steps(const io::StepChoice& request);
+  void choose_steps(const io::StepSettings& request);
   void choose_checks(const ScenarioRequest& request);
   void choose_hosts(const HostRequest& request);
   void check_steps() const;

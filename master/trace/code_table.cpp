@@ -14,19 +14,19 @@ std::uint64_t key_of(std::string_view code) {
 }  // namespace
 
 /// Where the key is, or would be.
-std::size_t CodeTable::place_of(std::uint64_t key) const {
+std::size_t CodeTable::slot_of(std::uint64_t key) const {
   constexpr std::uint64_t kFibonacci = 0x9e3779b97f4a7c15;
-  const std::size_t mask = places_.size() - 1;
+  const std::size_t mask = slots_.size() - 1;
   std::size_t at = static_cast<std::size_t>((key * kFibonacci) >> 32) & mask;
-  while (places_[at].key != 0 && places_[at].key != key) at = (at + 1) & mask;
+  while (slots_[at].key != 0 && slots_[at].key != key) at = (at + 1) & mask;
   return at;
 }
 
 void CodeTable::grow() {
-  std::vector<Place> smaller(places_.size() * 2);
-  smaller.swap(places_);
-  for (const Place& place : smaller) {
-    if (place.key != 0) places_[place_of(place.key)] = place;
+  std::vector<Slot> smaller(slots_.size() * 2);
+  smaller.swap(slots_);
+  for (const Slot& slot : smaller) {
+    if (slot.key != 0) slots_[slot_of(slot.key)] = slot;
   }
 }
 
@@ -36,8 +36,8 @@ std::uint32_t CodeTable::add(std::string_view code) {
     long_codes_.emplace(code, size_);
     return size_++;
   }
-  if (2 * (std::size_t{size_} + 1) > places_.size()) grow();
-  places_[place_of(key_of(code))] = {key_of(code), size_};
+  if (2 * (std::size_t{size_} + 1) > slots_.size()) grow();
+  slots_[slot_of(key_of(code))] = {key_of(code), size_};
   return size_++;
 }
 
@@ -47,9 +47,9 @@ std::optional<std::uint32_t> CodeTable::find(std::string_view code) const {
     if (found == long_codes_.end()) return std::nullopt;
     return found->second;
   }
-  const Place& place = places_[place_of(key_of(code))];
-  if (place.key == 0 || code.empty()) return std::nullopt;
-  return place.number;
+  const Slot& slot = slots_[slot_of(key_of(code))];
+  if (slot.key == 0 || code.empty()) return std::nullopt;
+  return slot.number;
 }
 
 }  // namespace stride::trace

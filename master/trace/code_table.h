@@ -22,15 +22,15 @@ class CodeTable {
   std::uint32_t size() const { return size_; }
 
  private:
-  struct Place {
-    std::uint64_t key = 0;  ///< the characters; 0 is an empty place
+  struct Slot {
+    std::uint64_t key = 0;  ///< the characters; 0 is an empty slot
     std::uint32_t number = 0;
   };
 
-  std::size_t place_of(std::uint64_t key) const;
+  std::size_t slot_of(std::uint64_t key) const;
   void grow();
 
-  std::vector<Place> places_ = std::vector<Place>(64);  ///< open addressing, a power of two
+  std::vector<Slot> slots_ = std::vector<Slot>(64);  ///< open addressing, a power of two
   std::unordered_map<std::string, std::uint32_t> long_codes_;
   std::uint32_t size_ = 0;
 };

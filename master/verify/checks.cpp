@@ -7,8 +7,8 @@ const char* name(Verdict verdict) {
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
-const std::vector<Check>& checks() {
-  static const std::vector<Check> checks = {
+const std::vector<UnitCheck>& checks() {
+  static const std::vector<UnitCheck> checks = {
       {"load", "the library loads, has the functions that are declared, and unloads", &check_load},
       {"description", "the model description is complete and agrees with itself",
        &check_description},

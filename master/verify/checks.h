@@ -9,14 +9,14 @@
 
 namespace stride::verify {
 
-struct Check {
+struct UnitCheck {
   const char* name;
   const char* summary;  ///< what passes, in a line
   Finding (*run)(const Trial& trial);
 };
 
 /// In the order in which they are run. The first is the one without which no other makes sense.
-const std::vector<Check>& checks();
+const std::vector<UnitCheck>& checks();
 
 Finding check_load(const Trial& trial);
 Finding check_description(const Trial& trial);

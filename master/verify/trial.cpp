@@ -66,12 +66,12 @@ std::string Trial::in_child(const std::function<std::string()>& work) const {
   throw Failure(explain(outcome, note));
 }
 
-Recording Trial::record(const LifeOptions& options, std::size_t to) const {
+Recording Trial::record(const TestInstanceOptions& options, std::size_t to) const {
   return recording_from_text(in_child([&] {
-    Life life = live(options);
-    life.start();
-    life.run_to(to == 0 ? subject.steps() : to);
-    return to_text(life.recording());
+    TestInstance instance = make_instance(options);
+    instance.start();
+    instance.run_to(to == 0 ? tested.steps() : to);
+    return to_text(instance.recording());
   }));
 }
 

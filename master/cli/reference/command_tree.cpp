@@ -38,7 +38,7 @@ std::vector<std::string> extensions(const std::string& placeholder, const std::s
 
 std::vector<std::string> check_names() {
   std::vector<std::string> names;
-  for (const verify::Check& check : verify::checks()) names.emplace_back(check.name);
+  for (const verify::UnitCheck& check : verify::checks()) names.emplace_back(check.name);
   return names;
 }
 

@@ -13,7 +13,7 @@ using Bytes = std::vector<std::uint8_t>;
 /// A state as bytes, where it was made, and what followed.
 struct Serialized {
   Bytes bytes;
-  Life::Position position;
+  TestInstance::Position position;
   std::vector<Row> rows;
   std::size_t to;
 };
@@ -21,15 +21,15 @@ struct Serialized {
 Serialized serialize(const Trial& trial) {
   const std::size_t from = trial.point_at(0.3);
   Serialized made{{}, {}, {}, trial.point_at(0.8)};
-  Life life = trial.live();
-  life.start();
-  life.run_to(from, false);
-  life.unit().save_state();
-  made.bytes = life.unit().serialize_state();
-  made.position = life.position();
-  life.forget_rows();
-  life.run_to(made.to);
-  made.rows = life.recording().rows;
+  TestInstance instance = trial.make_instance();
+  instance.start();
+  instance.run_to(from, false);
+  instance.unit().save_state();
+  made.bytes = instance.unit().serialize_state();
+  made.position = instance.position();
+  instance.forget_rows();
+  instance.run_to(made.to);
+  made.rows = instance.recording().rows;
   return made;
 }
 
@@ -70,27 +70,27 @@ bool has_schedule(const core::UnitDescription& unit) {
 }
 
 /// Goes on from the bytes in an instance that was never started. The importer's own schedule of
-/// time-based clocks is not in them: a second life, which makes the same way, has it.
+/// time-based clocks is not in them: a second instance, which makes the same steps, has it.
 Recording continue_from(const Trial& trial, const Serialized& made) {
   std::optional<core::Clocks> clocks;
-  if (has_schedule(trial.subject.description())) {
-    Life guide = trial.live({.name = "guide"});
+  if (has_schedule(trial.tested.description())) {
+    TestInstance guide = trial.make_instance({.name = "guide"});
     guide.start();
     guide.run_to(made.position.point, false);
     clocks.emplace(guide.clocks());
   }
-  Life life = trial.live();
-  life.unit().deserialize_state(made.bytes);
-  life.unit().restore_state();
-  life.stand_at(made.position, clocks ? &*clocks : nullptr);
-  life.run_to(made.to);
-  return life.recording();
+  TestInstance instance = trial.make_instance();
+  instance.unit().deserialize_state(made.bytes);
+  instance.unit().restore_state();
+  instance.stand_at(made.position, clocks ? &*clocks : nullptr);
+  instance.run_to(made.to);
+  return instance.recording();
 }
 
 void compare(const Trial& trial, const Serialized& made, const Recording& seen,
              const std::string& where) {
   const auto differs =
-      difference(trial.subject, made.rows, seen.rows, "in the instance that was serialised", where);
+      difference(trial.tested, made.rows, seen.rows, "in the instance that was serialised", where);
   if (differs) throw Failure(*differs);
 }
 
@@ -98,10 +98,10 @@ void compare(const Trial& trial, const Serialized& made, const Recording& seen,
 std::string reaction(const Trial& trial, const Bytes& bytes) {
   try {
     return trial.in_child([&] {
-      Life life = trial.live();
+      TestInstance instance = trial.make_instance();
       try {
-        life.unit().deserialize_state(bytes);
-        life.unit().restore_state();
+        instance.unit().deserialize_state(bytes);
+        instance.unit().restore_state();
         return std::string("accepted");
       } catch (const core::Error&) {
         return std::string("refused");
@@ -115,11 +115,11 @@ std::string reaction(const Trial& trial, const Bytes& bytes) {
 }  // namespace
 
 Finding check_serialization(const Trial& trial) {
-  const core::UnitDescription& unit = trial.subject.description();
+  const core::UnitDescription& unit = trial.tested.description();
   if (!unit.can_serialize_state) return skipped("it has no canSerializeFMUState");
   const Serialized made = serialized_from_text(trial.in_child([&] {
     const Serialized own = serialize(trial);
-    if (!trial.subject.description().single_instance) {
+    if (!trial.tested.description().single_instance) {
       compare(trial, own, continue_from(trial, own), "in another one of the same process");
     }
     return to_text(own);

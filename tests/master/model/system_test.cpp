@@ -10,9 +10,9 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
-const BaseUnit kMetre{{0, 1, 0, 0, 0, 0, 0, 0}, 1, 0};
-const BaseUnit kMillimetre{{0, 1, 0, 0, 0, 0, 0, 0}, 1e-3, 0};
-const BaseUnit kSecond{{0, 0, 1, 0, 0, 0, 0, 0}, 1, 0};
+const BaseUnitOfMeasure kMetre{{0, 1, 0, 0, 0, 0, 0, 0}, 1, 0};
+const BaseUnitOfMeasure kMillimetre{{0, 1, 0, 0, 0, 0, 0, 0}, 1e-3, 0};
+const BaseUnitOfMeasure kSecond{{0, 0, 1, 0, 0, 0, 0, 0}, 1, 0};
 
 std::shared_ptr<const UnitDescription> description() {
   return Describe("model")

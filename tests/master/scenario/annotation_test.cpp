@@ -111,7 +111,7 @@ TEST_CASE("Everything that the annotation can say") {
 }
 
 TEST_CASE("Everything about the stepping can be chosen") {
-  const StepChoice step =
+  const StepSettings step =
       read(at_root(annotations(scenario(
                "<stride:Step policy='error-controlled' size='0.01' maximum='0.1' minimum='1e-6' "
                "relativeTolerance='1e-4' absoluteTolerance='0'/>"

@@ -124,8 +124,8 @@ TEST_CASE("the solution nearest to the start value of the input is found") {
 
 TEST_CASE("arrays and units of measurement in a loop") {
   Fixture f;
-  const BaseUnit metre{{0, 1}, 1, 0};
-  const BaseUnit millimetre{{0, 1}, 1e-3, 0};
+  const BaseUnitOfMeasure metre{{0, 1}, 1, 0};
+  const BaseUnitOfMeasure millimetre{{0, 1}, 1e-3, 0};
   auto& a = f.add("a", Describe("a")
                            .unit("m", metre)
                            .add("u", ValueType::Float64, Causality::Input, "m")

@@ -1,6 +1,6 @@
 // What is verified, and how.
-#ifndef STRIDE_MASTER_VERIFY_SUBJECT_H
-#define STRIDE_MASTER_VERIFY_SUBJECT_H
+#ifndef STRIDE_MASTER_VERIFY_TESTED_UNIT_H
+#define STRIDE_MASTER_VERIFY_TESTED_UNIT_H
 
 #include <chrono>
 #include <cstdint>
@@ -18,7 +18,7 @@
 namespace stride::verify {
 
 /// What the user asks for.
-struct Request {
+struct VerifyRequest {
   std::filesystem::path file{};  ///< a .fmu or its unpacked folder
   std::vector<std::string>
       settings{};                     ///< "variable=value"; an input that is set is not stimulated
@@ -26,12 +26,12 @@ struct Request {
   std::optional<Duration> step{};     ///< nothing = the unit's own, or 1 ms
   std::optional<Duration> stop{};     ///< nothing = the unit's own, within reason
   std::uint64_t seed = 1;             ///< of the stimulus
-  unsigned lives = 1000;              ///< of the check of memory
+  unsigned instances = 1000;          ///< of the check of memory
   std::chrono::milliseconds limit{60'000};  ///< for each check
 };
 
 /// A unit with the choices that the checks share. Its library is not loaded by this.
-class Subject {
+class TestedUnit {
  public:
   /// Variables of one type that are read by one call.
   struct Group {
@@ -42,9 +42,9 @@ class Subject {
   };
 
   /// Throws core::Error (Input) for what cannot be verified as asked.
-  explicit Subject(Request request);
+  explicit TestedUnit(VerifyRequest request);
 
-  const Request& request() const { return request_; }
+  const VerifyRequest& request() const { return request_; }
   fmi::Fmu& fmu() const { return *fmu_; }
   /// With the array sizes that the user has set by structural parameters.
   const core::UnitDescription& description() const { return *system_->components()[0].description; }
@@ -69,7 +69,7 @@ class Subject {
   void choose_times();
   void choose_observed();
 
-  Request request_;
+  VerifyRequest request_;
   std::shared_ptr<fmi::Fmu> fmu_;
   std::optional<core::System> system_;
   Duration step_{};

@@ -1,6 +1,6 @@
 // What a scenario or a command line says about the stepping, as far as it says anything.
-#ifndef STRIDE_MASTER_SCENARIO_STEP_CHOICE_H
-#define STRIDE_MASTER_SCENARIO_STEP_CHOICE_H
+#ifndef STRIDE_MASTER_SCENARIO_STEP_SETTINGS_H
+#define STRIDE_MASTER_SCENARIO_STEP_SETTINGS_H
 
 #include <optional>
 #include <string_view>
@@ -9,7 +9,7 @@
 
 namespace stride::io {
 
-struct StepChoice {
+struct StepSettings {
   std::optional<core::StepPolicy> policy;
   std::optional<Duration> size;
   std::optional<Duration> maximum;

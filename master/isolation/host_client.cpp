@@ -1,4 +1,4 @@
-#include "master/isolation/conversation.h"
+#include "master/isolation/host_client.h"
 
 #include <algorithm>
 
@@ -14,7 +14,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-/// How often is looked whether the keeper is still there.
+/// How often is looked whether the supervisor is still there.
 constexpr std::chrono::milliseconds kProcessCheckInterval{50};
 
 double seconds(std::chrono::milliseconds time) {
@@ -23,39 +23,40 @@ double seconds(std::chrono::milliseconds time) {
 
 }  // namespace
 
-Conversation::Conversation(const Recipe& recipe)
-    : recipe_(recipe),
-      process_(channel_, [&](pid_t keeper) { serve(channel_, recipe, keeper); }),
+HostClient::HostClient(const HostedUnitSpec& spec)
+    : spec_(spec),
+      process_(channel_, [&](pid_t supervisor) { serve(channel_, spec, supervisor); }),
       log_(*channel_.memory) {}
 
 // ---- To and fro ----
 
-Reply Conversation::send(Request request, const MessageWriter& message, std::optional<Time> time) {
+ReplyCode HostClient::send(RequestCode request, const MessageWriter& message,
+                           std::optional<Time> time) {
   if (has_failed()) [[unlikely]]
     core::fail_run(context(time), "it cannot be called, because " + failure_);
   Turn& turn = channel_.memory->request;
   turn.what.store(static_cast<std::uint32_t>(request), std::memory_order_relaxed);
   turn.size.store(message.size(), std::memory_order_relaxed);
   turn.number.store(++number_, std::memory_order_release);
-  turn.bell.ring();
+  turn.doorbell.ring();
   if (!waiter_.spin([&] { return has_reply(); })) await_reply(time);
   if (!log_.is_empty()) [[unlikely]]
     take_lines();
-  return static_cast<Reply>(channel_.memory->reply.what.load(std::memory_order_relaxed));
+  return static_cast<ReplyCode>(channel_.memory->reply.what.load(std::memory_order_relaxed));
 }
 
-MessageReader Conversation::read() {
+MessageReader HostClient::read() {
   const std::size_t size = channel_.memory->reply.size.load(std::memory_order_relaxed);
   if (!channel_.messages.follow(size)) throw BadMessage();
   return MessageReader({channel_.messages.data(), size});
 }
 
-void Conversation::await_reply(std::optional<Time> time) {
+void HostClient::await_reply(std::optional<Time> time) {
   const auto begin = Clock::now();
-  const auto limit = recipe_.host.call_limit;
-  process::Bell& bell = channel_.memory->reply.bell;
+  const auto limit = spec_.host.call_limit;
+  process::Doorbell& doorbell = channel_.memory->reply.doorbell;
   for (;;) {
-    const std::uint32_t rings = bell.rings();
+    const std::uint32_t rings = doorbell.rings();
     take_lines();
     if (has_reply()) return;
     if (process_.look_for_end()) {
@@ -72,21 +73,21 @@ void Conversation::await_reply(std::optional<Time> time) {
                        call),
            time);
     }
-    if (!limit && waited > recipe_.options.patience) complain_of_waiting();
-    bell.sleep(rings,
-               limit ? std::min<std::chrono::nanoseconds>(kProcessCheckInterval, *limit - waited)
+    if (!limit && waited > spec_.options.patience) complain_of_waiting();
+    doorbell.sleep(
+        rings, limit ? std::min<std::chrono::nanoseconds>(kProcessCheckInterval, *limit - waited)
                      : kProcessCheckInterval);
   }
 }
 
-void Conversation::complain_of_waiting() {
+void HostClient::complain_of_waiting() {
   if (std::exchange(has_complained_, true)) return;
   log(fmi::Status::Warning, "stride",
       fmt::format("it has taken more than {} s{}, and there is no limit (--unit-timeout)",
-                  seconds(recipe_.options.patience), present_call()));
+                  seconds(spec_.options.patience), present_call()));
 }
 
-core::HostStatistics Conversation::statistics() const {
+core::HostStatistics HostClient::statistics() const {
   const SnapshotBoard& snapshots = channel_.memory->snapshots;
   core::HostStatistics statistics;
   statistics.snapshots = snapshots.snapshots;
@@ -101,7 +102,7 @@ core::HostStatistics Conversation::statistics() const {
   return statistics;
 }
 
-void Conversation::finish() {
+void HostClient::finish() {
   process_.finish([&] { take_lines(); });
   take_lines();
   take_last_line();
@@ -109,61 +110,61 @@ void Conversation::finish() {
 
 // ---- What is said besides ----
 
-void Conversation::take_lines() {
+void HostClient::take_lines() {
   log_.read([&](LogMessage&& message) {
-    last_words_.add_logged(message.text);
+    output_tail_.add_logged(message.text);
     log(message.status, message.category, message.text);
   });
   channel_.memory->printed.read(printed_.bytes());
   printed_.take([&](std::string_view line) { tell_printed(line); });
 }
 
-void Conversation::tell_printed(std::string_view line) {
-  last_words_.add_printed(line);
+void HostClient::tell_printed(std::string_view line) {
+  output_tail_.add_printed(line);
   log(fmi::Status::Ok, kPrinted, std::string(line));
 }
 
 /// A line without an end, when nothing comes behind it.
-void Conversation::take_last_line() {
+void HostClient::take_last_line() {
   printed_.take_rest([&](std::string_view line) { tell_printed(line); });
 }
 
-void Conversation::log(fmi::Status status, const std::string& category,
-                       const std::string& text) const noexcept {
+void HostClient::log(fmi::Status status, const std::string& category,
+                     const std::string& text) const noexcept {
   try {
-    if (recipe_.options.log) recipe_.options.log(recipe_.name, status, category, text);
+    if (spec_.options.log) spec_.options.log(spec_.name, status, category, text);
   } catch (...) {  // as in the unit's own process, where nothing may cross its C code
   }
 }
 
 // ---- Failures ----
 
-void Conversation::fail(const std::string& what, std::optional<Time> time) {
+void HostClient::fail(const std::string& what, std::optional<Time> time) {
   failure_ = what;
   if (process_.has_ended()) take_last_line();
-  std::string hint = sandbox_hint(last_words_.text(), recipe_.name, recipe_.host);
-  if (hint.empty() && recipe_.host.memory_limit) {
+  std::string hint = sandbox_hint(output_tail_.text(), spec_.name, spec_.host);
+  if (hint.empty() && spec_.host.memory_limit) {
     hint = fmt::format("its memory is limited to {} MiB (memoryLimit); it may need more",
-                       *recipe_.host.memory_limit >> 20);
+                       *spec_.host.memory_limit >> 20);
   }
-  core::fail_run(context(time), failure_ + last_words_.text(), hint);
+  core::fail_run(context(time), failure_ + output_tail_.text(), hint);
 }
 
-void Conversation::fail_nonsense(std::optional<Time> time) {
+void HostClient::fail_nonsense(std::optional<Time> time) {
   process_.kill();
   take_lines();
   fail(BadMessage().what() + present_call(), time);
 }
 
-std::string Conversation::present_call() const {
+std::string HostClient::present_call() const {
   constexpr std::size_t kLongest = 100;
   const std::string function =
       core::readable_text(channel_.memory->call_note.read(), kLongest);  // the unit can write there
   return function.empty() ? "" : " in " + function;
 }
 
-core::Context Conversation::context(std::optional<Time> time) const {
-  return {.where = recipe_.options.where, .unit = recipe_.name, .variable = {}, .time = time};
+core::Context HostClient::context(std::optional<Time> time) const {
+  return {.where = spec_.options.where, .unit = spec_.name, .variable = {}, .time = time};
 }
 
 }  // namespace stride::host

@@ -1,6 +1,6 @@
-// One instance of the unit, led from point to point of the grid by its stimulus.
-#ifndef STRIDE_MASTER_VERIFY_LIFE_H
-#define STRIDE_MASTER_VERIFY_LIFE_H
+// One instance of the unit, simulated from point to point of the grid with a stimulus.
+#ifndef STRIDE_MASTER_VERIFY_TEST_INSTANCE_H
+#define STRIDE_MASTER_VERIFY_TEST_INSTANCE_H
 
 #include <memory>
 #include <optional>
@@ -10,7 +10,7 @@
 #include "master/algorithm/events/clocks.h"
 #include "master/verify/recording.h"
 #include "master/verify/stimulus.h"
-#include "master/verify/subject.h"
+#include "master/verify/tested_unit.h"
 #include "master/verify/watched_unit.h"
 
 namespace stride::verify {
@@ -18,7 +18,7 @@ namespace stride::verify {
 /// How a step of the grid is cut into communication steps. The inputs change at the grid alone.
 enum class Split { None, Halves, Uneven };
 
-struct LifeOptions {
+struct TestInstanceOptions {
   std::string name = "unit";
   bool early_return_allowed = true;
   Split split = Split::None;
@@ -27,9 +27,10 @@ struct LifeOptions {
 
 /// Call order: {start(), run_to() with ascending points} again after each reset(). Throws Failure
 /// where the unit does what no unit may, core::Error where it fails.
-class Life {
+class TestInstance {
  public:
-  Life(const Subject& subject, process::SharedNote& note, LifeOptions options = {});
+  TestInstance(const TestedUnit& tested, process::SharedNote& note,
+               TestInstanceOptions options = {});
 
   core::Unit& unit() { return *units_.front(); }
   Time now() const { return position_.now; }
@@ -41,7 +42,7 @@ class Life {
 
   /// Sets the start values and goes through initialization and the first events.
   void start();
-  /// The same in parts, for who looks at the unit in between.
+  /// The same in parts, to look at the unit in between.
   void set_start_values();
   void enter_initialization();
   void exit_initialization();
@@ -58,14 +59,14 @@ class Life {
   void finish_events();
 
   void terminate() { unit().terminate(); }
-  /// Makes the unit new, and this with it.
+  /// Resets the unit and this object.
   void reset();
 
   std::vector<std::string> observe();
   core::ValueBlock get(const core::Variable& variable);
   void set(const core::Variable& variable, const core::ValueBlock& value);
 
-  /// Where a life is apart from its unit's state.
+  /// What belongs to the instance beside its unit's state.
   struct Position {
     Time now{};
     std::size_t point = 0;
@@ -75,8 +76,8 @@ class Life {
   /// Keeps the unit's state and the position in a slot, and goes back there.
   void save(std::size_t slot);
   void restore(std::size_t slot);
-  /// After the unit itself got a state of another life at this position. `clocks` may be null for a
-  /// unit without time-based clocks.
+  /// After the unit itself got a state of another instance at this position. `clocks` may be null
+  /// for a unit without time-based clocks.
   void stand_at(const Position& position, const core::Clocks* clocks);
   const core::Clocks& clocks() const { return *clocks_; }
 
@@ -97,12 +98,12 @@ class Life {
   bool ticks(core::ValueReference clock) const;
   void record_ticks();
 
-  const Subject& subject_;
-  LifeOptions options_;
+  const TestedUnit& tested_;
+  TestInstanceOptions options_;
   Stimulus stimulus_;
   std::vector<std::unique_ptr<core::Unit>> units_;  ///< one
   std::optional<core::Clocks> clocks_;              ///< new with each start
-  std::vector<core::ValueBlock> blocks_;            ///< for the groups of Subject::observed()
+  std::vector<core::ValueBlock> blocks_;            ///< for the groups of TestedUnit::observed()
   std::vector<core::ValueReference> ticking_;       ///< input clocks in this super-dense instant
   Position position_;
   Recording recording_;

@@ -1,4 +1,4 @@
-#include "master/isolation/process/bell.h"
+#include "master/isolation/process/doorbell.h"
 
 #include <atomic>
 
@@ -15,11 +15,11 @@ namespace {
 
 struct Table {
   std::atomic<int> ping = 0, pong = 0;
-  Bell for_ping, for_pong;
+  Doorbell for_ping, for_pong;
 };
 
-void wait(Waiter& waiter, Bell& bell, const std::atomic<int>& number, int value) {
-  while (!waiter.wait(bell, 10s, [&] { return number == value; })) {
+void wait(Waiter& waiter, Doorbell& doorbell, const std::atomic<int>& number, int value) {
+  while (!waiter.wait(doorbell, 10s, [&] { return number == value; })) {
   }
 }
 
@@ -51,10 +51,10 @@ TEST_CASE("two processes answer each other, and lose no ring") {
 }
 
 TEST_CASE("a sleep ends when its time is over, and does not begin if the bell has rung") {
-  Bell bell;
-  const auto rings = bell.rings();
-  bell.sleep(rings, 1ms);
-  bell.ring();
-  bell.sleep(rings, 1h);
-  CHECK(bell.rings() == rings + 1);
+  Doorbell doorbell;
+  const auto rings = doorbell.rings();
+  doorbell.sleep(rings, 1ms);
+  doorbell.ring();
+  doorbell.sleep(rings, 1h);
+  CHECK(doorbell.rings() == rings + 1);
 }

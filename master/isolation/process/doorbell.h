@@ -1,6 +1,6 @@
 // How one process waits for another.
-#ifndef STRIDE_MASTER_ISOLATION_PROCESS_BELL_H
-#define STRIDE_MASTER_ISOLATION_PROCESS_BELL_H
+#ifndef STRIDE_MASTER_ISOLATION_PROCESS_DOORBELL_H
+#define STRIDE_MASTER_ISOLATION_PROCESS_DOORBELL_H
 
 #include <atomic>
 #include <chrono>
@@ -17,9 +17,9 @@ inline void pause() {
 #endif
 }
 
-/// Stands in shared memory. One thread waits until what it waits for holds; any other, of whatever
-/// process, makes it hold and rings afterwards.
-class Bell {
+/// A futex in shared memory. One thread waits for a condition; another one, of any process, makes
+/// it true and rings afterwards.
+class Doorbell {
  public:
   void ring() {
     rings_.fetch_add(1);
@@ -27,8 +27,8 @@ class Bell {
   }
 
   std::uint32_t rings() const { return rings_.load(); }
-  /// Sleeps until the bell has rung since it had rung `rings` times, or the time is over, or a
-  /// signal was handled.
+  /// Sleeps until rings() is another number than `rings`, the time is over, or a signal was
+  /// handled.
   void sleep(std::uint32_t rings, std::chrono::nanoseconds most);
 
  private:
@@ -51,13 +51,13 @@ class Waiter {
   Waiter();
 
   /// Returns whether is_there() holds, which is looked at again and again for `most`, and whenever
-  /// the bell rings.
+  /// the doorbell rings.
   template <class Condition>
-  bool wait(Bell& bell, std::chrono::nanoseconds most, Condition&& is_there) {
+  bool wait(Doorbell& doorbell, std::chrono::nanoseconds most, Condition&& is_there) {
     if (spin(is_there)) return true;
-    const std::uint32_t rings = bell.rings();
+    const std::uint32_t rings = doorbell.rings();
     if (is_there()) return true;
-    bell.sleep(rings, most);
+    doorbell.sleep(rings, most);
     return is_there();
   }
 

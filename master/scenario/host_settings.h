@@ -1,6 +1,6 @@
 // What a scenario or a command line says about the processes that components run in.
-#ifndef STRIDE_MASTER_SCENARIO_HOST_CHOICE_H
-#define STRIDE_MASTER_SCENARIO_HOST_CHOICE_H
+#ifndef STRIDE_MASTER_SCENARIO_HOST_SETTINGS_H
+#define STRIDE_MASTER_SCENARIO_HOST_SETTINGS_H
 
 #include <chrono>
 #include <cstdint>
@@ -33,7 +33,7 @@ struct HostRule {
   HostSettings settings;
 };
 
-struct HostChoice {
+struct HostRules {
   std::vector<HostRule> rules;  ///< a later one goes before an earlier one
 
   /// For each of the components. Throws core::Error (Input) for a pattern that matches none.

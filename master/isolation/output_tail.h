@@ -1,5 +1,5 @@
-#ifndef STRIDE_MASTER_ISOLATION_LAST_WORDS_H
-#define STRIDE_MASTER_ISOLATION_LAST_WORDS_H
+#ifndef STRIDE_MASTER_ISOLATION_OUTPUT_TAIL_H
+#define STRIDE_MASTER_ISOLATION_OUTPUT_TAIL_H
 
 #include <cstddef>
 #include <deque>
@@ -9,7 +9,7 @@
 namespace stride::host {
 
 /// The last lines that a unit has logged or printed, for the error that tells its end.
-class LastWords {
+class OutputTail {
  public:
   static constexpr std::size_t kMost = 8;
   static constexpr std::size_t kLongest = 200;  ///< of a line; what is behind is cut off

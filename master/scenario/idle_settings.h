@@ -1,6 +1,6 @@
 // What a scenario or a command line says about idle skipping.
-#ifndef STRIDE_MASTER_SCENARIO_IDLE_CHOICE_H
-#define STRIDE_MASTER_SCENARIO_IDLE_CHOICE_H
+#ifndef STRIDE_MASTER_SCENARIO_IDLE_SETTINGS_H
+#define STRIDE_MASTER_SCENARIO_IDLE_SETTINGS_H
 
 #include <optional>
 #include <string>
@@ -30,7 +30,7 @@ struct IdleNumber {
   core::Location where{};
 };
 
-struct IdleChoice {
+struct IdleSettings {
   static constexpr Duration kDefaultMaxSkip = std::chrono::seconds(1);
 
   std::vector<IdleRule> rules;  ///< a later one goes before an earlier one; without one: enabled

@@ -1,4 +1,4 @@
-#include "master/scenario/host_choice.h"
+#include "master/scenario/host_settings.h"
 
 #include <stdexcept>
 
@@ -21,7 +21,7 @@ HostSettings hosted() { return {.process = true}; }
 }  // namespace
 
 TEST_CASE("without a word nothing is said of any component") {
-  for (const HostSettings& settings : HostChoice().settings(kNames)) {
+  for (const HostSettings& settings : HostRules().settings(kNames)) {
     CHECK_FALSE(settings.process);
     CHECK_FALSE(settings.call_limit);
     CHECK_FALSE(settings.memory_limit);
@@ -31,11 +31,11 @@ TEST_CASE("without a word nothing is said of any component") {
 }
 
 TEST_CASE("what a later rule says goes before, what it does not say stays") {
-  HostChoice choice;
-  choice.rules = {rule("*", {true, {"x.ssd", 7}, 5s, 1024, true}),
-                  rule("arm.*", {.process = false, .where = {"x.ssd", 8}, .snapshots = false}),
-                  rule("sensor", {.call_limit = 1s, .sandbox = false})};
-  const auto settings = choice.settings(kNames);
+  HostRules hosts;
+  hosts.rules = {rule("*", {true, {"x.ssd", 7}, 5s, 1024, true}),
+                 rule("arm.*", {.process = false, .where = {"x.ssd", 8}, .snapshots = false}),
+                 rule("sensor", {.call_limit = 1s, .sandbox = false})};
+  const auto settings = hosts.settings(kNames);
   REQUIRE(settings.size() == 2);
   CHECK(settings[0].process == true);
   CHECK(settings[0].where.line == 7);
@@ -49,10 +49,10 @@ TEST_CASE("what a later rule says goes before, what it does not say stays") {
 }
 
 TEST_CASE("a rule for no component is refused with its place") {
-  HostChoice choice;
-  choice.rules = {rule("senor", hosted())};
-  CHECK_THROWS_WITH(choice.settings(kNames), Contains("x.ssd:7: 'senor' matches no component") &&
-                                                 Contains("did you mean 'sensor'?"));
+  HostRules hosts;
+  hosts.rules = {rule("senor", hosted())};
+  CHECK_THROWS_WITH(hosts.settings(kNames), Contains("x.ssd:7: 'senor' matches no component") &&
+                                                Contains("did you mean 'sensor'?"));
 }
 
 TEST_CASE("a time limit is above 0 s, and whole milliseconds at the end") {

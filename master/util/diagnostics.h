@@ -1,6 +1,6 @@
-// Several mistakes that are told at once.
-#ifndef STRIDE_MASTER_UTIL_MISTAKES_H
-#define STRIDE_MASTER_UTIL_MISTAKES_H
+// Mistakes in the input, collected and reported together.
+#ifndef STRIDE_MASTER_UTIL_DIAGNOSTICS_H
+#define STRIDE_MASTER_UTIL_DIAGNOSTICS_H
 
 #include <string>
 #include <utility>
@@ -11,7 +11,7 @@
 namespace stride::core {
 
 /// Keeps what is wrong with the input while the rest of it is checked.
-class Mistakes {
+class Diagnostics {
  public:
   /// Calls `check`, and keeps the Error of the kind Input that it throws. Returns whether it threw
   /// none.
@@ -28,8 +28,8 @@ class Mistakes {
   }
 
   bool any() const { return !kept_.empty(); }
-  /// Whether one of them is about this variable or connector of a unit.
-  bool tell_of(const std::string& unit, const std::string& variable) const;
+  /// Whether one of them concerns this variable or connector of a unit.
+  bool mentions(const std::string& unit, const std::string& variable) const;
 
   /// Throws what was kept, if anything was: a single mistake as it is, several as one Error with a
   /// line for each, those about one unit together, in the order in which they were found.

@@ -1,4 +1,4 @@
-#include "master/verify/subject.h"
+#include "master/verify/tested_unit.h"
 
 #include <algorithm>
 #include <map>
@@ -25,7 +25,7 @@ bool is_observed(const Variable& variable) {
          variable.causality == Causality::CalculatedParameter;
 }
 
-core::SystemDeclaration declaration(const Request& request, const fmi::Fmu& fmu) {
+core::SystemDeclaration declaration(const VerifyRequest& request, const fmi::Fmu& fmu) {
   core::SystemDeclaration system{"verify", {}, {}, {}};
   system.components.push_back({"unit", fmu.description(), {}, {}});
   for (const std::string& text : request.settings) {
@@ -44,7 +44,7 @@ core::SystemDeclaration declaration(const Request& request, const fmi::Fmu& fmu)
 
 }  // namespace
 
-Subject::Subject(Request request) : request_(std::move(request)) {
+TestedUnit::TestedUnit(VerifyRequest request) : request_(std::move(request)) {
   const auto& file = request_.file;
   if (file.extension() == ".so") {
     core::fail_input({},
@@ -59,13 +59,13 @@ Subject::Subject(Request request) : request_(std::move(request)) {
   choose_times();
 }
 
-bool Subject::is_set(std::size_t variable) const {
+bool TestedUnit::is_set(std::size_t variable) const {
   const auto& values = system_->start_values();
   return std::any_of(values.begin(), values.end(),
                      [&](const core::StartValue& value) { return value.id.variable == variable; });
 }
 
-void Subject::choose_observed() {
+void TestedUnit::choose_observed() {
   std::map<ValueType, Group> groups;
   const auto& variables = description().variables;
   for (std::size_t i = 0; i < variables.size(); ++i) {
@@ -80,7 +80,7 @@ void Subject::choose_observed() {
   for (auto& [type, group] : groups) observed_.push_back(std::move(group));
 }
 
-void Subject::choose_times() {
+void TestedUnit::choose_times() {
   const core::UnitDescription& unit = description();
   step_ = unit.default_step.value_or(unit.fixed_internal_step.value_or(kDefaultStep));
   if (unit.maximum_step) step_ = std::min(step_, *unit.maximum_step);
@@ -105,7 +105,7 @@ void Subject::choose_times() {
   steps_ = static_cast<std::size_t>(steps);
 }
 
-std::string Subject::function(const std::string& name) const {
+std::string TestedUnit::function(const std::string& name) const {
   return (description().fmi_version.starts_with("2") ? "fmi2" : "fmi3") + name;
 }
 

@@ -1,5 +1,5 @@
-#ifndef STRIDE_MASTER_ISOLATION_CONVERSATION_H
-#define STRIDE_MASTER_ISOLATION_CONVERSATION_H
+#ifndef STRIDE_MASTER_ISOLATION_HOST_CLIENT_H
+#define STRIDE_MASTER_ISOLATION_HOST_CLIENT_H
 
 #include <chrono>
 #include <functional>
@@ -10,25 +10,25 @@
 #include "master/algorithm/statistics.h"
 #include "master/isolation/channel.h"
 #include "master/isolation/host_process.h"
-#include "master/isolation/last_words.h"
 #include "master/isolation/message.h"
-#include "master/isolation/process/bell.h"
+#include "master/isolation/output_tail.h"
+#include "master/isolation/process/doorbell.h"
 #include "master/isolation/server.h"
 
 namespace stride::host {
 
 /// The master's side of requests and replies, and of the process that replies. What the unit logs
 /// and prints meanwhile reaches the log.
-class Conversation {
+class HostClient {
  public:
   /// Starts the process. Throws std::system_error if there can be none.
-  explicit Conversation(const Recipe& recipe);
+  explicit HostClient(const HostedUnitSpec& spec);
 
   /// A message to be written and sent; it takes the place of whatever came before.
   MessageWriter write() { return MessageWriter(channel_.messages); }
   /// Sends a request and waits for what is said to it. Throws core::Error of the kind Run, at
   /// `time`, if the process ends before, or is ended because its time is over.
-  Reply send(Request request, const MessageWriter& message, std::optional<Time> time);
+  ReplyCode send(RequestCode request, const MessageWriter& message, std::optional<Time> time);
   /// What was said, until the next message is written.
   MessageReader read();
 
@@ -57,14 +57,14 @@ class Conversation {
   std::string present_call() const;
   core::Context context(std::optional<Time> time) const;
 
-  const Recipe& recipe_;
+  const HostedUnitSpec& spec_;
   Channel channel_;
   HostProcess process_;
   process::Waiter waiter_;
   std::uint32_t number_ = 0;  ///< of the latest request
   LogReader log_;
   PrintedLines printed_;
-  LastWords last_words_;
+  OutputTail output_tail_;
   bool has_complained_ = false;
   std::string failure_;  ///< why nothing can be sent any longer
 };

@@ -1,4 +1,4 @@
-#include "master/isolation/process/bell.h"
+#include "master/isolation/process/doorbell.h"
 
 #include <algorithm>
 #include <ctime>
@@ -33,7 +33,7 @@ bool has_several_cores() {
 // All with the default order, std::memory_order_seq_cst: who rings looks whether anybody waits
 // after the ring can be seen, who waits has said so before it looks for rings, in the kernel.
 
-void Bell::sleep(std::uint32_t rings, std::chrono::nanoseconds most) {
+void Doorbell::sleep(std::uint32_t rings, std::chrono::nanoseconds most) {
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(most);
   const std::timespec time{static_cast<std::time_t>(seconds.count()),
                            static_cast<long>((most - seconds).count())};
@@ -42,7 +42,7 @@ void Bell::sleep(std::uint32_t rings, std::chrono::nanoseconds most) {
   is_awaited_.store(0);
 }
 
-void Bell::wake() { futex(rings_, FUTEX_WAKE, 1, nullptr); }
+void Doorbell::wake() { futex(rings_, FUTEX_WAKE, 1, nullptr); }
 
 Waiter::Waiter() : most_(has_several_cores() ? kMostSpin : kMostSpin.zero()), spin_(most_) {}
 

@@ -1,4 +1,4 @@
-#include "master/util/mistakes.h"
+#include "master/util/diagnostics.h"
 
 #include <algorithm>
 #include <map>
@@ -37,13 +37,13 @@ std::string shared_hints(const std::vector<Error>& mistakes, std::map<std::strin
 
 }  // namespace
 
-bool Mistakes::tell_of(const std::string& unit, const std::string& variable) const {
+bool Diagnostics::mentions(const std::string& unit, const std::string& variable) const {
   return std::any_of(kept_.begin(), kept_.end(), [&](const Error& mistake) {
     return mistake.context().unit == unit && mistake.context().variable == variable;
   });
 }
 
-void Mistakes::raise() const {
+void Diagnostics::raise() const {
   if (kept_.empty()) return;
   if (kept_.size() == 1) throw kept_.front();
   const std::vector<Error> sorted = by_unit(kept_);

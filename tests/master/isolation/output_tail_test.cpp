@@ -1,4 +1,4 @@
-#include "master/isolation/last_words.h"
+#include "master/isolation/output_tail.h"
 
 #include <vector>
 
@@ -7,16 +7,16 @@
 using namespace stride::host;
 
 TEST_CASE("the last lines are kept, as one said them") {
-  LastWords words;
-  CHECK(words.text().empty());
-  words.add_logged("first\tthing");
-  words.add_printed(std::string(1000, 'x'));
-  words.add_printed("\xef\xef");
-  CHECK(words.text() == "\n  it logged: first thing\n  it printed: " + std::string(199, 'x') +
-                            "…\n  it printed: \uFFFD\uFFFD");
-  for (std::size_t i = 0; i < LastWords::kMost; ++i) words.add_printed(std::to_string(i));
-  CHECK(words.text().find("first") == std::string::npos);
-  CHECK(words.text().find("\n  it printed: 0\n") == 0);
+  OutputTail tail;
+  CHECK(tail.text().empty());
+  tail.add_logged("first\tthing");
+  tail.add_printed(std::string(1000, 'x'));
+  tail.add_printed("\xef\xef");
+  CHECK(tail.text() == "\n  it logged: first thing\n  it printed: " + std::string(199, 'x') +
+                           "…\n  it printed: \uFFFD\uFFFD");
+  for (std::size_t i = 0; i < OutputTail::kMost; ++i) tail.add_printed(std::to_string(i));
+  CHECK(tail.text().find("first") == std::string::npos);
+  CHECK(tail.text().find("\n  it printed: 0\n") == 0);
 }
 
 TEST_CASE("what is printed becomes lines") {

@@ -1,4 +1,4 @@
-#include "master/scenario/host_choice.h"
+#include "master/scenario/host_settings.h"
 
 #include <limits>
 #include <stdexcept>
@@ -29,7 +29,7 @@ void HostSettings::override_with(const HostSettings& other) {
   take(snapshots, other.snapshots);
 }
 
-std::vector<HostSettings> HostChoice::settings(std::span<const std::string> components) const {
+std::vector<HostSettings> HostRules::settings(std::span<const std::string> components) const {
   std::vector<HostSettings> settings(components.size());
   for (const HostRule& rule : rules) {
     for (const std::size_t i : select_components(components, {&rule.components, 1})) {

@@ -1,4 +1,4 @@
-#include "master/isolation/keeper.h"
+#include "master/isolation/supervisor.h"
 
 #include <array>
 #include <cerrno>
@@ -49,11 +49,11 @@ std::vector<pid_t> children() {
   return found;
 }
 
-class Keeper {
+class Supervisor {
  public:
-  Keeper(ChannelMemory& channel, process::Descriptor line, process::Descriptor output)
+  Supervisor(ChannelMemory& channel, process::Descriptor control, process::Descriptor output)
       : channel_(channel),
-        line_(std::move(line)),
+        control_(std::move(control)),
         output_(std::move(output)),
         ends_(watch_children()) {}
 
@@ -64,7 +64,7 @@ class Keeper {
       pass_on();
       bury();
       char command = 0;
-      const ssize_t size = ::recv(line_.number(), &command, 1, MSG_DONTWAIT);
+      const ssize_t size = ::recv(control_.number(), &command, 1, MSG_DONTWAIT);
       if (size < 0 && (errno == EAGAIN || errno == EINTR)) continue;
       if (size <= 0) return false;
       kill_children();
@@ -100,7 +100,7 @@ class Keeper {
  private:
   void wait() const {
     const bool has_room = pending_.empty();
-    std::array<pollfd, 3> files{{{line_.number(), POLLIN, 0},
+    std::array<pollfd, 3> files{{{control_.number(), POLLIN, 0},
                                  {ends_.number(), POLLIN, 0},
                                  {has_room ? output_.number() : -1, POLLIN, 0}}};
     ::poll(files.data(), files.size(), has_room ? -1 : kNoRoomPause);
@@ -110,7 +110,7 @@ class Keeper {
   bool pass_on() {
     if (pending_.empty() && !process::read_some(output_, pending_)) return false;
     pending_.erase(0, channel_.printed.write(pending_));
-    channel_.reply.bell.ring();
+    channel_.reply.doorbell.ring();
     return true;
   }
 
@@ -132,11 +132,11 @@ class Keeper {
     pass_on_all(100ms);  // what it has said comes first
     channel_.end_code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
     channel_.end = WIFSIGNALED(status) ? End::Killed : End::Exited;
-    channel_.reply.bell.ring();
+    channel_.reply.doorbell.ring();
   }
 
   ChannelMemory& channel_;
-  process::Descriptor line_, output_, ends_;
+  process::Descriptor control_, output_, ends_;
   std::string pending_;  ///< printed, and there was no room for it
 };
 
@@ -148,8 +148,8 @@ void clean_up_after(pid_t master) {
 
 }  // namespace
 
-void keep(Channel& channel, process::Descriptor line, pid_t master,
-          const std::function<void(pid_t)>& serve) noexcept {
+void supervise(Channel& channel, process::Descriptor control, pid_t master,
+               const std::function<void(pid_t)>& serve) noexcept {
   ::setpgid(0, 0);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
   ::prctl(PR_SET_NAME, "stride-keeper");
@@ -157,7 +157,7 @@ void keep(Channel& channel, process::Descriptor line, pid_t master,
   const process::Descriptor nowhere(::open("/dev/null", O_RDWR | O_CLOEXEC));
   process::redirect_standard_files(nowhere.number());
   const int messages = channel.messages.file().number();
-  process::close_other_files({line.number(), messages});
+  process::close_other_files({control.number(), messages});
   process::Pipe output;
   const pid_t self = ::getpid();
   const pid_t server = ::fork();
@@ -175,13 +175,13 @@ void keep(Channel& channel, process::Descriptor line, pid_t master,
   if (server < 0) {
     channel.memory->end_code = errno;
     channel.memory->end = End::NotStarted;
-    channel.memory->reply.bell.ring();
+    channel.memory->reply.doorbell.ring();
   }
-  Keeper keeper(*channel.memory, std::move(line), std::move(output.read));
-  const bool is_wanted = keeper.run();
-  keeper.kill_children();
+  Supervisor supervisor(*channel.memory, std::move(control), std::move(output.read));
+  const bool is_wanted = supervisor.run();
+  supervisor.kill_children();
   if (is_wanted) {
-    keeper.pass_on_all(1000ms);
+    supervisor.pass_on_all(1000ms);
   } else {
     clean_up_after(master);
   }

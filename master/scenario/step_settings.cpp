@@ -1,4 +1,4 @@
-#include "master/scenario/step_choice.h"
+#include "master/scenario/step_settings.h"
 
 #include <stdexcept>
 #include <string>
@@ -37,26 +37,26 @@ void take(T& option, const std::optional<T>& choice) {
 
 }  // namespace
 
-void StepChoice::set_policy(std::string_view text) {
+void StepSettings::set_policy(std::string_view text) {
   policy = parse_word(text, core::kStepPolicies);
 }
-void StepChoice::set_size(std::string_view text) { size = parse_step(text); }
-void StepChoice::set_maximum(std::string_view text) { maximum = parse_step(text); }
-void StepChoice::set_minimum(std::string_view text) { minimum = parse_step(text); }
-void StepChoice::set_relative_tolerance(std::string_view text) {
+void StepSettings::set_size(std::string_view text) { size = parse_step(text); }
+void StepSettings::set_maximum(std::string_view text) { maximum = parse_step(text); }
+void StepSettings::set_minimum(std::string_view text) { minimum = parse_step(text); }
+void StepSettings::set_relative_tolerance(std::string_view text) {
   relative_tolerance = parse_at_least_zero(text);
 }
-void StepChoice::set_absolute_tolerance(std::string_view text) {
+void StepSettings::set_absolute_tolerance(std::string_view text) {
   absolute_tolerance = parse_at_least_zero(text);
 }
-void StepChoice::set_coupling(std::string_view text) {
+void StepSettings::set_coupling(std::string_view text) {
   coupling = parse_word(text, core::kCouplings);
 }
-void StepChoice::set_extrapolation(std::string_view text) {
+void StepSettings::set_extrapolation(std::string_view text) {
   extrapolation = parse_word(text, core::kExtrapolations);
 }
 
-void StepChoice::apply(core::RunOptions& options) const {
+void StepSettings::apply(core::RunOptions& options) const {
   take(options.step.policy, policy);
   take(options.step.size, size);
   if (maximum) options.step.maximum = maximum;

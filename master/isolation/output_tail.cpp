@@ -1,4 +1,4 @@
-#include "master/isolation/last_words.h"
+#include "master/isolation/output_tail.h"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,12 @@
 
 namespace stride::host {
 
-void LastWords::add(const char* how, std::string_view line) {
+void OutputTail::add(const char* how, std::string_view line) {
   if (lines_.size() == kMost) lines_.pop_front();
   lines_.push_back(fmt::format("it {}: {}", how, core::readable_text(line, kLongest)));
 }
 
-std::string LastWords::text() const {
+std::string OutputTail::text() const {
   std::string text;
   for (const std::string& line : lines_) text += "\n  " + line;
   return text;

@@ -1,4 +1,4 @@
-#include "master/verify/subject.h"
+#include "master/verify/tested_unit.h"
 
 #include "tests/master/importer/support.h"
 
@@ -13,44 +13,44 @@ namespace {
 fs::path minimal() { return fs::path(STRIDE_FMU_DIR) / "minimal.fmu"; }
 
 /// A unit that declares these.
-Subject declaring(const std::string& flags, const std::string& experiment,
-                  const Request& request = {}) {
+TestedUnit declaring(const std::string& flags, const std::string& experiment,
+                     const VerifyRequest& request = {}) {
   const Scratch scratch;
   make_raw_fmu(scratch, "raw", flags);
   std::string text = read(scratch / "raw/modelDescription.xml");
   text.insert(text.find("<ModelVariables>"), experiment);
   scratch.write("raw/modelDescription.xml", text);
-  Request asked = request;
+  VerifyRequest asked = request;
   asked.file = scratch / "raw";
-  return Subject(asked);
+  return TestedUnit(asked);
 }
 
 }  // namespace
 
 TEST_CASE("step and stop are the user's, else the unit's, else 1 ms and 200 steps") {
-  const Subject plain(Request{.file = minimal()});
+  const TestedUnit plain(VerifyRequest{.file = minimal()});
   CHECK(plain.step() == 1ms);
   CHECK(plain.steps() == 200);
   CHECK(plain.point(3) == Time(3ms));
-  const Subject asked(Request{.file = minimal(), .step = 10ms, .stop = 1s});
+  const TestedUnit asked(VerifyRequest{.file = minimal(), .step = 10ms, .stop = 1s});
   CHECK(asked.step() == 10ms);
   CHECK(asked.steps() == 100);
 
   CHECK(declaring("fixedInternalStepSize=\"0.02\"", "").step() == 20ms);
   const std::string experiment = "<DefaultExperiment stopTime=\"5\" stepSize=\"0.05\"/>";
-  const Subject experimental = declaring("", experiment);
+  const TestedUnit experimental = declaring("", experiment);
   CHECK(experimental.step() == 50ms);
   CHECK(experimental.steps() == 100);
   CHECK(declaring("", experiment, {.step = 1ms}).steps() == 1000);
 }
 
 TEST_CASE("what is observed are outputs and locals without a clock") {
-  const Subject subject(Request{.file = test_fmu("types")});
+  const TestedUnit tested(VerifyRequest{.file = test_fmu("types")});
   std::size_t count = 0;
-  for (const Subject::Group& group : subject.observed()) {
+  for (const TestedUnit::Group& group : tested.observed()) {
     std::size_t size = 0;
     for (const std::size_t i : group.places) {
-      const core::Variable& variable = subject.description().variables[i];
+      const core::Variable& variable = tested.description().variables[i];
       CHECK(variable.type == group.type);
       CHECK(variable.causality == core::Causality::Output);
       CHECK_FALSE(variable.is_clocked());
@@ -60,17 +60,17 @@ TEST_CASE("what is observed are outputs and locals without a clock") {
     CHECK(group.size == size);
     CHECK(group.references.size() == group.places.size());
   }
-  CHECK(count == subject.observed_count());
+  CHECK(count == tested.observed_count());
   CHECK(count == 19);
 }
 
 TEST_CASE("functions have the prefix of the unit's version") {
-  CHECK(Subject(Request{.file = minimal()}).function("DoStep") == "fmi3DoStep");
+  CHECK(TestedUnit(VerifyRequest{.file = minimal()}).function("DoStep") == "fmi3DoStep");
 }
 
 TEST_CASE("a request that makes no sense is refused") {
-  const auto mistake = [](const Request& request) {
-    return input_error([&] { const Subject refused(request); });
+  const auto mistake = [](const VerifyRequest& request) {
+    return input_error([&] { const TestedUnit refused(request); });
   };
   CHECK_THAT(mistake({.file = "unit.so"}),
              Contains("'unit.so' is a library") && Contains("stride pack"));

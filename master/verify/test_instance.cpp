@@ -1,4 +1,4 @@
-#include "master/verify/life.h"
+#include "master/verify/test_instance.h"
 
 #include <algorithm>
 
@@ -16,7 +16,7 @@ using core::ValueType;
 using core::Variable;
 
 constexpr int kMostIterations = 1000;
-/// Whoever rejects steps that are shorter than this rejects all.
+/// A unit that rejects steps shorter than this rejects all.
 constexpr Duration kShortestStep = std::chrono::nanoseconds(1);
 /// Triggered clocks tick at each such point of the grid.
 constexpr std::size_t kPointsPerTick = 7;
@@ -30,7 +30,7 @@ bool belongs_to(const Variable& variable, ValueReference clock) {
   return std::find(variable.clocks.begin(), variable.clocks.end(), clock) != variable.clocks.end();
 }
 
-/// Bytes and texts have a meaning that nobody but the unit knows, so no message is made up.
+/// Only the unit knows what bytes and texts mean, so no message is made up.
 bool carries_messages(const core::UnitDescription& unit, ValueReference clock) {
   return std::any_of(unit.variables.begin(), unit.variables.end(), [&](const Variable& variable) {
     const bool is_opaque = variable.type == ValueType::Binary || variable.type == ValueType::String;
@@ -48,35 +48,36 @@ std::string text_of(const ValueBlock& block, std::size_t first, std::size_t size
 
 }  // namespace
 
-Life::Life(const Subject& subject, process::SharedNote& note, LifeOptions options)
-    : subject_(subject),
+TestInstance::TestInstance(const TestedUnit& tested, process::SharedNote& note,
+                           TestInstanceOptions options)
+    : tested_(tested),
       options_(std::move(options)),
-      stimulus_(subject, options_.seed != 0 ? options_.seed : subject.request().seed),
+      stimulus_(tested, options_.seed != 0 ? options_.seed : tested.request().seed),
       units_([&] {
         std::vector<std::unique_ptr<core::Unit>> units;
         units.push_back(std::make_unique<WatchedUnit>(
-            subject, note, options_.name,
+            tested, note, options_.name,
             fmi::InstanceOptions{.early_return_allowed = options_.early_return_allowed,
                                  .may_go_back = true,
-                                 .description = subject.system().components()[0].description}));
+                                 .description = tested.system().components()[0].description}));
         return units;
       }()) {
-  clocks_.emplace(subject_.system(), units_);
-  for (const Subject::Group& group : subject.observed()) {
+  clocks_.emplace(tested_.system(), units_);
+  for (const TestedUnit::Group& group : tested.observed()) {
     blocks_.emplace_back(group.type, group.size);
   }
 }
 
 // ---- Beginning and end ----
 
-void Life::start() {
+void TestInstance::start() {
   set_start_values();
   enter_initialization();
   exit_initialization();
 }
 
-void Life::set_start_values() {
-  const core::System& system = subject_.system();
+void TestInstance::set_start_values() {
+  const core::System& system = tested_.system();
   const auto set_all = [&](std::span<const core::StartValue> values) {
     for (const core::StartValue& start : values) set(system.variable(start.id), start.value);
   };
@@ -88,46 +89,46 @@ void Life::set_start_values() {
   set_all(system.start_values());
 }
 
-void Life::enter_initialization() {
+void TestInstance::enter_initialization() {
   position_ = {};
   recording_ = {};
   records_ = true;
   unit().enter_initialization(position_.now, std::nullopt);
 }
 
-void Life::exit_initialization() {
-  clocks_.emplace(subject_.system(), units_);
+void TestInstance::exit_initialization() {
+  clocks_.emplace(tested_.system(), units_);
   clocks_->begin(position_.now);
   unit().exit_initialization();
-  if (subject_.description().has_event_mode) finish_events();
+  if (tested_.description().has_event_mode) finish_events();
 }
 
-void Life::reset() {
+void TestInstance::reset() {
   unit().reset();
   position_ = {};
 }
 
 // ---- Values ----
 
-ValueBlock Life::get(const Variable& variable) {
+ValueBlock TestInstance::get(const Variable& variable) {
   ValueBlock block(variable.type, variable.size);
   unit().get({&variable.reference, 1}, block);
   return block;
 }
 
-void Life::set(const Variable& variable, const ValueBlock& value) {
+void TestInstance::set(const Variable& variable, const ValueBlock& value) {
   unit().set({&variable.reference, 1}, value);
 }
 
-std::vector<std::string> Life::observe() {
+std::vector<std::string> TestInstance::observe() {
   std::vector<std::string> texts;
-  texts.reserve(subject_.observed_count());
+  texts.reserve(tested_.observed_count());
   for (std::size_t g = 0; g < blocks_.size(); ++g) {
-    const Subject::Group& group = subject_.observed()[g];
+    const TestedUnit::Group& group = tested_.observed()[g];
     unit().get(group.references, blocks_[g]);
     std::size_t first = 0;
     for (const std::size_t i : group.places) {
-      const std::size_t size = subject_.description().variables[i].size;
+      const std::size_t size = tested_.description().variables[i].size;
       texts.push_back(text_of(blocks_[g], first, size));
       first += size;
     }
@@ -135,16 +136,16 @@ std::vector<std::string> Life::observe() {
   return texts;
 }
 
-void Life::set_inputs(std::size_t k, bool continuous_only) {
+void TestInstance::set_inputs(std::size_t k, bool continuous_only) {
   for (const Stimulus::Input& input : stimulus_.inputs()) {
     if (input.is_clocked || (continuous_only && !input.is_continuous)) continue;
     unit().set({&input.reference, 1}, stimulus_.value(input, k));
   }
 }
 
-void Life::set_clocked_inputs(std::size_t k) {
+void TestInstance::set_clocked_inputs(std::size_t k) {
   for (const Stimulus::Input& input : stimulus_.inputs()) {
-    const Variable& variable = subject_.description().variables[input.variable];
+    const Variable& variable = tested_.description().variables[input.variable];
     const bool is_due = std::any_of(variable.clocks.begin(), variable.clocks.end(),
                                     [&](ValueReference clock) { return ticks(clock); });
     if (is_due) unit().set({&input.reference, 1}, stimulus_.value(input, k));
@@ -153,9 +154,9 @@ void Life::set_clocked_inputs(std::size_t k) {
 
 // ---- Steps ----
 
-std::vector<Time> Life::targets(std::size_t k) const {
-  const Time end = subject_.point(k + 1);
-  const Time begin = subject_.point(k);
+std::vector<Time> TestInstance::targets(std::size_t k) const {
+  const Time end = tested_.point(k + 1);
+  const Time begin = tested_.point(k);
   const Duration size = end - begin;
   switch (options_.split) {
     case Split::None:
@@ -170,7 +171,7 @@ std::vector<Time> Life::targets(std::size_t k) const {
   return {end};
 }
 
-void Life::run_to(std::size_t k, bool records) {
+void TestInstance::run_to(std::size_t k, bool records) {
   records_ = records;
   while (position_.point < k && !recording_.has_ended) {
     enter_grid_step(position_.point);
@@ -182,8 +183,8 @@ void Life::run_to(std::size_t k, bool records) {
   }
 }
 
-void Life::enter_grid_step(std::size_t k) {
-  const bool has_event_mode = subject_.description().has_event_mode;
+void TestInstance::enter_grid_step(std::size_t k) {
+  const bool has_event_mode = tested_.description().has_event_mode;
   if (has_event_mode && (is_event_due() || stimulus_.changes_at(k) || k % kPointsPerTick == 3)) {
     handle_events(k);
   } else {
@@ -191,7 +192,7 @@ void Life::enter_grid_step(std::size_t k) {
   }
 }
 
-void Life::advance(Time to) {
+void TestInstance::advance(Time to) {
   while (position_.now < to && !recording_.has_ended) {
     if (is_event_due()) handle_events();
     Time end = to;
@@ -202,7 +203,7 @@ void Life::advance(Time to) {
 }
 
 /// A step that was rejected is tried again at half its length.
-void Life::shorten(Time to) {
+void TestInstance::shorten(Time to) {
   const Time begin = position_.now;
   Duration size = to - begin;
   do {
@@ -216,7 +217,7 @@ void Life::shorten(Time to) {
   } while (!try_step(begin + size));
 }
 
-bool Life::try_step(Time to) {
+bool TestInstance::try_step(Time to) {
   const core::StepResult result = unit().step({position_.now, to});
   if (result.rejected) {
     ++recording_.rejections;
@@ -238,17 +239,17 @@ bool Life::try_step(Time to) {
 
 // ---- Events ----
 
-bool Life::is_event_due() {
-  if (!subject_.description().has_event_mode) return false;
+bool TestInstance::is_event_due() {
+  if (!tested_.description().has_event_mode) return false;
   const bool is_announced = position_.next_event && *position_.next_event <= position_.now;
   return is_announced || !clocks_->due(position_.now).empty();
 }
 
-bool Life::ticks(ValueReference clock) const {
+bool TestInstance::ticks(ValueReference clock) const {
   return std::find(ticking_.begin(), ticking_.end(), clock) != ticking_.end();
 }
 
-void Life::handle_events(std::optional<std::size_t> k) {
+void TestInstance::handle_events(std::optional<std::size_t> k) {
   unit().enter_event_mode();
   if (k) {
     set_inputs(*k, false);
@@ -257,11 +258,11 @@ void Life::handle_events(std::optional<std::size_t> k) {
   finish_events();
 }
 
-void Life::tick_triggered(std::size_t k) {
+void TestInstance::tick_triggered(std::size_t k) {
   if (k % kPointsPerTick != 3) return;
-  for (const Variable& variable : subject_.description().variables) {
+  for (const Variable& variable : tested_.description().variables) {
     const bool can_tick = is_triggered_input(variable) &&
-                          !carries_messages(subject_.description(), variable.reference);
+                          !carries_messages(tested_.description(), variable.reference);
     if (!can_tick) continue;
     ValueBlock tick(ValueType::Clock, variable.size);
     std::ranges::fill(tick.numbers<bool>(), true);
@@ -271,7 +272,7 @@ void Life::tick_triggered(std::size_t k) {
 }
 
 /// The iterations of Event Mode, and back to Step Mode.
-void Life::finish_events() {
+void TestInstance::finish_events() {
   for (int iteration = 0;; ++iteration) {
     if (iteration == kMostIterations) {
       throw Failure(fmt::format("at {} s its events do not come to an end: {} iterations",
@@ -301,8 +302,8 @@ void Life::finish_events() {
 }
 
 /// The output clocks that tick, and what has the time of a clock that ticks.
-void Life::record_ticks() {
-  const core::UnitDescription& description = subject_.description();
+void TestInstance::record_ticks() {
+  const core::UnitDescription& description = tested_.description();
   std::vector<ValueReference> active = ticking_;
   Row row{position_.now.time_since_epoch().count(), {}, true};
   for (const Variable& variable : description.variables) {
@@ -327,7 +328,7 @@ void Life::record_ticks() {
 
 // ---- States ----
 
-void Life::save(std::size_t slot) {
+void TestInstance::save(std::size_t slot) {
   unit().select_state(slot);
   unit().save_state();
   if (saved_.size() <= slot) saved_.resize(slot + 1);
@@ -335,13 +336,13 @@ void Life::save(std::size_t slot) {
   saved_[slot].clocks.emplace(*clocks_);
 }
 
-void Life::restore(std::size_t slot) {
+void TestInstance::restore(std::size_t slot) {
   unit().select_state(slot);
   unit().restore_state();
   stand_at(saved_[slot].position, &*saved_[slot].clocks);
 }
 
-void Life::stand_at(const Position& position, const core::Clocks* clocks) {
+void TestInstance::stand_at(const Position& position, const core::Clocks* clocks) {
   position_ = position;
   if (clocks != nullptr) clocks_->resume(*clocks);
   recording_.has_ended = false;

@@ -1,4 +1,4 @@
-#include "master/scenario/idle_choice.h"
+#include "master/scenario/idle_settings.h"
 
 #include <memory>
 
@@ -47,11 +47,11 @@ core::StepOptions step(Duration size) {
 
 template <class Change>
 std::string refusal(Change&& change) {
-  IdleChoice choice;
-  change(choice);
+  IdleSettings settings;
+  change(settings);
   const core::System system = make_system();
   try {
-    choice.options(system, step(1ms));
+    settings.options(system, step(1ms));
   } catch (const core::Error& error) {
     CHECK(error.kind() == core::Error::Kind::Input);
     return error.what();
@@ -63,27 +63,27 @@ std::string refusal(Change&& change) {
 
 TEST_CASE("without a word every unit may be left alone for a second") {
   const core::System system = make_system();
-  const core::IdleOptions options = IdleChoice().options(system, step(1ms));
+  const core::IdleOptions options = IdleSettings().options(system, step(1ms));
   CHECK(options.max_skip == std::vector<std::optional<Duration>>{Duration(1s), Duration(1s)});
   CHECK(options.least == Duration(1ms));
 }
 
 TEST_CASE("a later rule goes before an earlier one") {
   const core::System system = make_system();
-  IdleChoice choice;
-  choice.rules = {rule("*", true, Duration(3s)), rule("busy", false, std::nullopt)};
+  IdleSettings settings;
+  settings.rules = {rule("*", true, Duration(3s)), rule("busy", false, std::nullopt)};
   using Skips = std::vector<std::optional<Duration>>;
-  CHECK(choice.options(system, step(1ms)).max_skip == Skips{Duration(3s), std::nullopt});
-  choice.rules.push_back(rule("b*", true, std::nullopt));
-  CHECK(choice.options(system, step(1ms)).max_skip == Skips{Duration(3s), Duration(1s)});
+  CHECK(settings.options(system, step(1ms)).max_skip == Skips{Duration(3s), std::nullopt});
+  settings.rules.push_back(rule("b*", true, std::nullopt));
+  CHECK(settings.options(system, step(1ms)).max_skip == Skips{Duration(3s), Duration(1s)});
 }
 
 TEST_CASE("deadbands and tolerances find their variables") {
   const core::System system = make_system();
-  IdleChoice choice;
-  choice.deadbands = {{"idler.u", 0.5, {}}};
-  choice.tolerances = {{"idler.y", 0.25, {}}};
-  const core::IdleOptions options = choice.options(system, step(1ms));
+  IdleSettings settings;
+  settings.deadbands = {{"idler.u", 0.5, {}}};
+  settings.tolerances = {{"idler.y", 0.25, {}}};
+  const core::IdleOptions options = settings.options(system, step(1ms));
   REQUIRE(options.deadbands.size() == 1);
   CHECK(options.deadbands[0].id == core::VariableId{0, 0});
   CHECK(options.deadbands[0].value == 0.5);
@@ -93,24 +93,24 @@ TEST_CASE("deadbands and tolerances find their variables") {
 
 TEST_CASE("what does not fit is refused where it stands") {
   CHECK_THAT(
-      refusal([](IdleChoice& c) {
+      refusal([](IdleSettings& c) {
         c.deadbands = {{"idler.v", 1, {"x.ssd", 3}}};
       }),
       Contains("x.ssd:3") && Contains("'idler.v' is no Float64 input") && Contains("idler.u"));
-  CHECK_THAT(refusal([](IdleChoice& c) {
+  CHECK_THAT(refusal([](IdleSettings& c) {
                c.deadbands = {{"busy.u", 1, {}}};
              }),
              Contains("can promise to be idle"));
-  CHECK_THAT(refusal([](IdleChoice& c) {
+  CHECK_THAT(refusal([](IdleSettings& c) {
                c.tolerances = {{"busy.y", 1, {}}};
              }),
              Contains("no output with a tolerance"));
-  CHECK_THAT(refusal([](IdleChoice& c) { c.rules = {rule("idle", true, std::nullopt)}; }),
+  CHECK_THAT(refusal([](IdleSettings& c) { c.rules = {rule("idle", true, std::nullopt)}; }),
              Contains("x.ssd:7") && Contains("matches no component"));
   CHECK_THAT(
-      refusal([](IdleChoice& c) { c.rules = {rule("*", true, Duration(500us))}; }),
+      refusal([](IdleSettings& c) { c.rules = {rule("*", true, Duration(500us))}; }),
       Contains("x.ssd:7") && Contains("0.0005 s is below the communication step of 0.001 s"));
-  CHECK(refusal([](IdleChoice& c) { c.rules = {rule("*", true, Duration(1ms))}; }) == "none");
+  CHECK(refusal([](IdleSettings& c) { c.rules = {rule("*", true, Duration(1ms))}; }) == "none");
 }
 
 TEST_CASE("a skip is above 0 s") {

@@ -1,4 +1,4 @@
-#include "master/scenario/idle_choice.h"
+#include "master/scenario/idle_settings.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -42,8 +42,8 @@ void check(const IdleRule& rule, const core::StepOptions& step) {
 
 }  // namespace
 
-core::IdleOptions IdleChoice::options(const core::System& system,
-                                      const core::StepOptions& step) const {
+core::IdleOptions IdleSettings::options(const core::System& system,
+                                        const core::StepOptions& step) const {
   core::IdleOptions options;
   options.least = step.policy == core::StepPolicy::Fixed ? step.size : Duration{1};
   std::vector<std::string> names;
