@@ -27,7 +27,7 @@ std::string unit_table(const LoadedScenario& loaded) {
   return table.text();
 }
 
-/// Nothing where all units are in this process.
+/// Empty if all units are in this process.
 std::string host_table(const LoadedScenario& loaded) {
   Table table({{"component"},
                {"call limit [s]", Table::Align::Right},
@@ -105,7 +105,7 @@ std::string order_table(const LoadedScenario& loaded) {
   return table.text();
 }
 
-/// Nothing where the scenario has none.
+/// Empty if the scenario has none.
 std::string check_table(std::span<const checks::Definition> checks) {
   Table table({{"check"}, {"demands"}, {"line", Table::Align::Right}});
   for (const checks::Definition& check : checks) {

@@ -1,4 +1,4 @@
-// stride complete: writes into a scenario what its author left out.
+// stride complete: adds the connectors of the units to a scenario.
 #include "master/ssp/complete.h"
 
 #include <memory>

@@ -14,9 +14,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Between two views of a run, where it is watched as it goes.
+/// Between two updates of a line that is rewritten.
 constexpr auto kRefresh = 100ms;
-/// Lines in a log come at each tenth of a run, but neither closer to each other nor further apart.
+/// A log gets a line at each tenth of a run, within these bounds.
 constexpr auto kLeastPause = 1s;
 constexpr auto kMostPause = 30s;
 

@@ -1,4 +1,4 @@
-// stride report: what a run was like, on a page.
+// stride report: the page of a run, from its results folder.
 #include <filesystem>
 #include <memory>
 

@@ -121,7 +121,7 @@ std::string Summary::signal_table() const {
   return text;
 }
 
-/// Nothing where no unit was ever left alone.
+/// Empty if no unit was suspended.
 std::string Summary::idle_line(const core::RunStatistics& statistics) const {
   Duration skipped{};
   const core::UnitStatistics* longest = nullptr;
@@ -139,7 +139,7 @@ std::string Summary::idle_line(const core::RunStatistics& statistics) const {
       system_.components()[who].name);
 }
 
-/// Nothing where all units were in this process.
+/// Empty if all units were in this process.
 std::string Summary::host_line(const core::RunStatistics& statistics) const {
   std::vector<std::string> hosted;
   for (std::size_t i = 0; i < statistics.units.size(); ++i) {

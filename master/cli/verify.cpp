@@ -1,4 +1,4 @@
-// stride verify: puts a single unit through its paces.
+// stride verify: tests a single unit.
 #include "master/verify/verify.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct Options {
   std::string json;  ///< a file, or empty
 };
 
-/// Which check is at work, on a terminal, where the next one and the table take its place.
+/// The name of the running check, on a terminal, where later output overwrites it.
 void show_progress(const char* check) {
   if (::isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[Kchecking {} …", check);
 }

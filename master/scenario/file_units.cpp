@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the unit says of the file that it was given, with the file as the user knows it.
+/// The unit's error about the file, with the path that the user gave.
 std::string shown(std::string text, const fs::path& file, const fs::path& shown_as) {
   const std::size_t at = text.find(file.string());
   if (at == std::string::npos) return text;

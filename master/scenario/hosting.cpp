@@ -13,7 +13,7 @@
 namespace stride::cli {
 namespace {
 
-/// Rules that come after those of the scenario.
+/// Rules behind those of the scenario.
 void add_rules(const HostRequest& request, std::vector<io::HostRule>& rules) {
   for (const std::string& glob : request.isolated) {
     const core::Location where{glob == "*" ? "--isolate" : "--isolate=" + glob, 0};

@@ -31,7 +31,7 @@ Duration parse_option(const std::string& option, const std::string& text,
   }
 }
 
-/// The values of --set, which go before all others.
+/// The values of --set, which have precedence.
 std::vector<io::ParameterValue> set_values(const std::vector<std::string>& sets) {
   std::vector<io::ParameterValue> values;
   for (const std::string& text : sets) {
@@ -45,7 +45,7 @@ std::vector<io::ParameterValue> set_values(const std::vector<std::string>& sets)
   return values;
 }
 
-/// A step that is discarded is tried again, so it is no failure yet.
+/// A discarded step is retried, so it is no failure.
 spdlog::level::level_enum level(fmi::Status status) {
   switch (status) {
     case fmi::Status::Ok:
@@ -195,7 +195,7 @@ void LoadedScenario::choose_steps(const io::StepSettings& request) {
   }
 }
 
-/// Their intervals are those of the scenario, whatever --stop says.
+/// Their intervals are those of the scenario, also with --stop.
 void LoadedScenario::choose_checks(const ScenarioRequest& request) {
   if (request.no_checks) return;
   const std::optional<Time> stop = request.stop.empty() ? options_.stop : scenario_.stop;
@@ -203,7 +203,7 @@ void LoadedScenario::choose_checks(const ScenarioRequest& request) {
   options_.watched = checks::Checks(checks_).signals();
 }
 
-/// A component that is given snapshots can do more, and so its system is another one.
+/// Snapshots add a capability to a component, so the system is built again.
 void LoadedScenario::choose_hosts(const HostRequest& request) {
   auto& components = scenario_.system.components;
   hostings_ =
@@ -299,7 +299,7 @@ std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate(
     const std::filesystem::path& results) const {
   const auto& components = system_->components();
   std::vector<std::unique_ptr<core::Unit>> units(components.size());
-  // processes first: they begin as copies of this one, which has no unit's library yet
+  // processes first: they are forked from this one, which has loaded no unit's library yet
   for (std::size_t i = 0; i < units.size(); ++i) {
     if (!hostings_[i]) continue;
     host::HostOptions host = hostings_[i]->options;

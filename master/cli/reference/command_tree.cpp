@@ -108,7 +108,7 @@ std::string phrase(std::string text) {
   return text;
 }
 
-/// A footer that is handed down stays with the program.
+/// Subcommands inherit the footer; only the program keeps it.
 Command describe(const CLI::App& app, std::vector<std::string> words) {
   words.push_back(app.get_name());
   const CLI::App* const above = app.get_parent();
