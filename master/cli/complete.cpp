@@ -49,8 +49,7 @@ void complete(const CompleteArguments& arguments) {
 
 void add_complete(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "complete",
-      "Write the connectors that a scenario leaves out into it, as other SSP tools want them");
+      "complete", "Add the connectors that a scenario leaves out, as other SSP tools need them");
   const auto arguments = std::make_shared<CompleteArguments>();
   command
       ->add_option("FILE", arguments->scenario,

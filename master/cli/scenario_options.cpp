@@ -28,28 +28,31 @@ CLI::Option* add_setting(CLI::App& command, const std::string& name, io::StepSet
 void add_step_options(CLI::App& command, io::StepSettings& settings) {
   using io::StepSettings;
   add_setting(command, "--step", settings, &StepSettings::set_size,
-              "Length of the communication steps; of the first one where the error controls them")
+              "Communication step size; that of the first step with error control")
       ->type_name("SECONDS");
-  add_setting(command, "--policy", settings, &StepSettings::set_policy, "What decides on the steps")
+  add_setting(command, "--policy", settings, &StepSettings::set_policy,
+              "How the next communication point is chosen")
       ->type_name("fixed|event-driven|error-controlled");
-  add_setting(command, "--max-step", settings, &StepSettings::set_maximum, "No step is longer")
+  add_setting(command, "--max-step", settings, &StepSettings::set_maximum,
+              "Upper limit of the step size")
       ->type_name("SECONDS");
   add_setting(command, "--min-step", settings, &StepSettings::set_minimum,
-              "No shorter one is tried after a rejection")
+              "Lower limit of the step size after a rejected step")
       ->type_name("SECONDS");
   add_setting(command, "--relative-tolerance", settings, &StepSettings::set_relative_tolerance,
-              "Of the inputs, where their error controls the steps")
+              "Relative tolerance of the inputs, with error control")
       ->type_name("NUMBER");
-  add_setting(command, "--absolute-tolerance", settings, &StepSettings::set_absolute_tolerance,
-              "Likewise, in the unit of the output that feeds the input")
+  add_setting(
+      command, "--absolute-tolerance", settings, &StepSettings::set_absolute_tolerance,
+      "Absolute tolerance of the inputs, in the unit of measure of the output that feeds the input")
       ->type_name("NUMBER");
   add_setting(
       command, "--coupling", settings, &StepSettings::set_coupling,
-      "What a unit sees of the others during a step: what they were at its begin, or, of those "
-      "that have stepped before it, where they are")
+      "Inputs of a unit during a step: the outputs at its begin, or, from units that have stepped "
+      "before it, those at its end")
       ->type_name("jacobi|gauss-seidel");
   add_setting(command, "--extrapolation", settings, &StepSettings::set_extrapolation,
-              "How inputs go on during a step")
+              "How inputs are extrapolated during a step")
       ->type_name("hold|linear|quadratic");
 }
 
@@ -57,19 +60,15 @@ void add_host_options(CLI::App& command, HostRequest& request) {
   // a flag, so that what follows a blank is the scenario; without a value it is "true"
   command
       .add_flag("--isolate", request.isolated,
-                "A process of its own for each unit, or as --isolate=COMPONENT, with a glob, for "
-                "some; may be given several times")
+                "Run each unit in a process of its own, or with --isolate=COMPONENT, a glob, some "
+                "units; may be given several times")
       ->transform([](const std::string& value) { return value == "true" ? "*" : value; });
   command
-      .add_option(
-          "--unit-timeout", request.unit_timeout,
-          "How long a call of a unit with a process of its own may take; goes before what the "
-          "scenario says")
+      .add_option("--unit-timeout", request.unit_timeout,
+                  "Time limit of a call of a unit in a process of its own; overrides the scenario")
       ->type_name("SECONDS");
-  command.add_flag(
-      "--no-sandbox", request.no_sandbox,
-      "Let units with processes of their own do whatever you may; goes before what the scenario "
-      "says");
+  command.add_flag("--no-sandbox", request.no_sandbox,
+                   "Run units in processes of their own without a sandbox; overrides the scenario");
 }
 
 }  // namespace
@@ -84,14 +83,12 @@ void add_scenario_options(CLI::App& command, ScenarioRequest& request) {
       ->type_name("SECONDS");
   add_step_options(command, request.step);
   command.add_flag("--no-idle-skip", request.no_idle_skip,
-                   "Call every unit in every step, also those that promise to be idle");
+                   "Step every unit in every step, also while it promises to be idle");
   command
       .add_option("--max-skip", request.max_skip,
-                  "For how long an idle unit is left alone at most; 1 if neither this nor the "
-                  "scenario says it")
+                  "Longest time for which an idle unit is suspended; 1 if the scenario has none")
       ->type_name("SECONDS");
-  command.add_flag("--no-checks", request.no_checks,
-                   "Do not judge by the scenario's checks, as for a run that is to be another");
+  command.add_flag("--no-checks", request.no_checks, "Ignore the scenario's checks");
   add_host_options(command, request.hosts);
   command
       .add_option("--set", request.sets,

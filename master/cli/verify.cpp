@@ -122,7 +122,7 @@ void add_times(CLI::App& command, verify::VerifyRequest& request) {
   add_parsed(
       command, "--stop",
       [&request](const std::string& text) { request.stop = io::parse_seconds(text); },
-      "How long a run is; the unit's own if left out, or 200 steps, but 1000 steps at most")
+      "Simulated length of a run; by default the unit's own, or 200 steps, but 1000 steps at most")
       ->type_name("SECONDS");
   add_parsed(
       command, "--timeout",
@@ -130,15 +130,15 @@ void add_times(CLI::App& command, verify::VerifyRequest& request) {
         const double seconds = std::min(io::parse_above_zero(text), 1e9);
         request.limit = std::chrono::milliseconds(std::max(1L, std::lround(seconds * 1000)));
       },
-      "What takes longer hangs; for each check, 60 if left out")
+      "Time limit of each check; 60 by default")
       ->type_name("SECONDS");
 }
 
 }  // namespace
 
 void add_verify(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "verify", "Put a single unit through its paces, to see whether it keeps what it declares");
+  CLI::App* command =
+      app.add_subcommand("verify", "Test whether a single unit keeps what it declares");
   const auto options = std::make_shared<Options>();
   verify::VerifyRequest& request = options->request;
   command->add_option("FILE", request.file, "An FMU: a .fmu, or its unpacked folder")
@@ -146,7 +146,7 @@ void add_verify(CLI::App& app) {
       ->type_name("");
   command
       ->add_option("--check", request.checks,
-                   "Only this check of those below; may be given several times")
+                   "Run only this check of those below; may be given several times")
       ->type_name("CHECK")
       ->allow_extra_args(false);
   command
@@ -156,7 +156,7 @@ void add_verify(CLI::App& app) {
       ->type_name("VARIABLE=VALUE")
       ->allow_extra_args(false);
   add_times(*command, request);
-  command->add_option("--seed", request.seed, "Of the course that each other numeric input takes")
+  command->add_option("--seed", request.seed, "Seed of the stimulus of the other numeric inputs")
       ->type_name("N")
       ->capture_default_str();
   command->add_option("--lives", request.instances, "Instances that 'memory' makes and frees")
