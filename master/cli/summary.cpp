@@ -134,7 +134,7 @@ std::string Summary::idle_line(const core::RunStatistics& statistics) const {
   const double all = whole * static_cast<double>(statistics.units.size());
   const auto who = static_cast<std::size_t>(longest - statistics.units.data());
   return fmt::format(
-      "Idle units were left alone for {:.3g} % of their time; the longest time was {:.6g} s ({})\n",
+      "Idle units were suspended for {:.3g} % of their time; the longest time was {:.6g} s ({})\n",
       all > 0 ? 100 * to_seconds(skipped) / all : 0.0, to_seconds(longest->longest_rest),
       system_.components()[who].name);
 }

@@ -25,7 +25,7 @@ export const kBindings = [
   { keys: ["["], shown: "[", text: "earlier", action: "pan", argument: -0.5 },
   { keys: ["]"], shown: "]", text: "later", action: "pan", argument: 0.5 },
   { keys: ["0"], shown: "0", text: "the whole run", action: "showWhole" },
-  { keys: ["Escape"], shown: "Esc", text: "let the cursor go", action: "releaseCursor" },
+  { keys: ["Escape"], shown: "Esc", text: "release the cursor", action: "releaseCursor" },
   { keys: ["d"], shown: "d", text: "light or dark", action: "switchTheme" },
   { keys: ["?"], shown: "?", text: "show the keys", action: "showHelp" },
 ];

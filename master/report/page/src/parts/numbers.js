@@ -25,7 +25,7 @@ export function keyNumbers({ run, messages, times }) {
     ["simulated", Number.isFinite(simulated) ? `${briefText(simulated)} s` : null],
     ["took", Number.isFinite(run.wall_time) ? `${briefText(run.wall_time)} s` : null],
     ["speed", run.wall_time > 0 && simulated > 0 ? `${briefText(simulated / run.wall_time)} × real time` : null],
-    ["left alone", share === null ? null : `${(share * 100).toFixed(1)} % of the units’ time`],
+    ["suspended", share === null ? null : `${(share * 100).toFixed(1)} % of the units’ time`],
     ["steps", run.communication_steps?.toLocaleString("en")],
     ["messages sent", sent.toLocaleString("en")],
     ["rejected steps", units.length > 0 ? sum(units, "rejections").toLocaleString("en") : null],
