@@ -1,11 +1,10 @@
-#include "master/checks/answer_check.h"
+#include "master/checks/message_checks.h"
 
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
-#include "master/checks/message_checks.h"
 #include "tests/master/checks/support.h"
 
 using namespace stride;
