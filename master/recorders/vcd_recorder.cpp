@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cctype>
+#include <iterator>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -20,36 +21,12 @@ using core::ValueType;
 
 /// The dump's word for the type, and its width in bits.
 const char* declaration(ValueType type) {
-  switch (type) {
-    case ValueType::Float32:
-    case ValueType::Float64:
-      return "real 64";
-    case ValueType::Int8:
-      return "integer 8";
-    case ValueType::Int16:
-      return "integer 16";
-    case ValueType::Int32:
-      return "integer 32";
-    case ValueType::Int64:
-    case ValueType::Enumeration:
-      return "integer 64";
-    case ValueType::UInt8:
-      return "wire 8";
-    case ValueType::UInt16:
-      return "wire 16";
-    case ValueType::UInt32:
-      return "wire 32";
-    case ValueType::UInt64:
-      return "wire 64";
-    case ValueType::Boolean:
-      return "wire 1";
-    case ValueType::Clock:
-      return "event 1";
-    case ValueType::String:
-    case ValueType::Binary:
-      break;
-  }
-  return "string 1";
+  constexpr const char* kDeclarations[] = {"real 64",    "real 64",    "integer 8",  "wire 8",
+                                           "integer 16", "wire 16",    "integer 32", "wire 32",
+                                           "integer 64", "wire 64",    "wire 1",     "string 1",
+                                           "string 1",   "integer 64", "event 1"};
+  static_assert(std::size(kDeclarations) == core::kValueTypeCount);
+  return kDeclarations[static_cast<std::size_t>(type)];
 }
 
 /// Blanks would end the name.
