@@ -1,8 +1,8 @@
-#include "master/scenario/host_settings.h"
-
 #include <stdexcept>
 
 #include <catch2/catch.hpp>
+
+#include "master/scenario/run_settings.h"
 
 using namespace stride::io;
 using Catch::Contains;

@@ -1,8 +1,8 @@
-#include "master/scenario/idle_settings.h"
-
 #include <memory>
 
 #include <catch2/catch.hpp>
+
+#include "master/scenario/run_settings.h"
 
 using namespace stride;
 using namespace stride::io;
