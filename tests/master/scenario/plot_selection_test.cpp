@@ -1,5 +1,3 @@
-#include "master/scenario/plot_selection.h"
-
 #include <catch2/catch.hpp>
 
 #include "master/scenario/signal_selection.h"

@@ -1,7 +1,6 @@
-#include "master/scenario/signal_names.h"
-
 #include <catch2/catch.hpp>
 
+#include "master/scenario/signal_selection.h"
 #include "tests/master/ssp/support.h"
 
 using namespace stride;
