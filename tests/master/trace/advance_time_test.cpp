@@ -1,7 +1,6 @@
-#include "master/trace/advance_time.h"
-
 #include <catch2/catch.hpp>
 
+#include "master/trace/instants.h"
 #include "tests/master/trace/support.h"
 
 using namespace stride::trace;

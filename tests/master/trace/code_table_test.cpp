@@ -1,6 +1,6 @@
-#include "master/trace/code_table.h"
-
 #include <catch2/catch.hpp>
+
+#include "master/trace/header.h"
 
 using namespace stride::trace;
 
