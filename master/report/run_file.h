@@ -8,7 +8,7 @@
 
 #include "master/recorders/result_files.h"
 #include "master/report/column.h"
-#include "master/report/json_text.h"
+#include "master/report/page_data.h"
 
 namespace stride::report {
 

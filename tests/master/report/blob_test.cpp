@@ -1,11 +1,10 @@
-#include "master/report/blob.h"
-
 #include <cmath>
 #include <limits>
 #include <random>
 
 #include <catch2/catch.hpp>
 
+#include "master/report/page_data.h"
 #include "tests/master/report/support.h"
 
 using namespace stride::report;

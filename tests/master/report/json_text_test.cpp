@@ -1,6 +1,6 @@
-#include "master/report/json_text.h"
-
 #include <catch2/catch.hpp>
+
+#include "master/report/page_data.h"
 
 using namespace stride::report;
 
