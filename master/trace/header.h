@@ -1,3 +1,4 @@
+// The declarations of a value change dump.
 #ifndef STRIDE_MASTER_TRACE_HEADER_H
 #define STRIDE_MASTER_TRACE_HEADER_H
 

@@ -1,3 +1,4 @@
+// What happened at one stamp of a trace.
 #ifndef STRIDE_MASTER_TRACE_INSTANTS_H
 #define STRIDE_MASTER_TRACE_INSTANTS_H
 
