@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "master/isolation/process/signal_name.h"
+#include "master/isolation/process/child.h"
 #include "master/util/error.h"
 #include "master/verify/finding.h"
 
