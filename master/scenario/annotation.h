@@ -7,7 +7,7 @@
 
 #include <stride/time.h>
 
-#include "master/recorders/result_files.h"
+#include "master/recorders/results_folder.h"
 #include "master/scenario/check_declaration.h"
 #include "master/scenario/component_selection.h"
 #include "master/scenario/run_settings.h"

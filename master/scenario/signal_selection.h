@@ -8,7 +8,7 @@
 
 #include "master/algorithm/observer.h"
 #include "master/model/system.h"
-#include "master/recorders/result_files.h"
+#include "master/recorders/results_folder.h"
 #include "master/scenario/annotation.h"
 
 namespace stride::io {
