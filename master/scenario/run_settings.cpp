@@ -11,7 +11,7 @@
 #include "master/util/number_text.h"
 #include "master/util/suggest.h"
 #include "master/util/time_text.h"
-#include "master/util/xml/words.h"
+#include "master/util/xml/element.h"
 
 namespace stride::io {
 namespace {

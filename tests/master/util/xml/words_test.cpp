@@ -1,9 +1,9 @@
-#include "master/util/xml/words.h"
-
 #include <cstdint>
 #include <limits>
 
 #include <catch2/catch.hpp>
+
+#include "master/util/xml/element.h"
 
 using namespace stride;
 
