@@ -1,3 +1,5 @@
+// A read-only view of an XML document: namespaces are resolved, and each complaint names its file
+// and line.
 #ifndef STRIDE_MASTER_UTIL_XML_ELEMENT_H
 #define STRIDE_MASTER_UTIL_XML_ELEMENT_H
 
