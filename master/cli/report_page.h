@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "master/recorders/result_files.h"
+#include "master/recorders/results_folder.h"
 
 namespace stride::cli {
 

@@ -15,7 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "master/isolation/process/signal_name.h"
+#include "master/isolation/process/child.h"
 
 namespace stride::host {
 namespace {

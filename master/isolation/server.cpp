@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "master/isolation/codec.h"
-#include "master/isolation/memory_limit.h"
+#include "master/isolation/process/process_memory.h"
 #include "master/isolation/process/surroundings.h"
 #include "master/isolation/sandbox_hint.h"
 
@@ -69,7 +69,7 @@ void Server::run() {
 }
 
 process::Protections Server::prepare() {
-  if (spec_.host.memory_limit) limit_memory(*spec_.host.memory_limit);
+  if (spec_.host.memory_limit) process::limit_memory(*spec_.host.memory_limit);
   if (!spec_.host.is_sandboxed) return {};
   ::setenv("TMPDIR", spec_.temporary->path().c_str(), 1);
   return process::enter_sandbox(writable_folders(spec_));

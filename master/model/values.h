@@ -133,8 +133,6 @@ ValueBlock parse(const Variable& variable, const std::string& text);
 /// hexadecimal digits.
 std::string element_text(const ValueBlock& block, std::size_t element);
 
-std::string to_hex(std::span<const std::uint8_t> bytes);
-
 }  // namespace stride::core
 
 #endif

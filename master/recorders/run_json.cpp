@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "master/recorders/signal_text.h"
+#include "master/util/hex.h"
 #include "master/util/output_file.h"
 
 namespace stride::io {

@@ -7,12 +7,10 @@
 
 #include <stride/time.h>
 
-#include "master/recorders/result_files.h"
+#include "master/recorders/results_folder.h"
 #include "master/scenario/check_declaration.h"
 #include "master/scenario/component_selection.h"
-#include "master/scenario/host_settings.h"
-#include "master/scenario/idle_settings.h"
-#include "master/scenario/step_settings.h"
+#include "master/scenario/run_settings.h"
 #include "master/util/error.h"
 #include "master/util/xml/element.h"
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "master/recorders/signal_text.h"
-#include "master/scenario/signal_names.h"
+#include "master/scenario/signal_selection.h"
 #include "master/util/diagnostics.h"
 #include "master/util/glob.h"
 #include "master/util/suggest.h"

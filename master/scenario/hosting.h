@@ -10,7 +10,7 @@
 #include "master/algorithm/run_options.h"
 #include "master/isolation/hosted_unit.h"
 #include "master/model/system.h"
-#include "master/scenario/host_settings.h"
+#include "master/scenario/run_settings.h"
 
 namespace stride::cli {
 

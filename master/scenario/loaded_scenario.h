@@ -14,8 +14,8 @@
 #include "master/importer/fmu.h"
 #include "master/model/system.h"
 #include "master/scenario/hosting.h"
-#include "master/scenario/plot_selection.h"
 #include "master/scenario/scenario.h"
+#include "master/scenario/signal_selection.h"
 
 namespace stride::cli {
 

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "master/util/error.h"
+#include "master/util/hex.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {
@@ -44,19 +45,10 @@ std::string to_text(const Serialized& made) {
       .dump();
 }
 
-Bytes from_hex(const std::string& text) {
-  const auto digit = [](char c) { return c <= '9' ? c - '0' : (c | 0x20) - 'a' + 10; };
-  Bytes bytes;
-  for (std::size_t i = 0; i + 1 < text.size(); i += 2) {
-    bytes.push_back(static_cast<std::uint8_t>(16 * digit(text[i]) + digit(text[i + 1])));
-  }
-  return bytes;
-}
-
 Serialized serialized_from_text(const std::string& text) {
   const Json json = Json::parse(text);
   const auto time = [&](const char* key) { return Time(Duration(json[key].get<std::int64_t>())); };
-  Serialized made{from_hex(json["bytes"]),
+  Serialized made{core::from_hex(json["bytes"].get<std::string>()).value(),
                   {time("now"), json["point"], time("next")},
                   recording_from_text(json["recording"]).rows,
                   json["to"]};

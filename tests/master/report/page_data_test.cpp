@@ -1,4 +1,4 @@
-#include "master/report/blob.h"
+#include "master/report/page_data.h"
 
 #include <cmath>
 #include <limits>
@@ -77,4 +77,14 @@ TEST_CASE("texts are an array of indices and the distinct ones") {
   CHECK(parsed["values"].size() == 4);
   CHECK(unpacked_texts(parsed) ==
         std::vector<std::string>{"on", "off", "on", "</script>", "\xEF\xBF\xBD"});
+}
+
+TEST_CASE("no text ends the element that the JSON stands in") {
+  const std::string text = json_text({{"a", "</script><!-- \\ \" \n"}, {"<b>", 1}});
+  CHECK(text == R"({"a":"\u003c/script>\u003c!-- \\ \" \n","\u003cb>":1})");
+  CHECK(Json::parse(text)["a"] == "</script><!-- \\ \" \n");
+}
+
+TEST_CASE("what is no UTF-8 is replaced") {
+  CHECK(json_text(Json("a\xff\xc3(")) == "\"a\xEF\xBF\xBD\xEF\xBF\xBD(\"");
 }

@@ -1,15 +1,23 @@
-// Arrays as the report's page takes them.
-#ifndef STRIDE_MASTER_REPORT_BLOB_H
-#define STRIDE_MASTER_REPORT_BLOB_H
+// Texts and arrays in the form that the report's page reads.
+#ifndef STRIDE_MASTER_REPORT_PAGE_DATA_H
+#define STRIDE_MASTER_REPORT_PAGE_DATA_H
 
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include <nlohmann/json.hpp>
+
 #include "master/report/column.h"
 
 namespace stride::report {
+
+using Json = nlohmann::ordered_json;
+
+/// Without blanks. What is no UTF-8 becomes U+FFFD, and `<` an escape sequence, so that no text of
+/// it ends the element that it stands in.
+std::string json_text(const Json& json);
 
 /// Base64 (RFC 4648) with padding.
 std::string base64(std::span<const std::uint8_t> bytes);

@@ -1,4 +1,4 @@
-#include "master/report/blob.h"
+#include "master/report/page_data.h"
 
 #include <algorithm>
 #include <bit>
@@ -8,8 +8,6 @@
 
 #include <fmt/format.h>
 #include <zlib.h>
-
-#include "master/report/json_text.h"
 
 namespace stride::report {
 namespace {
@@ -68,6 +66,20 @@ std::string numbers(const char* type, std::span<const Element> values) {
 }
 
 }  // namespace
+
+std::string json_text(const Json& json) {
+  const std::string plain = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text;
+  text.reserve(plain.size());
+  for (const char c : plain) {
+    if (c == '<') {
+      text += "\\u003c";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
 
 std::string base64(std::span<const std::uint8_t> bytes) {
   constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
