@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "master/algorithm/activities.h"
-#include "master/algorithm/events/instant.h"
+#include "master/algorithm/events/event_handler.h"
 #include "master/algorithm/exchange/exchange.h"
 #include "master/algorithm/exchange/system_outputs.h"
 #include "master/algorithm/idle/idle_ledger.h"

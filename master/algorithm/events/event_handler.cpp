@@ -1,4 +1,4 @@
-#include "master/algorithm/events/instant.h"
+#include "master/algorithm/events/event_handler.h"
 
 #include <algorithm>
 #include <utility>
