@@ -14,7 +14,7 @@
 #include "master/algorithm/events/event_handler.h"
 #include "master/algorithm/exchange/exchange.h"
 #include "master/algorithm/exchange/system_outputs.h"
-#include "master/algorithm/idle/idle_ledger.h"
+#include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/loops/initial_values.h"
 #include "master/algorithm/stepping/step_inputs.h"
 #include "master/algorithm/stepping/step_size.h"

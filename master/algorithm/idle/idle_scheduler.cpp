@@ -1,4 +1,4 @@
-#include "master/algorithm/idle/idle_ledger.h"
+#include "master/algorithm/idle/idle_scheduler.h"
 
 #include <algorithm>
 #include <cmath>
