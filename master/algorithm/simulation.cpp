@@ -17,7 +17,7 @@
 #include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/loops/initial_values.h"
 #include "master/algorithm/stepping/step_inputs.h"
-#include "master/algorithm/stepping/step_size.h"
+#include "master/algorithm/stepping/step_size_controller.h"
 #include "master/algorithm/stepping/stepper.h"
 
 namespace stride::core {

@@ -1,4 +1,4 @@
-#include "master/algorithm/stepping/step_size.h"
+#include "master/algorithm/stepping/step_size_controller.h"
 
 #include <algorithm>
 #include <cmath>
