@@ -16,7 +16,7 @@
 #include "master/algorithm/exchange/system_outputs.h"
 #include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/loops/initial_values.h"
-#include "master/algorithm/stepping/step_inputs.h"
+#include "master/algorithm/stepping/input_extrapolator.h"
 #include "master/algorithm/stepping/step_size_controller.h"
 #include "master/algorithm/stepping/stepper.h"
 

@@ -7,7 +7,7 @@
 #include <stride/time.h>
 
 #include "master/algorithm/run_options.h"
-#include "master/algorithm/stepping/step_inputs.h"
+#include "master/algorithm/stepping/input_extrapolator.h"
 #include "master/model/system.h"
 
 namespace stride::core {

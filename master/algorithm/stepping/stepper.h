@@ -18,7 +18,7 @@
 #include "master/algorithm/parallel/work_split.h"
 #include "master/algorithm/run_options.h"
 #include "master/algorithm/statistics.h"
-#include "master/algorithm/stepping/step_inputs.h"
+#include "master/algorithm/stepping/input_extrapolator.h"
 #include "master/algorithm/stepping/step_order.h"
 #include "master/algorithm/unit.h"
 #include "master/model/system.h"
