@@ -16,7 +16,7 @@
 #include "master/algorithm/events/messages.h"
 #include "master/algorithm/exchange/exchange.h"
 #include "master/algorithm/idle/idle_scheduler.h"
-#include "master/algorithm/loops/evaluation.h"
+#include "master/algorithm/loops/ordered_evaluation.h"
 #include "master/algorithm/observer.h"
 #include "master/algorithm/statistics.h"
 #include "master/algorithm/unit.h"

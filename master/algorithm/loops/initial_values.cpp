@@ -1,6 +1,6 @@
 #include "master/algorithm/loops/initial_values.h"
 
-#include "master/algorithm/loops/evaluation.h"
+#include "master/algorithm/loops/ordered_evaluation.h"
 
 namespace stride::core {
 namespace {

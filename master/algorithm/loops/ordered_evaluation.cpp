@@ -1,4 +1,4 @@
-#include "master/algorithm/loops/evaluation.h"
+#include "master/algorithm/loops/ordered_evaluation.h"
 
 #include <algorithm>
 
