@@ -15,7 +15,7 @@
 #include "master/algorithm/activities.h"
 #include "master/algorithm/exchange/exchange.h"
 #include "master/algorithm/idle/idle_scheduler.h"
-#include "master/algorithm/parallel/work_split.h"
+#include "master/algorithm/parallel/load_balancer.h"
 #include "master/algorithm/run_options.h"
 #include "master/algorithm/statistics.h"
 #include "master/algorithm/stepping/input_extrapolator.h"

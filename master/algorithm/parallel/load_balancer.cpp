@@ -1,4 +1,4 @@
-#include "master/algorithm/parallel/work_split.h"
+#include "master/algorithm/parallel/load_balancer.h"
 
 #include <algorithm>
 #include <utility>
