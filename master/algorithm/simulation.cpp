@@ -51,8 +51,8 @@ class Simulation::Run {
         statistics_{.units = std::vector<UnitStatistics>(units_.size())},
         ledger_(make_ledger()),
         clock_(options_.measure_time),
-        instant_(system, units_, exchange_, observers_, activities_, statistics_, clock_,
-                 ledger_ ? &*ledger_ : nullptr),
+        event_handler_(system, units_, exchange_, observers_, activities_, statistics_, clock_,
+                       ledger_ ? &*ledger_ : nullptr),
         stepper_(system, units_, exchange_, statistics_.units, activities_, clock_, options_,
                  options_.sets_inputs_in_steps() ? &*inputs_ : nullptr,
                  ledger_ ? &*ledger_ : nullptr) {
@@ -135,18 +135,18 @@ class Simulation::Run {
     set_initial_values(system_, units_, exchange_,
                        {clock_, statistics_.units, &UnitStatistics::initialization_time}, time_);
     for (std::size_t i = 0; i < count(); ++i) exchange_.begin_samples(i, *units_[i]);
-    instant_.begin_clocks(time_);
+    event_handler_.begin_clocks(time_);
     for (std::size_t i = 0; i < count(); ++i) {
       clock_.timed(statistics_.units[i].initialization_time,
                    [&] { units_[i]->exit_initialization(); });
     }
     start_observers();
-    instant_.begin();
-    settle();
-    tell_observers();
+    event_handler_.begin();
+    handle_events();
+    notify_observers();
   }
 
-  void tell_observers() {
+  void notify_observers() {
     outputs_.update();
     for (Observer* observer : observers_) observer->on_communication_point(time_);
   }
@@ -217,18 +217,18 @@ class Simulation::Run {
     }
     time_ = reached;
     if (stepper_.has_requests()) take_requests();
-    clock_.timed(statistics_.phases.instants, [&] { settle(); });
+    clock_.timed(statistics_.phases.instants, [&] { handle_events(); });
     ++statistics_.communication_steps;
     statistics_.parallel_steps += stepper_.was_parallel();
     statistics_.reached = time_;
-    clock_.timed(statistics_.phases.observers, [&] { tell_observers(); });
+    clock_.timed(statistics_.phases.observers, [&] { notify_observers(); });
   }
 
   void take_requests() {
     for (std::size_t i = 0; i < count(); ++i) {
       const StepResult& result = stepper_.result(i);
       if (result.terminate) statistics_.end = RunEnd::EndedByUnit;
-      if (result.event_needed) instant_.request_event(i);
+      if (result.event_needed) event_handler_.request_event(i);
     }
   }
 
@@ -249,12 +249,12 @@ class Simulation::Run {
   Time next_target() {
     const std::optional<Time> rest = ledger_ ? ledger_->all_rest_until() : std::nullopt;
     const Time target = rest ? step_size_.stride(time_, *rest) : step_size_.next(time_);
-    return std::min(target, instant_.next_event().value_or(target));
+    return std::min(target, event_handler_.next_event().value_or(target));
   }
 
-  void settle() {
-    instant_.settle(time_);
-    if (inputs_) inputs_->accept(time_, instant_.had_event());
+  void handle_events() {
+    event_handler_.handle_events(time_);
+    if (inputs_) inputs_->accept(time_, event_handler_.had_event());
   }
 
   void note_stall() {
@@ -284,7 +284,7 @@ class Simulation::Run {
   std::vector<Verdict> verdicts_;
   std::optional<IdleLedger> ledger_;  ///< nothing where nobody may rest
   WallClock clock_;
-  Instant instant_;
+  EventHandler event_handler_;
   Stepper stepper_;
 
   bool has_run_ = false;
