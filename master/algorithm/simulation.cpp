@@ -49,13 +49,12 @@ class Simulation::Run {
         exchange_(system, outputs_.sources()),
         inputs_(make_inputs()),
         statistics_{.units = std::vector<UnitStatistics>(units_.size())},
-        ledger_(make_ledger()),
+        idle_(make_idle_scheduler()),
         clock_(options_.measure_time),
         event_handler_(system, units_, exchange_, observers_, activities_, statistics_, clock_,
-                       ledger_ ? &*ledger_ : nullptr),
+                       idle_ ? &*idle_ : nullptr),
         stepper_(system, units_, exchange_, statistics_.units, activities_, clock_, options_,
-                 options_.sets_inputs_in_steps() ? &*inputs_ : nullptr,
-                 ledger_ ? &*ledger_ : nullptr) {
+                 options_.sets_inputs_in_steps() ? &*inputs_ : nullptr, idle_ ? &*idle_ : nullptr) {
     statistics_.start = statistics_.reached = options_.start;
     outputs_.connect(exchange_);
     if (options_.sets_inputs_in_steps()) lead_inputs_within_steps();
@@ -72,7 +71,7 @@ class Simulation::Run {
     activities_.add(observer);
   }
   const RunStatistics& statistics() const { return statistics_; }
-  Duration rested() const { return ledger_ ? ledger_->rested(time_) : Duration{}; }
+  Duration suspended_time() const { return idle_ ? idle_->suspended_time(time_) : Duration{}; }
   std::span<const Verdict> verdicts() const { return verdicts_; }
 
   void run() {
@@ -82,7 +81,7 @@ class Simulation::Run {
     try {
       clock_.timed(statistics_.phases.initialization, [&] { initialize(); });
       while (goes_on()) communication_step();
-      if (ledger_) ledger_->settle(time_);
+      if (idle_) idle_->catch_up_all(time_);
       if (statistics_.end != RunEnd::Interrupted) verdicts_ = read_verdicts(system_, units_);
       for (auto& unit : units_) unit->terminate();
     } catch (...) {
@@ -92,9 +91,9 @@ class Simulation::Run {
     for (std::size_t i = 0; i < count(); ++i) {
       statistics_.units[i].calls = units_[i]->calls();
       statistics_.units[i].host = units_[i]->host_statistics();
-      statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].rests;
+      statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].suspensions;
     }
-    finish_rests(failure);
+    finish_suspensions(failure);
     finish_observers(failure);
     if (!failure) return;
     verdicts_.clear();
@@ -104,10 +103,10 @@ class Simulation::Run {
  private:
   std::size_t count() const { return units_.size(); }
 
-  void finish_rests(std::exception_ptr& failure) {
-    if (!ledger_ || !failure) return;
+  void finish_suspensions(std::exception_ptr& failure) {
+    if (!idle_ || !failure) return;
     try {
-      ledger_->tell_unfinished_rests(time_);
+      idle_->report_unfinished(time_);
     } catch (...) {  // the first failure is kept
     }
   }
@@ -127,7 +126,7 @@ class Simulation::Run {
     time_ = options_.start;
     configure();
     for (const StartValue& start : system_.start_values()) set(start);
-    if (ledger_) ledger_->enable();
+    if (idle_) idle_->enable();
     for (std::size_t i = 0; i < count(); ++i) {
       clock_.timed(statistics_.units[i].initialization_time,
                    [&] { units_[i]->enter_initialization(options_.start, options_.stop); });
@@ -184,12 +183,12 @@ class Simulation::Run {
     return StepInputs(system_, exchange_, options_.coupling, options_.extrapolation);
   }
 
-  std::optional<IdleLedger> make_ledger() {
+  std::optional<IdleScheduler> make_idle_scheduler() {
     if (!options_.may_skip_idle_time()) return std::nullopt;
-    std::optional<IdleLedger> ledger(std::in_place, system_, units_, exchange_, statistics_.units,
-                                     activities_, options_.idle);
-    if (ledger->is_trivial()) ledger.reset();
-    return ledger;
+    std::optional<IdleScheduler> idle(std::in_place, system_, units_, exchange_, statistics_.units,
+                                      activities_, options_.idle);
+    if (idle->is_trivial()) idle.reset();
+    return idle;
   }
 
   void lead_inputs_within_steps() {
@@ -247,7 +246,7 @@ class Simulation::Run {
 
   /// Where the policy leads to, unless an event is nearer.
   Time next_target() {
-    const std::optional<Time> rest = ledger_ ? ledger_->all_rest_until() : std::nullopt;
+    const std::optional<Time> rest = idle_ ? idle_->all_suspended_until() : std::nullopt;
     const Time target = rest ? step_size_.stride(time_, *rest) : step_size_.next(time_);
     return std::min(target, event_handler_.next_event().value_or(target));
   }
@@ -282,7 +281,7 @@ class Simulation::Run {
   Activities activities_;
   RunStatistics statistics_;
   std::vector<Verdict> verdicts_;
-  std::optional<IdleLedger> ledger_;  ///< nothing where nobody may rest
+  std::optional<IdleScheduler> idle_;  ///< nothing where nobody may rest
   WallClock clock_;
   EventHandler event_handler_;
   Stepper stepper_;
@@ -306,7 +305,7 @@ void Simulation::add_observer(Observer& observer, std::vector<VariableId> signal
 
 void Simulation::run() { run_->run(); }
 
-Duration Simulation::rested() const { return run_->rested(); }
+Duration Simulation::suspended_time() const { return run_->suspended_time(); }
 
 const RunStatistics& Simulation::statistics() const { return run_->statistics(); }
 

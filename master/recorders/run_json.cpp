@@ -46,10 +46,10 @@ void add(Json& entry, const core::UnitStatistics& unit) {
   entry["events"] = unit.events;
   entry["messages_sent"] = unit.messages_sent;
   entry["messages_received"] = unit.messages_received;
-  if (unit.rests > 0) {
-    entry["idle"] = {{"rests", unit.rests},
-                     {"skipped", to_seconds(unit.rested)},
-                     {"longest", to_seconds(unit.longest_rest)}};
+  if (unit.suspensions > 0) {
+    entry["idle"] = {{"rests", unit.suspensions},
+                     {"skipped", to_seconds(unit.suspended_time)},
+                     {"longest", to_seconds(unit.longest_suspension)}};
   }
   entry["wall_time"] = {{"initialization", seconds(unit.initialization_time)},
                         {"steps", seconds(unit.step_time)},

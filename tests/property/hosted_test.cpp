@@ -202,10 +202,10 @@ TEST_CASE("nor do processes where units are left alone while they are idle") {
   options.idle.max_skip.assign(3, Duration(7ms));
   options.idle.least = kStep;
   const Results expected = run(system, options);
-  CHECK(expected.units.at("tank").rests > 3);
+  CHECK(expected.units.at("tank").suspensions > 3);
   const Results results = run(system.hosted(), options);
   check_same(results, expected);
-  CHECK(results.units.at("tank").rests == expected.units.at("tank").rests);
+  CHECK(results.units.at("tank").suspensions == expected.units.at("tank").suspensions);
 }
 
 TEST_CASE("nor do they for what clocks of the time sample, and for units of FMI 2.0") {

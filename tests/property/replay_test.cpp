@@ -176,7 +176,7 @@ TEST_CASE("so it is where the component was left alone while it was idle") {
   options.idle.max_skip.assign(3, max_skip);
   options.idle.least = kStep;
   const Replay result = replay(system, "tank", options, max_skip);
-  CHECK(result.original.units.at("tank").rests > 3);
+  CHECK(result.original.units.at("tank").suspensions > 3);
   CHECK(result.original.units.at("tank").messages_sent > 3);
   CHECK(event_times(result.stimuli).size() > 20);
   check_same(result, "tank", true);

@@ -18,7 +18,7 @@ constexpr std::uint32_t kEventLimit = 1000;
 EventHandler::EventHandler(const System& system, std::span<const std::unique_ptr<Unit>> units,
                            Exchange& exchange, std::vector<Observer*>& observers,
                            const Activities& activities, RunStatistics& statistics, WallClock clock,
-                           IdleLedger* ledger)
+                           IdleScheduler* idle)
     : system_(system),
       units_(units),
       exchange_(exchange),
@@ -28,7 +28,7 @@ EventHandler::EventHandler(const System& system, std::span<const std::unique_ptr
       activities_(activities),
       statistics_(statistics),
       clock_(clock),
-      ledger_(ledger),
+      idle_(idle),
       active_(units.size()),
       in_event_mode_(units.size()),
       had_event_(units.size()),
@@ -67,8 +67,8 @@ void EventHandler::handle_events(Time time) {
   time_ = time;
   if (std::exchange(had_any_event_, false)) std::fill(had_event_.begin(), had_event_.end(), false);
   if (announced_ && *announced_ <= time) activate_announced();
-  if (ledger_ != nullptr) {
-    for (const std::size_t i : ledger_->come_to(time)) request_event(i);
+  if (idle_ != nullptr) {
+    for (const std::size_t i : idle_->advance_to(time)) request_event(i);
   }
   route();
   for (std::uint32_t count = 0; prepare_events(); ++count) {
@@ -79,14 +79,14 @@ void EventHandler::handle_events(Time time) {
     if (terminates) break;
   }
   if (has_event_) leave_event_mode();
-  if (ledger_ != nullptr) ledger_->rest(time);
+  if (idle_ != nullptr) idle_->suspend_idle(time);
 }
 
 /// Whoever is disturbed by what reaches it is exact again, which may disturb others.
 void EventHandler::route() {
   exchange_.route(time_);
-  if (ledger_ == nullptr) return;
-  while (ledger_->wake_disturbed(time_)) exchange_.route(time_);
+  if (idle_ == nullptr) return;
+  while (idle_->catch_up_disturbed(time_)) exchange_.route(time_);
 }
 
 void EventHandler::activate_announced() {
@@ -133,7 +133,7 @@ bool EventHandler::prepare_events() {
 
 void EventHandler::enter_event_mode(std::size_t i) {
   if (in_event_mode_[i]) return;
-  if (ledger_ != nullptr && ledger_->rests(i)) ledger_->wake_and_tell(i, time_);
+  if (idle_ != nullptr && idle_->is_suspended(i)) idle_->catch_up_and_report(i, time_);
   units_[i]->enter_event_mode();
   in_event_mode_[i] = has_event_ = true;
   exchange_.deliver(i, *units_[i]);

@@ -29,11 +29,11 @@ namespace stride::core {
 class EventHandler : private Evaluation::Participants {
  public:
   /// `units` in the order of system.components(); `observers` hear of the messages, and
-  /// `activities` tells of the events. All of them must outlive this object. `ledger`: who rests;
+  /// `activities` tells of the events. All of them must outlive this object. `idle`: who rests;
   /// null if nobody does.
   EventHandler(const System& system, std::span<const std::unique_ptr<Unit>> units,
                Exchange& exchange, std::vector<Observer*>& observers, const Activities& activities,
-               RunStatistics& statistics, WallClock clock, IdleLedger* ledger = nullptr);
+               RunStatistics& statistics, WallClock clock, IdleScheduler* idle = nullptr);
 
   /// Before the end of Initialization Mode: asks for the first ticks of the time-based clocks.
   void begin_clocks(Time start) { clocks_.begin(start); }
@@ -99,7 +99,7 @@ class EventHandler : private Evaluation::Participants {
   const Activities& activities_;
   RunStatistics& statistics_;
   WallClock clock_;
-  IdleLedger* ledger_;
+  IdleScheduler* idle_;
 
   Time time_{};
   std::uint32_t index_ = 0;                  ///< of the super-dense instant at that time

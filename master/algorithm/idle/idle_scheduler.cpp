@@ -9,112 +9,113 @@
 
 namespace stride::core {
 
-IdleLedger::IdleLedger(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                       Exchange& exchange, std::vector<UnitStatistics>& statistics,
-                       const Activities& activities, const IdleOptions& options)
+IdleScheduler::IdleScheduler(const System& system, std::span<const std::unique_ptr<Unit>> units,
+                             Exchange& exchange, std::vector<UnitStatistics>& statistics,
+                             const Activities& activities, const IdleOptions& options)
     : system_(system),
       units_(units),
       exchange_(exchange),
       statistics_(statistics),
       activities_(activities),
       options_(options),
-      accounts_(units.size()) {
+      states_(units.size()) {
   for (std::size_t i = 0; i < std::min(units.size(), options.max_skip.size()); ++i) {
     const std::optional<Duration>& max_skip = options.max_skip[i];
-    if (max_skip && system.components()[i].description->promises_idle) open(i, *max_skip);
+    if (max_skip && system.components()[i].description->promises_idle) add_candidate(i, *max_skip);
   }
 }
 
-void IdleLedger::open(std::size_t component, Duration max_skip) {
+void IdleScheduler::add_candidate(std::size_t component, Duration max_skip) {
   candidates_.push_back(component);
-  Account& account = accounts_[component];
-  account.is_candidate = true;
-  account.max_skip = max_skip;
+  IdleState& state = states_[component];
+  state.is_candidate = true;
+  state.max_skip = max_skip;
   for (const auto& [id, element] : exchange_.continuous_inputs(component)) {
     double deadband = system_.variable(id).deadband;
     for (const IdleSetting& setting : options_.deadbands) {
       if (setting.id == id) deadband = setting.value;
     }
-    account.inputs.push_back({element, deadband});
+    state.inputs.push_back({element, deadband});
   }
   std::size_t elements = 0;
   for (const auto& [id, element] : exchange_.outputs_with_tolerance(component)) {
-    if (elements == account.tangents.size()) {
-      account.references.push_back(system_.variable(id).reference);
+    if (elements == state.tangents.size()) {
+      state.references.push_back(system_.variable(id).reference);
       elements += system_.variable(id).size;
     }
-    account.tangents.push_back({element});
+    state.tangents.push_back({element});
   }
-  account.slopes.resize(elements);
+  state.slopes.resize(elements);
 }
 
-void IdleLedger::enable() {
-  for (const std::size_t i : candidates_) units_[i]->enable_idle_skipping(accounts_[i].max_skip);
+void IdleScheduler::enable() {
+  for (const std::size_t i : candidates_) units_[i]->enable_idle_skipping(states_[i].max_skip);
   for (const IdleSetting& setting : options_.tolerances) {
-    if (!may_rest(setting.id.component)) continue;
+    if (!may_suspend(setting.id.component)) continue;
     units_[setting.id.component]->set_idle_tolerances({&system_.variable(setting.id).reference, 1},
                                                       {&setting.value, 1});
   }
 }
 
-std::optional<Time> IdleLedger::all_rest_until() const {
-  if (candidates_.size() != accounts_.size()) return std::nullopt;
+std::optional<Time> IdleScheduler::all_suspended_until() const {
+  if (candidates_.size() != states_.size()) return std::nullopt;
   Time earliest = Time::max();
-  for (const Account& account : accounts_) {
-    if (!account.rests) return std::nullopt;
-    earliest = std::min(earliest, account.end);
+  for (const IdleState& state : states_) {
+    if (!state.is_suspended) return std::nullopt;
+    earliest = std::min(earliest, state.end);
   }
   return earliest;
 }
 
-Duration IdleLedger::rested(Time time) const {
+Duration IdleScheduler::suspended_time(Time time) const {
   Duration sum{};
   for (const std::size_t i : candidates_) {
-    sum += statistics_[i].rested;
-    if (accounts_[i].rests) sum += time - accounts_[i].since;
+    sum += statistics_[i].suspended_time;
+    if (states_[i].is_suspended) sum += time - states_[i].since;
   }
   return sum;
 }
 
-bool IdleLedger::wake(std::size_t component, Time time) {
-  Account& account = accounts_[component];
-  account.rests = false;
-  const Duration debt = time - account.since;
-  if (debt == Duration{}) return false;
-  account.ended = time;
-  const StepResult result = units_[component]->step({account.since, time});
+bool IdleScheduler::catch_up(std::size_t component, Time time) {
+  IdleState& state = states_[component];
+  state.is_suspended = false;
+  const Duration lag = time - state.since;
+  if (lag == Duration{}) return false;
+  state.unreported_end = time;
+  const StepResult result = units_[component]->step({state.since, time});
   check_promise(component, time, result);
   exchange_.fetch(component, *units_[component]);
   UnitStatistics& statistics = statistics_[component];
-  ++statistics.rests;
-  statistics.rested += debt;
-  statistics.longest_rest = std::max(statistics.longest_rest, debt);
+  ++statistics.suspensions;
+  statistics.suspended_time += lag;
+  statistics.longest_suspension = std::max(statistics.longest_suspension, lag);
   return result.event_needed;
 }
 
-void IdleLedger::tell_rest(std::size_t component) {
-  Account& account = accounts_[component];
-  const std::optional<Time> ended = std::exchange(account.ended, std::nullopt);
-  if (ended) activities_.tell({component, Activity::Kind::Idle, account.since, *ended});
+void IdleScheduler::report_suspension(std::size_t component) {
+  IdleState& state = states_[component];
+  const std::optional<Time> ended = std::exchange(state.unreported_end, std::nullopt);
+  if (ended) activities_.tell({component, Activity::Kind::Idle, state.since, *ended});
 }
 
-bool IdleLedger::wake_and_tell(std::size_t component, Time time) {
-  const bool has_event = wake(component, time);
-  tell_rest(component);
+bool IdleScheduler::catch_up_and_report(std::size_t component, Time time) {
+  const bool has_event = catch_up(component, time);
+  report_suspension(component);
   return has_event;
 }
 
-void IdleLedger::tell_unfinished_rests(Time time) {
+void IdleScheduler::report_unfinished(Time time) {
   for (const std::size_t i : candidates_) {
-    Account& account = accounts_[i];
-    if (std::exchange(account.rests, false) && account.since < time) account.ended = time;
-    tell_rest(i);
+    IdleState& state = states_[i];
+    if (std::exchange(state.is_suspended, false) && state.since < time) state.unreported_end = time;
+    report_suspension(i);
   }
 }
 
-void IdleLedger::check_promise(std::size_t component, Time time, const StepResult& result) const {
-  const Account& account = accounts_[component];
-  const bool is_early_event = result.event_needed && time < account.until;
+void IdleScheduler::check_promise(std::size_t component, Time time,
+                                  const StepResult& result) const {
+  const IdleState& state = states_[component];
+  const bool is_early_event = result.event_needed && time < state.until;
   if (!result.rejected && result.reached == time && !is_early_event) return;
   const std::string deed = result.rejected ? "rejects the step to there"
                            : result.reached != time
@@ -123,80 +124,79 @@ void IdleLedger::check_promise(std::size_t component, Time time, const StepResul
   fail_run(
       {{}, system_.components()[component].name, {}, time},
       fmt::format(
-          "the unit promised at {} s to be idle until {}, but {}", to_text(account.since),
-          account.until == Time::max() ? "something disturbs it" : to_text(account.until) + " s",
-          deed),
+          "the unit promised at {} s to be idle until {}, but {}", to_text(state.since),
+          state.until == Time::max() ? "something disturbs it" : to_text(state.until) + " s", deed),
       "the promise is the unit's own fault; until it is mended, switch idle skipping off for "
       "it");
 }
 
-std::span<const std::size_t> IdleLedger::come_to(Time time) {
+std::span<const std::size_t> IdleScheduler::advance_to(Time time) {
   events_.clear();
   for (const std::size_t i : candidates_) {
-    Account& account = accounts_[i];
-    if (!account.rests) continue;
-    if (account.end <= time) {
-      if (wake_and_tell(i, time)) events_.push_back(i);
+    IdleState& state = states_[i];
+    if (!state.is_suspended) continue;
+    if (state.end <= time) {
+      if (catch_up_and_report(i, time)) events_.push_back(i);
       continue;
     }
-    const double elapsed = to_seconds(time - account.since);
-    for (const Tangent& tangent : account.tangents) {
+    const double elapsed = to_seconds(time - state.since);
+    for (const Tangent& tangent : state.tangents) {
       tangent.element.set(tangent.value + tangent.slope * elapsed);
     }
   }
   return events_;
 }
 
-bool IdleLedger::is_disturbed(const Account& account) const {
-  return std::any_of(account.inputs.begin(), account.inputs.end(), [](const WatchedInput& input) {
+bool IdleScheduler::is_disturbed(const IdleState& state) const {
+  return std::any_of(state.inputs.begin(), state.inputs.end(), [](const WatchedInput& input) {
     return !(std::abs(input.element.get() - input.held) <= input.deadband);
   });
 }
 
-bool IdleLedger::wake_disturbed(Time time) {
+bool IdleScheduler::catch_up_disturbed(Time time) {
   bool any = false;
   for (const std::size_t i : candidates_) {
-    if (!accounts_[i].rests) continue;
-    if (!exchange_.has_discrete_change(i) && !is_disturbed(accounts_[i])) continue;
-    any |= accounts_[i].since < time;
-    wake_and_tell(i, time);
+    if (!states_[i].is_suspended) continue;
+    if (!exchange_.has_discrete_change(i) && !is_disturbed(states_[i])) continue;
+    any |= states_[i].since < time;
+    catch_up_and_report(i, time);
   }
   return any;
 }
 
-void IdleLedger::rest(Time time) {
+void IdleScheduler::suspend_idle(Time time) {
   for (const std::size_t i : candidates_) {
-    if (accounts_[i].rests) continue;
+    if (states_[i].is_suspended) continue;
     exchange_.deliver_routed(i, *units_[i]);
     const Time until = units_[i]->idle_until();
     if (until <= time) continue;
-    const Duration max_skip = accounts_[i].max_skip;
+    const Duration max_skip = states_[i].max_skip;
     const bool is_bounded = max_skip != Duration::max() && time + max_skip < until;
     const Time end = is_bounded ? time + max_skip : until;
-    if (end - options_.least >= time) begin_rest(i, time, until, end);
+    if (end - options_.least >= time) suspend(i, time, until, end);
   }
 }
 
-void IdleLedger::begin_rest(std::size_t component, Time time, Time until, Time end) {
-  Account& account = accounts_[component];
-  account.rests = true;
-  account.since = time;
-  account.until = until;
-  account.end = end;
+void IdleScheduler::suspend(std::size_t component, Time time, Time until, Time end) {
+  IdleState& state = states_[component];
+  state.is_suspended = true;
+  state.since = time;
+  state.until = until;
+  state.end = end;
   exchange_.fetch(component, *units_[component]);
-  for (WatchedInput& input : account.inputs) input.held = input.element.get();
-  if (account.tangents.empty()) return;
-  units_[component]->get_derivatives(account.references, account.slopes);
-  for (std::size_t k = 0; k < account.tangents.size(); ++k) {
-    Tangent& tangent = account.tangents[k];
+  for (WatchedInput& input : state.inputs) input.held = input.element.get();
+  if (state.tangents.empty()) return;
+  units_[component]->get_derivatives(state.references, state.slopes);
+  for (std::size_t k = 0; k < state.tangents.size(); ++k) {
+    Tangent& tangent = state.tangents[k];
     tangent.value = tangent.element.get();
-    tangent.slope = account.slopes[k];
+    tangent.slope = state.slopes[k];
   }
 }
 
-void IdleLedger::settle(Time time) {
+void IdleScheduler::catch_up_all(Time time) {
   for (const std::size_t i : candidates_) {
-    if (accounts_[i].rests) wake_and_tell(i, time);
+    if (states_[i].is_suspended) catch_up_and_report(i, time);
   }
 }
 

@@ -24,7 +24,7 @@ Stepper::Lane::Lane(Unit& stepped, const StepPlace& its_place)
 Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units,
                  Exchange& exchange, std::vector<UnitStatistics>& statistics,
                  const Activities& activities, WallClock clock, const RunOptions& options,
-                 StepInputs* inputs, IdleLedger* ledger)
+                 StepInputs* inputs, IdleScheduler* idle)
     : system_(system),
       unit_count_(units.size()),
       exchange_(exchange),
@@ -33,7 +33,7 @@ Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> un
       clock_(clock),
       step_clock_(clock),
       inputs_(inputs),
-      ledger_(ledger),
+      idle_(idle),
       regular_(options.step.size),
       minimum_(options.step.minimum),
       order_(step_order(system, options.step.policy, options.coupling)),
@@ -44,9 +44,9 @@ Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> un
   for (const StepPlace& place : order_) {
     lane_of_[place.component] = lanes_.size();
     Lane& lane = lanes_.emplace_back(*units[place.component], place);
-    lane.may_rest = ledger != nullptr && ledger->may_rest(place.component);
+    lane.may_suspend = idle != nullptr && idle->may_suspend(place.component);
     lane.is_plain =
-        inputs == nullptr && !place.saves_state && place.can_vary_step && !lane.may_rest;
+        inputs == nullptr && !place.saves_state && place.can_vary_step && !lane.may_suspend;
   }
   for (std::size_t first = 0, i = 0; i < order_.size(); ++i) {
     if (i + 1 < order_.size() && order_[i + 1].stage == order_[i].stage) continue;
@@ -194,7 +194,7 @@ inline Stepper::Outcome Stepper::go_timed(Lane& lane, const StepInterval& interv
 
 inline Stepper::Outcome Stepper::go(Lane& lane, const StepInterval& interval) {
   lane.saved = lane.rolled_back = false;
-  if (lane.may_rest && rests_on(lane, interval)) return Outcome::Stood;
+  if (lane.may_suspend && stays_suspended(lane, interval)) return Outcome::Stood;
   if (lane.communication_step != communication_step_) [[likely]] {
     lane.communication_step = communication_step_;
     lane.result = {.reached = interval.from};
@@ -220,10 +220,10 @@ inline Stepper::Outcome Stepper::go(Lane& lane, const StepInterval& interval) {
 
 /// Whether the unit rests and can be left alone up to the end of the step. If it cannot, it is
 /// brought to where the step begins.
-bool Stepper::rests_on(Lane& lane, const StepInterval& interval) {
-  if (!ledger_->rests(lane.component)) return false;
-  if (!ledger_->covers(lane.component, interval.to)) {
-    ledger_->wake(lane.component, interval.from);
+bool Stepper::stays_suspended(Lane& lane, const StepInterval& interval) {
+  if (!idle_->is_suspended(lane.component)) return false;
+  if (!idle_->covers(lane.component, interval.to)) {
+    idle_->catch_up(lane.component, interval.from);
     return false;
   }
   lane.communication_step = communication_step_;
@@ -253,7 +253,7 @@ void Stepper::restore(Lane& lane, Time from) {
 
 /// Counts what the unit did, and returns how far it lets the others go.
 inline Time Stepper::take_down(Lane& lane, const StepInterval& interval) {
-  if (lane.may_rest) ledger_->tell_rest(lane.component);
+  if (lane.may_suspend) idle_->report_suspension(lane.component);
   if (lane.saves_state) {
     UnitStatistics& statistics = statistics_[lane.component];
     statistics.saves += lane.saved;

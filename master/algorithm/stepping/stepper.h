@@ -39,11 +39,11 @@ class Stepper {
  public:
   /// `units` in the order of system.components(). `activities`: who hears of steps that are not
   /// ordinary. `inputs`: who sets them before each step; null
-  /// if they stay what they are. `ledger`: who rests; null if nobody does. Throws Error as
+  /// if they stay what they are. `idle`: who rests; null if nobody does. Throws Error as
   /// step_order() does.
   Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units, Exchange& exchange,
           std::vector<UnitStatistics>& statistics, const Activities& activities, WallClock clock,
-          const RunOptions& options, StepInputs* inputs = nullptr, IdleLedger* ledger = nullptr);
+          const RunOptions& options, StepInputs* inputs = nullptr, IdleScheduler* idle = nullptr);
 
   const std::vector<StepPlace>& order() const { return order_; }
 
@@ -82,7 +82,7 @@ class Stepper {
     std::uint32_t component;  ///< these three are the place's
     bool saves_state;
     bool can_vary_step;
-    bool may_rest = false;
+    bool may_suspend = false;
     bool is_plain = false;                 ///< there is nothing to do but the step itself
     StepResult result{};                   ///< where it stands, and how it came there
     Time possible{};                       ///< how far it would have come in a rejected step
@@ -114,7 +114,7 @@ class Stepper {
   bool step_plainly(Lane& lane, const StepInterval& interval);
   Outcome go_timed(Lane& lane, const StepInterval& interval);
   Outcome go(Lane& lane, const StepInterval& interval);
-  bool rests_on(Lane& lane, const StepInterval& interval);
+  bool stays_suspended(Lane& lane, const StepInterval& interval);
   void save(Lane& lane);
   void go_back(Lane& lane, const StepInterval& interval);
   void restore(Lane& lane, Time from);
@@ -145,7 +145,7 @@ class Stepper {
   WallClock clock_;
   WallClock step_clock_;  ///< measures where the work is to be split, too
   StepInputs* inputs_;
-  IdleLedger* ledger_;
+  IdleScheduler* idle_;
   Duration regular_;  ///< the size that units which cannot vary theirs must be given
   Duration minimum_;  ///< a shorter step than this is not asked for after a rejection
   std::vector<StepPlace> order_;
