@@ -271,7 +271,7 @@ class Simulation::Run {
   const System& system_;
   std::vector<std::unique_ptr<Unit>> units_;
   RunOptions options_;
-  StepSize step_size_;
+  StepSizeController step_size_;
   std::vector<VariableId> observed_;  ///< sorted
   SystemOutputs outputs_;
   Exchange exchange_;

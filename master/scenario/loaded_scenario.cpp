@@ -219,7 +219,8 @@ void LoadedScenario::choose_hosts(const HostRequest& request) {
 }
 
 void LoadedScenario::check_steps() const {
-  core::StepSize(*system_, options_);  // throws where a unit cannot do what the policy needs
+  core::StepSizeController(*system_,
+                           options_);  // throws where a unit cannot do what the policy needs
   if (options_.step.policy != core::StepPolicy::Fixed) return;
   check_fixed_steps();
   warn_of_internal_steps();

@@ -24,7 +24,7 @@ Duration scaled(Duration duration, double factor) {
 
 }  // namespace
 
-StepSize::StepSize(const System& system, const RunOptions& options)
+StepSizeController::StepSizeController(const System& system, const RunOptions& options)
     : system_(system),
       options_(options.step),
       start_(options.start),
@@ -46,7 +46,7 @@ StepSize::StepSize(const System& system, const RunOptions& options)
 }
 
 /// Where no multiple of all internal steps lies within the run, those that came first count.
-void StepSize::refine_quantum(Duration internal) {
+void StepSizeController::refine_quantum(Duration internal) {
   if (internal <= Duration{}) return;
   const std::int64_t factor = internal.count() / std::gcd(quantum_.count(), internal.count());
   std::int64_t multiple = 0;
@@ -54,7 +54,7 @@ void StepSize::refine_quantum(Duration internal) {
   if (Duration(multiple) <= stop_ - start_) quantum_ = Duration(multiple);
 }
 
-void StepSize::check_units(const System& system) const {
+void StepSizeController::check_units(const System& system) const {
   const bool varies =
       options_.policy != StepPolicy::Fixed || (maximum_ && *maximum_ < options_.size);
   std::vector<std::string> rigid;
@@ -81,7 +81,7 @@ void StepSize::check_units(const System& system) const {
   }
 }
 
-Time StepSize::next(Time now) {
+Time StepSizeController::next(Time now) {
   Time target = stop_;
   if (options_.policy == StepPolicy::Fixed) {
     const Duration since = now == grid_point_ ? Duration{} : (now - start_) % options_.size;
@@ -96,7 +96,7 @@ Time StepSize::next(Time now) {
   return target;
 }
 
-Time StepSize::stride(Time now, Time quiet_until) {
+Time StepSizeController::stride(Time now, Time quiet_until) {
   const Time regular = next(now);
   Time farthest = std::min(quiet_until, stop_);
   if (maximum_ && farthest - now > *maximum_) farthest = now + *maximum_;
@@ -106,14 +106,14 @@ Time StepSize::stride(Time now, Time quiet_until) {
   return grid_point_;
 }
 
-Time StepSize::on_internal_grid(Time time, Time now) const {
+Time StepSizeController::on_internal_grid(Time time, Time now) const {
   const Time before = time - (time - start_) % quantum_;
   if (before > now) return before;
   const Time after = std::min(stop_, before + quantum_);
   return maximum_ && after - now > *maximum_ ? time : after;
 }
 
-bool StepSize::accept(Time from, Time reached, const Excess& excess) {
+bool StepSizeController::accept(Time from, Time reached, const Excess& excess) {
   const Duration used = reached - from;
   if (used == Duration{}) return true;
   if (excess.ratio > 1) {
@@ -136,7 +136,7 @@ bool StepSize::accept(Time from, Time reached, const Excess& excess) {
   return true;
 }
 
-void StepSize::fail_tolerance(Time from, Time reached, const Excess& excess) const {
+void StepSizeController::fail_tolerance(Time from, Time reached, const Excess& excess) const {
   const bool is_grid = quantum_ > options_.minimum;
   fail_run(
       {{},

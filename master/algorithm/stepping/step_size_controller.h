@@ -1,6 +1,6 @@
 // How far the next communication step goes, as far as no event ends it.
-#ifndef STRIDE_MASTER_ALGORITHM_STEPPING_STEP_SIZE_H
-#define STRIDE_MASTER_ALGORITHM_STEPPING_STEP_SIZE_H
+#ifndef STRIDE_MASTER_ALGORITHM_STEPPING_STEP_SIZE_CONTROLLER_H
+#define STRIDE_MASTER_ALGORITHM_STEPPING_STEP_SIZE_CONTROLLER_H
 
 #include <optional>
 
@@ -14,11 +14,11 @@ namespace stride::core {
 
 /// The step policy of a run. No step is longer than a unit says it can be (maximum_step). Steps
 /// that are not on a grid end on the units' fixed internal steps, as far as events and maxima let.
-class StepSize {
+class StepSizeController {
  public:
   /// Throws Error (Input) where a unit cannot do what the policy needs: steps of various sizes, and
   /// with ErrorControlled also to be rolled back.
-  StepSize(const System& system, const RunOptions& options);
+  StepSizeController(const System& system, const RunOptions& options);
 
   /// The communication point to go to: later than `now`, and the stop time at most.
   Time next(Time now);
