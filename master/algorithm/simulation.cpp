@@ -47,7 +47,7 @@ class Simulation::Run {
         observed_(observed(options_)),
         outputs_(system, observed_),
         exchange_(system, outputs_.sources()),
-        inputs_(make_inputs()),
+        inputs_(make_input_extrapolator()),
         statistics_{.units = std::vector<UnitStatistics>(units_.size())},
         idle_(make_idle_scheduler()),
         clock_(options_.measure_time),
@@ -57,7 +57,7 @@ class Simulation::Run {
                  options_.sets_inputs_in_steps() ? &*inputs_ : nullptr, idle_ ? &*idle_ : nullptr) {
     statistics_.start = statistics_.reached = options_.start;
     outputs_.connect(exchange_);
-    if (options_.sets_inputs_in_steps()) lead_inputs_within_steps();
+    if (options_.sets_inputs_in_steps()) connect_input_updates();
   }
 
   void add_observer(Observer& observer) { add_observer(observer, options_.recorded); }
@@ -178,9 +178,9 @@ class Simulation::Run {
   }
 
   /// Nothing where nobody would use it.
-  std::optional<StepInputs> make_inputs() {
+  std::optional<InputExtrapolator> make_input_extrapolator() {
     if (!options_.sets_inputs_in_steps() && !step_size_.controls_error()) return std::nullopt;
-    return StepInputs(system_, exchange_, options_.coupling, options_.extrapolation);
+    return InputExtrapolator(system_, exchange_, options_.coupling, options_.extrapolation);
   }
 
   std::optional<IdleScheduler> make_idle_scheduler() {
@@ -191,7 +191,7 @@ class Simulation::Run {
     return idle;
   }
 
-  void lead_inputs_within_steps() {
+  void connect_input_updates() {
     for (std::size_t i = 0; i < count(); ++i) {
       Unit& unit = *units_[i];
       unit.set_input_update(
@@ -275,7 +275,7 @@ class Simulation::Run {
   std::vector<VariableId> observed_;  ///< sorted
   SystemOutputs outputs_;
   Exchange exchange_;
-  std::optional<StepInputs> inputs_;
+  std::optional<InputExtrapolator> inputs_;
   std::vector<Observer*> observers_;
   std::vector<std::vector<VariableId>> wanted_;  ///< the signals of each of them
   Activities activities_;

@@ -5,43 +5,43 @@
 
 namespace stride::core {
 
-StepInputs::StepInputs(const System& system, Exchange& exchange, Coupling coupling,
-                       Extrapolation extrapolation)
+InputExtrapolator::InputExtrapolator(const System& system, Exchange& exchange, Coupling coupling,
+                                     Extrapolation extrapolation)
     : exchange_(exchange),
       sequential_(coupling == Coupling::GaussSeidel),
       sources_(system.components().size()),
       steps_(system.components().size()),
       feeds_(system.components().size()) {
-  Places places;
+  SignalIndices indices;
   for (const ContinuousLink& link : exchange.continuous_links()) {
     std::vector<Feed>& feeds = feeds_[link.to.component];
     auto feed = std::find_if(feeds.begin(), feeds.end(),
                              [&](const Feed& f) { return f.source == link.from.component; });
     if (feed == feeds.end()) feed = feeds.insert(feed, {link.from.component, {}});
-    feed->links.push_back({signal_of(link, places), system.variable(link.to).intermediate_update,
-                           link.target, link.conversion});
+    feed->inputs.push_back({signal_of(link, indices), system.variable(link.to).intermediate_update,
+                            link.target, link.conversion});
   }
   for (Source& source : sources_) {
     source.history = SignalHistory(source.signals.size(), static_cast<unsigned>(extrapolation));
   }
 }
 
-std::size_t StepInputs::signal_of(const ContinuousLink& link, Places& places) {
+std::size_t InputExtrapolator::signal_of(const ContinuousLink& link, SignalIndices& indices) {
   Source& source = sources_[link.from.component];
-  const auto [place, is_new] = places.emplace(link.source, source.signals.size());
+  const auto [index, is_new] = indices.emplace(link.source, source.signals.size());
   if (is_new) {
     source.signals.push_back(link.source);
     source.ids.push_back(link.from);
   }
-  return place->second;
+  return index->second;
 }
 
-void StepInputs::sample(Source& source, Time time) {
+void InputExtrapolator::sample(Source& source, Time time) {
   const std::span<double> values = source.history.add(time);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = source.signals[i].get();
 }
 
-void StepInputs::accept(Time time, std::span<const char> had_event) {
+void InputExtrapolator::accept(Time time, std::span<const char> had_event) {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     Source& source = sources_[i];
     if (source.signals.empty()) continue;
@@ -54,16 +54,16 @@ void StepInputs::accept(Time time, std::span<const char> had_event) {
   }
 }
 
-void StepInputs::set_targets(const Feed& feed, const SignalHistory& history,
-                             const SignalHistory::Weights& weights, bool within_step) {
-  for (const Link& link : feed.links) {
-    if (link.within_step != within_step) continue;
-    const double value = history.value(link.signal, weights);
-    link.target.set(link.conversion.factor * value + link.conversion.offset);
+void InputExtrapolator::set_targets(const Feed& feed, const SignalHistory& history,
+                                    const SignalHistory::Weights& weights, bool within_step) {
+  for (const FedInput& input : feed.inputs) {
+    if (input.within_step != within_step) continue;
+    const double value = history.value(input.signal, weights);
+    input.target.set(input.conversion.factor * value + input.conversion.offset);
   }
 }
 
-void StepInputs::before_step(std::size_t component, const StepInterval& interval) {
+void InputExtrapolator::before_step(std::size_t component, const StepInterval& interval) {
   if (feeds_[component].empty()) return;
   steps_[component] = {interval.from, interval.to};
   for (const Feed& feed : feeds_[component]) {
@@ -76,7 +76,7 @@ void StepInputs::before_step(std::size_t component, const StepInterval& interval
   exchange_.note_change(component);
 }
 
-void StepInputs::within_step(std::size_t component, Unit& unit, double seconds_into_step) {
+void InputExtrapolator::within_step(std::size_t component, Unit& unit, double seconds_into_step) {
   const auto [from, to] = steps_[component];
   for (const Feed& feed : feeds_[component]) {
     const SignalHistory& history = sources_[feed.source].history;
@@ -85,7 +85,7 @@ void StepInputs::within_step(std::size_t component, Unit& unit, double seconds_i
   exchange_.deliver_within_step(component, unit);
 }
 
-void StepInputs::after_step(std::size_t component, Time reached) {
+void InputExtrapolator::after_step(std::size_t component, Time reached) {
   Source& source = sources_[component];
   if (!sequential_ || source.signals.empty() || source.history.newest() == reached) return;
   sample(source, reached);
@@ -94,14 +94,14 @@ void StepInputs::after_step(std::size_t component, Time reached) {
                               [](const RealElement& signal) { return std::isnan(signal.get()); });
 }
 
-void StepInputs::undo_step(std::size_t component) {
+void InputExtrapolator::undo_step(std::size_t component) {
   Source& source = sources_[component];
   if (!source.is_ahead) return;  // never, with Jacobi, where other threads look at it
   source.history.remove_newest();
   source.is_ahead = false;
 }
 
-Excess StepInputs::excess(Time time, double absolute, double relative) {
+Excess InputExtrapolator::excess(Time time, double absolute, double relative) {
   Excess worst;
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const Source& source = sources_[i];

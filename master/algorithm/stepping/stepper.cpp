@@ -24,7 +24,7 @@ Stepper::Lane::Lane(Unit& stepped, const StepPlace& its_place)
 Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units,
                  Exchange& exchange, std::vector<UnitStatistics>& statistics,
                  const Activities& activities, WallClock clock, const RunOptions& options,
-                 StepInputs* inputs, IdleScheduler* idle)
+                 InputExtrapolator* inputs, IdleScheduler* idle)
     : system_(system),
       unit_count_(units.size()),
       exchange_(exchange),

@@ -43,7 +43,8 @@ class Stepper {
   /// step_order() does.
   Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units, Exchange& exchange,
           std::vector<UnitStatistics>& statistics, const Activities& activities, WallClock clock,
-          const RunOptions& options, StepInputs* inputs = nullptr, IdleScheduler* idle = nullptr);
+          const RunOptions& options, InputExtrapolator* inputs = nullptr,
+          IdleScheduler* idle = nullptr);
 
   const std::vector<StepPlace>& order() const { return order_; }
 
@@ -144,7 +145,7 @@ class Stepper {
   const Activities& activities_;
   WallClock clock_;
   WallClock step_clock_;  ///< measures where the work is to be split, too
-  StepInputs* inputs_;
+  InputExtrapolator* inputs_;
   IdleScheduler* idle_;
   Duration regular_;  ///< the size that units which cannot vary theirs must be given
   Duration minimum_;  ///< a shorter step than this is not asked for after a rejection
