@@ -40,7 +40,7 @@ Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> un
       lane_of_(units.size()),
       times_(units.size()),
       failures_(units.size()),
-      split_(plan(options)) {
+      balancer_(plan(options)) {
   for (const StepPlace& place : order_) {
     lane_of_[place.component] = lanes_.size();
     Lane& lane = lanes_.emplace_back(*units[place.component], place);
@@ -55,8 +55,8 @@ Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> un
   }
 }
 
-WorkSplit::Plan Stepper::plan(const RunOptions& options) {
-  WorkSplit::Plan plan;
+LoadBalancer::Plan Stepper::plan(const RunOptions& options) {
+  LoadBalancer::Plan plan;
   plan.threads = options.coupling == Coupling::GaussSeidel ? 1 : options.threads.count;
   plan.always = options.threads.always;
   if (!plan.always) {
@@ -75,7 +75,7 @@ WorkSplit::Plan Stepper::plan(const RunOptions& options) {
 }
 
 ThreadPool& Stepper::pool() {
-  if (!pool_) pool_.emplace(split_.threads());
+  if (!pool_) pool_.emplace(balancer_.threads());
   return *pool_;
 }
 
@@ -83,17 +83,17 @@ Time Stepper::advance(Time from, Time target) {
   ++communication_step_;
   cut_ = {};
   has_requests_ = false;
-  if (split_.is_deciding()) return make_timed_passes(from, target);
+  if (balancer_.is_deciding()) return make_timed_passes(from, target);
   const Time reached = make_passes(from, target);
-  split_.end_step();
+  balancer_.end_step();
   return reached;
 }
 
 Time Stepper::make_timed_passes(Time from, Time target) {
-  step_clock_ = WallClock(clock_.measures() || split_.is_measuring());
+  step_clock_ = WallClock(clock_.measures() || balancer_.is_measuring());
   const auto began = WallClock::Source::now();
   const Time reached = make_passes(from, target);
-  split_.end_step(WallClock::Source::now() - began);
+  balancer_.end_step(WallClock::Source::now() - began);
   step_clock_ = clock_;
   return reached;
 }
@@ -107,7 +107,7 @@ void Stepper::undo(Time from) {
 }
 
 Time Stepper::make_passes(Time from, Time target) {
-  was_parallel_ = split_.is_parallel();
+  was_parallel_ = balancer_.is_parallel();
   if (from != last_end_) last_end_seconds_ = to_seconds(from);
   const double from_seconds = last_end_seconds_;
   while (true) {
@@ -130,7 +130,7 @@ inline Time Stepper::step_all(const StepInterval& interval) {
 }
 
 inline Time Stepper::step_stage(std::size_t stage, const StepInterval& interval) {
-  const std::span<const WorkShare> shares = split_.shares(stage);
+  const std::span<const ThreadShare> shares = balancer_.shares(stage);
   if (!shares.empty()) step_on_threads(shares, interval);
   const bool may_be_plain =
       shares.empty() && !step_clock_.measures() && interval.from != interval.to;
@@ -152,7 +152,7 @@ inline Time Stepper::step_stage(std::size_t stage, const StepInterval& interval)
   return reached;
 }
 
-void Stepper::step_on_threads(std::span<const WorkShare> shares, const StepInterval& interval) {
+void Stepper::step_on_threads(std::span<const ThreadShare> shares, const StepInterval& interval) {
   pool().run(shares.size(), [&](std::size_t k) noexcept {
     for (const std::size_t i : shares[k]) step(lanes_[i], interval);
   });
@@ -293,7 +293,7 @@ Time Stepper::retry_target(const Lane& lane, const StepInterval& interval) {
 void Stepper::take_down_time(const Lane& lane) {
   const std::chrono::nanoseconds time = std::exchange(times_[index(lane)], {});
   if (clock_.measures()) statistics_[lane.component].step_time += time;
-  if (split_.is_measuring()) split_.note_cost(index(lane), time);
+  if (balancer_.is_measuring()) balancer_.record_cost(index(lane), time);
 }
 
 /// The first failure in the step order that is no mere consequence of another one.

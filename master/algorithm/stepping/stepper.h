@@ -110,7 +110,7 @@ class Stepper {
   Time make_passes(Time from, Time target);
   Time step_all(const StepInterval& interval);
   Time step_stage(std::size_t stage, const StepInterval& interval);
-  void step_on_threads(std::span<const WorkShare> shares, const StepInterval& interval);
+  void step_on_threads(std::span<const ThreadShare> shares, const StepInterval& interval);
   void step(Lane& lane, const StepInterval& interval) noexcept;
   bool step_plainly(Lane& lane, const StepInterval& interval);
   Outcome go_timed(Lane& lane, const StepInterval& interval);
@@ -135,7 +135,7 @@ class Stepper {
   [[noreturn]] void fail_size(const Lane& lane, const StepInterval& interval) const;
   std::string hint_for_final(const Lane& stopped) const;
   [[noreturn]] void fail_final(const Lane& ahead) const;
-  WorkSplit::Plan plan(const RunOptions& options);
+  LoadBalancer::Plan plan(const RunOptions& options);
   ThreadPool& pool();
 
   const System& system_;
@@ -160,7 +160,7 @@ class Stepper {
   double last_end_seconds_ = 0;
   Cut cut_;
   bool has_requests_ = false;
-  WorkSplit split_;
+  LoadBalancer balancer_;
   std::optional<ThreadPool> pool_;  ///< from when it is first needed
   bool was_parallel_ = false;
 };
