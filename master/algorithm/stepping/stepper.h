@@ -59,24 +59,26 @@ class Stepper {
 
   /// How the unit's last accepted step ended.
   const StepResult& result(std::size_t component) const {
-    return lanes_[lane_of_[component]].result;
+    return unit_steps_[index_of_[component]].result;
   }
   /// Whether a unit may have asked for something in the last communication step: for an event, or
   /// for the end.
   bool has_requests() const { return has_requests_; }
   /// How many steps the unit has made, redone ones included.
-  std::uint64_t steps(std::size_t component) const { return lanes_[lane_of_[component]].steps; }
+  std::uint64_t steps(std::size_t component) const {
+    return unit_steps_[index_of_[component]].steps;
+  }
 
   /// Whether the last communication step was made on several threads.
   bool was_parallel() const { return was_parallel_; }
 
  private:
-  enum class Outcome : std::uint8_t { Stood, Stepped, Rejected, TooFar, Failed };
+  enum class Outcome : std::uint8_t { Idle, Stepped, Rejected, TooFar, Failed };
 
   /// One unit in the present communication step. Written by the thread that steps it, and read when
   /// that has come to rest; a cache line of its own keeps the threads out of each other's way.
-  struct alignas(64) Lane {
-    Lane(Unit& stepped, const StepPlace& its_place);
+  struct alignas(64) UnitStep {
+    UnitStep(Unit& stepped, const StepPlace& its_place);
 
     Unit* unit;
     const StepPlace* place;
@@ -89,7 +91,7 @@ class Stepper {
     Time possible{};                       ///< how far it would have come in a rejected step
     std::uint64_t communication_step = 0;  ///< the last one of which it knows
     std::uint64_t steps = 0;
-    Outcome outcome = Outcome::Stood;  ///< of the present pass, as the flags behind it
+    Outcome outcome = Outcome::Idle;  ///< of the present pass, as the flags behind it
     bool saved = false;
     bool rolled_back = false;
     Time undone{};                 ///< where it stood before that
@@ -97,7 +99,7 @@ class Stepper {
   };
   /// Who cut the present communication step short, last.
   struct Cut {
-    const Lane* by = nullptr;
+    const UnitStep* by = nullptr;
     Time at{};
     bool is_rejection = false;
   };
@@ -108,33 +110,33 @@ class Stepper {
 
   Time make_timed_passes(Time from, Time target);
   Time make_passes(Time from, Time target);
-  Time step_all(const StepInterval& interval);
+  Time make_pass(const StepInterval& interval);
   Time step_stage(std::size_t stage, const StepInterval& interval);
   void step_on_threads(std::span<const ThreadShare> shares, const StepInterval& interval);
-  void step(Lane& lane, const StepInterval& interval) noexcept;
-  bool step_plainly(Lane& lane, const StepInterval& interval);
-  Outcome go_timed(Lane& lane, const StepInterval& interval);
-  Outcome go(Lane& lane, const StepInterval& interval);
-  bool stays_suspended(Lane& lane, const StepInterval& interval);
-  void save(Lane& lane);
-  void go_back(Lane& lane, const StepInterval& interval);
-  void restore(Lane& lane, Time from);
-  Time take_down(Lane& lane, const StepInterval& interval);
-  void tell(const Lane& lane, Activity::Kind kind, Time from, Time until) const {
-    activities_.tell({lane.component, kind, from, until});
+  void attempt_on_thread(UnitStep& unit_step, const StepInterval& interval) noexcept;
+  bool step_plainly(UnitStep& unit_step, const StepInterval& interval);
+  Outcome attempt_timed(UnitStep& unit_step, const StepInterval& interval);
+  Outcome attempt(UnitStep& unit_step, const StepInterval& interval);
+  bool stays_suspended(UnitStep& unit_step, const StepInterval& interval);
+  void save(UnitStep& unit_step);
+  void roll_back(UnitStep& unit_step, const StepInterval& interval);
+  void restore(UnitStep& unit_step, Time from);
+  Time record(UnitStep& unit_step, const StepInterval& interval);
+  void report(const UnitStep& unit_step, Activity::Kind kind, Time from, Time until) const {
+    activities_.tell({unit_step.component, kind, from, until});
   }
-  void take_down_time(const Lane& lane);
-  std::size_t index(const Lane& lane) const {
-    return static_cast<std::size_t>(&lane - lanes_.data());
+  void record_time(const UnitStep& unit_step);
+  std::size_t index(const UnitStep& unit_step) const {
+    return static_cast<std::size_t>(&unit_step - unit_steps_.data());
   }
-  const std::string& name(const Lane& lane) const;
-  [[noreturn]] void rethrow_failure(const Lane& first) const;
-  static Time retry_target(const Lane& lane, const StepInterval& interval);
+  const std::string& name(const UnitStep& unit_step) const;
+  [[noreturn]] void rethrow_failure(const UnitStep& first) const;
+  static Time retry_target(const UnitStep& unit_step, const StepInterval& interval);
   void check_minimum(const StepInterval& interval, Time reached) const;
   std::string reason(const Cut& cut) const;
-  [[noreturn]] void fail_size(const Lane& lane, const StepInterval& interval) const;
-  std::string hint_for_final(const Lane& stopped) const;
-  [[noreturn]] void fail_final(const Lane& ahead) const;
+  [[noreturn]] void fail_size(const UnitStep& unit_step, const StepInterval& interval) const;
+  std::string hint_for_final(const UnitStep& stopped) const;
+  [[noreturn]] void fail_final(const UnitStep& ahead) const;
   LoadBalancer::Plan plan(const RunOptions& options);
   ThreadPool& pool();
 
@@ -150,10 +152,10 @@ class Stepper {
   Duration regular_;  ///< the size that units which cannot vary theirs must be given
   Duration minimum_;  ///< a shorter step than this is not asked for after a rejection
   std::vector<StepPlace> order_;
-  std::vector<Lane> lanes_;                      ///< in that order
-  std::vector<std::span<Lane>> stages_;          ///< of them
-  std::vector<std::size_t> lane_of_;             ///< by component
-  std::vector<std::chrono::nanoseconds> times_;  ///< by lane, of the present pass
+  std::vector<UnitStep> unit_steps_;             ///< in that order
+  std::vector<std::span<UnitStep>> stages_;      ///< of them
+  std::vector<std::size_t> index_of_;            ///< by component
+  std::vector<std::chrono::nanoseconds> times_;  ///< by unit_step, of the present pass
   std::vector<Failure> failures_;                ///< likewise
   std::uint64_t communication_step_ = 0;
   Time last_end_{};  ///< of a pass, and the same as a double, since the next begins there
