@@ -80,7 +80,7 @@ class Simulation::Run {
     std::exception_ptr failure;
     try {
       clock_.timed(statistics_.phases.initialization, [&] { initialize(); });
-      while (goes_on()) communication_step();
+      while (should_continue()) communication_step();
       if (idle_) idle_->catch_up_all(time_);
       if (statistics_.end != RunEnd::Interrupted) verdicts_ = read_verdicts(system_, units_);
       for (auto& unit : units_) unit->terminate();
@@ -199,7 +199,7 @@ class Simulation::Run {
     }
   }
 
-  bool goes_on() {
+  bool should_continue() {
     if (time_ >= options_.stop || statistics_.end == RunEnd::EndedByUnit) return false;
     if (options_.interrupted == nullptr || *options_.interrupted == 0) [[likely]]
       return true;
@@ -210,12 +210,12 @@ class Simulation::Run {
   void communication_step() {
     const Time reached = clock_.timed(statistics_.phases.steps, [&] { return advance(); });
     if (reached == time_) {
-      note_stall();
+      check_stall();
     } else {
       stalled_steps_ = 0;
     }
     time_ = reached;
-    if (stepper_.has_requests()) take_requests();
+    if (stepper_.has_requests()) handle_requests();
     clock_.timed(statistics_.phases.instants, [&] { handle_events(); });
     ++statistics_.communication_steps;
     statistics_.parallel_steps += stepper_.was_parallel();
@@ -223,7 +223,7 @@ class Simulation::Run {
     clock_.timed(statistics_.phases.observers, [&] { notify_observers(); });
   }
 
-  void take_requests() {
+  void handle_requests() {
     for (std::size_t i = 0; i < count(); ++i) {
       const StepResult& result = stepper_.result(i);
       if (result.terminate) statistics_.end = RunEnd::EndedByUnit;
@@ -256,7 +256,7 @@ class Simulation::Run {
     if (inputs_) inputs_->accept(time_, event_handler_.had_event());
   }
 
-  void note_stall() {
+  void check_stall() {
     if (++stalled_steps_ < kStallLimit) return;
     std::vector<std::string> names;
     for (std::size_t i = 0; i < count(); ++i) {

@@ -101,7 +101,7 @@ void EventHandler::leave_event_mode() {
     if (!in_event_mode_[i]) continue;
     units_[i]->enter_step_mode();
     in_event_mode_[i] = false;
-    activities_.tell({i, Activity::Kind::Event, time_, time_});
+    activities_.report({i, Activity::Kind::Event, time_, time_});
   }
   has_event_ = false;
   had_any_event_ = true;

@@ -81,7 +81,7 @@ class Exchange {
     return unit.step(interval, values);
   }
   /// An input was changed where it stands, by another than route().
-  void note_change(std::size_t component) { is_delivered_[component] = false; }
+  void mark_changed(std::size_t component) { is_delivered_[component] = false; }
 
   /// Writes those of a unit's continuous inputs that may change within a step.
   void deliver_within_step(std::size_t component, Unit& unit);

@@ -95,7 +95,7 @@ bool IdleScheduler::catch_up(std::size_t component, Time time) {
 void IdleScheduler::report_suspension(std::size_t component) {
   IdleState& state = states_[component];
   const std::optional<Time> ended = std::exchange(state.unreported_end, std::nullopt);
-  if (ended) activities_.tell({component, Activity::Kind::Idle, state.since, *ended});
+  if (ended) activities_.report({component, Activity::Kind::Idle, state.since, *ended});
 }
 
 bool IdleScheduler::catch_up_and_report(std::size_t component, Time time) {

@@ -73,7 +73,7 @@ void InputExtrapolator::before_step(std::size_t component, const StepInterval& i
     set_targets(feed, history, history.mean(interval.from, interval.to), false);
     set_targets(feed, history, history.at(interval.from, 0, interval.to - interval.from), true);
   }
-  exchange_.note_change(component);
+  exchange_.mark_changed(component);
 }
 
 void InputExtrapolator::within_step(std::size_t component, Unit& unit, double seconds_into_step) {

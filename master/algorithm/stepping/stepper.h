@@ -123,7 +123,7 @@ class Stepper {
   void restore(UnitStep& unit_step, Time from);
   Time record(UnitStep& unit_step, const StepInterval& interval);
   void report(const UnitStep& unit_step, Activity::Kind kind, Time from, Time until) const {
-    activities_.tell({unit_step.component, kind, from, until});
+    activities_.report({unit_step.component, kind, from, until});
   }
   void record_time(const UnitStep& unit_step);
   std::size_t index(const UnitStep& unit_step) const {
