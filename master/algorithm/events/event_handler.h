@@ -26,7 +26,7 @@
 namespace stride::core {
 
 /// What the units do between two communication steps, and who has an event when.
-class EventHandler : private Evaluation::Participants {
+class EventHandler : private OrderedEvaluation::Participants {
  public:
   /// `units` in the order of system.components(); `observers` hear of the messages, and
   /// `activities` tells of the events. All of them must outlive this object. `idle`: who rests;
@@ -94,7 +94,7 @@ class EventHandler : private Evaluation::Participants {
   Exchange& exchange_;
   MessageExchange messages_;
   Clocks clocks_;
-  std::optional<Evaluation> evaluation_;  ///< where outputs follow inputs at once
+  std::optional<OrderedEvaluation> evaluation_;  ///< where outputs follow inputs at once
   std::vector<Observer*>& observers_;
   const Activities& activities_;
   RunStatistics& statistics_;

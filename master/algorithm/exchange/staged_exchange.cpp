@@ -36,22 +36,22 @@ void StagedExchange::complete(Batch& batch) {
   if (batch.values.size() != batch.size) batch.values = ValueBlock(batch.values.type(), batch.size);
 }
 
-StagedExchange::Stage StagedExchange::plan_stage(const EvaluationStep& step) {
-  Stage stage;
-  stage.component_ = step.component;
+StagedExchange::OutputRead StagedExchange::plan_read(const EvaluationStep& step) {
+  OutputRead read;
+  read.component_ = step.component;
   std::map<ValueType, std::vector<VariableId>> types;
   for (const VariableId id : step.outputs) types[system_.variable(id).type].push_back(id);
   for (const auto& [type, ids] : types) {
-    Batch& batch = stage.reads_.emplace_back(make_batch(type, false));
+    Batch& batch = read.batches_.emplace_back(make_batch(type, false));
     for (const VariableId id : ids) add(batch, id);
     complete(batch);
   }
   open_.erase(open_.lower_bound({step.component, ValueType{}}),
               open_.lower_bound({step.component + 1, ValueType{}}));
-  return stage;
+  return read;
 }
 
-StagedExchange::Wire StagedExchange::plan_wire(VariableId id) {
+StagedExchange::Link StagedExchange::plan_link(VariableId id) {
   const auto& all = system_.connections();
   const Connection& connection = *std::lower_bound(
       all.begin(), all.end(), id, [](const Connection& c, VariableId to) { return c.to < to; });
@@ -59,13 +59,13 @@ StagedExchange::Wire StagedExchange::plan_wire(VariableId id) {
   Batch*& batch = open_[{connection.to.component, input.type}];
   if (batch == nullptr) batch = &batches_.emplace_back(make_batch(input.type, all_new_));
   add(*batch, connection.to);
-  Wire wire;
-  wire.connection_ = &connection;
-  wire.from_ = exchange_.place(connection.from);
-  wire.to_ = exchange_.place(connection.to);
-  wire.size_ = input.size;
-  wire.batch_ = batch;
-  return wire;
+  Link link;
+  link.connection_ = &connection;
+  link.from_ = exchange_.place(connection.from);
+  link.to_ = exchange_.place(connection.to);
+  link.size_ = input.size;
+  link.batch_ = batch;
+  return link;
 }
 
 void StagedExchange::begin() {
@@ -73,11 +73,11 @@ void StagedExchange::begin() {
   for (Batch& batch : batches_) batch.is_due = false;
 }
 
-void StagedExchange::evaluate(Stage& stage) {
-  write(stage.component_);
-  for (Batch& batch : stage.reads_) {
-    timer_.timed(stage.component_,
-                 [&] { units_[stage.component_]->get(batch.references, batch.values); });
+void StagedExchange::evaluate(OutputRead& read) {
+  write(read.component_);
+  for (Batch& batch : read.batches_) {
+    timer_.timed(read.component_,
+                 [&] { units_[read.component_]->get(batch.references, batch.values); });
     for (const Batch::Piece& piece : batch.pieces) {
       copy(piece.place, batch.values, piece.first, piece.size);
     }
@@ -96,27 +96,27 @@ void StagedExchange::write(std::size_t component) {
   due_[component].clear();
 }
 
-bool StagedExchange::route(Wire& wire) {
+bool StagedExchange::route(Link& link) {
   const bool changes =
-      copy(wire.to_, *wire.from_.block, wire.from_.first, wire.size_, wire.connection_->conversion);
-  if (changes || wire.batch_->is_new) make_due(wire);
+      copy(link.to_, *link.from_.block, link.from_.first, link.size_, link.connection_->conversion);
+  if (changes || link.batch_->is_new) make_due(link);
   return changes;
 }
 
-void StagedExchange::make_due(Wire& wire) {
-  if (std::exchange(wire.batch_->is_due, true)) return;
-  due_[wire.target().component].push_back(wire.batch_);
+void StagedExchange::make_due(Link& link) {
+  if (std::exchange(link.batch_->is_due, true)) return;
+  due_[link.target().component].push_back(link.batch_);
 }
 
-void StagedExchange::read_input(Wire& wire) {
-  const Variable& input = system_.variable(wire.target());
+void StagedExchange::read_input(Link& link) {
+  const Variable& input = system_.variable(link.target());
   ValueBlock value(input.type, input.size);
-  units_[wire.target().component]->get({&input.reference, 1}, value);
-  copy(wire.to_, value, 0, input.size);
+  units_[link.target().component]->get({&input.reference, 1}, value);
+  copy(link.to_, value, 0, input.size);
 }
 
-bool StagedExchange::has_nan(const Stage& stage) const {
-  return std::any_of(stage.reads_.begin(), stage.reads_.end(),
+bool StagedExchange::has_nan(const OutputRead& read) const {
+  return std::any_of(read.batches_.begin(), read.batches_.end(),
                      [](const Batch& batch) { return core::has_nan(batch.values); });
 }
 

@@ -18,7 +18,7 @@
 
 namespace stride::core {
 
-/// Stages and wires are planned in the order in which they will be used; inputs that become known
+/// Stages and links are planned in the order in which they will be used; inputs that become known
 /// between two stages of a component are written by one call. The values stand in the blocks of an
 /// Exchange, which therefore has nothing to route afterwards.
 class StagedExchange {
@@ -44,7 +44,7 @@ class StagedExchange {
   StagedExchange(const System& system, std::span<const std::unique_ptr<Unit>> units,
                  Exchange& exchange, const UnitTimer& timer, bool all_new);
 
-  class Wire {
+  class Link {
    public:
     VariableId target() const { return connection_->to; }
     Exchange::Place place() const { return to_; }  ///< of the target
@@ -57,34 +57,34 @@ class StagedExchange {
     std::size_t size_;
     Batch* batch_;
   };
-  class Stage {
+  class OutputRead {
    public:
     std::size_t component() const { return component_; }
 
    private:
     friend StagedExchange;
     std::size_t component_;
-    std::vector<Batch> reads_;
+    std::vector<Batch> batches_;
   };
 
-  Stage plan_stage(const EvaluationStep& step);
+  OutputRead plan_read(const EvaluationStep& step);
   /// The connection that ends at the input.
-  Wire plan_wire(VariableId input);
+  Link plan_link(VariableId input);
 
   /// Nothing routed so far waits to be written.
   void begin();
   /// Writes what was routed to the component, then reads the outputs of the stage.
-  void evaluate(Stage& stage);
+  void evaluate(OutputRead& read);
   /// Writes what was routed to the component.
   void write(std::size_t component);
   /// Copies an output's value to the input; returns whether the input changes.
-  bool route(Wire& wire);
-  /// The input was changed where it stands, see Wire::place().
-  void touch(Wire& wire) { make_due(wire); }
+  bool route(Link& link);
+  /// The input was changed where it stands, see Link::place().
+  void touch(Link& link) { make_due(link); }
   /// Reads what the unit has for the input.
-  void read_input(Wire& wire);
+  void read_input(Link& link);
   /// Whether an output of the stage is NaN.
-  bool has_nan(const Stage& stage) const;
+  bool has_nan(const OutputRead& read) const;
 
  private:
   static Batch make_batch(ValueType type, bool is_new) {
@@ -92,7 +92,7 @@ class StagedExchange {
   }
   static void complete(Batch& batch);
   void add(Batch& batch, VariableId id);
-  void make_due(Wire& wire);
+  void make_due(Link& link);
 
   const System& system_;
   std::span<const std::unique_ptr<Unit>> units_;

@@ -58,7 +58,7 @@ AlgebraicLoop::AlgebraicLoop(const System& system, std::span<const std::unique_p
             {},
             ValueBlock(input.type, input.size),
             is_real(input.type)};
-    for (const VariableId id : tear.inputs) cut.wires.push_back(staged.plan_wire(id));
+    for (const VariableId id : tear.inputs) cut.links.push_back(staged.plan_link(id));
     for (std::size_t i = 0; i < input.size; ++i) {
       unknowns_.push_back({cuts_.size(), i});
       if (!cut.is_real) continue;
@@ -71,12 +71,12 @@ AlgebraicLoop::AlgebraicLoop(const System& system, std::span<const std::unique_p
 
 void AlgebraicLoop::guess() {
   for (Cut& cut : cuts_) {
-    staged_.read_input(cut.wires.front());
-    const Exchange::Place first = cut.wires.front().place();
-    for (StagedExchange::Wire& wire : cut.wires) {
-      copy_elements(*wire.place().block, wire.place().first, *first.block, first.first,
+    staged_.read_input(cut.links.front());
+    const Exchange::Place first = cut.links.front().place();
+    for (StagedExchange::Link& link : cut.links) {
+      copy_elements(*link.place().block, link.place().first, *first.block, first.first,
                     cut.result.size());
-      staged_.touch(wire);
+      staged_.touch(link);
     }
   }
 }
@@ -96,10 +96,10 @@ void AlgebraicLoop::collect() {
 
 bool AlgebraicLoop::is_settled(const Unknown& unknown) const {
   const Cut& cut = cuts_[unknown.cut];
-  const Exchange::Place place = cut.wires.front().place();
+  const Exchange::Place place = cut.links.front().place();
   const std::size_t at = place.first + unknown.element;
   if (!cut.is_real) return is_same(*place.block, at, cut.result, unknown.element);
-  const double nominal = system_.variable(cut.wires.front().target()).nominal;
+  const double nominal = system_.variable(cut.links.front().target()).nominal;
   return core::is_settled(real(*place.block, at), real(cut.result, unknown.element), nominal,
                           scale_.epsilon);
 }
@@ -158,7 +158,7 @@ bool AlgebraicLoop::iterate() {
 bool AlgebraicLoop::solve_reals() {
   std::vector<double> guess;
   for (const Unknown& unknown : reals_) {
-    const Exchange::Place place = cuts_[unknown.cut].wires.front().place();
+    const Exchange::Place place = cuts_[unknown.cut].links.front().place();
     guess.push_back(real(*place.block, place.first + unknown.element));
   }
   const auto function = [&](std::span<const double> x, std::span<double> g) {
@@ -189,7 +189,7 @@ bool AlgebraicLoop::is_held_settled() const {
 AlgebraicLoop::Values AlgebraicLoop::inputs() const {
   Values values;
   for (const Cut& cut : cuts_) {
-    const Exchange::Place place = cut.wires.front().place();
+    const Exchange::Place place = cut.links.front().place();
     ValueBlock& value = values.emplace_back(cut.result.type(), cut.result.size());
     copy_elements(value, 0, *place.block, place.first, value.size());
   }
@@ -201,16 +201,16 @@ void AlgebraicLoop::put(const Values& values) {
 }
 
 void AlgebraicLoop::put(Cut& cut, const ValueBlock& value) {
-  for (StagedExchange::Wire& wire : cut.wires) {
-    const Exchange::Place to = wire.place();
-    if (copy_elements(*to.block, to.first, value, 0, value.size())) staged_.touch(wire);
+  for (StagedExchange::Link& link : cut.links) {
+    const Exchange::Place to = link.place();
+    if (copy_elements(*to.block, to.first, value, 0, value.size())) staged_.touch(link);
   }
 }
 
 void AlgebraicLoop::put(std::span<const double> x) {
   for (std::size_t i = 0; i < reals_.size(); ++i) {
-    for (StagedExchange::Wire& wire : cuts_[reals_[i].cut].wires) {
-      if (change_real(wire.place(), reals_[i].element, x[i])) staged_.touch(wire);
+    for (StagedExchange::Link& link : cuts_[reals_[i].cut].links) {
+      if (change_real(link.place(), reals_[i].element, x[i])) staged_.touch(link);
     }
   }
 }
@@ -230,10 +230,10 @@ std::string AlgebraicLoop::values_text() const {
   for (const Unknown& unknown : unknowns_) {
     if (is_settled(unknown) || ++count > kMostValues) continue;
     const Cut& cut = cuts_[unknown.cut];
-    const Exchange::Place place = cut.wires.front().place();
+    const Exchange::Place place = cut.links.front().place();
     const std::size_t at = place.first + unknown.element;
     std::string text = fmt::format(
-        "with {}{} = {} it gives back {}", system_.full_name(cut.wires.front().target()),
+        "with {}{} = {} it gives back {}", system_.full_name(cut.links.front().target()),
         cut.result.size() == 1 ? "" : fmt::format("[{}]", unknown.element + 1),
         element_text(*place.block, at), element_text(cut.result, unknown.element));
     if (cut.is_real) {
@@ -251,7 +251,7 @@ std::string AlgebraicLoop::hint() const {
       "a unit in it whose output does not depend on its input at the same instant, as "
       "a delay or a state, breaks the loop; a start value of {} nearer to the solution "
       "may help",
-      system_.full_name(cuts_.front().wires.front().target()));
+      system_.full_name(cuts_.front().links.front().target()));
   const std::string undeclared = undeclared_text(system_, plan_);
   return undeclared.empty() ? text
                             : text + "; " + undeclared + ", so all inputs are taken for them";

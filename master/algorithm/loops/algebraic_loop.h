@@ -50,7 +50,7 @@ class AlgebraicLoop {
   struct Cut {
     const Tear* tear;
     Exchange::Place source;
-    std::vector<StagedExchange::Wire> wires;
+    std::vector<StagedExchange::Link> links;
     ValueBlock result;  ///< what the source says, as the inputs want it
     bool is_real;
   };

@@ -5,7 +5,7 @@
 namespace stride::core {
 namespace {
 
-class AllUnits : public Evaluation::Participants {
+class AllUnits : public OrderedEvaluation::Participants {
  public:
   bool takes_part(std::size_t) const override { return true; }
   void on_jump(VariableId, bool) override {}
@@ -17,7 +17,7 @@ class AllUnits : public Evaluation::Participants {
 void set_initial_values(const System& system, std::span<const std::unique_ptr<Unit>> units,
                         Exchange& exchange, const UnitTimer& timer, Time start) {
   AllUnits all;
-  Evaluation(system, units, exchange, Phase::Initialization, timer).run(start, all);
+  OrderedEvaluation(system, units, exchange, Phase::Initialization, timer).run(start, all);
 }
 
 }  // namespace stride::core

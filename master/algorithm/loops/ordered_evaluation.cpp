@@ -4,8 +4,9 @@
 
 namespace stride::core {
 
-Evaluation::Evaluation(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                       Exchange& exchange, Phase phase, const UnitTimer& timer)
+OrderedEvaluation::OrderedEvaluation(const System& system,
+                                     std::span<const std::unique_ptr<Unit>> units,
+                                     Exchange& exchange, Phase phase, const UnitTimer& timer)
     : system_(system),
       exchange_(exchange),
       phase_(phase),
@@ -22,8 +23,8 @@ Evaluation::Evaluation(const System& system, std::span<const std::unique_ptr<Uni
   if (phase == Phase::Events) find_direct_inputs();
 }
 
-void Evaluation::plan(const EvaluationBlock& planned, const Targets& targets,
-                      std::span<const std::unique_ptr<Unit>> units) {
+void OrderedEvaluation::plan(const EvaluationBlock& planned, const Targets& targets,
+                             std::span<const std::unique_ptr<Unit>> units) {
   Block& block = blocks_.emplace_back();
   block.plan = &planned;
   std::set<VariableId> inner(planned.inputs.begin(), planned.inputs.end());
@@ -32,21 +33,22 @@ void Evaluation::plan(const EvaluationBlock& planned, const Targets& targets,
   for (const Tear& tear : planned.tears) cut.insert(tear.inputs.begin(), tear.inputs.end());
   std::vector<VariableId> onward;
   for (const EvaluationStep& step : planned.steps) {
-    Stage& stage = block.stages.emplace_back(Stage{staged_.plan_stage(step), {}});
+    EvaluationStage& stage =
+        block.stages.emplace_back(EvaluationStage{staged_.plan_read(step), {}});
     for (const VariableId output : step.outputs) {
       for (const VariableId input : targets.at(output)) {
         if (planned.is_loop() && inner.count(input) == 0) {
           onward.push_back(input);
         } else if (cut.count(input) == 0) {
-          stage.wires.push_back(staged_.plan_wire(input));
+          stage.links.push_back(staged_.plan_link(input));
         }
       }
     }
   }
-  for (const VariableId input : onward) block.onward.push_back(staged_.plan_wire(input));
+  for (const VariableId input : onward) block.onward.push_back(staged_.plan_link(input));
 }
 
-void Evaluation::find_direct_inputs() {
+void OrderedEvaluation::find_direct_inputs() {
   const Dependencies dependencies(system_, phase_);
   std::set<VariableId> sources;
   for (const Connection& connection : system_.connections()) sources.insert(connection.from);
@@ -70,7 +72,7 @@ void Evaluation::find_direct_inputs() {
   }
 }
 
-void Evaluation::run(Time time, Participants& participants) {
+void OrderedEvaluation::run(Time time, Participants& participants) {
   time_ = time;
   participants_ = &participants;
   staged_.begin();
@@ -87,45 +89,46 @@ void Evaluation::run(Time time, Participants& participants) {
   }
 }
 
-void Evaluation::evaluate(Stage& stage) {
-  if (!participants_->takes_part(stage.stage.component())) return;
-  staged_.evaluate(stage.stage);
-  for (StagedExchange::Wire& wire : stage.wires) route(wire);
+void OrderedEvaluation::evaluate(EvaluationStage& stage) {
+  if (!participants_->takes_part(stage.read.component())) return;
+  staged_.evaluate(stage.read);
+  for (StagedExchange::Link& link : stage.links) route(link);
 }
 
-void Evaluation::route(StagedExchange::Wire& wire) {
-  if (staged_.route(wire)) report(wire.target());
+void OrderedEvaluation::route(StagedExchange::Link& link) {
+  if (staged_.route(link)) report(link.target());
 }
 
-void Evaluation::report(VariableId input) {
+void OrderedEvaluation::report(VariableId input) {
   const bool may_jump = phase_ == Phase::Events &&
                         system_.variable(input).variability == Variability::Continuous &&
                         system_.components()[input.component].description->has_event_mode;
   if (!is_trying_ && may_jump) participants_->on_jump(input, followed_.count(input) != 0);
 }
 
-void Evaluation::sweep(Block& block) {
-  for (Stage& stage : block.stages) evaluate(stage);
+void OrderedEvaluation::sweep(Block& block) {
+  for (EvaluationStage& stage : block.stages) evaluate(stage);
 }
 
-bool Evaluation::takes_part(const Block& block) const {
-  return std::any_of(block.stages.begin(), block.stages.end(), [&](const Stage& stage) {
-    return participants_->takes_part(stage.stage.component());
+bool OrderedEvaluation::takes_part(const Block& block) const {
+  return std::any_of(block.stages.begin(), block.stages.end(), [&](const EvaluationStage& stage) {
+    return participants_->takes_part(stage.read.component());
   });
 }
 
-void Evaluation::evaluate_loop(Block& block) {
+void OrderedEvaluation::evaluate_loop(Block& block) {
   if (!takes_part(block)) return;
   if (phase_ == Phase::Initialization) block.loop->guess();
   sweep(block);
   if (!block.loop->is_settled()) solve(block);
   check_nan(block);
-  for (StagedExchange::Wire& wire : block.onward) route(wire);
+  for (StagedExchange::Link& link : block.onward) route(link);
 }
 
-void Evaluation::solve(Block& block) {
+void OrderedEvaluation::solve(Block& block) {
   bool has_joined = false;
-  for (Stage& stage : block.stages) has_joined |= participants_->join(stage.stage.component());
+  for (EvaluationStage& stage : block.stages)
+    has_joined |= participants_->join(stage.read.component());
   std::vector<ValueBlock> before;
   for (const VariableId input : block.plan->inputs) before.push_back(value(input));
   is_trying_ = true;
@@ -138,16 +141,17 @@ void Evaluation::solve(Block& block) {
   }
 }
 
-ValueBlock Evaluation::value(VariableId id) {
+ValueBlock OrderedEvaluation::value(VariableId id) {
   const Exchange::Place place = exchange_.place(id);
   ValueBlock value(place.block->type(), system_.variable(id).size);
   copy_elements(value, 0, *place.block, place.first, value.size());
   return value;
 }
 
-void Evaluation::check_nan(const Block& block) const {
-  const bool has_nan = std::any_of(block.stages.begin(), block.stages.end(),
-                                   [&](const Stage& s) { return staged_.has_nan(s.stage); });
+void OrderedEvaluation::check_nan(const Block& block) const {
+  const bool has_nan =
+      std::any_of(block.stages.begin(), block.stages.end(),
+                  [&](const EvaluationStage& s) { return staged_.has_nan(s.read); });
   if (has_nan) exchange_.check_nan(time_);
 }
 
