@@ -206,8 +206,8 @@ void EventHandler::exchange_after_events() {
 void EventHandler::find_jumps() {
   for (const auto& [from, to, source, target, conversion] : links_) {
     if (!in_event_mode_[from.component]) continue;
-    const double value = conversion.factor * source.get() + conversion.offset;
-    if (target.differs_from(value)) on_jump(to, false);
+    const double value = conversion.factor * real(source) + conversion.offset;
+    if (would_change(target, value)) on_jump(to, false);
   }
 }
 

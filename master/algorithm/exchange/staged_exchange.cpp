@@ -6,16 +6,6 @@
 #include <utility>
 
 namespace stride::core {
-namespace {
-
-/// For the blocks of an exchange.
-bool copy(const Exchange::Place& to, const ValueBlock& from, std::size_t first, std::size_t size,
-          const Conversion& conversion = {}) {
-  return copy_elements(*to.block, to.first, from, first, size, conversion);
-}
-
-}  // namespace
-
 StagedExchange::StagedExchange(const System& system, std::span<const std::unique_ptr<Unit>> units,
                                Exchange& exchange, const UnitTimer& timer, bool all_new)
     : system_(system),
@@ -28,7 +18,7 @@ StagedExchange::StagedExchange(const System& system, std::span<const std::unique
 void StagedExchange::add(Batch& batch, VariableId id) {
   const Variable& variable = system_.variable(id);
   batch.references.push_back(variable.reference);
-  batch.pieces.push_back({exchange_.place(id), batch.size, variable.size});
+  batch.members.push_back({exchange_.slice(id), batch.size});
   batch.size += variable.size;
 }
 
@@ -61,9 +51,8 @@ StagedExchange::Link StagedExchange::plan_link(VariableId id) {
   add(*batch, connection.to);
   Link link;
   link.connection_ = &connection;
-  link.from_ = exchange_.place(connection.from);
-  link.to_ = exchange_.place(connection.to);
-  link.size_ = input.size;
+  link.from_ = exchange_.slice(connection.from);
+  link.to_ = exchange_.slice(connection.to);
   link.batch_ = batch;
   return link;
 }
@@ -78,8 +67,8 @@ void StagedExchange::evaluate(OutputRead& read) {
   for (Batch& batch : read.batches_) {
     timer_.timed(read.component_,
                  [&] { units_[read.component_]->get(batch.references, batch.values); });
-    for (const Batch::Piece& piece : batch.pieces) {
-      copy(piece.place, batch.values, piece.first, piece.size);
+    for (const Batch::Member& member : batch.members) {
+      copy_elements(member.value, {&batch.values, member.first, member.value.size});
     }
   }
 }
@@ -87,8 +76,8 @@ void StagedExchange::evaluate(OutputRead& read) {
 void StagedExchange::write(std::size_t component) {
   for (Batch* batch : due_[component]) {
     complete(*batch);
-    for (const Batch::Piece& piece : batch->pieces) {
-      copy({&batch->values, piece.first}, *piece.place.block, piece.place.first, piece.size);
+    for (const Batch::Member& member : batch->members) {
+      copy_elements({&batch->values, member.first, member.value.size}, member.value);
     }
     timer_.timed(component, [&] { units_[component]->set(batch->references, batch->values); });
     batch->is_due = batch->is_new = false;
@@ -97,8 +86,7 @@ void StagedExchange::write(std::size_t component) {
 }
 
 bool StagedExchange::route(Link& link) {
-  const bool changes =
-      copy(link.to_, *link.from_.block, link.from_.first, link.size_, link.connection_->conversion);
+  const bool changes = copy_elements(link.to_, link.from_, link.connection_->conversion);
   if (changes || link.batch_->is_new) make_due(link);
   return changes;
 }
@@ -112,7 +100,7 @@ void StagedExchange::read_input(Link& link) {
   const Variable& input = system_.variable(link.target());
   ValueBlock value(input.type, input.size);
   units_[link.target().component]->get({&input.reference, 1}, value);
-  copy(link.to_, value, 0, input.size);
+  copy_elements(link.to_, {&value, 0, input.size});
 }
 
 bool StagedExchange::has_nan(const OutputRead& read) const {

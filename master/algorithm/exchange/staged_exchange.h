@@ -25,13 +25,12 @@ class StagedExchange {
  private:
   /// Variables of one component and type, read or written by one call.
   struct Batch {
-    struct Piece {
-      Exchange::Place place;
+    struct Member {
+      ValueSlice value;   ///< in the exchange
       std::size_t first;  ///< in `values`
-      std::size_t size;
     };
     std::vector<ValueReference> references;
-    std::vector<Piece> pieces;
+    std::vector<Member> members;
     std::size_t size = 0;  ///< of `values`, which are made when they are needed first
     ValueBlock values;
     bool is_due = false;
@@ -47,14 +46,12 @@ class StagedExchange {
   class Link {
    public:
     VariableId target() const { return connection_->to; }
-    Exchange::Place place() const { return to_; }  ///< of the target
-    std::size_t size() const { return size_; }
+    const ValueSlice& target_value() const { return to_; }
 
    private:
     friend StagedExchange;
     const Connection* connection_;
-    Exchange::Place from_, to_;
-    std::size_t size_;
+    ValueSlice from_, to_;
     Batch* batch_;
   };
   class OutputRead {
@@ -79,7 +76,7 @@ class StagedExchange {
   void write(std::size_t component);
   /// Copies an output's value to the input; returns whether the input changes.
   bool route(Link& link);
-  /// The input was changed where it stands, see Link::place().
+  /// The input was changed in the exchange, see Link::target_value().
   void touch(Link& link) { make_due(link); }
   /// Reads what the unit has for the input.
   void read_input(Link& link);

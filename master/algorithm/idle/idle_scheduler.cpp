@@ -141,7 +141,7 @@ std::span<const std::size_t> IdleScheduler::advance_to(Time time) {
     }
     const double elapsed = to_seconds(time - state.since);
     for (const Tangent& tangent : state.tangents) {
-      tangent.element.set(tangent.value + tangent.slope * elapsed);
+      set_real(tangent.element, tangent.value + tangent.slope * elapsed);
     }
   }
   return events_;
@@ -149,7 +149,7 @@ std::span<const std::size_t> IdleScheduler::advance_to(Time time) {
 
 bool IdleScheduler::is_disturbed(const IdleState& state) const {
   return std::any_of(state.inputs.begin(), state.inputs.end(), [](const WatchedInput& input) {
-    return !(std::abs(input.element.get() - input.held) <= input.deadband);
+    return !(std::abs(real(input.element) - input.held) <= input.deadband);
   });
 }
 
@@ -184,12 +184,12 @@ void IdleScheduler::suspend(std::size_t component, Time time, Time until, Time e
   state.until = until;
   state.end = end;
   exchange_.fetch(component, *units_[component]);
-  for (WatchedInput& input : state.inputs) input.held = input.element.get();
+  for (WatchedInput& input : state.inputs) input.held = real(input.element);
   if (state.tangents.empty()) return;
   units_[component]->get_derivatives(state.references, state.slopes);
   for (std::size_t k = 0; k < state.tangents.size(); ++k) {
     Tangent& tangent = state.tangents[k];
-    tangent.value = tangent.element.get();
+    tangent.value = real(tangent.element);
     tangent.slope = state.slopes[k];
   }
 }

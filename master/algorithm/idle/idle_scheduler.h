@@ -75,12 +75,12 @@ class IdleScheduler {
 
  private:
   struct WatchedInput {
-    RealElement element;
+    ValueSlice element;
     double deadband = 0;
     double held = 0;  ///< what the unit was given when it promised
   };
   struct Tangent {
-    RealElement element;
+    ValueSlice element;
     double value = 0;
     double slope = 0;
   };

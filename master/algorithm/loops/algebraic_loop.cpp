@@ -16,10 +16,10 @@ constexpr int kMostRounds = 100;
 constexpr std::size_t kMostValues = 8;  // in a message
 
 /// Returns whether it was another one.
-bool change_real(const Exchange::Place& place, std::size_t element, double value) {
-  const double before = real(*place.block, place.first + element);
-  set_real(*place.block, place.first + element, value);
-  return real(*place.block, place.first + element) != before;
+bool change_real(const ValueSlice& slice, std::size_t element, double value) {
+  const double before = real(slice, element);
+  set_real(slice, value, element);
+  return real(slice, element) != before;
 }
 
 /// A unit is better not given what is not finite.
@@ -54,7 +54,7 @@ AlgebraicLoop::AlgebraicLoop(const System& system, std::span<const std::unique_p
   for (const Tear& tear : plan.tears) {
     const Variable& input = system.variable(tear.inputs.front());
     Cut cut{&tear,
-            exchange.place(tear.source),
+            exchange.slice(tear.source),
             {},
             ValueBlock(input.type, input.size),
             is_real(input.type)};
@@ -72,10 +72,9 @@ AlgebraicLoop::AlgebraicLoop(const System& system, std::span<const std::unique_p
 void AlgebraicLoop::guess() {
   for (Cut& cut : cuts_) {
     staged_.read_input(cut.links.front());
-    const Exchange::Place first = cut.links.front().place();
+    const ValueSlice first = cut.links.front().target_value();
     for (StagedExchange::Link& link : cut.links) {
-      copy_elements(*link.place().block, link.place().first, *first.block, first.first,
-                    cut.result.size());
+      copy_elements(link.target_value(), first);
       staged_.touch(link);
     }
   }
@@ -89,18 +88,17 @@ bool AlgebraicLoop::is_settled() {
 
 void AlgebraicLoop::collect() {
   for (Cut& cut : cuts_) {
-    copy_elements(cut.result, 0, *cut.source.block, cut.source.first, cut.result.size(),
-                  cut.tear->conversion);
+    copy_elements({&cut.result, 0, cut.result.size()}, cut.source, cut.tear->conversion);
   }
 }
 
 bool AlgebraicLoop::is_settled(const Unknown& unknown) const {
   const Cut& cut = cuts_[unknown.cut];
-  const Exchange::Place place = cut.links.front().place();
-  const std::size_t at = place.first + unknown.element;
-  if (!cut.is_real) return is_same(*place.block, at, cut.result, unknown.element);
+  const ValueSlice input = cut.links.front().target_value();
+  const std::size_t at = input.first + unknown.element;
+  if (!cut.is_real) return is_same(*input.block, at, cut.result, unknown.element);
   const double nominal = system_.variable(cut.links.front().target()).nominal;
-  return core::is_settled(real(*place.block, at), real(cut.result, unknown.element), nominal,
+  return core::is_settled(real(input, unknown.element), real(cut.result, unknown.element), nominal,
                           scale_.epsilon);
 }
 
@@ -158,8 +156,7 @@ bool AlgebraicLoop::iterate() {
 bool AlgebraicLoop::solve_reals() {
   std::vector<double> guess;
   for (const Unknown& unknown : reals_) {
-    const Exchange::Place place = cuts_[unknown.cut].links.front().place();
-    guess.push_back(real(*place.block, place.first + unknown.element));
+    guess.push_back(real(cuts_[unknown.cut].links.front().target_value(), unknown.element));
   }
   const auto function = [&](std::span<const double> x, std::span<double> g) {
     put(x);
@@ -189,9 +186,8 @@ bool AlgebraicLoop::is_held_settled() const {
 AlgebraicLoop::Values AlgebraicLoop::inputs() const {
   Values values;
   for (const Cut& cut : cuts_) {
-    const Exchange::Place place = cut.links.front().place();
     ValueBlock& value = values.emplace_back(cut.result.type(), cut.result.size());
-    copy_elements(value, 0, *place.block, place.first, value.size());
+    copy_elements({&value, 0, value.size()}, cut.links.front().target_value());
   }
   return values;
 }
@@ -202,7 +198,7 @@ void AlgebraicLoop::put(const Values& values) {
 
 void AlgebraicLoop::put(Cut& cut, const ValueBlock& value) {
   for (StagedExchange::Link& link : cut.links) {
-    const Exchange::Place to = link.place();
+    const ValueSlice& to = link.target_value();
     if (copy_elements(*to.block, to.first, value, 0, value.size())) staged_.touch(link);
   }
 }
@@ -210,7 +206,7 @@ void AlgebraicLoop::put(Cut& cut, const ValueBlock& value) {
 void AlgebraicLoop::put(std::span<const double> x) {
   for (std::size_t i = 0; i < reals_.size(); ++i) {
     for (StagedExchange::Link& link : cuts_[reals_[i].cut].links) {
-      if (change_real(link.place(), reals_[i].element, x[i])) staged_.touch(link);
+      if (change_real(link.target_value(), reals_[i].element, x[i])) staged_.touch(link);
     }
   }
 }
@@ -230,14 +226,14 @@ std::string AlgebraicLoop::values_text() const {
   for (const Unknown& unknown : unknowns_) {
     if (is_settled(unknown) || ++count > kMostValues) continue;
     const Cut& cut = cuts_[unknown.cut];
-    const Exchange::Place place = cut.links.front().place();
-    const std::size_t at = place.first + unknown.element;
+    const ValueSlice input = cut.links.front().target_value();
     std::string text = fmt::format(
         "with {}{} = {} it gives back {}", system_.full_name(cut.links.front().target()),
         cut.result.size() == 1 ? "" : fmt::format("[{}]", unknown.element + 1),
-        element_text(*place.block, at), element_text(cut.result, unknown.element));
+        element_text(*input.block, input.first + unknown.element),
+        element_text(cut.result, unknown.element));
     if (cut.is_real) {
-      const double x = real(*place.block, at);
+      const double x = real(input, unknown.element);
       text += fmt::format(", a residual of {:.3g}", real(cut.result, unknown.element) - x);
     }
     texts.push_back(std::move(text));

@@ -49,7 +49,7 @@ class AlgebraicLoop {
   /// Inputs that get the same value, and the output that it comes from.
   struct Cut {
     const Tear* tear;
-    Exchange::Place source;
+    ValueSlice source;
     std::vector<StagedExchange::Link> links;
     ValueBlock result;  ///< what the source says, as the inputs want it
     bool is_real;

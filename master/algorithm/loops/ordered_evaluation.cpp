@@ -142,9 +142,9 @@ void OrderedEvaluation::solve(Block& block) {
 }
 
 ValueBlock OrderedEvaluation::value(VariableId id) {
-  const Exchange::Place place = exchange_.place(id);
-  ValueBlock value(place.block->type(), system_.variable(id).size);
-  copy_elements(value, 0, *place.block, place.first, value.size());
+  const ValueSlice slice = exchange_.slice(id);
+  ValueBlock value(slice.block->type(), slice.size);
+  copy_elements({&value, 0, slice.size}, slice);
   return value;
 }
 

@@ -38,7 +38,7 @@ std::size_t InputExtrapolator::signal_of(const ContinuousLink& link, SignalIndic
 
 void InputExtrapolator::sample(Source& source, Time time) {
   const std::span<double> values = source.history.add(time);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = source.signals[i].get();
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = real(source.signals[i]);
 }
 
 void InputExtrapolator::accept(Time time, std::span<const char> had_event) {
@@ -59,7 +59,7 @@ void InputExtrapolator::set_targets(const Feed& feed, const SignalHistory& histo
   for (const FedInput& input : feed.inputs) {
     if (input.within_step != within_step) continue;
     const double value = history.value(input.signal, weights);
-    input.target.set(input.conversion.factor * value + input.conversion.offset);
+    set_real(input.target, input.conversion.factor * value + input.conversion.offset);
   }
 }
 
@@ -91,7 +91,7 @@ void InputExtrapolator::after_step(std::size_t component, Time reached) {
   sample(source, reached);
   source.is_ahead = true;
   source.is_nan = std::any_of(source.signals.begin(), source.signals.end(),
-                              [](const RealElement& signal) { return std::isnan(signal.get()); });
+                              [](const ValueSlice& signal) { return std::isnan(real(signal)); });
 }
 
 void InputExtrapolator::undo_step(std::size_t component) {
@@ -110,7 +110,7 @@ Excess InputExtrapolator::excess(Time time, double absolute, double relative) {
     const SignalHistory& history = source.history;
     const SignalHistory::Weights weights = history.at(time, 0, time - history.newest());
     for (std::size_t k = 0; k < source.signals.size(); ++k) {
-      const double actual = source.signals[k].get();
+      const double actual = real(source.signals[k]);
       const double error = std::abs(actual - history.value(k, weights));
       const bool is_relative = std::isfinite(error);  // what becomes infinite is no larger number
       const double tolerance = absolute + (is_relative ? relative * std::abs(actual) : 0);

@@ -57,7 +57,7 @@ class InputExtrapolator {
  private:
   /// The continuous outputs of one component that others are connected to.
   struct Source {
-    std::vector<RealElement> signals;
+    std::vector<ValueSlice> signals;
     std::vector<VariableId> ids;
     SignalHistory history{0, 0};
     bool is_ahead = false;  ///< the newest sample belongs to a step that is not accepted yet
@@ -66,7 +66,7 @@ class InputExtrapolator {
   struct FedInput {
     std::size_t signal;
     bool within_step;  ///< whether the target may change there
-    RealElement target;
+    ValueSlice target;
     LinearConversion conversion;
   };
   /// What one component feeds another.
@@ -80,7 +80,7 @@ class InputExtrapolator {
   };
 
   /// The place of each signal in its source.
-  using SignalIndices = std::map<RealElement, std::size_t>;
+  using SignalIndices = std::map<ValueSlice, std::size_t>;
   std::size_t signal_of(const ContinuousLink& link, SignalIndices& indices);
   void sample(Source& source, Time time);
   /// Sets the targets that may change within a step, or the others.
