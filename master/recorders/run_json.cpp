@@ -97,9 +97,8 @@ Json signal_entries(const core::System& system, std::span<const core::VariableId
 
 /// What goes along it.
 const char* kind(const core::System& system, const core::Connection& connection) {
-  const core::Variable& variable = system.variable(connection.from);
-  if (variable.type == core::ValueType::Clock) return "clock";
-  return variable.is_clocked() && !system.is_sampled(connection.from) ? "message" : "value";
+  if (system.variable(connection.from).type == core::ValueType::Clock) return "clock";
+  return system.is_message(connection.from) ? "message" : "value";
 }
 
 Json connection_entries(const core::System& system) {

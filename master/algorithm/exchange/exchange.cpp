@@ -15,8 +15,7 @@ namespace stride::core {
 namespace {
 
 bool exchanged(const System& system, VariableId id) {
-  const Variable& variable = system.variable(id);
-  return variable.type != ValueType::Clock && (!variable.is_clocked() || system.is_sampled(id));
+  return system.variable(id).type != ValueType::Clock && !system.is_message(id);
 }
 
 /// One transfer for the variables of a component that have this type, are written at these
