@@ -10,12 +10,10 @@
 
 #include <fmt/format.h>
 
-#include "master/algorithm/activities.h"
 #include "master/algorithm/events/event_handler.h"
-#include "master/algorithm/exchange/exchange.h"
-#include "master/algorithm/exchange/system_outputs.h"
 #include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/loops/initial_values.h"
+#include "master/algorithm/run_context.h"
 #include "master/algorithm/stepping/input_extrapolator.h"
 #include "master/algorithm/stepping/step_size_controller.h"
 #include "master/algorithm/stepping/stepper.h"
@@ -26,49 +24,32 @@ namespace {
 /// Steps in a row that end where they began, after which a unit is taken to be stuck.
 constexpr std::uint32_t kStallLimit = 1000;
 
-/// All that observers may see, each once.
-std::vector<VariableId> observed(const RunOptions& options) {
-  std::vector<VariableId> ids = options.recorded;
-  ids.insert(ids.end(), options.watched.begin(), options.watched.end());
-  std::ranges::sort(ids);
-  ids.erase(std::ranges::unique(ids).begin(), ids.end());
-  return ids;
-}
-
 }  // namespace
 
 class Simulation::Run {
  public:
   Run(const System& system, std::vector<std::unique_ptr<Unit>> units, RunOptions options)
-      : system_(system),
-        units_(std::move(units)),
-        options_(std::move(options)),
-        step_size_(system, options_),
-        observed_(observed(options_)),
-        outputs_(system, observed_),
-        exchange_(system, outputs_.sources()),
+      : context_(system, std::move(units), std::move(options)),
+        step_size_(system_, options_),
         inputs_(make_input_extrapolator()),
-        statistics_{.units = std::vector<UnitStatistics>(units_.size())},
         idle_(make_idle_scheduler()),
-        clock_(options_.measure_time),
-        event_handler_(system, units_, exchange_, observers_, activities_, statistics_, clock_,
-                       idle_ ? &*idle_ : nullptr),
-        stepper_(system, units_, exchange_, statistics_.units, activities_, clock_, options_,
-                 options_.sets_inputs_in_steps() ? &*inputs_ : nullptr, idle_ ? &*idle_ : nullptr) {
-    statistics_.start = statistics_.reached = options_.start;
-    outputs_.connect(exchange_);
-    if (options_.sets_inputs_in_steps()) connect_input_updates();
+        event_handler_(context_, pointer_to(idle_)),
+        stepper_(context_, sets_inputs_in_steps() ? pointer_to(inputs_) : nullptr,
+                 pointer_to(idle_)) {
+    if (sets_inputs_in_steps()) connect_input_updates();
   }
 
   void add_observer(Observer& observer) { add_observer(observer, options_.recorded); }
   void add_observer(Observer& observer, std::vector<VariableId> signals) {
-    const auto is_read = [&](VariableId id) { return std::ranges::binary_search(observed_, id); };
+    const auto is_read = [&](VariableId id) {
+      return std::ranges::binary_search(context_.observed, id);
+    };
     if (!std::ranges::all_of(signals, is_read)) {
       throw std::logic_error("an observer wants a signal that is not read");
     }
-    observers_.push_back(&observer);
+    context_.observers.push_back(&observer);
     wanted_.push_back(std::move(signals));
-    activities_.add(observer);
+    context_.activities.add(observer);
   }
   const RunStatistics& statistics() const { return statistics_; }
   Duration suspended_time() const { return idle_ ? idle_->suspended_time(time_) : Duration{}; }
@@ -101,7 +82,12 @@ class Simulation::Run {
   }
 
  private:
+  template <class Part>
+  static Part* pointer_to(std::optional<Part>& part) {
+    return part ? &*part : nullptr;
+  }
   std::size_t count() const { return units_.size(); }
+  bool sets_inputs_in_steps() const { return options_.sets_inputs_in_steps(); }
 
   void finish_suspensions(std::exception_ptr& failure) {
     if (!idle_ || !failure) return;
@@ -113,7 +99,7 @@ class Simulation::Run {
 
   /// All are told, also where one of them fails; the first failure is kept.
   void finish_observers(std::exception_ptr& failure) {
-    for (Observer* observer : observers_) {
+    for (Observer* observer : context_.observers) {
       try {
         observer->on_finish();
       } catch (...) {
@@ -131,8 +117,7 @@ class Simulation::Run {
       clock_.timed(statistics_.units[i].initialization_time,
                    [&] { units_[i]->enter_initialization(options_.start, options_.stop); });
     }
-    set_initial_values(system_, units_, exchange_,
-                       {clock_, statistics_.units, &UnitStatistics::initialization_time}, time_);
+    set_initial_values(context_, time_);
     for (std::size_t i = 0; i < count(); ++i) exchange_.begin_samples(i, *units_[i]);
     event_handler_.begin_clocks(time_);
     for (std::size_t i = 0; i < count(); ++i) {
@@ -146,8 +131,8 @@ class Simulation::Run {
   }
 
   void notify_observers() {
-    outputs_.update();
-    for (Observer* observer : observers_) observer->on_communication_point(time_);
+    context_.outputs.update();
+    for (Observer* observer : context_.observers) observer->on_communication_point(time_);
   }
 
   /// Structural parameters; they give arrays their sizes, so they come first.
@@ -170,23 +155,23 @@ class Simulation::Run {
   }
 
   void start_observers() {
-    for (std::size_t i = 0; i < observers_.size(); ++i) {
+    for (std::size_t i = 0; i < context_.observers.size(); ++i) {
       std::vector<Signal> signals;
-      for (const VariableId id : wanted_[i]) signals.push_back(outputs_.signal(id, exchange_));
-      observers_[i]->on_start(signals);
+      for (const VariableId id : wanted_[i])
+        signals.push_back(context_.outputs.signal(id, exchange_));
+      context_.observers[i]->on_start(signals);
     }
   }
 
   /// Nothing where nobody would use it.
   std::optional<InputExtrapolator> make_input_extrapolator() {
-    if (!options_.sets_inputs_in_steps() && !step_size_.controls_error()) return std::nullopt;
-    return InputExtrapolator(system_, exchange_, options_.coupling, options_.extrapolation);
+    if (!sets_inputs_in_steps() && !step_size_.controls_error()) return std::nullopt;
+    return std::optional<InputExtrapolator>(std::in_place, context_);
   }
 
   std::optional<IdleScheduler> make_idle_scheduler() {
     if (!options_.may_skip_idle_time()) return std::nullopt;
-    std::optional<IdleScheduler> idle(std::in_place, system_, units_, exchange_, statistics_.units,
-                                      activities_, options_.idle);
+    std::optional<IdleScheduler> idle(std::in_place, context_);
     if (idle->is_trivial()) idle.reset();
     return idle;
   }
@@ -268,23 +253,22 @@ class Simulation::Run {
                     kStallLimit, quoted(names)));
   }
 
-  const System& system_;
-  std::vector<std::unique_ptr<Unit>> units_;
-  RunOptions options_;
+  RunContext context_;
+  const System& system_ = context_.system;
+  std::span<const std::unique_ptr<Unit>> units_ = context_.units;
+  const RunOptions& options_ = context_.options;
+  Exchange& exchange_ = context_.exchange;
+  RunStatistics& statistics_ = context_.statistics;
+  const WallClock clock_ = context_.clock;
+
   StepSizeController step_size_;
-  std::vector<VariableId> observed_;  ///< sorted
-  SystemOutputs outputs_;
-  Exchange exchange_;
-  std::optional<InputExtrapolator> inputs_;
-  std::vector<Observer*> observers_;
-  std::vector<std::vector<VariableId>> wanted_;  ///< the signals of each of them
-  Activities activities_;
-  RunStatistics statistics_;
-  std::vector<Verdict> verdicts_;
-  std::optional<IdleScheduler> idle_;  ///< nothing where nobody may rest
-  WallClock clock_;
+  std::optional<InputExtrapolator> inputs_;  ///< nothing where inputs are held
+  std::optional<IdleScheduler> idle_;        ///< nothing where no unit may be suspended
   EventHandler event_handler_;
   Stepper stepper_;
+
+  std::vector<std::vector<VariableId>> wanted_;  ///< the signals of each observer
+  std::vector<Verdict> verdicts_;
 
   bool has_run_ = false;
   Time time_{};

@@ -15,35 +15,31 @@ constexpr std::uint32_t kEventLimit = 1000;
 
 }  // namespace
 
-EventHandler::EventHandler(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                           Exchange& exchange, std::vector<Observer*>& observers,
-                           const Activities& activities, RunStatistics& statistics, WallClock clock,
-                           IdleScheduler* idle)
-    : system_(system),
-      units_(units),
-      exchange_(exchange),
-      messages_(system, units),
-      clocks_(system, units),
-      observers_(observers),
-      activities_(activities),
-      statistics_(statistics),
-      clock_(clock),
+EventHandler::EventHandler(RunContext& context, IdleScheduler* idle)
+    : system_(context.system),
+      units_(context.units),
+      exchange_(context.exchange),
+      messages_(system_, units_),
+      clocks_(system_, units_),
+      observers_(context.observers),
+      activities_(context.activities),
+      statistics_(context.statistics),
+      clock_(context.clock),
       idle_(idle),
-      active_(units.size()),
-      in_event_mode_(units.size()),
-      had_event_(units.size()),
-      polled_(units.size()),
-      next_event_(units.size()) {
+      active_(units_.size()),
+      in_event_mode_(units_.size()),
+      had_event_(units_.size()),
+      polled_(units_.size()),
+      next_event_(units_.size()) {
   for (std::size_t i = 0; i < count(); ++i) {
     if (!description(i).has_event_mode) continue;
     event_units_.push_back(i);
-    if (exchange.has_discrete_inputs(i)) discrete_units_.push_back(i);
+    if (exchange_.has_discrete_inputs(i)) discrete_units_.push_back(i);
   }
-  evaluation_.emplace(system, units, exchange, Phase::Events,
-                      UnitTimer(clock, statistics.units, &UnitStatistics::event_time));
+  evaluation_.emplace(context, Phase::Events, &UnitStatistics::event_time);
   if (!evaluation_->is_trivial()) return;
   evaluation_.reset();
-  for (const ContinuousLink& link : exchange.continuous_links()) {
+  for (const ContinuousLink& link : exchange_.continuous_links()) {
     if (description(link.to.component).has_event_mode) links_.push_back(link);
   }
 }

@@ -11,29 +11,19 @@
 
 #include <stride/time.h>
 
-#include "master/algorithm/activities.h"
 #include "master/algorithm/events/clocks.h"
 #include "master/algorithm/events/messages.h"
-#include "master/algorithm/exchange/exchange.h"
 #include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/loops/ordered_evaluation.h"
-#include "master/algorithm/observer.h"
-#include "master/algorithm/statistics.h"
-#include "master/algorithm/unit.h"
-#include "master/model/system.h"
-#include "master/util/wall_clock.h"
+#include "master/algorithm/run_context.h"
 
 namespace stride::core {
 
 /// What the units do between two communication steps, and who has an event when.
 class EventHandler : private OrderedEvaluation::Participants {
  public:
-  /// `units` in the order of system.components(); `observers` hear of the messages, and
-  /// `activities` tells of the events. All of them must outlive this object. `idle`: who rests;
-  /// null if nobody does.
-  EventHandler(const System& system, std::span<const std::unique_ptr<Unit>> units,
-               Exchange& exchange, std::vector<Observer*>& observers, const Activities& activities,
-               RunStatistics& statistics, WallClock clock, IdleScheduler* idle = nullptr);
+  /// Both must outlive this object. `idle`: optional idle scheduler.
+  explicit EventHandler(RunContext& context, IdleScheduler* idle = nullptr);
 
   /// Before the end of Initialization Mode: asks for the first ticks of the time-based clocks.
   void begin_clocks(Time start) { clocks_.begin(start); }
@@ -95,7 +85,7 @@ class EventHandler : private OrderedEvaluation::Participants {
   MessageExchange messages_;
   Clocks clocks_;
   std::optional<OrderedEvaluation> evaluation_;  ///< where outputs follow inputs at once
-  std::vector<Observer*>& observers_;
+  const std::vector<Observer*>& observers_;
   const Activities& activities_;
   RunStatistics& statistics_;
   WallClock clock_;

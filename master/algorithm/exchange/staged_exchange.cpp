@@ -6,14 +6,13 @@
 #include <utility>
 
 namespace stride::core {
-StagedExchange::StagedExchange(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                               Exchange& exchange, const UnitTimer& timer, bool all_new)
-    : system_(system),
-      units_(units),
-      exchange_(exchange),
+StagedExchange::StagedExchange(RunContext& context, const UnitTimer& timer, bool all_new)
+    : system_(context.system),
+      units_(context.units),
+      exchange_(context.exchange),
       timer_(timer),
       all_new_(all_new),
-      due_(units.size()) {}
+      due_(units_.size()) {}
 
 void StagedExchange::add(Batch& batch, VariableId id) {
   const Variable& variable = system_.variable(id);

@@ -10,11 +10,9 @@
 #include <tuple>
 #include <vector>
 
-#include "master/algorithm/exchange/exchange.h"
 #include "master/algorithm/loops/evaluation_order.h"
-#include "master/algorithm/unit.h"
+#include "master/algorithm/run_context.h"
 #include "master/algorithm/unit_timer.h"
-#include "master/model/system.h"
 
 namespace stride::core {
 
@@ -38,10 +36,9 @@ class StagedExchange {
   };
 
  public:
-  /// `units` in the order of system.components(). `all_new`: an input is written when it is first
+  /// The context must outlive this object. `all_new`: an input is written when it is first
   /// routed, whatever its value; otherwise only when it changes.
-  StagedExchange(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                 Exchange& exchange, const UnitTimer& timer, bool all_new);
+  StagedExchange(RunContext& context, const UnitTimer& timer, bool all_new);
 
   class Link {
    public:

@@ -9,19 +9,17 @@
 
 namespace stride::core {
 
-IdleScheduler::IdleScheduler(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                             Exchange& exchange, std::vector<UnitStatistics>& statistics,
-                             const Activities& activities, const IdleOptions& options)
-    : system_(system),
-      units_(units),
-      exchange_(exchange),
-      statistics_(statistics),
-      activities_(activities),
-      options_(options),
-      states_(units.size()) {
-  for (std::size_t i = 0; i < std::min(units.size(), options.max_skip.size()); ++i) {
-    const std::optional<Duration>& max_skip = options.max_skip[i];
-    if (max_skip && system.components()[i].description->promises_idle) add_candidate(i, *max_skip);
+IdleScheduler::IdleScheduler(RunContext& context)
+    : system_(context.system),
+      units_(context.units),
+      exchange_(context.exchange),
+      statistics_(context.statistics.units),
+      activities_(context.activities),
+      options_(context.options.idle),
+      states_(units_.size()) {
+  for (std::size_t i = 0; i < std::min(units_.size(), options_.max_skip.size()); ++i) {
+    const std::optional<Duration>& max_skip = options_.max_skip[i];
+    if (max_skip && system_.components()[i].description->promises_idle) add_candidate(i, *max_skip);
   }
 }
 

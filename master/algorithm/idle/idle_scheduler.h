@@ -10,12 +10,7 @@
 
 #include <stride/time.h>
 
-#include "master/algorithm/activities.h"
-#include "master/algorithm/exchange/exchange.h"
-#include "master/algorithm/run_options.h"
-#include "master/algorithm/statistics.h"
-#include "master/algorithm/unit.h"
-#include "master/model/system.h"
+#include "master/algorithm/run_context.h"
 
 namespace stride::core {
 
@@ -28,11 +23,8 @@ namespace stride::core {
 /// for different components.
 class IdleScheduler {
  public:
-  /// `units` in the order of system.components(). `activities`: who hears of rests. All must
-  /// outlive this object.
-  IdleScheduler(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                Exchange& exchange, std::vector<UnitStatistics>& statistics,
-                const Activities& activities, const IdleOptions& options);
+  /// The context, with its RunOptions::idle, must outlive this object.
+  explicit IdleScheduler(RunContext& context);
 
   /// Whether no unit of the system is ever to rest.
   bool is_trivial() const { return candidates_.empty(); }
@@ -108,7 +100,7 @@ class IdleScheduler {
   Exchange& exchange_;
   std::vector<UnitStatistics>& statistics_;
   const Activities& activities_;
-  IdleOptions options_;
+  const IdleOptions& options_;
   std::vector<IdleState> states_;  ///< by component
   std::vector<std::size_t> candidates_;
   std::vector<std::size_t> events_;

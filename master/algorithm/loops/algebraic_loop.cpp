@@ -45,16 +45,15 @@ double epsilon(const System& system, const EvaluationBlock& plan) {
 
 }  // namespace
 
-AlgebraicLoop::AlgebraicLoop(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                             const EvaluationBlock& plan, Exchange& exchange,
+AlgebraicLoop::AlgebraicLoop(RunContext& context, const EvaluationBlock& plan,
                              StagedExchange& staged)
-    : system_(system), plan_(plan), staged_(staged) {
-  if (LoopTangents::exist(system, plan)) tangents_.emplace(system, units, plan);
-  scale_.epsilon = epsilon(system, plan);
+    : system_(context.system), plan_(plan), staged_(staged) {
+  if (LoopTangents::exist(system_, plan)) tangents_.emplace(system_, context.units, plan);
+  scale_.epsilon = epsilon(system_, plan);
   for (const Tear& tear : plan.tears) {
-    const Variable& input = system.variable(tear.inputs.front());
+    const Variable& input = system_.variable(tear.inputs.front());
     Cut cut{&tear,
-            exchange.slice(tear.source),
+            context.exchange.slice(tear.source),
             {},
             ValueBlock(input.type, input.size),
             is_real(input.type)};

@@ -14,10 +14,10 @@ class AllUnits : public OrderedEvaluation::Participants {
 
 }  // namespace
 
-void set_initial_values(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                        Exchange& exchange, const UnitTimer& timer, Time start) {
+void set_initial_values(RunContext& context, Time start) {
   AllUnits all;
-  OrderedEvaluation(system, units, exchange, Phase::Initialization, timer).run(start, all);
+  OrderedEvaluation(context, Phase::Initialization, &UnitStatistics::initialization_time)
+      .run(start, all);
 }
 
 }  // namespace stride::core

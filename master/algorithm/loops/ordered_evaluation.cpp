@@ -4,32 +4,31 @@
 
 namespace stride::core {
 
-OrderedEvaluation::OrderedEvaluation(const System& system,
-                                     std::span<const std::unique_ptr<Unit>> units,
-                                     Exchange& exchange, Phase phase, const UnitTimer& timer)
-    : system_(system),
-      exchange_(exchange),
+OrderedEvaluation::OrderedEvaluation(RunContext& context, Phase phase, UnitTimer::Sum time)
+    : system_(context.system),
+      exchange_(context.exchange),
       phase_(phase),
-      order_(evaluation_order(system, phase)),
-      staged_(system, units, exchange, timer, phase == Phase::Initialization) {
+      order_(evaluation_order(system_, phase)),
+      staged_(context, UnitTimer(context.clock, context.statistics.units, time),
+              phase == Phase::Initialization) {
   std::map<VariableId, std::vector<VariableId>> targets;
-  for (const Connection& connection : system.connections()) {
-    if (carries_value(system, connection, phase)) {
+  for (const Connection& connection : system_.connections()) {
+    if (carries_value(system_, connection, phase)) {
       targets[connection.from].push_back(connection.to);
     }
   }
   blocks_.reserve(order_.size());
-  for (const EvaluationBlock& planned : order_) plan(planned, targets, units);
+  for (const EvaluationBlock& planned : order_) plan(planned, targets, context);
   if (phase == Phase::Events) find_direct_inputs();
 }
 
 void OrderedEvaluation::plan(const EvaluationBlock& planned, const Targets& targets,
-                             std::span<const std::unique_ptr<Unit>> units) {
+                             RunContext& context) {
   Block& block = blocks_.emplace_back();
   block.plan = &planned;
   std::set<VariableId> inner(planned.inputs.begin(), planned.inputs.end());
   std::set<VariableId> cut;
-  if (planned.is_loop()) block.loop.emplace(system_, units, planned, exchange_, staged_);
+  if (planned.is_loop()) block.loop.emplace(context, planned, staged_);
   for (const Tear& tear : planned.tears) cut.insert(tear.inputs.begin(), tear.inputs.end());
   std::vector<VariableId> onward;
   for (const EvaluationStep& step : planned.steps) {

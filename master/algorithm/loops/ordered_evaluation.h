@@ -13,13 +13,11 @@
 
 #include <stride/time.h>
 
-#include "master/algorithm/exchange/exchange.h"
 #include "master/algorithm/exchange/staged_exchange.h"
 #include "master/algorithm/loops/algebraic_loop.h"
 #include "master/algorithm/loops/evaluation_order.h"
-#include "master/algorithm/unit.h"
+#include "master/algorithm/run_context.h"
 #include "master/algorithm/unit_timer.h"
-#include "master/model/system.h"
 
 namespace stride::core {
 
@@ -41,9 +39,9 @@ class OrderedEvaluation {
     virtual bool join(std::size_t component) = 0;
   };
 
-  /// `units` in the order of system.components(). All must outlive this object.
-  OrderedEvaluation(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                    Exchange& exchange, Phase phase, const UnitTimer& timer);
+  /// The context must outlive this object. `time`: where the wall-clock time of the units'
+  /// functions is added up.
+  OrderedEvaluation(RunContext& context, Phase phase, UnitTimer::Sum time);
   OrderedEvaluation(const OrderedEvaluation&) = delete;
   OrderedEvaluation& operator=(const OrderedEvaluation&) = delete;
 
@@ -69,8 +67,7 @@ class OrderedEvaluation {
   };
 
   using Targets = std::map<VariableId, std::vector<VariableId>>;  // of an output
-  void plan(const EvaluationBlock& planned, const Targets& targets,
-            std::span<const std::unique_ptr<Unit>> units);
+  void plan(const EvaluationBlock& planned, const Targets& targets, RunContext& context);
   void find_direct_inputs();
   void evaluate(EvaluationStage& stage);
   void route(StagedExchange::Link& link);

@@ -5,24 +5,25 @@
 
 namespace stride::core {
 
-InputExtrapolator::InputExtrapolator(const System& system, Exchange& exchange, Coupling coupling,
-                                     Extrapolation extrapolation)
-    : exchange_(exchange),
-      sequential_(coupling == Coupling::GaussSeidel),
-      sources_(system.components().size()),
-      steps_(system.components().size()),
-      feeds_(system.components().size()) {
+InputExtrapolator::InputExtrapolator(RunContext& context)
+    : exchange_(context.exchange),
+      sequential_(context.options.coupling == Coupling::GaussSeidel),
+      sources_(context.units.size()),
+      steps_(context.units.size()),
+      feeds_(context.units.size()) {
   SignalIndices indices;
-  for (const ContinuousLink& link : exchange.continuous_links()) {
+  for (const ContinuousLink& link : exchange_.continuous_links()) {
     std::vector<Feed>& feeds = feeds_[link.to.component];
     auto feed = std::find_if(feeds.begin(), feeds.end(),
                              [&](const Feed& f) { return f.source == link.from.component; });
     if (feed == feeds.end()) feed = feeds.insert(feed, {link.from.component, {}});
-    feed->inputs.push_back({signal_of(link, indices), system.variable(link.to).intermediate_update,
-                            link.target, link.conversion});
+    feed->inputs.push_back({signal_of(link, indices),
+                            context.system.variable(link.to).intermediate_update, link.target,
+                            link.conversion});
   }
   for (Source& source : sources_) {
-    source.history = SignalHistory(source.signals.size(), static_cast<unsigned>(extrapolation));
+    source.history =
+        SignalHistory(source.signals.size(), static_cast<unsigned>(context.options.extrapolation));
   }
 }
 

@@ -9,11 +9,8 @@
 
 #include <stride/time.h>
 
-#include "master/algorithm/exchange/exchange.h"
-#include "master/algorithm/run_options.h"
+#include "master/algorithm/run_context.h"
 #include "master/algorithm/stepping/signal_history.h"
-#include "master/algorithm/unit.h"
-#include "master/model/system.h"
 
 namespace stride::core {
 
@@ -32,8 +29,7 @@ struct Excess {
 /// within a step have the polynomial's own value at its begin and wherever the unit asks for it.
 class InputExtrapolator {
  public:
-  InputExtrapolator(const System& system, Exchange& exchange, Coupling coupling,
-                    Extrapolation extrapolation);
+  explicit InputExtrapolator(RunContext& context);
 
   /// Sets a unit's inputs to their values within the step for which before_step() was called last.
   void within_step(std::size_t component, Unit& unit, double seconds_into_step);

@@ -21,29 +21,26 @@ Stepper::UnitStep::UnitStep(Unit& stepped, const StepPlace& its_place)
       saves_state(its_place.saves_state),
       can_vary_step(its_place.can_vary_step) {}
 
-Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                 Exchange& exchange, std::vector<UnitStatistics>& statistics,
-                 const Activities& activities, WallClock clock, const RunOptions& options,
-                 InputExtrapolator* inputs, IdleScheduler* idle)
-    : system_(system),
-      unit_count_(units.size()),
-      exchange_(exchange),
-      statistics_(statistics),
-      activities_(activities),
-      clock_(clock),
-      step_clock_(clock),
+Stepper::Stepper(RunContext& context, InputExtrapolator* inputs, IdleScheduler* idle)
+    : system_(context.system),
+      unit_count_(context.units.size()),
+      exchange_(context.exchange),
+      statistics_(context.statistics.units),
+      activities_(context.activities),
+      clock_(context.clock),
+      step_clock_(context.clock),
       inputs_(inputs),
       idle_(idle),
-      regular_(options.step.size),
-      minimum_(options.step.minimum),
-      order_(step_order(system, options.step.policy, options.coupling)),
-      index_of_(units.size()),
-      times_(units.size()),
-      failures_(units.size()),
-      balancer_(plan(options)) {
+      regular_(context.options.step.size),
+      minimum_(context.options.step.minimum),
+      order_(step_order(system_, context.options.step.policy, context.options.coupling)),
+      index_of_(unit_count_),
+      times_(unit_count_),
+      failures_(unit_count_),
+      balancer_(plan(context.options)) {
   for (const StepPlace& place : order_) {
     index_of_[place.component] = unit_steps_.size();
-    UnitStep& unit_step = unit_steps_.emplace_back(*units[place.component], place);
+    UnitStep& unit_step = unit_steps_.emplace_back(*context.units[place.component], place);
     unit_step.may_suspend = idle != nullptr && idle->may_suspend(place.component);
     unit_step.is_plain =
         inputs == nullptr && !place.saves_state && place.can_vary_step && !unit_step.may_suspend;

@@ -12,18 +12,12 @@
 
 #include <stride/time.h>
 
-#include "master/algorithm/activities.h"
-#include "master/algorithm/exchange/exchange.h"
 #include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/parallel/load_balancer.h"
-#include "master/algorithm/run_options.h"
-#include "master/algorithm/statistics.h"
+#include "master/algorithm/run_context.h"
 #include "master/algorithm/stepping/input_extrapolator.h"
 #include "master/algorithm/stepping/step_order.h"
-#include "master/algorithm/unit.h"
-#include "master/model/system.h"
 #include "master/util/thread_pool.h"
-#include "master/util/wall_clock.h"
 
 namespace stride::core {
 
@@ -37,14 +31,10 @@ namespace stride::core {
 /// fail, the first one's error is thrown, when all threads have come to rest.
 class Stepper {
  public:
-  /// `units` in the order of system.components(). `activities`: who hears of steps that are not
-  /// ordinary. `inputs`: who sets them before each step; null
-  /// if they stay what they are. `idle`: who rests; null if nobody does. Throws Error as
-  /// step_order() does.
-  Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units, Exchange& exchange,
-          std::vector<UnitStatistics>& statistics, const Activities& activities, WallClock clock,
-          const RunOptions& options, InputExtrapolator* inputs = nullptr,
-          IdleScheduler* idle = nullptr);
+  /// All must outlive this object. `inputs` sets the inputs before each step; null if they keep
+  /// their values. `idle`: optional idle scheduler. Throws Error as step_order() does.
+  explicit Stepper(RunContext& context, InputExtrapolator* inputs = nullptr,
+                   IdleScheduler* idle = nullptr);
 
   const std::vector<StepPlace>& order() const { return order_; }
 
