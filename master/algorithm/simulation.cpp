@@ -14,8 +14,8 @@
 #include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/loops/initial_values.h"
 #include "master/algorithm/run_context.h"
+#include "master/algorithm/step_policies/step_size_controller.h"
 #include "master/algorithm/stepping/input_extrapolator.h"
-#include "master/algorithm/stepping/step_size_controller.h"
 #include "master/algorithm/stepping/stepper.h"
 
 namespace stride::core {

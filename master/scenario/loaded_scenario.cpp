@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "master/algorithm/stepping/step_size_controller.h"
+#include "master/algorithm/step_policies/step_size_controller.h"
 #include "master/checks/checks.h"
 #include "master/scenario/check_selection.h"
 #include "master/scenario/component_selection.h"

@@ -1,4 +1,4 @@
-#include "master/algorithm/stepping/step_size_controller.h"
+#include "master/algorithm/step_policies/step_size_controller.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,10 @@
-#include "master/algorithm/stepping/step_size_controller.h"
-
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "master/algorithm/step_policies/step_size_controller.h"
 #include "tests/master/algorithm/scripted_system.h"
 #include "tests/master/algorithm/two_masses.h"
 
