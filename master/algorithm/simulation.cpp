@@ -14,7 +14,7 @@
 #include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/loops/initial_values.h"
 #include "master/algorithm/run_context.h"
-#include "master/algorithm/step_policies/step_size_controller.h"
+#include "master/algorithm/step_policies/step_policy.h"
 #include "master/algorithm/stepping/input_extrapolator.h"
 #include "master/algorithm/stepping/stepper.h"
 
@@ -30,7 +30,7 @@ class Simulation::Run {
  public:
   Run(const System& system, std::vector<std::unique_ptr<Unit>> units, RunOptions options)
       : context_(system, std::move(units), std::move(options)),
-        step_size_(system_, options_),
+        step_policy_(make_step_policy(system_, options_)),
         inputs_(make_input_extrapolator()),
         idle_(make_idle_scheduler()),
         event_handler_(context_, pointer_to(idle_)),
@@ -165,7 +165,7 @@ class Simulation::Run {
 
   /// Nothing where nobody would use it.
   std::optional<InputExtrapolator> make_input_extrapolator() {
-    if (!sets_inputs_in_steps() && !step_size_.controls_error()) return std::nullopt;
+    if (!sets_inputs_in_steps() && !options_.step.policy->controls_error) return std::nullopt;
     return std::optional<InputExtrapolator>(std::in_place, context_);
   }
 
@@ -220,10 +220,10 @@ class Simulation::Run {
   Time advance() {
     while (true) {
       const Time reached = stepper_.advance(time_, next_target());
-      if (!step_size_.controls_error()) return reached;
+      if (!options_.step.policy->controls_error) return reached;
       const Excess excess = inputs_->excess(reached, options_.step.absolute_tolerance,
                                             options_.step.relative_tolerance);
-      if (step_size_.accept(time_, reached, excess)) return reached;
+      if (step_policy_->accept(time_, reached, excess)) return reached;
       stepper_.undo(time_);
       ++statistics_.undone_steps;
     }
@@ -232,7 +232,7 @@ class Simulation::Run {
   /// Where the policy leads to, unless an event is nearer.
   Time next_target() {
     const std::optional<Time> rest = idle_ ? idle_->all_suspended_until() : std::nullopt;
-    const Time target = rest ? step_size_.stride(time_, *rest) : step_size_.next(time_);
+    const Time target = rest ? step_policy_->stride(time_, *rest) : step_policy_->next(time_);
     return std::min(target, event_handler_.next_event().value_or(target));
   }
 
@@ -261,7 +261,7 @@ class Simulation::Run {
   RunStatistics& statistics_ = context_.statistics;
   const WallClock clock_ = context_.clock;
 
-  StepSizeController step_size_;
+  std::unique_ptr<StepPolicy> step_policy_;
   std::optional<InputExtrapolator> inputs_;  ///< nothing where inputs are held
   std::optional<IdleScheduler> idle_;        ///< nothing where no unit may be suspended
   EventHandler event_handler_;

@@ -3,12 +3,22 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace stride::cli {
 namespace {
+
+/// "jacobi|gauss-seidel"
+template <class Choices>
+std::string alternatives(const Choices& choices) {
+  std::vector<std::string> words;
+  for (const auto choice : choices) words.emplace_back(name(choice));
+  return fmt::format("{}", fmt::join(words, "|"));
+}
 
 /// An option whose text the setter takes.
 CLI::Option* add_choice(CLI::App& command, const std::string& name, io::StepChoice& choice,
@@ -31,7 +41,7 @@ void add_step_options(CLI::App& command, io::StepChoice& choice) {
              "Length of the communication steps; of the first one where the error controls them")
       ->type_name("SECONDS");
   add_choice(command, "--policy", choice, &StepChoice::set_policy, "What decides on the steps")
-      ->type_name("fixed|event-driven|error-controlled");
+      ->type_name(alternatives(core::kStepPolicies));
   add_choice(command, "--max-step", choice, &StepChoice::set_maximum, "No step is longer")
       ->type_name("SECONDS");
   add_choice(command, "--min-step", choice, &StepChoice::set_minimum,
@@ -47,10 +57,10 @@ void add_step_options(CLI::App& command, io::StepChoice& choice) {
       command, "--coupling", choice, &StepChoice::set_coupling,
       "What a unit sees of the others during a step: what they were at its begin, or, of those "
       "that have stepped before it, where they are")
-      ->type_name("jacobi|gauss-seidel");
+      ->type_name(alternatives(core::kCouplings));
   add_choice(command, "--extrapolation", choice, &StepChoice::set_extrapolation,
              "How inputs go on during a step")
-      ->type_name("hold|linear|quadratic");
+      ->type_name(alternatives(core::kExtrapolations));
 }
 
 void add_host_options(CLI::App& command, HostRequest& request) {

@@ -62,7 +62,7 @@ Json step_entry(const core::RunOptions& options) {
                 {"size", to_seconds(options.step.size)},
                 {"minimum", to_seconds(options.step.minimum)}};
   if (options.step.maximum) entry["maximum"] = to_seconds(*options.step.maximum);
-  if (options.step.policy == core::StepPolicy::ErrorControlled) {
+  if (options.step.policy->controls_error) {
     entry["relative_tolerance"] = options.step.relative_tolerance;
     entry["absolute_tolerance"] = options.step.absolute_tolerance;
   }

@@ -10,7 +10,7 @@
 namespace stride::io {
 
 struct StepChoice {
-  std::optional<core::StepPolicy> policy;
+  std::optional<const core::StepPolicyType*> policy;
   std::optional<Duration> size;
   std::optional<Duration> maximum;
   std::optional<Duration> minimum;

@@ -1,57 +1,33 @@
-// How far the next communication step goes, as far as no event ends it.
-#ifndef STRIDE_MASTER_ALGORITHM_STEPPING_STEP_SIZE_CONTROLLER_H
-#define STRIDE_MASTER_ALGORITHM_STEPPING_STEP_SIZE_CONTROLLER_H
-
-#include <optional>
+// The size of a step from the errors of the steps before it.
+#ifndef STRIDE_MASTER_ALGORITHM_STEP_POLICIES_STEP_SIZE_CONTROLLER_H
+#define STRIDE_MASTER_ALGORITHM_STEP_POLICIES_STEP_SIZE_CONTROLLER_H
 
 #include <stride/time.h>
 
-#include "master/algorithm/run_options.h"
-#include "master/algorithm/stepping/input_extrapolator.h"
-#include "master/model/system.h"
-
 namespace stride::core {
 
-/// The step policy of a run. No step is longer than a unit says it can be (maximum_step). Steps
-/// that are not on a grid end on the units' fixed internal steps, as far as events and maxima let.
+/// A PI controller (Hairer, Wanner, "Solving Ordinary Differential Equations II", IV.2; after
+/// Gustafsson, 1988). The error of a step is given as its ratio to what is tolerated.
 class StepSizeController {
  public:
-  /// Throws Error (Input) where a unit cannot do what the policy needs: steps of various sizes, and
-  /// with ErrorControlled also to be rolled back.
-  StepSizeController(const System& system, const RunOptions& options);
+  struct Range {
+    Duration minimum, maximum;
+  };
 
-  /// The communication point to go to: later than `now`, and the stop time at most.
-  Time next(Time now);
+  /// `first`: the size of the first step. `order`: of the local error, in the step size.
+  StepSizeController(Duration first, double order) : order_(order), size_(first) {}
 
-  /// Likewise, where nothing happens before `quiet_until`: as far as that, or the next regular
-  /// point, which is a point of the grid where steps are on one.
-  Time stride(Time now, Time quiet_until);
+  /// Of the next step.
+  Duration size() const { return size_; }
 
-  bool controls_error() const { return options_.policy == StepPolicy::ErrorControlled; }
-
-  /// Whether the step is good enough; next() goes accordingly less or more far. With
-  /// ErrorControlled only. The size follows a PI controller (Hairer, Wanner, "Solving Ordinary
-  /// Differential Equations II", IV.2; after Gustafsson, 1988). Throws Error (Run) where no shorter
-  /// step is allowed.
-  bool accept(Time from, Time reached, const Excess& excess);
+  /// A step of the size `used` was accepted: `ratio` is 1 at most.
+  void accept(Duration used, double ratio, const Range& range);
+  /// A step of the size `used`, which is more than `least`, is undone: `ratio` is above 1.
+  void reject(Duration used, double ratio, Duration least);
 
  private:
-  void refine_quantum(Duration internal);
-  void check_units(const System& system) const;
-  /// Back to the last point of the units' internal steps. Where that is no step at all, on to the
-  /// next one, or if that is further than the maximum, the time itself.
-  Time on_internal_grid(Time time, Time now) const;
-  [[noreturn]] void fail_tolerance(Time from, Time reached, const Excess& excess) const;
-
-  const System& system_;
-  StepOptions options_;
-  Time start_;
-  Time stop_;
-  Time grid_point_;                  ///< the last target, where steps are on a grid
-  double order_;                     ///< of the local error, in the step size
-  std::optional<Duration> maximum_;  ///< the user's and the units'
-  Duration quantum_{1};              ///< a multiple of all fixed internal steps
-  Duration size_;                    ///< of the next step, with ErrorControlled
+  double order_;
+  Duration size_;
   double previous_ratio_ = 1;
   bool was_rejected_ = false;
 };

@@ -33,7 +33,7 @@ Stepper::Stepper(RunContext& context, InputExtrapolator* inputs, IdleScheduler* 
       idle_(idle),
       regular_(context.options.step.size),
       minimum_(context.options.step.minimum),
-      order_(step_order(system_, context.options.step.policy, context.options.coupling)),
+      order_(step_order(system_, *context.options.step.policy, context.options.coupling)),
       index_of_(unit_count_),
       times_(unit_count_),
       failures_(unit_count_),

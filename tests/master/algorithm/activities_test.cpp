@@ -92,7 +92,7 @@ TEST_CASE("steps that an input's error undoes are told for each unit") {
   };
   f.add("b", integrator().done());
   f.wire("a", "y", "b", "u");
-  f.options.step.policy = StepPolicy::ErrorControlled;
+  f.options.step.policy = &kErrorControlledSteps;
   const std::vector<Activity> told = run(f, 0.2);
   const auto undone = f.simulation->statistics().undone_steps;
   REQUIRE(undone > 0);
