@@ -95,7 +95,8 @@ Progress::State Progress::state() const {
   const double whole = to_seconds(stop_ - start_);
   const double units = static_cast<double>(simulation_.statistics().units.size());
   State state{whole > 0 ? done / whole : 1, std::chrono::duration<double>(now_ - began_).count(),
-              pace_->speed(), done > 0 ? to_seconds(simulation_.rested()) / (done * units) : 0.0,
+              pace_->speed(),
+              done > 0 ? to_seconds(simulation_.suspended_time()) / (done * units) : 0.0,
               std::nullopt};
   if (state.speed > 0 && time_ < stop_) state.left = to_seconds(stop_ - time_) / state.speed;
   return state;

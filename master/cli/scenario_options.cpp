@@ -3,12 +3,22 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace stride::cli {
 namespace {
+
+/// "jacobi|gauss-seidel"
+template <class Choices>
+std::string alternatives(const Choices& choices) {
+  std::vector<std::string> words;
+  for (const auto choice : choices) words.emplace_back(name(choice));
+  return fmt::format("{}", fmt::join(words, "|"));
+}
 
 /// An option whose text the setter takes.
 CLI::Option* add_setting(CLI::App& command, const std::string& name, io::StepSettings& settings,
@@ -32,7 +42,7 @@ void add_step_options(CLI::App& command, io::StepSettings& settings) {
       ->type_name("SECONDS");
   add_setting(command, "--policy", settings, &StepSettings::set_policy,
               "How the next communication point is chosen")
-      ->type_name("fixed|event-driven|error-controlled");
+      ->type_name(alternatives(core::kStepPolicies));
   add_setting(command, "--max-step", settings, &StepSettings::set_maximum,
               "Upper limit of the step size")
       ->type_name("SECONDS");
@@ -50,10 +60,10 @@ void add_step_options(CLI::App& command, io::StepSettings& settings) {
       command, "--coupling", settings, &StepSettings::set_coupling,
       "Inputs of a unit during a step: the outputs at its begin, or, from units that have stepped "
       "before it, those at its end")
-      ->type_name("jacobi|gauss-seidel");
+      ->type_name(alternatives(core::kCouplings));
   add_setting(command, "--extrapolation", settings, &StepSettings::set_extrapolation,
               "How inputs are extrapolated during a step")
-      ->type_name("hold|linear|quadratic");
+      ->type_name(alternatives(core::kExtrapolations));
 }
 
 void add_host_options(CLI::App& command, HostRequest& request) {

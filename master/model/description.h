@@ -208,6 +208,10 @@ struct UnitDescription {
   /// Whether the variable belongs to time-based clocks only: its value is exchanged at their ticks,
   /// and holds between them.
   bool is_sampled(const Variable& variable) const;
+  /// Whether the variable is a message: its value exists at the ticks of a triggered clock only.
+  bool is_message(const Variable& variable) const {
+    return variable.is_clocked() && !is_sampled(variable);
+  }
 };
 
 /// target = factor * source + offset

@@ -134,6 +134,10 @@ class System {
   bool is_sampled(VariableId id) const {
     return !is_output(id) && components_[id.component].description->is_sampled(variable(id));
   }
+  /// Whether the variable is a message; see UnitDescription::is_message().
+  bool is_message(VariableId id) const {
+    return !is_output(id) && components_[id.component].description->is_message(variable(id));
+  }
   /// "component.variable"; of an output of the system its name.
   std::string full_name(VariableId id) const { return prefix(id) + variable(id).name; }
   /// What stands before the variable's name in that: "component.", or nothing.

@@ -111,10 +111,8 @@ void System::check_clocked(const ConnectionDeclaration& wanted, VariableId from,
                            wire, full_name(to), core::name(variable(to).clock->variability)),
                "remove the connection; the master ticks such a clock when its unit says");
   }
-  const bool from_message = variable(from).is_clocked() && !is_sampled(from);
-  const bool to_message = variable(to).is_clocked() && !is_sampled(to);
-  if (from_message == to_message) return;
-  const VariableId message = from_message ? from : to;
+  if (is_message(from) == is_message(to)) return;
+  const VariableId message = is_message(from) ? from : to;
   fail_input(context,
              fmt::format("cannot connect {}: '{}' is a message, which exists at the ticks of its "
                          "triggered clock only, and the other is not",

@@ -108,8 +108,7 @@ bool is_message_variable(const core::UnitDescription& unit, const core::Variable
   const bool is_connector =
       variable.causality == core::Causality::Input || variable.causality == core::Causality::Output;
   if (!is_connector || variable.is_time_based_clock()) return false;
-  return variable.type == core::ValueType::Clock ||
-         (variable.is_clocked() && !unit.is_sampled(variable));
+  return variable.type == core::ValueType::Clock || unit.is_message(variable);
 }
 
 }  // namespace

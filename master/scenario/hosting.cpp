@@ -54,7 +54,7 @@ std::vector<io::HostSettings> host_settings(std::span<const std::string> compone
 }
 
 std::vector<std::optional<Hosting>> choose_hostings(
-    std::span<const core::ComponentDeclaration> components, core::StepPolicy policy,
+    std::span<const core::ComponentDeclaration> components, const core::StepPolicyType& policy,
     std::span<const io::HostSettings> settings) {
   std::vector<core::ComponentDeclaration> declared(components.begin(), components.end());
   std::vector<std::optional<Hosting>> hostings(declared.size());
@@ -66,7 +66,7 @@ std::vector<std::optional<Hosting>> choose_hostings(
     declared[i].has_snapshots = hostings[i]->options.takes_snapshots;
   }
   for (const std::size_t i : core::missing_snapshots(declared, policy, may_have)) {
-    const char* reason = policy == core::StepPolicy::ErrorControlled
+    const char* reason = policy.controls_error
                              ? "steps that were too long are undone, and it cannot save its state"
                              : "it may return early, as others may, and cannot save its state";
     spdlog::info("unit '{}' has a process of its own, whose snapshots roll it back: {}",

@@ -35,7 +35,7 @@ std::vector<io::HostSettings> host_settings(std::span<const std::string> compone
 /// The processes that the settings ask for and, where they leave it open, those whose snapshots a
 /// run with this policy needs; the latter are logged.
 std::vector<std::optional<Hosting>> choose_hostings(
-    std::span<const core::ComponentDeclaration> components, core::StepPolicy policy,
+    std::span<const core::ComponentDeclaration> components, const core::StepPolicyType& policy,
     std::span<const io::HostSettings> settings);
 
 /// Throws core::Error (Input) if there is a time limit but no process to which it applies.

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "master/algorithm/stepping/step_size.h"
+#include "master/algorithm/step_policies/step_policy.h"
 #include "master/checks/checks.h"
 #include "master/scenario/check_selection.h"
 #include "master/scenario/component_selection.h"
@@ -188,8 +188,7 @@ void LoadedScenario::choose_steps(const io::StepSettings& request) {
                                      core::to_text(Time(options_.step.minimum))));
   }
   const core::StepOptions& step = options_.step;
-  if (step.policy == core::StepPolicy::ErrorControlled && step.relative_tolerance == 0 &&
-      step.absolute_tolerance == 0) {
+  if (step.policy->controls_error && step.relative_tolerance == 0 && step.absolute_tolerance == 0) {
     core::fail_input({}, "both tolerances are 0, so no step is good enough",
                      "give a relative or an absolute tolerance above 0");
   }
@@ -207,7 +206,7 @@ void LoadedScenario::choose_checks(const ScenarioRequest& request) {
 void LoadedScenario::choose_hosts(const HostRequest& request) {
   auto& components = scenario_.system.components;
   hostings_ =
-      choose_hostings(components, options_.step.policy,
+      choose_hostings(components, *options_.step.policy,
                       host_settings(component_names(), scenario_.annotation.hosts, request));
   check_unit_timeout(request, hostings_);
   bool is_changed = false;
@@ -219,8 +218,8 @@ void LoadedScenario::choose_hosts(const HostRequest& request) {
 }
 
 void LoadedScenario::check_steps() const {
-  core::StepSize(*system_, options_);  // throws where a unit cannot do what the policy needs
-  if (options_.step.policy != core::StepPolicy::Fixed) return;
+  core::check_step_policy(*system_, options_);
+  if (!options_.step.policy->has_grid) return;
   check_fixed_steps();
   warn_of_internal_steps();
 }

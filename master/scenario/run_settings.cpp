@@ -59,7 +59,7 @@ core::VariableId find(const core::System& system, const IdleNumber& number, cons
 }
 
 void check(const IdleRule& rule, const core::StepOptions& step) {
-  if (!rule.max_skip || step.policy != core::StepPolicy::Fixed || *rule.max_skip >= step.size) {
+  if (!rule.max_skip || !step.policy->has_grid || *rule.max_skip >= step.size) {
     return;
   }
   core::fail_input({rule.where, {}, {}, {}},
@@ -141,7 +141,7 @@ std::uint64_t parse_memory_limit(std::string_view text) {
 core::IdleOptions IdleSettings::options(const core::System& system,
                                         const core::StepOptions& step) const {
   core::IdleOptions options;
-  options.least = step.policy == core::StepPolicy::Fixed ? step.size : Duration{1};
+  options.least = step.policy->has_grid ? step.size : Duration{1};
   std::vector<std::string> names;
   for (const core::Component& component : system.components()) names.push_back(component.name);
   options.max_skip.assign(names.size(), kDefaultMaxSkip);

@@ -21,7 +21,7 @@ namespace stride::io {
 
 /// What is said about the stepping; nothing where nothing is said.
 struct StepSettings {
-  std::optional<core::StepPolicy> policy;
+  std::optional<const core::StepPolicyType*> policy;
   std::optional<Duration> size;
   std::optional<Duration> maximum;
   std::optional<Duration> minimum;

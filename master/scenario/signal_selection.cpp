@@ -90,8 +90,8 @@ std::vector<NamedVariable> named_variables(const core::System& system) {
     const auto& variables = system.components()[c].description->variables;
     for (std::size_t v = 0; v < variables.size(); ++v) {
       if (variables[v].causality == core::Causality::Independent) continue;  // the first column
-      const bool is_message = variables[v].type == core::ValueType::Clock ||
-                              (variables[v].is_clocked() && !system.is_sampled({c, v}));
+      const bool is_message =
+          variables[v].type == core::ValueType::Clock || system.is_message({c, v});
       found.push_back({{c, v}, system.full_name({c, v}), is_message});
     }
   }

@@ -122,6 +122,17 @@ TEST_CASE("a message needs its clock wired too") {
   CHECK(reason({wire("frame_out", "frame_in"), wire("clock_out", "clock_in")}) == "accepted");
 }
 
+TEST_CASE("what belongs to a triggered clock is a message") {
+  const auto unit = description();
+  const auto is_message = [&](const std::string& name) {
+    return unit->is_message(unit->variables[unit->find(name).value()]);
+  };
+  CHECK(is_message("frame_in"));
+  CHECK(is_message("frame_out"));
+  CHECK_FALSE(is_message("u"));
+  CHECK_FALSE(is_message("clock_out"));
+}
+
 TEST_CASE("what belongs to a time-based clock may be connected to any value but a message") {
   const Interval second = Interval::from_fraction(1, 1);
   const auto sampler = Describe("sampler")

@@ -1,52 +1,53 @@
-#include "master/algorithm/loops/evaluation.h"
+#include "master/algorithm/loops/ordered_evaluation.h"
 
 #include <algorithm>
 
 namespace stride::core {
 
-Evaluation::Evaluation(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                       Exchange& exchange, Phase phase, const UnitTimer& timer)
-    : system_(system),
-      exchange_(exchange),
+OrderedEvaluation::OrderedEvaluation(RunContext& context, Phase phase, UnitTimer::Sum time)
+    : system_(context.system),
+      exchange_(context.exchange),
       phase_(phase),
-      order_(evaluation_order(system, phase)),
-      staged_(system, units, exchange, timer, phase == Phase::Initialization) {
+      order_(evaluation_order(system_, phase)),
+      staged_(context, UnitTimer(context.clock, context.statistics.units, time),
+              phase == Phase::Initialization) {
   std::map<VariableId, std::vector<VariableId>> targets;
-  for (const Connection& connection : system.connections()) {
-    if (carries_value(system, connection, phase)) {
+  for (const Connection& connection : system_.connections()) {
+    if (carries_value(system_, connection, phase)) {
       targets[connection.from].push_back(connection.to);
     }
   }
   blocks_.reserve(order_.size());
-  for (const EvaluationBlock& planned : order_) plan(planned, targets, units);
+  for (const EvaluationBlock& planned : order_) plan(planned, targets, context);
   if (phase == Phase::Events) find_direct_inputs();
 }
 
-void Evaluation::plan(const EvaluationBlock& planned, const Targets& targets,
-                      std::span<const std::unique_ptr<Unit>> units) {
+void OrderedEvaluation::plan(const EvaluationBlock& planned, const Targets& targets,
+                             RunContext& context) {
   Block& block = blocks_.emplace_back();
   block.plan = &planned;
   std::set<VariableId> inner(planned.inputs.begin(), planned.inputs.end());
   std::set<VariableId> cut;
-  if (planned.is_loop()) block.loop.emplace(system_, units, planned, exchange_, staged_);
+  if (planned.is_loop()) block.loop.emplace(context, planned, staged_);
   for (const Tear& tear : planned.tears) cut.insert(tear.inputs.begin(), tear.inputs.end());
   std::vector<VariableId> onward;
   for (const EvaluationStep& step : planned.steps) {
-    Stage& stage = block.stages.emplace_back(Stage{staged_.plan_stage(step), {}});
+    EvaluationStage& stage =
+        block.stages.emplace_back(EvaluationStage{staged_.plan_read(step), {}});
     for (const VariableId output : step.outputs) {
       for (const VariableId input : targets.at(output)) {
         if (planned.is_loop() && inner.count(input) == 0) {
           onward.push_back(input);
         } else if (cut.count(input) == 0) {
-          stage.wires.push_back(staged_.plan_wire(input));
+          stage.links.push_back(staged_.plan_link(input));
         }
       }
     }
   }
-  for (const VariableId input : onward) block.onward.push_back(staged_.plan_wire(input));
+  for (const VariableId input : onward) block.onward.push_back(staged_.plan_link(input));
 }
 
-void Evaluation::find_direct_inputs() {
+void OrderedEvaluation::find_direct_inputs() {
   const Dependencies dependencies(system_, phase_);
   std::set<VariableId> sources;
   for (const Connection& connection : system_.connections()) sources.insert(connection.from);
@@ -70,7 +71,7 @@ void Evaluation::find_direct_inputs() {
   }
 }
 
-void Evaluation::run(Time time, Participants& participants) {
+void OrderedEvaluation::run(Time time, Participants& participants) {
   time_ = time;
   participants_ = &participants;
   staged_.begin();
@@ -87,45 +88,46 @@ void Evaluation::run(Time time, Participants& participants) {
   }
 }
 
-void Evaluation::evaluate(Stage& stage) {
-  if (!participants_->takes_part(stage.stage.component())) return;
-  staged_.evaluate(stage.stage);
-  for (StagedExchange::Wire& wire : stage.wires) route(wire);
+void OrderedEvaluation::evaluate(EvaluationStage& stage) {
+  if (!participants_->takes_part(stage.read.component())) return;
+  staged_.evaluate(stage.read);
+  for (StagedExchange::Link& link : stage.links) route(link);
 }
 
-void Evaluation::route(StagedExchange::Wire& wire) {
-  if (staged_.route(wire)) report(wire.target());
+void OrderedEvaluation::route(StagedExchange::Link& link) {
+  if (staged_.route(link)) report(link.target());
 }
 
-void Evaluation::report(VariableId input) {
+void OrderedEvaluation::report(VariableId input) {
   const bool may_jump = phase_ == Phase::Events &&
                         system_.variable(input).variability == Variability::Continuous &&
                         system_.components()[input.component].description->has_event_mode;
   if (!is_trying_ && may_jump) participants_->on_jump(input, followed_.count(input) != 0);
 }
 
-void Evaluation::sweep(Block& block) {
-  for (Stage& stage : block.stages) evaluate(stage);
+void OrderedEvaluation::sweep(Block& block) {
+  for (EvaluationStage& stage : block.stages) evaluate(stage);
 }
 
-bool Evaluation::takes_part(const Block& block) const {
-  return std::any_of(block.stages.begin(), block.stages.end(), [&](const Stage& stage) {
-    return participants_->takes_part(stage.stage.component());
+bool OrderedEvaluation::takes_part(const Block& block) const {
+  return std::any_of(block.stages.begin(), block.stages.end(), [&](const EvaluationStage& stage) {
+    return participants_->takes_part(stage.read.component());
   });
 }
 
-void Evaluation::evaluate_loop(Block& block) {
+void OrderedEvaluation::evaluate_loop(Block& block) {
   if (!takes_part(block)) return;
   if (phase_ == Phase::Initialization) block.loop->guess();
   sweep(block);
   if (!block.loop->is_settled()) solve(block);
   check_nan(block);
-  for (StagedExchange::Wire& wire : block.onward) route(wire);
+  for (StagedExchange::Link& link : block.onward) route(link);
 }
 
-void Evaluation::solve(Block& block) {
+void OrderedEvaluation::solve(Block& block) {
   bool has_joined = false;
-  for (Stage& stage : block.stages) has_joined |= participants_->join(stage.stage.component());
+  for (EvaluationStage& stage : block.stages)
+    has_joined |= participants_->join(stage.read.component());
   std::vector<ValueBlock> before;
   for (const VariableId input : block.plan->inputs) before.push_back(value(input));
   is_trying_ = true;
@@ -138,16 +140,17 @@ void Evaluation::solve(Block& block) {
   }
 }
 
-ValueBlock Evaluation::value(VariableId id) {
-  const Exchange::Place place = exchange_.place(id);
-  ValueBlock value(place.block->type(), system_.variable(id).size);
-  copy_elements(value, 0, *place.block, place.first, value.size());
+ValueBlock OrderedEvaluation::value(VariableId id) {
+  const ValueSlice slice = exchange_.slice(id);
+  ValueBlock value(slice.block->type(), slice.size);
+  copy_elements({&value, 0, slice.size}, slice);
   return value;
 }
 
-void Evaluation::check_nan(const Block& block) const {
-  const bool has_nan = std::any_of(block.stages.begin(), block.stages.end(),
-                                   [&](const Stage& s) { return staged_.has_nan(s.stage); });
+void OrderedEvaluation::check_nan(const Block& block) const {
+  const bool has_nan =
+      std::any_of(block.stages.begin(), block.stages.end(),
+                  [&](const EvaluationStage& s) { return staged_.has_nan(s.read); });
   if (has_nan) exchange_.check_nan(time_);
 }
 

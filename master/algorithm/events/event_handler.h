@@ -1,6 +1,6 @@
 // One instant of a run: values are exchanged and events handled until nothing wants another round.
-#ifndef STRIDE_MASTER_ALGORITHM_EVENTS_INSTANT_H
-#define STRIDE_MASTER_ALGORITHM_EVENTS_INSTANT_H
+#ifndef STRIDE_MASTER_ALGORITHM_EVENTS_EVENT_HANDLER_H
+#define STRIDE_MASTER_ALGORITHM_EVENTS_EVENT_HANDLER_H
 
 #include <cstdint>
 #include <memory>
@@ -11,36 +11,26 @@
 
 #include <stride/time.h>
 
-#include "master/algorithm/activities.h"
 #include "master/algorithm/events/clocks.h"
 #include "master/algorithm/events/messages.h"
-#include "master/algorithm/exchange/exchange.h"
-#include "master/algorithm/idle/idle_ledger.h"
-#include "master/algorithm/loops/evaluation.h"
-#include "master/algorithm/observer.h"
-#include "master/algorithm/statistics.h"
-#include "master/algorithm/unit.h"
-#include "master/model/system.h"
-#include "master/util/wall_clock.h"
+#include "master/algorithm/idle/idle_scheduler.h"
+#include "master/algorithm/loops/ordered_evaluation.h"
+#include "master/algorithm/run_context.h"
 
 namespace stride::core {
 
 /// What the units do between two communication steps, and who has an event when.
-class Instant : private Evaluation::Participants {
+class EventHandler : private OrderedEvaluation::Participants {
  public:
-  /// `units` in the order of system.components(); `observers` hear of the messages, and
-  /// `activities` tells of the events. All of them must outlive this object. `ledger`: who rests;
-  /// null if nobody does.
-  Instant(const System& system, std::span<const std::unique_ptr<Unit>> units, Exchange& exchange,
-          std::vector<Observer*>& observers, const Activities& activities,
-          RunStatistics& statistics, WallClock clock, IdleLedger* ledger = nullptr);
+  /// Both must outlive this object. `idle`: optional idle scheduler.
+  explicit EventHandler(RunContext& context, IdleScheduler* idle = nullptr);
 
   /// Before the end of Initialization Mode: asks for the first ticks of the time-based clocks.
   void begin_clocks(Time start) { clocks_.begin(start); }
   /// Initialization Mode is over: the units with Event Mode stand in it, and each handles one event
   /// at least. Fetches the outputs of all.
   void begin();
-  /// The unit has an event at the next settle(), beside those whose announced time has come.
+  /// The unit has an event at the next handle_events(), beside those whose announced time has come.
   void request_event(std::size_t component) {
     if (description(component).has_event_mode) activate(component);
   }
@@ -50,12 +40,13 @@ class Instant : private Evaluation::Participants {
   /// no event have yet to be given their inputs (Exchange::deliver_routed). Throws Error (Run)
   /// where a connected output is NaN, a loop has no solution that could be found, or units tick for
   /// ever.
-  void settle(Time time);
+  void handle_events(Time time);
 
-  /// Who handled an event in the last settle(), by component.
+  /// Who handled an event in the last handle_events(), by component.
   std::span<const char> had_event() const { return had_event_; }
 
-  /// The earliest event announced, or tick of a time-based clock, for later than the last settle().
+  /// The earliest event announced, or tick of a time-based clock, for later than the last
+  /// handle_events().
   std::optional<Time> next_event() const;
 
  private:
@@ -65,7 +56,7 @@ class Instant : private Evaluation::Participants {
   }
   void activate(std::size_t i) { active_[i] = has_active_ = true; }
   void activate_announced();
-  void look_for_announced();
+  void update_announced();
   bool prepare_events();
   void leave_event_mode();
   void enter_event_mode(std::size_t i);
@@ -75,7 +66,7 @@ class Instant : private Evaluation::Participants {
   void exchange_after_events();
   void exchange_messages();
   void transmit(std::size_t sender);
-  void tell_observers(VariableId id, bool received, const ValueBlock* block);
+  void notify_observers(VariableId id, bool received, const ValueBlock* block);
   std::string content_of(VariableId id, const ValueBlock& block) const;
   std::string described_by(VariableId id, const ValueBlock& block) const;
   void find_jumps();
@@ -93,12 +84,12 @@ class Instant : private Evaluation::Participants {
   Exchange& exchange_;
   MessageExchange messages_;
   Clocks clocks_;
-  std::optional<Evaluation> evaluation_;  ///< where outputs follow inputs at once
-  std::vector<Observer*>& observers_;
+  std::optional<OrderedEvaluation> evaluation_;  ///< where outputs follow inputs at once
+  const std::vector<Observer*>& observers_;
   const Activities& activities_;
   RunStatistics& statistics_;
   WallClock clock_;
-  IdleLedger* ledger_;
+  IdleScheduler* idle_;
 
   Time time_{};
   std::uint32_t index_ = 0;                  ///< of the super-dense instant at that time

@@ -1,4 +1,4 @@
-#include "master/algorithm/events/instant.h"
+#include "master/algorithm/events/event_handler.h"
 
 #include <algorithm>
 #include <utility>
@@ -15,40 +15,36 @@ constexpr std::uint32_t kEventLimit = 1000;
 
 }  // namespace
 
-Instant::Instant(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                 Exchange& exchange, std::vector<Observer*>& observers,
-                 const Activities& activities, RunStatistics& statistics, WallClock clock,
-                 IdleLedger* ledger)
-    : system_(system),
-      units_(units),
-      exchange_(exchange),
-      messages_(system, units),
-      clocks_(system, units),
-      observers_(observers),
-      activities_(activities),
-      statistics_(statistics),
-      clock_(clock),
-      ledger_(ledger),
-      active_(units.size()),
-      in_event_mode_(units.size()),
-      had_event_(units.size()),
-      polled_(units.size()),
-      next_event_(units.size()) {
+EventHandler::EventHandler(RunContext& context, IdleScheduler* idle)
+    : system_(context.system),
+      units_(context.units),
+      exchange_(context.exchange),
+      messages_(system_, units_),
+      clocks_(system_, units_),
+      observers_(context.observers),
+      activities_(context.activities),
+      statistics_(context.statistics),
+      clock_(context.clock),
+      idle_(idle),
+      active_(units_.size()),
+      in_event_mode_(units_.size()),
+      had_event_(units_.size()),
+      polled_(units_.size()),
+      next_event_(units_.size()) {
   for (std::size_t i = 0; i < count(); ++i) {
     if (!description(i).has_event_mode) continue;
     event_units_.push_back(i);
-    if (exchange.has_discrete_inputs(i)) discrete_units_.push_back(i);
+    if (exchange_.has_discrete_inputs(i)) discrete_units_.push_back(i);
   }
-  evaluation_.emplace(system, units, exchange, Phase::Events,
-                      UnitTimer(clock, statistics.units, &UnitStatistics::event_time));
+  evaluation_.emplace(context, Phase::Events, &UnitStatistics::event_time);
   if (!evaluation_->is_trivial()) return;
   evaluation_.reset();
-  for (const ContinuousLink& link : exchange.continuous_links()) {
+  for (const ContinuousLink& link : exchange_.continuous_links()) {
     if (description(link.to.component).has_event_mode) links_.push_back(link);
   }
 }
 
-void Instant::begin() {
+void EventHandler::begin() {
   for (const std::size_t i : event_units_) {
     activate(i);
     in_event_mode_[i] = has_event_ = true;
@@ -56,19 +52,19 @@ void Instant::begin() {
   for (std::size_t i = 0; i < count(); ++i) exchange_.fetch(i, *units_[i]);
 }
 
-std::optional<Time> Instant::next_event() const {
+std::optional<Time> EventHandler::next_event() const {
   const std::optional<Time> tick = clocks_.next();
   if (!tick || !announced_) return tick ? tick : announced_;
   return std::min(*tick, *announced_);
 }
 
-void Instant::settle(Time time) {
+void EventHandler::handle_events(Time time) {
   if (time != time_) index_ = 0;
   time_ = time;
   if (std::exchange(had_any_event_, false)) std::fill(had_event_.begin(), had_event_.end(), false);
   if (announced_ && *announced_ <= time) activate_announced();
-  if (ledger_ != nullptr) {
-    for (const std::size_t i : ledger_->come_to(time)) request_event(i);
+  if (idle_ != nullptr) {
+    for (const std::size_t i : idle_->advance_to(time)) request_event(i);
   }
   route();
   for (std::uint32_t count = 0; prepare_events(); ++count) {
@@ -79,36 +75,36 @@ void Instant::settle(Time time) {
     if (terminates) break;
   }
   if (has_event_) leave_event_mode();
-  if (ledger_ != nullptr) ledger_->rest(time);
+  if (idle_ != nullptr) idle_->suspend_idle(time);
 }
 
 /// Whoever is disturbed by what reaches it is exact again, which may disturb others.
-void Instant::route() {
+void EventHandler::route() {
   exchange_.route(time_);
-  if (ledger_ == nullptr) return;
-  while (ledger_->wake_disturbed(time_)) exchange_.route(time_);
+  if (idle_ == nullptr) return;
+  while (idle_->catch_up_disturbed(time_)) exchange_.route(time_);
 }
 
-void Instant::activate_announced() {
+void EventHandler::activate_announced() {
   for (const std::size_t i : event_units_) {
     if (next_event_[i] && *next_event_[i] <= time_) activate(i);
   }
 }
 
-void Instant::leave_event_mode() {
+void EventHandler::leave_event_mode() {
   for (const std::size_t i : event_units_) {
     had_event_[i] = in_event_mode_[i];
     if (!in_event_mode_[i]) continue;
     units_[i]->enter_step_mode();
     in_event_mode_[i] = false;
-    activities_.tell({i, Activity::Kind::Event, time_, time_});
+    activities_.report({i, Activity::Kind::Event, time_, time_});
   }
   has_event_ = false;
   had_any_event_ = true;
-  look_for_announced();
+  update_announced();
 }
 
-void Instant::look_for_announced() {
+void EventHandler::update_announced() {
   announced_.reset();
   for (const std::size_t i : event_units_) {
     if (!next_event_[i]) continue;
@@ -118,7 +114,7 @@ void Instant::look_for_announced() {
 
 /// Units that have an event, or an input that changes discretely, are in Event Mode then and have
 /// their inputs. Tells whether one of them wants another event iteration.
-bool Instant::prepare_events() {
+bool EventHandler::prepare_events() {
   for (const std::size_t i : clocks_.due(time_)) activate(i);
   for (const std::size_t i : discrete_units_) {
     if (exchange_.has_discrete_change(i)) activate(i);
@@ -131,9 +127,9 @@ bool Instant::prepare_events() {
   return has_active_;
 }
 
-void Instant::enter_event_mode(std::size_t i) {
+void EventHandler::enter_event_mode(std::size_t i) {
   if (in_event_mode_[i]) return;
-  if (ledger_ != nullptr && ledger_->rests(i)) ledger_->wake_and_tell(i, time_);
+  if (idle_ != nullptr && idle_->is_suspended(i)) idle_->catch_up_and_report(i, time_);
   units_[i]->enter_event_mode();
   in_event_mode_[i] = has_event_ = true;
   exchange_.deliver(i, *units_[i]);
@@ -141,7 +137,7 @@ void Instant::enter_event_mode(std::size_t i) {
 
 /// One super-dense instant: ticks and what is sampled at them, messages, then the units' discrete
 /// states. Leaves in `active_` who wants another. Tells whether a unit wants the end.
-bool Instant::event_iteration() {
+bool EventHandler::event_iteration() {
   bool terminates = false;
   ++statistics_.event_iterations;
   has_active_ = false;
@@ -165,7 +161,7 @@ bool Instant::event_iteration() {
 
 /// A value that goes from one ticking clock to another is that of this instant. Without a loop it
 /// crosses each connection once.
-void Instant::tick_clocks() {
+void EventHandler::tick_clocks() {
   const std::span<const std::size_t> ticking = clocks_.tick(time_);
   if (ticking.empty()) return;
   for (std::size_t pass = 0; pass <= system_.connections().size() + 1; ++pass) {
@@ -175,7 +171,7 @@ void Instant::tick_clocks() {
 }
 
 /// One pass; tells whether an input has yet to be written.
-bool Instant::exchange_samples(std::span<const std::size_t> ticking) {
+bool EventHandler::exchange_samples(std::span<const std::size_t> ticking) {
   for (const std::size_t i : ticking) {
     exchange_.deliver_sampled(i, *units_[i], clocks_.ticking(i));
   }
@@ -189,7 +185,7 @@ bool Instant::exchange_samples(std::span<const std::size_t> ticking) {
 }
 
 /// Who joins brings outputs up to date that may stand before its place in the order.
-void Instant::exchange_after_events() {
+void EventHandler::exchange_after_events() {
   for (bool again = evaluation_.has_value(); again; again = has_joined_) {
     has_joined_ = false;
     evaluation_->run(time_, *this);
@@ -203,22 +199,22 @@ void Instant::exchange_after_events() {
 }
 
 /// What an event changes in a continuous output is an event of those who receive it.
-void Instant::find_jumps() {
+void EventHandler::find_jumps() {
   for (const auto& [from, to, source, target, conversion] : links_) {
     if (!in_event_mode_[from.component]) continue;
-    const double value = conversion.factor * source.get() + conversion.offset;
-    if (target.differs_from(value)) on_jump(to, false);
+    const double value = conversion.factor * real(source) + conversion.offset;
+    if (would_change(target, value)) on_jump(to, false);
   }
 }
 
 /// FMI wants Event Mode where a continuous input is discontinuous; and at once, if an output
 /// follows it.
-void Instant::on_jump(VariableId input, bool is_followed) {
+void EventHandler::on_jump(VariableId input, bool is_followed) {
   if (is_followed) join(input.component);
   activate(input.component);
 }
 
-bool Instant::join(std::size_t i) {
+bool EventHandler::join(std::size_t i) {
   if (in_event_mode_[i]) return false;
   enter_event_mode(i);
   activate(i);
@@ -228,7 +224,7 @@ bool Instant::join(std::size_t i) {
 
 /// A clock that is set may make the receiver's own clocks tick at once, so receivers are asked
 /// again.
-void Instant::exchange_messages() {
+void EventHandler::exchange_messages() {
   messages_.begin_instant();
   polled_ = in_event_mode_;
   for (bool again = true; again;) {
@@ -242,7 +238,7 @@ void Instant::exchange_messages() {
   }
 }
 
-void Instant::transmit(std::size_t sender) {
+void EventHandler::transmit(std::size_t sender) {
   messages_.transmit(
       sender,
       [&](std::size_t receiver) {
@@ -253,11 +249,11 @@ void Instant::transmit(std::size_t sender) {
         if (!received && block != nullptr && has_nan(*block)) fail_nan(id);
         UnitStatistics& statistics = statistics_.units[id.component];
         ++(received ? statistics.messages_received : statistics.messages_sent);
-        tell_observers(id, received, block);
+        notify_observers(id, received, block);
       });
 }
 
-void Instant::tell_observers(VariableId id, bool received, const ValueBlock* block) {
+void EventHandler::notify_observers(VariableId id, bool received, const ValueBlock* block) {
   Message message{time_, index_, id, received, block, 0};
   std::string content;
   if (block != nullptr && std::ranges::any_of(observers_, &Observer::wants_content)) {
@@ -268,7 +264,7 @@ void Instant::tell_observers(VariableId id, bool received, const ValueBlock* blo
 }
 
 /// The same bytes have the same meaning at the other end of a connection.
-std::string Instant::content_of(VariableId id, const ValueBlock& block) const {
+std::string EventHandler::content_of(VariableId id, const ValueBlock& block) const {
   if (block.type() != ValueType::Binary) return {};
   std::string content = described_by(id, block);
   for (const Connection& connection : system_.connections()) {
@@ -280,7 +276,7 @@ std::string Instant::content_of(VariableId id, const ValueBlock& block) const {
 }
 
 /// Of an array, what its elements say, in their order.
-std::string Instant::described_by(VariableId id, const ValueBlock& block) const {
+std::string EventHandler::described_by(VariableId id, const ValueBlock& block) const {
   std::string text;
   for (const Binary& value : block.binaries()) {
     const std::string said =
@@ -290,13 +286,13 @@ std::string Instant::described_by(VariableId id, const ValueBlock& block) const 
   return text;
 }
 
-void Instant::fail_nan(VariableId id) const {
+void EventHandler::fail_nan(VariableId id) const {
   fail_run({{}, system_.components()[id.component].name, system_.variable(id).name, time_},
            "the unit sends NaN (not a number) to another unit",
            "look at what this unit received before this instant");
 }
 
-void Instant::fail_ticking() const {
+void EventHandler::fail_ticking() const {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < count(); ++i) {
     if (active_[i]) names.push_back(system_.components()[i].name);
@@ -310,7 +306,7 @@ void Instant::fail_ticking() const {
       "announce an event for an instant that is not later than now");
 }
 
-void Instant::fail_sample_loop(std::span<const std::size_t> ticking) const {
+void EventHandler::fail_sample_loop(std::span<const std::size_t> ticking) const {
   std::vector<std::string> names;
   for (const std::size_t i : ticking) {
     for (const VariableId id : exchange_.sampled_changes(i, clocks_.ticking(i))) {

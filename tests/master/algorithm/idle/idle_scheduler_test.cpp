@@ -1,4 +1,4 @@
-#include "master/algorithm/idle/idle_ledger.h"
+#include "master/algorithm/idle/idle_scheduler.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,9 +106,9 @@ TEST_CASE("an idle unit is called once in max_skip, and its readers see its tang
   REQUIRE(b.seen.size() == 25);
   for (const auto& [time, value] : b.seen) CHECK(value == Approx(2 * to_seconds(time)));
   CHECK(f.statistics(0).steps == 3);
-  CHECK(f.statistics(0).rests == 3);
-  CHECK(f.statistics(0).rested == Duration(2500ms));
-  CHECK(f.statistics(0).longest_rest == Duration(1s));
+  CHECK(f.statistics(0).suspensions == 3);
+  CHECK(f.statistics(0).suspended_time == Duration(2500ms));
+  CHECK(f.statistics(0).longest_suspension == Duration(1s));
 }
 
 TEST_CASE("without max_skip nobody rests, and nothing is asked") {

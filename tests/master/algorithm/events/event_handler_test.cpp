@@ -1,5 +1,5 @@
 // Values that follow others at the instant of an event.
-#include "master/algorithm/events/instant.h"
+#include "master/algorithm/events/event_handler.h"
 
 #include <cmath>
 

@@ -1,7 +1,9 @@
-#include "master/algorithm/stepping/step_size.h"
+#include "master/algorithm/step_policies/step_policy.h"
 
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -46,7 +48,7 @@ struct Outcome {
 Outcome controlled(double tolerance, Extrapolation extrapolation = Extrapolation::Linear) {
   ScriptedSystem system;
   TwoMasses masses(system);
-  system.options.step.policy = StepPolicy::ErrorControlled;
+  system.options.step.policy = &kErrorControlledSteps;
   system.options.step.relative_tolerance = 0;
   system.options.step.absolute_tolerance = tolerance;
   system.options.extrapolation = extrapolation;
@@ -61,7 +63,7 @@ Outcome controlled(double tolerance, Extrapolation extrapolation = Extrapolation
 TEST_CASE("event-driven steps go from event to event, and no further than the maximum") {
   ScriptedSystem f;
   announce(f.add("a", Describe("a").event_mode().done()), {Time(70ms), Time(500ms)});
-  f.options.step.policy = StepPolicy::EventDriven;
+  f.options.step.policy = &kEventDrivenSteps;
   SECTION("without a maximum") {
     CHECK(points(f, 1, 1ms) == std::vector<Time>{Time(), Time(70ms), Time(500ms), Time(1s)});
   }
@@ -81,7 +83,7 @@ TEST_CASE("no step is longer than a unit says it can be") {
                                                      Time(140ms), Time(180ms), Time(200ms)});
   }
   SECTION("event-driven") {
-    f.options.step.policy = StepPolicy::EventDriven;
+    f.options.step.policy = &kEventDrivenSteps;
     CHECK(points(f, 0.1, 100ms) == std::vector<Time>{Time(), Time(40ms), Time(80ms), Time(100ms)});
   }
 }
@@ -91,7 +93,7 @@ TEST_CASE("steps that are not on a grid end on the units' internal steps") {
   announce(f.add("a", Describe("a").event_mode().done()), {Time(25ms)});
   f.add("b", Describe("b").fixed_internal_step(4ms).done());
   f.add("c", Describe("c").fixed_internal_step(6ms).done());
-  f.options.step.policy = StepPolicy::EventDriven;
+  f.options.step.policy = &kEventDrivenSteps;
   f.options.step.maximum = 20ms;
   CHECK(points(f, 0.06, 1ms) == std::vector<Time>{Time(), Time(12ms), Time(24ms), Time(25ms),
                                                   Time(36ms), Time(48ms), Time(60ms)});
@@ -101,7 +103,7 @@ TEST_CASE("where no end of an internal step is near enough, the maximum step cou
   ScriptedSystem f;
   f.add("a", Describe("a").fixed_internal_step(4ms).can_save_state().done());
   f.add("b", Describe("b").fixed_internal_step(6ms).can_save_state().done());
-  f.options.step.policy = GENERATE(StepPolicy::EventDriven, StepPolicy::ErrorControlled);
+  f.options.step.policy = GENERATE(&kEventDrivenSteps, &kErrorControlledSteps);
   SECTION("that of a unit") {
     f.add("c", Describe("c").maximum_step(10ms).can_save_state().done());
     f.options.step.maximum = 1s;
@@ -117,16 +119,45 @@ TEST_CASE("where no end of an internal step is near enough, the maximum step cou
 TEST_CASE("the error-controlled step is not shorter than an internal step") {
   ScriptedSystem f;
   f.add("a", Describe("a").fixed_internal_step(4ms).can_save_state().done());
-  f.options.step.policy = StepPolicy::ErrorControlled;
+  f.options.step.policy = &kErrorControlledSteps;
   f.options.step.maximum = 4ms;
   CHECK(points(f, 0.012, 1ms) == std::vector<Time>{Time(), Time(4ms), Time(8ms), Time(12ms)});
+}
+
+TEST_CASE("each policy that can be chosen has a name of its own and can be made and described") {
+  ScriptedSystem f;
+  f.add("a", Describe("a").can_save_state().done());
+  const System system(f.declaration);
+  RunOptions options;
+  options.stop = Time(1s);
+  options.step.size = 10ms;
+  std::set<std::string> names;
+  for (const StepPolicyType* policy : kStepPolicies) {
+    CAPTURE(policy->name);
+    options.step.policy = policy;
+    CHECK(names.insert(policy->name).second);
+    CHECK(make_step_policy(system, options)->next(Time()) > Time());
+    CHECK_FALSE(policy->describe(options.step).empty());
+  }
+}
+
+TEST_CASE("what a policy requires of the units is checked without a run") {
+  ScriptedSystem f;
+  f.add("rigid", Describe("a").fixed_step().done());
+  const System system(f.declaration);
+  RunOptions options;
+  options.stop = Time(1s);
+  options.step.size = 10ms;
+  CHECK_NOTHROW(check_step_policy(system, options));
+  options.step.policy = &kEventDrivenSteps;
+  CHECK_THROWS_WITH(check_step_policy(system, options), Contains("one size only: 'rigid'"));
 }
 
 TEST_CASE("policies that vary the step refuse a unit that cannot") {
   ScriptedSystem f;
   f.add("rigid", Describe("a").fixed_step().can_save_state().done());
-  SECTION("event-driven") { f.options.step.policy = StepPolicy::EventDriven; }
-  SECTION("error-controlled") { f.options.step.policy = StepPolicy::ErrorControlled; }
+  SECTION("event-driven") { f.options.step.policy = &kEventDrivenSteps; }
+  SECTION("error-controlled") { f.options.step.policy = &kErrorControlledSteps; }
   SECTION("a grid with a maximum") { f.options.step.maximum = 1ms; }
   CHECK_THAT(refusal(f), Contains("one size only: 'rigid'"));
 }
@@ -136,7 +167,7 @@ TEST_CASE("an error-controlled step refuses units that cannot be rolled back") {
   f.add("a", Describe("a").done());
   f.add("b", Describe("b").can_save_state().done());
   f.add("c", Describe("c").done());
-  f.options.step.policy = StepPolicy::ErrorControlled;
+  f.options.step.policy = &kErrorControlledSteps;
   CHECK_THAT(refusal(f), Contains("cannot be rolled back: 'a', 'c'") &&
                              Contains("canGetAndSetFMUState") && Contains("process=\"true\""));
 }
@@ -156,7 +187,7 @@ TEST_CASE("the error-controlled step follows the tolerance") {
 TEST_CASE("a step that was too long is undone by all units and counted") {
   ScriptedSystem system;
   TwoMasses masses(system);
-  system.options.step.policy = StepPolicy::ErrorControlled;
+  system.options.step.policy = &kErrorControlledSteps;
   system.options.step.absolute_tolerance = 1e-4;
   system.build(5, 500ms).run();
   const RunStatistics& statistics = system.simulation->statistics();
@@ -179,7 +210,7 @@ TEST_CASE("a jump that no step is short enough for is an error that names the ou
   };
   f.add("reader", Describe("reader").input("u").can_save_state().done());
   f.wire("jumper", "y", "reader", "u");
-  f.options.step.policy = StepPolicy::ErrorControlled;
+  f.options.step.policy = &kErrorControlledSteps;
   f.options.step.minimum = 1us;
   try {
     f.build(1, 10ms).run();
@@ -198,7 +229,7 @@ TEST_CASE("an event between two error-controlled steps does not shorten those af
   ScriptedSystem f;
   announce(f.add("a", Describe("a").event_mode().can_save_state().done()),
            {Time(100ms), Time(100ms + 1ns)});
-  f.options.step.policy = StepPolicy::ErrorControlled;
+  f.options.step.policy = &kErrorControlledSteps;
   CHECK(points(f, 1, 100ms) == std::vector<Time>{Time(), Time(100ms), Time(100ms + 1ns),
                                                  Time(200ms + 1ns), Time(300ms + 1ns),
                                                  Time(400ms + 1ns), Time(500ms + 1ns),

@@ -1,7 +1,7 @@
 // Evaluates the values of a system at one instant: each output behind those that it depends on,
 // algebraic loops solved.
-#ifndef STRIDE_MASTER_ALGORITHM_LOOPS_EVALUATION_H
-#define STRIDE_MASTER_ALGORITHM_LOOPS_EVALUATION_H
+#ifndef STRIDE_MASTER_ALGORITHM_LOOPS_ORDERED_EVALUATION_H
+#define STRIDE_MASTER_ALGORITHM_LOOPS_ORDERED_EVALUATION_H
 
 #include <cstddef>
 #include <map>
@@ -13,19 +13,17 @@
 
 #include <stride/time.h>
 
-#include "master/algorithm/exchange/exchange.h"
 #include "master/algorithm/exchange/staged_exchange.h"
 #include "master/algorithm/loops/algebraic_loop.h"
 #include "master/algorithm/loops/evaluation_order.h"
-#include "master/algorithm/unit.h"
+#include "master/algorithm/run_context.h"
 #include "master/algorithm/unit_timer.h"
-#include "master/model/system.h"
 
 namespace stride::core {
 
 /// evaluation_order(), put into practice on instances. Values go through the blocks of an Exchange,
 /// so that nothing remains to be routed.
-class Evaluation {
+class OrderedEvaluation {
  public:
   /// Who takes part. Where a component does not, its outputs stay, and its inputs are left to the
   /// Exchange.
@@ -41,11 +39,11 @@ class Evaluation {
     virtual bool join(std::size_t component) = 0;
   };
 
-  /// `units` in the order of system.components(). All must outlive this object.
-  Evaluation(const System& system, std::span<const std::unique_ptr<Unit>> units, Exchange& exchange,
-             Phase phase, const UnitTimer& timer);
-  Evaluation(const Evaluation&) = delete;
-  Evaluation& operator=(const Evaluation&) = delete;
+  /// The context must outlive this object. `time`: where the wall-clock time of the units'
+  /// functions is added up.
+  OrderedEvaluation(RunContext& context, Phase phase, UnitTimer::Sum time);
+  OrderedEvaluation(const OrderedEvaluation&) = delete;
+  OrderedEvaluation& operator=(const OrderedEvaluation&) = delete;
 
   /// Whether no output of a unit follows a connected input, so that run() is a mere exchange.
   bool is_trivial() const { return !has_direct_inputs_; }
@@ -57,23 +55,22 @@ class Evaluation {
   void run(Time time, Participants& participants);
 
  private:
-  struct Stage {
-    StagedExchange::Stage stage;
-    std::vector<StagedExchange::Wire> wires;  ///< of a loop: those that stay in it and are not cut
+  struct EvaluationStage {
+    StagedExchange::OutputRead read;
+    std::vector<StagedExchange::Link> links;  ///< of a loop: those that stay in it and are not cut
   };
   struct Block {
-    std::vector<Stage> stages;
+    std::vector<EvaluationStage> stages;
     std::optional<AlgebraicLoop> loop;
     const EvaluationBlock* plan;
-    std::vector<StagedExchange::Wire> onward;  ///< out of the loop
+    std::vector<StagedExchange::Link> onward;  ///< out of the loop
   };
 
   using Targets = std::map<VariableId, std::vector<VariableId>>;  // of an output
-  void plan(const EvaluationBlock& planned, const Targets& targets,
-            std::span<const std::unique_ptr<Unit>> units);
+  void plan(const EvaluationBlock& planned, const Targets& targets, RunContext& context);
   void find_direct_inputs();
-  void evaluate(Stage& stage);
-  void route(StagedExchange::Wire& wire);
+  void evaluate(EvaluationStage& stage);
+  void route(StagedExchange::Link& link);
   void evaluate_loop(Block& block);
   void solve(Block& block);
   void sweep(Block& block);

@@ -1,4 +1,4 @@
-#include "master/algorithm/parallel/work_split.h"
+#include "master/algorithm/parallel/load_balancer.h"
 
 #include <numeric>
 
@@ -7,7 +7,7 @@
 using namespace stride::core;
 using namespace std::chrono_literals;
 using Nanoseconds = std::chrono::nanoseconds;
-using Shares = std::vector<WorkShare>;
+using Shares = std::vector<ThreadShare>;
 
 namespace {
 
@@ -20,7 +20,7 @@ std::vector<std::size_t> places(std::size_t count) {
 Shares share(std::vector<Nanoseconds> costs, std::size_t threads,
              std::vector<char> main_only = {}) {
   main_only.resize(costs.size());
-  return share_out(places(costs.size()), costs, main_only, threads);
+  return balance_load(places(costs.size()), costs, main_only, threads);
 }
 
 /// A split whose units cost what the test says, on threads that are as good as it says.
@@ -29,11 +29,11 @@ struct Bench {
   Nanoseconds hand_over = 500ns;
   double speedup = 2;
   int hand_overs = 0;
-  WorkSplit split;
+  LoadBalancer split;
 
   explicit Bench(std::vector<Nanoseconds> costs_, std::size_t threads = 2, bool always = false)
       : costs(std::move(costs_)), split([&] {
-          WorkSplit::Plan plan;
+          LoadBalancer::Plan plan;
           plan.stages = {places(costs.size())};
           plan.main_only.resize(costs.size());
           plan.threads = threads;
@@ -49,7 +49,7 @@ struct Bench {
     for (std::size_t i = 0; i < count; ++i) {
       parallel += split.is_parallel();
       if (split.is_measuring()) {
-        for (std::size_t k = 0; k < costs.size(); ++k) split.note_cost(k, costs[k]);
+        for (std::size_t k = 0; k < costs.size(); ++k) split.record_cost(k, costs[k]);
       }
       split.end_step(split.is_parallel()
                          ? std::chrono::duration_cast<Nanoseconds>(
@@ -60,7 +60,7 @@ struct Bench {
   }
 };
 
-constexpr std::size_t kMeasured = WorkSplit::kMeasured;
+constexpr std::size_t kMeasured = LoadBalancer::kMeasured;
 
 }  // namespace
 
@@ -90,8 +90,8 @@ TEST_CASE("dear units go on threads once they have been measured and have won th
   CHECK(bench.steps(4 * (25 + 50)) == 4 * 50);
   CHECK(bench.steps(10'000) == 10'000);
   REQUIRE(bench.split.shares(0).size() == 2);
-  CHECK(bench.split.shares(0)[0] == WorkShare{0});
-  CHECK(bench.split.shares(0)[1] == WorkShare{1});
+  CHECK(bench.split.shares(0)[0] == ThreadShare{0});
+  CHECK(bench.split.shares(0)[1] == ThreadShare{1});
 }
 
 TEST_CASE("the race is repeated, and lost where other programs have taken the cores") {
@@ -147,7 +147,7 @@ TEST_CASE("the decision follows the costs") {
 TEST_CASE("long steps are decided on after a few") {
   Bench bench({200ms, 200ms});
   CHECK(bench.steps(3) == 0);
-  CHECK(bench.steps(WorkSplit::kTurns) == WorkSplit::kTurns / 2);
+  CHECK(bench.steps(LoadBalancer::kTurns) == LoadBalancer::kTurns / 2);
   CHECK(bench.steps(100) == 100);
 }
 
@@ -162,21 +162,21 @@ TEST_CASE("a forced split is there from the first step on, without a measurement
   CHECK_FALSE(bench.split.is_deciding());
   CHECK(bench.split.is_parallel());
   REQUIRE(bench.split.shares(0).size() == 2);
-  CHECK(bench.split.shares(0)[0] == WorkShare{0, 2});
-  CHECK(bench.split.shares(0)[1] == WorkShare{1});
+  CHECK(bench.split.shares(0)[0] == ThreadShare{0, 2});
+  CHECK(bench.split.shares(0)[1] == ThreadShare{1});
   CHECK(bench.steps(100'000) == 100'000);
   CHECK(bench.hand_overs == 0);
 }
 
 TEST_CASE("each stage is shared out for itself") {
-  WorkSplit::Plan plan;
+  LoadBalancer::Plan plan;
   plan.stages = {{0, 1}, {2}, {3, 4}};
   plan.main_only.resize(5);
   plan.threads = 2;
   plan.always = true;
-  const WorkSplit split(plan);
+  const LoadBalancer split(plan);
   CHECK(split.shares(0).size() == 2);
   CHECK(split.shares(1).empty());
   REQUIRE(split.shares(2).size() == 2);
-  CHECK(split.shares(2)[1] == WorkShare{4});
+  CHECK(split.shares(2)[1] == ThreadShare{4});
 }

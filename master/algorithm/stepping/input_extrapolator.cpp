@@ -1,47 +1,48 @@
-#include "master/algorithm/stepping/step_inputs.h"
+#include "master/algorithm/stepping/input_extrapolator.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace stride::core {
 
-StepInputs::StepInputs(const System& system, Exchange& exchange, Coupling coupling,
-                       Extrapolation extrapolation)
-    : exchange_(exchange),
-      sequential_(coupling == Coupling::GaussSeidel),
-      sources_(system.components().size()),
-      steps_(system.components().size()),
-      feeds_(system.components().size()) {
-  Places places;
-  for (const ContinuousLink& link : exchange.continuous_links()) {
+InputExtrapolator::InputExtrapolator(RunContext& context)
+    : exchange_(context.exchange),
+      sequential_(context.options.coupling == Coupling::GaussSeidel),
+      sources_(context.units.size()),
+      steps_(context.units.size()),
+      feeds_(context.units.size()) {
+  SignalIndices indices;
+  for (const ContinuousLink& link : exchange_.continuous_links()) {
     std::vector<Feed>& feeds = feeds_[link.to.component];
     auto feed = std::find_if(feeds.begin(), feeds.end(),
                              [&](const Feed& f) { return f.source == link.from.component; });
     if (feed == feeds.end()) feed = feeds.insert(feed, {link.from.component, {}});
-    feed->links.push_back({signal_of(link, places), system.variable(link.to).intermediate_update,
-                           link.target, link.conversion});
+    feed->inputs.push_back({signal_of(link, indices),
+                            context.system.variable(link.to).intermediate_update, link.target,
+                            link.conversion});
   }
   for (Source& source : sources_) {
-    source.history = SignalHistory(source.signals.size(), static_cast<unsigned>(extrapolation));
+    source.history =
+        SignalHistory(source.signals.size(), static_cast<unsigned>(context.options.extrapolation));
   }
 }
 
-std::size_t StepInputs::signal_of(const ContinuousLink& link, Places& places) {
+std::size_t InputExtrapolator::signal_of(const ContinuousLink& link, SignalIndices& indices) {
   Source& source = sources_[link.from.component];
-  const auto [place, is_new] = places.emplace(link.source, source.signals.size());
+  const auto [index, is_new] = indices.emplace(link.source, source.signals.size());
   if (is_new) {
     source.signals.push_back(link.source);
     source.ids.push_back(link.from);
   }
-  return place->second;
+  return index->second;
 }
 
-void StepInputs::sample(Source& source, Time time) {
+void InputExtrapolator::sample(Source& source, Time time) {
   const std::span<double> values = source.history.add(time);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = source.signals[i].get();
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = real(source.signals[i]);
 }
 
-void StepInputs::accept(Time time, std::span<const char> had_event) {
+void InputExtrapolator::accept(Time time, std::span<const char> had_event) {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     Source& source = sources_[i];
     if (source.signals.empty()) continue;
@@ -54,16 +55,16 @@ void StepInputs::accept(Time time, std::span<const char> had_event) {
   }
 }
 
-void StepInputs::set_targets(const Feed& feed, const SignalHistory& history,
-                             const SignalHistory::Weights& weights, bool within_step) {
-  for (const Link& link : feed.links) {
-    if (link.within_step != within_step) continue;
-    const double value = history.value(link.signal, weights);
-    link.target.set(link.conversion.factor * value + link.conversion.offset);
+void InputExtrapolator::set_targets(const Feed& feed, const SignalHistory& history,
+                                    const SignalHistory::Weights& weights, bool within_step) {
+  for (const FedInput& input : feed.inputs) {
+    if (input.within_step != within_step) continue;
+    const double value = history.value(input.signal, weights);
+    set_real(input.target, input.conversion.factor * value + input.conversion.offset);
   }
 }
 
-void StepInputs::before_step(std::size_t component, const StepInterval& interval) {
+void InputExtrapolator::before_step(std::size_t component, const StepInterval& interval) {
   if (feeds_[component].empty()) return;
   steps_[component] = {interval.from, interval.to};
   for (const Feed& feed : feeds_[component]) {
@@ -73,10 +74,10 @@ void StepInputs::before_step(std::size_t component, const StepInterval& interval
     set_targets(feed, history, history.mean(interval.from, interval.to), false);
     set_targets(feed, history, history.at(interval.from, 0, interval.to - interval.from), true);
   }
-  exchange_.note_change(component);
+  exchange_.mark_changed(component);
 }
 
-void StepInputs::within_step(std::size_t component, Unit& unit, double seconds_into_step) {
+void InputExtrapolator::within_step(std::size_t component, Unit& unit, double seconds_into_step) {
   const auto [from, to] = steps_[component];
   for (const Feed& feed : feeds_[component]) {
     const SignalHistory& history = sources_[feed.source].history;
@@ -85,23 +86,23 @@ void StepInputs::within_step(std::size_t component, Unit& unit, double seconds_i
   exchange_.deliver_within_step(component, unit);
 }
 
-void StepInputs::after_step(std::size_t component, Time reached) {
+void InputExtrapolator::after_step(std::size_t component, Time reached) {
   Source& source = sources_[component];
   if (!sequential_ || source.signals.empty() || source.history.newest() == reached) return;
   sample(source, reached);
   source.is_ahead = true;
   source.is_nan = std::any_of(source.signals.begin(), source.signals.end(),
-                              [](const RealElement& signal) { return std::isnan(signal.get()); });
+                              [](const ValueSlice& signal) { return std::isnan(real(signal)); });
 }
 
-void StepInputs::undo_step(std::size_t component) {
+void InputExtrapolator::undo_step(std::size_t component) {
   Source& source = sources_[component];
   if (!source.is_ahead) return;  // never, with Jacobi, where other threads look at it
   source.history.remove_newest();
   source.is_ahead = false;
 }
 
-Excess StepInputs::excess(Time time, double absolute, double relative) {
+Excess InputExtrapolator::excess(Time time, double absolute, double relative) {
   Excess worst;
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const Source& source = sources_[i];
@@ -110,7 +111,7 @@ Excess StepInputs::excess(Time time, double absolute, double relative) {
     const SignalHistory& history = source.history;
     const SignalHistory::Weights weights = history.at(time, 0, time - history.newest());
     for (std::size_t k = 0; k < source.signals.size(); ++k) {
-      const double actual = source.signals[k].get();
+      const double actual = real(source.signals[k]);
       const double error = std::abs(actual - history.value(k, weights));
       const bool is_relative = std::isfinite(error);  // what becomes infinite is no larger number
       const double tolerance = absolute + (is_relative ? relative * std::abs(actual) : 0);

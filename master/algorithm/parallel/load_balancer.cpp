@@ -1,4 +1,4 @@
-#include "master/algorithm/parallel/work_split.h"
+#include "master/algorithm/parallel/load_balancer.h"
 
 #include <algorithm>
 #include <utility>
@@ -6,7 +6,7 @@
 namespace stride::core {
 namespace {
 
-using Nanoseconds = WorkSplit::Nanoseconds;
+using Nanoseconds = LoadBalancer::Nanoseconds;
 
 /// Less than this no hand-over costs, so for a smaller gain threads are not even started.
 constexpr Nanoseconds kLeastHandOver{300};
@@ -25,10 +25,10 @@ Nanoseconds median(std::vector<Nanoseconds>& samples) {
 }
 
 /// What the units of the shares cost together, less what the longest share costs.
-Nanoseconds gain(std::span<const WorkShare> shares, std::span<const Nanoseconds> costs) {
+Nanoseconds gain(std::span<const ThreadShare> shares, std::span<const Nanoseconds> costs) {
   Nanoseconds sum{};
   Nanoseconds longest{};
-  for (const WorkShare& share : shares) {
+  for (const ThreadShare& share : shares) {
     Nanoseconds cost{};
     for (const std::size_t place : share) cost += costs[place];
     sum += cost;
@@ -39,10 +39,10 @@ Nanoseconds gain(std::span<const WorkShare> shares, std::span<const Nanoseconds>
 
 }  // namespace
 
-std::vector<WorkShare> share_out(std::span<const std::size_t> places,
-                                 std::span<const Nanoseconds> costs,
-                                 std::span<const char> main_only, std::size_t threads) {
-  std::vector<WorkShare> shares(std::min(threads, places.size()));
+std::vector<ThreadShare> balance_load(std::span<const std::size_t> places,
+                                      std::span<const Nanoseconds> costs,
+                                      std::span<const char> main_only, std::size_t threads) {
+  std::vector<ThreadShare> shares(std::min(threads, places.size()));
   std::vector<Nanoseconds> loads(shares.size());
   std::vector<std::size_t> order(places.begin(), places.end());
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -56,18 +56,18 @@ std::vector<WorkShare> share_out(std::span<const std::size_t> places,
     shares[thread].push_back(place);
     loads[thread] += costs[place];
   }
-  for (WorkShare& share : shares) std::sort(share.begin(), share.end());
+  for (ThreadShare& share : shares) std::sort(share.begin(), share.end());
   while (!shares.empty() && shares.back().empty()) shares.pop_back();
   return shares;
 }
 
-WorkSplit::WorkSplit(Plan plan)
+LoadBalancer::LoadBalancer(Plan plan)
     : plan_(std::move(plan)),
       shares_(plan_.stages.size()),
       costs_(plan_.main_only.size(), Nanoseconds(1)),
       samples_(plan_.main_only.size()) {
   for (std::size_t stage = 0; stage < shares_.size(); ++stage) {
-    shares_[stage] = share_out(plan_.stages[stage], costs_, plan_.main_only, plan_.threads);
+    shares_[stage] = balance_load(plan_.stages[stage], costs_, plan_.main_only, plan_.threads);
     if (shares_[stage].size() < 2) shares_[stage].clear();
   }
   const bool has_choice = std::any_of(shares_.begin(), shares_.end(),
@@ -80,7 +80,7 @@ WorkSplit::WorkSplit(Plan plan)
   }
 }
 
-void WorkSplit::begin_measuring() {
+void LoadBalancer::begin_measuring() {
   phase_ = Phase::Measuring;
   parallel_ = false;
   steps_ = 0;
@@ -89,28 +89,28 @@ void WorkSplit::begin_measuring() {
   std::fill(costs_.begin(), costs_.end(), Nanoseconds{});
 }
 
-void WorkSplit::begin_turn(std::size_t turn) {
+void LoadBalancer::begin_turn(std::size_t turn) {
   phase_ = Phase::Racing;
   parallel_ = turn % 2 == 1;
   turn_ = turn;
   turn_pace_ = {};
 }
 
-void WorkSplit::settle(bool parallel) {
-  phase_ = Phase::Settled;
+void LoadBalancer::decide(bool parallel) {
+  phase_ = Phase::Decided;
   parallel_ = parallel;
-  patience_ = parallel ? kPatience : std::min(2 * patience_, kMostPatience);
-  steps_ *= patience_;
+  hold_factor_ = parallel ? kHoldFactor : std::min(2 * hold_factor_, kLargestHoldFactor);
+  steps_ *= hold_factor_;
 }
 
-void WorkSplit::take_in(Nanoseconds elapsed) {
+void LoadBalancer::record_step(Nanoseconds elapsed) {
   ++steps_;
   turn_pace_.time += elapsed;
   ++turn_pace_.steps;
   phase_ == Phase::Measuring ? measure() : race();
 }
 
-void WorkSplit::measure() {
+void LoadBalancer::measure() {
   for (std::size_t place = 0; place < costs_.size(); ++place) {
     samples_[place].push_back(std::exchange(costs_[place], Nanoseconds{}));
   }
@@ -119,21 +119,21 @@ void WorkSplit::measure() {
   for (std::size_t place = 0; place < costs_.size(); ++place) {
     costs_[place] = median(samples_[place]);
   }
-  if (!promises_gain()) return settle(false);
+  if (!promises_gain()) return decide(false);
   paces_[0] = paces_[1] = {};
   begin_turn(0);
 }
 
-void WorkSplit::race() {
+void LoadBalancer::race() {
   if (turn_pace_.time < kTurn) return;
   Pace& pace = paces_[parallel_];
   pace.time += turn_pace_.time;
   pace.steps += turn_pace_.steps;
   if (turn_ + 1 < kTurns) return begin_turn(turn_ + 1);
-  settle(is_parallel_faster());
+  decide(is_parallel_faster());
 }
 
-bool WorkSplit::is_parallel_faster() const {
+bool LoadBalancer::is_parallel_faster() const {
   const auto mean = [](const Pace& pace) {
     return static_cast<double>(pace.time.count()) / static_cast<double>(pace.steps);
   };
@@ -141,13 +141,13 @@ bool WorkSplit::is_parallel_faster() const {
 }
 
 /// Shares the stages out by the units' costs; those where threads cannot pay get no shares.
-bool WorkSplit::promises_gain() {
+bool LoadBalancer::promises_gain() {
   Nanoseconds needed = kMargin * kLeastHandOver;
   bool is_measured = false;
   bool any = false;
   for (std::size_t stage = 0; stage < shares_.size(); ++stage) {
     auto& shares = shares_[stage];
-    shares = share_out(plan_.stages[stage], costs_, plan_.main_only, plan_.threads);
+    shares = balance_load(plan_.stages[stage], costs_, plan_.main_only, plan_.threads);
     const Nanoseconds saved = gain(shares, costs_);
     if (saved > needed && !is_measured) {
       needed = kMargin * plan_.hand_over();

@@ -1,4 +1,4 @@
-#include "master/algorithm/stepping/step_inputs.h"
+#include "master/algorithm/stepping/input_extrapolator.h"
 
 #include <algorithm>
 #include <cmath>

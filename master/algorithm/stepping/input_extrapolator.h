@@ -1,6 +1,6 @@
 // What the units' continuous inputs are during a communication step.
-#ifndef STRIDE_MASTER_ALGORITHM_STEPPING_STEP_INPUTS_H
-#define STRIDE_MASTER_ALGORITHM_STEPPING_STEP_INPUTS_H
+#ifndef STRIDE_MASTER_ALGORITHM_STEPPING_INPUT_EXTRAPOLATOR_H
+#define STRIDE_MASTER_ALGORITHM_STEPPING_INPUT_EXTRAPOLATOR_H
 
 #include <cstddef>
 #include <map>
@@ -9,11 +9,8 @@
 
 #include <stride/time.h>
 
-#include "master/algorithm/exchange/exchange.h"
-#include "master/algorithm/run_options.h"
+#include "master/algorithm/run_context.h"
 #include "master/algorithm/stepping/signal_history.h"
-#include "master/algorithm/unit.h"
-#include "master/model/system.h"
 
 namespace stride::core {
 
@@ -30,10 +27,9 @@ struct Excess {
 /// FMI 3.0 Co-Simulation holds an input during a step, so the value set is the polynomial's mean
 /// over the step: what a unit integrates is then right up to the next order. Inputs that may change
 /// within a step have the polynomial's own value at its begin and wherever the unit asks for it.
-class StepInputs {
+class InputExtrapolator {
  public:
-  StepInputs(const System& system, Exchange& exchange, Coupling coupling,
-             Extrapolation extrapolation);
+  explicit InputExtrapolator(RunContext& context);
 
   /// Sets a unit's inputs to their values within the step for which before_step() was called last.
   void within_step(std::size_t component, Unit& unit, double seconds_into_step);
@@ -57,22 +53,22 @@ class StepInputs {
  private:
   /// The continuous outputs of one component that others are connected to.
   struct Source {
-    std::vector<RealElement> signals;
+    std::vector<ValueSlice> signals;
     std::vector<VariableId> ids;
     SignalHistory history{0, 0};
     bool is_ahead = false;  ///< the newest sample belongs to a step that is not accepted yet
     bool is_nan = false;    ///< a value of that sample is
   };
-  struct Link {
+  struct FedInput {
     std::size_t signal;
     bool within_step;  ///< whether the target may change there
-    RealElement target;
+    ValueSlice target;
     LinearConversion conversion;
   };
   /// What one component feeds another.
   struct Feed {
     std::size_t source;
-    std::vector<Link> links;
+    std::vector<FedInput> inputs;
   };
 
   struct Step {
@@ -80,8 +76,8 @@ class StepInputs {
   };
 
   /// The place of each signal in its source.
-  using Places = std::map<RealElement, std::size_t>;
-  std::size_t signal_of(const ContinuousLink& link, Places& places);
+  using SignalIndices = std::map<ValueSlice, std::size_t>;
+  std::size_t signal_of(const ContinuousLink& link, SignalIndices& indices);
   void sample(Source& source, Time time);
   /// Sets the targets that may change within a step, or the others.
   static void set_targets(const Feed& feed, const SignalHistory& history,

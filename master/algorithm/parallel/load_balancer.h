@@ -1,6 +1,6 @@
 // Which units step on which thread, and whether threads pay at all.
-#ifndef STRIDE_MASTER_ALGORITHM_PARALLEL_WORK_SPLIT_H
-#define STRIDE_MASTER_ALGORITHM_PARALLEL_WORK_SPLIT_H
+#ifndef STRIDE_MASTER_ALGORITHM_PARALLEL_LOAD_BALANCER_H
+#define STRIDE_MASTER_ALGORITHM_PARALLEL_LOAD_BALANCER_H
 
 #include <chrono>
 #include <cstddef>
@@ -12,15 +12,15 @@
 namespace stride::core {
 
 /// The units of one thread, by their places in the step order, in that order.
-using WorkShare = std::vector<std::size_t>;
+using ThreadShare = std::vector<std::size_t>;
 
 /// Shares out `places` among at most `threads` threads, so that the longest share is short: units
 /// that are bound to the first thread, then the others, the dearest first, each to the thread that
 /// has least to do (Graham, "Bounds on Multiprocessing Timing Anomalies", 1969). Equal costs are
 /// taken in the order of the places. `costs` and `main_only` are indexed by place.
-std::vector<WorkShare> share_out(std::span<const std::size_t> places,
-                                 std::span<const std::chrono::nanoseconds> costs,
-                                 std::span<const char> main_only, std::size_t threads);
+std::vector<ThreadShare> balance_load(std::span<const std::size_t> places,
+                                      std::span<const std::chrono::nanoseconds> costs,
+                                      std::span<const char> main_only, std::size_t threads);
 
 /// Watches communication steps and decides how the next ones are made. At first all units step one
 /// after another and are measured. Where the gain that the shares promise is well above the cost of
@@ -30,9 +30,9 @@ std::vector<WorkShare> share_out(std::span<const std::size_t> places,
 /// The race is what counts, for only it knows of units that wait for each other's lock, of memory
 /// that is shared, and of other programs that want the cores.
 ///
-/// For each communication step: shares() for each stage, note_cost() for each unit while
+/// For each communication step: shares() for each stage, record_cost() for each unit while
 /// is_measuring(), then end_step(). Used by one thread.
-class WorkSplit {
+class LoadBalancer {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
 
@@ -52,10 +52,10 @@ class WorkSplit {
   static constexpr Nanoseconds kTurn = std::chrono::microseconds(2500);
   /// A decision holds for so many times the communication steps that it took. Each time that it
   /// goes against threads it holds twice as long as before, up to the second number.
-  static constexpr std::uint64_t kPatience = 64;
-  static constexpr std::uint64_t kMostPatience = 4096;
+  static constexpr std::uint64_t kHoldFactor = 64;
+  static constexpr std::uint64_t kLargestHoldFactor = 4096;
 
-  explicit WorkSplit(Plan plan);
+  explicit LoadBalancer(Plan plan);
 
   std::size_t threads() const { return plan_.threads; }
   /// Whether the next decision needs to know how long this communication step takes.
@@ -66,29 +66,30 @@ class WorkSplit {
   bool is_parallel() const { return parallel_; }
 
   /// How the stage is made: one share for each thread, or none if its units step one after another.
-  std::span<const WorkShare> shares(std::size_t stage) const {
-    return parallel_ ? std::span<const WorkShare>(shares_[stage]) : std::span<const WorkShare>();
+  std::span<const ThreadShare> shares(std::size_t stage) const {
+    return parallel_ ? std::span<const ThreadShare>(shares_[stage])
+                     : std::span<const ThreadShare>();
   }
 
-  void note_cost(std::size_t place, Nanoseconds cost) { costs_[place] += cost; }
+  void record_cost(std::size_t place, Nanoseconds cost) { costs_[place] += cost; }
   /// The communication step is over. While is_deciding(): stepping its units took that long.
   void end_step(Nanoseconds elapsed = {}) {
-    if (is_deciding()) return take_in(elapsed);
-    if (phase_ == Phase::Settled && --steps_ == 0) begin_measuring();
+    if (is_deciding()) return record_step(elapsed);
+    if (phase_ == Phase::Decided && --steps_ == 0) begin_measuring();
   }
 
  private:
-  enum class Phase { Fixed, Measuring, Racing, Settled };
+  enum class Phase { Fixed, Measuring, Racing, Decided };
 
   struct Pace {
     Nanoseconds time{};
     std::uint64_t steps = 0;
   };
 
-  void take_in(Nanoseconds elapsed);
+  void record_step(Nanoseconds elapsed);
   void begin_measuring();
   void begin_turn(std::size_t turn);
-  void settle(bool parallel);
+  void decide(bool parallel);
   void measure();
   void race();
   bool promises_gain();
@@ -97,14 +98,14 @@ class WorkSplit {
   Plan plan_;
   Phase phase_ = Phase::Fixed;
   bool parallel_ = false;
-  std::vector<std::vector<WorkShare>> shares_;     ///< by stage; empty where threads do not pay
+  std::vector<std::vector<ThreadShare>> shares_;   ///< by stage; empty where threads do not pay
   std::vector<Nanoseconds> costs_;                 ///< by place, of the present communication step
   std::vector<std::vector<Nanoseconds>> samples_;  ///< by place
   std::size_t turn_ = 0;
   Pace turn_pace_;           ///< of the present turn, or while measuring
   Pace paces_[2]{};          ///< of all turns: one after another, on threads
   std::uint64_t steps_ = 0;  ///< that the present decision has taken, or until the next one
-  std::uint64_t patience_ = kPatience;
+  std::uint64_t hold_factor_ = kHoldFactor;
 };
 
 }  // namespace stride::core
