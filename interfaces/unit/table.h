@@ -11,7 +11,7 @@
 
 namespace stride::kit {
 
-const char* name(Type type);
+inline const char* name(Type type) { return type_name(type); }
 const char* name(Causality causality);
 const char* name(Variability variability);
 const char* name(IntervalVariability variability);
