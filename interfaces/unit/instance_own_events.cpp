@@ -12,8 +12,6 @@ namespace {
 
 constexpr int kMostIterations = 1000;  // as many as the master allows
 
-std::string text(Time time) { return to_text(to_seconds(time)); }
-
 }  // namespace
 
 /// The event at the start, which an importer with Event Mode would handle now.
@@ -38,13 +36,13 @@ bool Instance::handle_own_events() {
     if (any_clock_ticked()) {
       const std::string lost = "output clocks tick unheard, and what belongs to them is lost";
       warn_of_clocks(Causality::Output, warned_of_outputs_,
-                     lost + ", the first time at " + text(time_) + " s");
+                     lost + ", the first time at " + to_text(time_) + " s");
     }
     const UpdateOutcome outcome = update_discrete_states();
     if (outcome.terminate) return true;
     if (!outcome.iterate && !event_is_due()) return false;
   }
-  throw std::runtime_error("the events at " + text(time_) + " s do not settle");
+  throw std::runtime_error("the events at " + to_text(time_) + " s do not settle");
 }
 
 Instance::StepOutcome Instance::step_through_events(Time to) {
@@ -73,14 +71,14 @@ Instance::StepOutcome Instance::step_through_events(Time to) {
     if (time_ < target && !event_pending_ && importer_.early_return_allowed) return outcome(false);
     standing = time_ > start ? 0 : standing + 1;
   }
-  throw std::runtime_error("step() returns early at " + text(time_) + " s again and again");
+  throw std::runtime_error("step() returns early at " + to_text(time_) + " s again and again");
 }
 
 /// fmi3Discard leaves the unit as it was before the step.
 Instance::StepOutcome Instance::undo(const std::string& rejection,
                                      const std::optional<SavedState>& before) {
   if (!before) {
-    throw std::runtime_error("the unit rejects the rest of the step at " + text(time_) + " s (" +
+    throw std::runtime_error("the unit rejects the rest of the step at " + to_text(time_) + " s (" +
                              rejection +
                              "), behind an event that it cannot undo, because it has no state to "
                              "be saved; use Event Mode, or shorter steps");
