@@ -2,12 +2,15 @@
 #ifndef STRIDE_NFC_ISO14443A_H
 #define STRIDE_NFC_ISO14443A_H
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
 #include <stride/nfc/frame.h>
 
 namespace nfc {
+
+inline constexpr std::size_t kBitsPerByte = 9;  ///< of a standard frame: eight and parity
 
 /// CRC_A over the bytes: x^16 + x^12 + x^5 + 1, initial value 6363 (ISO/IEC 14443-3, 6.2.4 and
 /// annex B).
