@@ -12,7 +12,6 @@ using channel::Signals;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr std::array<std::uint32_t, 4> kBitRates = {106, 212, 424, 848};
 
 std::size_t index_of(std::uint32_t bit_rate) {
@@ -60,7 +59,7 @@ void Channel::move_tag(std::size_t index, const Pose& reader_coil, const Pose& t
   const Operation operation = tag.circuit.operate(link.mutual, carrier_power());
   const double flux = std::abs(link.mutual * operation.reader_current) / coil.turns;
   link.field_strength =
-      flux / (kVacuumPermeability * kPi * coil.radius * coil.radius) / std::sqrt(2.0);
+      flux / (kVacuumPermeability * M_PI * coil.radius * coil.radius) / std::sqrt(2.0);
   link.tag_voltage = std::abs(operation.tag_voltage);
   link.tag_power = tag.circuit.in_load(operation);
 

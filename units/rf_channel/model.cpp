@@ -15,7 +15,6 @@ using channel::Signals;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kReceiverResistance = 50.0;  // [Ohm]
 
 const Parameters& checked(const Parameters& parameters) {
@@ -43,7 +42,7 @@ double gain_of(const Radio& first, const Radio& second) {
 double field_strength(double received, const Radio& receiver, double frequency) {
   const double wavelength = kSpeedOfLight / frequency;
   const double gain = channel::from_decibels(receiver.antenna_gain);
-  const double density = received * 4.0 * kPi / (wavelength * wavelength * gain);
+  const double density = received * 4.0 * M_PI / (wavelength * wavelength * gain);
   return std::sqrt(density / kVacuumImpedance);
 }
 
