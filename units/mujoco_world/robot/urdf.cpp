@@ -21,7 +21,7 @@ bool begins_with(const std::string& text, const std::string& start) {
 }
 
 /// The element <mujoco><compiler>, by which a URDF tells MuJoCo how to read it; made if missing.
-XMLElement& compiler_of(XMLElement& robot) {
+XMLElement& find_or_make_compiler(XMLElement& robot) {
   const auto child = [](XMLElement& parent, const char* name) -> XMLElement& {
     XMLElement* const found = parent.FirstChildElement(name);
     return found ? *found : *parent.InsertNewChildElement(name);
@@ -87,7 +87,7 @@ void name_meshes(XMLElement& robot, const fs::path& file, const std::string& mes
 bool is_urdf(const XMLElement& root) { return std::string(root.Name()) == "robot"; }
 
 void prepare_urdf(XMLElement& root, const fs::path& file) {
-  XMLElement& compiler = compiler_of(root);
+  XMLElement& compiler = find_or_make_compiler(root);
   const std::string meshdir = attribute(compiler, "meshdir");
   compiler.DeleteAttribute("meshdir");
   compiler.SetAttribute("strippath", "false");
