@@ -49,7 +49,7 @@ struct Setup {
 
 enum class Severity { Info, Warning };
 
-/// What a unit says of itself as a whole, for its model description.
+/// Properties of a unit as a whole, for its model description.
 struct UnitInfo {
   std::string description;
   std::string version = "1.0";

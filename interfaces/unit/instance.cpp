@@ -211,7 +211,7 @@ Instance::StepOutcome Instance::do_step(double point, double size) {
   return {std::nullopt, event_pending_, step.terminates(), time_ < to, time_, time_ == to};
 }
 
-/// The unit's own step, from where it stands.
+/// The unit's own step, from its present instant.
 Step Instance::step_to(Time to, bool may_return_early) {
   for (Clock* clock : table_->output_clocks()) clock->clear();
   const bool can_update =

@@ -1,6 +1,6 @@
 // An instance that is used without Event Mode handles its events itself (FMI 3.0, 4.2.1,
 // eventModeUsed = fmi3False), at their instants: a communication step becomes several steps of the
-// unit with events in between. What clocks carry cannot reach or leave it then, which it says.
+// unit with events in between. What clocks carry cannot reach or leave it then, which is logged.
 #include <algorithm>
 #include <stdexcept>
 

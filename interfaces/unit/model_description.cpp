@@ -257,7 +257,7 @@ class Writer {
     xml_.close();
   }
 
-  /// What FMI has no attribute for: an importer that knows nothing of a unit has to expect
+  /// What FMI has no attribute for: an importer without this annotation has to expect
   /// fmi3Discard.
   void write_annotations() {
     xml_.open("Annotations").open("Annotation").attribute("type", "org.stride.unit");

@@ -16,7 +16,7 @@ const char* name(Causality causality);
 const char* name(Variability variability);
 const char* name(IntervalVariability variability);
 
-/// Calls visitor(T* elements) with the C++ type that stands behind an FMI type.
+/// Calls visitor(T* elements) with the C++ type that holds values of an FMI type.
 template <class Visitor>
 void visit(Type type, void* data, Visitor&& visitor) {
   switch (type) {

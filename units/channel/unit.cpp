@@ -87,7 +87,7 @@ void ChannelUnit::step(stride::Step& step) {
 void ChannelUnit::event(stride::Event& event) {
   update_outputs();
   air().observe(event.time());
-  // whoever could not end its step where its frame began may have more of this step
+  // a sender that could not end its step where its frame began may send more of this step
   if (take_frames()) return event.iterate();
   hand_over(event);
   const auto end = air().next_end();

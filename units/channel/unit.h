@@ -1,4 +1,4 @@
-// What the channels of all technologies are to an importer: the same connectors.
+// The variables that the channels of all technologies have, so that one can replace another.
 #ifndef STRIDE_UNITS_CHANNEL_UNIT_H
 #define STRIDE_UNITS_CHANNEL_UNIT_H
 

@@ -55,7 +55,7 @@ struct Comparison {
 /// Its error is the least that an instant of the interval leaves, and it is right if that is not
 /// greater than the tolerance, which is a maximum permissible error (JCGM 200:2012, 4.26).
 ///
-/// Call note() at each instant at which the truth is told, and compare() after the note() of the
+/// Call note() at each instant at which the truth is known, and compare() after the note() of the
 /// same instant.
 class Judge {
  public:
@@ -82,7 +82,7 @@ class Judge {
   /// Nothing was wrong, and enough was compared.
   bool passed() const { return state_.wrong == 0 && compared() >= parameters_.minimum; }
   /// Such as "2 of 3 measurements right; worst error 0.995 K at 24.0008 s: 22.5 degC for 21.505
-  /// degC"; without a comma, for it stands in tables.
+  /// degC"; without a comma, for tables.
   std::string verdict_text() const;
   /// Of one that is not right, such as "measurement at 24.0008 s: 22.5 degC is wrong, error 0.995
   /// K, tolerance 0.03 K; the nearest truth between 23.9908 s and 24.0008 s is 21.505 degC".

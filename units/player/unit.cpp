@@ -28,7 +28,7 @@ std::filesystem::path stimuli_file(const std::filesystem::path& resources) {
   return resources / "stimuli.csv";
 }
 
-/// Where the values of one output stand, and how they come there.
+/// The elements of one output, and how they are set.
 class Place {
  public:
   virtual ~Place() = default;

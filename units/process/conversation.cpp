@@ -40,7 +40,7 @@ ssize_t write_without_signal(int descriptor, const char* data, std::size_t size)
   return written;
 }
 
-/// What a program writes may be anything; what is told of it is text.
+/// A program may write any bytes; in messages and in the log they are text.
 std::string printable(std::string_view text) {
   std::string result;
   while (true) {
@@ -98,7 +98,7 @@ bool Conversation::write_some() {
     } else if (errno == EAGAIN) {
       return false;
     } else if (errno != EINTR) {
-      // what it has said before it closed its input may tell why
+      // what it wrote before it closed its input may explain why
       return true;
     }
   }
@@ -243,7 +243,7 @@ bool Conversation::wait_for_end(std::chrono::milliseconds limit) {
   bool has_ended = child_->wait({});
   while (!has_ended && Clock::now() < end) {
     has_ended = child_->wait(kSlice);
-    while (read_error()) {  // it must not have to wait for us
+    while (read_error()) {  // so that the program is not blocked by a full pipe
     }
   }
   child_->kill();

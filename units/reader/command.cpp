@@ -123,7 +123,7 @@ std::uint32_t bit_rate(const Element& element) {
                "\": expected 106, 212, 424 or 848 kbit/s");
 }
 
-/// The attributes of an <expect> that say something of the data.
+/// The attributes of an <expect> that are about the data.
 std::vector<std::string> data_attributes(nfc::Command command) {
   switch (command) {
     case nfc::Command::kIdentify:

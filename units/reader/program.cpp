@@ -19,7 +19,7 @@ constexpr double kLargestTremor = 0.5;       // [rad]
 constexpr double kLargestStartOffset = 1.0;  // [rad]
 constexpr double kHighestFrequency = 100.0;  // of a tremor [Hz]
 
-/// Fills a program section by section; each may refer to what stands before it.
+/// Fills a program section by section; each may refer to what comes before it.
 class Parser {
  public:
   Program parse(const Element& root) {

@@ -21,7 +21,7 @@ class InputUpdater {
 /// One communication step, from one communication point to the next.
 class Step {
  public:
-  /// `updater`: who sets the intermediate inputs, if anybody does.
+  /// `updater` sets the intermediate inputs; none if null.
   Step(Time from, Time to, bool early_return_allowed, InputUpdater* updater = nullptr)
       : from_(from), to_(to), early_return_allowed_(early_return_allowed), updater_(updater) {}
 

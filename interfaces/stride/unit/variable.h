@@ -114,7 +114,7 @@ class VariableBuilder {
   VariableBuilder& depends_on(std::vector<std::string> names) {
     return row_.dependencies = std::move(names), *this;
   }
-  /// Where the first derivative of an output stands.
+  /// The member that holds the first derivative of an output.
   VariableBuilder& derivative(const double& member) { return row_.derivative = &member, *this; }
 
   // For a unit that may promise to be idle (UnitInfo::promises_idle, Unit::idle_until()).

@@ -69,7 +69,7 @@ std::string started(const std::string& rest = "<sync time=\"0\"/>") {
   return answer("start", kOutputs + rest);
 }
 
-/// What the program is told, by one that writes it to a file and answers each step with its end.
+/// What the program receives, from one that writes it to a file and answers each step with its end.
 std::string told(const std::function<void(Play&)>& play, const Declaration& declaration) {
   const ScratchFolder folder;
   const std::string file = (folder / "told").string();

@@ -21,7 +21,7 @@ Program program(const std::string& commands) {
                        "p.xml");
 }
 
-/// Two axes that stand, move from 2 s to 3 s, stand, and the second moves on from 5 s to 6 s.
+/// Two axes at rest; both move from 2 s to 3 s, and the second also from 5 s to 6 s.
 Program movements() {
   Program program;
   program.axes = {"shoulder", "elbow"};

@@ -19,7 +19,7 @@ std::uint16_t crc_a(const Bytes& bytes);
 /// The bytes followed by their CRC_A, low byte first.
 Bytes with_crc(Bytes bytes);
 
-/// What stands before the CRC, or nothing if the CRC is wrong or missing.
+/// The bytes before the CRC, or nothing if the CRC is wrong or missing.
 std::optional<Bytes> without_crc(const Bytes& bytes);
 
 /// A standard frame's bits: each byte least significant bit first, followed by its odd parity bit.

@@ -15,7 +15,7 @@
 
 namespace stride::process {
 
-/// An XML empty-element tag that stands alone on its line: <name attribute="value" …/>. Names are
+/// An XML empty-element tag that is alone on its line: <name attribute="value" …/>. Names are
 /// of ASCII letters, digits and _ - . :, values are in UTF-8, quoted with " or ', with the
 /// references of XML (&lt; &#10; &#x20AC; …).
 class Tag {

@@ -1,4 +1,4 @@
-// An sc_module with ordinary ports as a unit: say which variable stands for which port.
+// An sc_module with ordinary ports as a unit: a table of which variable belongs to which port.
 //
 //   class Thermometer : public stride::systemc::ModuleUnit<ThermometerModule> {
 //    public:
