@@ -15,7 +15,7 @@
 #include <stride/process/tag.h>
 #include <stride/time.h>
 
-#include "units/process/conversation.h"
+#include "units/process/program_lines.h"
 #include "units/process/declaration.h"
 
 namespace process {

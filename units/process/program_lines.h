@@ -1,6 +1,6 @@
 // Lines to and from a program, within limits.
-#ifndef STRIDE_UNITS_PROCESS_CONVERSATION_H
-#define STRIDE_UNITS_PROCESS_CONVERSATION_H
+#ifndef STRIDE_UNITS_PROCESS_PROGRAM_LINES_H
+#define STRIDE_UNITS_PROCESS_PROGRAM_LINES_H
 
 #include <chrono>
 #include <cstddef>

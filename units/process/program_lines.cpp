@@ -1,4 +1,4 @@
-#include "units/process/conversation.h"
+#include "units/process/program_lines.h"
 
 #include <algorithm>
 #include <cerrno>

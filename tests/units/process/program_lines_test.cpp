@@ -1,5 +1,5 @@
 // Lines to and from a program, and what may go wrong with them.
-#include "units/process/conversation.h"
+#include "units/process/program_lines.h"
 
 #include <string>
 #include <vector>
