@@ -86,7 +86,7 @@ class Launch {
   int run(pid_t parent, const std::array<int, 3>& standard) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(127);  // it has died meanwhile
+    if (::getppid() != parent) ::_exit(127);  // it has ended meanwhile
     for (int signal = 1; signal < NSIG; ++signal) ::signal(signal, SIG_DFL);
     sigset_t none;
     ::sigemptyset(&none);

@@ -15,8 +15,8 @@
 #include <stride/process/tag.h>
 #include <stride/time.h>
 
-#include "units/process/program_lines.h"
 #include "units/process/declaration.h"
+#include "units/process/program_lines.h"
 
 namespace process {
 
@@ -39,12 +39,12 @@ struct Message {
 struct Sync {
   stride::Time time;                 ///< that the program has reached
   std::optional<stride::Time> next;  ///< when something happens next, if that is known
-  bool ends = false;                 ///< the program wants the simulation to end
+  bool ends = false;                 ///< the program requests the end of the simulation
 };
 
 /// A program from its start to its end. Values are read from and written to `values`, one for each
 /// variable of the declaration, in its order; both must outlive the session. All functions throw
-/// std::runtime_error as Conversation does.
+/// std::runtime_error as ProgramLines does.
 class Session {
  public:
   using Log = std::function<void(bool is_warning, const std::string& text)>;
@@ -94,7 +94,7 @@ class Session {
   std::vector<bool> has_come_;  ///< of outputs, in the answer to the start
   std::size_t guess_ = 0;       ///< the variable that the program will probably send next
   Log log_;
-  Conversation conversation_;
+  ProgramLines lines_;
   Tag tag_;
   stride::Duration unit_{1};  ///< of the times in the lines
   stride::Time now_;

@@ -24,12 +24,12 @@ struct Limits {
 
 /// A program that has been started, and the lines on its pipes. All functions throw
 /// std::runtime_error that names the program, says what was expected, and quotes what it wrote.
-class Conversation {
+class ProgramLines {
  public:
   /// Receives each line that the program writes to its standard error.
   using Listener = std::function<void(const std::string& line)>;
 
-  Conversation(const std::vector<std::string>& command, const Limits& limits, Listener listener);
+  ProgramLines(const std::vector<std::string>& command, const Limits& limits, Listener listener);
 
   /// What send() will write: whole lines are appended here.
   std::string& commands() { return commands_; }

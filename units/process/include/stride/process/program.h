@@ -48,10 +48,10 @@ namespace stride::process {
 
 enum class LogLevel { Info, Warning };
 
-/// One end of the conversation: obeys the commands on its standard input. Its virtual functions are
-/// called in the order start, then steps, finish; parameters are in their members before start(),
-/// inputs and messages before the step that they are for. An exception that leaves one of them ends
-/// the program, and its text is what the run fails with.
+/// The program's side of the protocol: executes the commands on its standard input. Its virtual
+/// functions are called in the order start, then steps, finish; parameters are in their members
+/// before start(), inputs and messages before the step that they are for. An exception that leaves
+/// one of them ends the program, and its text is what the run fails with.
 class Program {
  public:
   /// From here on the standard output is the protocol's: what the program prints goes to its
