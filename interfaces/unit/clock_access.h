@@ -17,7 +17,7 @@ class ClockAccess {
     return is_new ? fmi3IntervalChanged : fmi3IntervalUnchanged;
   }
   static bool has_news(const Clock& clock) { return clock.knowledge_ == Clock::Knowledge::New; }
-  /// What the unit said counts no longer: the count has ended, or the unit will say it anew.
+  /// What the unit set is void: the count has ended, or the unit will set it anew.
   static void forget(Clock& clock) { clock.knowledge_ = Clock::Knowledge::None; }
 };
 

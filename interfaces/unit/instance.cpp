@@ -165,7 +165,7 @@ void Instance::refresh() {
 
 void Instance::check_step(double point, double size, Time from, Time to) const {
   if (!are_near(from, time_, rounding(point))) {
-    throw Misuse("the unit stands at " + to_text(time_) + " s, but the step starts at " +
+    throw Misuse("the unit is at " + to_text(time_) + " s, but the step starts at " +
                  to_text(from) + " s");
   }
   if (!(size > 0) || to <= time_) throw Misuse("the communication step size must be positive");

@@ -29,7 +29,8 @@ bool Instance::event_is_due() const {
   return event_pending_ || (next_event_ && *next_event_ <= time_);
 }
 
-/// Events at this instant, to a fixed point. Returns whether the unit wants the simulation to end.
+/// Events at this instant, to a fixed point. Returns whether the unit requests the end of the
+/// simulation.
 bool Instance::handle_own_events() {
   event_pending_ = false;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {

@@ -48,8 +48,8 @@ struct Rules {
   double capture_ratio = 1.0;  ///< with kSuperpose: a tag stronger by this factor masks another
 };
 
-/// A channel's frames. A technology derives from it and says how strong signals are and how often
-/// bits are wrong; here is decided which bits are heard, and when.
+/// A channel's frames. A technology derives from it and defines how strong signals are and how
+/// often bits are wrong; this class decides which bits are heard, and when.
 ///
 /// At each instant bring the signals up to date, whose carrier power is carrier_power(), and then
 /// observe(); at an event also the frames that have begun, from_reader() and from_tag(), and when

@@ -21,7 +21,7 @@ std::vector<TagName> tag_names(const stride::Setup& setup, const std::string& ro
 
 /// The antennas' poses, the carrier, the clocks and frames, the events at which frames are handed
 /// over, the promise to be idle, the state. A technology lists these variables and its own in the
-/// order of the variable table, and says how its model is made and moved.
+/// order of the variable table, and defines how its model is made and moved.
 ///
 /// While no frame is on the air the outputs are a function of the inputs, so they stay what they
 /// are, field or none.

@@ -14,12 +14,12 @@ namespace ground_truth {
 
 struct Parameters {
   double tolerance = 0.1;      ///< in the unit of a difference, >= 0
-  stride::Duration max_age{};  ///< by which a measurement may be older than it says, >= 0
+  stride::Duration max_age{};  ///< by which a measurement may be older than its age, >= 0
   stride::Duration memory{};   ///< for how long the truth is remembered, >= 0
   std::uint64_t minimum = 1;   ///< with fewer comparisons the verdict is not good
 };
 
-/// A measurement that was received. It says to be `age` old, or up to `age_resolution` more.
+/// A measurement that was received. Its age is from `age` to `age + age_resolution`.
 struct Measurement {
   stride::Time received;
   double value = 0.0;

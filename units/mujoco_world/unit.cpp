@@ -113,7 +113,7 @@ class MujocoWorld : public stride::Unit {
     return stride::results_folder() / "film" / name;
   }
 
-  /// As the importer wants it.
+  /// As the importer has set it.
   void allow_rest() {
     if (!max_skip()) return world_.forbid_rest();
     limits_.window = stride::duration_from_seconds(rest_window_);

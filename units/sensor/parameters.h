@@ -19,7 +19,7 @@ struct ControlUnitParameters {
   bool clock_gating = true;              ///< the clock stands still while the control unit sleeps
   std::int32_t boot_cycles = 50'000;     ///< from power-on to the first instruction
   std::int32_t wake_up_cycles = 250;     ///< from stop mode to the first instruction
-  std::int32_t decode_cycles = 40;       ///< to tell what a command wants
+  std::int32_t decode_cycles = 40;       ///< to decode a command
   std::int32_t execute_cycles = 60;      ///< to do it, conversions not included
   std::int32_t cycles_per_byte = 24;     ///< to hand one byte of the answer to the transceiver
   double active_current = 2.0e-3;        ///< [A]

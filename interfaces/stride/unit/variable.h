@@ -101,12 +101,12 @@ class VariableBuilder {
   VariableBuilder& every_tunable(Duration interval, Duration shift = {}) {
     return periodic(IntervalVariability::Tunable, interval, shift);
   }
-  /// Periodically, too, with the lengths that the unit says: Clock::set_interval(), set_shift().
+  /// Periodically, too, with the lengths that the unit sets: Clock::set_interval(), set_shift().
   VariableBuilder& every_fixed() { return timed(IntervalVariability::Fixed); }
   VariableBuilder& every_tunable() { return timed(IntervalVariability::Tunable); }
   /// Once after each Clock::count_down(), which each tick must be followed by.
   VariableBuilder& changing() { return timed(IntervalVariability::Changing); }
-  /// Once after each Clock::count_down(), which any event may say.
+  /// Once after each Clock::count_down(), which any event may call.
   VariableBuilder& countdown() { return timed(IntervalVariability::Countdown); }
 
   /// The names of the inputs that an output depends on at the same instant; {} = none. Not for a
@@ -123,7 +123,7 @@ class VariableBuilder {
   /// >= 0. Without one any change ends it.
   VariableBuilder& deadband(double width) { return row_.deadband = width, *this; }
   /// How far this Float64 output may be from its tangent at the promise while it holds, in its
-  /// unit, > 0, unless the importer says another. Without one it stays exactly what it is.
+  /// unit, > 0, unless the importer sets another. Without one it stays exactly what it is.
   VariableBuilder& tolerance(double width) { return row_.tolerance = width, *this; }
 
   // For a unit that judges the run; one output each.
@@ -131,7 +131,7 @@ class VariableBuilder {
   /// What this Boolean output is at the end of a run is the unit's verdict: false, and the run has
   /// failed, however well it went.
   VariableBuilder& verdict() { return row_.is_verdict = true, *this; }
-  /// This String output says, for people, why the verdict is what it is.
+  /// This String output explains the verdict, for people.
   VariableBuilder& verdict_text() { return row_.is_verdict_text = true, *this; }
 
  private:

@@ -20,7 +20,7 @@ bool begins_with(const std::string& text, const std::string& start) {
   return text.rfind(start, 0) == 0;
 }
 
-/// The element <mujoco><compiler>, by which a URDF tells MuJoCo how to read it; made if missing.
+/// The element <mujoco><compiler>, with which a URDF controls how MuJoCo reads it; made if missing.
 XMLElement& find_or_make_compiler(XMLElement& robot) {
   const auto child = [](XMLElement& parent, const char* name) -> XMLElement& {
     XMLElement* const found = parent.FirstChildElement(name);
