@@ -14,6 +14,10 @@
 
 #include "master/util/error.h"
 
+namespace tinyxml2 {
+class XMLElement;
+}
+
 namespace stride::xml {
 
 /// The words of a list (xs:list).
