@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "master/util/time_text.h"
+
 namespace stride::fmi {
 namespace {
 
@@ -92,7 +94,7 @@ void read_default_experiment(const xml::Element& root, core::UnitDescription& un
     experiment->fail(
         fmt::format("stopTime=\"{}\" of <DefaultExperiment>: expected a time at least a "
                     "picosecond after the start, {} s",
-                    *experiment->attribute("stopTime"), core::to_text(Time(start))));
+                    *experiment->attribute("stopTime"), core::to_text(start)));
   }
   unit.default_stop = Time(*stop);
 }

@@ -67,9 +67,6 @@ std::string to_text(const Context& context);
 /// "'a', 'b'"
 std::string quoted(std::span<const std::string> names);
 
-/// The exact decimal text of a time in seconds, without trailing zeros: "14.2".
-std::string to_text(Time time);
-
 }  // namespace stride::core
 
 #endif

@@ -10,6 +10,7 @@
 
 #include "master/util/error.h"
 #include "master/util/hex.h"
+#include "master/util/time_text.h"
 
 namespace stride::io {
 namespace {

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
+
 namespace stride::core {
 
 IdleLedger::IdleLedger(const System& system, std::span<const std::unique_ptr<Unit>> units,

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
+
 namespace stride::core {
 namespace {
 
@@ -145,10 +147,10 @@ void StepSize::fail_tolerance(Time from, Time reached, const Excess& excess) con
        from},
       fmt::format("over a step of {} s the output changes by {:.3g} times what the inputs that "
                   "it feeds may be off by, and no shorter step is {}",
-                  to_text(Time(reached - from)), excess.ratio,
+                  to_text(reached - from), excess.ratio,
                   is_grid ? fmt::format("possible, since steps end on the units' fixed internal "
                                         "steps (fixedInternalStepSize) of {} s",
-                                        to_text(Time(quantum_)))
+                                        to_text(quantum_))
                           : "allowed"),
       is_grid ? "loosen the tolerances, or export the unit with a smaller internal step"
               : "loosen the tolerances, allow a smaller minimum step, or let the unit announce the "

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "master/util/error.h"
+#include "master/util/time_text.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {
@@ -142,9 +143,8 @@ Finding check_rejection(const Trial& trial) {
   std::vector<std::string> notes;
   if (!probe.error().empty()) notes.push_back("a longer step is an error: " + probe.error());
   if (probe.rejections() == 0) {
-    return passed(
-        fmt::format("no step is rejected, up to {} s", core::to_text(Time(probe.longest()))),
-        std::move(notes));
+    return passed(fmt::format("no step is rejected, up to {} s", core::to_text(probe.longest())),
+                  std::move(notes));
   }
   if (probe.error().empty()) {
     const auto twin = values_without_rejections(trial, from, probe.reached());
