@@ -1,4 +1,4 @@
-// What a unit says of itself: the part of a modelDescription.xml that a master needs.
+// The description of a unit: the part of a modelDescription.xml that a master needs.
 #ifndef STRIDE_MASTER_MODEL_DESCRIPTION_H
 #define STRIDE_MASTER_MODEL_DESCRIPTION_H
 

@@ -8,7 +8,7 @@
 
 namespace stride::cli {
 
-/// The parameter [s] by which a unit can be told to make a film (units/mujoco_world).
+/// The parameter [s] that makes a unit record a film (units/mujoco_world).
 inline constexpr const char* kFilmInterval = "film.interval";
 
 /// The interval that the system gives, or else 0.1 s.

@@ -33,7 +33,7 @@ std::vector<io::HostSettings> host_settings(std::span<const std::string> compone
                                             io::HostRules rules, const HostRequest& request);
 
 /// The processes that the settings ask for and, where they leave it open, those whose snapshots a
-/// run with this policy cannot do without; the log tells of these.
+/// run with this policy cannot do without; the log names these.
 std::vector<std::optional<Hosting>> choose_hostings(
     std::span<const core::ComponentDeclaration> components, core::StepPolicy policy,
     std::span<const io::HostSettings> settings);

@@ -49,7 +49,7 @@ class Error : public std::runtime_error {
 };
 
 /// A unit cannot be called, because another one has failed before. Where units step at the same
-/// time the other's failure is the one to tell.
+/// time the other's failure is the one to report.
 class ConsequentError : public Error {
  public:
   using Error::Error;

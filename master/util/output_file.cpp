@@ -44,7 +44,7 @@ OutputFile::OutputFile(std::filesystem::path path, Hints hints)
 OutputFile::~OutputFile() {
   try {
     close();
-  } catch (const core::Error&) {  // a destructor cannot tell
+  } catch (const core::Error&) {  // a destructor cannot report it
   }
 }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr int kDoublings = 12;
 constexpr std::size_t kMostRejections = 20;
 
-/// What can be told of a unit in Step Mode.
+/// What can be observed of a unit in Step Mode.
 struct Fingerprint {
   Row row;
   std::vector<std::uint8_t> bytes;  ///< of its state, where it can be serialised
