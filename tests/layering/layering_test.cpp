@@ -17,7 +17,8 @@ namespace {
 /// standard library's.
 const std::map<std::string, std::set<std::string>> kAllowed = {
     {"interfaces", {"stride"}},
-    {"master/util", {"stride/time.h", "fmt", "tinyxml2.h", "archive.h", "archive_entry.h"}},
+    {"master/util",
+     {"stride/time.h", "fmt", "tinyxml2.h", "utf8.h", "archive.h", "archive_entry.h"}},
     {"master/model", {"stride/time.h", "master/util", "fmt"}},
     {"master/algorithm", {"stride/time.h", "master/model", "master/util", "fmt", "Eigen"}},
     {"master/importer", {"stride", "master/algorithm", "master/model", "master/util", "fmt"}},
