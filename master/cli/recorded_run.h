@@ -20,7 +20,7 @@
 #include "master/recorders/activity_recorder.h"
 #include "master/recorders/csv_recorder.h"
 #include "master/recorders/event_recorder.h"
-#include "master/recorders/result_files.h"
+#include "master/recorders/results_folder.h"
 #include "master/recorders/vcd_recorder.h"
 #include "master/scenario/loaded_scenario.h"
 
