@@ -232,8 +232,9 @@ class Simulation::Run {
 
   /// The point that the step policy chooses, or the next event if that is earlier.
   Time next_target() {
-    const std::optional<Time> rest = idle_ ? idle_->all_suspended_until() : std::nullopt;
-    const Time target = rest ? step_policy_->stride(time_, *rest) : step_policy_->next(time_);
+    const std::optional<Time> quiet_until = idle_ ? idle_->all_suspended_until() : std::nullopt;
+    const Time target =
+        quiet_until ? step_policy_->stride(time_, *quiet_until) : step_policy_->next(time_);
     return std::min(target, event_handler_.next_event().value_or(target));
   }
 
