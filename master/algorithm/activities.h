@@ -7,7 +7,8 @@
 
 namespace stride::core {
 
-/// Tells what components do to those who watch it. Where nobody does, that is one comparison.
+/// Reports activities to the observers that watch them. Without such an observer a report is one
+/// comparison.
 class Activities {
  public:
   void add(Observer& observer) {

@@ -1,4 +1,4 @@
-// What is told to those who watch a run: recorders, progress, checks.
+// The interface of observers of a run: recorders, progress, checks.
 #ifndef STRIDE_MASTER_ALGORITHM_OBSERVER_H
 #define STRIDE_MASTER_ALGORITHM_OBSERVER_H
 
@@ -13,15 +13,15 @@
 
 namespace stride::core {
 
-/// Where an observed variable's present value stands: `variable.size` elements of the block from
-/// `first` on. Valid and kept up to date for the whole run.
+/// The current value of an observed variable: `variable.size` elements of the block from `first`
+/// on. Valid and kept up to date for the whole run.
 struct Signal {
   VariableId id;
   const ValueBlock* block = nullptr;
   std::size_t first = 0;
 };
 
-/// A clock that ticked, with the values that it carries. A message is seen twice: where it is sent,
+/// A clock that ticked, with the values that it carries. A message is reported where it is sent,
 /// and at each component that receives it.
 struct Message {
   Time time;
@@ -30,21 +30,21 @@ struct Message {
   bool received = false;
   const ValueBlock* block = nullptr;  ///< null for a bare clock
   std::size_t first = 0;
-  /// What a Binary value says, in the words of its component (Unit::describe_message()) or else of
-  /// one that it is wired to, in one line of kLongestContent characters at most. Empty where none
-  /// says anything, and where no observer wants to know. Valid during the call.
+  /// The content of a Binary value as text, from its component (Unit::describe_message()) or else
+  /// from one that it is connected to, in one line of at most kLongestContent characters. Empty
+  /// where no component describes it, and where no observer needs it. Valid during the call.
   std::string_view content{};
 };
 
 inline constexpr std::size_t kLongestContent = 200;
 
-/// Something that a component did beside ordinary steps.
+/// Something that a component did besides ordinary steps.
 struct Activity {
   enum class Kind : std::uint8_t {
-    Idle,         ///< the master left it alone, since it promised to be idle
+    Idle,         ///< it was suspended, since it promised to be idle
     Event,        ///< it was in Event Mode
-    EarlyReturn,  ///< its step ended before the end that it was given
-    Rejection,    ///< it refused a step, which would have gone to `until`
+    EarlyReturn,  ///< its step ended before the target
+    Rejection,    ///< it rejected a step to `until`
     Undone        ///< its step was undone, because of another component or an input's error
   };
   std::size_t component = 0;
@@ -63,17 +63,17 @@ class Observer {
   /// Before the first communication point. The signals are those that the observer was added with
   /// (Simulation::add_observer), or else RunOptions::recorded, in that order.
   virtual void on_start(std::span<const Signal> /*signals*/) {}
-  /// Whether messages are to come with their content, for which units have to be asked.
+  /// Whether on_message() needs Message::content, which units have to provide.
   virtual bool wants_content() const { return false; }
   virtual void on_message(const Message& /*message*/) {}
-  /// Asked once, before the run: whether it wants to hear of activities.
+  /// Whether on_activity() is to be called. Read once, before the run.
   virtual bool watches_activities() const { return false; }
-  /// Each is told when it is over, in an order that does not depend on threads; what lasts until
-  /// the run ends, well or not, is told then.
+  /// Called when the activity is over, in an order that does not depend on threads; at the end of
+  /// the run, successful or not, for activities that last until then.
   virtual void on_activity(const Activity& /*activity*/) {}
   /// The initial instant, and each communication point once all values and events are exchanged.
   virtual void on_communication_point(Time /*time*/) {}
-  /// The run is over, well or not; what was recorded must be complete on disk when this returns.
+  /// The run is over, successful or not; records must be complete on disk when this returns.
   virtual void on_finish() {}
 };
 

@@ -1,4 +1,4 @@
-// What a user chooses of a run.
+// The options of a run.
 #ifndef STRIDE_MASTER_ALGORITHM_RUN_OPTIONS_H
 #define STRIDE_MASTER_ALGORITHM_RUN_OPTIONS_H
 
@@ -63,18 +63,18 @@ struct IdleSetting {
   double value = 0;
 };
 
-/// Who may be left alone while it promises to be idle (org.stride.idle).
+/// Which units may be suspended while they promise to be idle (org.stride.idle).
 struct IdleOptions {
-  /// For how long, by component; nothing: not at all. Shorter than the components: nobody further.
+  /// For how long at most, by component; nothing, or no entry: never.
   std::vector<std::optional<Duration>> max_skip{};
   std::vector<IdleSetting> deadbands{};   ///< of inputs, in place of those that the units name
   std::vector<IdleSetting> tolerances{};  ///< of outputs, likewise
-  Duration least{};                       ///< a unit is not left alone for less
+  Duration least{};                       ///< a unit is not suspended for less
 };
 
 struct RunOptions {
-  /// Units may rest where nothing but events and steps needs them: inputs that are extrapolated, or
-  /// whose error is controlled, are needed between communication points.
+  /// Units may be suspended where only events and steps use their outputs. Inputs that are
+  /// extrapolated, or whose error is controlled, use them between communication points, too.
   bool may_skip_idle_time() const {
     return !sets_inputs_in_steps() && !step.policy->controls_error;
   }
@@ -94,7 +94,7 @@ struct RunOptions {
   std::vector<VariableId> recorded{};  ///< what observers see that ask for nothing else, in order
   std::vector<VariableId> watched{};   ///< what observers may ask for beside that
   bool measure_time = true;  ///< wall-clock time per unit; costs two clock readings a unit step
-  /// Where this is no longer 0 the run ends at its next communication point.
+  /// The run ends at its next communication point after this is no longer 0.
   const volatile std::sig_atomic_t* interrupted = nullptr;
 };
 

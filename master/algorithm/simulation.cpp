@@ -21,7 +21,7 @@
 namespace stride::core {
 namespace {
 
-/// Steps in a row that end where they began, after which a unit is taken to be stuck.
+/// Successive steps that end where they began, after which the run fails.
 constexpr std::uint32_t kStallLimit = 1000;
 
 }  // namespace
@@ -97,7 +97,7 @@ class Simulation::Run {
     }
   }
 
-  /// All are told, also where one of them fails; the first failure is kept.
+  /// Calls all observers, even if one of them fails, and keeps the first failure.
   void finish_observers(std::exception_ptr& failure) {
     for (Observer* observer : context_.observers) {
       try {
@@ -135,7 +135,7 @@ class Simulation::Run {
     for (Observer* observer : context_.observers) observer->on_communication_point(time_);
   }
 
-  /// Structural parameters; they give arrays their sizes, so they come first.
+  /// Structural parameters give arrays their sizes, so they are set first.
   void configure() {
     const std::span<const StartValue> all = system_.structural_values();
     for (auto first = all.begin(); first != all.end();) {
@@ -163,7 +163,7 @@ class Simulation::Run {
     }
   }
 
-  /// Nothing where nobody would use it.
+  /// Nothing where inputs are held and their error is not controlled.
   std::optional<InputExtrapolator> make_input_extrapolator() {
     if (!sets_inputs_in_steps() && !options_.step.policy->controls_error) return std::nullopt;
     return std::optional<InputExtrapolator>(std::in_place, context_);
@@ -216,7 +216,8 @@ class Simulation::Run {
     }
   }
 
-  /// Takes all units to the next communication point, as far as its errors are tolerable.
+  /// Steps all units to the next communication point; repeated while the policy does not accept the
+  /// error.
   Time advance() {
     while (true) {
       const Time reached = stepper_.advance(time_, next_target());
@@ -229,10 +230,11 @@ class Simulation::Run {
     }
   }
 
-  /// Where the policy leads to, unless an event is nearer.
+  /// The point that the step policy chooses, or the next event if that is earlier.
   Time next_target() {
-    const std::optional<Time> rest = idle_ ? idle_->all_suspended_until() : std::nullopt;
-    const Time target = rest ? step_policy_->stride(time_, *rest) : step_policy_->next(time_);
+    const std::optional<Time> quiet_until = idle_ ? idle_->all_suspended_until() : std::nullopt;
+    const Time target =
+        quiet_until ? step_policy_->stride(time_, *quiet_until) : step_policy_->next(time_);
     return std::min(target, event_handler_.next_event().value_or(target));
   }
 

@@ -32,16 +32,16 @@ class Simulation {
 
   /// From initialisation to the stop time, or until a unit ends the simulation or it is
   /// interrupted. Throws Error; the observers' on_finish() has been called then, and the statistics
-  /// tell how far it came.
+  /// are those up to the failure.
   void run();
 
   const RunStatistics& statistics() const;
-  /// The simulated time for which units have been left alone because they promised to be idle, all
-  /// of them together and up to where the run stands: unlike the statistics' `rested`, with the
-  /// rests that still last. For observers, at a communication point; one look at each unit that may
-  /// rest.
+  /// The simulated time for which units have been suspended because they promised to be idle,
+  /// summed over all units up to the current communication point. Unlike
+  /// UnitStatistics::suspended_time it includes suspensions that still last. For observers, at a
+  /// communication point; it reads the state of each unit that may be suspended.
   Duration suspended_time() const;
-  /// What the units say of the run, where it ended; none where it failed or was interrupted.
+  /// The units' verdicts at the end of the run; none where it failed or was interrupted.
   std::span<const Verdict> verdicts() const;
 
  private:

@@ -12,27 +12,27 @@
 
 namespace stride::core {
 
-/// Of a unit in a process of its own.
+/// Statistics of a unit in a process of its own.
 struct HostStatistics {
   std::uint64_t snapshots = 0;             ///< of its process that were made
-  std::uint64_t restores = 0;              ///< times that one of them took over
+  std::uint64_t restores = 0;              ///< of one of them
   std::size_t most_snapshots = 0;          ///< kept at the same time
   std::uint64_t most_snapshot_memory = 0;  ///< that those kept had to themselves, at most [byte]
   std::uint64_t most_memory = 0;           ///< resident, of the process that serves [byte]
   std::vector<std::string> protections{};  ///< in force
-  std::vector<std::string> missing_protections{};  ///< wanted, and not to be had from this kernel
+  std::vector<std::string> missing_protections{};  ///< requested, but not available
 };
 
 struct UnitStatistics {
-  std::uint64_t calls = 0;          ///< of functions of its interface, where they are counted
-  std::uint64_t steps = 0;          ///< that it made, redone ones included
+  std::uint64_t calls = 0;          ///< of its interface functions, where they are counted
+  std::uint64_t steps = 0;          ///< including repeated ones
   std::uint64_t early_returns = 0;  ///< steps that it ended before their end
-  std::uint64_t rejections = 0;     ///< steps that it refused
+  std::uint64_t rejections = 0;     ///< steps that it rejected
   std::uint64_t rollbacks = 0;      ///< steps of it that were undone, because another unit stopped
   std::uint64_t saves = 0;          ///< of its state
   std::uint64_t events = 0;         ///< super-dense instants handled in Event Mode
-  std::uint64_t suspensions = 0;  ///< times that it was left alone, because it promised to be idle
-  Duration suspended_time{};      ///< the simulated time of all of them
+  std::uint64_t suspensions = 0;    ///< times that it was suspended, because it promised to be idle
+  Duration suspended_time{};        ///< the simulated time of all of them
   Duration longest_suspension{};
   std::uint64_t messages_sent = 0;
   std::uint64_t messages_received = 0;
@@ -51,7 +51,7 @@ struct PhaseTimes {
   std::chrono::nanoseconds observers{};
 };
 
-/// How a run that did not fail came to its end.
+/// How a run that did not fail ended.
 enum class RunEnd : std::uint8_t { Completed, EndedByUnit, Interrupted };
 
 /// As run.json has it: "ended by a unit".

@@ -24,7 +24,7 @@ struct Witness {
   std::string unit;  ///< of measure
 };
 
-/// What a unit, or a check of the scenario, says of a run.
+/// The verdict of a unit, or of a check of the scenario, on a run.
 struct Verdict {
   std::string name;               ///< of the component or of the check
   std::optional<bool> passed;     ///< nothing: undecided, as for what the run did not come to

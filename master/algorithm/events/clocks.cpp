@@ -148,8 +148,8 @@ void Clocks::update(std::size_t component, Time time) {
   updated->ticking.clear();
 }
 
-/// Which clocks are asked is table "Overview of Clock types" of FMI 3.0, 2.2.8; what the answers
-/// mean, "Allowed qualifiers for time-based Clocks".
+/// The intervals that are read are those of table "Overview of Clock types" of FMI 3.0, 2.2.8; the
+/// qualifiers are those of "Allowed qualifiers for time-based Clocks".
 void Clocks::update(Schedule& clock, Time time, bool ticked) {
   const IntervalVariability variability = clock.attributes->variability;
   const bool is_tunable =

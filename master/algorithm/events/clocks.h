@@ -15,27 +15,27 @@
 
 namespace stride::core {
 
-/// Who asks whom, and when, is that of FMI 3.0, 2.2.8. The units say the intervals; the interval
-/// that a description gives is taken from there, and fmi3SetInterval is not called, so it stays.
+/// Follows FMI 3.0, 2.2.8. Intervals are read from the units, except those that the description
+/// gives; fmi3SetInterval is not called.
 ///
-/// Tick k of a periodic clock stands at start + shift + k * interval, rounded once to the
+/// Tick k of a periodic clock is at start + shift + k * interval, rounded once to the
 /// picosecond, and never at a sum of earlier ticks. An interval that a unit names in an event
 /// counts from that event, as a whole number of picoseconds.
 ///
-/// Ticks are made, and counted, at instants that all units have reached, so a rollback concerns
-/// none. Call order: begin(), then at each instant {due(), tick(), update() for the units that had
-/// an event} until nothing is due.
+/// Ticks are made, and counted, at communication points that all units have reached, so a rollback
+/// never undoes one. Call order: begin(), then at each instant {due(), tick(), update() for the
+/// units that had an event} until nothing is due.
 class Clocks {
  public:
   /// `units` in the order of system.components(); both must outlive this object.
   Clocks(const System& system, std::span<const std::unique_ptr<Unit>> units);
 
-  /// Asks the units, which are in Initialization Mode with all their parameters, for the intervals
-  /// and shifts that they determine. Throws Error (Run), as update() does, that names unit, clock
-  /// and time where an interval cannot be.
+  /// Reads the intervals and shifts that units determine; these are in Initialization Mode and have
+  /// all their parameters. Throws Error (Run) with unit, clock and time where an interval is not
+  /// possible, as update() does.
   void begin(Time start);
 
-  /// Instead of begin(): goes on where another one, of the same system, stands.
+  /// Instead of begin(): continues from the state of another object for the same system.
   void resume(const Clocks& other);
 
   /// The next tick, after the last due().
@@ -51,8 +51,8 @@ class Clocks {
   std::span<const std::size_t> tick(Time time);
   /// The clocks of the component that were set and not updated since.
   std::span<const ValueReference> ticking(std::size_t component) const;
-  /// Asks for the intervals that may have changed, after update_discrete_states() of the component;
-  /// its clocks do not tick any longer.
+  /// After update_discrete_states() of the component: reads the intervals that may have changed.
+  /// The tick of its clocks is over.
   void update(std::size_t component, Time time);
 
  private:
@@ -66,6 +66,7 @@ class Clocks {
     std::uint64_t count = 0;  ///< the number of the next tick since `base`
     std::optional<Time> next{};
   };
+  /// The time-based clocks of one component.
   struct ComponentClocks {
     std::size_t component;
     std::vector<Schedule> clocks;
@@ -76,7 +77,7 @@ class Clocks {
   ComponentClocks* clocks_of(std::size_t component);
   void start(Schedule& clock, Time start);
   void update(Schedule& clock, Time time, bool ticked);
-  /// The unit's word on its clock, checked.
+  /// The interval that the unit gives, checked.
   ClockInterval ask(const Schedule& clock, Time time);
   void check_interval(const Schedule& clock, Time time) const;
   [[noreturn]] void fail(const Schedule& clock, Time time, const std::string& message) const;
@@ -88,7 +89,7 @@ class Clocks {
   std::vector<std::size_t> due_;
   ValueBlock ticks_{ValueType::Clock, 0};  ///< as many ticks as a unit can need at once
   std::optional<Time> next_;
-  bool is_stale_ = false;  ///< next_ is to be looked for again
+  bool is_stale_ = false;  ///< next_ has to be computed again
 };
 
 }  // namespace stride::core

@@ -10,7 +10,7 @@
 namespace stride::core {
 namespace {
 
-/// Event iterations at one instant after which units are taken to tick for ever.
+/// Event iterations at one instant after which the run fails.
 constexpr std::uint32_t kEventLimit = 1000;
 
 }  // namespace
@@ -78,7 +78,7 @@ void EventHandler::handle_events(Time time) {
   if (idle_ != nullptr) idle_->suspend_idle(time);
 }
 
-/// Whoever is disturbed by what reaches it is exact again, which may disturb others.
+/// A suspended unit that catches up has new outputs, which may end the suspension of others.
 void EventHandler::route() {
   exchange_.route(time_);
   if (idle_ == nullptr) return;
@@ -112,8 +112,8 @@ void EventHandler::update_announced() {
   }
 }
 
-/// Units that have an event, or an input that changes discretely, are in Event Mode then and have
-/// their inputs. Tells whether one of them wants another event iteration.
+/// Puts the units with an event or a discrete change of an input into Event Mode and delivers their
+/// inputs. Returns whether another event iteration is needed.
 bool EventHandler::prepare_events() {
   for (const std::size_t i : clocks_.due(time_)) activate(i);
   for (const std::size_t i : discrete_units_) {
@@ -135,8 +135,9 @@ void EventHandler::enter_event_mode(std::size_t i) {
   exchange_.deliver(i, *units_[i]);
 }
 
-/// One super-dense instant: ticks and what is sampled at them, messages, then the units' discrete
-/// states. Leaves in `active_` who wants another. Tells whether a unit wants the end.
+/// One super-dense instant: ticks with the values sampled at them, messages, then the units'
+/// discrete states. `active_` are then the units that need another iteration. Returns whether a
+/// unit requests the end of the simulation.
 bool EventHandler::event_iteration() {
   bool terminates = false;
   ++statistics_.event_iterations;
@@ -159,8 +160,8 @@ bool EventHandler::event_iteration() {
   return terminates;
 }
 
-/// A value that goes from one ticking clock to another is that of this instant. Without a loop it
-/// crosses each connection once.
+/// A value between two ticking clocks is that of this instant. Without a loop it crosses each
+/// connection once.
 void EventHandler::tick_clocks() {
   const std::span<const std::size_t> ticking = clocks_.tick(time_);
   if (ticking.empty()) return;
@@ -170,7 +171,7 @@ void EventHandler::tick_clocks() {
   fail_sample_loop(ticking);
 }
 
-/// One pass; tells whether an input has yet to be written.
+/// One pass. Returns whether an input has yet to be written.
 bool EventHandler::exchange_samples(std::span<const std::size_t> ticking) {
   for (const std::size_t i : ticking) {
     exchange_.deliver_sampled(i, *units_[i], clocks_.ticking(i));
@@ -184,7 +185,7 @@ bool EventHandler::exchange_samples(std::span<const std::size_t> ticking) {
   });
 }
 
-/// Who joins brings outputs up to date that may stand before its place in the order.
+/// A unit that joins may update outputs that are earlier in the order.
 void EventHandler::exchange_after_events() {
   for (bool again = evaluation_.has_value(); again; again = has_joined_) {
     has_joined_ = false;
@@ -198,7 +199,7 @@ void EventHandler::exchange_after_events() {
   route();
 }
 
-/// What an event changes in a continuous output is an event of those who receive it.
+/// A change of a continuous output by an event is an event of the units that receive it.
 void EventHandler::find_jumps() {
   for (const auto& [from, to, source, target, conversion] : links_) {
     if (!in_event_mode_[from.component]) continue;
@@ -207,8 +208,8 @@ void EventHandler::find_jumps() {
   }
 }
 
-/// FMI wants Event Mode where a continuous input is discontinuous; and at once, if an output
-/// follows it.
+/// FMI requires Event Mode where a continuous input is discontinuous; at once if an output depends
+/// on the input.
 void EventHandler::on_jump(VariableId input, bool is_followed) {
   if (is_followed) join(input.component);
   activate(input.component);
@@ -222,8 +223,7 @@ bool EventHandler::join(std::size_t i) {
   return true;
 }
 
-/// A clock that is set may make the receiver's own clocks tick at once, so receivers are asked
-/// again.
+/// A clock that is set may make the receiver's own clocks tick at once, so these are read again.
 void EventHandler::exchange_messages() {
   messages_.begin_instant();
   polled_ = in_event_mode_;
@@ -263,7 +263,7 @@ void EventHandler::notify_observers(VariableId id, bool received, const ValueBlo
   for (Observer* observer : observers_) observer->on_message(message);
 }
 
-/// The same bytes have the same meaning at the other end of a connection.
+/// A unit at the other end of a connection can describe the same bytes.
 std::string EventHandler::content_of(VariableId id, const ValueBlock& block) const {
   if (block.type() != ValueType::Binary) return {};
   std::string content = described_by(id, block);
@@ -275,7 +275,7 @@ std::string EventHandler::content_of(VariableId id, const ValueBlock& block) con
   return readable_text(content, kLongestContent);
 }
 
-/// Of an array, what its elements say, in their order.
+/// The texts of all elements of an array, in their order.
 std::string EventHandler::described_by(VariableId id, const ValueBlock& block) const {
   std::string text;
   for (const Binary& value : block.binaries()) {

@@ -1,4 +1,4 @@
-// One instant of a run: values are exchanged and events handled until nothing wants another round.
+// The exchange of values and the handling of events at a communication point.
 #ifndef STRIDE_MASTER_ALGORITHM_EVENTS_EVENT_HANDLER_H
 #define STRIDE_MASTER_ALGORITHM_EVENTS_EVENT_HANDLER_H
 
@@ -19,30 +19,31 @@
 
 namespace stride::core {
 
-/// What the units do between two communication steps, and who has an event when.
+/// Handles the events at a communication point, and keeps the times of the next ones.
 class EventHandler : private OrderedEvaluation::Participants {
  public:
   /// Both must outlive this object. `idle`: optional idle scheduler.
   explicit EventHandler(RunContext& context, IdleScheduler* idle = nullptr);
 
-  /// Before the end of Initialization Mode: asks for the first ticks of the time-based clocks.
+  /// Before the end of Initialization Mode: determines the first ticks of the time-based clocks.
   void begin_clocks(Time start) { clocks_.begin(start); }
-  /// Initialization Mode is over: the units with Event Mode stand in it, and each handles one event
-  /// at least. Fetches the outputs of all.
+  /// After Initialization Mode, where units with Event Mode are in it: each handles at least one
+  /// event in the next handle_events(). Fetches the outputs of all units.
   void begin();
-  /// The unit has an event at the next handle_events(), beside those whose announced time has come.
+  /// Lets the unit handle an event in the next handle_events(), like the units whose announced
+  /// event is due.
   void request_event(std::size_t component) {
     if (description(component).has_event_mode) activate(component);
   }
-  /// Exchanges the outputs that have been fetched and handles events until nothing wants another
-  /// round. Outputs of units in Event Mode that depend directly on inputs follow them at once, and
-  /// algebraic loops between such units are solved. Leaves the units in Step Mode; those that had
-  /// no event have yet to be given their inputs (Exchange::deliver_routed). Throws Error (Run)
-  /// where a connected output is NaN, a loop has no solution that could be found, or units tick for
-  /// ever.
+  /// Exchanges the outputs that have been fetched and handles events until no unit needs another
+  /// event iteration. Outputs of units in Event Mode that depend directly on inputs follow them at
+  /// once, and algebraic loops between such units are solved. Leaves the units in Step Mode; those
+  /// that had no event have yet to be given their inputs (Exchange::deliver_routed). Throws Error
+  /// (Run) where a connected output is NaN, a loop has no solution that could be found, or units
+  /// tick for ever.
   void handle_events(Time time);
 
-  /// Who handled an event in the last handle_events(), by component.
+  /// Whether the unit handled an event in the last handle_events(), by component.
   std::span<const char> had_event() const { return had_event_; }
 
   /// The earliest event announced, or tick of a time-based clock, for later than the last
@@ -96,7 +97,7 @@ class EventHandler : private OrderedEvaluation::Participants {
   std::vector<std::size_t> event_units_;     ///< those with Event Mode
   std::vector<std::size_t> discrete_units_;  ///< those of them with discrete inputs
   std::vector<ContinuousLink> links_;        ///< to event_units_, where `evaluation_` is not needed
-  std::vector<char> active_;                 ///< wants the next event iteration
+  std::vector<char> active_;                 ///< takes part in the next event iteration
   bool has_active_ = false;
   bool has_event_ = false;  ///< a unit is in Event Mode
   std::vector<char> in_event_mode_;

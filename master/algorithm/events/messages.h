@@ -56,7 +56,7 @@ class MessageExchange {
     std::vector<VariableId> targets;
     bool is_forwarded = false;  ///< in this instant
   };
-  /// All that leaves one component.
+  /// A component with its output clocks.
   struct Sender {
     std::vector<OutputClock> clocks;
     std::vector<ValueReference> references;  ///< of the clocks

@@ -41,7 +41,8 @@ Occasion occasion_of(const Variable& variable, bool jumps) {
 }
 
 /// At most three transfers for each type that occurs, one for each occasion, and further ones for
-/// each set of time-based clocks. `jumps`: what is discrete whatever it says.
+/// each set of time-based clocks. `jumps`: variables that change by events whatever their
+/// variability.
 template <class Transfers>
 void plan(Transfers& transfers, Transfers& sampled, const System& system,
           const std::set<VariableId>& ids, const std::set<VariableId>& jumps) {
@@ -78,7 +79,7 @@ Exchange::Exchange(const System& system, std::span<const VariableId> observed)
     : system_(system), is_delivered_(system.components().size()) {
   std::set<VariableId> outputs;
   std::set<VariableId> inputs;
-  std::set<VariableId> jumps;  // a value that is held between ticks changes by an event
+  std::set<VariableId> jumps;  // fed by sampled values, which change by events
   for (const Connection& connection : system.connections()) {
     if (!exchanged(system, connection.from)) continue;
     outputs.insert(connection.from);
@@ -102,7 +103,7 @@ Exchange::Exchange(const System& system, std::span<const VariableId> observed)
   bind_step_values();
 }
 
-/// All of them stand in one row, so that a communication step goes through memory once.
+/// They are adjacent, so that a communication step reads memory in one direction.
 void Exchange::bind_step_values() {
   struct Lengths {
     std::size_t inputs, outputs;

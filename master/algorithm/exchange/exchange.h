@@ -1,4 +1,4 @@
-// The exchange of values at communication points: made once, then only copies.
+// The exchange of values at communication points: planned once, then only copies.
 #ifndef STRIDE_MASTER_ALGORITHM_EXCHANGE_EXCHANGE_H
 #define STRIDE_MASTER_ALGORITHM_EXCHANGE_EXCHANGE_H
 
@@ -19,8 +19,8 @@ namespace stride::core {
 /// When variables are written.
 enum class Occasion {
   Point,           ///< at each communication point
-  PointAndWithin,  ///< and at instants within a step, if the unit asks for it
-  Change,          ///< where they changed: what is discrete
+  PointAndWithin,  ///< and at times within a step, if the unit requests it
+  Change,          ///< where they changed: discrete variables
 };
 
 /// A connection between continuous variables, for one element.
@@ -31,12 +31,12 @@ struct ContinuousLink {
 };
 
 /// For each unit and type one contiguous block of outputs and one of inputs, and a list of copies
-/// between them. What belongs to time-based clocks is read and written at their ticks, and holds
-/// between them. Messages are not part of it: see messages.h. Nothing here allocates after
-/// construction, except where a String or a Binary grows.
+/// between them. Values of time-based clocks are read and written at their ticks, and hold between
+/// them. Messages are not part of it: see messages.h. Nothing here allocates after construction,
+/// except where a String or a Binary grows.
 class Exchange {
  public:
-  /// `observed`: variables that are read although nobody is connected to them.
+  /// `observed`: variables that are read even where they are not connected.
   Exchange(const System& system, std::span<const VariableId> observed);
 
   /// Reads a unit's outputs and observed variables.
@@ -46,8 +46,8 @@ class Exchange {
   void route(Time time);
   /// Throws as route() does.
   void check_nan(Time time) const;
-  /// Whether a discrete input of the unit is not what was delivered last; FMI wants Event Mode
-  /// then.
+  /// Whether a discrete input of the unit has changed since it was delivered; FMI requires Event
+  /// Mode then.
   bool has_discrete_change(std::size_t component) const {
     return has_discrete_inputs_[component] && any_discrete_change(component);
   }
@@ -66,7 +66,7 @@ class Exchange {
     is_delivered_[component] = true;
     return unit.step(interval, values);
   }
-  /// An input was changed where it stands, by another than route().
+  /// An input was changed in its block by other means than route().
   void mark_changed(std::size_t component) { is_delivered_[component] = false; }
 
   /// Writes those of a unit's continuous inputs that may change within a step.
@@ -92,12 +92,12 @@ class Exchange {
   void deliver_sampled(std::size_t component, Unit& unit, std::span<const ValueReference> ticking);
   /// Whether deliver_sampled() has something new to write.
   bool has_sampled_change(std::size_t component, std::span<const ValueReference> ticking) const;
-  /// The inputs of which that holds, for people.
+  /// Those inputs, for an error message.
   std::vector<VariableId> sampled_changes(std::size_t component,
                                           std::span<const ValueReference> ticking) const;
 
-  /// Where the variable's value stands. An input that is connected is seen as its source left it,
-  /// one that belongs to a time-based clock as it was at its last tick.
+  /// The value of a variable. That of a connected input is the routed one, that of an input of a
+  /// time-based clock the one at its last tick.
   Signal signal(VariableId id);
 
   /// The value of a connected variable, for the evaluation of single variables: an output that was
@@ -111,7 +111,7 @@ class Exchange {
     Occasion occasion;
     ValueBlock delivered;                ///< of a discrete one: what was written last
     bool is_new = true;                  ///< nothing was written yet
-    std::vector<ValueReference> clocks;  ///< those at whose ticks it is exchanged; empty: always
+    std::vector<ValueReference> clocks;  ///< at whose ticks it is exchanged; empty: always
     std::vector<ValueReference> references;
     std::vector<VariableId> ids;      ///< sorted
     std::vector<std::size_t> firsts;  ///< where each variable begins in the block
@@ -143,7 +143,7 @@ class Exchange {
     std::vector<ConvertedCopy<Other, Real>> changed;  ///< to another type
     std::vector<Checked<Real>> checked;               ///< the sources of all of them
 
-    /// Tells whether one of the sources is NaN.
+    /// Returns whether one of the sources is NaN.
     bool route() const;
   };
   /// A whole number that is mapped or becomes one of another type.

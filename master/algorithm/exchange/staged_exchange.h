@@ -1,4 +1,4 @@
-// The exchange of single variables, in an order in which each value is there when it is needed.
+// The exchange of single variables, in the order of their evaluation.
 #ifndef STRIDE_MASTER_ALGORITHM_EXCHANGE_STAGED_EXCHANGE_H
 #define STRIDE_MASTER_ALGORITHM_EXCHANGE_STAGED_EXCHANGE_H
 
@@ -17,8 +17,8 @@
 namespace stride::core {
 
 /// Stages and links are planned in the order in which they will be used; inputs that become known
-/// between two stages of a component are written by one call. The values stand in the blocks of an
-/// Exchange, which therefore has nothing to route afterwards.
+/// between two stages of a component are written by one call. The values are kept in the blocks of
+/// an Exchange, which therefore has nothing to route afterwards.
 class StagedExchange {
  private:
   /// Variables of one component and type, read or written by one call.

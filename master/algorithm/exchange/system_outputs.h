@@ -1,4 +1,4 @@
-// The values that leave a system under names of its own.
+// The outputs of a system, under its own names.
 #ifndef STRIDE_MASTER_ALGORITHM_EXCHANGE_SYSTEM_OUTPUTS_H
 #define STRIDE_MASTER_ALGORITHM_EXCHANGE_SYSTEM_OUTPUTS_H
 
@@ -10,19 +10,19 @@
 
 namespace stride::core {
 
-/// Those of System::outputs() that are observed. They have places of their own, since they are
-/// converted on their way out.
+/// The System::outputs() that are observed. They have blocks of their own, since they are
+/// converted.
 class SystemOutputs {
  public:
   SystemOutputs(const System& system, std::span<const VariableId> observed);
 
-  /// What an Exchange has to read for all that is observed.
+  /// The variables that an Exchange has to read for all observed ones.
   const std::vector<VariableId>& sources() const { return sources_; }
-  /// Where the values come from; the exchange must outlive this object.
+  /// Connects the outputs with their sources. The exchange must outlive this object.
   void connect(Exchange& exchange);
-  /// Takes what stands in the exchange.
+  /// Copies the values from the exchange.
   void update();
-  /// Of an observed variable, whether it is an output of the system or not.
+  /// The signal of an observed variable, which may be an output of the system or another variable.
   Signal signal(VariableId id, Exchange& exchange) const;
 
  private:

@@ -1,4 +1,4 @@
-// Idle units: who is left alone, and what that costs when somebody needs them again.
+// Idle units: when they are suspended, and when they catch up.
 #ifndef STRIDE_MASTER_ALGORITHM_IDLE_IDLE_SCHEDULER_H
 #define STRIDE_MASTER_ALGORITHM_IDLE_IDLE_SCHEDULER_H
 
@@ -14,62 +14,63 @@
 
 namespace stride::core {
 
-/// A unit that promises to be idle (org.stride.idle) rests: it is not called. Meanwhile its outputs
-/// go along their tangents, and its lag, the time since it was called last, grows. The lag is
-/// paid, by one step over all of it with the inputs that the unit has had, before it is given other
-/// inputs, handles an event, or goes past its promise or its max_skip.
+/// A unit that promises to be idle (org.stride.idle) is suspended: it is not called. Meanwhile its
+/// outputs follow their tangents, and its lag, the time since its last step, grows. It catches up
+/// by one step over the whole lag, with the inputs that it has had, before it receives other
+/// inputs, handles an event, or exceeds its promise or its max_skip.
 ///
-/// Each function for one component concerns nothing of another, so different threads may call them
-/// for different components.
+/// A function for one component touches the state of that component only, so different threads may
+/// call it for different components.
 class IdleScheduler {
  public:
   /// The context, with its RunOptions::idle, must outlive this object.
   explicit IdleScheduler(RunContext& context);
 
-  /// Whether no unit of the system is ever to rest.
+  /// Whether no unit of the system may be suspended.
   bool is_trivial() const { return candidates_.empty(); }
 
-  /// Before the units enter Initialization Mode: lets them skip and promise.
+  /// Enables the promises of the units, before they enter Initialization Mode.
   void enable();
 
   bool may_suspend(std::size_t component) const { return states_[component].is_candidate; }
   bool is_suspended(std::size_t component) const { return states_[component].is_suspended; }
-  /// Whether the unit, which rests, can do so up to this instant.
+  /// Whether the unit, which is suspended, can stay so up to this time.
   bool covers(std::size_t component, Time time) const { return time <= states_[component].end; }
-  /// How far the run may go without calling anybody; nothing where a unit does not rest.
+  /// Up to when no unit has to be called; nothing where a unit is not suspended.
   std::optional<Time> all_suspended_until() const;
 
-  /// The simulated time of all rests up to `time`, where the run stands, those that last included.
+  /// The simulated time of all suspensions up to `time`, the current communication point, including
+  /// those that last.
   Duration suspended_time(Time time) const;
 
-  /// The unit, which rests, is brought to `time`, and its outputs are fetched. Throws Error (Run)
-  /// that names unit, time and promise where the unit does not keep it. Returns whether it has an
-  /// event there, as it may where its promise ends.
+  /// Ends the suspension of the unit: steps it to `time` and fetches its outputs. Returns whether
+  /// it has an event there, which is allowed where its promise ends. Throws Error (Run) with unit,
+  /// time and promise where the unit does not keep its promise.
   bool catch_up(std::size_t component, Time time);
-  /// On the thread of the simulation, some time after catch_up(): tells of the rest that ended.
+  /// Reports the suspension that catch_up() has ended, on the thread of the simulation.
   void report_suspension(std::size_t component);
-  /// Both at once, on that thread.
+  /// Both, on the thread of the simulation.
   bool catch_up_and_report(std::size_t component, Time time);
 
-  /// All units stand at or owe up to `time`: the outputs of those that rest are what their tangents
-  /// say, and those whose rests end here are woken. Returns those of them that have an event.
+  /// At the communication point `time`: moves the outputs of the suspended units along their
+  /// tangents. Units whose suspension ends here catch up; returns those of them that have an event.
   std::span<const std::size_t> advance_to(Time time);
-  /// After the exchange: wakes those of which an input has left its deadband. Returns whether
-  /// outputs have changed by that.
+  /// After the exchange: lets the suspended units catch up that have a discrete change at an input,
+  /// or an input outside of its deadband. Returns whether outputs may have changed by that.
   bool catch_up_disturbed(Time time);
-  /// Between instants, where all inputs that are to be delivered have been: asks those that do not
-  /// rest for promises.
+  /// After the events of a communication point: delivers the inputs of the units that are not
+  /// suspended, reads their promises, and suspends those whose promise is long enough.
   void suspend_idle(Time time);
-  /// The run ends: all debts are paid.
+  /// At the end of the run.
   void catch_up_all(Time time);
-  /// Tells of the rests that have not been told: a failure has ended them at `time`.
+  /// Reports the suspensions that a failure at `time` has ended.
   void report_unfinished(Time time);
 
  private:
   struct WatchedInput {
     ValueSlice element;
     double deadband = 0;
-    double held = 0;  ///< what the unit was given when it promised
+    double held = 0;  ///< its value when the unit was suspended
   };
   struct Tangent {
     ValueSlice element;
@@ -79,10 +80,10 @@ class IdleScheduler {
   struct IdleState {
     bool is_candidate = false;
     bool is_suspended = false;
-    Time since{};                        ///< where the unit stands
-    Time until{};                        ///< its promise
-    Time end{};                          ///< of the rest, at most
-    std::optional<Time> unreported_end;  ///< where it did, if that is still to be told
+    Time since{};                        ///< the last time that the unit has reached
+    Time until{};                        ///< the promise
+    Time end{};                          ///< of the suspension, at the latest
+    std::optional<Time> unreported_end;  ///< its actual end, until it is reported
     Duration max_skip{};
     std::vector<WatchedInput> inputs;
     std::vector<Tangent> tangents;

@@ -11,18 +11,18 @@
 namespace stride::core {
 namespace {
 
-/// Rounds in which what is no floating-point number may change.
+/// Rounds in which values other than floating-point numbers may change.
 constexpr int kMostRounds = 100;
 constexpr std::size_t kMostValues = 8;  // in a message
 
-/// Returns whether it was another one.
+/// Returns whether the value changes.
 bool change_real(const ValueSlice& slice, std::size_t element, double value) {
   const double before = real(slice, element);
   set_real(slice, value, element);
   return real(slice, element) != before;
 }
 
-/// A unit is better not given what is not finite.
+/// Values that are not finite are not passed to units.
 bool is_finite(const ValueBlock& block) {
   if (!is_real(block.type())) return true;
   for (std::size_t i = 0; i < block.size(); ++i) {
@@ -128,8 +128,8 @@ void AlgebraicLoop::solve(const Sweep& sweep, Time time) {
   fail(time);
 }
 
-/// Without a loop in truth, each sweep settles one unknown at least for good: fewer than before are
-/// unsettled, or some that were not met before.
+/// If the loop does not exist in fact, each sweep settles at least one more unknown: fewer than
+/// before are unsettled, or some are that were not before.
 bool AlgebraicLoop::iterate() {
   std::vector<char> met(unknowns_.size());
   std::size_t last_count = unknowns_.size() + 1;

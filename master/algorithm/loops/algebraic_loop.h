@@ -19,12 +19,13 @@
 
 namespace stride::core {
 
-/// How it is solved:
+/// It is solved in two ways:
 ///
-/// 1. x ← g(x), as long as that settles one input after the other, as it does where dependencies
-///    were declared, or assumed, that do not exist.
-/// 2. solve_loop() from where it began, with what is no floating-point number held; then what is
-///    held follows, until nothing of it changes.
+/// 1. x ← g(x), as long as that settles one input after the other. It does where dependencies were
+///    declared, or assumed, that do not exist.
+/// 2. solve_loop() from the first x for the floating-point numbers, while all other values are
+///    held; then the held values are taken from g(x). Both are repeated until no held value
+///    changes.
 class AlgebraicLoop {
  public:
   /// Evaluates all outputs in the loop from the inputs at which it is cut.
@@ -33,13 +34,13 @@ class AlgebraicLoop {
   /// `plan` is a loop and outlives this object, as do the others.
   AlgebraicLoop(RunContext& context, const EvaluationBlock& plan, StagedExchange& staged);
 
-  /// Takes the values that the units have for the inputs at which the loop is cut.
+  /// Reads the start values of the inputs at which the loop is cut from the units.
   void guess();
   /// Whether the last sweep gave back the inputs at which the loop is cut: numbers to within
   /// rounding, others exactly.
   bool is_settled();
-  /// The last sweep did not. Changes the inputs until it does. Throws Error (Run) with the path and
-  /// the last values if no solution is found.
+  /// After a sweep that is not settled: changes the inputs until one is. Throws Error (Run) with
+  /// the path and the last values if no solution is found.
   void solve(const Sweep& sweep, Time time);
 
  private:
@@ -48,7 +49,7 @@ class AlgebraicLoop {
     const Tear* tear;
     ValueSlice source;
     std::vector<StagedExchange::Link> links;
-    ValueBlock result;  ///< what the source says, as the inputs want it
+    ValueBlock result;  ///< the value of the source, converted for the inputs
     bool is_real;
   };
   /// One element of a cut.
@@ -79,7 +80,7 @@ class AlgebraicLoop {
   std::vector<Unknown> unknowns_;
   std::vector<Unknown> reals_;            ///< those of the unknowns that Newton's method is for
   LoopScale scale_;                       ///< of the reals
-  std::optional<LoopTangents> tangents_;  ///< where the units know their derivatives
+  std::optional<LoopTangents> tangents_;  ///< where the units provide their derivatives
 
   const Sweep* sweep_ = nullptr;
   std::size_t sweeps_ = 0;

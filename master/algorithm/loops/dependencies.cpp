@@ -5,7 +5,7 @@
 namespace stride::core {
 namespace {
 
-/// What does not vary with the time does not vary with the inputs.
+/// A value that does not vary with time does not vary with inputs.
 bool never_follows_inputs(const Variable& variable) {
   return variable.variability == Variability::Constant ||
          variable.variability == Variability::Fixed || variable.variability == Variability::Tunable;

@@ -1,4 +1,4 @@
-// Which values of a system follow from which at one instant.
+// The dependencies between the values of a system at one instant.
 #ifndef STRIDE_MASTER_ALGORITHM_LOOPS_DEPENDENCIES_H
 #define STRIDE_MASTER_ALGORITHM_LOOPS_DEPENDENCIES_H
 
@@ -36,7 +36,7 @@ class Dependencies {
   }
 
  private:
-  /// What a component's description says, by value reference.
+  /// The declarations of one component's description, by value reference.
   struct Declared {
     std::map<ValueReference, std::size_t> variables;
     std::map<ValueReference, const Unknown*> outputs, initial_unknowns;

@@ -126,7 +126,7 @@ class LoopPlanner {
   }
 
  private:
-  /// The edges inside of the loop; `keeps` tells which inputs they may lead through.
+  /// The edges within the loop, through those inputs for which `keeps` returns true.
   template <class Keeps>
   Digraph inner_edges(Keeps&& keeps) const {
     Digraph graph(nodes_.size());

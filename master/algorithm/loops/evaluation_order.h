@@ -39,9 +39,9 @@ struct EvaluationBlock {
 };
 
 /// All connected outputs that are not clocked, each behind those that it depends on. Components
-/// take few turns, since one all of whose outputs can be read goes first; of several, the first in
-/// the file. A loop is a strongly connected part of the dependencies, cut at few connections. Both
-/// choices are heuristics, and depend on nothing but the system.
+/// are read in few steps: a component all of whose outputs can be read goes first; of several, the
+/// first in the file. A loop is a strongly connected part of the dependencies, cut at few
+/// connections. Both choices are heuristics, and depend on nothing but the system.
 std::vector<EvaluationBlock> evaluation_order(const System& system, Phase phase);
 
 /// The paths of a loop, in one line of text.

@@ -1,4 +1,4 @@
-// The values with which a run begins.
+// The values at the start of a run.
 #ifndef STRIDE_MASTER_ALGORITHM_LOOPS_INITIAL_VALUES_H
 #define STRIDE_MASTER_ALGORITHM_LOOPS_INITIAL_VALUES_H
 
@@ -8,11 +8,11 @@
 
 namespace stride::core {
 
-/// The units are in Initialization Mode. Reads each connected
-/// output once what it depends on is known, and writes each connected input; algebraic loops are
-/// solved. So a value is where it belongs before the first step, however long its way, and a unit
-/// is asked as often only as the declared dependencies demand. Throws Error (Run): a connected
-/// output is NaN, or no solution of a loop was found.
+/// The units are in Initialization Mode. Reads each connected output after all that it depends on,
+/// and writes each connected input; algebraic loops are solved. So values pass through a chain of
+/// units of any length before the first step, and a unit is called only as often as the declared
+/// dependencies require. Throws Error (Run): a connected output is NaN, or no solution of a loop
+/// was found.
 void set_initial_values(RunContext& context, Time start);
 
 }  // namespace stride::core

@@ -95,7 +95,7 @@ class Solver {
     return newton(&Solver::differences, true);
   }
 
-  /// A step that is small says that x is near only if its Jacobian is to be believed.
+  /// A small step means that x is near the solution only if the Jacobian is accurate.
   bool newton(std::optional<Matrix> (Solver::*jacobian)(), bool is_believed) {
     for (int i = 0; i < kMostNewtonSteps; ++i) {
       if (is_settled()) return true;
@@ -109,7 +109,7 @@ class Solver {
     return false;
   }
 
-  /// Nothing where the Jacobian tells no direction.
+  /// Nothing where the Jacobian is singular.
   std::optional<Vector> newton_step(const std::optional<Matrix>& jacobian) {
     if (!jacobian) return std::nullopt;
     const Eigen::Index n = now_.x.size();

@@ -22,7 +22,7 @@ LoopTangents::LoopTangents(const System& system, std::span<const std::unique_ptr
   add_carried();
 }
 
-/// They are sorted, so those of a component stand in a row.
+/// The inputs are sorted, so those of one component are adjacent.
 void LoopTangents::lay_out_inputs() {
   for (const VariableId id : loop_.inputs) {
     input_offsets_[id] = inputs_.size();
@@ -47,7 +47,7 @@ void LoopTangents::add_derivatives(const EvaluationStep& step) {
   derivatives_.push_back(std::move(derivatives));
 }
 
-/// Those at which the loop is cut are not carried on within a sweep.
+/// Inputs at which the loop is cut keep their values within a sweep.
 void LoopTangents::add_carried() {
   std::set<VariableId> cut;
   for (const Tear& tear : loop_.tears) cut.insert(tear.inputs.begin(), tear.inputs.end());

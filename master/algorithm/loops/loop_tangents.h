@@ -1,4 +1,4 @@
-// How an algebraic loop answers to small changes of the inputs at which it is cut.
+// The derivatives of an algebraic loop in the inputs at which it is cut.
 #ifndef STRIDE_MASTER_ALGORITHM_LOOPS_LOOP_TANGENTS_H
 #define STRIDE_MASTER_ALGORITHM_LOOPS_LOOP_TANGENTS_H
 
@@ -22,22 +22,24 @@ class LoopTangents {
   LoopTangents(const System& system, std::span<const std::unique_ptr<Unit>> units,
                const EvaluationBlock& loop);
 
-  /// Whether all units in the loop know their derivatives, and only floating-point numbers run
-  /// through it.
+  /// Whether all units in the loop provide their derivatives, and all its values are floating-point
+  /// numbers.
   static bool exist(const System& system, const EvaluationBlock& loop);
 
-  /// How what comes back to each element of the cut inputs, one tear after the other, changes with
-  /// the element `element` of the tear `tear`. The units have their inputs from the last sweep.
+  /// Writes the derivative of the values that one sweep gives back, for each element of the cut
+  /// inputs, one tear after the other, in the element `element` of the tear `tear`. The units have
+  /// their inputs from the last sweep.
   void derive(std::size_t tear, std::size_t element, std::span<double> column);
 
  private:
-  /// Outputs of one component, what of it the loop runs through, and where these lead.
+  /// The derivatives of the outputs of one component in those of its inputs that are in the loop.
   struct UnitDerivatives {
     std::size_t component;
     std::vector<ValueReference> unknowns, knowns;
     std::size_t first_output, outputs;  ///< in outputs_
     std::size_t first_input, inputs;    ///< in inputs_
   };
+  /// A connection that carries the derivatives of outputs on to inputs.
   struct CarriedDerivative {
     std::size_t step;  ///< of the loop, after which it is carried
     std::size_t from, to, size;

@@ -1,5 +1,5 @@
-// Evaluates the values of a system at one instant: each output behind those that it depends on,
-// algebraic loops solved.
+// Evaluates the outputs of a system at one instant in the order of their dependencies, and solves
+// algebraic loops.
 #ifndef STRIDE_MASTER_ALGORITHM_LOOPS_ORDERED_EVALUATION_H
 #define STRIDE_MASTER_ALGORITHM_LOOPS_ORDERED_EVALUATION_H
 
@@ -21,21 +21,21 @@
 
 namespace stride::core {
 
-/// evaluation_order(), put into practice on instances. Values go through the blocks of an Exchange,
-/// so that nothing remains to be routed.
+/// Applies evaluation_order() to the units of a run. Values go through the blocks of the Exchange,
+/// so nothing remains to be routed afterwards.
 class OrderedEvaluation {
  public:
-  /// Who takes part. Where a component does not, its outputs stay, and its inputs are left to the
-  /// Exchange.
+  /// The components that take part. The outputs of another component keep their values, and its
+  /// inputs are left to the Exchange.
   class Participants {
    public:
     virtual ~Participants() = default;
     virtual bool takes_part(std::size_t component) const = 0;
-    /// In the phase Events: another value reaches the continuous input of a component with Event
-    /// Mode. `is_followed`: one of its outputs depends on it directly.
+    /// In the phase Events: a continuous input of a component with Event Mode has changed.
+    /// `is_followed`: an output of the component depends on it directly.
     virtual void on_jump(VariableId input, bool is_followed) = 0;
-    /// Makes the component take part, because a loop that it belongs to has to be solved; returns
-    /// whether it did not before.
+    /// Makes the component take part, because a loop that it belongs to has to be solved. Returns
+    /// whether it did not take part before.
     virtual bool join(std::size_t component) = 0;
   };
 
@@ -48,10 +48,10 @@ class OrderedEvaluation {
   /// Whether no output of a unit follows a connected input, so that run() is a mere exchange.
   bool is_trivial() const { return !has_direct_inputs_; }
 
-  /// Reads and writes the values of those who take part. At the initialisation, the solution of a
-  /// loop is searched from the values that its inputs have, and each connected input is written
-  /// once at least. Throws Error (Run): a connected output is NaN, or no solution of a loop was
-  /// found.
+  /// Reads and writes the values of the components that take part. At the initialisation, the
+  /// search for the solution of a loop begins at the values of its inputs, and each connected input
+  /// is written at least once. Throws Error (Run): a connected output is NaN, or no solution of a
+  /// loop was found.
   void run(Time time, Participants& participants);
 
  private:
@@ -90,7 +90,7 @@ class OrderedEvaluation {
 
   Participants* participants_ = nullptr;
   Time time_{};
-  bool is_trying_ = false;  ///< values that may not last
+  bool is_trying_ = false;  ///< values are those of an iteration, not of a solution
 };
 
 }  // namespace stride::core

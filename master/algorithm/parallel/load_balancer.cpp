@@ -8,13 +8,13 @@ namespace {
 
 using Nanoseconds = LoadBalancer::Nanoseconds;
 
-/// Less than this no hand-over costs, so for a smaller gain threads are not even started.
+/// A lower bound of the cost of a hand-over: no thread is started for a smaller gain.
 constexpr Nanoseconds kLeastHandOver{300};
-/// How far above the cost of the hand-over the promised gain must be.
+/// The expected gain must be this many times the cost of the hand-over.
 constexpr int kMargin = 2;
-/// Of the serial time; threads that do not come below it are not worth having.
+/// Threads are used if they need less than this part of the serial time.
 constexpr double kWorthwhile = 0.95;
-/// Units that take longer than this together are not measured as often as others.
+/// Fewer steps are measured where they take longer than this together.
 constexpr std::chrono::milliseconds kLongMeasurement{20};
 constexpr std::uint64_t kFewestMeasured = 3;
 
@@ -24,7 +24,7 @@ Nanoseconds median(std::vector<Nanoseconds>& samples) {
   return *middle;
 }
 
-/// What the units of the shares cost together, less what the longest share costs.
+/// The cost of all shares less that of the most expensive one.
 Nanoseconds gain(std::span<const ThreadShare> shares, std::span<const Nanoseconds> costs) {
   Nanoseconds sum{};
   Nanoseconds longest{};
@@ -140,7 +140,8 @@ bool LoadBalancer::is_parallel_faster() const {
   return mean(paces_[1]) < kWorthwhile * mean(paces_[0]);
 }
 
-/// Shares the stages out by the units' costs; those where threads cannot pay get no shares.
+/// Shares the stages out by the units' costs. Stages where threads are not worthwhile get no
+/// shares.
 bool LoadBalancer::promises_gain() {
   Nanoseconds needed = kMargin * kLeastHandOver;
   bool is_measured = false;

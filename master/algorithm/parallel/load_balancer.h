@@ -1,4 +1,4 @@
-// Which units step on which thread, and whether threads pay at all.
+// Load balancing: which units step on which thread, and whether threads are worthwhile.
 #ifndef STRIDE_MASTER_ALGORITHM_PARALLEL_LOAD_BALANCER_H
 #define STRIDE_MASTER_ALGORITHM_PARALLEL_LOAD_BALANCER_H
 
@@ -15,20 +15,20 @@ namespace stride::core {
 using ThreadShare = std::vector<std::size_t>;
 
 /// Shares out `places` among at most `threads` threads, so that the longest share is short: units
-/// that are bound to the first thread, then the others, the dearest first, each to the thread that
-/// has least to do (Graham, "Bounds on Multiprocessing Timing Anomalies", 1969). Equal costs are
-/// taken in the order of the places. `costs` and `main_only` are indexed by place.
+/// that are bound to the first thread, then the others, the most expensive first, each to the
+/// thread with the least load (Graham, "Bounds on Multiprocessing Timing Anomalies", 1969). Equal
+/// costs are taken in the order of the places. `costs` and `main_only` are indexed by place.
 std::vector<ThreadShare> balance_load(std::span<const std::size_t> places,
                                       std::span<const std::chrono::nanoseconds> costs,
                                       std::span<const char> main_only, std::size_t threads);
 
-/// Watches communication steps and decides how the next ones are made. At first all units step one
-/// after another and are measured. Where the gain that the shares promise is well above the cost of
-/// a hand-over, the two ways race: they take turns for some steps each, and the faster one is kept.
-/// All of it is repeated now and then, less often where threads did not pay.
+/// Measures communication steps and decides how the next ones are made. At first all units step one
+/// after another, and the time of each is measured. Where the expected gain is well above the cost
+/// of a hand-over to threads, serial and parallel steps race: they alternate for some steps each,
+/// and the faster way is kept. All of it is repeated, less often where threads were not worthwhile.
 ///
-/// The race is what counts, for only it knows of units that wait for each other's lock, of memory
-/// that is shared, and of other programs that want the cores.
+/// The race decides, since only it includes units that wait for each other's locks, shared memory,
+/// and the load of other programs.
 ///
 /// For each communication step: shares() for each stage, record_cost() for each unit while
 /// is_measuring(), then end_step(). Used by one thread.
@@ -58,9 +58,9 @@ class LoadBalancer {
   explicit LoadBalancer(Plan plan);
 
   std::size_t threads() const { return plan_.threads; }
-  /// Whether the next decision needs to know how long this communication step takes.
+  /// Whether the time of this communication step has to be passed to end_step().
   bool is_deciding() const { return phase_ == Phase::Measuring || phase_ == Phase::Racing; }
-  /// Whether this communication step is made by one thread, to note what each unit costs.
+  /// Whether the time of each unit has to be passed to record_cost(); all step on one thread then.
   bool is_measuring() const { return phase_ == Phase::Measuring; }
   /// Whether any stage of this communication step is made on several threads.
   bool is_parallel() const { return parallel_; }
@@ -72,7 +72,7 @@ class LoadBalancer {
   }
 
   void record_cost(std::size_t place, Nanoseconds cost) { costs_[place] += cost; }
-  /// The communication step is over. While is_deciding(): stepping its units took that long.
+  /// Ends the communication step. `elapsed`: the time of its unit steps, while is_deciding().
   void end_step(Nanoseconds elapsed = {}) {
     if (is_deciding()) return record_step(elapsed);
     if (phase_ == Phase::Decided && --steps_ == 0) begin_measuring();
@@ -98,8 +98,9 @@ class LoadBalancer {
   Plan plan_;
   Phase phase_ = Phase::Fixed;
   bool parallel_ = false;
-  std::vector<std::vector<ThreadShare>> shares_;   ///< by stage; empty where threads do not pay
-  std::vector<Nanoseconds> costs_;                 ///< by place, of the present communication step
+  std::vector<std::vector<ThreadShare>>
+      shares_;                      ///< by stage; empty where threads are not worthwhile
+  std::vector<Nanoseconds> costs_;  ///< by place, of the present communication step
   std::vector<std::vector<Nanoseconds>> samples_;  ///< by place
   std::size_t turn_ = 0;
   Pace turn_pace_;           ///< of the present turn, or while measuring

@@ -30,7 +30,7 @@ extern const StepPolicyType kFixedSteps;
 extern const StepPolicyType kEventDrivenSteps;
 extern const StepPolicyType kErrorControlledSteps;
 
-/// What scenarios and the command line accept, in the order in which it is listed to people.
+/// The policies that scenarios and the command line accept, in the order in which they are listed.
 inline constexpr std::array kStepPolicies{&kFixedSteps, &kEventDrivenSteps, &kErrorControlledSteps};
 
 inline const char* name(const StepPolicyType* policy) { return policy->name; }

@@ -30,7 +30,7 @@ void StepSizeController::accept(Duration used, double ratio, const Range& range)
   const double factor =
       kSafety * std::pow(counted, -0.7 / order_) * std::pow(previous_ratio_, 0.4 / order_);
   const Duration wanted = scaled(used, std::clamp(factor, kShrink, was_rejected_ ? 1 : kGrow));
-  // a step that an event cut short says nothing against a longer one
+  // a step that an event cut short is no reason for a shorter one
   size_ = std::min(used < size_ ? std::max(size_, wanted) : wanted, range.maximum);
   size_ = std::max(size_, range.minimum);
   previous_ratio_ = counted;

@@ -1,4 +1,4 @@
-// What the units' continuous inputs are during a communication step.
+// The units' continuous inputs during a communication step.
 #ifndef STRIDE_MASTER_ALGORITHM_STEPPING_INPUT_EXTRAPOLATOR_H
 #define STRIDE_MASTER_ALGORITHM_STEPPING_INPUT_EXTRAPOLATOR_H
 
@@ -20,13 +20,14 @@ struct Excess {
   VariableId output{};
 };
 
-/// Sets the inputs of a unit for the step that it is about to make, from the polynomials through
-/// what the connected outputs were at the last communication points and, with Gauss-Seidel, at the
-/// end of the step, for those units that have made it already.
+/// Sets the inputs of a unit before each step, from the polynomials through the values of the
+/// connected outputs at the last communication points and, with Gauss-Seidel, at the end of the
+/// step, for those units that have made it already.
 ///
 /// FMI 3.0 Co-Simulation holds an input during a step, so the value set is the polynomial's mean
 /// over the step: what a unit integrates is then right up to the next order. Inputs that may change
-/// within a step have the polynomial's own value at its begin and wherever the unit asks for it.
+/// within a step have the polynomial's own value at its beginning and whenever the unit requests
+/// it.
 class InputExtrapolator {
  public:
   explicit InputExtrapolator(RunContext& context);
@@ -34,20 +35,20 @@ class InputExtrapolator {
   /// Sets a unit's inputs to their values within the step for which before_step() was called last.
   void within_step(std::size_t component, Unit& unit, double seconds_into_step);
 
-  /// All units stand at a communication point, and their outputs have been fetched. The history of
-  /// those that had an event begins anew: nothing is extrapolated across a jump.
+  /// At a communication point, after the outputs have been fetched: adds them to the histories. The
+  /// history of a unit that had an event begins anew: nothing is extrapolated across a jump.
   void accept(Time time, std::span<const char> had_event);
 
   /// Leaves the inputs in the exchange, to be delivered. Throws Error (Run) where, with
   /// Gauss-Seidel, the new value of an output that feeds one of them is NaN.
   void before_step(std::size_t component, const StepInterval& interval);
-  /// Its outputs have been fetched.
+  /// The outputs of the component have been fetched.
   void after_step(std::size_t component, Time reached);
   /// The unit's step is undone.
   void undo_step(std::size_t component);
 
-  /// After a step to `time` of all, with their outputs fetched: how far these are from where their
-  /// polynomials lead to, at most, as a multiple of absolute + relative * |value|.
+  /// After a step of all units to `time`, with their outputs fetched: the largest difference
+  /// between an output and its polynomial, as a multiple of absolute + relative * |value|.
   Excess excess(Time time, double absolute, double relative);
 
  private:
@@ -65,7 +66,7 @@ class InputExtrapolator {
     ValueSlice target;
     LinearConversion conversion;
   };
-  /// What one component feeds another.
+  /// The inputs of one component that another one feeds.
   struct Feed {
     std::size_t source;
     std::vector<FedInput> inputs;
@@ -75,7 +76,7 @@ class InputExtrapolator {
     Time from, to;
   };
 
-  /// The place of each signal in its source.
+  /// The index of each signal in its source.
   using SignalIndices = std::map<ValueSlice, std::size_t>;
   std::size_t signal_of(const ContinuousLink& link, SignalIndices& indices);
   void sample(Source& source, Time time);
@@ -86,7 +87,7 @@ class InputExtrapolator {
   Exchange& exchange_;
   bool sequential_;
   std::vector<Source> sources_;           ///< by component
-  std::vector<Step> steps_;               ///< the present or last one, by target component
+  std::vector<Step> steps_;               ///< the current or last one, by target component
   std::vector<std::vector<Feed>> feeds_;  ///< by target component
 };
 

@@ -13,9 +13,9 @@
 namespace stride::core {
 
 /// Signals that were sampled together. Their polynomial goes through the newest samples, as many as
-/// its degree asks for, or as there are (Lagrange's form). Samples much closer to each other than
-/// the step that it is used for tell more of rounding than of a slope, so all but the newest of
-/// them are left out. Nothing allocates after construction.
+/// its degree requires, or as there are (Lagrange's form). Of samples that are much closer to each
+/// other than the step that it is used for only the newest counts, since their slope is mostly
+/// rounding error. Nothing allocates after construction.
 class SignalHistory {
  public:
   static constexpr unsigned kMaxDegree = 2;

@@ -16,7 +16,7 @@ bool may_stop(const Component& component) {
   return component.may_return_early() || component.description->may_reject;
 }
 
-/// Of the units that may stop and have no state of their own, the one that is asked when those that
+/// Of the units that may stop and have no state of their own, the one that steps when those that
 /// can be rolled back have agreed.
 std::optional<std::size_t> first_final(const std::vector<Component>& components) {
   std::optional<std::size_t> best;
@@ -33,7 +33,7 @@ std::optional<std::size_t> first_final(const std::vector<Component>& components)
 StepRole role_of(const Component& component, bool is_first_final, const StepPolicyType& policy) {
   const bool may_go_back = policy.controls_error || (may_stop(component) && !is_first_final);
   if (component.can_save_state() && may_go_back) return StepRole::CanRollBack;
-  return component.may_return_early() ? StepRole::MayStopEarly : StepRole::DoesAsTold;
+  return component.may_return_early() ? StepRole::MayStopEarly : StepRole::Follows;
 }
 
 std::string reason_to_go_back(const Component& component, bool saves_state) {
@@ -46,7 +46,7 @@ std::string reason_to_go_back(const Component& component, bool saves_state) {
 std::string reason(const Component& component, StepRole role, bool saves_state) {
   const UnitDescription& unit = *component.description;
   if (role == StepRole::CanRollBack) return reason_to_go_back(component, saves_state);
-  if (role == StepRole::DoesAsTold && component.can_save_state() && !may_stop(component)) {
+  if (role == StepRole::Follows && component.can_save_state() && !may_stop(component)) {
     return "never stops: follows the others, so nothing is saved";
   }
   if (component.has_snapshots) {
@@ -83,7 +83,7 @@ void check_single(const System& system, const std::vector<StepPlace>& order) {
                   names[1]));
 }
 
-/// Whom each component feeds with values that exist between events too.
+/// The components that each component feeds with values that exist between events, too.
 std::vector<std::set<std::size_t>> fed_components(const System& system) {
   std::vector<std::set<std::size_t>> fed(system.components().size());
   for (const Connection& connection : system.connections()) {
@@ -109,7 +109,7 @@ void sort_along_connections(const std::vector<std::set<std::size_t>>& fed,
   for (std::size_t i = 0; i < places.size(); ++i) {
     for_each_fed(i, [&](std::size_t target) { ++sources[target]; });
   }
-  std::set<std::pair<bool, std::size_t>> left;  // those that wait for nobody first
+  std::set<std::pair<bool, std::size_t>> left;  // those without open sources first
   for (std::size_t i = 0; i < places.size(); ++i) left.insert({sources[i] > 0, i});
   std::vector<std::size_t> order;
   while (!left.empty()) {
@@ -169,8 +169,8 @@ std::vector<StepPlace> step_order(const System& system, const StepPolicyType& po
   }
   std::stable_sort(order.begin(), order.end(), [&](const StepPlace& a, const StepPlace& b) {
     if (a.role != b.role) return a.role < b.role;
-    if (a.role != StepRole::DoesAsTold) return false;
-    // the first to be asked can still reject, since nothing final has happened before it
+    if (a.role != StepRole::Follows) return false;
+    // the first of them can still reject, since nothing final has happened before it
     return components[a.component].description->may_reject &&
            !components[b.component].description->may_reject;
   });

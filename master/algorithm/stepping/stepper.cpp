@@ -119,7 +119,7 @@ Time Stepper::make_passes(Time from, Time target) {
   }
 }
 
-/// One pass. Returns the target if all units stand there, else the nearer one for the next pass.
+/// Returns the target if all units have reached it, else the nearer one for the next pass.
 inline Time Stepper::make_pass(const StepInterval& interval) {
   for (std::size_t stage = 0; stage < stages_.size(); ++stage) {
     const Time reached = step_stage(stage, interval);
@@ -170,8 +170,8 @@ void Stepper::attempt_on_thread(UnitStep& unit_step, const StepInterval& interva
   unit_step.outcome = Outcome::Failed;
 }
 
-/// What attempt() comes down to for most units in most steps. Tells whether there is nothing to
-/// take down.
+/// The short form of attempt() for most units in most steps. Returns whether there is nothing to
+/// record.
 inline bool Stepper::step_plainly(UnitStep& unit_step, const StepInterval& interval) {
   unit_step.communication_step = communication_step_;
   unit_step.rejections = 0;
@@ -218,8 +218,8 @@ inline Stepper::Outcome Stepper::attempt(UnitStep& unit_step, const StepInterval
   return Outcome::Stepped;
 }
 
-/// Whether the unit rests and can be left alone up to the end of the step. If it cannot, it is
-/// brought to where the step begins.
+/// Whether the unit is suspended and can stay so up to the end of the step. If it cannot, it
+/// catches up to the beginning of the step.
 bool Stepper::stays_suspended(UnitStep& unit_step, const StepInterval& interval) {
   if (!idle_->is_suspended(unit_step.component)) return false;
   if (!idle_->covers(unit_step.component, interval.to)) {
@@ -251,7 +251,7 @@ void Stepper::restore(UnitStep& unit_step, Time from) {
   if (inputs_ != nullptr) inputs_->undo_step(unit_step.component);
 }
 
-/// Counts what the unit did, and returns how far it lets the others go.
+/// Counts the outcome, and returns up to which time the other units may go.
 inline Time Stepper::record(UnitStep& unit_step, const StepInterval& interval) {
   if (unit_step.may_suspend) idle_->report_suspension(unit_step.component);
   if (unit_step.saves_state) {
@@ -285,7 +285,7 @@ inline Time Stepper::record(UnitStep& unit_step, const StepInterval& interval) {
   rethrow_failure(unit_step);
 }
 
-/// Where the unit that rejected the step may come to.
+/// The next target after a rejected step.
 Time Stepper::retry_target(const UnitStep& unit_step, const StepInterval& interval) {
   const bool is_said = interval.from < unit_step.possible && unit_step.possible < interval.to;
   return is_said ? unit_step.possible : interval.from + (interval.to - interval.from) / 2;
@@ -297,7 +297,7 @@ void Stepper::record_time(const UnitStep& unit_step) {
   if (balancer_.is_measuring()) balancer_.record_cost(index(unit_step), time);
 }
 
-/// The first failure in the step order that is no mere consequence of another one.
+/// The first failure in the step order that is not a consequence of another one.
 void Stepper::rethrow_failure(const UnitStep& first) const {
   for (const UnitStep& unit_step : stages_[first.place->stage]) {
     const Failure& failure = failures_[index(unit_step)];
@@ -323,7 +323,7 @@ void Stepper::check_minimum(const StepInterval& interval, Time reached) const {
            "look at what the unit received before this instant");
 }
 
-/// What the unit says of a step that it rejected.
+/// The unit's reason for the rejection.
 std::string Stepper::reason(const Cut& cut) const {
   const std::string said = cut.is_rejection ? cut.by->unit->rejection_reason() : "";
   return said.empty() ? "" : "; it says: " + said;
@@ -350,7 +350,7 @@ void Stepper::fail_size(const UnitStep& unit_step, const StepInterval& interval)
            hint);
 }
 
-/// In a process of its own it would be asked before what it reaches can be too late.
+/// A unit in a process of its own can be rolled back, so it steps before the others are too far.
 std::string Stepper::hint_for_final(const UnitStep& stopped) const {
   const std::string others =
       "use a unit that can save its state in place of one of the two, or a smaller step";

@@ -1,4 +1,4 @@
-// One communication step of all units, to an instant that all of them reach.
+// One communication step of all units, to a time that all of them reach.
 #ifndef STRIDE_MASTER_ALGORITHM_STEPPING_STEPPER_H
 #define STRIDE_MASTER_ALGORITHM_STEPPING_STEPPER_H
 
@@ -22,13 +22,13 @@
 namespace stride::core {
 
 /// Steps the units, stage by stage as step_order() has them: inputs, step, outputs, a unit at a
-/// time. All units of a stage are asked for the same target. If one stops early or rejects the
-/// step, the target becomes where the first of them stopped or could have come to, or half the way
-/// if it does not say; those that have gone further are rolled back and follow.
+/// time. All units of a stage step to the same target. If one stops early or rejects the step, the
+/// target becomes the earliest time that such a unit reached or could have reached, or half the way
+/// if that is not known; units that have gone further are rolled back and follow.
 ///
-/// What a unit did is taken down in the step order, whichever thread did it and in whatever order,
-/// so results, statistics and errors do not depend on the threads. Where several units of a stage
-/// fail, the first one's error is thrown, when all threads have come to rest.
+/// The outcome of each unit's step is recorded in the step order, whichever thread made it, so
+/// results, statistics and errors do not depend on the threads. Where several units of a stage
+/// fail, the error of the first one is thrown, after all threads have finished.
 class Stepper {
  public:
   /// All must outlive this object. `inputs` sets the inputs before each step; null if they keep
@@ -51,8 +51,7 @@ class Stepper {
   const StepResult& result(std::size_t component) const {
     return unit_steps_[index_of_[component]].result;
   }
-  /// Whether a unit may have asked for something in the last communication step: for an event, or
-  /// for the end.
+  /// Whether a unit may have requested an event or the end in the last communication step.
   bool has_requests() const { return has_requests_; }
   /// How many steps the unit has made, redone ones included.
   std::uint64_t steps(std::size_t component) const {
@@ -65,8 +64,9 @@ class Stepper {
  private:
   enum class Outcome : std::uint8_t { Idle, Stepped, Rejected, TooFar, Failed };
 
-  /// One unit in the present communication step. Written by the thread that steps it, and read when
-  /// that has come to rest; a cache line of its own keeps the threads out of each other's way.
+  /// The step of one unit in the present communication step. Written by the thread that steps the
+  /// unit, and read after that has finished; it has a cache line of its own, so that threads do not
+  /// share one.
   struct alignas(64) UnitStep {
     UnitStep(Unit& stepped, const StepPlace& its_place);
 
@@ -76,18 +76,18 @@ class Stepper {
     bool saves_state;
     bool can_vary_step;
     bool may_suspend = false;
-    bool is_plain = false;                 ///< there is nothing to do but the step itself
-    StepResult result{};                   ///< where it stands, and how it came there
-    Time possible{};                       ///< how far it would have come in a rejected step
-    std::uint64_t communication_step = 0;  ///< the last one of which it knows
+    bool is_plain = false;                 ///< it needs nothing but the step itself
+    StepResult result{};                   ///< the time that it has reached, and how
+    Time possible{};                       ///< that it could have reached in a rejected step
+    std::uint64_t communication_step = 0;  ///< the last one that it has begun
     std::uint64_t steps = 0;
     Outcome outcome = Outcome::Idle;  ///< of the present pass, as the flags behind it
     bool saved = false;
     bool rolled_back = false;
-    Time undone{};                 ///< where it stood before that
+    Time undone{};                 ///< the time that it had reached before
     std::uint32_t rejections = 0;  ///< in the present communication step
   };
-  /// Who cut the present communication step short, last.
+  /// The last unit that cut the present communication step short.
   struct Cut {
     const UnitStep* by = nullptr;
     Time at{};
@@ -136,11 +136,11 @@ class Stepper {
   std::vector<UnitStatistics>& statistics_;
   const Activities& activities_;
   WallClock clock_;
-  WallClock step_clock_;  ///< measures where the work is to be split, too
+  WallClock step_clock_;  ///< measures while the load balancer decides, too
   InputExtrapolator* inputs_;
   IdleScheduler* idle_;
-  Duration regular_;  ///< the size that units which cannot vary theirs must be given
-  Duration minimum_;  ///< a shorter step than this is not asked for after a rejection
+  Duration regular_;  ///< the step size of units that cannot vary theirs
+  Duration minimum_;  ///< no shorter step is tried after a rejection
   std::vector<StepPlace> order_;
   std::vector<UnitStep> unit_steps_;             ///< in that order
   std::vector<std::span<UnitStep>> stages_;      ///< of them
@@ -153,7 +153,7 @@ class Stepper {
   Cut cut_;
   bool has_requests_ = false;
   LoadBalancer balancer_;
-  std::optional<ThreadPool> pool_;  ///< from when it is first needed
+  std::optional<ThreadPool> pool_;  ///< started when it is first needed
   bool was_parallel_ = false;
 };
 

@@ -148,7 +148,7 @@ TEST_CASE("a rest that a step ends is told by the thread of the simulation, once
                                                     {1, Kind::Idle, at(0.6), at(0.9)}});
 }
 
-TEST_CASE("rests that a failure ends are told, too") {
+TEST_CASE("suspensions that a failure ends are reported, too") {
   ScriptedSystem f;
   add_idler(f, "a");
   f.add("b", integrator().done()).on_step = [](ScriptedUnit&, Time, Time to) -> StepResult {
@@ -171,7 +171,7 @@ TEST_CASE("who does not watch activities is not told") {
   CHECK(uninterested.activities.empty());
 }
 
-TEST_CASE("the time of rests that still last is counted while the run goes") {
+TEST_CASE("the time of suspensions that still last is counted during the run") {
   ScriptedSystem f;
   add_idler(f, "a");
   f.add("b", integrator().done());

@@ -477,7 +477,7 @@ TEST_CASE("an input is recorded as its source left it") {
   CHECK(seen.values == std::vector<double>{0, 0.001, 0.002});
 }
 
-TEST_CASE("an observer sees the signals that it asks for, and nobody else does") {
+TEST_CASE("an observer sees the signals that it requests, and no other observer does") {
   Fixture f;
   auto& a = f.add("a", one_in_one_out());
   a.on_step = [](ScriptedUnit& unit, Time, Time to) {
@@ -658,7 +658,7 @@ TEST_CASE("who has no words for a message takes those of the other end") {
   CHECK(listener.contents == std::vector<std::string>{expected, expected});
 }
 
-TEST_CASE("a unit is not asked what messages say where nobody wants to know") {
+TEST_CASE("no message is described where no observer needs its content") {
   OneMessage f;
   Seen seen;
   f.build(0.004, 1ms).add_observer(seen);

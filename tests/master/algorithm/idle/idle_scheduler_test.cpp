@@ -111,7 +111,7 @@ TEST_CASE("an idle unit is called once in max_skip, and its readers see its tang
   CHECK(f.statistics(0).longest_suspension == Duration(1s));
 }
 
-TEST_CASE("without max_skip nobody rests, and nothing is asked") {
+TEST_CASE("without max_skip no unit is suspended, and no promise is read") {
   Fixture f;
   auto& a = f.integrator("a");
   f.build(1, 100ms).run();
@@ -131,7 +131,7 @@ TEST_CASE("skipping is enabled before the initialization, with the tolerances th
   CHECK(a.unit->calls[2] == "enter_initialization");
 }
 
-TEST_CASE("the debt is paid with the old input, then the new one is set") {
+TEST_CASE("a unit catches up with the old input, then the new one is set") {
   Fixture f;
   auto& a = f.integrator("a");
   follow_time(f, "s", [](double t) { return t < 0.35 ? 1 : 5; });
@@ -144,7 +144,7 @@ TEST_CASE("the debt is paid with the old input, then the new one is set") {
   CHECK(b.seen.at(at(0.9)) == Approx(0.4 + 5 * 0.5));
 }
 
-TEST_CASE("an input that stays within its deadband wakes nobody; a drift does in the end") {
+TEST_CASE("an input within its deadband ends no suspension; a drift does in the end") {
   const double deadband = GENERATE(0.0, 0.25, 10.0);
   Fixture f;
   auto& a = f.integrator("a", deadband);
@@ -226,7 +226,7 @@ TEST_CASE("a unit that breaks its promise is named, with the promise and what it
                         Contains("promised at 0 s to be idle until 100 s") && Contains(deed));
 }
 
-TEST_CASE("when all units rest the run takes one stride, to a point of the grid") {
+TEST_CASE("when all units are suspended the run takes one stride, to a point of the grid") {
   Fixture f;
   f.integrator("a");
   auto& b = f.integrator("b");
@@ -238,7 +238,7 @@ TEST_CASE("when all units rest the run takes one stride, to a point of the grid"
   CHECK(points.times == std::vector<Time>{at(0), at(2), at(3), at(5), at(6), at(7), at(8), at(9)});
 }
 
-TEST_CASE("an event of another unit is no reason to wake, a message is") {
+TEST_CASE("an event of another unit ends no suspension, a message does") {
   Fixture f;
   const auto clocked = [](Causality causality) {
     return Describe("m").add("c", ValueType::Clock, causality).event_mode();
@@ -271,7 +271,7 @@ TEST_CASE("an event of another unit is no reason to wake, a message is") {
   CHECK(steps == std::vector<Made>{{at(0), at(0.5), 0}, {at(0.5), at(1), 0}});
 }
 
-TEST_CASE("who is woken may wake others") {
+TEST_CASE("a unit that catches up may end the suspension of others") {
   Fixture f;
   auto& a = f.integrator("a");
   auto& b = f.integrator("b");
@@ -286,7 +286,7 @@ TEST_CASE("who is woken may wake others") {
   CHECK(b.steps == std::vector<Made>{{at(0), at(0.5), 0}, {at(0.5), at(0.8), 1e-7}});
 }
 
-TEST_CASE("a step that is cut short concerns no unit that rests") {
+TEST_CASE("a step that is cut short does not concern a suspended unit") {
   const bool rejects = GENERATE(true, false);
   Fixture f;
   auto& a = f.integrator("a");
@@ -313,7 +313,7 @@ TEST_CASE("inputs that are extrapolated leave no unit idle") {
   CHECK(a.steps.size() == 10);
 }
 
-TEST_CASE("with threads the same units rest, and the same is seen") {
+TEST_CASE("with threads the same units are suspended, and the results are the same") {
   const auto run = [](std::size_t threads) {
     Fixture f;
     f.options.threads = {threads, {}, true};

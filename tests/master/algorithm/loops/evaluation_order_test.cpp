@@ -100,7 +100,7 @@ TEST_CASE("without a declaration an output depends on all inputs") {
   CHECK(undeclared_text(System(net.declaration), loops[0]) == "unit 'a' declares no dependencies");
 }
 
-TEST_CASE("a loop that is declared is nobody's omission, though others declare nothing") {
+TEST_CASE("a declared loop names no undeclared unit, though others declare nothing") {
   Net net;
   net.add("a", Describe("a").input("u").output("y").depends_on({0}).input("v").output("z"));
   net.add("b", direct()).wire("a.y", "b.u").wire("b.y", "a.u").add("c", direct());

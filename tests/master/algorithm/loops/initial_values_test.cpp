@@ -59,7 +59,7 @@ TEST_CASE("in a chain each output is read once, whatever the order of the file")
   }
   f.run();
   CHECK(units[0]->number(0) == kUnits - 1);
-  CHECK(units[0]->gets == 0);  // nobody is connected to its output
+  CHECK(units[0]->gets == 0);  // its output is not connected
   for (int i = 1; i < kUnits; ++i) CHECK(units[static_cast<std::size_t>(i)]->gets == 1);
 }
 
@@ -306,7 +306,7 @@ TEST_CASE("the error tells the whole path, the values, and how to break the loop
   CHECK_THAT(text, !Contains("declare"));
 }
 
-TEST_CASE("NaN that only the way to the values holds is nobody's mistake") {
+TEST_CASE("NaN on the way to the initial values is no error") {
   Fixture f;
   auto& a = f.add("a", Describe("a").input("u").output("x").output("y").done());
   auto& b = f.add("b", Describe("b").input("u").input("v").output("y").output("z").done());

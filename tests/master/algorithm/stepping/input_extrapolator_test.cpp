@@ -100,7 +100,8 @@ TEST_CASE("nothing is extrapolated across an event") {
              {0, 0.0015, 100.002, 100.0035, 100.0045});
 }
 
-TEST_CASE("with Gauss-Seidel, too, NaN is the fault of who puts it out, and reaches nobody") {
+TEST_CASE(
+    "with Gauss-Seidel, too, NaN is an error of the unit that puts it out, and reaches no other") {
   ScriptedSystem system;
   auto& source = system.add("source", Describe("source").output("y").done());
   source.on_step = [](ScriptedUnit& self, Time, Time to) {

@@ -238,7 +238,7 @@ TEST_CASE("who is not allowed to return early does as it is told") {
   REQUIRE(order.size() == 3);
   CHECK(order[0].component == 1);
   CHECK(order[0].role == StepRole::MayStopEarly);
-  CHECK(order[1].role == StepRole::DoesAsTold);
+  CHECK(order[1].role == StepRole::Follows);
   CHECK(order[1].stage == 1);
   CHECK_THAT(order[1].reason, Contains("is not allowed to return early"));
   CHECK(order[2].component == 2);
