@@ -19,9 +19,7 @@ constexpr io::OutputFile::Hints kHints{
 
 /// Always in quotation marks, so that an empty text is not taken for nothing.
 void append_quoted(std::string& text, std::string_view value) {
-  text += '"';
-  for (const char c : value) text.append(c == '"' ? 2 : 1, c);
-  text += '"';
+  io::quote_csv(value, [&](char c) { text += c; });
 }
 
 core::ValueBlock start_values(const core::Variable& variable) {

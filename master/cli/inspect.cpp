@@ -1,4 +1,4 @@
-// stride inspect: what a unit says of itself.
+// stride inspect: the description of a unit.
 #include <memory>
 
 #include <CLI/CLI.hpp>

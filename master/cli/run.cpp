@@ -72,8 +72,8 @@ ProgressStyle progress_style(const RunArguments& arguments) {
   return arguments.progress.value_or(arguments.quiet ? ProgressStyle::None : ProgressStyle::Auto);
 }
 
-std::vector<capture::Request> captures(const RunArguments& arguments) {
-  std::vector<capture::Request> captures;
+std::vector<capture::CaptureRequest> captures(const RunArguments& arguments) {
+  std::vector<capture::CaptureRequest> captures;
   for (const std::string& text : arguments.captures) {
     auto [component, file] = split_option("--capture", text, "COMPONENT=FILE");
     if (file.empty()) core::fail_input({}, fmt::format("--capture {}: no file is named", text));
@@ -124,16 +124,17 @@ void add_run(CLI::App& app) {
       ->type_name("N")
       ->check(CLI::Range(1, kMostThreads));
   command
-      ->add_option("--capture", arguments->captures,
-                   "Write all that a component receives into a file, to be played to it alone; may "
-                   "be given several times")
+      ->add_option(
+          "--capture", arguments->captures,
+          "Write all inputs of a component to a file that can be replayed to it alone; may "
+          "be given several times")
       ->type_name("COMPONENT=FILE")
       ->allow_extra_args(false);
   // a flag, so that what follows a blank is the scenario; without a value it is "true"
   command
       ->add_flag("--film", arguments->scenario.film,
-                 "Pictures of the MuJoCo worlds in film/, 0.1 s of simulated time from one to the "
-                 "next, or as in --film=SECONDS")
+                 "Pictures of the MuJoCo worlds in film/, every 0.1 s of simulated time, or as in "
+                 "--film=SECONDS")
       ->transform([](const std::string& value) { return value == "true" ? kFilmAsItIs : value; });
   command
       ->add_option("--junit", arguments->junit,
@@ -145,9 +146,8 @@ void add_run(CLI::App& app) {
       ->add_option_function<std::string>(
           "--progress",
           [arguments](const std::string& text) { arguments->progress = read_progress_style(text); },
-          "How to show how far the run is: by itself (on a terminal a line that is rewritten, "
-          "elsewhere a line now and then), in plain lines, in an object a line for programs, or "
-          "not at all")
+          "How to show progress: automatically (on a terminal a line that is rewritten, elsewhere "
+          "a line now and then), in plain lines, in JSON objects for programs, or not at all")
       ->type_name("auto|plain|json|none");
   command->add_flag("--no-report", arguments->no_report, "Write no report.html");
   command->add_flag("--open", arguments->open, "Open the report in a browser when the run is over");

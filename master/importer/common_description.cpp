@@ -22,9 +22,9 @@ std::optional<Duration> read_seconds(const xml::Element& element, const char* at
   }
 }
 
-core::BaseUnit read_base_unit(const xml::Element& element) {
+core::BaseUnitOfMeasure read_base_unit(const xml::Element& element) {
   constexpr const char* kQuantities[] = {"kg", "m", "s", "A", "K", "mol", "cd", "rad"};
-  core::BaseUnit base;
+  core::BaseUnitOfMeasure base;
   for (std::size_t i = 0; i < base.exponents.size(); ++i) {
     base.exponents[i] = element.number<int>(kQuantities[i]).value_or(0);
   }

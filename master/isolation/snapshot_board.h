@@ -8,7 +8,7 @@
 
 #include <sys/types.h>
 
-#include "master/isolation/process/bell.h"
+#include "master/isolation/process/doorbell.h"
 
 namespace stride::host {
 
@@ -21,8 +21,8 @@ inline void raise_to(std::atomic<std::uint64_t>& most, std::uint64_t value) {
 /// whoever is in charge of the unit has to know it, however far it was taken back.
 struct SnapshotBoard {
   static constexpr std::size_t kSlots = 16;
-  /// Those that have been told to end have theirs until the keeper has seen that they did.
-  static constexpr std::size_t kPlaces = 2 * kSlots;
+  /// Those that have been told to end have theirs until the supervisor has seen that they did.
+  static constexpr std::size_t kEntries = 2 * kSlots;
 
   enum class State : std::uint32_t {
     Free,
@@ -32,25 +32,25 @@ struct SnapshotBoard {
     Lost,       ///< it has ended untold
   };
   /// Of one snapshot.
-  struct Place {
+  struct Entry {
     std::atomic<State> state = State::Free;
     std::atomic<pid_t> process = 0;
     std::atomic<std::uint64_t> memory = 0;  ///< what it had to itself when it was last measured
-    process::Bell bell;                     ///< for when its state has changed
+    process::Doorbell doorbell;             ///< for when its state has changed
   };
 
-  std::array<Place, kPlaces> places;
-  std::array<std::atomic<std::uint32_t>, kSlots> place_of;  ///< counted from 1; 0: nothing is kept
+  std::array<Entry, kEntries> entries;
+  std::array<std::atomic<std::uint32_t>, kSlots> entry_of;  ///< counted from 1; 0: nothing is kept
   std::atomic<std::uint64_t> snapshots = 0;                 ///< that were made
   std::atomic<std::uint64_t> restores = 0;
   std::atomic<std::uint64_t> most_kept = 0;
   std::atomic<std::uint64_t> most_memory = 0;  ///< of all that were kept at a time [byte]
 
   SnapshotBoard() {
-    for (auto& place : place_of) place = 0;
+    for (auto& entry : entry_of) entry = 0;
   }
 
-  /// For the keeper: a process that is not in charge has ended.
+  /// For the supervisor: a process that is not in charge has ended.
   void note_end(pid_t process);
 };
 

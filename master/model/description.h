@@ -79,7 +79,7 @@ const char* name(Initial initial);
 const char* name(IntervalVariability variability);
 
 /// value in SI base units = factor * value + offset. exponents of kg, m, s, A, K, mol, cd, rad.
-struct BaseUnit {
+struct BaseUnitOfMeasure {
   std::array<int, 8> exponents{};
   double factor = 1;
   double offset = 0;
@@ -164,8 +164,8 @@ struct UnitDescription {
   std::string instantiation_token;
   std::string description;
   std::string generation_tool;
-  std::vector<Variable> variables;        ///< in the order of the description
-  std::map<std::string, BaseUnit> units;  ///< those whose meaning is given
+  std::vector<Variable> variables;                 ///< in the order of the description
+  std::map<std::string, BaseUnitOfMeasure> units;  ///< those whose meaning is given
   std::vector<Unknown> outputs;
   std::vector<Unknown> initial_unknowns;
 
@@ -208,6 +208,10 @@ struct UnitDescription {
   /// Whether the variable belongs to time-based clocks only: its value is exchanged at their ticks,
   /// and holds between them.
   bool is_sampled(const Variable& variable) const;
+  /// Whether the variable is a message: its value exists at the ticks of a triggered clock only.
+  bool is_message(const Variable& variable) const {
+    return variable.is_clocked() && !is_sampled(variable);
+  }
 };
 
 /// target = factor * source + offset

@@ -10,7 +10,7 @@
 #include "master/algorithm/statistics.h"
 #include "master/algorithm/verdict.h"
 #include "master/model/system.h"
-#include "master/recorders/result_files.h"
+#include "master/recorders/results_folder.h"
 
 namespace stride::io {
 

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "master/recorders/signal_text.h"
-#include "master/scenario/signal_names.h"
+#include "master/scenario/signal_selection.h"
+#include "master/util/diagnostics.h"
 #include "master/util/glob.h"
-#include "master/util/mistakes.h"
 #include "master/util/suggest.h"
 
 namespace stride::io {
@@ -271,15 +271,15 @@ std::vector<Definition> select_checks(const core::System& system,
                                       const ScenarioTimes& times) {
   const Selection selection(system, times);
   std::vector<Definition> definitions;
-  core::Mistakes mistakes;
+  core::Diagnostics diagnostics;
   for (const CheckDeclaration& check : declarations) {
-    mistakes.attempt([&] {
+    diagnostics.attempt([&] {
       for (Definition& definition : selection.select(check)) {
         definitions.push_back(std::move(definition));
       }
     });
   }
-  mistakes.raise();
+  diagnostics.raise();
   check_names(definitions);
   return definitions;
 }

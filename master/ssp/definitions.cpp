@@ -9,8 +9,8 @@
 namespace stride::io {
 namespace {
 
-core::BaseUnit read_base_unit(const xml::Element& element) {
-  core::BaseUnit unit;
+core::BaseUnitOfMeasure read_base_unit(const xml::Element& element) {
+  core::BaseUnitOfMeasure unit;
   for (std::size_t i = 0; i < kBaseUnits.size(); ++i) {
     unit.exponents[i] = element.number<int>(kBaseUnits[i]).value_or(0);
   }
@@ -30,12 +30,12 @@ core::EnumerationItems read_items(const xml::Element& enumeration) {
 
 }  // namespace
 
-core::MeasureUnit Definitions::unit(const std::string& name) const {
+core::UnitOfMeasure Definitions::unit(const std::string& name) const {
   const auto found = units.find(name);
   return {name, found == units.end() ? std::nullopt : std::optional(found->second)};
 }
 
-core::MeasureUnit Definitions::unit(const std::string& name, const Definitions& otherwise) const {
+core::UnitOfMeasure Definitions::unit(const std::string& name, const Definitions& otherwise) const {
   return units.contains(name) ? unit(name) : otherwise.unit(name);
 }
 

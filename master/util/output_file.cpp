@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "master/util/error.h"
+#include "master/util/hex.h"
 
 namespace stride::io {
 namespace {
@@ -70,11 +71,7 @@ void OutputFile::write_seconds(Time time) {
 }
 
 void OutputFile::write_hex(std::span<const std::uint8_t> bytes) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  for (const std::uint8_t byte : bytes) {
-    write(kDigits[byte >> 4]);
-    write(kDigits[byte & 15]);
-  }
+  core::write_hex(bytes, [&](char digit) { write(digit); });
 }
 
 void OutputFile::flush() {

@@ -38,13 +38,13 @@ decltype(auto) WatchedUnit::noted(const char* name, Work&& work) {
   return work();
 }
 
-WatchedUnit::WatchedUnit(const Subject& subject, process::SharedNote& note, const std::string& name,
-                         fmi::InstanceOptions options)
-    : subject_(subject), note_(note), is_fmi2_(subject.description().fmi_version.starts_with("2")) {
+WatchedUnit::WatchedUnit(const TestedUnit& tested, process::SharedNote& note,
+                         const std::string& name, fmi::InstanceOptions options)
+    : tested_(tested), note_(note), is_fmi2_(tested.description().fmi_version.starts_with("2")) {
   note_.write("the loading of its library", 0);
-  subject_.fmu().load_library();
+  tested_.fmu().load_library();
   unit_ = watched(is_fmi2_ ? "Instantiate" : "InstantiateCoSimulation",
-                  [&] { return subject_.fmu().instantiate(name, std::move(options)); });
+                  [&] { return tested_.fmu().instantiate(name, std::move(options)); });
 }
 
 WatchedUnit::~WatchedUnit() {

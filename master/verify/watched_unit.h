@@ -7,7 +7,7 @@
 
 #include "master/algorithm/unit.h"
 #include "master/isolation/process/shared_note.h"
-#include "master/verify/subject.h"
+#include "master/verify/tested_unit.h"
 
 namespace stride::verify {
 
@@ -16,7 +16,7 @@ namespace stride::verify {
 class WatchedUnit final : public core::Unit {
  public:
   /// Makes the unit itself, and notes that, too. All three must outlive this object.
-  WatchedUnit(const Subject& subject, process::SharedNote& note, const std::string& name,
+  WatchedUnit(const TestedUnit& tested, process::SharedNote& note, const std::string& name,
               fmi::InstanceOptions options);
   ~WatchedUnit() override;
 
@@ -52,7 +52,7 @@ class WatchedUnit final : public core::Unit {
   template <class Work>
   decltype(auto) noted(const char* name, Work&& work);
 
-  const Subject& subject_;
+  const TestedUnit& tested_;
   process::SharedNote& note_;
   bool is_fmi2_;
   Time now_{};

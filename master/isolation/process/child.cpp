@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstring>
 #include <exception>
 #include <utility>
 
@@ -142,6 +143,11 @@ ChildOutcome run_in_child(const std::function<std::string()>& work, const ChildO
   answer.write.close();
   output.write.close();
   return Watch(child, std::move(answer.read), std::move(output.read), options).run();
+}
+
+std::string signal_name(int signal) {
+  const char* const name = ::sigabbrev_np(signal);
+  return name != nullptr ? std::string("SIG") + name : "an unknown signal";
 }
 
 }  // namespace stride::process

@@ -4,10 +4,10 @@
 
 namespace stride::verify {
 
-// A life itself fails a unit that wants Event Mode and has none, announces what is over, or
+// TestInstance itself fails a unit that wants Event Mode and has none, announces what is over, or
 // iterates for ever; an instance, one that returns early where that is not allowed.
 Finding check_events(const Trial& trial) {
-  const core::UnitDescription& unit = trial.subject.description();
+  const core::UnitDescription& unit = trial.tested.description();
   const Recording run = trial.record();
   if (run.early_returns > 0 && !unit.may_return_early) {
     return failed(
