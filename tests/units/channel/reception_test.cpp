@@ -4,6 +4,8 @@
 
 #include <stride/nfc/iso14443a.h>
 
+#include "tests/units/channel/answer.h"
+
 using channel::nominal_transit;
 using channel::Reception;
 using channel::Transit;
@@ -15,12 +17,9 @@ using stride::Time;
 
 namespace {
 
-const Time kStart = stride::time_from_seconds(2.0);
-const Duration kBit = nfc::bit_duration(106);
-
-Frame answer(const Bytes& bytes, Time start = kStart) {
-  return {start, 106, nfc::to_bits(nfc::with_crc(bytes))};
-}
+using stride::tests::answer;
+using stride::tests::kBit;
+using stride::tests::kStart;
 
 Reception nominal(const Frame& frame, std::uint32_t tag = 0) {
   return {frame, nominal_transit(frame), tag, 0};

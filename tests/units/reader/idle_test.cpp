@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/at.h"
+
 using namespace reader;
 using stride::Duration;
 using stride::Time;
@@ -12,7 +14,7 @@ namespace {
 
 constexpr Duration kPicosecond{1};
 
-Time at(double seconds) { return stride::time_from_seconds(seconds); }
+using stride::tests::at;
 
 Program program(const std::string& commands) {
   return parse_program(R"(<reader-program version="1">
