@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
+
 namespace stride::checks {
 namespace {
 
@@ -62,7 +64,7 @@ core::Verdict AnswerCheck::verdict(const Ending& ending) const {
   if (!last_ || !is_over(*last_, ending)) return cut_short(ending);
   if (requests_ == 0) return make(std::nullopt, "there was no request");
   return make(true, fmt::format("{} answered, after {} s at most", requests(requests_),
-                                core::to_text(Time(slowest_))));
+                                core::to_text(slowest_)));
 }
 
 core::Verdict AnswerCheck::unanswered_verdict() const {

@@ -11,11 +11,12 @@
 #include "master/cli/scenario_options.h"
 #include "master/cli/table.h"
 #include "master/scenario/loaded_scenario.h"
+#include "master/util/time_text.h"
 
 namespace stride::cli {
 namespace {
 
-std::string seconds(Duration duration) { return core::to_text(Time(duration)); }
+std::string seconds(Duration duration) { return core::to_text(duration); }
 
 std::string unit_table(const LoadedScenario& loaded) {
   Table table({{"component"}, {"unit"}, {"FMI"}, {"variables", Table::Align::Right}, {"file"}});

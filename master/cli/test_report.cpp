@@ -7,6 +7,7 @@
 
 #include "master/scenario/scenario.h"
 #include "master/util/error.h"
+#include "master/util/time_text.h"
 
 namespace stride::cli {
 namespace {

@@ -68,7 +68,7 @@ void run(const Options& options) {
   }
   const core::UnitDescription& unit = tested.description();
   fmt::print("{}: FMI {}, steps of {} s to {} s, seed {}\n\n", unit.model_name, unit.fmi_version,
-             core::to_text(Time(tested.step())), core::to_text(tested.point(tested.steps())),
+             core::to_text(tested.step()), core::to_text(tested.point(tested.steps())),
              tested.request().seed);
   std::fflush(stdout);
   const Interruption interruption;

@@ -51,7 +51,7 @@ enum class RequestCode : std::uint32_t {
   InputsNotUpdated,  ///< likewise: that has failed
 };
 
-/// What the unit's process says to a request.
+/// The answer of the unit's process to a request.
 enum class ReplyCode : std::uint32_t {
   Done,
   Failed,          ///< a core::Error
@@ -62,17 +62,17 @@ enum class ReplyCode : std::uint32_t {
 /// How a process ended, as its supervisor saw it.
 enum class End : std::uint32_t { None, NotStarted, Exited, Killed };
 
-/// One direction. Who writes sets what and size first, then the number, then rings.
+/// One direction. The writer sets what and size first, then the number, then rings.
 struct alignas(64) Turn {
   std::atomic<std::uint32_t> number = 0;
   std::atomic<std::uint32_t> what = 0;  ///< a RequestCode or a ReplyCode
   std::atomic<std::uint64_t> size = 0;  ///< of the message [byte]
-  process::Doorbell doorbell;           ///< for who waits for it
+  process::Doorbell doorbell;           ///< for the process that waits
 };
 
 /// In shared memory. The messages themselves stand in a GrowingMemory beside it, where each takes
-/// the place of the one before. Replies have the number of the request that they are for, so nobody
-/// has to remember anything, and whoever is in charge of the unit may go on with it.
+/// the place of the one before. Replies have the number of their request, so neither
+/// side keeps a state, and any process that is in charge of the unit may go on with it.
 ///
 /// The unit's process may write anything here: sizes are checked, and what is no such value is an
 /// error.

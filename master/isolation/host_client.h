@@ -32,12 +32,12 @@ class HostClient {
   /// What was said, until the next message is written.
   MessageReader read();
 
-  /// Tells the log something about the unit.
+  /// Logs something about the unit.
   void log(fmi::Status status, const std::string& category, const std::string& text) const noexcept;
   /// Ends the process, and lets the log have what it still has to say.
   void finish();
 
-  /// The process has ended, or talks nonsense: nothing can be sent any longer.
+  /// The process has ended, or sends what cannot be read: nothing can be sent any longer.
   bool has_failed() const { return !failure_.empty(); }
   [[noreturn]] void fail_nonsense(std::optional<Time> time);
   /// Of snapshots and memory; also after a failure.

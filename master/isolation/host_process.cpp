@@ -57,7 +57,7 @@ HostProcess::HostProcess(Channel& channel, const std::function<void(pid_t)>& ser
     control.ours.close();
     supervise(channel, std::move(control.theirs), master, serve);
   }
-  ::setpgid(supervisor_, supervisor_);  // whoever of the two comes first
+  ::setpgid(supervisor_, supervisor_);  // in both processes, in whichever order
   control_ = std::move(control.ours);
   channel.memory.hide_from_children();
   channel.messages.hide_from_children();
@@ -96,7 +96,7 @@ void HostProcess::finish(const std::function<void()>& meanwhile) {
   supervisor_ = 0;
 }
 
-/// Nobody has waited for it yet, so its group has its number.
+/// It has not been waited for yet, so its group still has its number.
 bool HostProcess::is_supervisor_gone() const {
   siginfo_t info{};
   const int options = WEXITED | WNOWAIT | WNOHANG;

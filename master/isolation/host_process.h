@@ -25,9 +25,9 @@ class HostProcess {
   HostProcess(const HostProcess&) = delete;
   HostProcess& operator=(const HostProcess&) = delete;
 
-  /// Whether there is nobody in charge of the unit any longer. Cheap.
+  /// Whether no process is in charge of the unit any longer. Cheap.
   bool has_ended() const { return channel_.end.load(std::memory_order_acquire) != End::None; }
-  /// Likewise; also looks whether the supervisor lives, and ends the unit's process if it does not.
+  /// Likewise; also looks whether the supervisor runs, and ends the unit's process if it does not.
   bool look_for_end();
   /// Ends the unit's process.
   void kill();

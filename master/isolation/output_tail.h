@@ -8,7 +8,7 @@
 
 namespace stride::host {
 
-/// The last lines that a unit has logged or printed, for the error that tells its end.
+/// The last lines that a unit has logged or printed, for the error that reports its end.
 class OutputTail {
  public:
   static constexpr std::size_t kMost = 8;

@@ -17,18 +17,18 @@ inline void raise_to(std::atomic<std::uint64_t>& most, std::uint64_t value) {
   if (value > most) most = value;
 }
 
-/// Which snapshots of a unit's process there are, and what they are told. In shared memory, since
-/// whoever is in charge of the unit has to know it, however far it was taken back.
+/// The snapshots of a unit's process, and their orders. In shared memory, since
+/// the process in charge of the unit needs it, however far it was taken back.
 struct SnapshotBoard {
   static constexpr std::size_t kSlots = 16;
-  /// Those that have been told to end have theirs until the supervisor has seen that they did.
+  /// One that was ordered to end keeps its entry until the supervisor has seen its end.
   static constexpr std::size_t kEntries = 2 * kSlots;
 
   enum class State : std::uint32_t {
     Free,
     Frozen,
-    TakesOver,  ///< it has been told to go on in place of the process in charge
-    Ends,       ///< it has been told to end
+    TakesOver,  ///< it was ordered to replace the process in charge
+    Ends,       ///< it was ordered to end
     Lost,       ///< it has ended untold
   };
   /// Of one snapshot.

@@ -19,7 +19,7 @@ using State = SnapshotBoard::State;
 
 /// A measurement goes through all pages of a process: it may take this share of the time.
 constexpr int kMeasuredShare = 100;
-/// For how long a snapshot sleeps, if nobody wakes it.
+/// For how long a snapshot sleeps, if it is not woken.
 constexpr std::chrono::hours kAWhile{1};
 
 State wait_while_frozen(SnapshotBoard::Entry& entry) {
@@ -90,7 +90,7 @@ void Snapshots::restore(std::size_t slot, std::optional<Time> time) {
   ::_exit(0);
 }
 
-/// In the snapshot: sleeps until it is told what to do.
+/// In the snapshot: sleeps until its state changes.
 bool Snapshots::freeze(Entry& entry) {
   process::die_with(supervisor_);
   entry.process = ::getpid();
@@ -155,7 +155,7 @@ void Snapshots::refuse_company() const {
   }
 }
 
-/// Snapshots that have been told to end do so at once, and the supervisor sees it, so one is found
+/// Snapshots that were ordered to end do so at once, and the supervisor sees it, so one is found
 /// soon.
 std::uint32_t Snapshots::find_free_entry() {
   for (;;) {

@@ -35,7 +35,7 @@ class KnownStepShapes {
   std::optional<std::uint32_t> find(const core::StepValues& values);
   /// A number for a shape that is about to be sent; an older shape may lose it.
   std::uint32_t add(const core::StepValues& values);
-  /// The process has forgotten them.
+  /// The process has lost them.
   void forget() { shapes_.clear(); }
 
  private:

@@ -57,7 +57,7 @@ class Supervisor {
         output_(std::move(output)),
         ends_(watch_children()) {}
 
-  /// Returns how the master wants it to end, or nothing if that is gone.
+  /// Returns true when the master wants it to finish, false when the master is gone.
   bool run() {
     for (;;) {
       wait();

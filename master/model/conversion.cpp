@@ -355,17 +355,6 @@ std::int64_t mapped(const NumberMap& map, std::int64_t value) {
   return found != map.end() && found->first == value ? found->second : value;
 }
 
-std::optional<LinearConversion> convert(const UnitOfMeasure& from, const UnitOfMeasure& to) {
-  if (from.name.empty() || to.name.empty()) return LinearConversion{};
-  if (!from.meaning || !to.meaning) {
-    return from.name == to.name ? std::optional(LinearConversion{}) : std::nullopt;
-  }
-  const BaseUnitOfMeasure& a = *from.meaning;
-  const BaseUnitOfMeasure& b = *to.meaning;
-  if (a.exponents != b.exponents) return std::nullopt;
-  return LinearConversion{a.factor / b.factor, (a.offset - b.offset) / b.factor};
-}
-
 UnitOfMeasure known_unit(UnitOfMeasure unit, const UnitDescription& description) {
   if (unit.meaning) return unit;
   const auto found = description.units.find(unit.name);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "master/model/description.h"
+#include "master/model/unit_of_measure.h"
 #include "master/util/error.h"
 
 namespace stride::core {
@@ -29,17 +30,6 @@ struct Conversion {
 
 /// The number that it becomes.
 std::int64_t mapped(const NumberMap& map, std::int64_t value);
-
-/// A unit of measure by its name; an empty name: none is declared. Without a meaning it equals
-/// those of the same name only.
-struct UnitOfMeasure {
-  std::string name{};
-  std::optional<BaseUnitOfMeasure> meaning{};
-};
-
-/// How values in one unit become values in another. Where one side has none they are taken as they
-/// are; nothing if they cannot be converted into each other.
-std::optional<LinearConversion> convert(const UnitOfMeasure& from, const UnitOfMeasure& to);
 
 /// The unit, with what the description says of it, where the unit itself says nothing.
 UnitOfMeasure known_unit(UnitOfMeasure unit, const UnitDescription& description);

@@ -1,8 +1,7 @@
-// What a unit says of itself: the part of a modelDescription.xml that a master needs.
+// The description of a unit: the part of a modelDescription.xml that a master needs.
 #ifndef STRIDE_MASTER_MODEL_DESCRIPTION_H
 #define STRIDE_MASTER_MODEL_DESCRIPTION_H
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -13,6 +12,7 @@
 #include <stride/time.h>
 
 #include "master/model/interval.h"
+#include "master/model/unit_of_measure.h"
 
 namespace stride::core {
 
@@ -77,13 +77,6 @@ const char* name(Causality causality);
 const char* name(Variability variability);
 const char* name(Initial initial);
 const char* name(IntervalVariability variability);
-
-/// value in SI base units = factor * value + offset. exponents of kg, m, s, A, K, mol, cd, rad.
-struct BaseUnitOfMeasure {
-  std::array<int, 8> exponents{};
-  double factor = 1;
-  double offset = 0;
-};
 
 /// What a description says of a Clock.
 struct ClockAttributes {
@@ -212,13 +205,6 @@ struct UnitDescription {
   bool is_message(const Variable& variable) const {
     return variable.is_clocked() && !is_sampled(variable);
   }
-};
-
-/// target = factor * source + offset
-struct LinearConversion {
-  double factor = 1;
-  double offset = 0;
-  bool is_identity() const { return factor == 1 && offset == 0; }
 };
 
 }  // namespace stride::core

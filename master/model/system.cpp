@@ -82,7 +82,7 @@ struct Way {
 
 }  // namespace
 
-/// What is wrong is told at once, as far as it does not follow from something else.
+/// Mistakes are reported together, except those that follow from others.
 System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
   Diagnostics diagnostics;
   add_components(declaration, diagnostics);
@@ -194,7 +194,7 @@ Connection System::connect(const ConnectionDeclaration& wanted, const Ends& ends
   return {from, to, compose(way.path, way.segments, {wanted.where, {}, {}, {}})};
 }
 
-/// Nothing, and a warning, where a parameter set holds a value for nobody, as SSP allows it to.
+/// Nothing, and a warning, where a parameter set holds a value for no component, as SSP allows.
 void System::note_missing(const StartDeclaration& wanted) {
   try {
     find_variable(wanted.component, wanted.variable, wanted.where);

@@ -14,7 +14,7 @@
 
 namespace stride::io {
 
-/// What there is to tell of a run.
+/// What is reported of a run.
 struct RunRecord {
   std::filesystem::path scenario;
   const core::System& system;

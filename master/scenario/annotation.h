@@ -41,7 +41,7 @@ struct ScenarioAnnotation {
   std::vector<PlotPattern> plots;
   std::vector<CheckDeclaration> checks;
   ResultFiles results;
-  std::vector<ComponentPattern> main_thread;  ///< who steps on the simulation's own thread only
+  std::vector<ComponentPattern> main_thread;  ///< stepped on the simulation's own thread only
   std::vector<EarlyReturnRule> early_return;  ///< without one: allowed
   HostRules hosts;
   IdleSettings idle;

@@ -12,6 +12,7 @@
 #include "master/util/diagnostics.h"
 #include "master/util/glob.h"
 #include "master/util/suggest.h"
+#include "master/util/time_text.h"
 
 namespace stride::io {
 namespace {
@@ -246,7 +247,7 @@ Definition Selection::answer(const CheckDeclaration& check) const {
   }
   const std::string demand =
       fmt::format("{} answered by {} within {} s{}", system_.full_name(request),
-                  system_.full_name(reply), core::to_text(Time(check.within)), check.window.text());
+                  system_.full_name(reply), core::to_text(check.within), check.window.text());
   return {check.kind,  name_of(check, "", demand, true),
           demand,      check.window,
           check.where, checks::AnswerDemand{request, reply, check.within, check.repeats}};

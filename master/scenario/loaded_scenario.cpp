@@ -184,8 +184,8 @@ void LoadedScenario::choose_steps(const io::StepSettings& request) {
   request.apply(options_);
   if (options_.step.maximum && *options_.step.maximum < options_.step.minimum) {
     core::fail_input({}, fmt::format("the maximum step of {} s is below the minimum of {} s",
-                                     core::to_text(Time(*options_.step.maximum)),
-                                     core::to_text(Time(options_.step.minimum))));
+                                     core::to_text(*options_.step.maximum),
+                                     core::to_text(options_.step.minimum)));
   }
   const core::StepOptions& step = options_.step;
   if (step.policy->controls_error && step.relative_tolerance == 0 && step.absolute_tolerance == 0) {
@@ -263,7 +263,7 @@ void LoadedScenario::check_fixed_steps() const {
     core::fail_input({component.where, component.name, {}, {}},
                      fmt::format("the unit takes steps of one size only, and the run is no whole "
                                  "number of steps of {} s",
-                                 core::to_text(Time(options_.step.size))),
+                                 core::to_text(options_.step.size)),
                      fmt::format("stop at {} s", core::to_text(options_.stop - rest)));
   }
 }
@@ -277,8 +277,8 @@ void LoadedScenario::warn_of_internal_steps() const {
     spdlog::warn(
         "unit '{}': its internal step of {} s is no part of the communication step of {} s, so it "
         "is not always where the others are",
-        scenario_.system.components[i].name, core::to_text(Time(*internal)),
-        core::to_text(Time(options_.step.size)));
+        scenario_.system.components[i].name, core::to_text(*internal),
+        core::to_text(options_.step.size));
   }
 }
 

@@ -65,7 +65,7 @@ void check(const IdleRule& rule, const core::StepOptions& step) {
   core::fail_input({rule.where, {}, {}, {}},
                    fmt::format("the longest skip of {} s is below the communication step of {} s, "
                                "so nothing could be skipped",
-                               core::to_text(Time(*rule.max_skip)), core::to_text(Time(step.size))),
+                               core::to_text(*rule.max_skip), core::to_text(step.size)),
                    "choose a longer one, or switch idle skipping off (enabled=\"false\", "
                    "--no-idle-skip)");
 }

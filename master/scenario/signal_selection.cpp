@@ -51,7 +51,7 @@ std::vector<core::VariableId> all_outputs(const core::System& system) {
                    core::suggestion(pattern.text, names));
 }
 
-/// Adds the columns of what the pattern matches; tells whether that is anything.
+/// Adds the columns of what the pattern matches; returns whether that is anything.
 bool add_matches(const core::System& system, std::span<const core::VariableId> recorded,
                  const SignalPattern& pattern, std::set<core::VariableId>& taken, Plot& plot) {
   bool has_match = false;

@@ -170,9 +170,9 @@ class Completion {
 
   std::string unit_definition(const std::string& unit, const core::BaseUnitOfMeasure& base) {
     std::string attributes;
-    for (std::size_t i = 0; i < kBaseUnits.size(); ++i) {
+    for (std::size_t i = 0; i < core::kBaseUnits.size(); ++i) {
       if (base.exponents[i] == 0) continue;
-      attributes += fmt::format(" {}=\"{}\"", kBaseUnits[i], base.exponents[i]);
+      attributes += fmt::format(" {}=\"{}\"", core::kBaseUnits[i], base.exponents[i]);
     }
     if (base.factor != 1) attributes += fmt::format(" factor=\"{}\"", base.factor);
     if (base.offset != 0) attributes += fmt::format(" offset=\"{}\"", base.offset);

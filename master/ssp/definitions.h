@@ -2,7 +2,6 @@
 #ifndef STRIDE_MASTER_SSP_DEFINITIONS_H
 #define STRIDE_MASTER_SSP_DEFINITIONS_H
 
-#include <array>
 #include <map>
 #include <string>
 
@@ -10,10 +9,6 @@
 #include "master/util/xml/element.h"
 
 namespace stride::io {
-
-/// The attributes of a <BaseUnit>, in the order of core::BaseUnitOfMeasure::exponents.
-inline constexpr std::array<const char*, 8> kBaseUnits{"kg", "m",   "s",  "A",
-                                                       "K",  "mol", "cd", "rad"};
 
 struct Definitions {
   std::map<std::string, core::BaseUnitOfMeasure> units;

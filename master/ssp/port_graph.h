@@ -28,7 +28,7 @@ struct Port {
   bool is_component() const { return component != kNone; }
 };
 
-/// A connection that knows its direction.
+/// A connection with its direction.
 struct PortConnection {
   std::size_t from, to;  ///< ports
   core::PathSegment segment;

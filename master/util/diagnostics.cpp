@@ -23,7 +23,7 @@ std::vector<Error> by_unit(const std::vector<Error>& mistakes) {
   return sorted;
 }
 
-/// A hint that several have is told once, behind them all.
+/// A hint that several share is reported once, behind them all.
 std::string shared_hints(const std::vector<Error>& mistakes, std::map<std::string, int>& uses) {
   std::string text;
   for (const Error& mistake : mistakes) {

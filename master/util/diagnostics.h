@@ -10,7 +10,7 @@
 
 namespace stride::core {
 
-/// Keeps what is wrong with the input while the rest of it is checked.
+/// Collects what is wrong with the input while the rest of it is checked.
 class Diagnostics {
  public:
   /// Calls `check`, and keeps the Error of the kind Input that it throws. Returns whether it threw

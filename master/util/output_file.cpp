@@ -10,6 +10,7 @@
 
 #include "master/util/error.h"
 #include "master/util/hex.h"
+#include "master/util/time_text.h"
 
 namespace stride::io {
 namespace {
@@ -43,7 +44,7 @@ OutputFile::OutputFile(std::filesystem::path path, Hints hints)
 OutputFile::~OutputFile() {
   try {
     close();
-  } catch (const core::Error&) {  // a destructor cannot tell
+  } catch (const core::Error&) {  // a destructor cannot report it
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "master/isolation/process/child.h"
 #include "master/util/error.h"
+#include "master/util/time_text.h"
 #include "master/verify/finding.h"
 
 namespace stride::verify {
@@ -50,8 +51,7 @@ std::string explain(const process::ChildOutcome& outcome, const process::SharedN
       break;
   }
   if (const std::string function = note.what(); !function.empty()) {
-    text +=
-        fmt::format(" in {} at {} s", function, core::to_text(Time(Duration(note.picoseconds()))));
+    text += fmt::format(" in {} at {} s", function, core::to_text(Duration(note.picoseconds())));
   }
   if (const std::string said = last_line(outcome.printed); !said.empty()) {
     text += fmt::format("; its last words: {}", said);

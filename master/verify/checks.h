@@ -26,14 +26,14 @@ struct Trial {
     return TestInstance(tested, note, std::move(options));
   }
 
-  /// Does the work in a further process, which begins as this one did if no library is loaded here.
+  /// Does the work in a further process, which starts as this one did if no library is loaded here.
   /// Throws Failure with what the work has thrown, or with how it ended otherwise.
   std::string in_child(const std::function<std::string()>& work) const;
 
   /// A whole run of an instance, to point `to` of the grid (0 = to its end), in a further process.
   Recording record(const TestInstanceOptions& options = {}, std::size_t to = 0) const;
 
-  /// The points of the grid that stand at these shares of it.
+  /// The point of the grid at this share of it.
   std::size_t point_at(double share) const {
     return static_cast<std::size_t>(share * static_cast<double>(tested.steps()));
   }

@@ -6,15 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "master/util/error.h"
+#include "master/util/time_text.h"
 
 namespace stride::verify {
 namespace {
 
 using Json = nlohmann::json;
 
-std::string time_text(std::int64_t picoseconds) {
-  return core::to_text(Time(Duration(picoseconds)));
-}
+std::string time_text(std::int64_t picoseconds) { return core::to_text(Duration(picoseconds)); }
 
 std::string shortened(const std::string& text) {
   constexpr std::size_t kMost = 60;

@@ -1,4 +1,4 @@
-// Inputs for a unit that is alone.
+// Inputs for a single unit.
 #ifndef STRIDE_MASTER_VERIFY_STIMULUS_H
 #define STRIDE_MASTER_VERIFY_STIMULUS_H
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
 #include "master/verify/finding.h"
 
 namespace stride::verify {
@@ -211,7 +212,7 @@ void TestInstance::shorten(Time to) {
     if (size < kShortestStep) {
       throw Failure(
           fmt::format("at {} s it rejects every step, down to one of {} s{}", core::to_text(begin),
-                      core::to_text(Time(2 * size)),
+                      core::to_text(2 * size),
                       unit().rejection_reason().empty() ? "" : ": " + unit().rejection_reason()));
     }
   } while (!try_step(begin + size));

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
+
 namespace stride::verify {
 namespace {
 
@@ -90,12 +92,11 @@ void TestedUnit::choose_times() {
   if (request_.stop) {
     steps = *request_.stop / step_;
     if (steps < 4) {
-      core::fail_input(
-          {},
-          fmt::format("there are {} steps of {} s to the stop time {} s; expected 4 "
-                      "at least",
-                      steps, core::to_text(Time(step_)), core::to_text(Time(*request_.stop))),
-          "choose a smaller --step or a later --stop");
+      core::fail_input({},
+                       fmt::format("there are {} steps of {} s to the stop time {} s; expected 4 "
+                                   "at least",
+                                   steps, core::to_text(step_), core::to_text(*request_.stop)),
+                       "choose a smaller --step or a later --stop");
     }
   } else if (unit.default_stop) {
     steps = std::clamp(unit.default_stop->time_since_epoch() / step_, kFewestSteps,

@@ -1,4 +1,4 @@
-// Puts a unit through its paces.
+// Verifies a single unit.
 #ifndef STRIDE_MASTER_VERIFY_VERIFY_H
 #define STRIDE_MASTER_VERIFY_VERIFY_H
 

@@ -10,6 +10,7 @@
 
 #include "master/importer/binaries.h"
 #include "master/importer/fmi3/fmi3_library.h"
+#include "master/util/time_text.h"
 #include "tests/master/util/archive/support.h"
 #include "tests/property/random_system.h"
 

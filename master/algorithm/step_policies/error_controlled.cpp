@@ -7,6 +7,7 @@
 #include "master/algorithm/step_policies/step_limits.h"
 #include "master/algorithm/step_policies/step_policy.h"
 #include "master/algorithm/step_policies/step_size_controller.h"
+#include "master/util/time_text.h"
 
 namespace stride::core {
 namespace {
@@ -46,10 +47,10 @@ class ErrorControlledSteps : public StepPolicy {
          from},
         fmt::format("over a step of {} s the output changes by {:.3g} times what the inputs that "
                     "it feeds may be off by, and no shorter step is {}",
-                    to_text(Time(used)), excess.ratio,
+                    to_text(used), excess.ratio,
                     is_grid ? fmt::format("possible, since steps end on the units' fixed internal "
                                           "steps (fixedInternalStepSize) of {} s",
-                                          to_text(Time(limits_.quantum())))
+                                          to_text(limits_.quantum()))
                             : "allowed"),
         is_grid ? "loosen the tolerances, or export the unit with a smaller internal step"
                 : "loosen the tolerances, allow a smaller minimum step, or let the unit announce "

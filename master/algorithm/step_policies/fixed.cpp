@@ -5,6 +5,7 @@
 
 #include "master/algorithm/step_policies/step_limits.h"
 #include "master/algorithm/step_policies/step_policy.h"
+#include "master/util/time_text.h"
 
 namespace stride::core {
 namespace {
@@ -47,7 +48,7 @@ const StepPolicyType kFixedSteps{
     },
     .describe =
         [](const StepOptions& options) {
-          return fmt::format("in steps of {} s", to_text(Time(options.size)));
+          return fmt::format("in steps of {} s", to_text(options.size));
         }};
 
 }  // namespace stride::core

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
+
 namespace stride::core {
 namespace {
 
@@ -317,7 +319,7 @@ void Stepper::check_minimum(const StepInterval& interval, Time reached) const {
            fmt::format("the unit rejected the step to {} s, {} in all, and the next one to try, to "
                        "{} s, would be shorter than the minimum of {} s{}",
                        to_text(interval.to), times(cut_.by->rejections), to_text(reached),
-                       to_text(Time(minimum_)), reason(cut_)),
+                       to_text(minimum_), reason(cut_)),
            "look at what the unit received before this instant");
 }
 
@@ -335,7 +337,7 @@ void Stepper::fail_size(const UnitStep& unit_step, const StepInterval& interval)
     fail_run({{}, name(unit_step), {}, interval.from},
              fmt::format("the unit rejected its step, and takes steps of one size only, {} s, so "
                          "no shorter one can be tried{}",
-                         to_text(Time(regular_)), reason(cut_)),
+                         to_text(regular_), reason(cut_)),
              "look at what the unit received before this instant");
   }
   const std::string who =
@@ -344,8 +346,7 @@ void Stepper::fail_size(const UnitStep& unit_step, const StepInterval& interval)
                                        cut_.is_rejection ? "rejected its step" : "stopped early");
   fail_run({{}, name(unit_step), {}, interval.from},
            fmt::format("the unit takes steps of one size only, {} s, but {} asks for one of {} s{}",
-                       to_text(Time(regular_)), who, to_text(Time(interval.to - interval.from)),
-                       reason(cut_)),
+                       to_text(regular_), who, to_text(interval.to - interval.from), reason(cut_)),
            hint);
 }
 

@@ -30,8 +30,8 @@ bool has_several_cores() {
 
 }  // namespace
 
-// All with the default order, std::memory_order_seq_cst: who rings looks whether anybody waits
-// after the ring can be seen, who waits has said so before it looks for rings, in the kernel.
+// All with the default order, std::memory_order_seq_cst: ringing reads whether there is a waiter
+// after the ring is visible; a waiter is visible before it reads the rings, in the kernel.
 
 void Doorbell::sleep(std::uint32_t rings, std::chrono::nanoseconds most) {
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(most);

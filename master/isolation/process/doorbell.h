@@ -8,7 +8,7 @@
 
 namespace stride::process {
 
-/// Tells the processor that this is a waiting loop.
+/// A hint to the processor that this is a waiting loop.
 inline void pause() {
 #if defined(__x86_64__) || defined(__i386__)
   __builtin_ia32_pause();

@@ -14,6 +14,10 @@
 
 #include "master/util/error.h"
 
+namespace tinyxml2 {
+class XMLElement;
+}
+
 namespace stride::xml {
 
 /// The words of a list (xs:list).
@@ -97,7 +101,7 @@ class Element {
 
   /// Throws core::Error (Input) with the element's file and line.
   [[noreturn]] void fail(const std::string& message, const std::string& hint = "") const;
-  /// Says that this version cannot do it.
+  /// Fails, since this version does not support it.
   [[noreturn]] void fail_unsupported(const std::string& what, const std::string& hint = "") const;
 
  private:

@@ -122,7 +122,8 @@ std::size_t end_everywhere(const Trial& trial) {
 
 Finding check_calls(const Trial& trial) {
   const std::size_t ends = end_everywhere(trial);
-  // the standard wants an error from who detects it, so only our own kit, which does, can fail
+  // the standard demands an error only where one is detected, as our own kit does, so only that can
+  // fail
   const bool is_of_kit = trial.in_child([&] {
     const auto library = trial.tested.fmu().load_fmi3_library();
     return std::string(library && library->describes_itself() ? "yes" : "no");

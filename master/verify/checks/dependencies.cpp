@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {
@@ -13,7 +14,7 @@ Finding check_events(const Trial& trial) {
     return failed(
         fmt::format("at {} s it returns early, which it does not declare "
                     "(mightReturnEarlyFromDoStep)",
-                    core::to_text(Time(Duration(run.first_early_return)))));
+                    core::to_text(Duration(run.first_early_return))));
   }
   const Recording obedient = trial.record({.early_return_allowed = false});
   std::string text = fmt::format("{} super-dense instants", run.events);

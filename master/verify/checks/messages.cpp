@@ -5,6 +5,7 @@
 
 #include "master/util/error.h"
 #include "master/util/readable_text.h"
+#include "master/util/time_text.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "master/util/error.h"
+#include "master/util/time_text.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {
@@ -12,7 +13,7 @@ namespace {
 constexpr int kDoublings = 12;
 constexpr std::size_t kMostRejections = 20;
 
-/// What can be told of a unit in Step Mode.
+/// What can be observed of a unit in Step Mode.
 struct Fingerprint {
   Row row;
   std::vector<std::uint8_t> bytes;  ///< of its state, where it can be serialised
@@ -142,9 +143,8 @@ Finding check_rejection(const Trial& trial) {
   std::vector<std::string> notes;
   if (!probe.error().empty()) notes.push_back("a longer step is an error: " + probe.error());
   if (probe.rejections() == 0) {
-    return passed(
-        fmt::format("no step is rejected, up to {} s", core::to_text(Time(probe.longest()))),
-        std::move(notes));
+    return passed(fmt::format("no step is rejected, up to {} s", core::to_text(probe.longest())),
+                  std::move(notes));
   }
   if (probe.error().empty()) {
     const auto twin = values_without_rejections(trial, from, probe.reached());

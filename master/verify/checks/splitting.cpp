@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {
@@ -83,9 +84,8 @@ Comparison compare(const TestedUnit& tested, const std::vector<Row>& whole,
       result.is_equal = result.is_equal && a == b;
       if (!(share > result.worst)) continue;
       result.worst = share;
-      result.text =
-          fmt::format("at {} s '{}' is {} instead of {}",
-                      core::to_text(Time(Duration(whole[row].picoseconds))), names[i], b, a);
+      result.text = fmt::format("at {} s '{}' is {} instead of {}",
+                                core::to_text(Duration(whole[row].picoseconds)), names[i], b, a);
     }
   }
   return result;
@@ -101,7 +101,7 @@ std::string promise_of_halves(const TestedUnit& tested) {
                           is_multiple(tested.step() / 2, *unit.fixed_internal_step);
   if (!is_on_grid) return "";
   return fmt::format("though both are multiples of its fixedInternalStepSize, {} s",
-                     core::to_text(Time(*unit.fixed_internal_step)));
+                     core::to_text(*unit.fixed_internal_step));
 }
 
 }  // namespace
@@ -118,7 +118,7 @@ Finding check_splitting(const Trial& trial) {
     const Comparison seen = compare(tested, whole, run(split));
     if (!promise.empty() && seen.worst > kRounding) {
       throw Failure(fmt::format("{} where steps of {} s are split {}, {}", seen.text,
-                                core::to_text(Time(tested.step())), what, promise));
+                                core::to_text(tested.step()), what, promise));
     }
     if (!text.empty()) text += "; ";
     if (seen.is_equal) {

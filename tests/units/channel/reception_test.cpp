@@ -6,6 +6,7 @@
 
 #include "tests/units/channel/answer.h"
 
+using namespace channel::tests;
 using channel::nominal_transit;
 using channel::Reception;
 using channel::Transit;
@@ -16,10 +17,6 @@ using stride::Duration;
 using stride::Time;
 
 namespace {
-
-using stride::tests::answer;
-using stride::tests::kBit;
-using stride::tests::kStart;
 
 Reception nominal(const Frame& frame, std::uint32_t tag = 0) {
   return {frame, nominal_transit(frame), tag, 0};

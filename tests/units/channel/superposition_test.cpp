@@ -9,6 +9,7 @@
 
 #include "tests/units/channel/answer.h"
 
+using namespace channel::tests;
 using channel::superposed;
 using nfc::Bytes;
 using nfc::Frame;
@@ -16,10 +17,6 @@ using stride::Duration;
 using stride::Time;
 
 namespace {
-
-using stride::tests::answer;
-using stride::tests::kBit;
-using stride::tests::kStart;
 
 bool is_good(const Frame& frame) {
   const auto bytes = nfc::to_bytes(frame.bits);

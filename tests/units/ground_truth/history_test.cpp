@@ -21,7 +21,7 @@ constexpr Duration kForEver = 1'000'000s;
 
 using stride::tests::at;
 
-/// What was told, and the bounds of an interval by looking at all of it.
+/// All that was noted, and the bounds of an interval by looking at all of it.
 struct Told {
   std::vector<std::pair<Time, double>> notes;
 

@@ -7,24 +7,16 @@
 
 #include <stride/nfc/iso14443a.h>
 
-#include "tests/at.h"
+#include "tests/units/reader/programs.h"
 
 using namespace reader;
+using namespace reader::tests;
 using stride::Duration;
 using stride::Time;
 
 namespace {
 
-constexpr Duration kOnePicosecond{1};
-
-using stride::tests::at;
-
-Reader reader_with(const std::string& commands) {
-  return Reader(parse_program(R"(<reader-program version="1">
-      <antenna on="1" off="9" power="0.5"/>)" +
-                                  commands + "</reader-program>",
-                              "p.xml"));
-}
+Reader reader_with(const std::string& commands) { return Reader(program_with(commands)); }
 
 Reader one_command() {
   return reader_with(R"(<command at="2" name="read_temperature" timeout="0.05"/>)");
@@ -47,8 +39,8 @@ Outcome last_outcome(const Reader& reader) { return reader.state().records.back(
 
 TEST_CASE("A command is sent at its instant, not before and only once") {
   Reader reader = one_command();
-  reader.advance(at(2) - kOnePicosecond);
-  CHECK_FALSE(reader.transmit(at(2) - kOnePicosecond).has_value());
+  reader.advance(at(2) - kPicosecond);
+  CHECK_FALSE(reader.transmit(at(2) - kPicosecond).has_value());
   reader.advance(at(2));
   const auto frame = reader.transmit(at(2));
   REQUIRE(frame.has_value());
@@ -73,9 +65,9 @@ TEST_CASE("An answer counts when its frame ends") {
   const auto frame = answer(at(2.001), kWarm);
   const Time end = frame.start + nfc::air_time(frame);
   reader.receive(frame);
-  reader.advance(end - kOnePicosecond);
+  reader.advance(end - kPicosecond);
   CHECK(reader.state().counts.answered == 0);
-  CHECK(reader.next_event_time(end - kOnePicosecond) == end);
+  CHECK(reader.next_event_time(end - kPicosecond) == end);
   reader.advance(end);
   CHECK(reader.state().counts.answered == 1);
   CHECK(reader.state().counts.unanswered == 0);
@@ -192,7 +184,7 @@ TEST_CASE("The time limit runs from the end of the command to the start of the a
     CHECK(last_outcome(reader) == Outcome::kAnswered);
   }
   SECTION("one that begins later is not heard") {
-    const auto frame = answer(deadline + kOnePicosecond, kWarm);
+    const auto frame = answer(deadline + kPicosecond, kWarm);
     reader.advance(frame.start + nfc::air_time(frame));
     reader.receive(frame);
     reader.advance(deadline + std::chrono::seconds(1));
@@ -200,7 +192,7 @@ TEST_CASE("The time limit runs from the end of the command to the start of the a
     CHECK(reader.state().temperature == 0.0);
   }
   SECTION("without any the command is given up when none can come any more") {
-    reader.advance(end - kOnePicosecond);
+    reader.advance(end - kPicosecond);
     CHECK(reader.state().counts.unanswered == 0);
     reader.advance(end);
     CHECK(reader.state().counts.unanswered == 1);
@@ -215,7 +207,7 @@ TEST_CASE("The time limit runs from the end of the command to the start of the a
 TEST_CASE("What arrives while the reader sends is not heard") {
   Reader reader = one_command();
   const auto request = reader.transmit(at(2));
-  reader.receive(answer(at(2) + nfc::air_time(*request) - kOnePicosecond, kWarm));
+  reader.receive(answer(at(2) + nfc::air_time(*request) - kPicosecond, kWarm));
   reader.advance(at(3));
   CHECK(last_outcome(reader) == Outcome::kUnanswered);
 }
@@ -380,7 +372,7 @@ TEST_CASE("A request is cut where the antenna goes off, and sent again with what
   const auto whole = reader.transmit(at(2));
   REQUIRE(at(2) + nfc::air_time(*whole) > at(2.0001));
   CHECK(reader.next_event_time(at(2)) == at(2.0001));
-  CHECK_FALSE(reader.is_due(at(2.0001) - kOnePicosecond));
+  CHECK_FALSE(reader.is_due(at(2.0001) - kPicosecond));
   const Time now = GENERATE(at(2.0001), at(2.5));  // the second is a coarse grid
   reader.advance(now);
   const auto cut = reader.transmit(now);

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/at.h"
+#include "tests/units/reader/programs.h"
 
 using reader::minimum_jerk;
 using reader::position;
@@ -12,7 +12,7 @@ using reader::Waypoint;
 
 namespace {
 
-using stride::tests::at;
+using reader::tests::at;
 
 const std::vector<Waypoint> kPath = {
     {at(1.0), {0.0, 1.0}}, {at(3.0), {2.0, 1.0}}, {at(4.0), {-1.0, 0.5}}};

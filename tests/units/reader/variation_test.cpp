@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/at.h"
+#include "tests/units/reader/programs.h"
 
 using reader::start_offsets;
 using reader::Tremor;
@@ -13,7 +13,7 @@ using reader::Variation;
 
 namespace {
 
-using stride::tests::at;
+using reader::tests::at;
 
 Variation trembling(std::uint64_t seed, std::vector<double> amplitudes = {0.002, 0.002}) {
   Variation variation;

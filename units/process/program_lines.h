@@ -1,6 +1,6 @@
 // Lines to and from a program, within limits.
-#ifndef STRIDE_UNITS_PROCESS_CONVERSATION_H
-#define STRIDE_UNITS_PROCESS_CONVERSATION_H
+#ifndef STRIDE_UNITS_PROCESS_PROGRAM_LINES_H
+#define STRIDE_UNITS_PROCESS_PROGRAM_LINES_H
 
 #include <chrono>
 #include <cstddef>
@@ -17,24 +17,23 @@
 namespace process {
 
 struct Limits {
-  std::chrono::milliseconds silence{
-      60'000};  ///< the program may say nothing for so long; 0: for ever
+  std::chrono::milliseconds silence{60'000};  ///< the longest time without a line; 0: no limit
   std::uint64_t answer = std::uint64_t{256}
                          << 20;  ///< [byte] what it may write until it has answered
 };
 
-/// A program that has been started, and what is said on its pipes. All functions throw
+/// A program that has been started, and the lines on its pipes. All functions throw
 /// std::runtime_error that names the program, says what was expected, and quotes what it wrote.
-class Conversation {
+class ProgramLines {
  public:
   /// Receives each line that the program writes to its standard error.
   using Listener = std::function<void(const std::string& line)>;
 
-  Conversation(const std::vector<std::string>& command, const Limits& limits, Listener listener);
+  ProgramLines(const std::vector<std::string>& command, const Limits& limits, Listener listener);
 
   /// What send() will write: whole lines are appended here.
   std::string& commands() { return commands_; }
-  /// Writes the commands, and begins to count the answer. `awaited` says for errors what the
+  /// Writes the commands, and begins to count the answer. `awaited` names for errors what the
   /// program is to do: "start".
   void send(std::string_view awaited);
   /// The next line that the program writes, without its line feed; blank ones are left out. Stays
@@ -45,7 +44,7 @@ class Conversation {
   /// Any other; with the last lines of its standard error.
   [[noreturn]] void fail(const std::string& message) const;
 
-  /// Tells the program that there is nothing more, and waits for its end. Throws if it does not end
+  /// Closes the program's standard input, and waits for its end. Throws if it does not end
   /// within the limit of its silence, or with another exit code than 0.
   void finish();
 

@@ -1,4 +1,4 @@
-#include "units/process/conversation.h"
+#include "units/process/program_lines.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -22,7 +22,7 @@ constexpr std::size_t kErrorLine = 1000;
 constexpr std::size_t kQuoted = 200;
 constexpr std::chrono::milliseconds kEnding{2000};
 
-/// A write to a program that has gone would end this process by SIGPIPE. The mask is that of this
+/// A write to a program that has ended would end this process by SIGPIPE. The mask is that of this
 /// thread; a signal that has come meanwhile is taken away.
 ssize_t write_without_signal(int descriptor, const char* data, std::size_t size) {
   sigset_t pipe, before;
@@ -40,7 +40,7 @@ ssize_t write_without_signal(int descriptor, const char* data, std::size_t size)
   return written;
 }
 
-/// What a program writes may be anything; what is told of it is text.
+/// A program may write any bytes; in messages and in the log they are text.
 std::string printable(std::string_view text) {
   std::string result;
   while (true) {
@@ -64,7 +64,7 @@ std::string_view without_blanks(std::string_view text) {
 
 }  // namespace
 
-Conversation::Conversation(const std::vector<std::string>& command, const Limits& limits,
+ProgramLines::ProgramLines(const std::vector<std::string>& command, const Limits& limits,
                            Listener listener)
     : name_(std::filesystem::path(command.front()).filename().string()),
       limits_(limits),
@@ -78,7 +78,7 @@ Conversation::Conversation(const std::vector<std::string>& command, const Limits
 
 // ---- Writing ----
 
-void Conversation::send(std::string_view awaited) {
+void ProgramLines::send(std::string_view awaited) {
   awaited_.assign(awaited);
   answered_ = 0;
   heard_ = Clock::now();
@@ -89,7 +89,7 @@ void Conversation::send(std::string_view awaited) {
 }
 
 /// Returns whether all has been written.
-bool Conversation::write_some() {
+bool ProgramLines::write_some() {
   while (written_ < commands_.size()) {
     const ssize_t size = write_without_signal(child_->input().number(), commands_.data() + written_,
                                               commands_.size() - written_);
@@ -98,7 +98,7 @@ bool Conversation::write_some() {
     } else if (errno == EAGAIN) {
       return false;
     } else if (errno != EINTR) {
-      // what it has said before it closed its input may tell why
+      // what it wrote before it closed its input may explain why
       return true;
     }
   }
@@ -107,7 +107,7 @@ bool Conversation::write_some() {
 
 // ---- Reading ----
 
-std::string_view Conversation::next_line() {
+std::string_view ProgramLines::next_line() {
   while (true) {
     while (!take_line(line_)) exchange();
     ++line_number_;
@@ -116,7 +116,7 @@ std::string_view Conversation::next_line() {
   }
 }
 
-bool Conversation::take_line(std::string_view& line) {
+bool ProgramLines::take_line(std::string_view& line) {
   const char* const text = buffer_.data();
   const void* const feed = std::memchr(text + seen_, '\n', end_ - seen_);
   if (feed == nullptr) {
@@ -130,7 +130,7 @@ bool Conversation::take_line(std::string_view& line) {
 }
 
 /// Waits until the program writes something, or takes what is written to it.
-void Conversation::exchange() {
+void ProgramLines::exchange() {
   const bool is_writing = written_ < commands_.size();
   pollfd waiting[3] = {{child_->output().number(), POLLIN, 0},
                        {child_->error().number(), POLLIN, 0},
@@ -150,14 +150,14 @@ void Conversation::exchange() {
   if (waiting[0].revents != 0) read_output();
 }
 
-int Conversation::patience() const {
+int ProgramLines::patience() const {
   if (limits_.silence.count() == 0) return -1;
   const auto left = heard_ + limits_.silence - Clock::now();
   const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(left).count();
   return static_cast<int>(std::clamp<std::int64_t>(milliseconds + 1, 0, 1'000'000'000));
 }
 
-void Conversation::make_room() {
+void ProgramLines::make_room() {
   if (begin_ == end_) {
     begin_ = seen_ = end_ = 0;
   } else if (buffer_.size() - end_ < kRead && begin_ != 0) {
@@ -169,7 +169,7 @@ void Conversation::make_room() {
   if (buffer_.size() - end_ < kRead) buffer_.resize(2 * buffer_.size());
 }
 
-void Conversation::read_output() {
+void ProgramLines::read_output() {
   make_room();
   const ssize_t size =
       ::read(child_->output().number(), buffer_.data() + end_, buffer_.size() - end_);
@@ -180,7 +180,7 @@ void Conversation::read_output() {
   count(static_cast<std::size_t>(size));
 }
 
-void Conversation::count(std::size_t bytes) {
+void ProgramLines::count(std::size_t bytes) {
   answered_ += bytes;
   if (answered_ <= limits_.answer) return;
   child_->kill();
@@ -192,7 +192,7 @@ void Conversation::count(std::size_t bytes) {
 }
 
 /// Returns whether there may be more.
-bool Conversation::read_error() {
+bool ProgramLines::read_error() {
   char text[4096];
   const ssize_t size = ::read(child_->error().number(), text, sizeof text);
   if (size == 0) child_->error().close();
@@ -202,7 +202,7 @@ bool Conversation::read_error() {
   return true;
 }
 
-void Conversation::hear(std::string_view text) {
+void ProgramLines::hear(std::string_view text) {
   for (const char c : text) {
     if (c != '\n') error_line_ += c;
     if (c == '\n' || error_line_.size() == kErrorLine) {
@@ -211,7 +211,7 @@ void Conversation::hear(std::string_view text) {
   }
 }
 
-void Conversation::note_error(std::string line) {
+void ProgramLines::note_error(std::string line) {
   if (listener_) listener_(line);
   last_errors_.push_back(std::move(line));
   if (last_errors_.size() > kErrorLines) last_errors_.pop_front();
@@ -219,7 +219,7 @@ void Conversation::note_error(std::string line) {
 
 // ---- Ends ----
 
-void Conversation::finish() {
+void ProgramLines::finish() {
   awaited_ = "end";
   heard_ = Clock::now();
   if (!write_some()) {
@@ -237,13 +237,13 @@ void Conversation::finish() {
 }
 
 /// Returns whether the program has ended by itself within the limit; else it is killed.
-bool Conversation::wait_for_end(std::chrono::milliseconds limit) {
+bool ProgramLines::wait_for_end(std::chrono::milliseconds limit) {
   constexpr std::chrono::milliseconds kSlice{10};
   const auto end = Clock::now() + limit;
   bool has_ended = child_->wait({});
   while (!has_ended && Clock::now() < end) {
     has_ended = child_->wait(kSlice);
-    while (read_error()) {  // it must not have to wait for us
+    while (read_error()) {  // so that the program is not blocked by a full pipe
     }
   }
   child_->kill();
@@ -252,7 +252,7 @@ bool Conversation::wait_for_end(std::chrono::milliseconds limit) {
   return has_ended;
 }
 
-void Conversation::fail_at_end() {
+void ProgramLines::fail_at_end() {
   const bool has_ended = wait_for_end(kEnding);
   const std::string rest(buffer_.data() + begin_, end_ - begin_);
   const std::string torn = rest.empty() ? "" : "; its last line is cut off: " + cited(rest);
@@ -260,11 +260,11 @@ void Conversation::fail_at_end() {
   fail("has closed its standard output while it was to " + awaited_ + torn);
 }
 
-void Conversation::fail_line(const std::string& message) const {
+void ProgramLines::fail_line(const std::string& message) const {
   fail("wrote as line " + std::to_string(line_number_) + " " + cited(line_) + ": " + message);
 }
 
-void Conversation::fail(const std::string& message) const {
+void ProgramLines::fail(const std::string& message) const {
   std::string text = "the program '" + name_ + "' " + message;
   std::deque<std::string> lines = last_errors_;
   if (!error_line_.empty()) lines.push_back(printable(error_line_));
