@@ -7,6 +7,7 @@ find_program(STRIDE_CCACHE ccache)
 if(STRIDE_CCACHE)
   # what two builds of one source tree compile alike, such as those for two versions of MuJoCo, is compiled once
   set(launcher ${CMAKE_COMMAND} -E env
+    CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}
     CCACHE_NOHASHDIR=1
     CCACHE_SLOPPINESS=pch_defines,time_macros  # without which nothing that uses a precompiled header is kept
     ${STRIDE_CCACHE})

@@ -1,9 +1,11 @@
 # stride_use_test_headers(NAME)
 #
 # Headers that nearly every test includes are compiled once per language standard, for all tests. A test's sources
-# include what they use all the same: with STRIDE_PRECOMPILED_HEADERS=OFF nothing is compiled beforehand.
-
-if(STRIDE_PRECOMPILED_HEADERS)
+# include what they use all the same: with STRIDE_PRECOMPILED_HEADERS=OFF nothing is compiled beforehand. Nor is it in a
+# unity build, which reads a header so few times that it gains nothing.
+set(stride_has_test_headers OFF)
+if(STRIDE_PRECOMPILED_HEADERS AND NOT CMAKE_UNITY_BUILD)
+  set(stride_has_test_headers ON)
   # executables, because GCC takes only what was compiled with the flags of a test
   file(CONFIGURE OUTPUT empty_main.cpp CONTENT "int main() {}\n")
   foreach(standard IN ITEMS 17 20)
@@ -40,7 +42,7 @@ endfunction()
 
 function(stride_use_test_headers name)
   get_target_property(sources ${name} SOURCES)
-  if(NOT STRIDE_PRECOMPILED_HEADERS OR sources MATCHES "\\.c(;|$)")  # there are none for C
+  if(NOT stride_has_test_headers OR sources MATCHES "\\.c(;|$)")  # there are none for C
     return()
   endif()
   get_target_property(libraries ${name} LINK_LIBRARIES)

@@ -1,29 +1,14 @@
-// Replaces the program's operator new, to be included by one source file of a program.
+// What a program takes from the heap, counted: to be linked with tests/counting_allocator.cpp.
 #ifndef STRIDE_TESTS_COUNTING_ALLOCATOR_H
 #define STRIDE_TESTS_COUNTING_ALLOCATOR_H
 
 #include <atomic>
-#include <cstdlib>
-#include <new>
 
-namespace {
+namespace stride::tests {
 
-std::atomic<long> allocations = 0;
+/// Blocks that the program and the units in it have taken so far.
+extern std::atomic<long> allocations;
 
-}  // namespace
-
-// Counts what this program and the units in it take from the heap. Inlined, GCC takes new and free
-// for a mismatch.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* const memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+}  // namespace stride::tests
 
 #endif

@@ -15,9 +15,9 @@ using Catch::Matchers::Contains;
 namespace {
 
 /// Two units, each in a process of its own; 1 s in steps of 1 ms.
-Workspace beside_a_filter(const std::string& faulty = "faulty",
-                          const std::string& source = "faulty.fmu",
-                          const std::string& hosts = "<stride:Host components=\"*\"/>\n") {
+Workspace hosted_beside_a_filter(const std::string& faulty = "faulty",
+                                 const std::string& source = "faulty.fmu",
+                                 const std::string& hosts = "<stride:Host components=\"*\"/>\n") {
   return Workspace(
       Parts{component("filter", "minimal.fmu") + component(faulty, source), "", hosts});
 }
@@ -36,7 +36,7 @@ std::string error_of(const Workspace& workspace, const Arguments& options,
   return error;
 }
 
-std::size_t count(const std::string& text, const std::string& part) {
+std::size_t occurrences(const std::string& text, const std::string& part) {
   std::size_t count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
     ++count;
@@ -81,7 +81,7 @@ std::string said_by(const Workspace& workspace, const Arguments& options, Argume
 }  // namespace
 
 TEST_CASE("a unit that ends its process is an error with the call, the time and the signal") {
-  const Workspace workspace = beside_a_filter();
+  const Workspace workspace = hosted_beside_a_filter();
   const auto [fault, end, words] = GENERATE(table<std::string, std::string, std::string>({
       {"segfault", "SIGSEGV", ""},
       {"stack overflow", "SIGSEGV", ""},
@@ -100,7 +100,7 @@ TEST_CASE("a unit that ends its process is an error with the call, the time and 
 }
 
 TEST_CASE("likewise in whichever call it ends") {
-  const Workspace workspace = beside_a_filter();
+  const Workspace workspace = hosted_beside_a_filter();
   const auto [call, function, last] = GENERATE(table<std::string, std::string, std::string>({
       {"initialize", "fmi3ExitInitializationMode", ""},
       {"event", "fmi3UpdateDiscreteStates", ""},
@@ -118,7 +118,7 @@ TEST_CASE("likewise in whichever call it ends") {
 }
 
 TEST_CASE("a unit that crashes when it is made") {
-  const Workspace workspace = beside_a_filter("dies_at_birth");
+  const Workspace workspace = hosted_beside_a_filter("dies_at_birth");
   const Leftovers leftovers;
   const Outcome outcome = workspace.run({"--quiet"});
   CHECK(outcome.exit_code == 1);
@@ -129,7 +129,7 @@ TEST_CASE("a unit that crashes when it is made") {
 }
 
 TEST_CASE("an exception that leaves a unit's function") {
-  const Workspace workspace = beside_a_filter("throws", "raw_throwing");
+  const Workspace workspace = hosted_beside_a_filter("throws", "raw_throwing");
   make_raw_fmu(workspace.scratch(), "raw_throwing");
   CHECK_THAT(error_of(workspace, {}, "0"), Contains("unit 'throws', at 0 s: ") &&
                                                Contains("fmi3DoStep") &&
@@ -137,7 +137,7 @@ TEST_CASE("an exception that leaves a unit's function") {
 }
 
 TEST_CASE("a unit that takes too long is ended") {
-  const Workspace workspace = beside_a_filter();
+  const Workspace workspace = hosted_beside_a_filter();
   const std::string fault = GENERATE("loop", "stop");
   CHECK_THAT(error_of(workspace, does(fault, {"--unit-timeout", "0.3"})),
              Contains("unit 'faulty', at 0.499 s: it took longer than 0.3 s in fmi3DoStep") &&
@@ -146,7 +146,7 @@ TEST_CASE("a unit that takes too long is ended") {
 
 #ifndef __SANITIZE_ADDRESS__
 TEST_CASE("a unit that wants all the memory gets what it may have") {
-  const Workspace workspace = beside_a_filter(
+  const Workspace workspace = hosted_beside_a_filter(
       "faulty", "faulty.fmu", "<stride:Host components=\"*\" memoryLimit=\"64\"/>\n");
   CHECK_THAT(error_of(workspace, does("allocate")),
              Contains("unit 'faulty', at 0.499 s: ") && Contains("std::bad_alloc"));
@@ -154,37 +154,37 @@ TEST_CASE("a unit that wants all the memory gets what it may have") {
 #endif
 
 TEST_CASE("what a unit prints is in the log, and holds nothing up") {
-  const Workspace workspace = beside_a_filter();
+  const Workspace workspace = hosted_beside_a_filter();
   const std::string said = said_by(workspace, does("print"), {"--verbose"});
-  CHECK(count(said, ": line ") == 16384);
-  CHECK(count(said, "line 16383: .") == 1);
+  CHECK(occurrences(said, ": line ") == 16384);
+  CHECK(occurrences(said, "line 16383: .") == 1);
 }
 
 TEST_CASE("a unit that closes all files goes on without them") {
-  const Workspace workspace = beside_a_filter();
+  const Workspace workspace = hosted_beside_a_filter();
   said_by(workspace, does("close files"));
 }
 
 TEST_CASE("what a unit has started goes with it, however far away it has gone") {
-  const Workspace workspace = beside_a_filter();
+  const Workspace workspace = hosted_beside_a_filter();
   said_by(workspace, does("daemon"));
 }
 
 TEST_CASE("a unit that overwrites the shared memory harms itself only") {
-  const Workspace workspace = beside_a_filter();
+  const Workspace workspace = hosted_beside_a_filter();
   CHECK_THAT(error_of(workspace, does("overwrite", {"--unit-timeout", "5"})),
              Contains("unit 'faulty', at 0.499 s: "));
 }
 
 TEST_CASE("a unit in a sandbox cannot kill its parent") {
-  const Workspace workspace = beside_a_filter();
+  const Workspace workspace = hosted_beside_a_filter();
   CHECK_THAT(error_of(workspace, does("kill parent")),
              Contains("unit 'faulty', at 0.499 s: ") &&
                  Contains("cannot kill the parent: Operation not permitted"));
 }
 
 TEST_CASE("a unit that kills its parent kills itself") {
-  const Workspace workspace = beside_a_filter();
+  const Workspace workspace = hosted_beside_a_filter();
   const Leftovers leftovers;
   const Outcome outcome = workspace.run(does("kill parent", {"--no-sandbox", "--stop", "1e6"}));
   CHECK_THAT(error_of(workspace, outcome, leftovers),
@@ -198,7 +198,7 @@ namespace {
 /// A run that takes hours, and those who come from it.
 struct LongRun {
   Leftovers leftovers;
-  Workspace workspace = beside_a_filter();
+  Workspace workspace = hosted_beside_a_filter();
   Process process{stride_command(Workspace::run_arguments({"--stop", "1e6", "--no-trace"})),
                   workspace.scratch().path()};
 

@@ -16,7 +16,7 @@ Workspace ring(const std::string& a, const std::string& b, const std::string& y 
 
 Workspace feedthrough_ring() { return ring("feedthrough.fmu", "feedthrough.fmu"); }
 
-Arguments with(std::initializer_list<std::string> settings, Arguments arguments = {}) {
+Arguments settings(std::initializer_list<std::string> settings, Arguments arguments = {}) {
   arguments.push_back("--quiet");
   for (const std::string& setting : settings) {
     arguments.push_back("--set");
@@ -30,7 +30,7 @@ double value(const Workspace& workspace, const std::string& time, const std::str
   return signals.number(signals.row_at(time), signals.column(signal));
 }
 
-void run(const Workspace& workspace, const Arguments& arguments) {
+void run_well(const Workspace& workspace, const Arguments& arguments) {
   const Outcome outcome = workspace.run(arguments);
   INFO(outcome.err);
   REQUIRE(outcome.exit_code == 0);
@@ -49,8 +49,8 @@ constexpr double kCosine = 0.73908513321516064;  // x = cos x
 TEST_CASE("a linear loop begins at its fixed point, also where plain iteration diverges") {
   const std::string slope = GENERATE("0.4", "-0.75", "-3", "100");
   const Workspace workspace = feedthrough_ring();
-  run(workspace,
-      with({"a.slope=" + slope, "a.offset=4", "b.slope=2", "b.offset=-1"}, {"--stop", "0.000001"}));
+  run_well(workspace, settings({"a.slope=" + slope, "a.offset=4", "b.slope=2", "b.offset=-1"},
+                               {"--stop", "0.000001"}));
   const double a = std::stod(slope);
   const double expected = (4 - a) / (1 - 2 * a);  // y = a (2 y - 1) + 4
   CHECK(value(workspace, "0", "a.y") == Approx(expected).epsilon(1e-12));
@@ -59,31 +59,31 @@ TEST_CASE("a linear loop begins at its fixed point, also where plain iteration d
 
 TEST_CASE("a loop that is not linear") {
   const Workspace workspace = feedthrough_ring();
-  run(workspace, with({"a.cosine=true", "b.slope=1"}, {"--stop", "0"}));
+  run_well(workspace, settings({"a.cosine=true", "b.slope=1"}, {"--stop", "0"}));
   CHECK(std::abs(value(workspace, "0", "a.y") - kCosine) < 1e-12);
 }
 
 TEST_CASE("a loop without a fixed point is an error that says how to break it") {
   CHECK_THAT(
-      failure(feedthrough_ring(), with({"a.offset=1"})),
+      failure(feedthrough_ring(), settings({"a.offset=1"})),
       Contains("at 0 s: no solution of the algebraic loop a.u -> a.y -> b.u -> b.y -> a.u") &&
           Contains("a residual of 1") && Contains("breaks the loop"));
 }
 
 TEST_CASE("a Boolean loop that flips for ever is an error, one that does not is none") {
   const Workspace workspace = ring("inverter.fmu", "inverter.fmu");
-  CHECK_THAT(failure(workspace, with({"b.inverts=false"})),
+  CHECK_THAT(failure(workspace, settings({"b.inverts=false"})),
              Contains("no solution of the algebraic loop a.u -> a.y -> b.u -> b.y -> a.u") &&
                  Contains("it gives back "));
-  run(workspace, with({}));
+  run_well(workspace, settings({}));
   CHECK(value(workspace, "1", "a.y") != value(workspace, "1", "b.y"));
 }
 
 TEST_CASE("a loop follows a jump at the jump's own instant") {
   const Workspace workspace = feedthrough_ring();
-  run(workspace,
-      with({"a.slope=0.5", "a.offset=1", "b.slope=-0.9", "a.jump_at=0.12345", "a.jump_to=7"},
-           {"--stop", "0.2"}));
+  run_well(workspace, settings({"a.slope=0.5", "a.offset=1", "b.slope=-0.9", "a.jump_at=0.12345",
+                                "a.jump_to=7"},
+                               {"--stop", "0.2"}));
   const double before = 1 / 1.45;
   const double after = 7 / 1.45;
   CHECK(value(workspace, "0", "a.y") == Approx(before).epsilon(1e-12));
@@ -95,8 +95,9 @@ TEST_CASE("a loop follows a jump at the jump's own instant") {
 
 TEST_CASE("at a jump, too, plain iteration need not converge") {
   const Workspace workspace = feedthrough_ring();
-  run(workspace, with({"a.slope=-3", "a.offset=1", "b.slope=2", "a.jump_at=0.0005", "a.jump_to=7"},
-                      {"--stop", "0.0005"}));
+  run_well(workspace,
+           settings({"a.slope=-3", "a.offset=1", "b.slope=2", "a.jump_at=0.0005", "a.jump_to=7"},
+                    {"--stop", "0.0005"}));
   CHECK(value(workspace, "0", "a.y") == Approx(1.0 / 7).epsilon(1e-12));
   CHECK(value(workspace, "0.0005", "a.y") == Approx(1).epsilon(1e-12));
 }
@@ -106,7 +107,7 @@ TEST_CASE("a jump goes through a chain at once, and each unit of it has an event
                                       component("b", "feedthrough.fmu") +
                                       component("a", "feedthrough.fmu"),
                                   connection("a.y", "b.u") + connection("b.y", "c.u")});
-  run(workspace, with({"a.jump_at=0.12345", "a.jump_to=7"}, {"--stop", "0.2"}));
+  run_well(workspace, settings({"a.jump_at=0.12345", "a.jump_to=7"}, {"--stop", "0.2"}));
   CHECK(value(workspace, "0.123", "c.y") == 0);
   CHECK(value(workspace, "0.12345", "c.y") == 7);
   CHECK(value(workspace, "0.123", "c.events") == 1);
@@ -116,7 +117,7 @@ TEST_CASE("a jump goes through a chain at once, and each unit of it has an event
 
 TEST_CASE("a dependency that nobody declared, and that is none, needs no search") {
   const Workspace workspace = ring("undeclared.fmu", "feedthrough.fmu", "constant");
-  run(workspace, with({"b.slope=3"}, {"--stop", "0"}));
+  run_well(workspace, settings({"b.slope=3"}, {"--stop", "0"}));
   CHECK(value(workspace, "0", "b.y") == 15);
   CHECK(value(workspace, "0", "a.doubled") == 30);
   // to read the guess, to try it, to use what came of that, and at the end
@@ -128,7 +129,7 @@ TEST_CASE("a chain of any length has its values at the start, in the order of th
       Parts{component("c", "undeclared.fmu") + component("b", "undeclared.fmu") +
                 component("a", "undeclared.fmu"),
             connection("a.constant", "b.u") + connection("b.doubled", "c.u")});
-  run(workspace, with({}, {"--stop", "0"}));
+  run_well(workspace, settings({}, {"--stop", "0"}));
   CHECK(value(workspace, "0", "c.doubled") == 20);
   CHECK(value(workspace, "0", "a.initializations") == 1);
   CHECK(value(workspace, "0", "b.initializations") == 1);

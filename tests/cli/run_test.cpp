@@ -36,7 +36,7 @@ void unpack(const fs::path& archive, const fs::path& folder) {
   }
 }
 
-Csv run(const Workspace& workspace, Arguments options) {
+Csv signals_of(const Workspace& workspace, Arguments options) {
   options.push_back("--quiet");
   const Outcome outcome = workspace.run(options);
   REQUIRE(outcome.err == "");
@@ -69,7 +69,7 @@ TEST_CASE("without --out, the results lie in results/ under the scenario's name"
 
 TEST_CASE("run.json tells what was run and how far it came") {
   const Workspace workspace(two_filters());
-  run(workspace, {"--stop", "0.25"});
+  signals_of(workspace, {"--stop", "0.25"});
   const auto json = nlohmann::json::parse(workspace.result("run.json"));
   CHECK(json["scenario"] == "test.ssd");
   CHECK(json["outcome"] == "completed");
@@ -85,7 +85,7 @@ TEST_CASE("run.json tells what was run and how far it came") {
 
 TEST_CASE("--threads may be more than there are units, and cheap units do not use them") {
   const Workspace workspace(two_filters());
-  run(workspace, {"--threads", "64"});
+  signals_of(workspace, {"--threads", "64"});
   const auto json = nlohmann::json::parse(workspace.result("run.json"));
   CHECK(json["threads"] == 64);
   CHECK(json["communication_steps"] == 1000);
@@ -102,7 +102,7 @@ TEST_CASE("--quiet prints nothing") {
 
 TEST_CASE("--no-trace writes no VCD") {
   const Workspace workspace(two_filters());
-  run(workspace, {"--no-trace"});
+  signals_of(workspace, {"--no-trace"});
   CHECK(files_in(workspace / "out") == std::vector<std::string>{"activity.csv", "events.csv",
                                                                 "report.html", "run.json",
                                                                 "signals.csv"});
@@ -112,24 +112,24 @@ TEST_CASE("--signals chooses the columns, instead of the scenario") {
   Parts parts = two_filters();
   parts.annotation = "<stride:Record signals=\"first.y\"/>\n";
   const Workspace workspace(parts);
-  CHECK(run(workspace, {}).titles() == std::vector<std::string>{"time", "first.y"});
-  CHECK(run(workspace, {"--signals", "second.*", "--signals", "first.u"}).titles() ==
+  CHECK(signals_of(workspace, {}).titles() == std::vector<std::string>{"time", "first.y"});
+  CHECK(signals_of(workspace, {"--signals", "second.*", "--signals", "first.u"}).titles() ==
         std::vector<std::string>{"time", "second.u", "second.y", "second.time_constant [s]",
                                  "first.u"});
 }
 
 TEST_CASE("--stop and --step choose the communication points") {
   const Workspace workspace(two_filters());
-  const Csv signals = run(workspace, {"--stop", "0.5", "--step", "0.125"});
+  const Csv signals = signals_of(workspace, {"--stop", "0.5", "--step", "0.125"});
   CHECK(signals.numbers("time") == std::vector<double>{0, 0.125, 0.25, 0.375, 0.5});
-  CHECK(run(workspace, {"--stop", "0.3", "--step", "0.125"}).row(3).front() == "0.3");
-  CHECK(run(workspace, {"--stop", "0"}).size() == 1);
+  CHECK(signals_of(workspace, {"--stop", "0.3", "--step", "0.125"}).row(3).front() == "0.3");
+  CHECK(signals_of(workspace, {"--stop", "0"}).size() == 1);
 }
 
 TEST_CASE("--set changes start values, as the closed form of the low-pass says") {
   const Workspace workspace(one_filter());
-  const Csv signals = run(workspace, {"--set", "filter.u=2", "--set", "filter.time_constant=0.5",
-                                      "--set", "filter.y=-1"});
+  const Csv signals = signals_of(workspace, {"--set", "filter.u=2", "--set",
+                                             "filter.time_constant=0.5", "--set", "filter.y=-1"});
   const auto time = signals.numbers("time");
   const auto y = signals.numbers("filter.y");
   REQUIRE(time.size() == 1001);
@@ -150,17 +150,17 @@ TEST_CASE("the later --set wins, also over the scenario's own parameters") {
       "<ssv:Float64 value=\"5\"/></ssv:Parameter></ssv:Parameters></ssv:ParameterSet>"
       "</ssd:ParameterValues></ssd:ParameterBinding></ssd:ParameterBindings>");
   const Workspace workspace(parts);
-  CHECK(run(workspace, {"--stop", "0"}).numbers("filter.y") == std::vector<double>{5});
-  CHECK(run(workspace, {"--stop", "0", "--set", "filter.y=6", "--set", "filter.y=7"})
+  CHECK(signals_of(workspace, {"--stop", "0"}).numbers("filter.y") == std::vector<double>{5});
+  CHECK(signals_of(workspace, {"--stop", "0", "--set", "filter.y=6", "--set", "filter.y=7"})
             .numbers("filter.y") == std::vector<double>{7});
 }
 
 TEST_CASE("--swap puts another unit in a component's place") {
   const Workspace workspace(two_filters());
-  const auto decaying = run(workspace, {"--set", "first.y=1"}).numbers("first.y");
+  const auto decaying = signals_of(workspace, {"--set", "first.y=1"}).numbers("first.y");
   CHECK(decaying.back() == Approx(std::exp(-1.0)));
   const Csv signals =
-      run(workspace, {"--swap", "first=not_a_number.fmu", "--set", "first.nan_at=10"});
+      signals_of(workspace, {"--swap", "first=not_a_number.fmu", "--set", "first.nan_at=10"});
   CHECK(signals.numbers("first.y") == signals.numbers("time"));  // what that unit gives
   CHECK(signals.numbers("second.y").back() > 0.3);
 }
@@ -168,12 +168,12 @@ TEST_CASE("--swap puts another unit in a component's place") {
 TEST_CASE("a unit may be an archive, its unpacked folder, or a bare library of the kit") {
   const Workspace workspace(one_filter());
   const Arguments settings{"--set", "filter.u=1"};
-  run(workspace, settings);
+  signals_of(workspace, settings);
   const std::string expected = workspace.result("signals.csv");
   const auto with = [&](const std::string& unit) {
     Arguments options = settings;
     options.insert(options.end(), {"--swap", "filter=" + unit});
-    run(workspace, options);
+    signals_of(workspace, options);
     return workspace.result("signals.csv");
   };
   unpack(fs::path(STRIDE_FMU_DIR) / "minimal.fmu", workspace / "unpacked");
@@ -183,14 +183,14 @@ TEST_CASE("a unit may be an archive, its unpacked folder, or a bare library of t
 
 TEST_CASE("a unit ends the run") {
   const Workspace workspace(Parts{component("stepper", "stepper.fmu")});
-  const Csv signals = run(workspace, {"--set", "stepper.end_at=0.1"});
+  const Csv signals = signals_of(workspace, {"--set", "stepper.end_at=0.1"});
   CHECK(signals.row(signals.size() - 1).front() == "0.1");
   CHECK(nlohmann::json::parse(workspace.result("run.json"))["outcome"] == "ended by a unit");
 }
 
 TEST_CASE("messages are recorded at their instants") {
   const Workspace workspace(Parts{component("stepper", "stepper.fmu")});
-  run(workspace, {"--set", "stepper.tick_at=0.3"});
+  signals_of(workspace, {"--set", "stepper.tick_at=0.3"});
   const Csv events(workspace / "out/events.csv");
   REQUIRE(events.size() == 1);
   CHECK(events.row(0)[0] == "0.3");

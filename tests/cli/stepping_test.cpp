@@ -21,7 +21,7 @@ struct Result {
   nlohmann::json run;
 };
 
-Result run(const Workspace& workspace, const Arguments& options) {
+Result stepped(const Workspace& workspace, const Arguments& options) {
   Arguments arguments = kFilters;
   arguments.insert(arguments.end(), options.begin(), options.end());
   const Outcome outcome = workspace.run(arguments);
@@ -44,11 +44,11 @@ Result run(const Workspace& workspace, const Arguments& options) {
 
 TEST_CASE("coupling and extrapolation make a run more accurate at the same steps") {
   const Workspace workspace(two_filters());
-  const double held = run(workspace, {"--step", "0.05"}).deviation;
-  const Result sequential = run(workspace, {"--step", "0.05", "--coupling", "gauss-seidel"});
-  const Result linear = run(workspace, {"--step", "0.05", "--extrapolation", "linear"});
-  const Result both =
-      run(workspace, {"--step", "0.05", "--extrapolation", "linear", "--coupling", "gauss-seidel"});
+  const double held = stepped(workspace, {"--step", "0.05"}).deviation;
+  const Result sequential = stepped(workspace, {"--step", "0.05", "--coupling", "gauss-seidel"});
+  const Result linear = stepped(workspace, {"--step", "0.05", "--extrapolation", "linear"});
+  const Result both = stepped(
+      workspace, {"--step", "0.05", "--extrapolation", "linear", "--coupling", "gauss-seidel"});
   CHECK(held > 5e-3);
   CHECK(sequential.deviation < 1.01 * held);
   CHECK(linear.deviation < held / 5);
@@ -73,7 +73,7 @@ TEST_CASE("an error-controlled run takes few steps where little happens") {
                           "1",
                           "--stop",
                           "10"};
-  const Result result = run(workspace, options);
+  const Result result = stepped(workspace, options);
   CHECK(result.deviation < 2e-3);
   CHECK(result.steps < 250);
   CHECK(result.run["reached"] == 10);
@@ -87,10 +87,10 @@ TEST_CASE("the annotation chooses, and the command line chooses otherwise") {
       "<stride:Step policy=\"event-driven\" maximum=\"0.25\"/><stride:Exchange "
       "coupling=\"gauss-seidel\"/>";
   const Workspace workspace(parts);
-  CHECK(run(workspace, {}).steps == 4);
-  CHECK(run(workspace, {"--max-step", "0.5"}).steps == 2);
+  CHECK(stepped(workspace, {}).steps == 4);
+  CHECK(stepped(workspace, {"--max-step", "0.5"}).steps == 2);
   const Result other =
-      run(workspace, {"--policy", "fixed", "--step", "0.1", "--coupling", "jacobi"});
+      stepped(workspace, {"--policy", "fixed", "--step", "0.1", "--coupling", "jacobi"});
   CHECK(other.steps == 10);
   CHECK(other.run["step"]["coupling"] == "jacobi");
 }

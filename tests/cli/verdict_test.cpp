@@ -18,7 +18,7 @@ Workspace two_judges() {
 
 const Arguments kRising{"--set", "filter.u=1", "--set", "filter.time_constant=0.1"};
 
-Outcome run(const Workspace& workspace, Arguments options) {
+Outcome judged(const Workspace& workspace, Arguments options) {
   options.insert(options.end(), kRising.begin(), kRising.end());
   return workspace.run(options);
 }
@@ -27,7 +27,7 @@ Outcome run(const Workspace& workspace, Arguments options) {
 
 TEST_CASE("verdicts that are good are shown, and the exit code is 0") {
   const Workspace workspace = two_judges();
-  const Outcome outcome = run(workspace, {"--set", "low.limit=1.5"});
+  const Outcome outcome = judged(workspace, {"--set", "low.limit=1.5"});
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.err, !Contains("error"));
   CHECK_THAT(outcome.out, Contains("\nVerdicts\n  by    verdict  because\n") &&
@@ -41,7 +41,7 @@ TEST_CASE("verdicts that are good are shown, and the exit code is 0") {
 
 TEST_CASE("a bad verdict is the exit code 1, and the results are complete") {
   const Workspace workspace = two_judges();
-  const Outcome outcome = run(workspace, {"--set", "low.limit=0.5"});
+  const Outcome outcome = judged(workspace, {"--set", "low.limit=0.5"});
   CHECK(outcome.exit_code == 1);
   CHECK_THAT(outcome.out, Contains("\n  low   FAILED   the limit was reached\n") &&
                               Contains("\n  high  passed   the limit was not reached\n") &&
@@ -60,10 +60,10 @@ TEST_CASE("a bad verdict is the exit code 1, and the results are complete") {
 
 TEST_CASE("--quiet leaves of it what is bad") {
   const Workspace workspace = two_judges();
-  const Outcome good = run(workspace, {"--quiet"});
+  const Outcome good = judged(workspace, {"--quiet"});
   CHECK((good.exit_code == 0 && good.out.empty() && good.err.empty()));
   const Outcome bad =
-      run(workspace, {"--quiet", "--set", "low.limit=0.5", "--set", "high.limit=0"});
+      judged(workspace, {"--quiet", "--set", "low.limit=0.5", "--set", "high.limit=0"});
   CHECK((bad.exit_code == 1 && bad.out.empty()));
   CHECK_THAT(bad.err, Contains("failed by 2 of 2 verdicts\n  low: ") && Contains("\n  high: "));
 }
@@ -71,7 +71,7 @@ TEST_CASE("--quiet leaves of it what is bad") {
 TEST_CASE("the verdict does not depend on what is recorded, nor on who is idle") {
   const Workspace workspace = two_judges();
   const Outcome outcome =
-      run(workspace, {"--signals", "filter.y", "--no-idle-skip", "--set", "high.limit=0.5"});
+      judged(workspace, {"--signals", "filter.y", "--no-idle-skip", "--set", "high.limit=0.5"});
   CHECK(outcome.exit_code == 1);
   CHECK_THAT(outcome.err, Contains("\n  high: the limit was reached\n"));
 }

@@ -13,9 +13,9 @@ using namespace stride::tests;
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-const Arguments kStop{"--stop", "2"};
+const Arguments kIdleStop{"--stop", "2"};
 #else
-const Arguments kStop{};  // the scenario's own
+const Arguments kIdleStop{};  // the scenario's own
 #endif
 
 /// In SI units, by the ends of signals' names: what the units' tolerances (see their READMEs) and
@@ -56,7 +56,7 @@ double greatest_difference(const Csv& skipping, const Csv& full, const std::stri
 
 ScenarioRun run(const std::string& scenario, const Arguments& further) {
   Arguments arguments{"--no-trace"};
-  for (const Arguments& some : {kStop, further, without_judge(scenario)}) {
+  for (const Arguments& some : {kIdleStop, further, without_judge(scenario)}) {
     arguments.insert(arguments.end(), some.begin(), some.end());
   }
   return ScenarioRun(scenario, arguments);

@@ -13,10 +13,10 @@ using namespace stride::tests;
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr const char* kStop = "6.6";
+constexpr const char* kPipeStop = "6.6";
 constexpr std::size_t kAnswers = 0;
 #else
-constexpr const char* kStop =
+constexpr const char* kPipeStop =
     "15.2";  // two requests with wrong bits or none, an answer, a brown-out
 constexpr std::size_t kAnswers = 1;
 #endif
@@ -25,7 +25,7 @@ Arguments options() {
   Arguments arguments = {"--set", "sensor.trace.file=sensor.vcd", "--set",
                          "sensor.trace.signals=recData DataUCToTrm Charge awake"};
   for (const std::string& word : without_judge("nfc_pipe")) arguments.push_back(word);
-  for (const char* word : {"--stop", kStop, "--no-trace", "--no-idle-skip"})
+  for (const char* word : {"--stop", kPipeStop, "--no-trace", "--no-idle-skip"})
     arguments.push_back(word);
   return arguments;
 }

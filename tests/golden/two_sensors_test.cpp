@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> kSensors = {"sensor_left", "sensor_right"};
 // by then both have answered, also at the same instant, and the right one alone
-const Arguments kStop{"--no-trace", "--stop", "3.8"};
+const Arguments kSensorsStop{"--no-trace", "--stop", "3.8"};
 
 /// nfc_two_tags with another text in the place of its EarlyReturn.
 class Variant {
@@ -36,7 +36,7 @@ class Variant {
 
   /// With the inner signals of both sensors in trace().
   ScenarioRun traced_run() const {
-    Arguments arguments = kStop;
+    Arguments arguments = kSensorsStop;
     // the traces are beside the scenario, and steps can be long where what happens in them is exact
     arguments.insert(arguments.end(), {"--no-sandbox", "--step", "0.01"});
     for (const std::string& sensor : kSensors) {
@@ -52,7 +52,7 @@ class Variant {
 
 /// Both may return early.
 const ScenarioRun& exact_run() {
-  static const ScenarioRun only(Variant("").file(), kStop);
+  static const ScenarioRun only(Variant("").file(), kSensorsStop);
   return only;
 }
 
@@ -110,7 +110,7 @@ TEST_CASE("the frames, and the instants of whom they were exact for, are those o
   const std::string other = allowed == "sensor_left" ? "sensor_right" : "sensor_left";
   const ScenarioRun one(
       Variant("<stride:EarlyReturn components=\"" + other + "\" allowed=\"false\"/>").file(),
-      kStop);
+      kSensorsStop);
   for (const std::string& sensor : kSensors) {
     CHECK(both.payloads(sensor, "transmit.frame", "sent") ==
           one.payloads(sensor, "transmit.frame", "sent"));

@@ -1,18 +1,11 @@
 #!/usr/bin/env bash
-# idle_manifest_test.sh FMI_SCHEMA_DIR SCHEMA FMU...: the idle manifests in the FMUs are valid, and the schema refuses what
+# idle_manifest_test.sh FMI_SCHEMAS SCHEMA FMU...: the idle manifests in the FMUs are valid, and the schema refuses what
 # is none.
 set -u
 fmi_schemas=$1
 schema=$2
 shift 2
-skip() {
-  echo "SKIPPED: $1"
-  [ "${CI:-}" = true ] && exit 1
-  exit 77
-}
-command -v xmllint >/dev/null || skip "xmllint is not installed (libxml2-utils)"
 imported=$fmi_schemas/fmi3LayeredStandardManifest.xsd
-[ -e "$imported" ] || skip "there is no schema $imported (set STRIDE_SCHEMA_DIR)"
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -21,10 +21,10 @@ using io::CheckDeclaration;
 
 namespace {
 
-constexpr unsigned kSystems = kSanitized ? 5 : 40;
+constexpr unsigned kChecksSystems = kSanitized ? 5 : 40;
 constexpr int kChecksOfEachKind = 8;
-constexpr Duration kStep = 1ms;
-constexpr Time kStop{60ms};
+constexpr Duration kChecksStep = 1ms;
+constexpr Time kChecksStop{60ms};
 
 using Table = std::vector<std::vector<std::string>>;
 
@@ -119,7 +119,7 @@ class Records {
       if (name == check.subject && check.window.contains(time)) found.push_back(time);
     }
     if (found.size() > *check.max) return {false, found[*check.max]};
-    if (found.size() < *check.min) return {false, check.window.to.value_or(kStop)};
+    if (found.size() < *check.min) return {false, check.window.to.value_or(kChecksStop)};
     return {true};
   }
 
@@ -137,7 +137,7 @@ class Records {
             return other.second == check.reply && other.first <= deadline;
           });
       if (is_answered) continue;
-      if (deadline <= kStop) return {false, deadline};
+      if (deadline <= kChecksStop) return {false, deadline};
       is_open = true;
     }
     return is_open || requests == 0 ? Judgement{} : Judgement{true};
@@ -218,7 +218,7 @@ class Draw {
   /// One of the instants that were recorded, or one beside it.
   Time instant() {
     const Time time = records_.times()[up_to(records_.times().size() - 1)];
-    return std::min(time + Duration(static_cast<std::int64_t>(up_to(2)) * 1us), kStop);
+    return std::min(time + Duration(static_cast<std::int64_t>(up_to(2)) * 1us), kChecksStop);
   }
 
   const Records& records_;
@@ -258,8 +258,8 @@ std::vector<core::Verdict> judged(const Assembly& assembly,
                                   const std::vector<CheckDeclaration>& declared,
                                   std::size_t threads = 1) {
   const core::System system(assembly.declaration());
-  checks::Checks checks(io::select_checks(system, declared, {Time{}, kStop}));
-  core::RunOptions options = fixed_steps(kStep, kStop);
+  checks::Checks checks(io::select_checks(system, declared, {Time{}, kChecksStop}));
+  core::RunOptions options = fixed_steps(kChecksStep, kChecksStop);
   options.watched = checks.signals();
   options.threads = {.count = threads, .always = threads > 1};
   core::Simulation simulation(system, assembly.instantiate(), options);
@@ -283,9 +283,9 @@ TEST_CASE("checks judge as the recorded files do, read by their definitions") {
   int passed = 0;
   int failed = 0;
   int open = 0;
-  for (unsigned seed = 0; seed < kSystems; ++seed) {
+  for (unsigned seed = 0; seed < kChecksSystems; ++seed) {
     const Assembly system = random_system(seed, Wiring::Continuous);
-    const Expected expected = draw(Records(run(system, kStep, kStop)), seed);
+    const Expected expected = draw(Records(run(system, kChecksStep, kChecksStop)), seed);
     const auto verdicts = judged(system, expected.checks);
     REQUIRE(verdicts.size() == expected.judgements.size());
     for (std::size_t i = 0; i < verdicts.size(); ++i) {
@@ -298,15 +298,15 @@ TEST_CASE("checks judge as the recorded files do, read by their definitions") {
       open += !verdicts[i].passed;
     }
   }
-  CHECK(passed > 5 * static_cast<int>(kSystems));
-  CHECK(failed > 5 * static_cast<int>(kSystems));
-  CHECK(open > static_cast<int>(kSystems) / 5);
+  CHECK(passed > 5 * static_cast<int>(kChecksSystems));
+  CHECK(failed > 5 * static_cast<int>(kChecksSystems));
+  CHECK(open > static_cast<int>(kChecksSystems) / 5);
 }
 
 TEST_CASE("threads and processes change no verdict, nor its words") {
-  for (unsigned seed = 0; seed < kSystems / 10 + 1; ++seed) {
+  for (unsigned seed = 0; seed < kChecksSystems / 10 + 1; ++seed) {
     const Assembly system = random_system(seed, Wiring::Continuous);
-    const auto declared = draw(Records(run(system, kStep, kStop)), seed).checks;
+    const auto declared = draw(Records(run(system, kChecksStep, kChecksStop)), seed).checks;
     const std::string expected = texts(judged(system, declared));
     CHECK(texts(judged(system, declared, 3)) == expected);
     CHECK(texts(judged(system.hosted(), declared)) == expected);

@@ -16,9 +16,9 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr unsigned kSystems = kSanitized ? 4 : 20;
-constexpr Duration kStep = 1ms;
-constexpr Time kStop{kSanitized ? 20ms : 50ms};
+constexpr unsigned kHostedSystems = kSanitized ? 4 : 20;
+constexpr Duration kHostedStep = 1ms;
+constexpr Time kHostedStop{kSanitized ? 20ms : 50ms};
 
 /// All that is counted, without the wall-clock times.
 std::array<std::uint64_t, 9> counts(const core::UnitStatistics& unit) {
@@ -105,7 +105,7 @@ std::set<std::string> without_state_in(const Assembly& system) {
 }
 
 core::RunOptions extrapolated(const core::StepPolicyType* policy) {
-  core::RunOptions options = fixed_steps(kStep, kStop);
+  core::RunOptions options = fixed_steps(kHostedStep, kHostedStop);
   options.extrapolation = core::Extrapolation::Linear;
   options.step.policy = policy;
   options.step.relative_tolerance = options.step.absolute_tolerance = 1e-2;
@@ -115,28 +115,28 @@ core::RunOptions extrapolated(const core::StepPolicyType* policy) {
 }  // namespace
 
 TEST_CASE("processes for all units, or for some, change nothing") {
-  for (unsigned seed = 0; seed < kSystems; ++seed) {
+  for (unsigned seed = 0; seed < kHostedSystems; ++seed) {
     const Assembly system = random_system(seed, Wiring::Continuous);
-    const Results expected = run(system, kStep, kStop);
+    const Results expected = run(system, kHostedStep, kHostedStop);
     for (const Assembly& hosted : {system.hosted(), system.hosted(some_of(system, seed))}) {
       INFO("seed " << seed << "\n" << hosted.text());
-      check_same(run(hosted, kStep, kStop), expected);
+      check_same(run(hosted, kHostedStep, kHostedStop), expected);
     }
   }
 }
 
 TEST_CASE("nor do they on several threads") {
-  for (unsigned seed = 0; seed < kSystems / 4; ++seed) {
+  for (unsigned seed = 0; seed < kHostedSystems / 4; ++seed) {
     const Assembly system = random_system(seed, Wiring::Continuous);
     INFO("seed " << seed << "\n" << system.text());
-    const Results expected = run(system, kStep, kStop);
-    check_same(run(system.hosted(), kStep, kStop, {3, {}, true}), expected);
+    const Results expected = run(system, kHostedStep, kHostedStop);
+    check_same(run(system.hosted(), kHostedStep, kHostedStop, {3, {}, true}), expected);
   }
 }
 
 TEST_CASE("nor where inputs change within steps, or an error controls these") {
   const auto policy = GENERATE(&core::kFixedSteps, &core::kErrorControlledSteps);
-  for (unsigned seed = 0, compared = 0; compared < kSystems / 4; ++seed) {
+  for (unsigned seed = 0, compared = 0; compared < kHostedSystems / 4; ++seed) {
     const Assembly system = random_system(seed, Wiring::Continuous);
     const bool can_go_back = without_state_in(system).empty();
     if (policy == &core::kErrorControlledSteps && !can_go_back) continue;
@@ -147,7 +147,7 @@ TEST_CASE("nor where inputs change within steps, or an error controls these") {
 }
 
 TEST_CASE("snapshots are as good as states") {
-  constexpr unsigned kCompared = kSanitized ? 4 : kSystems / 4;
+  constexpr unsigned kCompared = kSanitized ? 4 : kHostedSystems / 4;
   std::uint64_t snapshots = 0, restores = 0;
   for (unsigned seed = 0, compared = 0; compared < kCompared; ++seed) {
     const Assembly system = random_system(seed, Wiring::Continuous);
@@ -156,11 +156,11 @@ TEST_CASE("snapshots are as good as states") {
     if (names.size() < 2) continue;
     ++compared;
     INFO("seed " << seed << "\n" << varied.text());
-    const Results results = run(varied.hosted(names, true), kStep, kStop);
+    const Results results = run(varied.hosted(names, true), kHostedStep, kHostedStop);
     const auto is_final = [final = final_unit(system)](const std::string& name) {
       return name == final;
     };
-    check_same_bytes(results, run(with_states(system, is_final), kStep, kStop));
+    check_same_bytes(results, run(with_states(system, is_final), kHostedStep, kHostedStop));
     for (const std::string& name : names) {
       const auto& host = results.units.at(name).host;
       REQUIRE(host);
@@ -176,7 +176,7 @@ TEST_CASE("snapshots are as good as states") {
 TEST_CASE("an error controls the steps of units that have no state") {
   const core::RunOptions options = extrapolated(&core::kErrorControlledSteps);
   std::uint64_t undone = 0;
-  for (unsigned seed = 0, compared = 0; compared < kSystems / 10 + 1; ++seed) {
+  for (unsigned seed = 0, compared = 0; compared < kHostedSystems / 10 + 1; ++seed) {
     const Assembly system = random_system(seed, Wiring::Continuous);
     if (!without_state_in(system).empty()) continue;
     const Assembly varied = without_states(system);
@@ -198,9 +198,9 @@ TEST_CASE("nor do processes where units are left alone while they are idle") {
   system.add("tank", "idler",
              {{"rate", "5"}, {"period", "0.0215"}, {"announces", "1"}, {"inflow", "0"}});
   system.wire("pump.level", "tank.inflow").wire("clock.tick.clock", "tank.ask");
-  core::RunOptions options = fixed_steps(kStep, Time(100ms));
+  core::RunOptions options = fixed_steps(kHostedStep, Time(100ms));
   options.idle.max_skip.assign(3, Duration(7ms));
-  options.idle.least = kStep;
+  options.idle.least = kHostedStep;
   const Results expected = run(system, options);
   CHECK(expected.units.at("tank").suspensions > 3);
   const Results results = run(system.hosted(), options);
@@ -221,7 +221,7 @@ TEST_CASE("nor do they for what clocks of the time sample, and for units of FMI 
   system.wire("wheel.level", "controller.r").wire("turner.y", "periodic.r");
   system.wire("plant.y", "periodic.y").wire("plant.x", "relaxation.u").wire("plant.y", "sum.u");
   const bool is_extrapolated = GENERATE(false, true);
-  core::RunOptions options = fixed_steps(kStep, kStop);
+  core::RunOptions options = fixed_steps(kHostedStep, kHostedStop);
   if (is_extrapolated) options = extrapolated(&core::kFixedSteps);
   const Results expected = run(system, options);
   CHECK(expected.units.at("turner").rejections + (kSanitized ? 1 : 0) > 0);

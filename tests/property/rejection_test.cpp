@@ -19,8 +19,8 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr unsigned kSystems = kSanitized ? 5 : 50;
-constexpr Time kStop{100ms};
+constexpr unsigned kRejectionSystems = kSanitized ? 5 : 50;
+constexpr Time kRejectionStop{100ms};
 
 /// A random system, and two units that hear of it but feed nothing. They reject steps longer than a
 /// random limit, or, for comparison, none.
@@ -46,8 +46,8 @@ struct Comparison {
   Results plain;
   Results rejecting;
   Comparison(unsigned seed, Wiring wiring)
-      : plain(run(with_rejecters(seed, wiring, false), 1ms, kStop)),
-        rejecting(run(with_rejecters(seed, wiring, true), 1ms, kStop)) {
+      : plain(run(with_rejecters(seed, wiring, false), 1ms, kRejectionStop)),
+        rejecting(run(with_rejecters(seed, wiring, true), 1ms, kRejectionStop)) {
     CHECK(plain.units.at("r1").rejections == 0);
     CHECK(rejecting.units.at("r1").rejections > 50);
     CHECK(rejecting.units.at("r2").rejections > 50);
@@ -58,7 +58,7 @@ struct Comparison {
 
 TEST_CASE("rejections change no value that is coupled through events only") {
   std::size_t compared = 0;
-  for (unsigned seed = 0; seed < kSystems; ++seed) {
+  for (unsigned seed = 0; seed < kRejectionSystems; ++seed) {
     INFO("seed " << seed << "\n" << with_rejecters(seed, Wiring::EventsOnly, true).text());
     const Comparison c(seed, Wiring::EventsOnly);
     // another rejecter of the system draws its limits by its steps, so its rejections differ, too
@@ -75,18 +75,19 @@ TEST_CASE("rejections change no value that is coupled through events only") {
       }
     }
   }
-  CHECK(compared > 100 * kSystems);
+  CHECK(compared > 100 * kRejectionSystems);
 }
 
 TEST_CASE("rejections change no event, and no communication point is missing") {
   const Wiring wiring = GENERATE(Wiring::EventsOnly, Wiring::Continuous);
-  for (unsigned seed = 0; seed < kSystems; ++seed) {
+  for (unsigned seed = 0; seed < kRejectionSystems; ++seed) {
     INFO("seed " << seed << "\n" << with_rejecters(seed, wiring, true).text());
     const Comparison c(seed, wiring);
     const bool same_events = c.plain.events == c.rejecting.events;
     CHECK(same_events);
     CHECK(c.rejecting.values.size() > c.plain.values.size());
-    for (Time grid{}; grid <= kStop; grid += 1ms) CHECK(c.rejecting.values.count(grid) == 1);
+    for (Time grid{}; grid <= kRejectionStop; grid += 1ms)
+      CHECK(c.rejecting.values.count(grid) == 1);
   }
 }
 
@@ -100,20 +101,21 @@ TEST_CASE("a unit that rejects and cannot go back itself changes no more than on
         .add("r", unit, {{"shortest", limit}, {"longest", limit}})
         .wire("reference.x", "r.u");
   };
-  const Results plain = run(system("1"), 1ms, kStop);
-  const Results rejecting = run(system("0.0003"), 1ms, kStop);
+  const Results plain = run(system("1"), 1ms, kRejectionStop);
+  const Results rejecting = run(system("0.0003"), 1ms, kRejectionStop);
   CHECK(rejecting.units.at("r").rejections > 100);
   CHECK(rejecting.units.at("reference").saves == 0);  // it follows
   CHECK(rejecting.events == plain.events);
   for (const char* name : {"reference.x", "reference.y", "ball.h", "ball.v"}) {
-    CHECK(rejecting.value(kStop, name) == Approx(plain.value(kStop, name)).epsilon(1e-12));
+    CHECK(rejecting.value(kRejectionStop, name) ==
+          Approx(plain.value(kRejectionStop, name)).epsilon(1e-12));
   }
   // x over steps of at most 0.25 ms instead of 1 ms: the error of its exchange is a quarter
   const double exact = [&] {  // the integral of exp(-d t) cos(w t), d = 0.5, w = 10
     const double t = 0.1, d = 0.5, w = 10;
     return (d + std::exp(-d * t) * (w * std::sin(w * t) - d * std::cos(w * t))) / (d * d + w * w);
   }();
-  const double error = std::abs(plain.value(kStop, "r.y") - exact);
+  const double error = std::abs(plain.value(kRejectionStop, "r.y") - exact);
   CHECK(error > 1e-5);
-  CHECK(std::abs(rejecting.value(kStop, "r.y") - exact) < 0.3 * error);
+  CHECK(std::abs(rejecting.value(kRejectionStop, "r.y") - exact) < 0.3 * error);
 }

@@ -20,9 +20,9 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr unsigned kSystems = kSanitized ? 10 : 100;
-constexpr Duration kStep = 1ms;
-constexpr Time kStop{100ms};
+constexpr unsigned kReplaySystems = kSanitized ? 10 : 100;
+constexpr Duration kReplayStep = 1ms;
+constexpr Time kReplayStop{100ms};
 
 /// The unit player with this file, as `stride pack` makes it, but for the archive.
 std::shared_ptr<fmi::Fmu> player_of(const Scratch& scratch, const fs::path& stimuli) {
@@ -88,7 +88,7 @@ std::string sent_by(const Results& results, const std::string& component) {
   return rows;
 }
 
-core::RunOptions one_step() { return fixed_steps(kStop.time_since_epoch(), kStop); }
+core::RunOptions one_step() { return fixed_steps(kReplayStop.time_since_epoch(), kReplayStop); }
 
 struct Replay {
   Results original, replayed;
@@ -101,7 +101,7 @@ Replay replay(const Assembly& system, const std::string& component, core::RunOpt
   const Scratch scratch;
   Replay result;
   core::RunOptions replay_options = one_step();
-  replay_options.idle = {{std::nullopt, max_skip}, {}, {}, kStop.time_since_epoch()};
+  replay_options.idle = {{std::nullopt, max_skip}, {}, {}, kReplayStop.time_since_epoch()};
   result.original = run(system, std::move(options), {{component, scratch / "stimuli.csv"}});
   result.stimuli = read(scratch / "stimuli.csv");
   const Assembly only = alone(system, component, player_of(scratch, scratch / "stimuli.csv"));
@@ -111,7 +111,7 @@ Replay replay(const Assembly& system, const std::string& component, core::RunOpt
 }
 
 /// Where it was left alone, the original has its outputs on their tangents until it is called.
-void check_same(const Replay& result, const std::string& component, bool may_rest = false) {
+void check_same_replay(const Replay& result, const std::string& component, bool may_rest = false) {
   CHECK(result.replayed.values.size() >= 2);
   CHECK(result.replayed_stimuli == result.stimuli);
   const std::set<std::string> events = event_times(result.stimuli);
@@ -128,26 +128,27 @@ void check_same(const Replay& result, const std::string& component, bool may_res
 
 TEST_CASE("a replay is what the component saw and did, captured again it is the same file") {
   std::set<std::string> models;
-  for (unsigned seed = 0; seed < kSystems; ++seed) {
+  for (unsigned seed = 0; seed < kReplaySystems; ++seed) {
     const Assembly system = random_system(seed, Wiring::Continuous);
     const auto& components = system.declaration().components;
     const auto& chosen = components[seed % components.size()];
     INFO("seed " << seed << ", " << chosen.name << "\n" << system.text());
     models.insert(chosen.description->model_name);
-    check_same(replay(system, chosen.name, fixed_steps(kStep, kStop)), chosen.name);
+    check_same_replay(replay(system, chosen.name, fixed_steps(kReplayStep, kReplayStop)),
+                      chosen.name);
   }
   if (!kSanitized) CHECK(models.size() >= 6);
 }
 
 TEST_CASE("so it is where steps follow events only, or an error, and are undone") {
   const auto policy = GENERATE(&core::kEventDrivenSteps, &core::kErrorControlledSteps);
-  core::RunOptions options = fixed_steps(kStep, kStop);
+  core::RunOptions options = fixed_steps(kReplayStep, kReplayStop);
   options.step.policy = policy;
   options.step.maximum = 5ms;
   options.step.relative_tolerance = options.step.absolute_tolerance = 1e-2;
   std::uint64_t undone = 0;
   unsigned compared = 0;
-  for (unsigned seed = 0; compared < kSystems / 5; ++seed) {
+  for (unsigned seed = 0; compared < kReplaySystems / 5; ++seed) {
     const Assembly system = random_system(seed, Wiring::Continuous);
     const auto& components = system.declaration().components;
     const bool can_go_back = std::all_of(components.begin(), components.end(), [](const auto& c) {
@@ -158,7 +159,7 @@ TEST_CASE("so it is where steps follow events only, or an error, and are undone"
     const std::string& component = components[seed % components.size()].name;
     INFO("seed " << seed << ", " << component << "\n" << system.text());
     const Replay result = replay(system, component, options);
-    check_same(result, component);
+    check_same_replay(result, component);
     undone += result.original.statistics.undone_steps;
   }
   if (policy == &core::kErrorControlledSteps) CHECK(undone > 0);
@@ -173,14 +174,14 @@ TEST_CASE("so it is where the component was left alone while it was idle") {
   system.add("tank", "idler",
              {{"rate", "5"}, {"period", "0.0215"}, {"announces", announces}, {"inflow", "0"}});
   system.wire("pump.level", "tank.inflow").wire("clock.tick.clock", "tank.ask");
-  core::RunOptions options = fixed_steps(kStep, kStop);
+  core::RunOptions options = fixed_steps(kReplayStep, kReplayStop);
   options.idle.max_skip.assign(3, max_skip);
-  options.idle.least = kStep;
+  options.idle.least = kReplayStep;
   const Replay result = replay(system, "tank", options, max_skip);
   CHECK(result.original.units.at("tank").suspensions > 3);
   CHECK(result.original.units.at("tank").messages_sent > 3);
   CHECK(event_times(result.stimuli).size() > 20);
-  check_same(result, "tank", true);
+  check_same_replay(result, "tank", true);
 }
 
 TEST_CASE("so it is for what is sampled by clocks of the time, and for units of FMI 2.0") {
@@ -196,8 +197,8 @@ TEST_CASE("so it is for what is sampled by clocks of the time, and for units of 
   system.wire("wheel.level", "controller.r").wire("turner.y", "periodic.r");
   system.wire("plant.y", "periodic.y").wire("plant.x", "relaxation.u");
   INFO(component);
-  const Replay result = replay(system, component, fixed_steps(kStep, kStop));
+  const Replay result = replay(system, component, fixed_steps(kReplayStep, kReplayStop));
   CHECK(result.original.units.at("turner").rejections > 0);
   CHECK(result.stimuli.find("0.0305,step,") != std::string::npos);
-  check_same(result, component);
+  check_same_replay(result, component);
 }

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/at.h"
 #include "tests/master/algorithm/scripted_system.h"
 
 using namespace stride;
@@ -11,7 +12,7 @@ using Kind = Activity::Kind;
 
 namespace {
 
-Time at(double seconds) { return time_from_seconds(seconds); }
+using stride::tests::at;
 
 struct Watcher : Observer {
   std::vector<Activity> activities;
@@ -26,7 +27,9 @@ struct Meter : Observer {
   void on_communication_point(Time) override { rested.push_back(simulation->suspended_time()); }
 };
 
-Describe integrator() { return Describe("integrator").input("u").output("y").can_save_state(); }
+Describe saving_integrator() {
+  return Describe("integrator").input("u").output("y").can_save_state();
+}
 
 StepResult stop_at(Time stop, Time from, Time to) {
   StepResult result = reached(from < stop && stop < to ? stop : to);
@@ -65,8 +68,8 @@ std::vector<Activity> run(ScriptedSystem& system, double stop, bool fails = fals
 
 TEST_CASE("an early return is told, and the steps that were undone for it") {
   ScriptedSystem f;
-  f.add("a", integrator().done());
-  f.add("b", integrator().may_return_early().done()).on_step =
+  f.add("a", saving_integrator().done());
+  f.add("b", saving_integrator().may_return_early().done()).on_step =
       [](ScriptedUnit&, Time from, Time to) { return stop_at(at(0.13), from, to); };
   use_threads(f, GENERATE(1, 2));
   CHECK(run(f, 0.2) == std::vector<Activity>{{1, Kind::EarlyReturn, at(0.1), at(0.13)},
@@ -75,7 +78,7 @@ TEST_CASE("an early return is told, and the steps that were undone for it") {
 
 TEST_CASE("a rejection is told with the end that was asked for") {
   ScriptedSystem f;
-  f.add("a", integrator().done()).on_step = [](ScriptedUnit&, Time from, Time to) {
+  f.add("a", saving_integrator().done()).on_step = [](ScriptedUnit&, Time from, Time to) {
     StepResult result = reached(to);
     result.rejected = from < at(0.12) && at(0.12) < to;
     if (result.rejected) result.reached = at(0.12);
@@ -86,11 +89,11 @@ TEST_CASE("a rejection is told with the end that was asked for") {
 
 TEST_CASE("steps that an input's error undoes are told for each unit") {
   ScriptedSystem f;
-  f.add("a", integrator().done()).on_step = [](ScriptedUnit& unit, Time, Time to) {
+  f.add("a", saving_integrator().done()).on_step = [](ScriptedUnit& unit, Time, Time to) {
     unit.number(1) = to_seconds(to) * to_seconds(to) * 1e3;
     return reached(to);
   };
-  f.add("b", integrator().done());
+  f.add("b", saving_integrator().done());
   f.wire("a", "y", "b", "u");
   f.options.step.policy = &kErrorControlledSteps;
   const std::vector<Activity> told = run(f, 0.2);
@@ -120,7 +123,7 @@ TEST_CASE("Event Mode is told once for each time that a unit is in it") {
 TEST_CASE("a rest is told where it ends, whoever ends it and on whatever thread") {
   ScriptedSystem f;
   add_idler(f, "a");
-  f.add("b", integrator().done());
+  f.add("b", saving_integrator().done());
   add_idler(f, "c");
   let_rest(f);
   use_threads(f, GENERATE(1, 3));
@@ -136,7 +139,7 @@ TEST_CASE("a rest that a step ends is told by the thread of the simulation, once
   ScriptedSystem f;
   add_idler(f, "a");
   add_idler(f, "b");
-  f.add("c", integrator().done());
+  f.add("c", saving_integrator().done());
   let_rest(f);
   use_threads(f, GENERATE(1, 3));
   Watcher watcher;
@@ -151,7 +154,7 @@ TEST_CASE("a rest that a step ends is told by the thread of the simulation, once
 TEST_CASE("suspensions that a failure ends are reported, too") {
   ScriptedSystem f;
   add_idler(f, "a");
-  f.add("b", integrator().done()).on_step = [](ScriptedUnit&, Time, Time to) -> StepResult {
+  f.add("b", saving_integrator().done()).on_step = [](ScriptedUnit&, Time, Time to) -> StepResult {
     if (to > at(0.6)) fail_run({}, "broken");
     return reached(to);
   };
@@ -174,7 +177,7 @@ TEST_CASE("who does not watch activities is not told") {
 TEST_CASE("the time of suspensions that still last is counted during the run") {
   ScriptedSystem f;
   add_idler(f, "a");
-  f.add("b", integrator().done());
+  f.add("b", saving_integrator().done());
   let_rest(f);
   Meter meter;
   f.build(0.6, 100ms).add_observer(meter);

@@ -138,15 +138,6 @@ Trace run_random(unsigned seed, ThreadOptions threads) {
   return trace;
 }
 
-std::string failure(Simulation& simulation) {
-  try {
-    simulation.run();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "none";
-}
-
 auto plain() { return Describe("plain").input("u").output("y").can_save_state().never_rejects(); }
 
 StepResult pass_on(ScriptedUnit& unit, Time from, Time to) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <catch2/catch.hpp>
+
 #include "master/algorithm/simulation.h"
 #include "tests/master/algorithm/scripted_unit.h"
 
@@ -43,6 +45,17 @@ struct ScriptedSystem {
     return *simulation;
   }
 };
+
+/// The error of a run that fails; "none" of one that does not.
+inline std::string failure(Simulation& simulation) {
+  try {
+    simulation.run();
+  } catch (const Error& error) {
+    CHECK(error.kind() == Error::Kind::Run);
+    return error.what();
+  }
+  return "none";
+}
 
 /// Notes the communication points.
 struct Points : Observer {

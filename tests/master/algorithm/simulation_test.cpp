@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "master/util/time_text.h"
+#include "tests/at.h"
 #include "tests/master/algorithm/scripted_system.h"
 
 using namespace stride;
@@ -18,16 +19,6 @@ namespace {
 using Fixture = ScriptedSystem;
 
 auto one_in_one_out() { return Describe("io").input("u").output("y").done(); }
-
-std::string failure(Simulation& simulation) {
-  try {
-    simulation.run();
-  } catch (const Error& error) {
-    CHECK(error.kind() == Error::Kind::Run);
-    return error.what();
-  }
-  return "none";
-}
 
 auto messenger() {
   return Describe("messenger")
@@ -531,7 +522,7 @@ struct Announcer : ScriptedSystem {
   }
 };
 
-Time at(double seconds) { return time_from_seconds(seconds); }
+using stride::tests::at;
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/at.h"
 #include "tests/master/algorithm/scripted_unit.h"
 #include "tests/master/util/archive/support.h"
 
@@ -12,7 +13,7 @@ using stride::tests::Scratch;
 
 namespace {
 
-Time at(double seconds) { return time_from_seconds(seconds); }
+using stride::tests::at;
 
 /// A captured unit with an input u (0), a clock (1), a message at it (2) and a parameter (3).
 class Bench {

@@ -9,26 +9,27 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-std::string load_error(const fs::path& path) {
+std::string error_of_loading(const fs::path& path) {
   return input_error([&] { fmi::Fmi3Library(path, {"system.ssd", 3}); });
 }
 
 }  // namespace
 
 TEST_CASE("a missing shared library is named") {
-  CHECK_THAT(load_error(raw_library("raw_with_missing_library")),
+  CHECK_THAT(error_of_loading(raw_library("raw_with_missing_library")),
              Contains("needs the shared library 'libstride_test_absent.so', which was not found") &&
                  Contains("hint: install the package"));
 }
 
 TEST_CASE("an undefined symbol is named") {
-  CHECK_THAT(load_error(raw_library("raw_with_undefined_symbol")),
+  CHECK_THAT(error_of_loading(raw_library("raw_with_undefined_symbol")),
              Contains("needs the symbol 'stride_test_nobody_has_this', which no library"));
 }
 
 TEST_CASE("what is no library for this machine is an error") {
   const Scratch scratch;
-  CHECK_THAT(load_error(scratch.write("text.so", "this is no library, whatever its name says")),
-             Contains("text.so' cannot be loaded") && Contains(fmi::platform()));
-  CHECK_THAT(load_error(scratch / "absent.so"), Contains("absent.so' cannot be loaded"));
+  CHECK_THAT(
+      error_of_loading(scratch.write("text.so", "this is no library, whatever its name says")),
+      Contains("text.so' cannot be loaded") && Contains(fmi::platform()));
+  CHECK_THAT(error_of_loading(scratch / "absent.so"), Contains("absent.so' cannot be loaded"));
 }

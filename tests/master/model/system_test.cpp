@@ -10,15 +10,15 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
-const BaseUnitOfMeasure kMetre{{0, 1, 0, 0, 0, 0, 0, 0}, 1, 0};
-const BaseUnitOfMeasure kMillimetre{{0, 1, 0, 0, 0, 0, 0, 0}, 1e-3, 0};
-const BaseUnitOfMeasure kSecond{{0, 0, 1, 0, 0, 0, 0, 0}, 1, 0};
+const BaseUnitOfMeasure kMetres{{0, 1, 0, 0, 0, 0, 0, 0}, 1, 0};
+const BaseUnitOfMeasure kMillimetres{{0, 1, 0, 0, 0, 0, 0, 0}, 1e-3, 0};
+const BaseUnitOfMeasure kSeconds{{0, 0, 1, 0, 0, 0, 0, 0}, 1, 0};
 
 std::shared_ptr<const UnitDescription> description() {
   return Describe("model")
-      .unit("m", kMetre)
-      .unit("mm", kMillimetre)
-      .unit("s", kSecond)
+      .unit("m", kMetres)
+      .unit("mm", kMillimetres)
+      .unit("s", kSeconds)
       .input("u", "m")
       .output("y", "mm")
       .output("t", "s")
@@ -229,7 +229,7 @@ TEST_CASE("a unit that does not fit is explained connector by connector, each of
   system.components[1].connectors = {
       {"u", ValueType::Int32, {}, {}, {"s.ssd", 5}},
       {"lamp", ValueType::Boolean, Causality::Output, {}, {"s.ssd", 6}},
-      {"height", {}, Causality::Input, {"mm", kMillimetre}, {"s.ssd", 7}}};
+      {"height", {}, Causality::Input, {"mm", kMillimetres}, {"s.ssd", 7}}};
   system.connections = {wire("y", "u", 10),
                         wire("y", "height", 11),
                         wire("y", "speed", 12),

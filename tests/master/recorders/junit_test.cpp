@@ -6,14 +6,14 @@
 
 using namespace stride;
 using namespace stride::io;
+using namespace std::chrono_literals;
 using Catch::Contains;
-using std::chrono::milliseconds;
 
 namespace {
 
 core::Verdict failed_check() {
   core::Verdict verdict{"voltage", false, "1.5 V; expected >= 1.8 V", "always", {"x.ssd", 7}};
-  verdict.time = Time(milliseconds(1500));
+  verdict.time = Time(1500ms);
   core::ValueBlock value(core::ValueType::Float64, 1);
   value.numbers<double>()[0] = 1.5;
   verdict.values.push_back({"sensor.voltage", value, "V"});
@@ -25,7 +25,7 @@ JunitReport report() {
   made.suite = "approach";
   made.host = "bench";
   made.began = std::chrono::system_clock::time_point(std::chrono::seconds(1'700'000'000));
-  made.wall_time = milliseconds(1250);
+  made.wall_time = 1250ms;
   made.properties = {{"stop", "30"}};
   return made;
 }

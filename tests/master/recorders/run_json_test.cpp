@@ -6,8 +6,8 @@
 
 using namespace stride;
 using namespace stride::io;
+using namespace std::chrono_literals;
 using Catch::Contains;
-using std::chrono::milliseconds;
 
 namespace {
 
@@ -40,34 +40,19 @@ std::string written(const core::RunStatistics& statistics, std::optional<std::st
 TEST_CASE("run.json tells what was run and how far it came") {
   const TemporaryFolder folder;
   core::RunOptions options;
-  options.stop = Time(milliseconds(14'200));
-  options.step.size = milliseconds(1);
+  options.stop = Time(14'200ms);
+  options.step.size = 1ms;
   options.threads.count = 4;
   core::RunStatistics statistics;
   statistics.reached = options.stop;
   statistics.communication_steps = 14'200;
   statistics.event_iterations = 3;
   statistics.parallel_steps = 14'000;
-  statistics.wall_time = milliseconds(250);
-  statistics.phases = {milliseconds(10), milliseconds(200), milliseconds(30), milliseconds(5)};
+  statistics.wall_time = 250ms;
+  statistics.phases = {10ms, 200ms, 30ms, 5ms};
   statistics.units = {
-      {71'000, 14'200, 5, 3, 8, 14'190, 2, 4, milliseconds(2500), milliseconds(1000), 1, 0,
-       milliseconds(1), milliseconds(2), milliseconds(3)},
-      {0,
-       14'201,
-       0,
-       0,
-       0,
-       0,
-       0,
-       0,
-       {},
-       {},
-       0,
-       1,
-       milliseconds(0),
-       milliseconds(0),
-       milliseconds(0)},
+      {71'000, 14'200, 5, 3, 8, 14'190, 2, 4, 2500ms, 1000ms, 1, 0, 1ms, 2ms, 3ms},
+      {0, 14'201, 0, 0, 0, 0, 0, 0, {}, {}, 0, 1, 0ms, 0ms, 0ms},
   };
   core::HostStatistics& host = statistics.units[1].host.emplace();
   host.most_memory = 4096;

@@ -14,16 +14,16 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-struct Read {
+struct ReadRows {
   Rows rows;
   std::vector<std::size_t> lines;
   bool is_cut = false;
 };
 
-Read read(const std::string& text) {
+ReadRows read_rows(const std::string& text) {
   const TemporaryFolder folder;
   CsvReader reader(folder.write("x.csv", text));
-  Read read;
+  ReadRows read;
   while (reader.next()) {
     auto& row = read.rows.emplace_back();
     for (const CsvReader::Field& field : reader.fields()) row.push_back(field.value());
@@ -36,14 +36,15 @@ Read read(const std::string& text) {
 }  // namespace
 
 TEST_CASE("rows are split into fields") {
-  CHECK(read("time,a\n0,1\n").rows == Rows{{"time", "a"}, {"0", "1"}});
-  CHECK(read("a,,c\n,\n\n").rows == Rows{{"a", "", "c"}, {"", ""}, {""}});
-  CHECK(read("a,b\r\n1,2\r\n").rows == Rows{{"a", "b"}, {"1", "2"}});
-  CHECK(read("").rows.empty());
+  CHECK(read_rows("time,a\n0,1\n").rows == Rows{{"time", "a"}, {"0", "1"}});
+  CHECK(read_rows("a,,c\n,\n\n").rows == Rows{{"a", "", "c"}, {"", ""}, {""}});
+  CHECK(read_rows("a,b\r\n1,2\r\n").rows == Rows{{"a", "b"}, {"1", "2"}});
+  CHECK(read_rows("").rows.empty());
 }
 
 TEST_CASE("quoted fields hold what would end others") {
-  const Read found = read("\"a, b\",\"say \"\"no\"\"\"\r\n\"two\nlines\",\"\"\nlast,\"\"\"\"\n");
+  const ReadRows found =
+      read_rows("\"a, b\",\"say \"\"no\"\"\"\r\n\"two\nlines\",\"\"\nlast,\"\"\"\"\n");
   CHECK(found.rows == Rows{{"a, b", "say \"no\""}, {"two\nlines", ""}, {"last", "\""}});
   CHECK(found.lines == std::vector<std::size_t>{1, 2, 4});
   CHECK_FALSE(found.is_cut);
@@ -52,15 +53,15 @@ TEST_CASE("quoted fields hold what would end others") {
 TEST_CASE("a last line that was cut off is passed over, and told") {
   for (const char* rest : {"0.2,1", "0.2,", "0", "0.2,\"te", "0.2,\"text\"", "\"", "0.2,1\r"}) {
     INFO(rest);
-    const Read found = read(std::string("time,a\n0.1,2\n") + rest);
+    const ReadRows found = read_rows(std::string("time,a\n0.1,2\n") + rest);
     CHECK(found.rows == Rows{{"time", "a"}, {"0.1", "2"}});
     CHECK(found.is_cut);
   }
-  CHECK_FALSE(read("time,a\n").is_cut);
+  CHECK_FALSE(read_rows("time,a\n").is_cut);
 }
 
 TEST_CASE("a quotation mark out of place is an error with its line") {
-  CHECK_THAT(error_of([] { read("a,b\n1,2\n\"x\"y,2\n"); }),
+  CHECK_THAT(error_of([] { read_rows("a,b\n1,2\n\"x\"y,2\n"); }),
              Contains("x.csv:3: a quotation mark ends a field, but no comma"));
 }
 
@@ -87,10 +88,10 @@ TEST_CASE("what the recorders write comes back, across all borders of the buffer
     }
   }
   CHECK(text.size() > 600'000);
-  CHECK(read(text).rows == rows);
+  CHECK(read_rows(text).rows == rows);
 }
 
 TEST_CASE("a row may be longer than the buffer") {
   const std::string field(3'000'000, 'x');
-  CHECK(read("a," + field + "\n1,2\n").rows == Rows{{"a", field}, {"1", "2"}});
+  CHECK(read_rows("a," + field + "\n1,2\n").rows == Rows{{"a", field}, {"1", "2"}});
 }

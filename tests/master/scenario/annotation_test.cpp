@@ -28,37 +28,37 @@ std::string at_root(const std::string& inside) {
       inside);
 }
 
-ScenarioAnnotation read(const std::string& text) {
+ScenarioAnnotation read_annotation(const std::string& text) {
   const TemporaryFolder folder;
   return read_scenario(folder.write("x.ssd", text)).annotation;
 }
 
-std::string error(const std::string& inside) {
-  return error_of([&] { read(at_root(annotations(scenario(inside)))); });
+std::string annotation_error(const std::string& inside) {
+  return error_of([&] { read_annotation(at_root(annotations(scenario(inside)))); });
 }
 
 }  // namespace
 
 TEST_CASE("Everything that the annotation can say") {
-  const ScenarioAnnotation annotation =
-      read(at_root(annotations(scenario("<stride:Step size='0.001'/>"
-                                        "<stride:Record signals=' sensor.*  channel.distance'/>\n"
-                                        "<stride:Record signals='reader.*'/>"
-                                        "<stride:Plot title='Both' signals='a.x  b.*'/>"
-                                        "<stride:Plot title='One' signals='a.y'/>"
-                                        "<stride:Results signals='s.csv' events='none' "
-                                        "report='none'/>"
-                                        "<stride:MainThread components='plant legacy.*'/>"
-                                        "<stride:EarlyReturn components='* x' allowed='false'/>"
-                                        "<stride:EarlyReturn components='a' allowed='true'/>"
-                                        "<stride:Host components='a x.*' timeout='0.5'/>\n"
-                                        "<stride:Host components='b' process='true' "
-                                        "memoryLimit='512' sandbox='false' snapshots='false'/>"
-                                        "<stride:Host components='c' process='false'/>"
-                                        "<stride:IdleSkip maxSkip='2'/>"
-                                        "<stride:IdleSkip components='a b' enabled='false'/>"
-                                        "<stride:Deadband variable='a.u' value='0'/>"
-                                        "<stride:Tolerance variable='a.y' value='1e-3'/>"))));
+  const ScenarioAnnotation annotation = read_annotation(
+      at_root(annotations(scenario("<stride:Step size='0.001'/>"
+                                   "<stride:Record signals=' sensor.*  channel.distance'/>\n"
+                                   "<stride:Record signals='reader.*'/>"
+                                   "<stride:Plot title='Both' signals='a.x  b.*'/>"
+                                   "<stride:Plot title='One' signals='a.y'/>"
+                                   "<stride:Results signals='s.csv' events='none' "
+                                   "report='none'/>"
+                                   "<stride:MainThread components='plant legacy.*'/>"
+                                   "<stride:EarlyReturn components='* x' allowed='false'/>"
+                                   "<stride:EarlyReturn components='a' allowed='true'/>"
+                                   "<stride:Host components='a x.*' timeout='0.5'/>\n"
+                                   "<stride:Host components='b' process='true' "
+                                   "memoryLimit='512' sandbox='false' snapshots='false'/>"
+                                   "<stride:Host components='c' process='false'/>"
+                                   "<stride:IdleSkip maxSkip='2'/>"
+                                   "<stride:IdleSkip components='a b' enabled='false'/>"
+                                   "<stride:Deadband variable='a.u' value='0'/>"
+                                   "<stride:Tolerance variable='a.y' value='1e-3'/>"))));
   CHECK(annotation.step.size == Duration(1'000'000'000));
   REQUIRE(annotation.record.size() == 3);
   CHECK(annotation.record[0].text == "sensor.*");
@@ -112,10 +112,11 @@ TEST_CASE("Everything that the annotation can say") {
 
 TEST_CASE("Everything about the stepping can be chosen") {
   const StepSettings step =
-      read(at_root(annotations(scenario(
-               "<stride:Step policy='error-controlled' size='0.01' maximum='0.1' minimum='1e-6' "
-               "relativeTolerance='1e-4' absoluteTolerance='0'/>"
-               "<stride:Exchange coupling='gauss-seidel' extrapolation='quadratic'/>"))))
+      read_annotation(
+          at_root(annotations(scenario(
+              "<stride:Step policy='error-controlled' size='0.01' maximum='0.1' minimum='1e-6' "
+              "relativeTolerance='1e-4' absoluteTolerance='0'/>"
+              "<stride:Exchange coupling='gauss-seidel' extrapolation='quadratic'/>"))))
           .step;
   core::RunOptions options;
   step.apply(options);
@@ -130,79 +131,85 @@ TEST_CASE("Everything about the stepping can be chosen") {
 }
 
 TEST_CASE("It may be left out, or stand at the system") {
-  CHECK(read(at_root("")).step.size == std::nullopt);
-  CHECK(read(at_root("")).results.signals == "signals.csv");
-  CHECK(read(at_root(annotations(scenario("")))).record.empty());
-  CHECK(read(ssd_with("<ssd:Component name='a' source='a.fmu'/>",
-                      annotations(scenario("<stride:Step size='1e-6'/>"))))
+  CHECK(read_annotation(at_root("")).step.size == std::nullopt);
+  CHECK(read_annotation(at_root("")).results.signals == "signals.csv");
+  CHECK(read_annotation(at_root(annotations(scenario("")))).record.empty());
+  CHECK(read_annotation(ssd_with("<ssd:Component name='a' source='a.fmu'/>",
+                                 annotations(scenario("<stride:Step size='1e-6'/>"))))
             .step.size == Duration(1'000'000));
 }
 
 TEST_CASE("A mistake in the annotation is named with its line") {
-  CHECK_THAT(error("<stride:Stpe size='1'/>"),
+  CHECK_THAT(annotation_error("<stride:Stpe size='1'/>"),
              Contains("x.ssd:4: <stride:Stpe> is not known in <stride:Scenario>") &&
                  Contains("did you mean 'Step'?"));
-  CHECK_THAT(error("<stride:Policy/>"),
+  CHECK_THAT(annotation_error("<stride:Policy/>"),
              Contains("known are: Step, Exchange, Record, Checks, Results, "
                       "Plot, MainThread, EarlyReturn, Host, IdleSkip"));
-  CHECK_THAT(error("<stride:Step siez='1'/>"), Contains("did you mean 'size'?"));
-  CHECK_THAT(error("<stride:Step size=''/>"),
+  CHECK_THAT(annotation_error("<stride:Step siez='1'/>"), Contains("did you mean 'size'?"));
+  CHECK_THAT(annotation_error("<stride:Step size=''/>"),
              Contains("the attribute 'size' of <stride:Step> is empty"));
-  CHECK_THAT(error("<stride:Step size='1 ms'/>"), Contains("size: '1 ms' is no number"));
-  CHECK_THAT(error("<stride:Step maximum='0'/>"), Contains("maximum: a step must be above 0 s"));
-  CHECK_THAT(error("<stride:Step policy='fixt'/>"),
+  CHECK_THAT(annotation_error("<stride:Step size='1 ms'/>"), Contains("size: '1 ms' is no number"));
+  CHECK_THAT(annotation_error("<stride:Step maximum='0'/>"),
+             Contains("maximum: a step must be above 0 s"));
+  CHECK_THAT(annotation_error("<stride:Step policy='fixt'/>"),
              Contains("policy: 'fixt' is none of them; did you mean 'fixed'?"));
-  CHECK_THAT(error("<stride:Step relativeTolerance='-1'/>"),
+  CHECK_THAT(annotation_error("<stride:Step relativeTolerance='-1'/>"),
              Contains("relativeTolerance: '-1' is no number of at least 0"));
-  CHECK_THAT(error("<stride:Exchange coupling='x'/>"), Contains("jacobi, gauss-seidel"));
-  CHECK_THAT(error("<stride:Step size='1'/><stride:Step size='1'/>"),
+  CHECK_THAT(annotation_error("<stride:Exchange coupling='x'/>"), Contains("jacobi, gauss-seidel"));
+  CHECK_THAT(annotation_error("<stride:Step size='1'/><stride:Step size='1'/>"),
              Contains("a second <stride:Step>"));
-  CHECK_THAT(error("<stride:Record signal='a'/>"), Contains("did you mean 'signals'?"));
-  CHECK_THAT(error("<stride:EarlyReturn components='a'/>"), Contains("'allowed'"));
-  CHECK_THAT(error("<stride:EarlyReturn allowed='false'/>"), Contains("'components'"));
-  CHECK_THAT(error("<stride:EarlyReturn components='a' allowed='no'/>"),
+  CHECK_THAT(annotation_error("<stride:Record signal='a'/>"), Contains("did you mean 'signals'?"));
+  CHECK_THAT(annotation_error("<stride:EarlyReturn components='a'/>"), Contains("'allowed'"));
+  CHECK_THAT(annotation_error("<stride:EarlyReturn allowed='false'/>"), Contains("'components'"));
+  CHECK_THAT(annotation_error("<stride:EarlyReturn components='a' allowed='no'/>"),
              Contains("x.ssd:4: ") &&
                  Contains("allowed=\"no\" of <stride:EarlyReturn>: expected true or false"));
-  CHECK_THAT(error("<stride:Host process='true'/>"), Contains("'components'"));
-  CHECK_THAT(error("<stride:Host components='a' memory='1'/>"),
+  CHECK_THAT(annotation_error("<stride:Host process='true'/>"), Contains("'components'"));
+  CHECK_THAT(annotation_error("<stride:Host components='a' memory='1'/>"),
              Contains("known are: components, process, timeout, memoryLimit, sandbox, "
                       "snapshots"));
-  CHECK_THAT(error("<stride:Host components='a' process='yes'/>"),
+  CHECK_THAT(annotation_error("<stride:Host components='a' process='yes'/>"),
              Contains("process=\"yes\" of <stride:Host>: expected true or false"));
-  CHECK_THAT(error("<stride:Host components='a' timeout='0'/>"),
+  CHECK_THAT(annotation_error("<stride:Host components='a' timeout='0'/>"),
              Contains("x.ssd:4: ") && Contains("timeout: a time limit must be above 0 s"));
-  CHECK_THAT(error("<stride:Host components='a' memoryLimit='1.5'/>"),
+  CHECK_THAT(annotation_error("<stride:Host components='a' memoryLimit='1.5'/>"),
              Contains("memoryLimit: '1.5' is no whole number of MiB; expected at least 1"));
-  CHECK_THAT(error("<stride:Host components='a' process='false' timeout='5'/>"),
+  CHECK_THAT(annotation_error("<stride:Host components='a' process='false' timeout='5'/>"),
              Contains("x.ssd:4: ") && Contains("timeout is for a unit with a process of its own"));
-  CHECK_THAT(error("<stride:IdleSkip maxSkip='0'/>"),
+  CHECK_THAT(annotation_error("<stride:IdleSkip maxSkip='0'/>"),
              Contains("x.ssd:4: ") && Contains("maxSkip: a skip must be above 0 s"));
-  CHECK_THAT(error("<stride:Deadband variable='a.u' value='-1'/>"), Contains("of at least 0"));
-  CHECK_THAT(error("<stride:Tolerance variable='a.y' value='0'/>"), Contains("above 0"));
-  CHECK_THAT(error("<stride:Tolerance value='1'/>"), Contains("'variable'"));
-  CHECK_THAT(error("<stride:Results csv='a'/>"),
+  CHECK_THAT(annotation_error("<stride:Deadband variable='a.u' value='-1'/>"),
+             Contains("of at least 0"));
+  CHECK_THAT(annotation_error("<stride:Tolerance variable='a.y' value='0'/>"), Contains("above 0"));
+  CHECK_THAT(annotation_error("<stride:Tolerance value='1'/>"), Contains("'variable'"));
+  CHECK_THAT(annotation_error("<stride:Results csv='a'/>"),
              Contains("known are: signals, events, trace, activity, statistics, report"));
-  CHECK_THAT(error("<stride:Plot signals='a'/>"), Contains("'title'"));
-  CHECK_THAT(error("<stride:Plot title='A'/>"), Contains("'signals'"));
-  CHECK_THAT(error("<stride:Plot title='A' signals=' '/>"),
+  CHECK_THAT(annotation_error("<stride:Plot signals='a'/>"), Contains("'title'"));
+  CHECK_THAT(annotation_error("<stride:Plot title='A'/>"), Contains("'signals'"));
+  CHECK_THAT(annotation_error("<stride:Plot title='A' signals=' '/>"),
              Contains("x.ssd:4: ") && Contains("the plot shows nothing"));
-  CHECK_THAT(error("<stride:Results trace='../a.vcd'/>"), Contains("is no plain file name"));
-  CHECK_THAT(error("<stride:Results trace='run.json'/>"),
+  CHECK_THAT(annotation_error("<stride:Results trace='../a.vcd'/>"),
+             Contains("is no plain file name"));
+  CHECK_THAT(annotation_error("<stride:Results trace='run.json'/>"),
              Contains("two results have the file name 'run.json'"));
 }
 
 TEST_CASE("An annotation without content, in another place, or twice is refused") {
-  CHECK_THROWS_WITH(read(at_root(annotations(""))), Contains("holds no <stride:Scenario>") &&
-                                                        Contains("urn:org.stride:scenario:1"));
-  CHECK_THROWS_WITH(read(at_root(annotations("<s:Scenario xmlns:s='urn:org.stride:scenario:2'/>"))),
-                    Contains("<s:Scenario> is in the namespace 'urn:org.stride:scenario:2'"));
   CHECK_THROWS_WITH(
-      read(ssd_with("<ssd:Component name='a' source='a.fmu'>" + annotations(scenario("")) +
-                    "</ssd:Component>")),
+      read_annotation(at_root(annotations(""))),
+      Contains("holds no <stride:Scenario>") && Contains("urn:org.stride:scenario:1"));
+  CHECK_THROWS_WITH(
+      read_annotation(at_root(annotations("<s:Scenario xmlns:s='urn:org.stride:scenario:2'/>"))),
+      Contains("<s:Scenario> is in the namespace 'urn:org.stride:scenario:2'"));
+  CHECK_THROWS_WITH(
+      read_annotation(ssd_with("<ssd:Component name='a' source='a.fmu'>" +
+                               annotations(scenario("")) + "</ssd:Component>")),
       Contains("x.ssd:6: an annotation of the type 'org.stride' does not belong here"));
   CHECK_THROWS_WITH(
-      read(ssd("<ssd:System name='s'><ssd:Elements><ssd:Component name='a' source='a.fmu'/>"
-               "</ssd:Elements>" +
-               annotations(scenario("")) + "</ssd:System>\n" + annotations(scenario("")))),
+      read_annotation(
+          ssd("<ssd:System name='s'><ssd:Elements><ssd:Component name='a' source='a.fmu'/>"
+              "</ssd:Elements>" +
+              annotations(scenario("")) + "</ssd:System>\n" + annotations(scenario("")))),
       Contains("x.ssd:6: a second annotation of the type 'org.stride'; the first is in line 4"));
 }

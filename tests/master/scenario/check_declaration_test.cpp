@@ -14,7 +14,7 @@ using std::chrono::milliseconds;
 namespace {
 
 /// The elements begin in line 2.
-std::vector<CheckDeclaration> read(const std::string& elements) {
+std::vector<CheckDeclaration> read_declarations(const std::string& elements) {
   const TemporaryFolder folder;
   const auto file =
       folder.write("x.ssd", "<stride:Checks xmlns:stride='urn:org.stride:scenario:1'>\n" +
@@ -23,14 +23,14 @@ std::vector<CheckDeclaration> read(const std::string& elements) {
   return read_checks(document.root());
 }
 
-std::string error(const std::string& element) {
-  return error_of([&] { read(element); });
+std::string declaration_error(const std::string& element) {
+  return error_of([&] { read_declarations(element); });
 }
 
 }  // namespace
 
 TEST_CASE("the checks in their order, with their lines") {
-  const auto checks = read(
+  const auto checks = read_declarations(
       "<stride:Always signal='a.v' min='1.8' max='5' from='8' to='20' name='supply'/>\n"
       "<stride:Never signal='a.v' above='1' below='2'/>\n"
       "<stride:Eventually signal='a.led' equals='true' to='1e-3'/>\n"
@@ -57,26 +57,30 @@ TEST_CASE("the checks in their order, with their lines") {
 }
 
 TEST_CASE("what is written wrongly is refused, with its line") {
-  CHECK(read("").empty());
-  CHECK_THAT(error("\n<stride:Range signal='a.v' min='0'/>"),
+  CHECK(read_declarations("").empty());
+  CHECK_THAT(declaration_error("\n<stride:Range signal='a.v' min='0'/>"),
              Contains("x.ssd:3: ") && Contains("Range"));
-  CHECK_THAT(error("<stride:Always min='0'/>"), Contains("x.ssd:2: ") && Contains("signal"));
-  CHECK_THAT(error("<stride:Always signal='a' mim='0'/>"), Contains("mim"));
-  CHECK_THAT(error("<stride:Always signal='a' from='2' to='1'/>"),
+  CHECK_THAT(declaration_error("<stride:Always min='0'/>"),
+             Contains("x.ssd:2: ") && Contains("signal"));
+  CHECK_THAT(declaration_error("<stride:Always signal='a' mim='0'/>"), Contains("mim"));
+  CHECK_THAT(declaration_error("<stride:Always signal='a' from='2' to='1'/>"),
              Contains("the interval ends at 1 s, before it begins at 2 s"));
-  CHECK_THAT(error("<stride:Always signal='a' from='-2'/>"), Contains("from: '-2'"));
-  CHECK_THAT(error("<stride:Always signal='a' to='nan'/>"), Contains("to: 'nan'"));
-  CHECK_THAT(error("<stride:Always signal='a' name=''/>"), Contains("name"));
-  CHECK_THAT(error("<stride:Final signal='a' equals='1' from='1'/>"), Contains("from"));
-  CHECK_THAT(error("<stride:Count event='a'/>"), Contains("expected min, max or equals"));
-  CHECK_THAT(error("<stride:Count event='a' min='-1'/>"), Contains("min"));
-  CHECK_THAT(error("<stride:Count event='a' min='1.5'/>"), Contains("min"));
-  CHECK_THAT(error("<stride:Count event='a' equals='1' max='2'/>"), Contains("exclude each other"));
-  CHECK_THAT(error("<stride:Count event='a' min='3' max='2'/>"),
+  CHECK_THAT(declaration_error("<stride:Always signal='a' from='-2'/>"), Contains("from: '-2'"));
+  CHECK_THAT(declaration_error("<stride:Always signal='a' to='nan'/>"), Contains("to: 'nan'"));
+  CHECK_THAT(declaration_error("<stride:Always signal='a' name=''/>"), Contains("name"));
+  CHECK_THAT(declaration_error("<stride:Final signal='a' equals='1' from='1'/>"), Contains("from"));
+  CHECK_THAT(declaration_error("<stride:Count event='a'/>"),
+             Contains("expected min, max or equals"));
+  CHECK_THAT(declaration_error("<stride:Count event='a' min='-1'/>"), Contains("min"));
+  CHECK_THAT(declaration_error("<stride:Count event='a' min='1.5'/>"), Contains("min"));
+  CHECK_THAT(declaration_error("<stride:Count event='a' equals='1' max='2'/>"),
+             Contains("exclude each other"));
+  CHECK_THAT(declaration_error("<stride:Count event='a' min='3' max='2'/>"),
              Contains("no count is 3 at least and 2 at most"));
-  CHECK_THAT(error("<stride:Answer request='a' reply='b'/>"), Contains("within"));
-  CHECK_THAT(error("<stride:Answer request='a' within='1'/>"), Contains("reply"));
-  CHECK_THAT(error("<stride:Answer request='a' reply='b' within='-1'/>"), Contains("within: '-1'"));
-  CHECK_THAT(error("<stride:Answer request='a' reply='b' within='1' repeats='yes'/>"),
+  CHECK_THAT(declaration_error("<stride:Answer request='a' reply='b'/>"), Contains("within"));
+  CHECK_THAT(declaration_error("<stride:Answer request='a' within='1'/>"), Contains("reply"));
+  CHECK_THAT(declaration_error("<stride:Answer request='a' reply='b' within='-1'/>"),
+             Contains("within: '-1'"));
+  CHECK_THAT(declaration_error("<stride:Answer request='a' reply='b' within='1' repeats='yes'/>"),
              Contains("repeats"));
 }

@@ -41,20 +41,20 @@ CheckDeclaration answer(const std::string& request, const std::string& reply) {
   return check;
 }
 
-std::vector<checks::Definition> selected(const Declarations& declarations) {
+std::vector<checks::Definition> selected_checks(const Declarations& declarations) {
   return select_checks(sample_system(), declarations, {Time(seconds(1)), Time(seconds(10))});
 }
 
 std::vector<std::string> names(const Declarations& declarations) {
   std::vector<std::string> names;
-  for (const checks::Definition& definition : selected(declarations)) {
+  for (const checks::Definition& definition : selected_checks(declarations)) {
     names.push_back(definition.name);
   }
   return names;
 }
 
-std::string error(const CheckDeclaration& check) {
-  return error_of([&] { selected({check}); });
+std::string selection_error(const CheckDeclaration& check) {
+  return error_of([&] { selected_checks({check}); });
 }
 
 CheckDeclaration during(std::optional<int> from, std::optional<int> to) {
@@ -79,7 +79,7 @@ TEST_CASE("a check without a name has what it demands for one") {
               "a.transmit.frame count >= 1 and <= 3",
               "a.transmit.frame answered by b, c.tick within 0.01 s"});
   range.name = "near";
-  const auto definitions = selected({range});
+  const auto definitions = selected_checks({range});
   CHECK((definitions[0].name == "near" &&
          definitions[0].demand == "a.distance never > 2 m up to 5 s"));
   CHECK(definitions[0].where.line == 12);
@@ -93,46 +93,53 @@ TEST_CASE("a glob is a check for each signal or message, an array one for each e
   still.name = "still";
   CHECK(names({still}) ==
         Names{"still: a.position[1]", "still: a.position[2]", "still: a.position[3]"});
-  const auto one = selected({always("a.position[2]", "0")});
+  const auto one = selected_checks({always("a.position[2]", "0")});
   REQUIRE(one.size() == 1);
   CHECK(std::get<checks::SignalDemand>(one[0].what).element == 1);
   CHECK(names({always("a.range", "0")}) == Names{"a.distance always = 0 m"});
 }
 
 TEST_CASE("names that stand for nothing, or for something else") {
-  CHECK_THAT(error(always("a.lde", "true")),
+  CHECK_THAT(selection_error(always("a.lde", "true")),
              Contains("x.ssd:12: there is no signal 'a.lde'") && Contains("did you mean 'a.led'?"));
-  CHECK_THAT(error(always("z.*", "true")), Contains("there is no signal 'z.*'"));
-  CHECK_THAT(error(always("a.position[4]", "0")), Contains("there is no signal 'a.position[4]'"));
-  CHECK_THAT(error(always("a.transmit.frame", "00")),
+  CHECK_THAT(selection_error(always("z.*", "true")), Contains("there is no signal 'z.*'"));
+  CHECK_THAT(selection_error(always("a.position[4]", "0")),
+             Contains("there is no signal 'a.position[4]'"));
+  CHECK_THAT(selection_error(always("a.transmit.frame", "00")),
              Contains("'a.transmit.frame' belongs to a clock") && Contains("<stride:Count"));
-  CHECK_THAT(error(count("a.tikc")),
+  CHECK_THAT(selection_error(count("a.tikc")),
              Contains("there is no message 'a.tikc'") && Contains("did you mean 'a.tick'?"));
-  CHECK_THAT(error(count("a.led")), Contains("'a.led' is no message") && Contains("Eventually"));
-  CHECK_THAT(error(count("a.transmit.clock")),
+  CHECK_THAT(selection_error(count("a.led")),
+             Contains("'a.led' is no message") && Contains("Eventually"));
+  CHECK_THAT(selection_error(count("a.transmit.clock")),
              Contains("the ticks of 'a.transmit.clock' are not told of") &&
                  Contains("name what it carries: 'a.transmit.frame'"));
-  CHECK_THAT(error(answer("a.tick", "a.tick")), Contains("'a.tick' cannot answer itself"));
-  CHECK_THAT(error(answer("*.tick", "a.tick")), Contains("'*.tick' stands for 2 messages"));
+  CHECK_THAT(selection_error(answer("a.tick", "a.tick")),
+             Contains("'a.tick' cannot answer itself"));
+  CHECK_THAT(selection_error(answer("*.tick", "a.tick")),
+             Contains("'*.tick' stands for 2 messages"));
   CHECK_THAT(error_of([] { select_checks(sampled_system(), Declarations{count("s.tick")}, {}); }),
              Contains("it ticks by the time alone"));
 }
 
 TEST_CASE("a condition that does not fit its signal") {
-  CHECK_THAT(error(always("a.led", "on")),
+  CHECK_THAT(selection_error(always("a.led", "on")),
              Contains("x.ssd:12: 'a.led': equals: 'on' is no value") && Contains("true or false"));
-  CHECK_THAT(error(always("a.mode", "standby")), Contains("'a.mode': equals: 'standby'"));
-  CHECK_THAT(error(declared(Kind::Final, "a.distance")),
+  CHECK_THAT(selection_error(always("a.mode", "standby")), Contains("'a.mode': equals: 'standby'"));
+  CHECK_THAT(selection_error(declared(Kind::Final, "a.distance")),
              Contains("'a.distance': it compares with nothing"));
 }
 
 TEST_CASE("an interval lies in the run") {
-  CHECK(selected({during(1, 10)}).size() == 1);
-  CHECK(selected({during(0, {})}).size() == 1);
-  CHECK_THAT(error(during(11, {})), Contains("from: 11 s is behind the end of the run, at 10 s"));
-  CHECK_THAT(error(during({}, 11)), Contains("to: 11 s is behind the end of the run, at 10 s") &&
-                                        Contains("leave 'to' out"));
-  CHECK_THAT(error(during(0, 0)), Contains("to: 0 s is before the beginning of the run, at 1 s"));
+  CHECK(selected_checks({during(1, 10)}).size() == 1);
+  CHECK(selected_checks({during(0, {})}).size() == 1);
+  CHECK_THAT(selection_error(during(11, {})),
+             Contains("from: 11 s is behind the end of the run, at 10 s"));
+  CHECK_THAT(
+      selection_error(during({}, 11)),
+      Contains("to: 11 s is behind the end of the run, at 10 s") && Contains("leave 'to' out"));
+  CHECK_THAT(selection_error(during(0, 0)),
+             Contains("to: 0 s is before the beginning of the run, at 1 s"));
   CHECK(select_checks(sample_system(), Declarations{during(11, 12)}, {}).size() == 1);
 }
 
@@ -143,11 +150,11 @@ TEST_CASE("two checks of one name, and several mistakes at once") {
   second.name = "led";
   second.where.line = 14;
   CHECK_THAT(error_of([&] {
-               selected({first, second});
+               selected_checks({first, second});
              }),
              Contains("x.ssd:14: a second check 'led'; the first is in line 12"));
   CHECK_THAT(error_of([&] {
-               selected({always("a.x", "1"), count("a.led")});
+               selected_checks({always("a.x", "1"), count("a.led")});
              }),
              Contains("there are 2 mistakes") && Contains("'a.x'") && Contains("is no message"));
 }

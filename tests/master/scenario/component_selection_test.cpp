@@ -7,7 +7,7 @@ using Catch::Contains;
 
 namespace {
 
-std::vector<std::size_t> selected(const std::vector<std::string>& patterns) {
+std::vector<std::size_t> selected_components(const std::vector<std::string>& patterns) {
   std::vector<ComponentPattern> wanted;
   for (const std::string& pattern : patterns) wanted.push_back({pattern, {"x.ssd", 7}});
   const std::vector<std::string> names = {"a", "b, c"};
@@ -19,11 +19,12 @@ using Places = std::vector<std::size_t>;
 }  // namespace
 
 TEST_CASE("Components are selected by name or glob, each once and in their order") {
-  CHECK(selected({}) == Places{});
-  CHECK(selected({"a"}) == Places{0});
-  CHECK(selected({"*c", "?", "a"}) == Places{0, 1});
+  CHECK(selected_components({}) == Places{});
+  CHECK(selected_components({"a"}) == Places{0});
+  CHECK(selected_components({"*c", "?", "a"}) == Places{0, 1});
 }
 
 TEST_CASE("A pattern that matches no component is refused with its place") {
-  CHECK_THROWS_WITH(selected({"a", "x*"}), Contains("x.ssd:7: 'x*' matches no component"));
+  CHECK_THROWS_WITH(selected_components({"a", "x*"}),
+                    Contains("x.ssd:7: 'x*' matches no component"));
 }

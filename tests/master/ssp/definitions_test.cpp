@@ -11,14 +11,14 @@ using Catch::Contains;
 
 namespace {
 
-Definitions read(const std::string& inside) {
+Definitions read_inside(const std::string& inside) {
   return read_definitions(stride::xml::Document::parse(ssd(inside), "x.ssd").root(), kSsd);
 }
 
 }  // namespace
 
 TEST_CASE("units and enumerations are known by their names") {
-  const Definitions definitions = read(
+  const Definitions definitions = read_inside(
       "<ssd:Enumerations><ssc:Enumeration name='Mode'><ssc:Item name='off' value='-1'/>"
       "<ssc:Item name='on' value='9223372036854775807'/></ssc:Enumeration></ssd:Enumerations>"
       "<ssd:Units><ssc:Unit name='degC'><ssc:BaseUnit K='1' offset='273.15'/></ssc:Unit>"
@@ -37,8 +37,8 @@ TEST_CASE("units and enumerations are known by their names") {
 
 TEST_CASE("what a file does not define another may") {
   const Definitions inside =
-      read("<ssd:Units><ssc:Unit name='a'><ssc:BaseUnit m='1'/></ssc:Unit></ssd:Units>");
-  const Definitions around = read(
+      read_inside("<ssd:Units><ssc:Unit name='a'><ssc:BaseUnit m='1'/></ssc:Unit></ssd:Units>");
+  const Definitions around = read_inside(
       "<ssd:Units><ssc:Unit name='a'><ssc:BaseUnit s='1'/></ssc:Unit>"
       "<ssc:Unit name='b'><ssc:BaseUnit s='1'/></ssc:Unit></ssd:Units>");
   CHECK(inside.unit("a", around).meaning->exponents[1] == 1);
@@ -49,9 +49,9 @@ TEST_CASE("malformed definitions are refused") {
   const auto unit = [](const std::string& base) {
     return "<ssd:Units><ssc:Unit name='a'>\n<ssc:BaseUnit " + base + "/></ssc:Unit></ssd:Units>";
   };
-  CHECK_THROWS_WITH(read(unit("m='1.5'")), Contains("x.ssd:4: ") && Contains("m=\"1.5\""));
-  CHECK_THROWS_WITH(read(unit("factor='0'")), Contains("a unit with the factor 0"));
-  CHECK_THROWS_WITH(read("<ssd:Enumerations><ssc:Enumeration name='M'><ssc:Item name='i'/>"
-                         "</ssc:Enumeration></ssd:Enumerations>"),
+  CHECK_THROWS_WITH(read_inside(unit("m='1.5'")), Contains("x.ssd:4: ") && Contains("m=\"1.5\""));
+  CHECK_THROWS_WITH(read_inside(unit("factor='0'")), Contains("a unit with the factor 0"));
+  CHECK_THROWS_WITH(read_inside("<ssd:Enumerations><ssc:Enumeration name='M'><ssc:Item name='i'/>"
+                                "</ssc:Enumeration></ssd:Enumerations>"),
                     Contains("needs the attribute 'value'"));
 }

@@ -45,7 +45,7 @@ std::string system_with(const std::string& bindings_inside,
              "<ssd:Component name='c' source='c.fmu'/></ssd:Elements></ssd:System>");
 }
 
-std::vector<StartDeclaration> read(const std::string& text) {
+std::vector<StartDeclaration> read_values(const std::string& text) {
   const TemporaryFolder folder;
   return read_scenario(folder.write("x.ssd", text)).system.start_values;
 }
@@ -53,7 +53,7 @@ std::vector<StartDeclaration> read(const std::string& text) {
 }  // namespace
 
 TEST_CASE("Inline values of a component are read as text, with their unit and line") {
-  const auto values = read(component_with(inline_binding(
+  const auto values = read_values(component_with(inline_binding(
       parameter("r", "<ssv:Real value='1.5' unit='mm'/>") +
       parameter("v", "\n<ssv:Float64 value='1 2 3'/>") + parameter("i", "<ssv:UInt8 value='7'/>") +
       parameter("b", "<ssv:Boolean value='true'/>") + parameter("e", "<ssv:String value=''/>") +
@@ -78,18 +78,18 @@ TEST_CASE("Inline values of a component are read as text, with their unit and li
 }
 
 TEST_CASE("A binding's prefix stands before each of its names") {
-  const auto values = read(
+  const auto values = read_values(
       component_with(inline_binding(parameter("x", "<ssv:Real value='1'/>"), "prefix='adc.'")));
   REQUIRE(values.size() == 1);
   CHECK(values[0].variable == "adc.x");
 }
 
 TEST_CASE("Names at the system are those of a component and its variable") {
-  const auto values =
-      read(system_with(inline_binding(parameter("c.adc.x", "<ssv:Real value='1'/>") +
-                                      parameter("a.b.y", "<ssv:Real value='2'/>")) +
-                           inline_binding(parameter("z", "<ssv:Real value='3'/>"), "prefix='c.'"),
-                       inline_binding(parameter("z", "<ssv:Real value='0'/>"))));
+  const auto values = read_values(
+      system_with(inline_binding(parameter("c.adc.x", "<ssv:Real value='1'/>") +
+                                 parameter("a.b.y", "<ssv:Real value='2'/>")) +
+                      inline_binding(parameter("z", "<ssv:Real value='3'/>"), "prefix='c.'"),
+                  inline_binding(parameter("z", "<ssv:Real value='0'/>"))));
   REQUIRE(values.size() == 5);
   CHECK(values[0].component == "a");  // what is bound to the system comes later, so it replaces
   CHECK(values[0].variable == "z");
@@ -198,10 +198,10 @@ TEST_CASE("What a mapping cannot mean is refused, what it maps in vain is told")
     return component_with(mapped_binding(
         parameters, "\n<ssd:ParameterMapping>" + inside + "</ssd:ParameterMapping>"));
   };
-  CHECK_THROWS_WITH(read(with(mapping(entry("p.x", "u") + entry("p.x", "u")))),
+  CHECK_THROWS_WITH(read_values(with(mapping(entry("p.x", "u") + entry("p.x", "u")))),
                     Contains("x.ssd:6: two parameters are mapped to 'u'"));
-  CHECK_THROWS_WITH(read(with("")), Contains("neither a source nor <ssm:ParameterMapping>"));
-  CHECK_THROWS_WITH(read(with(set(""))), Contains("is not known in <ssd:ParameterMapping>"));
+  CHECK_THROWS_WITH(read_values(with("")), Contains("neither a source nor <ssm:ParameterMapping>"));
+  CHECK_THROWS_WITH(read_values(with(set(""))), Contains("is not known in <ssd:ParameterMapping>"));
   const TemporaryFolder folder;
   const auto warnings =
       read_scenario(folder.write("x.ssd", with(mapping(entry("x", "u"))))).warnings;
@@ -217,10 +217,11 @@ TEST_CASE("The units of a set are those that it defines, or the scenario's if it
   const auto of = [&](const std::string& units_of_set) {
     std::string inside = set(parameter("x", "<ssv:Real value='1' unit='in'/>"));
     inside.insert(inside.find("</ssv:ParameterSet>"), units_of_set);
-    return read(ssd("<ssd:System name='s'><ssd:Elements><ssd:Component name='a' source='a.fmu'>" +
-                    bindings("<ssd:ParameterBinding><ssd:ParameterValues>" + inside +
-                             "</ssd:ParameterValues></ssd:ParameterBinding>") +
-                    "</ssd:Component></ssd:Elements></ssd:System>" + unit("ssd", "0.0254")))
+    return read_values(
+               ssd("<ssd:System name='s'><ssd:Elements><ssd:Component name='a' source='a.fmu'>" +
+                   bindings("<ssd:ParameterBinding><ssd:ParameterValues>" + inside +
+                            "</ssd:ParameterValues></ssd:ParameterBinding>") +
+                   "</ssd:Component></ssd:Elements></ssd:System>" + unit("ssd", "0.0254")))
         .at(0)
         .unit.meaning->factor;
   };
@@ -243,7 +244,7 @@ TEST_CASE("A component can hold its own parameters") {
   CHECK_THROWS_WITH(read_scenario(file, {elsewhere, {}}),
                     Contains("x.ssd:5: ") && Contains("b.fmu"));
   CHECK_THROWS_WITH(
-      read(system_with("<ssd:ParameterBinding source='own.ssv' sourceBase='component'/>")),
+      read_values(system_with("<ssd:ParameterBinding source='own.ssv' sourceBase='component'/>")),
       Contains("x.ssd:3: only a component that is an FMU can hold its own parameters"));
 }
 
@@ -303,5 +304,5 @@ TEST_CASE("Parameters that cannot be meant are refused") {
       {component_with("<ssd:ParameterBinding><ssd:ParameterMaping/></ssd:ParameterBinding>"),
        "did you mean 'ParameterMapping'?"},
   }));
-  CHECK_THROWS_WITH(read(text), Contains("x.ssd:5: ") && Contains(message));
+  CHECK_THROWS_WITH(read_values(text), Contains("x.ssd:5: ") && Contains(message));
 }

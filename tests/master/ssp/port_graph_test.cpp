@@ -23,7 +23,7 @@ ElementNode unit(const std::string& name) {
   return element;
 }
 
-SystemConnection wire(ConnectionEnd start, ConnectionEnd end) {
+SystemConnection wired(ConnectionEnd start, ConnectionEnd end) {
   return {std::move(start), std::move(end), {}, {"x.ssd", 1}};
 }
 
@@ -33,13 +33,13 @@ SystemNode tree() {
   inner.connectors = {connector("u", Flow::In), connector("y", Flow::Out)};
   inner.elements.push_back(unit("c"));
   inner.elements.push_back(unit("d"));
-  inner.connections = {wire({"", "u"}, {"c", "u"}), wire({"d", "u"}, {"", "u"}),
-                       wire({"c", "y"}, {"", "y"})};
+  inner.connections = {wired({"", "u"}, {"c", "u"}), wired({"d", "u"}, {"", "u"}),
+                       wired({"c", "y"}, {"", "y"})};
   SystemNode root;
   root.elements.push_back(unit("a"));
   root.elements.push_back(unit("s"));
   root.elements[1].system = std::make_unique<SystemNode>(std::move(inner));
-  root.connections = {wire({"a", "y"}, {"s", "u"})};
+  root.connections = {wired({"a", "y"}, {"s", "u"})};
   return root;
 }
 
@@ -70,8 +70,8 @@ TEST_CASE("ways lead from a port to all components behind it, and from what feed
 TEST_CASE("a circle of connectors without a component is found where it is followed") {
   SystemNode root = tree();
   SystemNode& inner = *root.elements[1].system;
-  inner.connections = {wire({"", "u"}, {"", "y"})};
-  root.connections = {wire({"s", "y"}, {"s", "u"})};
+  inner.connections = {wired({"", "u"}, {"", "y"})};
+  root.connections = {wired({"s", "y"}, {"s", "u"})};
   const PortGraph graph(root);
   const std::size_t u = graph.connectors(inner).at("u");
   CHECK_THROWS_WITH(graph.way_to(u), Contains("x.ssd:1: this connection leads from"));
@@ -80,6 +80,6 @@ TEST_CASE("a circle of connectors without a component is found where it is follo
 
 TEST_CASE("two values cannot go to one connector of a system") {
   SystemNode root = tree();
-  root.connections.push_back(wire({"a", "z"}, {"s", "u"}));
+  root.connections.push_back(wired({"a", "z"}, {"s", "u"}));
   CHECK_THROWS_WITH(PortGraph(root), Contains("x.ssd:1: 's.u' has two sources: 'a.z' here"));
 }

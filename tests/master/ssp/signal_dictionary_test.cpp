@@ -20,8 +20,8 @@ std::string dictionary(const std::string& entries, const std::string& version = 
          "</ssb:SignalDictionary>";
 }
 
-std::map<std::string, SignalDictionary> read(const std::string& inside,
-                                             const std::filesystem::path& folder = {}) {
+std::map<std::string, SignalDictionary> read_dictionaries(
+    const std::string& inside, const std::filesystem::path& folder = {}) {
   const auto document = stride::xml::Document::parse(
       ssd("<ssd:SignalDictionaries>" + inside + "</ssd:SignalDictionaries>"), "x.ssd");
   return read_signal_dictionaries(*document.root().child({kSsd, "SignalDictionaries"}), folder,
@@ -38,10 +38,11 @@ TEST_CASE("a dictionary stands inline or in a file, with units of its own") {
   const TemporaryFolder folder;
   folder.write("bus.ssb", dictionary(kSpeed, "1.0"));
   const bool is_inline = GENERATE(true, false);
-  const auto all = is_inline
-                       ? read("<ssd:SignalDictionary name='bus'>" + dictionary(kSpeed) +
+  const auto all =
+      is_inline
+          ? read_dictionaries("<ssd:SignalDictionary name='bus'>" + dictionary(kSpeed) +
                               "</ssd:SignalDictionary>")
-                       : read("<ssd:SignalDictionary name='bus' source='bus.ssb'/>", folder / "");
+          : read_dictionaries("<ssd:SignalDictionary name='bus' source='bus.ssb'/>", folder / "");
   const auto& speed = all.at("bus").entries.at("speed");
   CHECK(speed.unit.name == "rpm");
   CHECK(speed.unit.meaning->exponents[2] == -1);
@@ -62,5 +63,5 @@ TEST_CASE("dictionaries that cannot be meant are refused") {
        "does not support signal dictionaries of the type 'text/csv'"},
       {"<ssd:SignalDictionary name='bus' source='none.ssb'/>", "the file does not exist"},
   }));
-  CHECK_THROWS_WITH(read(text), Contains(message));
+  CHECK_THROWS_WITH(read_dictionaries(text), Contains(message));
 }

@@ -28,7 +28,7 @@ std::string mapping(const std::string& kind, const std::string& entries) {
          "MappingTransformation>";
 }
 
-std::string entry(const std::string& source, const std::string& target) {
+std::string map_entry(const std::string& source, const std::string& target) {
   return "<ssc:MapEntry source='" + source + "' target='" + target + "'/>";
 }
 
@@ -44,13 +44,14 @@ TEST_CASE("each transformation of SSP is read") {
   const auto identity = with("<ssc:LinearTransformation/>").transformation;
   CHECK(identity.linear.is_identity());
   const auto flag =
-      with(mapping("Boolean", entry("true", "0") + entry("0", "true"))).transformation;
+      with(mapping("Boolean", map_entry("true", "0") + map_entry("0", "true"))).transformation;
   CHECK(flag.kind == Kind::BooleanMapping);
   CHECK(flag.numbers == core::NumberMap{{0, 1}, {1, 0}});
-  const auto number = with(mapping("Integer", entry("7", "-1") + entry("-3", "2"))).transformation;
+  const auto number =
+      with(mapping("Integer", map_entry("7", "-1") + map_entry("-3", "2"))).transformation;
   CHECK(number.kind == Kind::IntegerMapping);
   CHECK(number.numbers == core::NumberMap{{-3, 2}, {7, -1}});
-  const auto item = with(mapping("Enumeration", entry("on", "go"))).transformation;
+  const auto item = with(mapping("Enumeration", map_entry("on", "go"))).transformation;
   CHECK(item.kind == Kind::EnumerationMapping);
   CHECK(item.names == std::vector<std::pair<std::string, std::string>>{{"on", "go"}});
 }
@@ -61,14 +62,14 @@ TEST_CASE("transformations that cannot be meant are refused") {
       {"<ssc:LinearTransformation factor='inf'/>", "is no finite number"},
       {"<ssc:LinearTransformation faktor='2'/>", "did you mean 'factor'?"},
       {mapping("Integer", ""), "holds no <MapEntry>"},
-      {mapping("Integer", entry("1.5", "2")), "source=\"1.5\""},
+      {mapping("Integer", map_entry("1.5", "2")), "source=\"1.5\""},
       {mapping("Integer", "<ssc:MapEntry source='1'/>"), "needs the attribute 'target'"},
-      {mapping("Boolean", entry("maybe", "1")), "expected true or false"},
-      {mapping("Boolean", entry("true", "1") + entry("1", "0")),
+      {mapping("Boolean", map_entry("maybe", "1")), "expected true or false"},
+      {mapping("Boolean", map_entry("true", "1") + map_entry("1", "0")),
        "the source \"1\" is mapped twice"},
-      {mapping("Enumeration", entry("a", "b") + entry("a", "c")), "\"a\" is mapped twice"},
+      {mapping("Enumeration", map_entry("a", "b") + map_entry("a", "c")), "\"a\" is mapped twice"},
       {mapping("Enumeration", "<ssc:Entry/>"), "known are: MapEntry"},
-      {"<ssc:LinearTransformation/>" + mapping("Integer", entry("1", "2")),
+      {"<ssc:LinearTransformation/>" + mapping("Integer", map_entry("1", "2")),
        "is a second transformation; the first is in line 8"},
   }));
   CHECK_THROWS_WITH(with(text), Contains("x.ssd:8: ") && Contains(message));

@@ -19,7 +19,7 @@ std::string compressed(const std::string& text, std::optional<Duration> min_gap 
   return content(folder / "out.vcd");
 }
 
-std::string error(const std::string& text, std::optional<Duration> min_gap = kTen) {
+std::string compress_error(const std::string& text, std::optional<Duration> min_gap = kTen) {
   const TemporaryFolder folder;
   folder.write("in.vcd", text);
   const std::string message =
@@ -99,15 +99,16 @@ TEST_CASE("The shortest gap is 1 ms, or a tick where that is longer") {
 }
 
 TEST_CASE("A trace that has advanceTime is not compressed") {
-  CHECK_THAT(error(skipping("#0\n0!\n")),
+  CHECK_THAT(compress_error(skipping("#0\n0!\n")),
              Contains("in.vcd: the trace has a variable advanceTime") &&
                  Contains("'stride trace expand'"));
 }
 
 TEST_CASE("What is wrong leaves nothing") {
-  CHECK_THAT(error(two_variables("#0\n0!\n#100\n1")),
+  CHECK_THAT(compress_error(two_variables("#0\n0!\n#100\n1")),
              Contains("in.vcd:10: the file is cut off: it ends within '1'"));
-  CHECK_THAT(error(two_variables("#0\n0!\n"), Duration(0)), Contains("a gap of 0 s is shorter"));
+  CHECK_THAT(compress_error(two_variables("#0\n0!\n"), Duration(0)),
+             Contains("a gap of 0 s is shorter"));
 }
 
 TEST_CASE("Of a trace that was cut off, all but the last instant is there if that is accepted") {

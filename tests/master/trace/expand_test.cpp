@@ -17,7 +17,7 @@ std::string expanded(const std::string& text) {
 }
 
 /// The error, which leaves the file as it was.
-std::string error(const std::string& text) {
+std::string expand_error(const std::string& text) {
   const TemporaryFolder folder;
   folder.write("in.vcd", text);
   folder.write("out.vcd", "old");
@@ -77,16 +77,18 @@ TEST_CASE("An instant at which very much happens has its time, too") {
 }
 
 TEST_CASE("A trace without advanceTime is not expanded") {
-  CHECK_THAT(error(two_variables("#0\n0!\n")),
+  CHECK_THAT(expand_error(two_variables("#0\n0!\n")),
              Contains("in.vcd: the trace has no variable advanceTime") &&
                  Contains("its time is true already"));
 }
 
 TEST_CASE("What is wrong far behind in the trace leaves nothing") {
-  CHECK_THAT(error(skipping("#0\n0!\n#5\n1!\n#4\n0!\n")), Contains("in.vcd:11: time goes back"));
-  CHECK_THAT(error(skipping("#0\n0!\n#5\nb1")),
+  CHECK_THAT(expand_error(skipping("#0\n0!\n#5\n1!\n#4\n0!\n")),
+             Contains("in.vcd:11: time goes back"));
+  CHECK_THAT(expand_error(skipping("#0\n0!\n#5\nb1")),
              Contains("in.vcd:10: the file is cut off: it ends within 'b1'"));
-  CHECK_THAT(error(skipping("#0\nb11 t\n#5\nb1 t\n")), Contains("in.vcd:10: advanceTime falls"));
+  CHECK_THAT(expand_error(skipping("#0\nb11 t\n#5\nb1 t\n")),
+             Contains("in.vcd:10: advanceTime falls"));
 }
 
 TEST_CASE("Of a trace that was cut off, all but the last instant is there if that is accepted") {

@@ -39,7 +39,7 @@ struct Read {
   std::string rest;  ///< the first word behind the header
 };
 
-Read read(const std::string& text) {
+Read read_head(const std::string& text) {
   const TemporaryFolder folder;
   Words words(folder.write("x.vcd", text));
   Header header = read_header(words);
@@ -47,13 +47,13 @@ Read read(const std::string& text) {
   return {std::move(header), std::move(rest)};
 }
 
-std::string error(const std::string& text) {
-  return error_of([&] { read(text); });
+std::string header_error(const std::string& text) {
+  return error_of([&] { read_head(text); });
 }
 
 /// An error in the declarations, which begin in line 2.
-std::string declaration_error(const std::string& declarations) {
-  return error("$timescale 1 ps $end\n" + declarations + "$enddefinitions $end\n");
+std::string header_declaration_error(const std::string& declarations) {
+  return header_error("$timescale 1 ps $end\n" + declarations + "$enddefinitions $end\n");
 }
 
 }  // namespace
@@ -66,7 +66,7 @@ TEST_CASE("A header is kept as it is, and its declarations are found in it") {
       "$var\n  wire 8\n  aaaab level [7:0]\n$end $var real 64 $x temperature[3] $end\n"
       "$upscope $end\n$upscope $end\n$attrbegin misc 02 $end\n$var event 1 ! again $end\n"
       "$enddefinitions\n  $end";
-  const auto [header, rest] = read(text + "\n#0\n");
+  const auto [header, rest] = read_head(text + "\n#0\n");
   CHECK(header.text == text);
   CHECK(rest == "#0");
   CHECK(header.timescale.text() == "10 ns");
@@ -91,45 +91,49 @@ TEST_CASE("A header is kept as it is, and its declarations are found in it") {
 }
 
 TEST_CASE("What is no header is told with its line") {
-  CHECK_THAT(error(""), Contains("x.vcd:1: the file ends before $enddefinitions"));
-  CHECK_THAT(error("$timescale 1 ps $end\n"), Contains("x.vcd:2: the file ends before"));
-  CHECK_THAT(error("\x1f\x8b\x08 gzip"), Contains("x.vcd:1: '\\x1f\\x8b\\x08' stands where") &&
-                                             Contains("gunzip") && Contains("fst2vcd"));
-  CHECK_THAT(error("$version 1 $end\n#0\n"),
+  CHECK_THAT(header_error(""), Contains("x.vcd:1: the file ends before $enddefinitions"));
+  CHECK_THAT(header_error("$timescale 1 ps $end\n"), Contains("x.vcd:2: the file ends before"));
+  CHECK_THAT(header_error("\x1f\x8b\x08 gzip"),
+             Contains("x.vcd:1: '\\x1f\\x8b\\x08' stands where") && Contains("gunzip") &&
+                 Contains("fst2vcd"));
+  CHECK_THAT(header_error("$version 1 $end\n#0\n"),
              Contains("x.vcd:2: '#0' stands where") && !Contains("hint"));
-  CHECK_THAT(error("$version 1 $end $end\n"), Contains("x.vcd:1: '$end' stands where"));
-  CHECK_THAT(error("$enddefinitions $end\n"),
+  CHECK_THAT(header_error("$version 1 $end $end\n"), Contains("x.vcd:1: '$end' stands where"));
+  CHECK_THAT(header_error("$enddefinitions $end\n"),
              Contains("x.vcd:1: there is no $timescale") && Contains("$timescale 1 ns $end"));
-  CHECK_THAT(error("$timescale 2 ps $end\n$enddefinitions $end\n"),
+  CHECK_THAT(header_error("$timescale 2 ps $end\n$enddefinitions $end\n"),
              Contains("x.vcd:1: '2ps' is no time scale; expected 1, 10 or 100 of"));
-  CHECK_THAT(error("$timescale $end\n$enddefinitions $end\n"), Contains("'' is no time scale"));
-  CHECK_THAT(declaration_error("$timescale 1 ps $end\n"),
+  CHECK_THAT(header_error("$timescale $end\n$enddefinitions $end\n"),
+             Contains("'' is no time scale"));
+  CHECK_THAT(header_declaration_error("$timescale 1 ps $end\n"),
              Contains("x.vcd:2: there is a second $timescale"));
-  CHECK_THAT(declaration_error("$upscope $end\n"), Contains("x.vcd:2: $upscope closes no scope"));
+  CHECK_THAT(header_declaration_error("$upscope $end\n"),
+             Contains("x.vcd:2: $upscope closes no scope"));
 }
 
 TEST_CASE("A section that does not end is told with the line where it begins") {
   const std::string begin = "$timescale 1 ps $end\n";
-  CHECK_THAT(error(begin + "$var wire 1"),
+  CHECK_THAT(header_error(begin + "$var wire 1"),
              Contains("x.vcd:2: the file ends within the $var of line 2; it was cut off"));
-  CHECK_THAT(error(begin + "$comment\n no end\n\n"),
+  CHECK_THAT(header_error(begin + "$comment\n no end\n\n"),
              Contains("the file ends within the $comment of line 2"));
-  CHECK_THAT(error(begin + "$var wire 1 ! a\n$var wire 1 \" b $end\n"),
+  CHECK_THAT(header_error(begin + "$var wire 1 ! a\n$var wire 1 \" b $end\n"),
              Contains("x.vcd:3: the $var of line 2 has no $end before '$var'"));
-  CHECK_THAT(error(begin + "$scope module a\n$enddefinitions $end\n"),
+  CHECK_THAT(header_error(begin + "$scope module a\n$enddefinitions $end\n"),
              Contains("x.vcd:3: the $scope of line 2 has no $end before '$enddefinitions'"));
-  CHECK_THAT(error(begin + "$comment " + std::string(Words::kLongest / 2, ' ') + "a " +
-                   std::string(Words::kLongest / 2, ' ') + "b\n"),
+  CHECK_THAT(header_error(begin + "$comment " + std::string(Words::kLongest / 2, ' ') + "a " +
+                          std::string(Words::kLongest / 2, ' ') + "b\n"),
              Contains("the $comment of line 2 has no $end"));
 }
 
 TEST_CASE("A variable has a type, a width, a code and a name") {
-  CHECK_THAT(declaration_error("$var wire 1 ! $end\n"),
+  CHECK_THAT(header_declaration_error("$var wire 1 ! $end\n"),
              Contains("x.vcd:2: a $var has a type, a width, a code and a name, this one has only "
                       "3 of them"));
-  CHECK_THAT(declaration_error("$var wire many ! a $end\n"),
+  CHECK_THAT(header_declaration_error("$var wire many ! a $end\n"),
              Contains("x.vcd:2: 'many' is no width in bits"));
-  CHECK_THAT(declaration_error("$var wire -1 ! a $end\n"), Contains("'-1' is no width in bits"));
-  CHECK_THAT(declaration_error("$var wire 1 \xc3\xa4 a $end\n"),
+  CHECK_THAT(header_declaration_error("$var wire -1 ! a $end\n"),
+             Contains("'-1' is no width in bits"));
+  CHECK_THAT(header_declaration_error("$var wire 1 \xc3\xa4 a $end\n"),
              Contains("x.vcd:2: '\\xc3\\xa4' is no identifier code"));
 }

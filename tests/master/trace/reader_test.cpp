@@ -11,57 +11,58 @@ using Texts = std::vector<std::string>;
 
 namespace {
 
-Texts read(const std::string& text) {
+Texts read_entries(const std::string& text) {
   const TemporaryFolder folder;
   Reader reader(folder.write("x.vcd", text));
   return entries(reader);
 }
 
 /// The error of a dump with these changes, which begin in line 7.
-std::string error(const std::string& changes) {
-  return error_of([&] { read(two_variables(changes)); });
+std::string reader_error(const std::string& changes) {
+  return error_of([&] { read_entries(two_variables(changes)); });
 }
 
 }  // namespace
 
 TEST_CASE("All kinds of entries are read, on lines of their own or not") {
-  CHECK(read(two_variables("$dumpvars\n0!\nbxX01zZ \"\n$end\n#10 1! r-1.5e-09\n\"\n\n"
-                           "$comment all\nis well $end\n#0020\n$dumpoff x! $end\nsa\\040b !\n"
-                           "s \"\nR1 ! B0\n\" #20\nZ! u! W! l! H! -! ?!\n$vcdclose #30 $end\n"
-                           "#9223372036854775807\n")) == Texts{"$dumpvars",
-                                                               "0|!",
-                                                               "bxX01zZ|\"",
-                                                               "$end",
-                                                               "#10",
-                                                               "1|!",
-                                                               "r-1.5e-09|\"",
-                                                               "$comment all\nis well $end",
-                                                               "#20",
-                                                               "$dumpoff",
-                                                               "x|!",
-                                                               "$end",
-                                                               "sa\\040b|!",
-                                                               "s|\"",
-                                                               "R1|!",
-                                                               "B0|\"",
-                                                               "#20",
-                                                               "Z|!",
-                                                               "u|!",
-                                                               "W|!",
-                                                               "l|!",
-                                                               "H|!",
-                                                               "-|!",
-                                                               "?|!",
-                                                               "$vcdclose #30 $end",
-                                                               "#9223372036854775807"});
+  CHECK(
+      read_entries(two_variables("$dumpvars\n0!\nbxX01zZ \"\n$end\n#10 1! r-1.5e-09\n\"\n\n"
+                                 "$comment all\nis well $end\n#0020\n$dumpoff x! $end\nsa\\040b !\n"
+                                 "s \"\nR1 ! B0\n\" #20\nZ! u! W! l! H! -! ?!\n$vcdclose #30 $end\n"
+                                 "#9223372036854775807\n")) == Texts{"$dumpvars",
+                                                                     "0|!",
+                                                                     "bxX01zZ|\"",
+                                                                     "$end",
+                                                                     "#10",
+                                                                     "1|!",
+                                                                     "r-1.5e-09|\"",
+                                                                     "$comment all\nis well $end",
+                                                                     "#20",
+                                                                     "$dumpoff",
+                                                                     "x|!",
+                                                                     "$end",
+                                                                     "sa\\040b|!",
+                                                                     "s|\"",
+                                                                     "R1|!",
+                                                                     "B0|\"",
+                                                                     "#20",
+                                                                     "Z|!",
+                                                                     "u|!",
+                                                                     "W|!",
+                                                                     "l|!",
+                                                                     "H|!",
+                                                                     "-|!",
+                                                                     "?|!",
+                                                                     "$vcdclose #30 $end",
+                                                                     "#9223372036854775807"});
 }
 
 TEST_CASE("A code may look like something else") {
   const std::string text = dump(
       "$var wire 1 # a $end\n$var wire 8 $end b $end\n$var real 64 b1 c $end\n", "#1\n1#\n0b1\n");
-  CHECK_THROWS_WITH(read(text), Contains("has only 2 of them"));
-  CHECK(read(dump("$var wire 1 # a $end\n$var wire 8 $ b $end\n$var real 64 b1 c $end\n",
-                  "#1\n1#\nb101 #\n0$\nr1 $\nr2 b1\n0b1\n")) ==
+  CHECK_THROWS_WITH(read_entries(text), Contains("has only 2 of them"));
+  CHECK(read_entries(dump("$var wire 1 # a $end\n$var wire 8 $ b $end\n$var real 64 b1 c $end\n",
+                          "#1\n1#\nb101 #\n0$\nr1 $\nr2 b1\n0b1\n")) ==
         Texts{"#1", "1|#", "b101|#", "0|$", "r1|$", "r2|b1", "0|b1"});
 }
 
@@ -74,59 +75,63 @@ TEST_CASE("Codes are numbered as the declarations are") {
   CHECK(entry->code == 1);
 }
 
-TEST_CASE("An empty trace has no entries") { CHECK(read(two_variables("")).empty()); }
+TEST_CASE("An empty trace has no entries") { CHECK(read_entries(two_variables("")).empty()); }
 
 TEST_CASE("Lines may end as on other systems") {
   CHECK(
-      read(
+      read_entries(
           "$timescale 1 ps $end\r\n$var wire 1 ! a $end\r\n$enddefinitions $end\r\n#1\r\n1!\r\n") ==
       Texts{"#1", "1|!"});
 }
 
 TEST_CASE("What is no entry is told with its line") {
-  CHECK_THAT(error("#0\nq!\n"),
+  CHECK_THAT(reader_error("#0\nq!\n"),
              Contains("x.vcd:8: 'q!' is no time stamp, no change and no section") &&
                  Contains("hint: expected #TIME"));
-  CHECK_THAT(error("#0\npD 6 0 !\n"), Contains("extended dumps ($dumpports) are not supported"));
-  CHECK_THAT(error("#0\n1 !\n"),
+  CHECK_THAT(reader_error("#0\npD 6 0 !\n"),
+             Contains("extended dumps ($dumpports) are not supported"));
+  CHECK_THAT(reader_error("#0\n1 !\n"),
              Contains("x.vcd:8: the value '1' has no identifier code behind it"));
-  CHECK_THAT(error("#\n"), Contains("x.vcd:7: '#' is no time stamp"));
-  CHECK_THAT(error("#1.5\n"), Contains("'#1.5' is no time stamp"));
-  CHECK_THAT(error("#-1\n"), Contains("'#-1' is no time stamp"));
-  CHECK_THAT(error("#9223372036854775808\n"),
+  CHECK_THAT(reader_error("#\n"), Contains("x.vcd:7: '#' is no time stamp"));
+  CHECK_THAT(reader_error("#1.5\n"), Contains("'#1.5' is no time stamp"));
+  CHECK_THAT(reader_error("#-1\n"), Contains("'#-1' is no time stamp"));
+  CHECK_THAT(reader_error("#9223372036854775808\n"),
              Contains("x.vcd:7: the time stamp #9223372036854775808 is beyond 2^63 - 1"));
-  CHECK_THAT(error("#0\n1!\n" + std::string(3, '\0') + "\n"),
+  CHECK_THAT(reader_error("#0\n1!\n" + std::string(3, '\0') + "\n"),
              Contains("x.vcd:9: '\\x00\\x00\\x00'"));
 }
 
 TEST_CASE("Time does not go back") {
-  CHECK_THAT(error("#5\n1!\n#7\n0!\n#6\n"),
+  CHECK_THAT(reader_error("#5\n1!\n#7\n0!\n#6\n"),
              Contains("x.vcd:11: time goes back to #6 from #7 in line 9"));
-  CHECK(read(two_variables("#5\n#5\n")).size() == 2);
+  CHECK(read_entries(two_variables("#5\n#5\n")).size() == 2);
 }
 
 TEST_CASE("A change is of a variable") {
-  CHECK_THAT(error("#5\n1%\n"), Contains("x.vcd:8: no variable has the identifier code '%'"));
-  CHECK_THAT(error("#5\nb1\n%\n"), Contains("no variable has the identifier code '%'"));
+  CHECK_THAT(reader_error("#5\n1%\n"),
+             Contains("x.vcd:8: no variable has the identifier code '%'"));
+  CHECK_THAT(reader_error("#5\nb1\n%\n"), Contains("no variable has the identifier code '%'"));
 }
 
 TEST_CASE("A file that is cut off is told with the line and what it ends in") {
-  CHECK_THAT(error("#5\n1!\n#15"),
+  CHECK_THAT(reader_error("#5\n1!\n#15"),
              Contains("x.vcd:9: the file is cut off: it ends within '#15' (no line end follows)") &&
                  Contains("--cut-off"));
-  CHECK_THAT(error("#5\n1"), Contains("x.vcd:8: the file is cut off: it ends within '1'"));
-  CHECK_THAT(error("#5\nb101"), Contains("x.vcd:8: the file is cut off: it ends within 'b101'"));
-  CHECK_THAT(error("#5\nb101\n"), Contains("it ends within the change 'b101'"));
-  CHECK_THAT(error("#5\nb101 !"), Contains("it ends within the change 'b101'"));
-  CHECK_THAT(error("#5\n1!\n$comm"),
+  CHECK_THAT(reader_error("#5\n1"), Contains("x.vcd:8: the file is cut off: it ends within '1'"));
+  CHECK_THAT(reader_error("#5\nb101"),
+             Contains("x.vcd:8: the file is cut off: it ends within 'b101'"));
+  CHECK_THAT(reader_error("#5\nb101\n"), Contains("it ends within the change 'b101'"));
+  CHECK_THAT(reader_error("#5\nb101 !"), Contains("it ends within the change 'b101'"));
+  CHECK_THAT(reader_error("#5\n1!\n$comm"),
              Contains("x.vcd:9: the file is cut off: it ends within '$comm'"));
-  CHECK_THAT(error("#5\n$comment this is\n"), Contains("it ends within the $comment of line 8"));
-  CHECK_THAT(error("#5\n$dumpvars\n1!\n"), Contains("it ends within the $dumpvars"));
+  CHECK_THAT(reader_error("#5\n$comment this is\n"),
+             Contains("it ends within the $comment of line 8"));
+  CHECK_THAT(reader_error("#5\n$dumpvars\n1!\n"), Contains("it ends within the $dumpvars"));
 }
 
 TEST_CASE("A section that has ended is no sign of a cut, and neither is one before a later stamp") {
-  CHECK(read(two_variables("#5\n$dumpvars\n1!\n$end")).size() == 4);
-  CHECK(read(two_variables("$dumpvars\n#5\n1!\n")).size() == 3);
+  CHECK(read_entries(two_variables("#5\n$dumpvars\n1!\n$end")).size() == 4);
+  CHECK(read_entries(two_variables("$dumpvars\n#5\n1!\n")).size() == 3);
 }
 
 TEST_CASE("Where a cut is accepted, the entries end there") {

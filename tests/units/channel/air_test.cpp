@@ -18,8 +18,8 @@ using stride::Time;
 
 namespace {
 
-const Time kStart = stride::time_from_seconds(1.0);
-const Duration kBit = nfc::bit_duration(106);
+const Time kAirStart = stride::time_from_seconds(1.0);
+const Duration kAirBit = nfc::bit_duration(106);
 
 /// Signals as they are set; a bit is wrong where the others are stronger.
 class Plain : public Air {
@@ -61,7 +61,7 @@ Rules rules(Overlap overlap, double capture_ratio = 1.0) {
   return rules;
 }
 
-nfc::Frame frame(const nfc::Bytes& bytes, Time start = kStart) {
+nfc::Frame frame(const nfc::Bytes& bytes, Time start = kAirStart) {
   return {start, 106, nfc::to_bits(nfc::with_crc(bytes))};
 }
 
@@ -72,14 +72,14 @@ Time end_of(const nfc::Frame& frame) { return frame.start + nfc::air_time(frame)
 TEST_CASE(
     "Superposed, answers that overlap are one message; a weak one is masked by a strong one") {
   Plain air(rules(Overlap::kSuperpose, 10.0));
-  air.observe(kStart);
+  air.observe(kAirStart);
   air.from_tag(0, frame({1, 2}));
   air.from_tag(1, frame({1, 3}));
   air.observe(end_of(frame({1, 2})));
   CHECK(air.to_reader() == superposed({frame({1, 2}), frame({1, 3})}));
   CHECK_FALSE(air.to_reader());
 
-  const Time later = kStart + 1000 * kBit;
+  const Time later = kAirStart + 1000 * kAirBit;
   air.signals_of[1].up = 0.05;
   air.observe(later);
   air.from_tag(0, frame({1, 2}, later));
@@ -92,7 +92,7 @@ TEST_CASE(
 TEST_CASE("Interfering, each is heard by itself, and the strong disturb the weak") {
   Plain air(rules(Overlap::kInterfere));
   air.signals_of[1].up = 0.5;
-  air.observe(kStart);
+  air.observe(kAirStart);
   air.from_tag(0, frame({1, 2}));
   air.from_tag(1, frame({1, 3}));
   air.observe(end_of(frame({1, 2})));
@@ -108,10 +108,10 @@ TEST_CASE(
   for (const bool half_duplex : {true, false}) {
     all.half_duplex = half_duplex;
     Plain air(all);
-    air.observe(kStart);
+    air.observe(kAirStart);
     air.from_tag(0, frame({1, 2}));
     air.from_tag(1, frame({1, 3}));
-    air.from_reader(frame({4}, kStart + kBit));
+    air.from_reader(frame({4}, kAirStart + kAirBit));
     air.observe(end_of(frame({1, 2, 3, 4})));
     CHECK(air.to_reader().has_value() == !half_duplex);
     CHECK(air.to_reader().has_value() == !half_duplex);
@@ -124,15 +124,15 @@ TEST_CASE(
 TEST_CASE("A header that is wrong loses its packet, and leaves the receiver to the next") {
   const auto heard = [](double error_rate) {
     Plain air(rules(Overlap::kInterfere));
-    air.header = 16 * kBit;
-    air.observe(kStart);
+    air.header = 16 * kAirBit;
+    air.observe(kAirStart);
     air.error_rate = error_rate;
     air.from_tag(0, frame({1, 2, 3}));
-    air.from_tag(1, frame({5, 6, 7}, kStart + 30 * kBit));
-    air.observe(kStart + 65 * kBit);  // after the first packet's header
-    CHECK(air.next_end());            // which is decided by now
+    air.from_tag(1, frame({5, 6, 7}, kAirStart + 30 * kAirBit));
+    air.observe(kAirStart + 65 * kAirBit);  // after the first packet's header
+    CHECK(air.next_end());                  // which is decided by now
     air.error_rate = 0.0;
-    air.observe(kStart + 300 * kBit);
+    air.observe(kAirStart + 300 * kAirBit);
     std::vector<nfc::Bits> all;
     while (const auto frame = air.to_reader()) all.push_back(frame->bits);
     return all;
@@ -143,14 +143,14 @@ TEST_CASE("A header that is wrong loses its packet, and leaves the receiver to t
 
 TEST_CASE("Packets of one sender follow each other, those of two are told apart") {
   Plain air(rules(Overlap::kInterfere));
-  air.header = 100 * kBit;
-  air.observe(kStart);
+  air.header = 100 * kAirBit;
+  air.observe(kAirStart);
   air.from_tag(0, frame({1}));
   air.from_tag(0, frame({2}, end_of(frame({1}))));
-  CHECK(air.next_end() == end_of(frame({1})) + (100 + 27) * kBit);
+  CHECK(air.next_end() == end_of(frame({1})) + (100 + 27) * kAirBit);
   air.observe(*air.next_end());
   CHECK(air.to_reader()->bits == frame({1}).bits);
-  CHECK(air.next_end() == end_of(frame({1})) + 2 * (100 + 27) * kBit);
+  CHECK(air.next_end() == end_of(frame({1})) + 2 * (100 + 27) * kAirBit);
   air.observe(*air.next_end());
   CHECK(air.to_reader()->bits == frame({2}).bits);
 }
@@ -158,15 +158,15 @@ TEST_CASE("Packets of one sender follow each other, those of two are told apart"
 TEST_CASE("A signal that falls below what is needed, or its carrier, ends what is heard for good") {
   for (const bool with_carrier : {false, true}) {
     Plain air;
-    air.observe(kStart);
+    air.observe(kAirStart);
     air.from_reader(frame({1, 2, 3}));
-    air.observe(kStart + 10 * kBit);
+    air.observe(kAirStart + 10 * kAirBit);
     if (with_carrier) air.carrier = 0.0;
     if (!with_carrier) air.signals_of[0].down = air.signals_of[1].down = 1e-4;
-    air.observe(kStart + 10 * kBit);
+    air.observe(kAirStart + 10 * kAirBit);
     air.carrier = 1.0;
     air.signals_of[0].down = 1.0;
-    air.observe(kStart + 11 * kBit);
+    air.observe(kAirStart + 11 * kAirBit);
     air.observe(end_of(frame({1, 2, 3})));
     const auto heard = air.to_tag(0);
     REQUIRE(heard);
@@ -176,7 +176,7 @@ TEST_CASE("A signal that falls below what is needed, or its carrier, ends what i
 
 TEST_CASE("A frame from another hour is refused") {
   Plain air;
-  air.observe(kStart);
+  air.observe(kAirStart);
   CHECK_THROWS_WITH(air.from_reader(frame({1}, stride::time_from_seconds(4000))),
                     Catch::Contains("a frame begins at 4000"));
 }

@@ -6,6 +6,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/at.h"
+
 using environment::Parameters;
 using environment::SensorCase;
 using stride::Duration;
@@ -15,7 +17,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-Time at(double seconds) { return stride::time_from_seconds(seconds); }
+using stride::tests::at;
 
 Parameters drifting() {
   Parameters p;

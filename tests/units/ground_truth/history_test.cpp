@@ -8,6 +8,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/at.h"
+
 using ground_truth::History;
 using stride::Duration;
 using stride::Time;
@@ -17,7 +19,7 @@ namespace {
 
 constexpr Duration kForEver = 1'000'000s;
 
-Time at(double seconds) { return stride::time_from_seconds(seconds); }
+using stride::tests::at;
 
 /// All that was noted, and the bounds of an interval by looking at all of it.
 struct Told {

@@ -5,6 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/at.h"
+
 using namespace ground_truth;
 using Catch::Matchers::Contains;
 using stride::Duration;
@@ -15,7 +17,7 @@ namespace {
 
 const Quantity kTemperature{"degC", "K"};
 
-Time at(double seconds) { return stride::time_from_seconds(seconds); }
+using stride::tests::at;
 
 Parameters parameters(double tolerance, Duration max_age = 0s) {
   return {tolerance, max_age, 3600s, 1};

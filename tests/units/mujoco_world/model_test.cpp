@@ -9,6 +9,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/at.h"
+#include "tests/units/mujoco_world/states.h"
 #include "tests/units/mujoco_world/worlds.h"
 
 namespace {
@@ -17,17 +19,10 @@ using mujoco_world::World;
 using stride::Duration;
 using stride::Time;
 
-Time at(double seconds) { return stride::time_from_seconds(seconds); }
+using stride::tests::at;
 
-std::vector<double> saved(const World& world) {
-  std::vector<double> block(world.state_size());
-  world.save(block.data());
-  return block;
-}
-
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
-}
+using worlds::same_bits;
+using worlds::saved;
 
 /// Everything that is seen at the current instant.
 std::vector<double> outputs(const World& world) {

@@ -9,6 +9,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/units/mujoco_world/states.h"
 #include "tests/units/mujoco_world/worlds.h"
 #include "units/mujoco_world/model.h"
 
@@ -76,15 +77,8 @@ struct Pair {
   World resting, plain;
 };
 
-std::vector<double> saved(const World& world) {
-  std::vector<double> block(world.state_size());
-  world.save(block.data());
-  return block;
-}
-
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
-}
+using worlds::same_bits;
+using worlds::saved;
 
 /// A servo with a time constant of `damping` / 100 s; gravity pulls at it.
 std::string servo(double damping, double stiffness = 100) {

@@ -21,8 +21,8 @@ using Eigen::Vector3d;
 
 constexpr double kPi = 3.14159265358979323846;
 
-const Coil kReader{0.030, 4, 0.5e-3, 0.0, 10.0};
-const Coil kTag{0.015, 8, 0.1e-3, 0.0, 10.0};
+const Coil kReaderCoil{0.030, 4, 0.5e-3, 0.0, 10.0};
+const Coil kTagCoil{0.015, 8, 0.1e-3, 0.0, 10.0};
 
 Coil filament(double radius) { return {radius, 1, 1e-9, 0.0, 1.0}; }
 Pose along_z(double distance) { return {{0.0, 0.0, distance}, {0.0, 0.0, 1.0}}; }
@@ -158,8 +158,8 @@ Vector3d random_vector(std::mt19937& generator) {
 
 TEST_CASE("Coaxial coils: Maxwell's closed form, near and far") {
   for (const double d : {0.0, 0.002, 0.01, 0.03, 0.04, 0.1, 0.3}) {
-    CHECK(mutual_inductance(kReader, Pose{}, kTag, along_z(d)) ==
-          Approx(maxwell(kReader, kTag, d)).epsilon(1e-9));
+    CHECK(mutual_inductance(kReaderCoil, Pose{}, kTagCoil, along_z(d)) ==
+          Approx(maxwell(kReaderCoil, kTagCoil, d)).epsilon(1e-9));
   }
 }
 
@@ -200,9 +200,9 @@ TEST_CASE("Any position and orientation: Neumann's double integral") {
     Pose second{first.position + 0.2 * random_vector(generator), random_vector(generator)};
     const Vector3d apart = second.position - first.position;
     second.position += 0.06 * apart.normalized();  // the wires stay a centimetre apart at least
-    const double exact = neumann(kReader, first, kTag, second, 160);
-    const double scale = maxwell(kReader, kTag, (second.position - first.position).norm());
-    CHECK(mutual_inductance(kReader, first, kTag, second) ==
+    const double exact = neumann(kReaderCoil, first, kTagCoil, second, 160);
+    const double scale = maxwell(kReaderCoil, kTagCoil, (second.position - first.position).norm());
+    CHECK(mutual_inductance(kReaderCoil, first, kTagCoil, second) ==
           Approx(exact).margin(2e-9 * scale).epsilon(1e-9));
   }
 }
@@ -220,40 +220,41 @@ TEST_CASE("It does not matter which coil is the first") {
   for (int i = 0; i < 200; ++i) {
     const Pose first{Vector3d::Zero(), random_vector(generator)};
     const Pose second{0.05 * random_vector(generator), random_vector(generator)};
-    if (gap(wire(kReader, first), wire(kTag, second)) < 2e-3) continue;  // of wires of 0.5 mm
+    if (gap(wire(kReaderCoil, first), wire(kTagCoil, second)) < 2e-3)
+      continue;  // of wires of 0.5 mm
     ++compared;
-    const double one_way = mutual_inductance(kReader, first, kTag, second);
-    const double other_way = mutual_inductance(kTag, second, kReader, first);
+    const double one_way = mutual_inductance(kReaderCoil, first, kTagCoil, second);
+    const double other_way = mutual_inductance(kTagCoil, second, kReaderCoil, first);
     CHECK(one_way == Approx(other_way).epsilon(1e-8).margin(1e-17));
   }
   CHECK(compared > 150);
 }
 
 TEST_CASE("Far away the coils are dipoles, and M falls with the third power of the distance") {
-  const double a = kReader.radius;
-  const double b = kTag.radius;
+  const double a = kReaderCoil.radius;
+  const double b = kTagCoil.radius;
   const double moments =
-      kVacuumPermeability * kPi / 4.0 * kReader.turns * kTag.turns * a * a * b * b;
+      kVacuumPermeability * kPi / 4.0 * kReaderCoil.turns * kTagCoil.turns * a * a * b * b;
   const Vector3d direction = Vector3d(1.0, 2.0, -2.0) / 3.0;
   const Vector3d n1 = Vector3d(2.0, -1.0, 2.0) / 3.0;
   const Vector3d n2(0.6, 0.0, 0.8);
   const double angles = 3.0 * n1.dot(direction) * n2.dot(direction) - n1.dot(n2);
   for (const double d : {3.0, 30.0, 3000.0}) {
-    CHECK(mutual_inductance(kReader, {Vector3d::Zero(), n1}, kTag, {d * direction, n2}) ==
+    CHECK(mutual_inductance(kReaderCoil, {Vector3d::Zero(), n1}, kTagCoil, {d * direction, n2}) ==
           Approx(moments * angles / (d * d * d)).epsilon(0.02 / (d * d)));
   }
 }
 
 TEST_CASE("Of all positions in a plane and all tilts the aligned one couples best") {
-  const double best = mutual_inductance(kReader, Pose{}, kTag, along_z(0.03));
+  const double best = mutual_inductance(kReaderCoil, Pose{}, kTagCoil, along_z(0.03));
   for (int mm = 1; mm <= 60; ++mm) {
     const Pose aside{{mm * 1e-3, 0.0, 0.03}, Vector3d::UnitZ()};
-    CHECK(mutual_inductance(kReader, Pose{}, kTag, aside) < best);
+    CHECK(mutual_inductance(kReaderCoil, Pose{}, kTagCoil, aside) < best);
   }
   for (int degrees = 1; degrees <= 180; ++degrees) {
     const double angle = degrees * kPi / 180.0;
     const Pose tilted{{0.0, 0.0, 0.03}, {std::sin(angle), 0.0, std::cos(angle)}};
-    CHECK(mutual_inductance(kReader, Pose{}, kTag, tilted) < best);
+    CHECK(mutual_inductance(kReaderCoil, Pose{}, kTagCoil, tilted) < best);
   }
 }
 
@@ -261,7 +262,7 @@ TEST_CASE("Turned round, the flux has the other sign; at right angles on the axi
   const auto tilted = [](double degrees, double length) {
     const double angle = degrees * kPi / 180.0;
     const Vector3d axis = length * Vector3d(0.0, std::sin(angle), std::cos(angle));
-    return mutual_inductance(kReader, Pose{}, kTag, {{0.0, 0.0, 0.04}, axis});
+    return mutual_inductance(kReaderCoil, Pose{}, kTagCoil, {{0.0, 0.0, 0.04}, axis});
   };
   const double coaxial = tilted(0, 1.0);
   CHECK(tilted(180, 1.0) == Approx(-coaxial));
@@ -274,20 +275,20 @@ TEST_CASE("Only where the coils are to each other matters") {
   const Pose tag{{0.01, -0.02, 0.03}, {0.2, 0.1, 1.0}};
   const Pose moved_reader{{1.0, 2.0, 3.0}, turn * Vector3d::UnitZ()};
   const Pose moved_tag{moved_reader.position + turn * tag.position, turn * tag.axis};
-  CHECK(mutual_inductance(kReader, moved_reader, kTag, moved_tag) ==
-        Approx(mutual_inductance(kReader, Pose{}, kTag, tag)).epsilon(1e-9));
+  CHECK(mutual_inductance(kReaderCoil, moved_reader, kTagCoil, moved_tag) ==
+        Approx(mutual_inductance(kReaderCoil, Pose{}, kTagCoil, tag)).epsilon(1e-9));
 }
 
 TEST_CASE("It falls steadily along the axis, and stays finite where the wires touch") {
-  double last = mutual_inductance(kReader, Pose{}, kTag, along_z(0.0));
+  double last = mutual_inductance(kReaderCoil, Pose{}, kTagCoil, along_z(0.0));
   for (int mm = 1; mm <= 1000; ++mm) {
-    const double mutual = mutual_inductance(kReader, Pose{}, kTag, along_z(mm * 1e-3));
+    const double mutual = mutual_inductance(kReaderCoil, Pose{}, kTagCoil, along_z(mm * 1e-3));
     CHECK(mutual > 0.0);
     CHECK(mutual < last);
     last = mutual;
   }
   const Pose touching{{0.015, 0.0, 0.0}, Vector3d::UnitZ()};
-  CHECK(std::isfinite(mutual_inductance(kReader, Pose{}, kTag, touching)));
+  CHECK(std::isfinite(mutual_inductance(kReaderCoil, Pose{}, kTagCoil, touching)));
 }
 
 TEST_CASE("A coil is its own mutual inductance at the distance of its wire's radius") {
@@ -309,16 +310,19 @@ TEST_CASE("Inductance goes with the square of the turns, or is what the paramete
 }
 
 TEST_CASE("The coupling factor does not depend on the numbers of turns, nor on the flux's sign") {
-  Coil reader = kReader;
+  Coil reader = kReaderCoil;
   reader.turns = 1;
-  const double four = mutual_inductance(kReader, Pose{}, kTag, along_z(0.04));
-  const double one = mutual_inductance(reader, Pose{}, kTag, along_z(0.04));
-  CHECK(coupling_factor(reader, kTag, one) == Approx(coupling_factor(kReader, kTag, four)));
-  CHECK(coupling_factor(kReader, kTag, -four) == coupling_factor(kReader, kTag, four));
+  const double four = mutual_inductance(kReaderCoil, Pose{}, kTagCoil, along_z(0.04));
+  const double one = mutual_inductance(reader, Pose{}, kTagCoil, along_z(0.04));
+  CHECK(coupling_factor(reader, kTagCoil, one) ==
+        Approx(coupling_factor(kReaderCoil, kTagCoil, four)));
+  CHECK(coupling_factor(kReaderCoil, kTagCoil, -four) ==
+        coupling_factor(kReaderCoil, kTagCoil, four));
 }
 
 TEST_CASE("A normal of length zero is refused") {
   Pose flat = along_z(0.04);
   flat.axis.setZero();
-  CHECK_THROWS_WITH(mutual_inductance(kReader, Pose{}, kTag, flat), Catch::Contains("length zero"));
+  CHECK_THROWS_WITH(mutual_inductance(kReaderCoil, Pose{}, kTagCoil, flat),
+                    Catch::Contains("length zero"));
 }

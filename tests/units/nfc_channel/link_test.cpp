@@ -9,14 +9,14 @@ using namespace nfc_channel;
 
 namespace {
 
-constexpr double kBit = 128.0 / 13.56e6;  // [s]
+constexpr double kBitSeconds = 128.0 / 13.56e6;  // [s]
 
 }  // namespace
 
 TEST_CASE("Thermal noise and interference add up") {
   CHECK(noise_density({290.0, 0.0}) == Approx(4.00388e-21).epsilon(1e-5));
-  CHECK(noise_density({0.0, 1e-10}) == Approx(1e-10 * kBit));
-  CHECK(noise_density({290.0, 1e-10}) == Approx(4.00388e-21 + 1e-10 * kBit));
+  CHECK(noise_density({0.0, 1e-10}) == Approx(1e-10 * kBitSeconds));
+  CHECK(noise_density({290.0, 1e-10}) == Approx(4.00388e-21 + 1e-10 * kBitSeconds));
 }
 
 TEST_CASE("Eb/N0 is the signal's energy over the noise density") {
@@ -29,7 +29,7 @@ TEST_CASE("Eb/N0 is the signal's energy over the noise density") {
 
 TEST_CASE("A pause is a quarter of a bit, and antennas of no quality let the whole of it through") {
   for (const std::uint32_t rate : {106, 212, 424, 848}) {
-    const double bit = kBit * 106 / rate;
+    const double bit = kBitSeconds * 106 / rate;
     CHECK(down_signal(rate, 1e-3, 1e-3).seconds == Approx(bit / 4.0).epsilon(1e-6));
     CHECK_FALSE(down_signal(rate, 1e-3, 1e-3).coherent);
   }
@@ -38,8 +38,9 @@ TEST_CASE("A pause is a quarter of a bit, and antennas of no quality let the who
 TEST_CASE("The higher the quality factors, the less the envelope falls in a pause") {
   // one resonance alone: 1 - exp(-t / tau), tau = 2 Q / omega
   const double tau = 2.0 * 30.0 / kCarrierAngularFrequency;
-  const double depth = 1.0 - std::exp(-kBit / 8.0 / 4.0 / tau);
-  CHECK(down_signal(848, 30.0, 1e-9).seconds == Approx(kBit / 32.0 * depth * depth).epsilon(1e-6));
+  const double depth = 1.0 - std::exp(-kBitSeconds / 8.0 / 4.0 / tau);
+  CHECK(down_signal(848, 30.0, 1e-9).seconds ==
+        Approx(kBitSeconds / 32.0 * depth * depth).epsilon(1e-6));
   CHECK(down_signal(848, 30.0, 10.0).seconds < down_signal(848, 30.0, 5.0).seconds);
   CHECK(down_signal(848, 30.0, 10.0).seconds == Approx(down_signal(848, 10.0, 30.0).seconds));
   // equal ones are the limit of nearly equal ones
@@ -50,25 +51,25 @@ TEST_CASE("The higher the quality factors, the less the envelope falls in a paus
 TEST_CASE("With the default antennas a pause of 848 kbit/s is as deep as the standard wants it") {
   // amplitude left: 0.22 to 0.58 (ISO/IEC 14443-2, 8.1.2.3); the default's loaded Qs are 7.5
   // and 2.5
-  const double share = down_signal(848, 7.5, 2.53).seconds / (kBit / 32.0);
+  const double share = down_signal(848, 7.5, 2.53).seconds / (kBitSeconds / 32.0);
   const double left = 1.0 - std::sqrt(share);
   CHECK(left > 0.22);
   CHECK(left < 0.58);
 }
 
 TEST_CASE("The answer is half a bit of subcarrier at 106 kbit/s, a whole bit at the higher rates") {
-  CHECK(up_signal(106, 1e-9, 1e-9).seconds == Approx(kBit / 2.0));
+  CHECK(up_signal(106, 1e-9, 1e-9).seconds == Approx(kBitSeconds / 2.0));
   CHECK_FALSE(up_signal(106, 1e-9, 1e-9).coherent);
   for (const std::uint32_t rate : {212, 424, 848}) {
-    CHECK(up_signal(rate, 1e-9, 1e-9).seconds == Approx(kBit * 106 / rate));
+    CHECK(up_signal(rate, 1e-9, 1e-9).seconds == Approx(kBitSeconds * 106 / rate));
     CHECK(up_signal(rate, 1e-9, 1e-9).coherent);
   }
 }
 
 TEST_CASE("A resonance of Q = 8 passes half of the sidebands' power") {
-  CHECK(up_signal(106, 8.0, 1e-9).seconds == Approx(kBit / 4.0));
-  CHECK(up_signal(106, 1e-9, 8.0).seconds == Approx(kBit / 4.0));
-  CHECK(up_signal(106, 8.0, 8.0).seconds == Approx(kBit / 8.0));
+  CHECK(up_signal(106, 8.0, 1e-9).seconds == Approx(kBitSeconds / 4.0));
+  CHECK(up_signal(106, 1e-9, 8.0).seconds == Approx(kBitSeconds / 4.0));
+  CHECK(up_signal(106, 8.0, 8.0).seconds == Approx(kBitSeconds / 8.0));
 }
 
 TEST_CASE("The sidebands fall with the twelfth power of the distance: there and back") {

@@ -15,7 +15,7 @@ std::vector<std::string> only_row(const std::string& text) {
   return fields;
 }
 
-std::string mistake_in(const std::string& text) {
+std::string csv_mistake_in(const std::string& text) {
   CsvRows rows(text, "x.csv");
   try {
     while (rows.next()) {
@@ -50,10 +50,10 @@ TEST_CASE("lines are counted, also within quotation marks") {
 }
 
 TEST_CASE("a row without its end, and misplaced quotation marks, are told with their line") {
-  CHECK(mistake_in("a,b\nc") == "x.csv:2: the line is cut off");
-  CHECK(mistake_in("a,b\nc,") == "x.csv:2: the line is cut off");
-  CHECK(mistake_in("a\n\"b\nc") == "x.csv:2: the line is cut off within a quoted text");
-  CHECK_THAT(mistake_in("\"a\"b\n"), Catch::Contains("x.csv:1: behind a quoted text"));
-  CHECK_THAT(mistake_in("a\"b\"\n"), Catch::Contains("x.csv:1: the field 'a\"b\"'"));
-  CHECK(mistake_in("") == "");
+  CHECK(csv_mistake_in("a,b\nc") == "x.csv:2: the line is cut off");
+  CHECK(csv_mistake_in("a,b\nc,") == "x.csv:2: the line is cut off");
+  CHECK(csv_mistake_in("a\n\"b\nc") == "x.csv:2: the line is cut off within a quoted text");
+  CHECK_THAT(csv_mistake_in("\"a\"b\n"), Catch::Contains("x.csv:1: behind a quoted text"));
+  CHECK_THAT(csv_mistake_in("a\"b\"\n"), Catch::Contains("x.csv:1: the field 'a\"b\"'"));
+  CHECK(csv_mistake_in("") == "");
 }

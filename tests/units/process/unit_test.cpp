@@ -49,7 +49,7 @@ std::string start_answer() {
   return answer("start", "<output name=\"y\" value=\"1\"/>\n<sync time=\"0\"/>");
 }
 
-InstanceChoices with(const std::string& resources) {
+InstanceChoices choices_with(const std::string& resources) {
   InstanceChoices choices;
   choices.resources = resources;
   choices.early_return = true;
@@ -60,7 +60,7 @@ InstanceChoices with(const std::string& resources) {
 struct Scripted {
   explicit Scripted(const std::string& script, const std::string& attributes = "")
       : resources("process.xml", scripted(script, attributes)),
-        unit(library(), with(resources.path())) {}
+        unit(library(), choices_with(resources.path())) {}
   ResourceFolder resources;
   UnitInstance unit;
 };
@@ -79,7 +79,7 @@ fmi3Status set_string(UnitInstance& unit, const std::string& name, const char* v
   return unit.fmi.SetString(unit.handle, &r, 1, &value, 1);
 }
 
-bool has_children() {
+bool has_child_left() {
   siginfo_t info{};
   return ::waitid(P_ALL, 0, &info, WEXITED | WNOHANG | WNOWAIT) == 0;
 }
@@ -104,7 +104,7 @@ TEST_CASE("the table is that of the declaration") {
 
 TEST_CASE("steps, an event at its own instant, and what comes next") {
   const Cistern cistern;
-  UnitInstance unit(library(), with(cistern.path()));
+  UnitInstance unit(library(), choices_with(cistern.path()));
   REQUIRE(unit.handle != nullptr);
   REQUIRE(unit.set_real("capacity", 0.25) == fmi3OK);
   REQUIRE(unit.start_steps() == fmi3OK);
@@ -140,7 +140,7 @@ TEST_CASE("steps, an event at its own instant, and what comes next") {
 
 TEST_CASE("a message is handed over at its instant") {
   const Cistern cistern;
-  UnitInstance unit(library(), with(cistern.path()));
+  UnitInstance unit(library(), choices_with(cistern.path()));
   REQUIRE(unit.set_real("inflow", 1) == fmi3OK);
   REQUIRE(unit.start_steps() == fmi3OK);
   REQUIRE(unit.step(0, 0.25) == fmi3OK);
@@ -159,7 +159,7 @@ TEST_CASE("a message is handed over at its instant") {
 TEST_CASE(
     "messages that could not stop the step come one after another, and the log says so once") {
   const Cistern cistern;
-  InstanceChoices choices = with(cistern.path());
+  InstanceChoices choices = choices_with(cistern.path());
   choices.early_return = false;
   UnitInstance unit(library(), choices);
   REQUIRE(unit.set_real("inflow", 1) == fmi3OK);
@@ -220,7 +220,7 @@ TEST_CASE("what a program does wrong is an error that names it, and the program 
   REQUIRE(unit.start_steps() == fmi3OK);
   CHECK(unit.step(0, 1) == fmi3Error);
   CHECK_THAT(unit.last_message(), Contains("the program 'sh -c' ") && Contains(expected));
-  CHECK_FALSE(has_children());
+  CHECK_FALSE(has_child_left());
 }
 
 TEST_CASE("a program that cannot be started") {
@@ -258,11 +258,11 @@ TEST_CASE("no program outlives its unit") {
   for (int i = 0; i < 3; ++i) {
     Scripted scripted(start_answer() + "exec sleep 1000");
     REQUIRE(scripted.unit.start_steps() == fmi3OK);
-    CHECK(has_children());
+    CHECK(has_child_left());
     if (i == 1) CHECK(scripted.unit.fmi.Reset(scripted.unit.handle) == fmi3OK);
-    if (i == 1) CHECK_FALSE(has_children());
+    if (i == 1) CHECK_FALSE(has_child_left());
   }
-  CHECK_FALSE(has_children());
+  CHECK_FALSE(has_child_left());
 }
 
 TEST_CASE("it has no state, and says so") {

@@ -4,13 +4,15 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/units/reader/programs.h"
+
 using reader::minimum_jerk;
 using reader::position;
 using reader::Waypoint;
 
 namespace {
 
-stride::Time at(double seconds) { return stride::time_from_seconds(seconds); }
+using reader::tests::at;
 
 const std::vector<Waypoint> kPath = {
     {at(1.0), {0.0, 1.0}}, {at(3.0), {2.0, 1.0}}, {at(4.0), {-1.0, 0.5}}};

@@ -6,12 +6,14 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/units/reader/programs.h"
+
 using reader::parse_program;
 using reader::Program;
 
 namespace {
 
-stride::Time at(double seconds) { return stride::time_from_seconds(seconds); }
+using reader::tests::at;
 
 // The lines of a program, with their numbers; each test changes one of them.
 struct Lines {

@@ -5,13 +5,15 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/units/reader/programs.h"
+
 using reader::start_offsets;
 using reader::Tremor;
 using reader::Variation;
 
 namespace {
 
-stride::Time at(double seconds) { return stride::time_from_seconds(seconds); }
+using reader::tests::at;
 
 Variation trembling(std::uint64_t seed, std::vector<double> amplitudes = {0.002, 0.002}) {
   Variation variation;

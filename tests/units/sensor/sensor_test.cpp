@@ -30,12 +30,12 @@ Bytes answer_to(const Bytes& command, double temperature = 20) {
 }
 
 /// What a run leaves behind.
-struct Record {
+struct StepRecord {
   std::vector<nfc::Frame> answers;
   double charge = 0;
   int received = 0;
 
-  bool operator==(const Record& other) const {
+  bool operator==(const StepRecord& other) const {
     return answers == other.answers && charge == other.charge && received == other.received;
   }
 };
@@ -43,7 +43,7 @@ struct Record {
 /// 300 ms with a changing field and some commands, cut into steps by `next`, which is given an
 /// instant and returns a later one. Inputs change at whole multiples of 10 ms only.
 template <class Next>
-Record run_in_steps(const SensorParameters& parameters, Next next) {
+StepRecord run_in_steps(const SensorParameters& parameters, Next next) {
   Bench bench(parameters);
   for (const double start : {12.3456, 57.1, 61.7, 123.456789, 280.0}) {
     bench.send({0x02}, ms(start));
@@ -152,15 +152,15 @@ TEST_CASE("gating the clock changes nothing that can be seen from outside") {
   const auto steps = [](Time now) { return now + Duration(1'000'000'000); };
   SensorParameters parameters = sensor::charged();
   parameters.control_unit.clock_frequency = 5e6;
-  const Record gated = run_in_steps(parameters, steps);
+  const StepRecord gated = run_in_steps(parameters, steps);
   parameters.control_unit.clock_gating = false;
-  const Record running = run_in_steps(parameters, steps);
+  const StepRecord running = run_in_steps(parameters, steps);
   CHECK(gated.answers.size() >= 3);
   CHECK(gated == running);
 }
 
 TEST_CASE("any split of a run into steps gives the same bits") {
-  const Record whole = run_in_steps(sensor::charged(), [](Time) { return Time::max(); });
+  const StepRecord whole = run_in_steps(sensor::charged(), [](Time) { return Time::max(); });
   REQUIRE(whole.answers.size() >= 3);
   const auto every = [](Duration size) { return [size](Time now) { return now + size; }; };
   CHECK(run_in_steps(sensor::charged(), every(Duration(1'000'000'000))) == whole);

@@ -19,17 +19,17 @@ using stride::Time;
 
 namespace {
 
-const Bytes kIdentify = {0x01};
-const Bytes kIdentity = {0x00, 0x53, 0x45, 0x4E, 0x53};
+const Bytes kIdentifyBytes = {0x01};
+const Bytes kIdentityBytes = {0x00, 0x53, 0x45, 0x4E, 0x53};
 
 }  // namespace
 
 TEST_CASE("any single bit error in a request is found, and the request is not answered") {
-  const std::size_t length = request(kIdentify, Time()).bits.size();
+  const std::size_t length = request(kIdentifyBytes, Time()).bits.size();
   REQUIRE(length == 27);
   Bench bench;
   for (std::size_t bit = 0; bit < length; ++bit) {
-    nfc::Frame frame = request(kIdentify, ms(5 + 2.0 * static_cast<double>(bit)));
+    nfc::Frame frame = request(kIdentifyBytes, ms(5 + 2.0 * static_cast<double>(bit)));
     frame.bits[bit] ^= 1;
     bench.arrive(frame);
   }
@@ -38,7 +38,7 @@ TEST_CASE("any single bit error in a request is found, and the request is not an
   CHECK(bench.frames().received == 0);
   CHECK(bench.answers.empty());
 
-  bench.send(kIdentify, ms(100));
+  bench.send(kIdentifyBytes, ms(100));
   bench.run(ms(105));
   CHECK(bench.frames().received == 1);
   CHECK(bench.answers.size() == 1);
@@ -57,7 +57,7 @@ TEST_CASE("a wrong CRC with right parities is found") {
 
 TEST_CASE("only 106 kbit/s is understood") {
   Bench bench;
-  nfc::Frame frame = request(kIdentify, ms(5));
+  nfc::Frame frame = request(kIdentifyBytes, ms(5));
   frame.bit_rate = 212;
   bench.arrive(frame);
   bench.run(ms(10));
@@ -66,7 +66,7 @@ TEST_CASE("only 106 kbit/s is understood") {
 
 TEST_CASE("a request is received at the end of its air time, to the picosecond") {
   Bench bench;
-  const nfc::Frame frame = request(kIdentify, ms(5) + Duration(123'457));
+  const nfc::Frame frame = request(kIdentifyBytes, ms(5) + Duration(123'457));
   bench.arrive(frame);
   const Time end = frame.start + nfc::air_time(frame);
   bench.run(end - Duration(1));
@@ -80,7 +80,7 @@ TEST_CASE("answers start on the grid of the frame delay time") {
   Bench bench;
   std::vector<Time> ends;
   for (int i = 0; i < 20; ++i) {
-    const nfc::Frame frame = request(kIdentify, ms(5 + 3 * i) + Duration(1'234'567 * i));
+    const nfc::Frame frame = request(kIdentifyBytes, ms(5 + 3 * i) + Duration(1'234'567 * i));
     ends.push_back(frame.start + nfc::air_time(frame));
     bench.arrive(frame);
   }
@@ -91,12 +91,12 @@ TEST_CASE("answers start on the grid of the frame delay time") {
     const double n = (periods - 84) / 128;
     CHECK(std::round(n) >= 9);
     CHECK(std::abs(n - std::round(n)) < 1e-6);
-    CHECK(data_of(bench.answers[i]) == kIdentity);
+    CHECK(data_of(bench.answers[i]) == kIdentityBytes);
   }
 }
 
 TEST_CASE("a frame whose start is past is received as if it had been handed over in time") {
-  const nfc::Frame frame = request(kIdentify, ms(5));
+  const nfc::Frame frame = request(kIdentifyBytes, ms(5));
   Bench in_time;
   in_time.arrive(frame);
   in_time.run(ms(10));
@@ -116,7 +116,7 @@ TEST_CASE("a frame whose start is past is received as if it had been handed over
 
 TEST_CASE("without power nothing is received, counted or answered") {
   Bench bench{SensorParameters()};
-  bench.send(kIdentify, ms(5));
+  bench.send(kIdentifyBytes, ms(5));
   bench.run(ms(10));
   CHECK(bench.answers.empty());
   CHECK(bench.frames().received == 0);
@@ -129,7 +129,7 @@ TEST_CASE("a frame whose start was missed is not received") {
   parameters.power.start_up_delay = 0.1e-3;
   Bench bench(parameters);
   bench.field(5e-3);
-  bench.send(kIdentify, ms(0.0));  // takes 0.27 ms
+  bench.send(kIdentifyBytes, ms(0.0));  // takes 0.27 ms
   bench.run(ms(0.05));
   CHECK_FALSE(bench.powered());
   bench.run(ms(0.2));
@@ -141,9 +141,9 @@ TEST_CASE("a frame whose start was missed is not received") {
 
 TEST_CASE("frames that overlap garble each other") {
   Bench bench;
-  bench.send(kIdentify, ms(5));
-  bench.send(kIdentify, ms(5.1));
-  bench.send(kIdentify, ms(8));
+  bench.send(kIdentifyBytes, ms(5));
+  bench.send(kIdentifyBytes, ms(5.1));
+  bench.send(kIdentifyBytes, ms(8));
   bench.run(ms(12));
   CHECK(bench.frames().rejected == 2);
   CHECK(bench.frames().received == 1);
@@ -152,8 +152,8 @@ TEST_CASE("frames that overlap garble each other") {
 
 TEST_CASE("frames that are handed over at their ends and overlap: the later one is garbled") {
   Bench bench;
-  const nfc::Frame first = request(kIdentify, ms(5));
-  const nfc::Frame second = request(kIdentify, ms(5.1));
+  const nfc::Frame first = request(kIdentifyBytes, ms(5));
+  const nfc::Frame second = request(kIdentifyBytes, ms(5.1));
   for (const nfc::Frame& frame : {first, second}) {
     bench.run(frame.start + nfc::air_time(frame));
     bench.arrive(frame);
@@ -164,7 +164,7 @@ TEST_CASE("frames that are handed over at their ends and overlap: the later one 
 }
 
 TEST_CASE("a frame may be handed over at any instant of its time on the air") {
-  const nfc::Frame frame = request(kIdentify, ms(5) + Duration(4711));
+  const nfc::Frame frame = request(kIdentifyBytes, ms(5) + Duration(4711));
   const Duration length = nfc::air_time(frame);
   std::vector<nfc::Frame> expected;
   for (const Duration after : {-length, Duration(0), length / 3, length}) {
@@ -179,7 +179,7 @@ TEST_CASE("a frame may be handed over at any instant of its time on the air") {
 }
 
 TEST_CASE("a frame that was cut off is handed over short, and found so") {
-  const nfc::Frame whole = request(kIdentify, ms(5));
+  const nfc::Frame whole = request(kIdentifyBytes, ms(5));
   for (std::size_t bits = 1; bits < whole.bits.size(); ++bits) {
     Bench bench;
     nfc::Frame heard = whole;
@@ -195,7 +195,7 @@ TEST_CASE("a frame that was cut off is handed over short, and found so") {
 
 TEST_CASE("a frame that is cut off while it is received takes its own place") {
   Bench bench;
-  nfc::Frame frame = request(kIdentify, ms(5));
+  nfc::Frame frame = request(kIdentifyBytes, ms(5));
   bench.arrive(frame);
   bench.run(ms(5.1));
   frame.bits.resize(9);
@@ -217,7 +217,7 @@ TEST_CASE("a frame for the end of which there was no power is not received") {
   bench.run(ms(30));
   REQUIRE(bench.powered());
   const int received = bench.frames().received;
-  const nfc::Frame frame = request(kIdentify, ms(6));
+  const nfc::Frame frame = request(kIdentifyBytes, ms(6));
   bench.arrive(frame);  // the power came back meanwhile, but that does not help
   bench.run(ms(40));
   CHECK(bench.frames().received == received);
@@ -226,12 +226,12 @@ TEST_CASE("a frame for the end of which there was no power is not received") {
 
 TEST_CASE("a frame that comes during an answer is rejected") {
   Bench bench;
-  bench.send(kIdentify, ms(5));
+  bench.send(kIdentifyBytes, ms(5));
   bench.run(ms(8));
   REQUIRE(bench.answers.size() == 1);
   Bench again;
-  again.send(kIdentify, ms(5));
-  again.send(kIdentify, bench.answers[0].start + Duration(1));
+  again.send(kIdentifyBytes, ms(5));
+  again.send(kIdentifyBytes, bench.answers[0].start + Duration(1));
   again.run(ms(8));
   CHECK(again.answers == bench.answers);
   CHECK(again.frames().rejected == 1);
@@ -245,7 +245,7 @@ TEST_CASE("power that fails during an answer cuts it off, and the rest is handed
   parameters.power.start_up_delay = 1;
   parameters.control_unit.boot_cycles = 100;
   Bench bench(parameters);
-  bench.send(kIdentify, ms(0.1));
+  bench.send(kIdentifyBytes, ms(0.1));
   bench.run(ms(20));
   CHECK(bench.frames().sent == 1);
   CHECK(bench.frames().cut == 1);
@@ -262,7 +262,7 @@ TEST_CASE("power that fails during an answer cuts it off, and the rest is handed
 
 TEST_CASE("a field that is switched off during an answer cuts it off there") {
   Bench bench;
-  bench.send(kIdentify, ms(5));
+  bench.send(kIdentifyBytes, ms(5));
   bench.run(ms(5.4));
   REQUIRE(bench.answers.size() == 1);
   const nfc::Frame whole = bench.answers[0];
@@ -277,15 +277,15 @@ TEST_CASE("a field that is switched off during an answer cuts it off there") {
   CHECK(bench.powered());
 
   bench.field(sensor::kCarrier);  // the device lives on its capacitor, and answers again
-  bench.send(kIdentify, ms(10));
+  bench.send(kIdentifyBytes, ms(10));
   bench.run(ms(15));
   REQUIRE(bench.answers.size() == 3);
-  CHECK(data_of(bench.answers[2]) == kIdentity);
+  CHECK(data_of(bench.answers[2]) == kIdentityBytes);
 }
 
 TEST_CASE("an answer whose bits are all out is not cut off any more") {
   Bench bench;
-  bench.send(kIdentify, ms(5));
+  bench.send(kIdentifyBytes, ms(5));
   bench.run(ms(5.6));
   REQUIRE(bench.answers.size() == 1);
   const nfc::Frame& whole = bench.answers[0];
@@ -301,16 +301,16 @@ TEST_CASE("with a carrier of its own it answers without a field") {
   parameters.transceiver.carrier_threshold = 0;
   Bench bench(parameters);
   bench.field(0);
-  bench.send(kIdentify, ms(5));
+  bench.send(kIdentifyBytes, ms(5));
   bench.run(ms(10));
   REQUIRE(bench.answers.size() == 1);
-  CHECK(data_of(bench.answers[0]) == kIdentity);
+  CHECK(data_of(bench.answers[0]) == kIdentityBytes);
   CHECK(bench.frames().dropped == 0);
 }
 
 TEST_CASE("without a carrier an answer is not started") {
   Bench bench;
-  bench.send(kIdentify, ms(5));
+  bench.send(kIdentifyBytes, ms(5));
   bench.run(ms(5.3));
   CHECK(bench.frames().received == 1);
   bench.field(0.99e-6);  // below the threshold
@@ -319,7 +319,7 @@ TEST_CASE("without a carrier an answer is not started") {
   CHECK(bench.frames().sent == 0);
   CHECK(bench.frames().dropped == 1);
   bench.field(1e-6);
-  bench.send(kIdentify, ms(10));
+  bench.send(kIdentifyBytes, ms(10));
   bench.run(ms(15));
   CHECK(bench.answers.size() == 1);
 }

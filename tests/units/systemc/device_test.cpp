@@ -8,6 +8,7 @@
 #include <stride/systemc/device.h>
 
 #include "tests/units/systemc/blinker.h"
+#include "tests/units/systemc/times.h"
 
 using blinker::Blinker;
 using blinker::Owner;
@@ -17,9 +18,8 @@ using stride::systemc::Device;
 
 namespace {
 
-constexpr Duration kMicrosecond{1'000'000};
-
-Time at(Duration duration) { return Time(duration); }
+using stride::tests::at;
+using stride::tests::kMicrosecond;
 
 int edges(Device<Blinker>& device) {
   return device.within([](Blinker& blinker) { return blinker.edges.read(); });

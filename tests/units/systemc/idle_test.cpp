@@ -15,6 +15,7 @@
 #include <stride/tangent.h>
 
 #include "tests/units/systemc/meter.h"
+#include "tests/units/systemc/times.h"
 
 using meter::kPeriod;
 using meter::Meter;
@@ -27,11 +28,11 @@ using stride::systemc::Timer;
 
 namespace {
 
-constexpr Duration kMicrosecond{1'000'000};
-constexpr Duration kMillisecond{1'000'000'000};
+using stride::tests::kMicrosecond;
+using stride::tests::kMillisecond;
 constexpr Duration kEver = Duration::max();
 
-Time at(Duration duration) { return Time(duration); }
+using stride::tests::at;
 
 class MeterRules : public IdleRules {
  public:

@@ -10,6 +10,7 @@
 #include <stride/systemc/kernel.h>
 
 #include "tests/units/systemc/blinker.h"
+#include "tests/units/systemc/times.h"
 
 using blinker::Actor;
 using blinker::Blinker;
@@ -22,10 +23,9 @@ using stride::systemc::Kernel;
 
 namespace {
 
-constexpr Duration kNanosecond{1000};
-constexpr Duration kMicrosecond{1'000'000};
-
-Time at(Duration duration) { return Time(duration); }
+using stride::tests::at;
+using stride::tests::kMicrosecond;
+using stride::tests::kNanosecond;
 
 std::string error_of(void (*action)(), bool in_thread) {
   Device<Actor> device({}, "actor", action, in_thread);

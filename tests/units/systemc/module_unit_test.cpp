@@ -10,6 +10,7 @@
 
 #include "tests/units/systemc/gadget.h"
 #include "tests/units/systemc/gadget_unit.h"
+#include "tests/units/systemc/times.h"
 #include "tests/units/systemc/unit_driver.h"
 #include "tests/units/systemc/vcd.h"
 
@@ -29,11 +30,11 @@ using stride::tests::UnitDriver;
 
 namespace {
 
-constexpr Duration kNanosecond{1000};
-constexpr Duration kMicrosecond{1'000'000};
-constexpr Duration kPeriod = 100 * kNanosecond;
+using stride::tests::kMicrosecond;
+using stride::tests::kNanosecond;
+constexpr Duration kGadgetPeriod = 100 * kNanosecond;
 
-Time at(Duration duration) { return Time(duration); }
+using stride::tests::at;
 
 struct GadgetDriver : UnitDriver {
   GadgetDriver() : UnitDriver(std::make_unique<GadgetUnit>()) {}
@@ -280,7 +281,7 @@ TEST_CASE("rows that do not fit the module are errors at initialization") {
                Contains("x: device.changes is a sc_signal") && Contains("double"));
   }
   SECTION("a clock for an output") {
-    CHECK_THAT(error_of([](Rows<Gate>& rows) { rows.clock(&Gate::y, kPeriod); }),
+    CHECK_THAT(error_of([](Rows<Gate>& rows) { rows.clock(&Gate::y, kGadgetPeriod); }),
                Contains("device.y") && Contains("sc_in<bool>"));
   }
   SECTION("a message without a dot in its name") {
@@ -336,7 +337,7 @@ TEST_CASE("a module that needs more than its name") {
 TEST_CASE("skipping the idle time of a module with a clock changes no value") {
   const auto make = [] {
     return driver_of<Gadget>([](Rows<Gadget>& rows) {
-      rows.clock(&Gadget::clk, kPeriod);
+      rows.clock(&Gadget::clk, kGadgetPeriod);
       rows.tie(&Gadget::rst_n, true);
       rows.input("step", &Gadget::step);
       rows.tie(&Gadget::offset);

@@ -8,6 +8,7 @@
 #include <stride/systemc/device.h>
 
 #include "tests/units/systemc/blinker.h"
+#include "tests/units/systemc/times.h"
 
 using blinker::Blinker;
 using stride::Duration;
@@ -16,7 +17,7 @@ using stride::systemc::Device;
 
 namespace {
 
-constexpr Duration kMicrosecond{1'000'000};
+using stride::tests::kMicrosecond;
 constexpr std::size_t kDevices = 4;
 constexpr int kRounds = 200;
 

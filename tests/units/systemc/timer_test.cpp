@@ -7,6 +7,8 @@
 #include <stride/systemc/time.h>
 #include <stride/systemc/timer.h>
 
+#include "tests/units/systemc/times.h"
+
 using Catch::Matchers::Contains;
 using stride::Duration;
 using stride::Time;
@@ -16,9 +18,8 @@ using stride::systemc::Timer;
 
 namespace {
 
-constexpr Duration kMicrosecond{1'000'000};
-
-Time at(Duration duration) { return Time(duration); }
+using stride::tests::at;
+using stride::tests::kMicrosecond;
 
 /// Three timers, an event that is notified the usual way, and the order in which they go off.
 class Alarms : public sc_core::sc_module {

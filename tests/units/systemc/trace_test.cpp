@@ -13,6 +13,7 @@
 #include <stride/systemc/trace.h>
 
 #include "tests/units/systemc/meter.h"
+#include "tests/units/systemc/times.h"
 #include "tests/units/systemc/vcd.h"
 
 using Catch::Matchers::Contains;
@@ -31,9 +32,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr Duration kMicrosecond{1'000'000};
-
-Time at(Duration duration) { return Time(duration); }
+using stride::tests::at;
+using stride::tests::kMicrosecond;
 
 struct TemporaryFolder {
   fs::path path = fs::temp_directory_path() / ("stride_trace_" + std::to_string(getpid()));

@@ -15,6 +15,7 @@
 #include <stride/systemc/unit.h>
 
 #include "tests/units/systemc/meter.h"
+#include "tests/units/systemc/times.h"
 #include "tests/units/systemc/unit_driver.h"
 #include "tests/units/systemc/vcd.h"
 
@@ -30,10 +31,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr Duration kMicrosecond{1'000'000};
-constexpr Duration kMillisecond{1'000'000'000};
-
-Time at(Duration duration) { return Time(duration); }
+using stride::tests::at;
+using stride::tests::kMicrosecond;
+using stride::tests::kMillisecond;
 
 /// A device of somebody else's, wrapped: all that is said of idle times is in the last four
 /// functions.
@@ -81,10 +81,10 @@ struct MeterDriver : UnitDriver {
   double charge() { return value<double>("charge"); }
 };
 
-struct TemporaryFolder {
+struct UnitFolder {
   fs::path path = fs::temp_directory_path() / ("stride_unit_" + std::to_string(getpid()));
-  TemporaryFolder() { fs::create_directory(path); }
-  ~TemporaryFolder() { fs::remove_all(path); }
+  UnitFolder() { fs::create_directory(path); }
+  ~UnitFolder() { fs::remove_all(path); }
   std::string operator/(const char* name) const { return (path / name).string(); }
 };
 
@@ -183,7 +183,7 @@ TEST_CASE("the log says at the end how much was skipped") {
 }
 
 TEST_CASE("each device can be traced, from its parameters") {
-  const TemporaryFolder folder;
+  const UnitFolder folder;
   const auto run = [&](std::optional<Duration> max_skip, const char* name) {
     MeterDriver unit;
     if (max_skip) unit.enable_skipping(*max_skip);
@@ -209,7 +209,7 @@ TEST_CASE("each device can be traced, from its parameters") {
 }
 
 TEST_CASE("a trace that cannot be made is an error at initialization") {
-  const TemporaryFolder folder;
+  const UnitFolder folder;
   MeterDriver unit;
   unit.value<std::string>("trace.file") = folder / "missing/x.vcd";
   CHECK_THROWS_WITH(unit.initialize(), Contains("trace.file"));
@@ -221,7 +221,7 @@ TEST_CASE("a trace that cannot be made is an error at initialization") {
 }
 
 TEST_CASE("a trace is among the run's results, where the importer says which folder that is") {
-  const TemporaryFolder folder;
+  const UnitFolder folder;
   ::setenv("STRIDE_RESULTS", folder.path.c_str(), 1);
   MeterDriver unit;
   unit.value<std::string>("trace.file") = "meter";
@@ -231,7 +231,7 @@ TEST_CASE("a trace is among the run's results, where the importer says which fol
 }
 
 TEST_CASE("a trace is off unless a file is named, and closed with the unit") {
-  const TemporaryFolder folder;
+  const UnitFolder folder;
   {
     MeterDriver unit;
     unit.initialize();

@@ -42,16 +42,6 @@ struct Watch {
   Ticks ticks;
 };
 
-std::string failure(Simulation& simulation) {
-  try {
-    simulation.run();
-  } catch (const Error& error) {
-    CHECK(error.kind() == Error::Kind::Run);
-    return error.what();
-  }
-  return "none";
-}
-
 /// A unit with a clock, an input and an output that belong to it, and an ordinary input and output.
 auto sampler(const std::string& name, Duration interval, Duration shift = {}) {
   return Describe(name)

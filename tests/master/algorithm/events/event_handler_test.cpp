@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-struct Seen : Observer {
+struct RecordedRows : Observer {
   std::vector<Signal> signals;
   std::vector<Time> times;
   std::vector<std::vector<double>> rows;
@@ -39,8 +39,8 @@ struct Seen : Observer {
 constexpr double kJump = 0.0025;  // between two points of the grid
 
 /// Units whose output is f(u), at the start, at events, and at the end of each step.
-struct Fixture : ScriptedSystem {
-  Seen seen;
+struct EventSystem : ScriptedSystem {
+  RecordedRows seen;
   Time now{};
   std::map<std::string, int> events;  ///< event iterations after the start
 
@@ -95,15 +95,15 @@ struct Fixture : ScriptedSystem {
   }
 };
 
-double plus_one(double u) { return u + 1; }
+double one_more(double u) { return u + 1; }
 
 }  // namespace
 
 TEST_CASE("a jump goes through a chain at its own instant") {
-  Fixture f;
-  f.follower("c", plus_one);
-  f.follower("b", plus_one);
-  f.follower("a", plus_one);
+  EventSystem f;
+  f.follower("c", one_more);
+  f.follower("b", one_more);
+  f.follower("a", one_more);
   f.source();
   f.wire("source", "y", "a", "u");
   f.wire("a", "y", "b", "u");
@@ -116,9 +116,9 @@ TEST_CASE("a jump goes through a chain at its own instant") {
 }
 
 TEST_CASE("a unit without Event Mode keeps its outputs until the next step") {
-  Fixture f;
-  f.follower("b", plus_one);
-  f.follower("a", plus_one, false);
+  EventSystem f;
+  f.follower("b", one_more);
+  f.follower("a", one_more, false);
   f.source();
   f.wire("source", "y", "a", "u");
   f.wire("a", "y", "b", "u");
@@ -130,7 +130,7 @@ TEST_CASE("a unit without Event Mode keeps its outputs until the next step") {
 }
 
 TEST_CASE("a jump is an event of the receiver, too, where no output follows it") {
-  Fixture f;
+  EventSystem f;
   auto& b = f.add("b", Describe("b").input("u").output("y").depends_on({}).event_mode().done());
   int events = 0;
   b.on_event = [&](ScriptedUnit&) {
@@ -146,7 +146,7 @@ TEST_CASE("a jump is an event of the receiver, too, where no output follows it")
 
 TEST_CASE("a loop is solved at the instant of a jump") {
   const double slope = GENERATE(0.5, -0.5, -3.0, 20.0);
-  Fixture f;
+  EventSystem f;
   auto& a = f.add(
       "a", Describe("a").input("u").output("y").depends_on({0, 2}).input("v").event_mode().done());
   f.follower("b", [](double u) { return u; });
@@ -165,7 +165,7 @@ TEST_CASE("a loop is solved at the instant of a jump") {
 }
 
 TEST_CASE("a loop that has no solution after a jump is an error at that instant") {
-  Fixture f;
+  EventSystem f;
   auto& a = f.add(
       "a", Describe("a").input("u").output("y").depends_on({0, 2}).input("v").event_mode().done());
   f.follower("b", [](double u) { return u; });
@@ -180,7 +180,7 @@ TEST_CASE("a loop that has no solution after a jump is an error at that instant"
 }
 
 TEST_CASE("a Boolean that goes through a chain at the instant of an event is an event of each") {
-  Fixture f;
+  EventSystem f;
   const auto relay = Describe("relay")
                          .add("u", ValueType::Boolean, Causality::Input)
                          .add("y", ValueType::Boolean, Causality::Output)
@@ -218,9 +218,9 @@ TEST_CASE("a Boolean that goes through a chain at the instant of an event is an 
 }
 
 TEST_CASE("instants without an event ask no unit for more than its outputs") {
-  Fixture f;
-  auto& a = f.follower("a", plus_one);
-  f.follower("b", plus_one);
+  EventSystem f;
+  auto& a = f.follower("a", one_more);
+  f.follower("b", one_more);
   f.wire("a", "y", "b", "u");
   f.build(1, 1ms).run();
   const int at_start = a.gets;

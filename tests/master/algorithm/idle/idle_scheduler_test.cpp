@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/at.h"
 #include "tests/master/algorithm/scripted_system.h"
 
 using namespace stride;
@@ -14,7 +15,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-Time at(double seconds) { return time_from_seconds(seconds); }
+using stride::tests::at;
 
 struct Made {
   Time from, to;
@@ -77,7 +78,7 @@ struct Reader {
   }
 };
 
-struct Fixture : ScriptedSystem {
+struct IdleSystem : ScriptedSystem {
   Integrator& integrator(const std::string& name, double deadband = 0) {
     return *integrators.emplace_back(
         std::make_unique<Integrator>(add(name, Integrator::description(deadband).done())));
@@ -96,7 +97,7 @@ struct Fixture : ScriptedSystem {
 }  // namespace
 
 TEST_CASE("an idle unit is called once in max_skip, and its readers see its tangent") {
-  Fixture f;
+  IdleSystem f;
   auto& a = f.integrator("a");
   Reader b(f, "b");
   a.unit->on_initialize = [](ScriptedUnit& self) { self.number(0) = 2; };
@@ -112,7 +113,7 @@ TEST_CASE("an idle unit is called once in max_skip, and its readers see its tang
 }
 
 TEST_CASE("without max_skip no unit is suspended, and no promise is read") {
-  Fixture f;
+  IdleSystem f;
   auto& a = f.integrator("a");
   f.build(1, 100ms).run();
   CHECK(a.steps.size() == 10);
@@ -120,7 +121,7 @@ TEST_CASE("without max_skip no unit is suspended, and no promise is read") {
 }
 
 TEST_CASE("skipping is enabled before the initialization, with the tolerances that were chosen") {
-  Fixture f;
+  IdleSystem f;
   auto& a = f.integrator("a");
   f.options.idle.tolerances = {{{0, 1}, 0.25}};
   f.run(1, 100ms, 300ms);
@@ -132,7 +133,7 @@ TEST_CASE("skipping is enabled before the initialization, with the tolerances th
 }
 
 TEST_CASE("a unit catches up with the old input, then the new one is set") {
-  Fixture f;
+  IdleSystem f;
   auto& a = f.integrator("a");
   follow_time(f, "s", [](double t) { return t < 0.35 ? 1 : 5; });
   Reader b(f, "b");
@@ -146,7 +147,7 @@ TEST_CASE("a unit catches up with the old input, then the new one is set") {
 
 TEST_CASE("an input within its deadband ends no suspension; a drift does in the end") {
   const double deadband = GENERATE(0.0, 0.25, 10.0);
-  Fixture f;
+  IdleSystem f;
   auto& a = f.integrator("a", deadband);
   follow_time(f, "s", [](double t) { return t; });
   f.wire("s", "y", "a", "u");
@@ -156,7 +157,7 @@ TEST_CASE("an input within its deadband ends no suspension; a drift does in the 
 }
 
 TEST_CASE("a deadband that the user chose goes before that of the unit") {
-  Fixture f;
+  IdleSystem f;
   auto& a = f.integrator("a", 10);
   follow_time(f, "s", [](double t) { return t; });
   f.wire("s", "y", "a", "u");
@@ -166,7 +167,7 @@ TEST_CASE("a deadband that the user chose goes before that of the unit") {
 }
 
 TEST_CASE("where the promise ends the unit is called, and may have an event") {
-  Fixture f;
+  IdleSystem f;
   auto& a = f.integrator("a");
   a.until = at(0.4);
   int events = 0;
@@ -185,7 +186,7 @@ TEST_CASE("where the promise ends the unit is called, and may have an event") {
 }
 
 TEST_CASE("a promise that ends between two points is worth the steps before it") {
-  Fixture f;
+  IdleSystem f;
   auto& a = f.integrator("a");
   Reader b(f, "b");
   a.until = at(0.35);
@@ -199,7 +200,7 @@ TEST_CASE("a promise that ends between two points is worth the steps before it")
 }
 
 TEST_CASE("a unit that breaks its promise is named, with the promise and what it did") {
-  Fixture f;
+  IdleSystem f;
   auto& a = f.integrator("liar");
   std::string deed;
   SECTION("event") {
@@ -227,7 +228,7 @@ TEST_CASE("a unit that breaks its promise is named, with the promise and what it
 }
 
 TEST_CASE("when all units are suspended the run takes one stride, to a point of the grid") {
-  Fixture f;
+  IdleSystem f;
   f.integrator("a");
   auto& b = f.integrator("b");
   b.until = at(5.25);
@@ -239,7 +240,7 @@ TEST_CASE("when all units are suspended the run takes one stride, to a point of 
 }
 
 TEST_CASE("an event of another unit ends no suspension, a message does") {
-  Fixture f;
+  IdleSystem f;
   const auto clocked = [](Causality causality) {
     return Describe("m").add("c", ValueType::Clock, causality).event_mode();
   };
@@ -272,7 +273,7 @@ TEST_CASE("an event of another unit ends no suspension, a message does") {
 }
 
 TEST_CASE("a unit that catches up may end the suspension of others") {
-  Fixture f;
+  IdleSystem f;
   auto& a = f.integrator("a");
   auto& b = f.integrator("b");
   // a's slope is a lie by less than its tolerance, b tolerates nothing
@@ -288,7 +289,7 @@ TEST_CASE("a unit that catches up may end the suspension of others") {
 
 TEST_CASE("a step that is cut short does not concern a suspended unit") {
   const bool rejects = GENERATE(true, false);
-  Fixture f;
+  IdleSystem f;
   auto& a = f.integrator("a");
   auto& c = f.add("c", Describe("c").can_save_state().may_return_early().done());
   bool cut = false;
@@ -306,7 +307,7 @@ TEST_CASE("a step that is cut short does not concern a suspended unit") {
 }
 
 TEST_CASE("inputs that are extrapolated leave no unit idle") {
-  Fixture f;
+  IdleSystem f;
   auto& a = f.integrator("a");
   f.options.extrapolation = Extrapolation::Linear;
   f.run(1, 100ms);
@@ -315,7 +316,7 @@ TEST_CASE("inputs that are extrapolated leave no unit idle") {
 
 TEST_CASE("with threads the same units are suspended, and the results are the same") {
   const auto run = [](std::size_t threads) {
-    Fixture f;
+    IdleSystem f;
     f.options.threads = {threads, {}, true};
     std::vector<Integrator*> units;
     for (const char* name : {"a", "b", "c"}) units.push_back(&f.integrator(name, 0.1));

@@ -13,7 +13,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-struct Fixture : ScriptedSystem {
+struct InitialSystem : ScriptedSystem {
   std::unique_ptr<RunContext> context;
 
   void run() {
@@ -50,7 +50,7 @@ double plus_one(double u) { return u + 1; }
 }  // namespace
 
 TEST_CASE("in a chain each output is read once, whatever the order of the file") {
-  Fixture f;
+  InitialSystem f;
   constexpr int kUnits = 50;
   std::vector<ScriptedUnit*> units;
   for (int i = 0; i < kUnits; ++i) units.push_back(&f.follower("n" + std::to_string(i), plus_one));
@@ -64,7 +64,7 @@ TEST_CASE("in a chain each output is read once, whatever the order of the file")
 }
 
 TEST_CASE("an input that is not known yet is not written, nor an output read that depends on it") {
-  Fixture f;
+  InitialSystem f;
   auto& b = f.follower("b", [](double u) { return 1 / u; });
   auto& a = f.follower("a", [](double) { return 4.0; });
   f.follower("c", plus_one);
@@ -83,7 +83,7 @@ TEST_CASE("an input that is not known yet is not written, nor an output read tha
 
 TEST_CASE("linear loops have the values of the closed form") {
   const double slope = GENERATE(0.4, -0.9, -3.0, 40.0, -1e5);
-  Fixture f;
+  InitialSystem f;
   auto& a = f.follower("a", [&](double u) { return slope * u + 4; });
   auto& b = f.follower("b", [](double u) { return 2 * u - 1; });
   f.ring("a", "b");
@@ -94,7 +94,7 @@ TEST_CASE("linear loops have the values of the closed form") {
 }
 
 TEST_CASE("a loop is solved before what follows from it, and after what it follows from") {
-  Fixture f;
+  InitialSystem f;
   auto& sink = f.follower("sink", plus_one);
   auto& a = f.add("a", Describe("a").input("u").input("v").output("y").depends_on({0, 1}).done());
   auto& b = f.follower("b", [](double u) { return u / 2; });
@@ -110,7 +110,7 @@ TEST_CASE("a loop is solved before what follows from it, and after what it follo
 
 TEST_CASE("the solution nearest to the start value of the input is found") {
   const auto [guess, expected] = GENERATE(std::pair{0.5, 1.0}, std::pair{10.0, 4.0});
-  Fixture f;
+  InitialSystem f;
   auto& a = f.follower("a", [](double u) { return (u * u + 4) / 5; });  // 1 and 4
   auto& b = f.follower("b", [](double u) { return u; });
   f.ring("a", "b");
@@ -120,7 +120,7 @@ TEST_CASE("the solution nearest to the start value of the input is found") {
 }
 
 TEST_CASE("arrays and units of measurement in a loop") {
-  Fixture f;
+  InitialSystem f;
   const BaseUnitOfMeasure metre{{0, 1}, 1, 0};
   const BaseUnitOfMeasure millimetre{{0, 1}, 1e-3, 0};
   auto& a = f.add("a", Describe("a")
@@ -159,7 +159,7 @@ TEST_CASE("arrays and units of measurement in a loop") {
 }
 
 TEST_CASE("a loop of single-precision numbers") {
-  Fixture f;
+  InitialSystem f;
   const auto description = Describe("single")
                                .add("u", ValueType::Float32, Causality::Input)
                                .add("y", ValueType::Float32, Causality::Output)
@@ -179,7 +179,7 @@ TEST_CASE("a loop of single-precision numbers") {
 }
 
 TEST_CASE("a dependency that is not declared and does not exist costs no search") {
-  Fixture f;
+  InitialSystem f;
   const auto undeclared =
       Describe("undeclared").input("u").output("constant").output("follows").done();
   auto& a = f.add("a", undeclared);
@@ -198,7 +198,7 @@ TEST_CASE("a dependency that is not declared and does not exist costs no search"
 }
 
 TEST_CASE("a long way that only looks like a loop is settled step by step") {
-  Fixture f;
+  InitialSystem f;
   constexpr ValueReference kPorts = 6;
   Describe ports("ports");
   for (ValueReference i = 0; i < kPorts; ++i) ports.input("u" + std::to_string(i));
@@ -220,7 +220,7 @@ TEST_CASE("a long way that only looks like a loop is settled step by step") {
 
 TEST_CASE("a Boolean loop settles, or is an error with its path and values") {
   const bool inverts = GENERATE(false, true);
-  Fixture f;
+  InitialSystem f;
   const auto description = Describe("switch")
                                .add("u", ValueType::Boolean, Causality::Input)
                                .add("y", ValueType::Boolean, Causality::Output)
@@ -234,7 +234,7 @@ TEST_CASE("a Boolean loop settles, or is an error with its path and values") {
   f.run();
   CHECK(b.clock(0) != inverts);
 
-  Fixture g;
+  InitialSystem g;
   auto& c = g.add("c", description);
   auto& d = g.add("d", description);
   g.ring("c", "d");
@@ -245,7 +245,7 @@ TEST_CASE("a Boolean loop settles, or is an error with its path and values") {
 }
 
 TEST_CASE("a String in a loop") {
-  Fixture f;
+  InitialSystem f;
   const auto description = Describe("text")
                                .add("u", ValueType::String, Causality::Input)
                                .add("y", ValueType::String, Causality::Output)
@@ -265,7 +265,7 @@ TEST_CASE("a String in a loop") {
 
 TEST_CASE("numbers and a switch in one loop") {
   // y = slope u + 1 with a slope that a switch chooses: -4 below zero, else -2; the switch is u < 0
-  Fixture f;
+  InitialSystem f;
   auto& a = f.add("a", Describe("a")
                            .input("u")
                            .add("steep", ValueType::Boolean, Causality::Input)
@@ -295,7 +295,7 @@ TEST_CASE("numbers and a switch in one loop") {
 }
 
 TEST_CASE("the error tells the whole path, the values, and how to break the loop") {
-  Fixture f;
+  InitialSystem f;
   f.follower("a", plus_one);
   f.follower("b", [](double u) { return u; });
   f.ring("a", "b");
@@ -307,7 +307,7 @@ TEST_CASE("the error tells the whole path, the values, and how to break the loop
 }
 
 TEST_CASE("NaN on the way to the initial values is no error") {
-  Fixture f;
+  InitialSystem f;
   auto& a = f.add("a", Describe("a").input("u").output("x").output("y").done());
   auto& b = f.add("b", Describe("b").input("u").input("v").output("y").output("z").done());
   f.wire("a", "x", "b", "u");
@@ -326,7 +326,7 @@ TEST_CASE("NaN on the way to the initial values is no error") {
 }
 
 TEST_CASE("a connected output that is NaN is named") {
-  Fixture f;
+  InitialSystem f;
   auto& a = f.follower("a", [](double) { return std::nan(""); });
   f.follower("b", plus_one);
   f.wire("a", "y", "b", "u");
@@ -380,7 +380,7 @@ TEST_CASE("random systems have the values that endless iteration would give") {
   for (int round = 0; round < 200; ++round) {
     const std::size_t count = 2 + generator() % 5;
     const std::size_t ports = 1 + generator() % 4;
-    Fixture f;
+    InitialSystem f;
     std::vector<LinearUnit> units;
     for (std::size_t i = 0; i < count; ++i) units.emplace_back(generator, ports);
     for (std::size_t i = 0; i < count; ++i) {

@@ -12,7 +12,7 @@ using namespace stride::core;
 
 namespace {
 
-constexpr ValueReference kU = 0, kY = 1;
+constexpr ValueReference kInput = 0, kOutput = 1;
 
 /// A unit of two inputs and two outputs, whose derivatives are the matrix, row by row.
 ScriptedUnit& linear(ScriptedSystem& system, const std::string& name,
@@ -23,12 +23,12 @@ ScriptedUnit& linear(ScriptedSystem& system, const std::string& name,
                                             .size(2)
                                             .add("y", ValueType::Float64, Causality::Output, "unit")
                                             .size(2)
-                                            .depends_on({kU})
+                                            .depends_on({kInput})
                                             .directional_derivatives()
                                             .done());
   unit.on_derivative = [matrix](ScriptedUnit&, ValueReference unknown, ValueReference known) {
-    CHECK(unknown == kY);
-    CHECK(known == kU);
+    CHECK(unknown == kOutput);
+    CHECK(known == kInput);
     return matrix;
   };
   return unit;
@@ -39,10 +39,12 @@ struct Cosine : ScriptedSystem {
   explicit Cosine(bool knows_derivative) {
     Describe description("cosine");
     if (knows_derivative) description.directional_derivatives();
-    auto& unit = add("a", description.input("u").output("y").depends_on({kU}).done());
-    unit.on_initialize = [](ScriptedUnit& self) { self.number(kY) = std::cos(self.number(kU)); };
+    auto& unit = add("a", description.input("u").output("y").depends_on({kInput}).done());
+    unit.on_initialize = [](ScriptedUnit& self) {
+      self.number(kOutput) = std::cos(self.number(kInput));
+    };
     unit.on_derivative = [](ScriptedUnit& self, ValueReference, ValueReference) {
-      return std::vector{-std::sin(self.number(kU))};
+      return std::vector{-std::sin(self.number(kInput))};
     };
     wire("a", "y", "a", "u");
   }
@@ -88,7 +90,7 @@ TEST_CASE("a loop is solved with the derivatives of its units, where all know th
   for (Cosine* system : {&with, &without}) {
     ScriptedUnit& unit = *system->instances[0];
     system->build(0.001, std::chrono::milliseconds(1)).run();
-    CHECK(unit.number(kU) == Approx(0.73908513321516064).epsilon(1e-14));
+    CHECK(unit.number(kInput) == Approx(0.73908513321516064).epsilon(1e-14));
   }
   CHECK(count(*with.instances[0], "get_directional_derivative") > 0);
   CHECK(count(*without.instances[0], "get_directional_derivative") == 0);
@@ -100,7 +102,7 @@ TEST_CASE("derivatives are of no use where something else than real numbers is i
   f.add("a", Describe("a")
                  .add("u", ValueType::Boolean, Causality::Input)
                  .add("y", ValueType::Boolean, Causality::Output)
-                 .depends_on({kU})
+                 .depends_on({kInput})
                  .directional_derivatives()
                  .done());
   f.wire("a", "y", "a", "u");

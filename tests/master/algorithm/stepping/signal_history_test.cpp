@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr Duration kStep = 1s;
+constexpr Duration kSecond = 1s;
 
 double polynomial(double t) { return 3 - 2 * t + 5 * t * t; }
 double mean_of_polynomial(double a, double b) {
@@ -36,7 +36,7 @@ SignalHistory sampled(unsigned degree) {
 TEST_CASE("a polynomial of the second degree is found again from three samples") {
   const SignalHistory history = sampled(2);
   for (const double t : {0.0, 0.3, 1.0, 1.25, 2.0}) {
-    const auto weights = history.at(Time(1s), t - 1, kStep);
+    const auto weights = history.at(Time(1s), t - 1, kSecond);
     CHECK(history.value(0, weights) == Approx(polynomial(t)).epsilon(1e-12));
     CHECK(history.value(1, weights) == Approx(-7).epsilon(1e-12));
   }
@@ -48,10 +48,10 @@ TEST_CASE("a polynomial of the second degree is found again from three samples")
 TEST_CASE("a lower degree takes the newest samples only") {
   const double slope = (polynomial(1) - polynomial(0.3)) / 0.7;
   const SignalHistory line = sampled(1);
-  CHECK(line.value(0, line.at(Time(1s), 0.5, kStep)) == Approx(polynomial(1) + 0.5 * slope));
+  CHECK(line.value(0, line.at(Time(1s), 0.5, kSecond)) == Approx(polynomial(1) + 0.5 * slope));
   CHECK(line.value(0, line.mean(Time(1s), Time(2s))) == Approx(polynomial(1) + 0.5 * slope));
   const SignalHistory held = sampled(0);
-  CHECK(held.value(0, held.at(Time(1s), 0.5, kStep)) == polynomial(1));
+  CHECK(held.value(0, held.at(Time(1s), 0.5, kSecond)) == polynomial(1));
   CHECK(held.value(0, held.mean(Time(1s), Time(2s))) == polynomial(1));
 }
 
@@ -59,9 +59,9 @@ TEST_CASE("with too few samples the degree is lower") {
   SignalHistory history(1, 2);
   CHECK(history.empty());
   history.add(Time(1s))[0] = 4;
-  CHECK(history.value(0, history.at(Time(1s), 10, kStep)) == 4);
+  CHECK(history.value(0, history.at(Time(1s), 10, kSecond)) == 4);
   history.add(Time(2s))[0] = 6;
-  CHECK(history.value(0, history.at(Time(2s), 1, kStep)) == Approx(8));
+  CHECK(history.value(0, history.at(Time(2s), 1, kSecond)) == Approx(8));
   history.clear();
   CHECK(history.empty());
 }
@@ -71,7 +71,7 @@ TEST_CASE("the newest sample can be taken back without a loss of degree") {
   history.add(Time(1100ms))[0] = 1e6;
   history.remove_newest();
   CHECK(history.newest() == Time(1s));
-  CHECK(history.value(0, history.at(Time(1s), 1, kStep)) == Approx(polynomial(2)).epsilon(1e-12));
+  CHECK(history.value(0, history.at(Time(1s), 1, kSecond)) == Approx(polynomial(2)).epsilon(1e-12));
 }
 
 TEST_CASE("of samples that are close to each other only the newest counts") {
@@ -102,8 +102,8 @@ TEST_CASE("what is not finite is held") {
   const unsigned degree = GENERATE(0, 1, 2);
   const auto after = [&](std::vector<double> values) {
     SignalHistory history(1, degree);
-    for (std::size_t i = 0; i < values.size(); ++i) history.add(Time(i * kStep))[0] = values[i];
-    return history.value(0, history.mean(history.newest(), history.newest() + kStep));
+    for (std::size_t i = 0; i < values.size(); ++i) history.add(Time(i * kSecond))[0] = values[i];
+    return history.value(0, history.mean(history.newest(), history.newest() + kSecond));
   };
   CHECK(after({kInfinity, kInfinity, kInfinity}) == kInfinity);
   CHECK(after({1, 2, -kInfinity}) == -kInfinity);

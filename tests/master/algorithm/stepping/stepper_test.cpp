@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "tests/at.h"
 #include "tests/master/algorithm/scripted_system.h"
 
 using namespace stride;
@@ -20,7 +21,7 @@ Describe integrator() {
 }
 
 /// For all that the master knows it may reject a step.
-Describe unknown() { return Describe("unknown").input("u").output("y").can_save_state(); }
+Describe may_reject() { return Describe("unknown").input("u").output("y").can_save_state(); }
 
 /// y' = u + 1, exactly in each step, so that a step too many or too few shows.
 StepResult integrate(ScriptedUnit& unit, Time from, Time to) {
@@ -40,23 +41,14 @@ auto stopping_at(std::set<Time> instants) {
   };
 }
 
-std::string failure(Simulation& simulation) {
-  try {
-    simulation.run();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "none";
-}
-
-Time at(double seconds) { return time_from_seconds(seconds); }
+using stride::tests::at;
 
 }  // namespace
 
 TEST_CASE("a unit that stops early makes a communication point for all") {
   const bool can_go_back = GENERATE(true, false);
   ScriptedSystem f;
-  auto& a = f.add("a", unknown().done());
+  auto& a = f.add("a", may_reject().done());
   auto stopper = integrator().may_return_early();
   auto& b = f.add("b", (can_go_back ? stopper.can_save_state() : stopper).done());
   auto& c = f.add("c", integrator().done());
@@ -123,8 +115,8 @@ TEST_CASE("the earliest of several stops counts, in whatever order the units sta
 TEST_CASE("a unit that rejects at random changes nothing but the statistics") {
   const auto run = [](bool rejects) {
     ScriptedSystem f;
-    auto& a = f.add("a", unknown().done());
-    auto& b = f.add("b", unknown().done());
+    auto& a = f.add("a", may_reject().done());
+    auto& b = f.add("b", may_reject().done());
     f.wire("a", "y", "b", "u");
     a.on_step = integrate;
     std::mt19937 random(7);

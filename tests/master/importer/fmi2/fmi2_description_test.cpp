@@ -63,15 +63,15 @@ constexpr const char* kTank = R"(<?xml version="1.0" encoding="UTF-8"?>
 </fmiModelDescription>
 )";
 
-fmi::ModelDescription tank() { return fmi::parse_model_description(kTank, "unit.xml"); }
+fmi::ModelDescription fmi2_tank() { return fmi::parse_model_description(kTank, "unit.xml"); }
 
 core::Variable variable(const std::string& name) {
-  const auto unit = tank();
+  const auto unit = fmi2_tank();
   return unit.variables[unit.find(name).value()];
 }
 
 /// The error of the description with a part replaced.
-std::string error_with(const std::string& part, const std::string& replacement) {
+std::string fmi2_error_with(const std::string& part, const std::string& replacement) {
   std::string text = kTank;
   const std::size_t at = text.find(part);
   REQUIRE(at != std::string::npos);
@@ -82,7 +82,7 @@ std::string error_with(const std::string& part, const std::string& replacement) 
 }  // namespace
 
 TEST_CASE("an FMI 2.0 unit's attributes and capabilities") {
-  const auto unit = tank();
+  const auto unit = fmi2_tank();
   CHECK(unit.fmi_version == "2.0");
   CHECK(unit.model_name == "Tank 2");
   CHECK(unit.model_identifier == "tank");
@@ -109,7 +109,7 @@ TEST_CASE("an FMI 2.0 unit's attributes and capabilities") {
 }
 
 TEST_CASE("core's references are places; the unit's are kept beside them") {
-  const auto unit = tank();
+  const auto unit = fmi2_tank();
   REQUIRE(unit.variables.size() == 10);
   for (std::size_t i = 0; i < unit.variables.size(); ++i) CHECK(unit.variables[i].reference == i);
   CHECK(unit.fmi2->references ==
@@ -147,7 +147,7 @@ TEST_CASE("what a variable leaves out stands in its declared type") {
 }
 
 TEST_CASE("aliases are variables of their own, which differ in what may be done with them") {
-  const auto unit = tank();
+  const auto unit = fmi2_tank();
   const auto output = unit.find("T").value();
   const auto local = unit.find("T2").value();
   CHECK(output != local);
@@ -158,8 +158,8 @@ TEST_CASE("aliases are variables of their own, which differ in what may be done 
 
 TEST_CASE("two inputs cannot be aliases") {
   CHECK_THAT(
-      error_with(R"(name="T2" valueReference="2" causality="local" initial="approx")",
-                 R"(name="T2" valueReference="536870912" causality="input")"),
+      fmi2_error_with(R"(name="T2" valueReference="2" causality="local" initial="approx")",
+                      R"(name="T2" valueReference="536870912" causality="input")"),
       Contains("unit.xml:") &&
           Contains("the input 'T2' has the value reference 536870912 of the input 'inflow[1]'"));
 }
@@ -175,7 +175,7 @@ TEST_CASE("only floating-point numbers are continuous, whatever the default") {
 }
 
 TEST_CASE("only continuous inputs of a unit that interpolates change within a step") {
-  for (const core::Variable& v : tank().variables) {
+  for (const core::Variable& v : fmi2_tank().variables) {
     CAPTURE(v.name);
     CHECK(v.intermediate_update == (v.name == "inflow[1]"));
   }
@@ -188,7 +188,7 @@ TEST_CASE("only continuous inputs of a unit that interpolates change within a st
 }
 
 TEST_CASE("the indices of ModelStructure count from 1, in lists of knowns, too") {
-  const auto unit = tank();
+  const auto unit = fmi2_tank();
   REQUIRE(unit.outputs.size() == 2);
   CHECK(unit.outputs[0].reference == 4);
   CHECK(unit.outputs[0].dependencies == std::vector<core::ValueReference>{1, 2});
@@ -199,33 +199,34 @@ TEST_CASE("the indices of ModelStructure count from 1, in lists of knowns, too")
   CHECK(unit.initial_unknowns[1].reference == 8);
   CHECK(unit.initial_unknowns[1].dependencies == std::vector<core::ValueReference>{3});
   CHECK_THAT(
-      error_with("index=\"6\"", "index=\"0\""),
+      fmi2_error_with("index=\"6\"", "index=\"0\""),
       Contains("<Unknown> refers to the variable with the index 0; expected one from 1 to 10"));
-  CHECK_THAT(error_with("dependencies=\"2 3\"", "dependencies=\"2 11\""),
+  CHECK_THAT(fmi2_error_with("dependencies=\"2 3\"", "dependencies=\"2 11\""),
              Contains("with the index 11; expected one from 1 to 10"));
 }
 
 TEST_CASE("broken FMI 2.0 descriptions say where") {
-  CHECK_THAT(error_with("guid=\"{8c4e810f}\"", ""), Contains("unit.xml:2: ") && Contains("'guid'"));
-  CHECK_THAT(error_with("declaredType=\"Mode\"", "declaredType=\"Mood\""),
+  CHECK_THAT(fmi2_error_with("guid=\"{8c4e810f}\"", ""),
+             Contains("unit.xml:2: ") && Contains("'guid'"));
+  CHECK_THAT(fmi2_error_with("declaredType=\"Mode\"", "declaredType=\"Mood\""),
              Contains("declaredType=\"Mood\": there is no such type"));
-  CHECK_THAT(error_with("declaredType=\"Mode\"", "declaredType=\"Temperature\""),
+  CHECK_THAT(fmi2_error_with("declaredType=\"Mode\"", "declaredType=\"Temperature\""),
              Contains("declaredType=\"Temperature\" is a <Real>; expected a <Enumeration>"));
-  CHECK_THAT(error_with("declaredType=\"Mode\"", ""), Contains("'declaredType'"));
-  CHECK_THAT(error_with("<Integer/>", "<Int32/>"),
+  CHECK_THAT(fmi2_error_with("declaredType=\"Mode\"", ""), Contains("'declaredType'"));
+  CHECK_THAT(fmi2_error_with("<Integer/>", "<Int32/>"),
              Contains("<ScalarVariable> has none of <Real>, <Integer>"));
-  CHECK_THAT(error_with("<Boolean/></SimpleType>", "</SimpleType>"),
+  CHECK_THAT(fmi2_error_with("<Boolean/></SimpleType>", "</SimpleType>"),
              Contains("<SimpleType> has none of"));
-  CHECK_THAT(error_with("SimpleType name=\"Switch\"", "SimpleType name=\"Mode\""),
+  CHECK_THAT(fmi2_error_with("SimpleType name=\"Switch\"", "SimpleType name=\"Mode\""),
              Contains("the type 'Mode' is defined twice"));
-  CHECK_THAT(error_with("name=\"T2\"", "name=\"T\""),
+  CHECK_THAT(fmi2_error_with("name=\"T2\"", "name=\"T\""),
              Contains("the variable name 'T' is used twice"));
-  CHECK_THAT(error_with("causality=\"local\"", "causality=\"structuralParameter\""),
+  CHECK_THAT(fmi2_error_with("causality=\"local\"", "causality=\"structuralParameter\""),
              Contains("there are none in FMI 2.0"));
-  CHECK_THAT(error_with("valueReference=\"5\"", "valueReference=\"-5\""), Contains("\"-5\""));
-  CHECK_THAT(error_with("initial=\"approx\"", "initial=\"guessed\""),
+  CHECK_THAT(fmi2_error_with("valueReference=\"5\"", "valueReference=\"-5\""), Contains("\"-5\""));
+  CHECK_THAT(fmi2_error_with("initial=\"approx\"", "initial=\"guessed\""),
              Contains("expected calculated or exact or approx"));
-  CHECK_THAT(error_with("ModelVariables>", "Variables>"), Contains("unit.xml"));
+  CHECK_THAT(fmi2_error_with("ModelVariables>", "Variables>"), Contains("unit.xml"));
 }
 
 TEST_CASE("a unit for Model Exchange only says so") {

@@ -5,6 +5,7 @@
 #include <dlfcn.h>
 
 #include "master/importer/fmu.h"
+#include "tests/at.h"
 #include "tests/counting_allocator.h"
 #include "tests/master/importer/support.h"
 
@@ -24,11 +25,11 @@ struct Line {
 };
 
 /// An instance of one of the FMI 2.0 units, and what it logs.
-class Fixture {
+class Fmi2Fixture {
  public:
-  explicit Fixture(const std::string& name, fmi::InstanceOptions options = {})
-      : Fixture(fmi::Fmu::load(test_fmu(name)), std::move(options)) {}
-  explicit Fixture(std::shared_ptr<fmi::Fmu> fmu, fmi::InstanceOptions options = {})
+  explicit Fmi2Fixture(const std::string& name, fmi::InstanceOptions options = {})
+      : Fmi2Fixture(fmi::Fmu::load(test_fmu(name)), std::move(options)) {}
+  explicit Fmi2Fixture(std::shared_ptr<fmi::Fmu> fmu, fmi::InstanceOptions options = {})
       : fmu_(std::move(fmu)) {
     if (!options.log) {
       options.log = [this](const std::string& unit, fmi::Status status, const std::string& category,
@@ -69,7 +70,7 @@ class Fixture {
   }
   double get(const std::string& name) { return get(ValueType::Float64, name).numbers<double>()[0]; }
 
-  Fixture& start(Time time = {}) {
+  Fmi2Fixture& start(Time time = {}) {
     unit_->enter_initialization(time, time + 10s);
     unit_->exit_initialization();
     return *this;
@@ -97,14 +98,14 @@ class Fixture {
   std::unique_ptr<core::Unit> unit_;
 };
 
-Time at(double seconds) { return time_from_seconds(seconds); }
+using stride::tests::at;
 
 }  // namespace
 
 // ---- Life ----
 
 TEST_CASE("an FMI 2.0 unit lives from its instantiation to its end", "[here]") {
-  Fixture unit("fmi2_relaxation");
+  Fmi2Fixture unit("fmi2_relaxation");
   CHECK(unit.global<int>("fmi2_living_units") == 1);
   unit.set("k", 3);
   unit.set("x", 5);
@@ -123,9 +124,9 @@ TEST_CASE("an FMI 2.0 unit lives from its instantiation to its end", "[here]") {
 
 TEST_CASE("instances and states are freed", "[here]") {
   const auto fmu = fmi::Fmu::load(test_fmu("fmi2_relaxation"));
-  Fixture keeper(fmu);
+  Fmi2Fixture keeper(fmu);
   {
-    Fixture unit(fmu);
+    Fmi2Fixture unit(fmu);
     unit.start();
     unit.step({}, Time(1s));
     unit->save_state();
@@ -137,7 +138,7 @@ TEST_CASE("instances and states are freed", "[here]") {
 }
 
 TEST_CASE("start values of inputs wait for Initialization Mode") {
-  Fixture unit("fmi2_types");
+  Fmi2Fixture unit("fmi2_types");
   ValueBlock text(ValueType::String, 1);
   text.strings()[0] = "hello";
   CHECK_NOTHROW(unit.set("real", 0.5));  // the unit refuses it at this time
@@ -164,7 +165,7 @@ TEST_CASE("an FMI 2.0 unit that cannot be instantiated says why") {
 }
 
 TEST_CASE("the resources are named by a URI") {
-  Fixture unit("fmi2_types");
+  Fmi2Fixture unit("fmi2_types");
   unit.start();
   const std::string uri = unit.get(ValueType::String, "resources").strings()[0];
   CHECK_THAT(uri,
@@ -172,7 +173,7 @@ TEST_CASE("the resources are named by a URI") {
 }
 
 TEST_CASE("there is no Event Mode") {
-  Fixture unit("fmi2_types");
+  Fmi2Fixture unit("fmi2_types");
   unit.start();
   CHECK_THAT(run_error([&] { unit->enter_event_mode(); }), Contains("has no Event Mode"));
   CHECK_THAT(run_error([&] { unit->update_discrete_states(); }), Contains("has no Event Mode"));
@@ -180,15 +181,15 @@ TEST_CASE("there is no Event Mode") {
 }
 
 TEST_CASE("an FMI 2.0 unit that allows one instance gets one", "[here]") {
-  Fixture first("fmi2_grumbler");
-  CHECK_THAT(input_error([] { Fixture second("fmi2_grumbler"); }),
+  Fmi2Fixture first("fmi2_grumbler");
+  CHECK_THAT(input_error([] { Fmi2Fixture second("fmi2_grumbler"); }),
              Contains("can be instantiated only once per process"));
 }
 
 // ---- Values ----
 
 TEST_CASE("values of all types of FMI 2.0 go in and out, whatever value references they share") {
-  Fixture unit("fmi2_types");
+  Fmi2Fixture unit("fmi2_types");
   unit.start();
   ValueBlock text(ValueType::String, 1);
   text.strings()[0] = "grüß Gott";
@@ -206,7 +207,7 @@ TEST_CASE("values of all types of FMI 2.0 go in and out, whatever value referenc
 }
 
 TEST_CASE("aliases have the same value") {
-  Fixture unit("fmi2_types");
+  Fmi2Fixture unit("fmi2_types");
   unit.set("gain", 7);
   unit.start();
   CHECK(unit.get("gain.out") == 7);
@@ -214,7 +215,7 @@ TEST_CASE("aliases have the same value") {
 }
 
 TEST_CASE("directional derivatives of an FMI 2.0 unit") {
-  Fixture unit("fmi2_types");
+  Fmi2Fixture unit("fmi2_types");
   unit.set("gain", 7);
   unit.start();
   const std::vector knowns{unit.reference("gain"), unit.reference("real")};
@@ -225,7 +226,7 @@ TEST_CASE("directional derivatives of an FMI 2.0 unit") {
 }
 
 TEST_CASE("an enumeration of FMI 2.0 has 32 bits") {
-  Fixture unit("fmi2_types");
+  Fmi2Fixture unit("fmi2_types");
   unit.start();
   const std::int64_t value = GENERATE(std::int64_t{1} << 31, -(std::int64_t{1} << 31) - 1);
   CHECK_THAT(run_error([&] { unit.set<std::int64_t>(ValueType::Enumeration, "mode", value); }),
@@ -233,7 +234,7 @@ TEST_CASE("an enumeration of FMI 2.0 has 32 bits") {
 }
 
 TEST_CASE("after the first exchange an FMI 2.0 unit is stepped without allocating") {
-  Fixture unit("fmi2_types");
+  Fmi2Fixture unit("fmi2_types");
   unit.start();
   const std::vector<ValueReference> reals = {unit.reference("real")};
   const std::vector<ValueReference> flags = {unit.reference("boolean")};
@@ -260,7 +261,7 @@ TEST_CASE("after the first exchange an FMI 2.0 unit is stepped without allocatin
 // ---- Steps ----
 
 TEST_CASE("instants that are one double are one to the unit") {
-  Fixture unit("fmi2_relaxation");
+  Fmi2Fixture unit("fmi2_relaxation");
   unit.start();
   const Time late(std::chrono::seconds(9'000'000));
   CHECK(unit.step(late, late + Duration(1)).went_through(late + Duration(1)));
@@ -268,7 +269,7 @@ TEST_CASE("instants that are one double are one to the unit") {
 }
 
 TEST_CASE("a step that ends early is undone where the state was saved, and says how far it came") {
-  Fixture unit("fmi2_turner");
+  Fmi2Fixture unit("fmi2_turner");
   unit.start();
   const core::StepResult result = unit.step({}, Time(1s));
   CHECK(result.rejected);
@@ -282,7 +283,7 @@ TEST_CASE("a step that ends early is undone where the state was saved, and says 
 }
 
 TEST_CASE("the inputs of a step that is undone stay set") {
-  Fixture unit("fmi2_turner");
+  Fmi2Fixture unit("fmi2_turner");
   unit.start();
   unit->save_state();
   for (int i = 0; i < 3; ++i) CHECK(unit.step({}, Time(1s)).rejected);
@@ -292,7 +293,7 @@ TEST_CASE("the inputs of a step that is undone stay set") {
 }
 
 TEST_CASE("a state that was just saved for core is not saved again", "[here]") {
-  Fixture unit("fmi2_turner");
+  Fmi2Fixture unit("fmi2_turner");
   unit.start();
   const int before = unit.global<int>("fmi2_saved_states");
   unit->save_state();
@@ -309,7 +310,7 @@ TEST_CASE("a state that was just saved for core is not saved again", "[here]") {
 }
 
 TEST_CASE("a unit that does not say how far it came is undone all the same") {
-  Fixture unit("fmi2_turner");
+  Fmi2Fixture unit("fmi2_turner");
   unit.set_flag("mute");
   unit.start();
   const core::StepResult result = unit.step({}, Time(1s));
@@ -320,7 +321,7 @@ TEST_CASE("a unit that does not say how far it came is undone all the same") {
 }
 
 TEST_CASE("a unit without a state stands where it came to, which the log says once") {
-  Fixture unit("fmi2_turner_without_state");
+  Fmi2Fixture unit("fmi2_turner_without_state");
   unit.start();
   const core::StepResult result = unit.step({}, Time(1s));
   CHECK((result.early_return && !result.rejected && !result.terminate));
@@ -337,7 +338,7 @@ TEST_CASE("a unit without a state stands where it came to, which the log says on
 
 TEST_CASE("a unit without a state must say where it stands") {
   const bool is_mute = GENERATE(true, false);
-  Fixture unit("fmi2_turner_without_state");
+  Fmi2Fixture unit("fmi2_turner_without_state");
   unit.set_flag(is_mute ? "mute" : "stays");
   unit.start();
   CHECK_THAT(
@@ -349,7 +350,7 @@ TEST_CASE("a unit without a state must say where it stands") {
 
 TEST_CASE("a unit may end the simulation within a step") {
   const bool has_state = GENERATE(true, false);
-  Fixture unit(has_state ? "fmi2_turner" : "fmi2_turner_without_state");
+  Fmi2Fixture unit(has_state ? "fmi2_turner" : "fmi2_turner_without_state");
   unit.set_flag("ends");
   unit.start();
   const core::StepResult result = unit.step({}, Time(1s));
@@ -361,7 +362,7 @@ TEST_CASE("a unit may end the simulation within a step") {
 
 TEST_CASE("a unit that ends the simulation and does not say when") {
   const bool has_state = GENERATE(true, false);
-  Fixture unit(has_state ? "fmi2_turner" : "fmi2_turner_without_state");
+  Fmi2Fixture unit(has_state ? "fmi2_turner" : "fmi2_turner_without_state");
   unit.set_flag("ends");
   unit.set_flag("mute");
   unit.start();
@@ -381,7 +382,7 @@ TEST_CASE("a pending step ends by a callback, or when the unit is asked") {
   const int how = GENERATE(0, 1, 3);
   const bool has_state = GENERATE(true, false);
   CAPTURE(how, has_state);
-  Fixture unit(has_state ? "fmi2_sleeper" : "fmi2_sleeper_without_state");
+  Fmi2Fixture unit(has_state ? "fmi2_sleeper" : "fmi2_sleeper_without_state");
   unit.set_number("how", how);
   unit.start();
   for (int k = 0; k < 20; ++k) {
@@ -395,7 +396,7 @@ TEST_CASE("a pending step ends by a callback, or when the unit is asked") {
 TEST_CASE("the status of a pending step is that of the step") {
   const int how = GENERATE(0, 1, 3);
   CAPTURE(how);
-  Fixture discards("fmi2_sleeper");
+  Fmi2Fixture discards("fmi2_sleeper");
   discards.set_number("how", how);
   discards.set_number("result", fmi2Discard);
   discards.start();
@@ -405,7 +406,7 @@ TEST_CASE("the status of a pending step is that of the step") {
   CHECK(discards->rejection_reason() == "the night was short");
   CHECK(discards.get("y") == 0);
 
-  Fixture fails("fmi2_sleeper");
+  Fmi2Fixture fails("fmi2_sleeper");
   fails.set_number("how", how);
   fails.set_number("result", fmi2Error);
   fails.start();
@@ -416,13 +417,13 @@ TEST_CASE("the status of a pending step is that of the step") {
 TEST_CASE("a step that takes long is told once, with what the unit says of it", "[here]") {
   std::vector<std::string> told;
   std::function<void()> release;
-  Fixture unit("fmi2_sleeper", {.patience = 0ms,
-                                .log = [&](const std::string&, fmi::Status status,
-                                           const std::string&, const std::string& message) {
-                                  CHECK(status == fmi::Status::Warning);
-                                  told.push_back(message);
-                                  release();
-                                }});
+  Fmi2Fixture unit("fmi2_sleeper", {.patience = 0ms,
+                                    .log = [&](const std::string&, fmi::Status status,
+                                               const std::string&, const std::string& message) {
+                                      CHECK(status == fmi::Status::Warning);
+                                      told.push_back(message);
+                                      release();
+                                    }});
   const auto wake = reinterpret_cast<void (*)()>(unit.symbol("sleeper_release"));
   release = wake;
   unit.set_number("how", 2);
@@ -436,7 +437,7 @@ TEST_CASE("a step that takes long is told once, with what the unit says of it", 
 // ---- Inputs within a step ----
 
 TEST_CASE("a unit that interpolates is given the derivatives of its inputs") {
-  Fixture unit("fmi2_integrator");
+  Fmi2Fixture unit("fmi2_integrator");
   unit.start();
   const ValueReference u = unit.reference("u");
   Time begin{};
@@ -455,7 +456,7 @@ TEST_CASE("a unit that interpolates is given the derivatives of its inputs") {
 }
 
 TEST_CASE("what an input update throws, step() throws") {
-  Fixture unit("fmi2_integrator");
+  Fmi2Fixture unit("fmi2_integrator");
   unit.start();
   unit->set_input_update([](double) { throw std::runtime_error("no inputs today"); });
   CHECK_THROWS_WITH(unit.step({}, Time(1s)), "no inputs today");
@@ -468,7 +469,7 @@ TEST_CASE("what an input update throws, step() throws") {
 // ---- Failures ----
 
 TEST_CASE("a failure of an FMI 2.0 unit gives its message, with numbers and names") {
-  Fixture unit("fmi2_grumbler");
+  Fmi2Fixture unit("fmi2_grumbler");
   unit.set_number("mood", 3);
   unit.start(Time(2s));
   CHECK_THAT(run_error([&] { unit.step(Time(2s), Time(3s)); }),
@@ -482,14 +483,14 @@ TEST_CASE("a failure of an FMI 2.0 unit gives its message, with numbers and name
 TEST_CASE("a failure without a word, with a long one and with one that must not be formatted") {
   const auto [mood, expected] = GENERATE(table<int, std::string>(
       {{5, "the unit gives no reason"}, {6, std::string(999, ' ') + "6"}, {7, "100%n"}}));
-  Fixture unit("fmi2_grumbler");
+  Fmi2Fixture unit("fmi2_grumbler");
   unit.set_number("mood", mood);
   unit.start();
   CHECK_THAT(run_error([&] { unit.step({}, Time(1s)); }), Contains("fmi2Error: " + expected));
 }
 
 TEST_CASE("a warning of an FMI 2.0 unit is logged and the step stands") {
-  Fixture unit("fmi2_grumbler");
+  Fmi2Fixture unit("fmi2_grumbler");
   unit.set_number("mood", 1);
   unit.start();
   CHECK(unit.step({}, Time(1s)).went_through(Time(1s)));
@@ -501,7 +502,7 @@ TEST_CASE("a warning of an FMI 2.0 unit is logged and the step stands") {
 }
 
 TEST_CASE("a call that the unit does not allow is a failure") {
-  Fixture unit("fmi2_relaxation");
+  Fmi2Fixture unit("fmi2_relaxation");
   unit.start();
   CHECK_THAT(run_error([&] { unit.set("k", 1); }),
              Contains("fmi2SetReal returned fmi2Error: fmi2SetReal is not allowed in mode 2"));
@@ -510,7 +511,7 @@ TEST_CASE("a call that the unit does not allow is a failure") {
 // Last, since nothing of this library can be called after it.
 TEST_CASE("after fmi2Fatal nothing of the library is called", "[here]") {
   const auto fmu = fmi::Fmu::load(test_fmu("fmi2_grumbler"));
-  Fixture unit(fmu);
+  Fmi2Fixture unit(fmu);
   unit.set_number("mood", 4);
   unit.start();
   CHECK_THAT(run_error([&] { unit.step({}, Time(1s)); }),
@@ -519,6 +520,6 @@ TEST_CASE("after fmi2Fatal nothing of the library is called", "[here]") {
   const int* const living = static_cast<int*>(unit.symbol("fmi2_living_units"));
   unit.free();
   CHECK(*living == 1);
-  CHECK_THAT(run_error([&] { Fixture another(fmu); }),
+  CHECK_THAT(run_error([&] { Fmi2Fixture another(fmu); }),
              Contains("fmi2Instantiate cannot be called") && Contains("returned fmi2Fatal before"));
 }

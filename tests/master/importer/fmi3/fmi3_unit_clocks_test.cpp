@@ -16,8 +16,8 @@ using core::ValueType;
 
 namespace {
 
-struct Fixture {
-  explicit Fixture(const std::string& name, fmi::InstanceOptions options = {})
+struct ClocksFixture {
+  explicit ClocksFixture(const std::string& name, fmi::InstanceOptions options = {})
       : fmu(fmi::Fmu::load(test_fmu(name))), unit(make_unit(fmu, "unit", std::move(options))) {}
 
   const core::Variable& variable(const std::string& name) const {
@@ -70,12 +70,12 @@ struct RawClock {
 
 /// Sets x_other to 100 times the seconds since the beginning of the step, and counts.
 struct Follower {
-  explicit Follower(Fixture& fixture) : f(fixture) {}
+  explicit Follower(ClocksFixture& fixture) : f(fixture) {}
   void operator()(double seconds) const {
     ++*calls;
     f.set("x_other", std::to_string(100 * seconds));
   }
-  Fixture& f;
+  ClocksFixture& f;
   std::shared_ptr<int> calls = std::make_shared<int>(0);
 };
 
@@ -88,7 +88,7 @@ fmi::InstanceOptions intermediate() {
 }  // namespace
 
 TEST_CASE("intervals are exact, with what the unit says of them") {
-  Fixture f("clocks");
+  ClocksFixture f("clocks");
   f.set("interval", "0.0125");
   f.unit->enter_initialization({}, std::nullopt);
   CHECK(f.interval("fixed_by_unit").state == ClockInterval::State::Changed);
@@ -121,11 +121,11 @@ TEST_CASE("what is no interval names the clock, the function and the time") {
 }
 
 TEST_CASE("a unit that can be asked for its inputs within a step sets them through the port") {
-  Fixture held("oscillator_mass");
-  Fixture following("oscillator_mass", intermediate());
+  ClocksFixture held("oscillator_mass");
+  ClocksFixture following("oscillator_mass", intermediate());
   const Follower follower(following);
   following.unit->set_input_update(follower);
-  for (Fixture* f : {&held, &following}) {
+  for (ClocksFixture* f : {&held, &following}) {
     f->set("largest_step", "0.05");
     f->start();
     CHECK(f->unit->step({{}, Time(100ms)}).reached == Time(100ms));
@@ -142,7 +142,7 @@ TEST_CASE("a unit that can be asked for its inputs within a step sets them throu
 TEST_CASE("without the option, and of a unit without such inputs, nothing is asked") {
   for (const char* name : {"oscillator_mass", "stepper"}) {
     const bool is_offered = std::string(name) == "stepper";
-    Fixture f(name, is_offered ? intermediate() : fmi::InstanceOptions{});
+    ClocksFixture f(name, is_offered ? intermediate() : fmi::InstanceOptions{});
     f.unit->set_input_update([](double) { FAIL("it asked"); });
     f.start();
     CHECK(f.unit->step({{}, Time(10ms)}).reached == Time(10ms));
@@ -150,7 +150,7 @@ TEST_CASE("without the option, and of a unit without such inputs, nothing is ask
 }
 
 TEST_CASE("what is thrown within a step is thrown after it, and the unit lives on") {
-  Fixture f("oscillator_mass", intermediate());
+  ClocksFixture f("oscillator_mass", intermediate());
   int asked = 0;
   f.unit->set_input_update([&](double) {
     ++asked;
@@ -163,7 +163,7 @@ TEST_CASE("what is thrown within a step is thrown after it, and the unit lives o
 }
 
 TEST_CASE("an input that the unit refuses within a step is the step's error") {
-  Fixture f("oscillator_mass", intermediate());
+  ClocksFixture f("oscillator_mass", intermediate());
   f.unit->set_input_update([&](double) { f.set("mass", "2"); });
   f.start();
   CHECK_THAT(run_error([&] {
@@ -173,7 +173,7 @@ TEST_CASE("an input that the unit refuses within a step is the step's error") {
 }
 
 TEST_CASE("the calls of a unit's functions are counted") {
-  Fixture f("clocks");
+  ClocksFixture f("clocks");
   CHECK(f.unit->calls() == 1);  // the instantiation
   f.start();                    // four more
   CHECK(f.unit->calls() == 5);

@@ -5,6 +5,7 @@
 #include <dlfcn.h>
 
 #include "master/importer/fmu.h"
+#include "tests/at.h"
 #include "tests/counting_allocator.h"
 #include "tests/master/importer/support.h"
 
@@ -17,12 +18,12 @@ using core::ValueType;
 
 namespace {
 
-Time at(double seconds) { return time_from_seconds(seconds); }
+using stride::tests::at;
 
 /// An instance of a unit made for tests, with access by name.
-class Fixture {
+class Fmi3Fixture {
  public:
-  explicit Fixture(const std::string& unit, fmi::InstanceOptions options = {})
+  explicit Fmi3Fixture(const std::string& unit, fmi::InstanceOptions options = {})
       : fmu_(fmi::Fmu::load(test_fmu(unit))), unit_(make_unit(fmu_, "unit", std::move(options))) {}
 
   core::Unit& operator*() { return *unit_; }
@@ -88,7 +89,7 @@ struct Raw {
 };
 
 template <class T>
-void check_numbers(Fixture& unit, ValueType type, const std::string& name,
+void check_numbers(Fmi3Fixture& unit, ValueType type, const std::string& name,
                    const std::vector<T>& values) {
   for (const T value : values) {
     CAPTURE(name, value);
@@ -107,7 +108,7 @@ std::vector<T> extremes() {
 }  // namespace
 
 TEST_CASE("numbers of every type go in and come out unchanged") {
-  Fixture unit("types");
+  Fmi3Fixture unit("types");
   unit->enter_initialization({}, std::nullopt);
   check_numbers<float>(unit, ValueType::Float32, "float32", extremes<float>());
   check_numbers<double>(unit, ValueType::Float64, "float64", extremes<double>());
@@ -124,7 +125,7 @@ TEST_CASE("numbers of every type go in and come out unchanged") {
 }
 
 TEST_CASE("strings and binary values are copied") {
-  Fixture unit("types");
+  Fmi3Fixture unit("types");
   unit->enter_initialization({}, std::nullopt);
   for (const std::string& text : {std::string("grüße"), std::string(), std::string(5000, 'x')}) {
     ValueBlock block(ValueType::String, 1);
@@ -141,7 +142,7 @@ TEST_CASE("strings and binary values are copied") {
 }
 
 TEST_CASE("arrays and several variables go in one call, element by element") {
-  Fixture unit("types");
+  Fmi3Fixture unit("types");
   unit->enter_initialization({}, std::nullopt);
   const core::ValueReference inputs[] = {unit.reference("float64"), unit.reference("matrix")};
   const core::ValueReference outputs[] = {unit.reference("matrix.echo"),
@@ -170,7 +171,7 @@ TEST_CASE("arrays and several variables go in one call, element by element") {
 }
 
 TEST_CASE("a message travels with its clock through Event Mode") {
-  Fixture unit("types");
+  Fmi3Fixture unit("types");
   unit.initialize();
   unit->enter_event_mode();
   ValueBlock active(ValueType::Clock, 1);
@@ -189,7 +190,7 @@ TEST_CASE("a message travels with its clock through Event Mode") {
 }
 
 TEST_CASE("the loop of values, steps and events does not allocate after its first round") {
-  Fixture unit("types");
+  Fmi3Fixture unit("types");
   unit.initialize();
   const core::ValueReference reals[] = {unit.reference("float64"), unit.reference("matrix")};
   const core::ValueReference texts[] = {unit.reference("words")};
@@ -251,7 +252,7 @@ TEST_CASE("fmi3Discard is a rejected step") {
   const core::StepResult result = raw.unit->step({Time(1s), Time(2s)});
   CHECK(result.rejected);
   CHECK(result.reached == Time(1s));
-  Fixture stepper("stepper");
+  Fmi3Fixture stepper("stepper");
   stepper.set("largest_step", "0.01");
   stepper.initialize();
   CHECK(stepper->step({{}, Time(20ms)}).rejected);
@@ -286,7 +287,7 @@ TEST_CASE("fmi3Discard is an error for every function but fmi3DoStep", "[here]")
 }
 
 TEST_CASE("events, next events and the end of the run are passed on") {
-  Fixture unit("stepper", {.early_return_allowed = true});
+  Fmi3Fixture unit("stepper", {.early_return_allowed = true});
   unit.set("event_at", "0.015");
   unit.set("early_at", "0.0123");
   unit.set("tick_at", "0.03");
@@ -363,7 +364,7 @@ TEST_CASE("a unit that returns early without leave is an error") {
 }
 
 TEST_CASE("fmi3Error is an error with function, time and the unit's own words") {
-  Fixture unit("thrower", {.where = {"system.ssd", 4}});
+  Fmi3Fixture unit("thrower", {.where = {"system.ssd", 4}});
   unit.set("throw_at", "0.002");
   unit.initialize();
   unit->step({{}, Time(1ms)});
@@ -378,7 +379,7 @@ TEST_CASE("fmi3Error is an error with function, time and the unit's own words") 
 }
 
 TEST_CASE("an exception that is no std::exception does not cross the unit's border") {
-  Fixture unit("thrower");
+  Fmi3Fixture unit("thrower");
   unit.set("odd", "true");
   unit.initialize();
   CHECK_THAT(run_error([&] {
@@ -455,7 +456,7 @@ TEST_CASE("a library whose instances do well is unloaded with the last of them",
 }
 
 TEST_CASE("a saved state comes back any number of times, and is replaced by the next one") {
-  Fixture unit("stepper");
+  Fmi3Fixture unit("stepper");
   unit.initialize();
   unit->step({{}, Time(10ms)});
   unit->save_state();
@@ -508,7 +509,7 @@ TEST_CASE("a state that cannot be saved or restored is an error") {
   CHECK_THAT(
       run_error([&] { without.unit->save_state(); }),
       Contains("its library does not export fmi3GetFMUState") && Contains("canGetAndSetFMUState"));
-  Fixture stateless("stateless");
+  Fmi3Fixture stateless("stateless");
   CHECK_THAT(run_error([&] { stateless->save_state(); }),
              Contains("fmi3GetFMUState returned fmi3Error"));
   Raw early("unit", {}, "raw_extended");
@@ -541,7 +542,7 @@ TEST_CASE("a unit that refuses to be instantiated gives its reason") {
 }
 
 TEST_CASE("a wrong value is refused by the kit, with the variable's name") {
-  Fixture unit("types");
+  Fmi3Fixture unit("types");
   unit.set("gain", "11");
   unit->enter_initialization({}, std::nullopt);
   CHECK_THAT(run_error([&] { unit->exit_initialization(); }),
@@ -641,7 +642,7 @@ TEST_CASE("what a library does not export for structure and derivatives is named
 // ---- Messages in words ----
 
 TEST_CASE("a unit says what a message says") {
-  Fixture unit("types");
+  Fmi3Fixture unit("types");
   const core::ValueReference frame = unit.reference("receive.frame");
   CHECK(unit->describe_message(frame, {0x26, 0x27}) == "2 bytes in receive.frame");
   unit.initialize();

@@ -19,7 +19,7 @@ using End = ChildOutcome::End;
 namespace {
 
 /// Whether this process has a child left, living or not.
-bool has_children() { return ::waitpid(-1, nullptr, WNOHANG) != -1; }
+bool has_child_left() { return ::waitpid(-1, nullptr, WNOHANG) != -1; }
 
 void wait_for_ever() {
   for (;;) std::this_thread::sleep_for(1s);
@@ -33,7 +33,7 @@ TEST_CASE("a child's answer comes back, however long it is") {
     CHECK(outcome.end == End::Answered);
     CHECK(outcome.text.size() == size);
   }
-  CHECK_FALSE(has_children());
+  CHECK_FALSE(has_child_left());
 }
 
 TEST_CASE("what a child changes changes nothing here") {
@@ -65,7 +65,7 @@ TEST_CASE("a crash is told by its signal, an exit by its code") {
   CHECK(outcome.code == 3);
   CHECK(run_in_child([]() -> std::string { ::_exit(0); }).end == End::Exited);
   CHECK(signal_name(SIGSEGV) == "SIGSEGV");
-  CHECK_FALSE(has_children());
+  CHECK_FALSE(has_child_left());
 }
 
 TEST_CASE("a child that takes too long is ended, and with it its own children") {
@@ -82,7 +82,7 @@ TEST_CASE("a child that takes too long is ended, and with it its own children") 
       {.limit = 200ms});
   CHECK(outcome.end == End::TimedOut);
   CHECK(note.what() == "forked");
-  CHECK_FALSE(has_children());
+  CHECK_FALSE(has_child_left());
   // whoever adopts the grandchild may take a while to bury it
   const auto grandchild = static_cast<pid_t>(note.picoseconds());
   const auto lives = [&] {
@@ -107,7 +107,7 @@ TEST_CASE("a child ends when the user wants it") {
       },
       {.interrupted = &interrupted});
   CHECK(outcome.end == End::Interrupted);
-  CHECK_FALSE(has_children());
+  CHECK_FALSE(has_child_left());
 }
 
 TEST_CASE("an answer counts although something holds the child's pipes open") {

@@ -21,7 +21,7 @@ std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-Descriptor open_file(const std::filesystem::path& file, int how) {
+Descriptor opened_file(const std::filesystem::path& file, int how) {
   Descriptor opened(::open(file.c_str(), how, 0600));
   REQUIRE(opened.is_open());
   return opened;
@@ -42,7 +42,7 @@ std::string read_text(const Descriptor& file, std::size_t size) {
 TEST_CASE("what was written since is taken back") {
   const stride::tests::ScratchFolder scratch;
   const int how = GENERATE(O_WRONLY, O_RDWR, O_WRONLY | O_APPEND);
-  const Descriptor file = open_file(scratch / "trace", how | O_CREAT);
+  const Descriptor file = opened_file(scratch / "trace", how | O_CREAT);
   write_text(file, "one\n");
   OpenFiles files({});
   files.note();
@@ -58,7 +58,7 @@ TEST_CASE("what was written since is taken back") {
 TEST_CASE("who reads reads the same again") {
   const stride::tests::ScratchFolder scratch;
   std::ofstream(scratch / "stimuli") << "abcdef";
-  const Descriptor file = open_file(scratch / "stimuli", O_RDONLY);
+  const Descriptor file = opened_file(scratch / "stimuli", O_RDONLY);
   CHECK(read_text(file, 2) == "ab");
   OpenFiles files({});
   files.note();
@@ -70,7 +70,7 @@ TEST_CASE("who reads reads the same again") {
 
 TEST_CASE("a file that has lost its end is an error that names it") {
   const stride::tests::ScratchFolder scratch;
-  const Descriptor file = open_file(scratch / "short", O_WRONLY | O_CREAT);
+  const Descriptor file = opened_file(scratch / "short", O_WRONLY | O_CREAT);
   write_text(file, "text");
   OpenFiles files({});
   files.note();
@@ -81,7 +81,7 @@ TEST_CASE("a file that has lost its end is an error that names it") {
 
 TEST_CASE("files of others, pipes and what has no position stay what they are") {
   const stride::tests::ScratchFolder scratch;
-  const Descriptor other = open_file(scratch / "other", O_WRONLY | O_CREAT);
+  const Descriptor other = opened_file(scratch / "other", O_WRONLY | O_CREAT);
   const Pipe pipe;
   OpenFiles files({other.number()});
   files.note();
@@ -96,10 +96,10 @@ TEST_CASE("what was noted before is forgotten") {
   const stride::tests::ScratchFolder scratch;
   OpenFiles files({});
   {
-    const Descriptor first = open_file(scratch / "first", O_WRONLY | O_CREAT);
+    const Descriptor first = opened_file(scratch / "first", O_WRONLY | O_CREAT);
     files.note();
   }
-  const Descriptor second = open_file(scratch / "second", O_WRONLY | O_CREAT);
+  const Descriptor second = opened_file(scratch / "second", O_WRONLY | O_CREAT);
   write_text(second, "text");
   files.note();
   files.set_back();

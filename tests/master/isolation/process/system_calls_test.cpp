@@ -19,7 +19,7 @@ void filtered(void (*forbid)()) {
   forbid();
 }
 
-std::string say(void (*forbid)(), const std::function<std::string()>& work) {
+std::string say_filtered(void (*forbid)(), const std::function<std::string()>& work) {
   return in_child([&] {
     filtered(forbid);
     return work();
@@ -44,11 +44,13 @@ TEST_CASE("of the sockets only those within the machine are left") {
   for (const int domain : {AF_INET, AF_INET6, AF_PACKET, AF_NETLINK, AF_VSOCK, AF_ALG}) {
     for (const int type : {SOCK_STREAM, SOCK_DGRAM, SOCK_RAW}) {
       INFO("domain " << domain << ", type " << type);
-      CHECK(say(forbid_network, [&] { return answer(::socket(domain, type, 0)); }) == "EACCES");
+      CHECK(say_filtered(forbid_network, [&] { return answer(::socket(domain, type, 0)); }) ==
+            "EACCES");
     }
   }
-  CHECK(say(forbid_network, [] { return answer(::socket(AF_UNIX, SOCK_STREAM, 0)); }) == "done");
-  CHECK(say(forbid_network, [] {
+  CHECK(say_filtered(forbid_network, [] { return answer(::socket(AF_UNIX, SOCK_STREAM, 0)); }) ==
+        "done");
+  CHECK(say_filtered(forbid_network, [] {
           int ends[2];
           const std::string made = answer(::socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends));
           return made + answer(::send(ends[0], "x", 1, 0));
@@ -57,16 +59,17 @@ TEST_CASE("of the sockets only those within the machine are left") {
 
 TEST_CASE("no socket comes by way of io_uring, and nothing is typed into a terminal") {
   if (lacks_seccomp()) return;
-  CHECK(say(forbid_network, [] {
+  CHECK(say_filtered(forbid_network, [] {
           io_uring_params parameters{};
           return answer(::syscall(SYS_io_uring_setup, 1, &parameters));
         }) == "EACCES");
   const char key = '\n';
-  CHECK(say(forbid_network, [&] { return answer(::ioctl(STDIN_FILENO, TIOCSTI, &key)); }) ==
-        "EACCES");
+  CHECK(say_filtered(forbid_network,
+                     [&] { return answer(::ioctl(STDIN_FILENO, TIOCSTI, &key)); }) == "EACCES");
   CHECK(in_child([&] { return answer(::ioctl(STDIN_FILENO, TIOCSTI, &key)); }) == "ENOTTY");
-  CHECK(say(forbid_network, [] { return answer(::ioctl(STDIN_FILENO, TIOCGWINSZ, nullptr)); }) ==
-        "ENOTTY");
+  CHECK(say_filtered(forbid_network, [] {
+          return answer(::ioctl(STDIN_FILENO, TIOCGWINSZ, nullptr));
+        }) == "ENOTTY");
 }
 
 #ifdef __x86_64__
@@ -97,7 +100,7 @@ TEST_CASE("files are not cut off by name") {
   if (lacks_seccomp()) return;
   const ScratchFolder scratch;
   const auto file = write_file(scratch / "file", "text");
-  const auto say_of = [&](const auto& work) { return say(forbid_truncation, work); };
+  const auto say_of = [&](const auto& work) { return say_filtered(forbid_truncation, work); };
   CHECK(say_of([&] { return answer(::truncate(file.c_str(), 0)); }) == "EACCES");
   CHECK(say_of([&] { return open_file(file, O_RDONLY | O_TRUNC); }) == "EACCES");
   CHECK(say_of([&] { return answer(::syscall(SYS_open, file.c_str(), O_RDONLY | O_TRUNC)); }) ==

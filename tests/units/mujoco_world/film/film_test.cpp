@@ -7,8 +7,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/at.h"
 #include "tests/scratch_folder.h"
 #include "tests/units/mujoco_world/film/scene.h"
+#include "tests/units/mujoco_world/states.h"
 
 namespace fs = std::filesystem;
 using mujoco_world::World;
@@ -19,7 +21,7 @@ using stride::Time;
 
 namespace {
 
-Time at(double seconds) { return stride::time_from_seconds(seconds); }
+using stride::tests::at;
 
 const FilmSettings kEach30Ms{std::chrono::milliseconds(30), {64, 48, ""}};
 
@@ -33,11 +35,7 @@ std::map<std::string, std::string> files_of(const fs::path& folder) {
   return files;
 }
 
-std::vector<double> saved(const World& world) {
-  std::vector<double> block(world.state_size());
-  world.save(block.data());
-  return block;
-}
+using worlds::saved;
 
 /// A world that tumbles, and its film.
 struct Tumble {

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/at.h"
 #include "tests/scratch_folder.h"
 
 namespace fs = std::filesystem;
@@ -17,7 +18,7 @@ using mujoco_world::film::seconds_text;
 
 namespace {
 
-stride::Time at(double seconds) { return stride::time_from_seconds(seconds); }
+using stride::tests::at;
 
 std::string text_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);

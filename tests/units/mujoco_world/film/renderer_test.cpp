@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/at.h"
 #include "tests/units/mujoco_world/film/scene.h"
 
 using Catch::Matchers::Contains;
@@ -19,7 +20,7 @@ namespace {
 constexpr std::size_t kRed = 0;
 constexpr std::size_t kBlue = 2;
 
-stride::Time at(double seconds) { return stride::time_from_seconds(seconds); }
+using stride::tests::at;
 
 Picture picture(const World& world, const View& view) {
   return Renderer(world.model(), view).draw(world.model(), world.drawn());

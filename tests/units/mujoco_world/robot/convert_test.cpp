@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& file) {
+std::string text_in(const fs::path& file) {
   std::ostringstream text;
   text << std::ifstream(file).rdbuf();
   return text.str();
@@ -154,9 +154,9 @@ TEST_CASE("an MJCF becomes one file: includes resolved, files copied, no keyfram
   CHECK(fs::exists(folder.path() / "world/arm/arm.obj"));
   CHECK(fs::exists(folder.path() / "world/arm/arm_2.obj"));
   // converted where it stands, it stays what it is
-  const std::string before = text_of(output);
+  const std::string before = text_in(output);
   convert({output, {}, output});
-  CHECK(text_of(output) == before);
+  CHECK(text_in(output) == before);
 }
 
 TEST_CASE("what is mounted becomes a part of the body", "[robot]") {

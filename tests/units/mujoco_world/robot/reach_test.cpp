@@ -17,7 +17,7 @@ namespace {
 
 const std::string kApproach = STRIDE_SOURCE_DIR "/scenarios/nfc_approach/world";
 
-std::size_t site(const World& world, const std::string& name) {
+std::size_t site_index(const World& world, const std::string& name) {
   const auto& sites = world.catalogue().sites;
   std::size_t i = 0;
   while (sites.at(i).name != name) ++i;
@@ -55,13 +55,13 @@ TEST_CASE("a world that is given the commands settles where they were found for"
       world.set_input(i, poses[k].commands[i]);
     }
     world.advance(world.now() + stride::duration_from_seconds(4));
-    const Vector reader = world.site_position(site(world, "reader_coil"));
-    const Vector tag = world.site_position(site(world, "tag_coil"));
+    const Vector reader = world.site_position(site_index(world, "reader_coil"));
+    const Vector tag = world.site_position(site_index(world, "tag_coil"));
     INFO(distances[k]);
     CHECK(reader[0] == Approx(tag[0]).margin(1e-4));
     CHECK(reader[1] == Approx(tag[1]).margin(1e-4));
     CHECK(reader[2] - tag[2] == Approx(distances[k]).margin(1e-4));
-    CHECK(world.site_axis(site(world, "reader_coil"))[2] < -0.99999);
+    CHECK(world.site_axis(site_index(world, "reader_coil"))[2] < -0.99999);
     CHECK(poses[k].contacts.empty());
     CHECK(poses[k].overload.empty());
   }
