@@ -11,6 +11,10 @@
 #include <fmt/format.h>
 
 #include "master/algorithm/activities.h"
+#include "master/algorithm/capabilities/configuration_mode.h"
+#include "master/algorithm/capabilities/inputs_within_step.h"
+#include "master/algorithm/capabilities/own_process.h"
+#include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/events/instant.h"
 #include "master/algorithm/exchange/exchange.h"
 #include "master/algorithm/exchange/system_outputs.h"
@@ -90,8 +94,10 @@ class Simulation::Run {
     }
     statistics_.wall_time = WallClock::Source::now() - began;
     for (std::size_t i = 0; i < count(); ++i) {
-      statistics_.units[i].calls = units_[i]->calls();
-      statistics_.units[i].host = units_[i]->host_statistics();
+      auto* const diagnostics = units_[i]->capability<UnitDiagnostics>();
+      auto* const process = units_[i]->capability<OwnProcess>();
+      if (diagnostics != nullptr) statistics_.units[i].calls = diagnostics->calls();
+      if (process != nullptr) statistics_.units[i].host = process->host_statistics();
       statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].rests;
     }
     finish_rests(failure);
@@ -155,13 +161,13 @@ class Simulation::Run {
   void configure() {
     const std::span<const StartValue> all = system_.structural_values();
     for (auto first = all.begin(); first != all.end();) {
-      Unit& unit = *units_[first->id.component];
+      auto& configuration = units_[first->id.component]->require_capability<ConfigurationMode>();
       const auto last = std::find_if(first, all.end(), [&](const StartValue& value) {
         return value.id.component != first->id.component;
       });
-      unit.enter_configuration_mode();
+      configuration.enter_configuration_mode();
       std::for_each(first, last, [&](const StartValue& value) { set(value); });
-      unit.exit_configuration_mode();
+      configuration.exit_configuration_mode();
       first = last;
     }
   }
@@ -195,7 +201,9 @@ class Simulation::Run {
   void lead_inputs_within_steps() {
     for (std::size_t i = 0; i < count(); ++i) {
       Unit& unit = *units_[i];
-      unit.set_input_update(
+      auto* const inputs = unit.capability<InputsWithinStep>();
+      if (inputs == nullptr) continue;
+      inputs->set_input_update(
           [this, i, &unit](double seconds) { inputs_->within_step(i, unit, seconds); });
     }
   }

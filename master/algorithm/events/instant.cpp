@@ -23,6 +23,7 @@ Instant::Instant(const System& system, std::span<const std::unique_ptr<Unit>> un
       units_(units),
       exchange_(exchange),
       messages_(system, units),
+      texts_(capabilities<MessageText>(units)),
       clocks_(system, units),
       observers_(observers),
       activities_(activities),
@@ -281,10 +282,11 @@ std::string Instant::content_of(VariableId id, const ValueBlock& block) const {
 
 /// Of an array, what its elements say, in their order.
 std::string Instant::described_by(VariableId id, const ValueBlock& block) const {
+  MessageText* const unit = texts_[id.component];
+  if (unit == nullptr) return {};
   std::string text;
   for (const Binary& value : block.binaries()) {
-    const std::string said =
-        units_[id.component]->describe_message(system_.variable(id).reference, value);
+    const std::string said = unit->describe_message(system_.variable(id).reference, value);
     if (!said.empty()) text.append(text.empty() ? "" : "; ").append(said);
   }
   return text;

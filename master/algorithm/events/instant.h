@@ -12,6 +12,7 @@
 #include <stride/time.h>
 
 #include "master/algorithm/activities.h"
+#include "master/algorithm/capabilities/message_text.h"
 #include "master/algorithm/events/clocks.h"
 #include "master/algorithm/events/messages.h"
 #include "master/algorithm/exchange/exchange.h"
@@ -92,6 +93,7 @@ class Instant : private Evaluation::Participants {
   std::span<const std::unique_ptr<Unit>> units_;
   Exchange& exchange_;
   MessageExchange messages_;
+  std::vector<MessageText*> texts_;  ///< by component; null = none
   Clocks clocks_;
   std::optional<Evaluation> evaluation_;  ///< where outputs follow inputs at once
   std::vector<Observer*>& observers_;

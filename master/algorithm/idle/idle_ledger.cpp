@@ -29,6 +29,7 @@ void IdleLedger::open(std::size_t component, Duration max_skip) {
   candidates_.push_back(component);
   Account& account = accounts_[component];
   account.is_candidate = true;
+  account.promises = &units_[component]->require_capability<IdlePromises>();
   account.max_skip = max_skip;
   for (const auto& [id, element] : exchange_.continuous_inputs(component)) {
     double deadband = system_.variable(id).deadband;
@@ -49,11 +50,13 @@ void IdleLedger::open(std::size_t component, Duration max_skip) {
 }
 
 void IdleLedger::enable() {
-  for (const std::size_t i : candidates_) units_[i]->enable_idle_skipping(accounts_[i].max_skip);
+  for (const std::size_t i : candidates_) {
+    accounts_[i].promises->enable_idle_skipping(accounts_[i].max_skip);
+  }
   for (const IdleSetting& setting : options_.tolerances) {
     if (!may_rest(setting.id.component)) continue;
-    units_[setting.id.component]->set_idle_tolerances({&system_.variable(setting.id).reference, 1},
-                                                      {&setting.value, 1});
+    accounts_[setting.id.component].promises->set_idle_tolerances(
+        {&system_.variable(setting.id).reference, 1}, {&setting.value, 1});
   }
 }
 
@@ -168,7 +171,7 @@ void IdleLedger::rest(Time time) {
   for (const std::size_t i : candidates_) {
     if (accounts_[i].rests) continue;
     exchange_.deliver_routed(i, *units_[i]);
-    const Time until = units_[i]->idle_until();
+    const Time until = accounts_[i].promises->idle_until();
     if (until <= time) continue;
     const Duration max_skip = accounts_[i].max_skip;
     const bool is_bounded = max_skip != Duration::max() && time + max_skip < until;
@@ -186,7 +189,7 @@ void IdleLedger::begin_rest(std::size_t component, Time time, Time until, Time e
   exchange_.fetch(component, *units_[component]);
   for (WatchedInput& input : account.inputs) input.held = input.element.get();
   if (account.tangents.empty()) return;
-  units_[component]->get_derivatives(account.references, account.slopes);
+  account.promises->get_derivatives(account.references, account.slopes);
   for (std::size_t k = 0; k < account.tangents.size(); ++k) {
     Tangent& tangent = account.tangents[k];
     tangent.value = tangent.element.get();

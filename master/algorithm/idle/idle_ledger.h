@@ -11,6 +11,7 @@
 #include <stride/time.h>
 
 #include "master/algorithm/activities.h"
+#include "master/algorithm/capabilities/idle_promises.h"
 #include "master/algorithm/exchange/exchange.h"
 #include "master/algorithm/run_options.h"
 #include "master/algorithm/statistics.h"
@@ -86,6 +87,7 @@ class IdleLedger {
   };
   struct Account {
     bool is_candidate = false;
+    IdlePromises* promises = nullptr;  ///< of a candidate
     bool rests = false;
     Time since{};               ///< where the unit stands
     Time until{};               ///< its promise

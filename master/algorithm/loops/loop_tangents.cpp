@@ -31,7 +31,8 @@ void LoopTangents::place_inputs() {
 }
 
 void LoopTangents::add_stage(const EvaluationStep& step) {
-  Stage stage{step.component, {}, {}, outputs_.size(), 0, inputs_.size(), 0};
+  auto& derivatives = units_[step.component]->require_capability<DirectionalDerivatives>();
+  Stage stage{step.component, &derivatives, {}, {}, outputs_.size(), 0, inputs_.size(), 0};
   for (const VariableId id : step.outputs) {
     stage.unknowns.push_back(system_.variable(id).reference);
     output_places_[id] = outputs_.size();
@@ -70,7 +71,7 @@ void LoopTangents::derive(std::size_t tear, std::size_t element, std::span<doubl
   auto wire = wires_.begin();
   for (std::size_t i = 0; i < stages_.size(); ++i) {
     const Stage& stage = stages_[i];
-    units_[stage.component]->get_directional_derivative(
+    stage.derivatives->get_directional_derivative(
         stage.unknowns, stage.knowns, std::span(inputs_).subspan(stage.first_input, stage.inputs),
         std::span(outputs_).subspan(stage.first_output, stage.outputs));
     for (; wire != wires_.end() && wire->stage == i; ++wire) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "master/algorithm/capabilities/directional_derivatives.h"
 #include "master/algorithm/loops/evaluation_order.h"
 #include "master/algorithm/unit.h"
 #include "master/model/system.h"
@@ -34,6 +35,7 @@ class LoopTangents {
   /// Outputs of one component, what of it the loop runs through, and where these lead.
   struct Stage {
     std::size_t component;
+    DirectionalDerivatives* derivatives;
     std::vector<ValueReference> unknowns, knowns;
     std::size_t first_output, outputs;  ///< in outputs_
     std::size_t first_input, inputs;    ///< in inputs_

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "master/algorithm/capabilities/unit_diagnostics.h"
+
 namespace stride::core {
 namespace {
 
@@ -19,7 +21,8 @@ Stepper::Lane::Lane(Unit& stepped, const StepPlace& its_place)
       place(&its_place),
       component(static_cast<std::uint32_t>(its_place.component)),
       saves_state(its_place.saves_state),
-      can_vary_step(its_place.can_vary_step) {}
+      can_vary_step(its_place.can_vary_step),
+      state(saves_state ? &stepped.require_capability<StateSaving>() : nullptr) {}
 
 Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units,
                  Exchange& exchange, std::vector<UnitStatistics>& statistics,
@@ -234,7 +237,7 @@ bool Stepper::rests_on(Lane& lane, const StepInterval& interval) {
 /// The inputs are part of the state.
 void Stepper::save(Lane& lane) {
   exchange_.deliver_routed(lane.component, *lane.unit);
-  lane.unit->save_state();
+  lane.state->save_state();
   lane.saved = true;
 }
 
@@ -246,7 +249,7 @@ void Stepper::go_back(Lane& lane, const StepInterval& interval) {
 }
 
 void Stepper::restore(Lane& lane, Time from) {
-  lane.unit->restore_state();
+  lane.state->restore_state();
   lane.result = {.reached = from};
   if (inputs_ != nullptr) inputs_->undo_step(lane.component);
 }
@@ -324,7 +327,8 @@ void Stepper::check_minimum(const StepInterval& interval, Time reached) const {
 
 /// What the unit says of a step that it rejected.
 std::string Stepper::reason(const Cut& cut) const {
-  const std::string said = cut.is_rejection ? cut.by->unit->rejection_reason() : "";
+  auto* const unit = cut.is_rejection ? cut.by->unit->capability<UnitDiagnostics>() : nullptr;
+  const std::string said = unit != nullptr ? unit->rejection_reason() : "";
   return said.empty() ? "" : "; it says: " + said;
 }
 

@@ -13,6 +13,7 @@
 #include <stride/time.h>
 
 #include "master/algorithm/activities.h"
+#include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/exchange/exchange.h"
 #include "master/algorithm/idle/idle_ledger.h"
 #include "master/algorithm/parallel/work_split.h"
@@ -93,6 +94,7 @@ class Stepper {
     bool rolled_back = false;
     Time undone{};                 ///< where it stood before that
     std::uint32_t rejections = 0;  ///< in the present communication step
+    StateSaving* state = nullptr;  ///< where saves_state
   };
   /// Who cut the present communication step short, last.
   struct Cut {

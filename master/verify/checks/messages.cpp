@@ -54,14 +54,15 @@ class Asker {
   }
 
   void ask(Life& life, const Variable& variable, const Binary& value) {
-    const std::string text = life.unit().describe_message(variable.reference, value);
+    auto& unit = life.capability<core::MessageText>();
+    const std::string text = unit.describe_message(variable.reference, value);
     const std::string what = fmt::format("what {} bytes say as '{}' at {} s", value.size(),
                                          variable.name, core::to_text(life.now()));
     if (!core::is_readable(text)) {
       throw Failure(what + " is not one line of UTF-8 without control characters: \"" +
                     core::readable_text(text, 60) + '"');
     }
-    if (life.unit().describe_message(variable.reference, value) != text) {
+    if (unit.describe_message(variable.reference, value) != text) {
       throw Failure(what + " is something else when it is asked again: \"" +
                     core::readable_text(text, 60) + '"');
     }

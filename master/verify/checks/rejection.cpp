@@ -21,8 +21,8 @@ struct Portrait {
 Portrait portrait(const Trial& trial, Life& life) {
   Portrait picture{{life.now().time_since_epoch().count(), life.observe(), false}, {}};
   if (!trial.subject.description().can_serialize_state) return picture;
-  life.unit().save_state();
-  picture.bytes = life.unit().serialize_state();
+  life.capability<core::StateSaving>().save_state();
+  picture.bytes = life.capability<core::StateSerialization>().serialize_state();
   return picture;
 }
 

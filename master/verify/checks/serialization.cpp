@@ -24,8 +24,8 @@ Serialized serialize(const Trial& trial) {
   Life life = trial.live();
   life.start();
   life.run_to(from, false);
-  life.unit().save_state();
-  made.bytes = life.unit().serialize_state();
+  life.capability<core::StateSaving>().save_state();
+  made.bytes = life.capability<core::StateSerialization>().serialize_state();
   made.position = life.position();
   life.forget_rows();
   life.run_to(made.to);
@@ -80,8 +80,8 @@ Recording continue_from(const Trial& trial, const Serialized& made) {
     clocks.emplace(guide.clocks());
   }
   Life life = trial.live();
-  life.unit().deserialize_state(made.bytes);
-  life.unit().restore_state();
+  life.capability<core::StateSerialization>().deserialize_state(made.bytes);
+  life.capability<core::StateSaving>().restore_state();
   life.stand_at(made.position, clocks ? &*clocks : nullptr);
   life.run_to(made.to);
   return life.recording();
@@ -100,8 +100,8 @@ std::string reaction(const Trial& trial, const Bytes& bytes) {
     return trial.in_child([&] {
       Life life = trial.live();
       try {
-        life.unit().deserialize_state(bytes);
-        life.unit().restore_state();
+        life.capability<core::StateSerialization>().deserialize_state(bytes);
+        life.capability<core::StateSaving>().restore_state();
         return std::string("accepted");
       } catch (const core::Error&) {
         return std::string("refused");
