@@ -3,7 +3,7 @@
  * C11 and as C++17.
  *
  * Functions that differ in a value's type only are generated from FMI2_VALUE_TYPES; FMI2_FUNCTIONS
- * lists the whole entry table in one place, for whoever exports it, loads it or checks it.
+ * lists the whole entry table in one place, for code that exports it, loads it or checks it.
  */
 #ifndef STRIDE_FMI2_H
 #define STRIDE_FMI2_H

@@ -3,7 +3,7 @@
  * Clean as C11 and as C++17.
  *
  * Functions that differ in a value's type only are generated from FMI3_VALUE_TYPES; FMI3_FUNCTIONS
- * lists the whole entry table in one place, for whoever exports it, loads it or checks it.
+ * lists the whole entry table in one place, for code that exports it, loads it or checks it.
  */
 #ifndef STRIDE_FMI3_H
 #define STRIDE_FMI3_H

@@ -30,7 +30,7 @@ extern "C" {
 
 #define STRIDE_IDLE_NAME "org.stride.idle"
 #define STRIDE_IDLE_VERSION "1.0.0"
-/* Where the manifest stands in the FMU. */
+/* The path of the manifest in the FMU. */
 #define STRIDE_IDLE_MANIFEST "extra/org.stride.idle/fmi-ls-manifest.xml"
 
 /* In the state Instantiated. Allows the instance to skip its own idle time, and to be left alone

@@ -49,7 +49,7 @@ struct Setup {
 
 enum class Severity { Info, Warning };
 
-/// What a unit says of itself as a whole, for its model description.
+/// Properties of a unit as a whole, for its model description.
 struct UnitInfo {
   std::string description;
   std::string version = "1.0";
@@ -97,7 +97,7 @@ class Unit {
   /// announced, and at its maximum_step. Needs UnitInfo::promises_idle.
   virtual Time idle_until(Time now) const { return now; }
 
-  /// What a value of this Binary variable says, in words, as <stride/describe.h> has it: a line as
+  /// A value of this Binary variable in words, as <stride/describe.h> has it: a line as
   /// short as can be, in UTF-8; empty if there is nothing to say. Called with any bytes, also of a
   /// size that the unit never sends. Control characters become blanks; what is thrown is logged as
   /// a warning, and the run goes on without the text.

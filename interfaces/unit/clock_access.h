@@ -1,4 +1,4 @@
-// The side of a unit's clock that only the kit sees: what the importer was told of it.
+// The part of a unit's clock that only the kit uses: what the importer has read of it.
 #ifndef STRIDE_INTERFACES_UNIT_CLOCK_ACCESS_H
 #define STRIDE_INTERFACES_UNIT_CLOCK_ACCESS_H
 
@@ -9,7 +9,7 @@ namespace stride {
 
 class ClockAccess {
  public:
-  /// What fmi3GetInterval answers where it is the unit that says the interval; it is told then.
+  /// What fmi3GetInterval returns where the unit sets the interval, which counts as read then.
   static fmi3IntervalQualifier tell(Clock& clock) {
     if (clock.knowledge_ == Clock::Knowledge::None) return fmi3IntervalNotYetKnown;
     const bool is_new = clock.knowledge_ == Clock::Knowledge::New;
@@ -17,7 +17,7 @@ class ClockAccess {
     return is_new ? fmi3IntervalChanged : fmi3IntervalUnchanged;
   }
   static bool has_news(const Clock& clock) { return clock.knowledge_ == Clock::Knowledge::New; }
-  /// What the unit said counts no longer: the count has ended, or the unit will say it anew.
+  /// What the unit set is void: the count has ended, or the unit will set it anew.
   static void forget(Clock& clock) { clock.knowledge_ = Clock::Knowledge::None; }
 };
 

@@ -27,7 +27,7 @@ STRIDE_EXPORT(IdleManifest)
 
 namespace stride::kit {
 
-/// The last thing that a failing call does, so it must not fail itself, be it for want of memory or
+/// The last thing that a failing call does, so it must not fail itself, be it for lack of memory or
 /// because the importer's callback throws.
 inline void report(const Importer& importer, Function function, const char* text,
                    fmi3Status status = fmi3Error) noexcept {

@@ -1,4 +1,4 @@
-// What a library says of itself, without an instance.
+// The self-description of a library, without an instance.
 #include <exception>
 #include <string>
 

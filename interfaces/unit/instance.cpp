@@ -14,8 +14,6 @@
 namespace stride::kit {
 namespace {
 
-std::string text(Time time) { return to_text(to_seconds(time)); }
-
 /// How far apart two readings of the same instant may be: after two and a half hours a double is
 /// coarser than a picosecond.
 Duration rounding(double seconds) {
@@ -167,15 +165,15 @@ void Instance::refresh() {
 
 void Instance::check_step(double point, double size, Time from, Time to) const {
   if (!are_near(from, time_, rounding(point))) {
-    throw Misuse("the unit stands at " + text(time_) + " s, but the step starts at " + text(from) +
-                 " s");
+    throw Misuse("the unit is at " + to_text(time_) + " s, but the step starts at " +
+                 to_text(from) + " s");
   }
   if (!(size > 0) || to <= time_) throw Misuse("the communication step size must be positive");
   if (size > kMaxSeconds) {
     throw Misuse("the communication step size must be at most " + to_text(kMaxSeconds) + " s");
   }
   if (stop_ && to > *stop_ + rounding(point + size)) {
-    throw Misuse("the step ends at " + text(to) + " s, behind the stop time " + text(*stop_) +
+    throw Misuse("the step ends at " + to_text(to) + " s, behind the stop time " + to_text(*stop_) +
                  " s");
   }
 }
@@ -213,7 +211,7 @@ Instance::StepOutcome Instance::do_step(double point, double size) {
   return {std::nullopt, event_pending_, step.terminates(), time_ < to, time_, time_ == to};
 }
 
-/// The unit's own step, from where it stands.
+/// The unit's own step, from its present instant.
 Step Instance::step_to(Time to, bool may_return_early) {
   for (Clock* clock : table_->output_clocks()) clock->clear();
   const bool can_update =

@@ -34,7 +34,7 @@ Duration duration_of_fraction(std::uint64_t counter, std::uint64_t resolution);
 struct Importer {
   std::string instance_name;
   std::filesystem::path resources;
-  std::uint8_t log_categories = LogErrors;  ///< those that it wants to hear of
+  std::uint8_t log_categories = LogErrors;  ///< those that are enabled
   bool event_mode_used = false;
   bool early_return_allowed = false;
   fmi3InstanceEnvironment environment = nullptr;
@@ -109,8 +109,8 @@ class Instance final : private InputUpdater {
   /// An instant that is not after the present one is no promise, Time::max() one without an end.
   Time idle_until() const;
 
-  /// What a value of a Binary variable says (<stride/describe.h>), in whole characters, `capacity`
-  /// bytes at most; empty if the unit says nothing.
+  /// A value of a Binary variable in words (<stride/describe.h>), in whole characters, `capacity`
+  /// bytes at most; empty if the unit has none.
   std::string describe_message(fmi3ValueReference reference, const fmi3Byte value[],
                                std::size_t size, std::size_t capacity) const;
 

@@ -105,7 +105,7 @@ void Instance::set_clock_shift(fmi3ValueReference reference, Duration shift) {
   inputs_changed_ = true;
 }
 
-/// Before the unit says its intervals from scratch.
+/// Before the unit sets its intervals from scratch.
 void Instance::forget_intervals() {
   for (const Variable& row : unit_->variables()) {
     if (is_time_based(row) && !row.has_interval) ClockAccess::forget(clock_of(row));

@@ -1,6 +1,6 @@
 // An instance that is used without Event Mode handles its events itself (FMI 3.0, 4.2.1,
 // eventModeUsed = fmi3False), at their instants: a communication step becomes several steps of the
-// unit with events in between. What clocks carry cannot reach or leave it then, which it says.
+// unit with events in between. What clocks carry cannot reach or leave it then, which is logged.
 #include <algorithm>
 #include <stdexcept>
 
@@ -11,8 +11,6 @@ namespace stride::kit {
 namespace {
 
 constexpr int kMostIterations = 1000;  // as many as the master allows
-
-std::string text(Time time) { return to_text(to_seconds(time)); }
 
 }  // namespace
 
@@ -31,20 +29,21 @@ bool Instance::event_is_due() const {
   return event_pending_ || (next_event_ && *next_event_ <= time_);
 }
 
-/// Events at this instant, to a fixed point. Returns whether the unit wants the simulation to end.
+/// Events at this instant, to a fixed point. Returns whether the unit requests the end of the
+/// simulation.
 bool Instance::handle_own_events() {
   event_pending_ = false;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     if (any_clock_ticked()) {
       const std::string lost = "output clocks tick unheard, and what belongs to them is lost";
       warn_of_clocks(Causality::Output, warned_of_outputs_,
-                     lost + ", the first time at " + text(time_) + " s");
+                     lost + ", the first time at " + to_text(time_) + " s");
     }
     const UpdateOutcome outcome = update_discrete_states();
     if (outcome.terminate) return true;
     if (!outcome.iterate && !event_is_due()) return false;
   }
-  throw std::runtime_error("the events at " + text(time_) + " s do not settle");
+  throw std::runtime_error("the events at " + to_text(time_) + " s do not settle");
 }
 
 Instance::StepOutcome Instance::step_through_events(Time to) {
@@ -73,14 +72,14 @@ Instance::StepOutcome Instance::step_through_events(Time to) {
     if (time_ < target && !event_pending_ && importer_.early_return_allowed) return outcome(false);
     standing = time_ > start ? 0 : standing + 1;
   }
-  throw std::runtime_error("step() returns early at " + text(time_) + " s again and again");
+  throw std::runtime_error("step() returns early at " + to_text(time_) + " s again and again");
 }
 
 /// fmi3Discard leaves the unit as it was before the step.
 Instance::StepOutcome Instance::undo(const std::string& rejection,
                                      const std::optional<SavedState>& before) {
   if (!before) {
-    throw std::runtime_error("the unit rejects the rest of the step at " + text(time_) + " s (" +
+    throw std::runtime_error("the unit rejects the rest of the step at " + to_text(time_) + " s (" +
                              rejection +
                              "), behind an event that it cannot undo, because it has no state to "
                              "be saved; use Event Mode, or shorter steps");

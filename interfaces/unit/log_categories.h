@@ -1,4 +1,4 @@
-// The log categories of a unit (FMI 3.0, 2.4.5), one for what each kind of message says.
+// The log categories of a unit (FMI 3.0, 2.4.5), one for each kind of message.
 #ifndef STRIDE_INTERFACES_UNIT_LOG_CATEGORIES_H
 #define STRIDE_INTERFACES_UNIT_LOG_CATEGORIES_H
 
@@ -10,7 +10,7 @@ namespace stride::kit {
 enum LogCategory : std::uint8_t {
   LogErrors = 1,    ///< why a function returned fmi3Error or fmi3Discard
   LogWarnings = 2,  ///< warnings of the unit and of the kit
-  LogEvents = 4,    ///< what the unit tells of its life
+  LogEvents = 4,    ///< the unit's own events
 };
 
 inline constexpr std::uint8_t kAllLogCategories = LogErrors | LogWarnings | LogEvents;

@@ -4,6 +4,8 @@
 #include <map>
 #include <set>
 
+#include <stride/value_text.h>
+
 #include "interfaces/unit/idle_manifest.h"
 #include "interfaces/unit/log_categories.h"
 #include "interfaces/unit/si_units.h"
@@ -18,21 +20,15 @@ std::string join(const std::vector<std::string>& words) {
   return text;
 }
 
-std::string hex(const Binary& bytes) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (const std::uint8_t byte : bytes) {
-    text += kDigits[byte >> 4];
-    text += kDigits[byte & 15];
-  }
-  return text;
-}
-
 std::string element_text(double value) { return to_text(value); }
 std::string element_text(float value) { return to_text(value); }
 std::string element_text(bool value) { return value ? "true" : "false"; }
 std::string element_text(const std::string& value) { return value; }
-std::string element_text(const Binary& value) { return hex(value); }
+std::string element_text(const Binary& value) {
+  std::string text;
+  append_value(text, value);
+  return text;
+}
 std::string element_text(const Clock&) { return {}; }
 template <class Integer>
 std::string element_text(Integer value) {
@@ -122,22 +118,22 @@ class Writer {
     xml_.open("UnitDefinitions");
     for (const std::string& symbol : symbols) {
       xml_.open("Unit").attribute("name", symbol);
-      if (const auto base = base_unit(symbol)) write_base_unit(*base);
+      if (const auto unit = measure_unit(symbol)) write_base_unit(*unit);
       xml_.close();
     }
     xml_.close();
   }
 
-  void write_base_unit(const BaseUnit& base) {
+  void write_base_unit(const MeasureUnit& unit) {
     const std::pair<const char*, int> exponents[] = {
-        {"kg", base.kg}, {"m", base.m},     {"s", base.s},   {"A", base.A},
-        {"K", base.K},   {"mol", base.mol}, {"cd", base.cd}, {"rad", base.rad}};
+        {"kg", unit.kg}, {"m", unit.m},     {"s", unit.s},   {"A", unit.A},
+        {"K", unit.K},   {"mol", unit.mol}, {"cd", unit.cd}, {"rad", unit.rad}};
     xml_.open("BaseUnit");
     for (const auto& [quantity, exponent] : exponents) {
       if (exponent != 0) xml_.attribute(quantity, std::int64_t{exponent});
     }
-    if (base.factor != 1) xml_.attribute("factor", base.factor);
-    if (base.offset != 0) xml_.attribute("offset", base.offset);
+    if (unit.factor != 1) xml_.attribute("factor", unit.factor);
+    if (unit.offset != 0) xml_.attribute("offset", unit.offset);
     xml_.close();
   }
 
@@ -261,7 +257,7 @@ class Writer {
     xml_.close();
   }
 
-  /// What FMI has no attribute for: an importer that knows nothing of a unit has to expect
+  /// What FMI has no attribute for: an importer without this annotation has to expect
   /// fmi3Discard.
   void write_annotations() {
     xml_.open("Annotations").open("Annotation").attribute("type", "org.stride.unit");
@@ -303,11 +299,11 @@ std::uint64_t hash(const std::string& text) {
 std::string instantiation_token(const std::string& name, const Unit& unit, const Table& table) {
   const std::uint64_t value =
       hash(Writer(name, unit, table).write("") + idle_manifest(unit, table));
-  Binary bytes;
+  std::string token = "stride-";
   for (int shift = 56; shift >= 0; shift -= 8) {
-    bytes.push_back(static_cast<std::uint8_t>(value >> shift));
+    append_hexadecimal(token, static_cast<std::uint8_t>(value >> shift));
   }
-  return "stride-" + hex(bytes);
+  return token;
 }
 
 std::string model_description(const std::string& name, const Unit& unit, const Table& table) {

@@ -5,7 +5,7 @@ namespace {
 
 struct Row {
   std::string_view symbol;
-  BaseUnit base;
+  MeasureUnit unit;
 };
 
 constexpr double kPi = 3.14159265358979323846;
@@ -42,9 +42,9 @@ constexpr Row kUnits[] = {
 
 }  // namespace
 
-std::optional<BaseUnit> base_unit(std::string_view symbol) {
+std::optional<MeasureUnit> measure_unit(std::string_view symbol) {
   for (const Row& row : kUnits) {
-    if (row.symbol == symbol) return row.base;
+    if (row.symbol == symbol) return row.unit;
   }
   return std::nullopt;
 }

@@ -6,15 +6,16 @@
 
 namespace stride::kit {
 
-/// value in SI base units = factor * value + offset; the exponents in the order of FMI's BaseUnit.
-struct BaseUnit {
+/// A unit of measure in SI base units, with the parts of FMI's element BaseUnit:
+/// value in base units = factor * value + offset.
+struct MeasureUnit {
   int kg, m, s, A, K, mol, cd, rad;
   double factor, offset;
 };
 
 /// What a unit symbol in the Modelica notation means, for the symbols that occur in models of this
-/// kind. For any other symbol the importer is told the name alone, and compares names.
-std::optional<BaseUnit> base_unit(std::string_view symbol);
+/// kind. Of any other symbol the model description has the name alone, and importers compare names.
+std::optional<MeasureUnit> measure_unit(std::string_view symbol);
 
 }  // namespace stride::kit
 

@@ -11,12 +11,12 @@
 
 namespace stride::kit {
 
-const char* name(Type type);
+inline const char* name(Type type) { return type_name(type); }
 const char* name(Causality causality);
 const char* name(Variability variability);
 const char* name(IntervalVariability variability);
 
-/// Calls visitor(T* elements) with the C++ type that stands behind an FMI type.
+/// Calls visitor(T* elements) with the C++ type that holds values of an FMI type.
 template <class Visitor>
 void visit(Type type, void* data, Visitor&& visitor) {
   switch (type) {

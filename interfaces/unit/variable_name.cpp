@@ -3,7 +3,7 @@
 namespace stride::kit {
 namespace {
 
-// not those of <cctype>, which ask the locale
+// not those of <cctype>, which depend on the locale
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_nondigit(char c) { return c == '_' || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_one_of(std::string_view characters, char c) {

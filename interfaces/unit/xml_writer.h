@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include <stride/time.h>
+
 namespace stride::kit {
 
 /// Writes an indented XML document. The kit has its own, forty lines, because a unit's library
@@ -38,6 +40,8 @@ class XmlWriter {
 /// The shortest text that reads back as the same number.
 std::string to_text(double value);
 std::string to_text(float value);
+/// Of its seconds.
+inline std::string to_text(Time time) { return to_text(to_seconds(time)); }
 
 }  // namespace stride::kit
 

@@ -13,7 +13,7 @@ class Activities {
   void add(Observer& observer) {
     if (observer.watches_activities()) watchers_.push_back(&observer);
   }
-  void tell(const Activity& activity) const {
+  void report(const Activity& activity) const {
     for (Observer* watcher : watchers_) watcher->on_activity(activity);
   }
 

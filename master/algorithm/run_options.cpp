@@ -2,18 +2,6 @@
 
 namespace stride::core {
 
-const char* name(StepPolicy policy) {
-  switch (policy) {
-    case StepPolicy::Fixed:
-      return "fixed";
-    case StepPolicy::EventDriven:
-      return "event-driven";
-    case StepPolicy::ErrorControlled:
-      break;
-  }
-  return "error-controlled";
-}
-
 const char* name(Coupling coupling) {
   return coupling == Coupling::Jacobi ? "jacobi" : "gauss-seidel";
 }

@@ -12,16 +12,10 @@
 
 #include <stride/time.h>
 
+#include "master/algorithm/step_policies/step_policy_type.h"
 #include "master/model/variable_id.h"
 
 namespace stride::core {
-
-/// Where the next communication point is, as far as no event comes before it.
-enum class StepPolicy : std::uint8_t {
-  Fixed,            ///< on a grid
-  EventDriven,      ///< only where a unit stops, has an event, or must not step further
-  ErrorControlled,  ///< as far as the error of the inputs between the points stays tolerable
-};
 
 /// What a unit sees of the others during a step.
 enum class Coupling : std::uint8_t {
@@ -32,25 +26,22 @@ enum class Coupling : std::uint8_t {
 /// How an input goes on from its last values during a step: as a polynomial of this degree.
 enum class Extrapolation : std::uint8_t { Hold, Linear, Quadratic };
 
-inline constexpr std::array kStepPolicies{StepPolicy::Fixed, StepPolicy::EventDriven,
-                                          StepPolicy::ErrorControlled};
 inline constexpr std::array kCouplings{Coupling::Jacobi, Coupling::GaussSeidel};
 inline constexpr std::array kExtrapolations{Extrapolation::Hold, Extrapolation::Linear,
                                             Extrapolation::Quadratic};
 
 /// As scenarios and the command line have them: "event-driven".
-const char* name(StepPolicy policy);
 const char* name(Coupling coupling);
 const char* name(Extrapolation extrapolation);
 
 struct StepOptions {
-  StepPolicy policy = StepPolicy::Fixed;
-  Duration size{};  ///< Fixed: of the grid; ErrorControlled: of the first step
-  /// No step is longer. Nothing: as far as the units let; ErrorControlled: a tenth of the run.
+  const StepPolicyType* policy = &kFixedSteps;
+  Duration size{};  ///< of the grid; error-controlled: of the first step
+  /// No step is longer. Nothing: as long as the units allow; error-controlled: a tenth of the run.
   std::optional<Duration> maximum{};
   /// No shorter one is tried after a rejection.
   Duration minimum = std::chrono::nanoseconds(1);
-  /// ErrorControlled: an input v may be off by absolute_tolerance + relative_tolerance * |v|, in
+  /// Error-controlled: an input v may be off by absolute_tolerance + relative_tolerance * |v|, in
   /// the unit of the output that feeds it.
   double relative_tolerance = 1e-3;
   double absolute_tolerance = 1e-6;
@@ -85,7 +76,7 @@ struct RunOptions {
   /// Units may rest where nothing but events and steps needs them: inputs that are extrapolated, or
   /// whose error is controlled, are needed between communication points.
   bool may_skip_idle_time() const {
-    return !sets_inputs_in_steps() && step.policy != StepPolicy::ErrorControlled;
+    return !sets_inputs_in_steps() && !step.policy->controls_error;
   }
   /// Whether inputs are set anew for each step. With Jacobi and held inputs they stay what they
   /// were at the communication point.

@@ -10,18 +10,16 @@
 
 #include <fmt/format.h>
 
-#include "master/algorithm/activities.h"
 #include "master/algorithm/capabilities/configuration_mode.h"
 #include "master/algorithm/capabilities/inputs_within_step.h"
 #include "master/algorithm/capabilities/own_process.h"
 #include "master/algorithm/capabilities/unit_diagnostics.h"
-#include "master/algorithm/events/instant.h"
-#include "master/algorithm/exchange/exchange.h"
-#include "master/algorithm/exchange/system_outputs.h"
-#include "master/algorithm/idle/idle_ledger.h"
+#include "master/algorithm/events/event_handler.h"
+#include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/loops/initial_values.h"
-#include "master/algorithm/stepping/step_inputs.h"
-#include "master/algorithm/stepping/step_size.h"
+#include "master/algorithm/run_context.h"
+#include "master/algorithm/step_policies/step_policy.h"
+#include "master/algorithm/stepping/input_extrapolator.h"
 #include "master/algorithm/stepping/stepper.h"
 
 namespace stride::core {
@@ -30,53 +28,35 @@ namespace {
 /// Steps in a row that end where they began, after which a unit is taken to be stuck.
 constexpr std::uint32_t kStallLimit = 1000;
 
-/// All that observers may see, each once.
-std::vector<VariableId> observed(const RunOptions& options) {
-  std::vector<VariableId> ids = options.recorded;
-  ids.insert(ids.end(), options.watched.begin(), options.watched.end());
-  std::ranges::sort(ids);
-  ids.erase(std::ranges::unique(ids).begin(), ids.end());
-  return ids;
-}
-
 }  // namespace
 
 class Simulation::Run {
  public:
   Run(const System& system, std::vector<std::unique_ptr<Unit>> units, RunOptions options)
-      : system_(system),
-        units_(std::move(units)),
-        options_(std::move(options)),
-        step_size_(system, options_),
-        observed_(observed(options_)),
-        outputs_(system, observed_),
-        exchange_(system, outputs_.sources()),
-        inputs_(make_inputs()),
-        statistics_{.units = std::vector<UnitStatistics>(units_.size())},
-        ledger_(make_ledger()),
-        clock_(options_.measure_time),
-        instant_(system, units_, exchange_, observers_, activities_, statistics_, clock_,
-                 ledger_ ? &*ledger_ : nullptr),
-        stepper_(system, units_, exchange_, statistics_.units, activities_, clock_, options_,
-                 options_.sets_inputs_in_steps() ? &*inputs_ : nullptr,
-                 ledger_ ? &*ledger_ : nullptr) {
-    statistics_.start = statistics_.reached = options_.start;
-    outputs_.connect(exchange_);
-    if (options_.sets_inputs_in_steps()) lead_inputs_within_steps();
+      : context_(system, std::move(units), std::move(options)),
+        step_policy_(make_step_policy(system_, options_)),
+        inputs_(make_input_extrapolator()),
+        idle_(make_idle_scheduler()),
+        event_handler_(context_, pointer_to(idle_)),
+        stepper_(context_, sets_inputs_in_steps() ? pointer_to(inputs_) : nullptr,
+                 pointer_to(idle_)) {
+    if (sets_inputs_in_steps()) connect_input_updates();
   }
 
   void add_observer(Observer& observer) { add_observer(observer, options_.recorded); }
   void add_observer(Observer& observer, std::vector<VariableId> signals) {
-    const auto is_read = [&](VariableId id) { return std::ranges::binary_search(observed_, id); };
+    const auto is_read = [&](VariableId id) {
+      return std::ranges::binary_search(context_.observed, id);
+    };
     if (!std::ranges::all_of(signals, is_read)) {
       throw std::logic_error("an observer wants a signal that is not read");
     }
-    observers_.push_back(&observer);
+    context_.observers.push_back(&observer);
     wanted_.push_back(std::move(signals));
-    activities_.add(observer);
+    context_.activities.add(observer);
   }
   const RunStatistics& statistics() const { return statistics_; }
-  Duration rested() const { return ledger_ ? ledger_->rested(time_) : Duration{}; }
+  Duration suspended_time() const { return idle_ ? idle_->suspended_time(time_) : Duration{}; }
   std::span<const Verdict> verdicts() const { return verdicts_; }
 
   void run() {
@@ -85,8 +65,8 @@ class Simulation::Run {
     std::exception_ptr failure;
     try {
       clock_.timed(statistics_.phases.initialization, [&] { initialize(); });
-      while (goes_on()) communication_step();
-      if (ledger_) ledger_->settle(time_);
+      while (should_continue()) communication_step();
+      if (idle_) idle_->catch_up_all(time_);
       if (statistics_.end != RunEnd::Interrupted) verdicts_ = read_verdicts(system_, units_);
       for (auto& unit : units_) unit->terminate();
     } catch (...) {
@@ -98,9 +78,9 @@ class Simulation::Run {
       auto* const process = units_[i]->capability<OwnProcess>();
       if (diagnostics != nullptr) statistics_.units[i].calls = diagnostics->calls();
       if (process != nullptr) statistics_.units[i].host = process->host_statistics();
-      statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].rests;
+      statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].suspensions;
     }
-    finish_rests(failure);
+    finish_suspensions(failure);
     finish_observers(failure);
     if (!failure) return;
     verdicts_.clear();
@@ -108,19 +88,24 @@ class Simulation::Run {
   }
 
  private:
+  template <class Part>
+  static Part* pointer_to(std::optional<Part>& part) {
+    return part ? &*part : nullptr;
+  }
   std::size_t count() const { return units_.size(); }
+  bool sets_inputs_in_steps() const { return options_.sets_inputs_in_steps(); }
 
-  void finish_rests(std::exception_ptr& failure) {
-    if (!ledger_ || !failure) return;
+  void finish_suspensions(std::exception_ptr& failure) {
+    if (!idle_ || !failure) return;
     try {
-      ledger_->tell_unfinished_rests(time_);
+      idle_->report_unfinished(time_);
     } catch (...) {  // the first failure is kept
     }
   }
 
   /// All are told, also where one of them fails; the first failure is kept.
   void finish_observers(std::exception_ptr& failure) {
-    for (Observer* observer : observers_) {
+    for (Observer* observer : context_.observers) {
       try {
         observer->on_finish();
       } catch (...) {
@@ -133,28 +118,27 @@ class Simulation::Run {
     time_ = options_.start;
     configure();
     for (const StartValue& start : system_.start_values()) set(start);
-    if (ledger_) ledger_->enable();
+    if (idle_) idle_->enable();
     for (std::size_t i = 0; i < count(); ++i) {
       clock_.timed(statistics_.units[i].initialization_time,
                    [&] { units_[i]->enter_initialization(options_.start, options_.stop); });
     }
-    set_initial_values(system_, units_, exchange_,
-                       {clock_, statistics_.units, &UnitStatistics::initialization_time}, time_);
+    set_initial_values(context_, time_);
     for (std::size_t i = 0; i < count(); ++i) exchange_.begin_samples(i, *units_[i]);
-    instant_.begin_clocks(time_);
+    event_handler_.begin_clocks(time_);
     for (std::size_t i = 0; i < count(); ++i) {
       clock_.timed(statistics_.units[i].initialization_time,
                    [&] { units_[i]->exit_initialization(); });
     }
     start_observers();
-    instant_.begin();
-    settle();
-    tell_observers();
+    event_handler_.begin();
+    handle_events();
+    notify_observers();
   }
 
-  void tell_observers() {
-    outputs_.update();
-    for (Observer* observer : observers_) observer->on_communication_point(time_);
+  void notify_observers() {
+    context_.outputs.update();
+    for (Observer* observer : context_.observers) observer->on_communication_point(time_);
   }
 
   /// Structural parameters; they give arrays their sizes, so they come first.
@@ -177,28 +161,28 @@ class Simulation::Run {
   }
 
   void start_observers() {
-    for (std::size_t i = 0; i < observers_.size(); ++i) {
+    for (std::size_t i = 0; i < context_.observers.size(); ++i) {
       std::vector<Signal> signals;
-      for (const VariableId id : wanted_[i]) signals.push_back(outputs_.signal(id, exchange_));
-      observers_[i]->on_start(signals);
+      for (const VariableId id : wanted_[i])
+        signals.push_back(context_.outputs.signal(id, exchange_));
+      context_.observers[i]->on_start(signals);
     }
   }
 
   /// Nothing where nobody would use it.
-  std::optional<StepInputs> make_inputs() {
-    if (!options_.sets_inputs_in_steps() && !step_size_.controls_error()) return std::nullopt;
-    return StepInputs(system_, exchange_, options_.coupling, options_.extrapolation);
+  std::optional<InputExtrapolator> make_input_extrapolator() {
+    if (!sets_inputs_in_steps() && !options_.step.policy->controls_error) return std::nullopt;
+    return std::optional<InputExtrapolator>(std::in_place, context_);
   }
 
-  std::optional<IdleLedger> make_ledger() {
+  std::optional<IdleScheduler> make_idle_scheduler() {
     if (!options_.may_skip_idle_time()) return std::nullopt;
-    std::optional<IdleLedger> ledger(std::in_place, system_, units_, exchange_, statistics_.units,
-                                     activities_, options_.idle);
-    if (ledger->is_trivial()) ledger.reset();
-    return ledger;
+    std::optional<IdleScheduler> idle(std::in_place, context_);
+    if (idle->is_trivial()) idle.reset();
+    return idle;
   }
 
-  void lead_inputs_within_steps() {
+  void connect_input_updates() {
     for (std::size_t i = 0; i < count(); ++i) {
       Unit& unit = *units_[i];
       auto* const inputs = unit.capability<InputsWithinStep>();
@@ -208,7 +192,7 @@ class Simulation::Run {
     }
   }
 
-  bool goes_on() {
+  bool should_continue() {
     if (time_ >= options_.stop || statistics_.end == RunEnd::EndedByUnit) return false;
     if (options_.interrupted == nullptr || *options_.interrupted == 0) [[likely]]
       return true;
@@ -219,24 +203,24 @@ class Simulation::Run {
   void communication_step() {
     const Time reached = clock_.timed(statistics_.phases.steps, [&] { return advance(); });
     if (reached == time_) {
-      note_stall();
+      check_stall();
     } else {
       stalled_steps_ = 0;
     }
     time_ = reached;
-    if (stepper_.has_requests()) take_requests();
-    clock_.timed(statistics_.phases.instants, [&] { settle(); });
+    if (stepper_.has_requests()) handle_requests();
+    clock_.timed(statistics_.phases.instants, [&] { handle_events(); });
     ++statistics_.communication_steps;
     statistics_.parallel_steps += stepper_.was_parallel();
     statistics_.reached = time_;
-    clock_.timed(statistics_.phases.observers, [&] { tell_observers(); });
+    clock_.timed(statistics_.phases.observers, [&] { notify_observers(); });
   }
 
-  void take_requests() {
+  void handle_requests() {
     for (std::size_t i = 0; i < count(); ++i) {
       const StepResult& result = stepper_.result(i);
       if (result.terminate) statistics_.end = RunEnd::EndedByUnit;
-      if (result.event_needed) instant_.request_event(i);
+      if (result.event_needed) event_handler_.request_event(i);
     }
   }
 
@@ -244,10 +228,10 @@ class Simulation::Run {
   Time advance() {
     while (true) {
       const Time reached = stepper_.advance(time_, next_target());
-      if (!step_size_.controls_error()) return reached;
+      if (!options_.step.policy->controls_error) return reached;
       const Excess excess = inputs_->excess(reached, options_.step.absolute_tolerance,
                                             options_.step.relative_tolerance);
-      if (step_size_.accept(time_, reached, excess)) return reached;
+      if (step_policy_->accept(time_, reached, excess)) return reached;
       stepper_.undo(time_);
       ++statistics_.undone_steps;
     }
@@ -255,17 +239,17 @@ class Simulation::Run {
 
   /// Where the policy leads to, unless an event is nearer.
   Time next_target() {
-    const std::optional<Time> rest = ledger_ ? ledger_->all_rest_until() : std::nullopt;
-    const Time target = rest ? step_size_.stride(time_, *rest) : step_size_.next(time_);
-    return std::min(target, instant_.next_event().value_or(target));
+    const std::optional<Time> rest = idle_ ? idle_->all_suspended_until() : std::nullopt;
+    const Time target = rest ? step_policy_->stride(time_, *rest) : step_policy_->next(time_);
+    return std::min(target, event_handler_.next_event().value_or(target));
   }
 
-  void settle() {
-    instant_.settle(time_);
-    if (inputs_) inputs_->accept(time_, instant_.had_event());
+  void handle_events() {
+    event_handler_.handle_events(time_);
+    if (inputs_) inputs_->accept(time_, event_handler_.had_event());
   }
 
-  void note_stall() {
+  void check_stall() {
     if (++stalled_steps_ < kStallLimit) return;
     std::vector<std::string> names;
     for (std::size_t i = 0; i < count(); ++i) {
@@ -277,23 +261,22 @@ class Simulation::Run {
                     kStallLimit, quoted(names)));
   }
 
-  const System& system_;
-  std::vector<std::unique_ptr<Unit>> units_;
-  RunOptions options_;
-  StepSize step_size_;
-  std::vector<VariableId> observed_;  ///< sorted
-  SystemOutputs outputs_;
-  Exchange exchange_;
-  std::optional<StepInputs> inputs_;
-  std::vector<Observer*> observers_;
-  std::vector<std::vector<VariableId>> wanted_;  ///< the signals of each of them
-  Activities activities_;
-  RunStatistics statistics_;
-  std::vector<Verdict> verdicts_;
-  std::optional<IdleLedger> ledger_;  ///< nothing where nobody may rest
-  WallClock clock_;
-  Instant instant_;
+  RunContext context_;
+  const System& system_ = context_.system;
+  std::span<const std::unique_ptr<Unit>> units_ = context_.units;
+  const RunOptions& options_ = context_.options;
+  Exchange& exchange_ = context_.exchange;
+  RunStatistics& statistics_ = context_.statistics;
+  const WallClock clock_ = context_.clock;
+
+  std::unique_ptr<StepPolicy> step_policy_;
+  std::optional<InputExtrapolator> inputs_;  ///< nothing where inputs are held
+  std::optional<IdleScheduler> idle_;        ///< nothing where no unit may be suspended
+  EventHandler event_handler_;
   Stepper stepper_;
+
+  std::vector<std::vector<VariableId>> wanted_;  ///< the signals of each observer
+  std::vector<Verdict> verdicts_;
 
   bool has_run_ = false;
   Time time_{};
@@ -314,7 +297,7 @@ void Simulation::add_observer(Observer& observer, std::vector<VariableId> signal
 
 void Simulation::run() { run_->run(); }
 
-Duration Simulation::rested() const { return run_->rested(); }
+Duration Simulation::suspended_time() const { return run_->suspended_time(); }
 
 const RunStatistics& Simulation::statistics() const { return run_->statistics(); }
 

@@ -40,7 +40,7 @@ class Simulation {
   /// of them together and up to where the run stands: unlike the statistics' `rested`, with the
   /// rests that still last. For observers, at a communication point; one look at each unit that may
   /// rest.
-  Duration rested() const;
+  Duration suspended_time() const;
   /// What the units say of the run, where it ended; none where it failed or was interrupted.
   std::span<const Verdict> verdicts() const;
 

@@ -31,9 +31,9 @@ struct UnitStatistics {
   std::uint64_t rollbacks = 0;      ///< steps of it that were undone, because another unit stopped
   std::uint64_t saves = 0;          ///< of its state
   std::uint64_t events = 0;         ///< super-dense instants handled in Event Mode
-  std::uint64_t rests = 0;  ///< times that it was left alone, because it promised to be idle
-  Duration rested{};        ///< the simulated time of all of them
-  Duration longest_rest{};
+  std::uint64_t suspensions = 0;  ///< times that it was left alone, because it promised to be idle
+  Duration suspended_time{};      ///< the simulated time of all of them
+  Duration longest_suspension{};
   std::uint64_t messages_sent = 0;
   std::uint64_t messages_received = 0;
   std::chrono::nanoseconds

@@ -1,5 +1,7 @@
 #include "master/algorithm/verdict.h"
 
+#include "master/util/time_text.h"
+
 namespace stride::core {
 namespace {
 

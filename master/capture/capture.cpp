@@ -10,14 +10,14 @@
 namespace stride::capture {
 namespace {
 
-[[noreturn]] void refuse(const Request& request, const std::string& message,
+[[noreturn]] void refuse(const CaptureRequest& request, const std::string& message,
                          const std::string& hint = "") {
   core::fail_input(
       {}, fmt::format("--capture {}={}: {}", request.component, request.file.string(), message),
       hint);
 }
 
-std::size_t find_component(const core::System& system, const Request& request) {
+std::size_t find_component(const core::System& system, const CaptureRequest& request) {
   std::vector<std::string> names;
   for (const core::Component& component : system.components()) names.push_back(component.name);
   const auto found = std::ranges::find(names, request.component);
@@ -31,7 +31,7 @@ std::size_t find_component(const core::System& system, const Request& request) {
 }  // namespace
 
 Capture::Capture(const core::System& system, const std::string& system_name,
-                 const core::RunOptions& options, std::span<const Request> requests)
+                 const core::RunOptions& options, std::span<const CaptureRequest> requests)
     : system_(system) {
   if (!requests.empty() && options.sets_inputs_in_steps()) {
     refuse(requests.front(),
@@ -46,9 +46,9 @@ Capture::Capture(const core::System& system, const std::string& system_name,
 }
 
 void Capture::open(const core::System& system, const std::string& system_name,
-                   const Request& request, std::span<const Request> earlier) {
+                   const CaptureRequest& request, std::span<const CaptureRequest> earlier) {
   const std::size_t component = find_component(system, request);
-  for (const Request& other : earlier) {
+  for (const CaptureRequest& other : earlier) {
     if (other.component == request.component) refuse(request, "the component is captured twice");
     if (other.file.lexically_normal() == request.file.lexically_normal()) {
       refuse(request, "the file is written twice", "name another file for each component");

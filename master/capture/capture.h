@@ -16,7 +16,7 @@
 
 namespace stride::capture {
 
-struct Request {
+struct CaptureRequest {
   std::string component;
   std::filesystem::path file;
 };
@@ -29,7 +29,7 @@ class Capture final : public core::Observer {
   /// that is named twice, a file that is named twice or cannot be created, and options with which
   /// inputs change within a step.
   Capture(const core::System& system, const std::string& system_name,
-          const core::RunOptions& options, std::span<const Request> requests);
+          const core::RunOptions& options, std::span<const CaptureRequest> requests);
 
   bool is_empty() const { return files_.empty(); }
   /// Puts a CapturedUnit around each unit that is to be captured; the others stay as they are.
@@ -50,8 +50,8 @@ class Capture final : public core::Observer {
     CapturedUnit* unit = nullptr;
   };
 
-  void open(const core::System& system, const std::string& system_name, const Request& request,
-            std::span<const Request> earlier);
+  void open(const core::System& system, const std::string& system_name,
+            const CaptureRequest& request, std::span<const CaptureRequest> earlier);
 
   const core::System& system_;
   std::vector<File> files_;

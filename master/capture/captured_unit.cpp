@@ -34,10 +34,6 @@ core::ValueBlock part(const core::ValueBlock& values, std::size_t first, std::si
   return copy;
 }
 
-bool is_message(const core::UnitDescription& description, const core::Variable& variable) {
-  return variable.is_clocked() && !description.is_sampled(variable);
-}
-
 }  // namespace
 
 CapturedUnit::CapturedUnit(std::unique_ptr<core::Unit> unit,
@@ -50,7 +46,7 @@ CapturedUnit::CapturedUnit(std::unique_ptr<core::Unit> unit,
       file_(file),
       index_(index) {
   for (const core::Variable& variable : description.variables) {
-    if (is_stimulus(variable)) inputs_.push_back({&variable, is_message(description, variable)});
+    if (is_stimulus(variable)) inputs_.push_back({&variable, description.is_message(variable)});
   }
   std::ranges::sort(inputs_, {}, [](const Input& input) { return input.variable->reference; });
 }

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "master/recorders/signal_text.h"
+#include "master/util/time_text.h"
 
 namespace stride::capture {
 namespace {
@@ -19,9 +20,7 @@ constexpr io::OutputFile::Hints kHints{
 
 /// Always in quotation marks, so that an empty text is not taken for nothing.
 void append_quoted(std::string& text, std::string_view value) {
-  text += '"';
-  for (const char c : value) text.append(c == '"' ? 2 : 1, c);
-  text += '"';
+  io::quote_csv(value, [&](char c) { text += c; });
 }
 
 core::ValueBlock start_values(const core::Variable& variable) {
@@ -96,7 +95,7 @@ void StimuliFile::add_start_value(const core::Variable& variable, const core::Va
 void StimuliFile::add_skip(Duration max_skip) {
   const bool is_endless = max_skip == Duration::max();
   fmt::format_to(std::back_inserter(pending_), "skip,{}\n",
-                 is_endless ? "for ever" : core::to_text(Time(max_skip)));
+                 is_endless ? "for ever" : core::to_text(max_skip));
 }
 
 void StimuliFile::add_tolerance(const core::Variable& output, double tolerance) {

@@ -11,6 +11,7 @@
 #include "master/algorithm/observer.h"
 #include "master/algorithm/verdict.h"
 #include "master/checks/definition.h"
+#include "master/util/time_text.h"
 
 namespace stride::checks {
 

@@ -2,8 +2,7 @@
 
 #include <utility>
 
-#include "master/checks/answer_check.h"
-#include "master/checks/count_check.h"
+#include "master/checks/message_checks.h"
 
 namespace stride::checks {
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
+
 namespace stride::checks {
 
 const char* name(Kind kind) {

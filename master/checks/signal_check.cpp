@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
+
 namespace stride::checks {
 
 SignalCheck::SignalCheck(const Definition& definition)

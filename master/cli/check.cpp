@@ -11,11 +11,12 @@
 #include "master/cli/scenario_options.h"
 #include "master/cli/table.h"
 #include "master/scenario/loaded_scenario.h"
+#include "master/util/time_text.h"
 
 namespace stride::cli {
 namespace {
 
-std::string seconds(Duration duration) { return core::to_text(Time(duration)); }
+std::string seconds(Duration duration) { return core::to_text(duration); }
 
 std::string unit_table(const LoadedScenario& loaded) {
   Table table({{"component"}, {"unit"}, {"FMI"}, {"variables", Table::Align::Right}, {"file"}});
@@ -27,7 +28,7 @@ std::string unit_table(const LoadedScenario& loaded) {
   return table.text();
 }
 
-/// Nothing where all units are in this process.
+/// Empty if all units are in this process.
 std::string host_table(const LoadedScenario& loaded) {
   Table table({{"component"},
                {"call limit [s]", Table::Align::Right},
@@ -72,19 +73,7 @@ std::string connection_table(const core::System& system) {
 
 std::string steps(const core::RunOptions& options) {
   const core::StepOptions& step = options.step;
-  std::string steps;
-  switch (step.policy) {
-    case core::StepPolicy::Fixed:
-      steps = fmt::format("in steps of {} s", seconds(step.size));
-      break;
-    case core::StepPolicy::EventDriven:
-      steps = "from event to event";
-      break;
-    case core::StepPolicy::ErrorControlled:
-      steps = fmt::format("in steps that keep the inputs' error within {} + {} of their values",
-                          step.absolute_tolerance, step.relative_tolerance);
-      break;
-  }
+  std::string steps = step.policy->describe(step);
   if (step.maximum) steps += fmt::format(", of {} s at most", seconds(*step.maximum));
   return fmt::format("{}\ncoupling {}, inputs {}", steps, name(options.coupling),
                      options.extrapolation == core::Extrapolation::Hold
@@ -96,8 +85,8 @@ std::string order_table(const LoadedScenario& loaded) {
   const core::System& system = loaded.system();
   Table table(
       {{"", Table::Align::Right}, {"stage", Table::Align::Right}, {"component"}, {"why here"}});
-  for (const core::StepPlace& place :
-       core::step_order(loaded.system(), loaded.options().step.policy, loaded.options().coupling)) {
+  for (const core::StepPlace& place : core::step_order(
+           loaded.system(), *loaded.options().step.policy, loaded.options().coupling)) {
     const std::string number = std::to_string(table.size() + 1);
     table.add({number, std::to_string(place.stage + 1), system.components()[place.component].name,
                place.reason});
@@ -105,7 +94,7 @@ std::string order_table(const LoadedScenario& loaded) {
   return table.text();
 }
 
-/// Nothing where the scenario has none.
+/// Empty if the scenario has none.
 std::string check_table(std::span<const checks::Definition> checks) {
   Table table({{"check"}, {"demands"}, {"line", Table::Align::Right}});
   for (const checks::Definition& check : checks) {

@@ -1,4 +1,4 @@
-// stride complete: writes into a scenario what its author left out.
+// stride complete: adds the connectors of the units to a scenario.
 #include "master/ssp/complete.h"
 
 #include <memory>
@@ -49,8 +49,7 @@ void complete(const CompleteArguments& arguments) {
 
 void add_complete(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "complete",
-      "Write the connectors that a scenario leaves out into it, as other SSP tools want them");
+      "complete", "Add the connectors that a scenario leaves out, as other SSP tools need them");
   const auto arguments = std::make_shared<CompleteArguments>();
   command
       ->add_option("FILE", arguments->scenario,

@@ -7,11 +7,11 @@
 
 namespace stride::cli {
 
-/// In which order the initial values are evaluated: a table.
+/// The order in which initial values are evaluated, as a table.
 std::string initial_order_text(const core::System& system);
 
-/// The algebraic loops at the start and at events: their paths, what they are solved for, and
-/// whether they are there only because of what units leave undeclared.
+/// The algebraic loops at the start and at events: their paths, their
+/// unknowns, and whether they follow only from dependencies that units do not declare.
 std::string loops_text(const core::System& system);
 
 }  // namespace stride::cli

@@ -1,4 +1,4 @@
-// stride inspect: what a unit says of itself.
+// stride inspect: the description of a unit.
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -8,6 +8,7 @@
 #include "master/cli/table.h"
 #include "master/importer/fmu.h"
 #include "master/scenario/unit_path.h"
+#include "master/util/time_text.h"
 
 namespace stride::cli {
 namespace {
@@ -51,7 +52,7 @@ std::string capabilities(const core::UnitDescription& unit) {
       fmt::format("output derivatives up to order {}", unit.max_output_derivative_order));
   add(unit.fixed_internal_step.has_value(),
       fmt::format("internal step {} s",
-                  core::to_text(Time(unit.fixed_internal_step.value_or(Duration{})))));
+                  core::to_text(unit.fixed_internal_step.value_or(Duration{}))));
   add(unit.promises_idle, "promises to be idle");
   add(unit.single_instance, "one instance per process");
   add(unit.needs_execution_tool, "needs its own tool");

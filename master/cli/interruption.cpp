@@ -15,7 +15,7 @@ Interruption::Interruption() {
     struct sigaction action {};
     action.sa_handler = note_interruption;
     action.sa_flags =
-        SA_RESETHAND;  // a second signal ends what does not come to a communication point
+        SA_RESETHAND;  // a second signal ends a run that reaches no communication point
     sigaction(handled.signal, nullptr, &handled.before);
     if (handled.before.sa_handler != SIG_IGN) sigaction(handled.signal, &action, nullptr);
   }

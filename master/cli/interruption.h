@@ -6,8 +6,8 @@
 
 namespace stride::cli {
 
-/// While it lives SIGINT and SIGTERM, the first of each, are noted and do nothing else. A second
-/// one ends what does not look at flag().
+/// During its lifetime the first SIGINT and the first SIGTERM only set flag(). A second one ends
+/// the process.
 class Interruption {
  public:
   Interruption();

@@ -44,7 +44,7 @@ std::string full_name(const CLI::App* app) {
   return parent == nullptr ? app->get_name() : full_name(parent) + " " + app->get_name();
 }
 
-/// What is wrong with the command line, with the whole help only where there is no command at all.
+/// The mistake in the command line; with the whole help only if there is no command at all.
 std::string explain(const CLI::App* app, const CLI::Error& mistake) {
   const CLI::App* command = innermost(app);
   const std::vector<std::string> names = command_names(*command);
@@ -72,7 +72,7 @@ int parse(CLI::App& app, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   set_up_log();
-  std::signal(SIGXFSZ, SIG_IGN);  // writing fails then, and is told, where the signal would kill
+  std::signal(SIGXFSZ, SIG_IGN);  // then writing fails with an error; the signal would kill
   CLI::App app(
       "stride couples simulators: it loads FMI 3.0 and FMI 2.0 units as plug-ins and\n"
       "runs them in steps, as a scenario (an SSP system file, .ssd) wires them.\n",

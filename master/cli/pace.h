@@ -9,8 +9,8 @@
 
 namespace stride::cli {
 
-/// How fast a run is now, which is not how fast it has been: units rest at one time and work at
-/// another. Looks back over the last seconds of the wall clock.
+/// The present speed of a run, over the last seconds of the wall clock. It differs from the mean
+/// speed, since units are suspended at one time and busy at another.
 class Pace {
  public:
   using Clock = std::chrono::steady_clock;
@@ -19,7 +19,7 @@ class Pace {
 
   /// In the order of both clocks.
   void note(Clock::time_point now, Time time);
-  /// Simulated seconds in a second of the wall clock; 0 before there is anything to compare.
+  /// Simulated seconds per second of the wall clock; 0 before there are two entries.
   double speed() const;
 
  private:

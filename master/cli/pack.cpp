@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Makes archives of units that are folders or libraries, which go with this object.
+/// Makes archives of units that are folders or libraries; removes them with this object.
 class FmuArchives {
  public:
   fs::path operator()(const fs::path& source, const core::Location& where) {

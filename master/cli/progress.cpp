@@ -14,9 +14,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Between two views of a run, where it is watched as it goes.
+/// Between two updates of a line that is rewritten.
 constexpr auto kRefresh = 100ms;
-/// Lines in a log come at each tenth of a run, but neither closer to each other nor further apart.
+/// A log gets a line at each tenth of a run, within these bounds.
 constexpr auto kLeastPause = 1s;
 constexpr auto kMostPause = 30s;
 
@@ -95,7 +95,8 @@ Progress::State Progress::state() const {
   const double whole = to_seconds(stop_ - start_);
   const double units = static_cast<double>(simulation_.statistics().units.size());
   State state{whole > 0 ? done / whole : 1, std::chrono::duration<double>(now_ - began_).count(),
-              pace_->speed(), done > 0 ? to_seconds(simulation_.rested()) / (done * units) : 0.0,
+              pace_->speed(),
+              done > 0 ? to_seconds(simulation_.suspended_time()) / (done * units) : 0.0,
               std::nullopt};
   if (state.speed > 0 && time_ < stop_) state.left = to_seconds(stop_ - time_) / state.speed;
   return state;

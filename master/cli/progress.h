@@ -11,7 +11,7 @@
 
 namespace stride::cli {
 
-/// Where and how a run shows how far it is, on the standard error stream.
+/// How the progress of a run is shown, on the standard error stream.
 enum class ProgressStyle {
   Auto,   ///< a line that is rewritten on a terminal, Plain elsewhere
   Plain,  ///< a line now and then, as for a log
@@ -22,8 +22,8 @@ enum class ProgressStyle {
 /// From "auto", "plain", "json" or "none". Throws core::Error (Input) for anything else.
 ProgressStyle read_progress_style(const std::string& text);
 
-/// Shows how far a run is: the share that is simulated, the speed against real time, the time that
-/// is left at this speed, and the share of the units' time in which they were left alone.
+/// Shows the progress of a run: the simulated share, the speed relative to real time, the time left
+/// at this speed, and the share of the units' time in which they were suspended.
 class Progress : public core::Observer {
  public:
   /// The simulation must outlive this object.
@@ -31,7 +31,7 @@ class Progress : public core::Observer {
 
   void on_start(std::span<const core::Signal> signals) override;
   void on_communication_point(Time time) override;
-  /// The run is over; says how it ended where a program listens.
+  /// The run is over. Json writes how it ended.
   void end(const std::string& outcome);
 
  private:
@@ -40,7 +40,7 @@ class Progress : public core::Observer {
 
   struct State {
     double share;                ///< of the run that is simulated, 0 to 1
-    double wall;                 ///< time that has passed [s]
+    double wall;                 ///< elapsed time [s]
     double speed;                ///< simulated seconds in a second
     double skipped;              ///< share of the units' time that was skipped, 0 to 1
     std::optional<double> left;  ///< [s]
@@ -55,7 +55,7 @@ class Progress : public core::Observer {
   Form form_;
   Time start_, stop_;
   const core::Simulation& simulation_;
-  std::optional<Pace> pace_;  ///< since the run has begun
+  std::optional<Pace> pace_;  ///< from the begin of the run on
   Clock::time_point began_{}, now_{}, shown_{};
   Time time_{}, next_tenth_{};
 };

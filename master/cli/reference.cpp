@@ -43,7 +43,7 @@ void print_components(const std::filesystem::path& file) {
 
 }  // namespace
 
-/// Not shown in any help: it is for those who build and install the program.
+/// Hidden from the help: for building and installing the program.
 void add_reference(CLI::App& app) {
   CLI::App* group = app.add_subcommand("reference", "Write the reference of the command line");
   group->group("")->require_subcommand(1);

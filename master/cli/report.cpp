@@ -1,4 +1,4 @@
-// stride report: what a run was like, on a page.
+// stride report: the page of a run, from its results folder.
 #include <filesystem>
 #include <memory>
 
@@ -34,8 +34,7 @@ void make_report(const ReportArguments& arguments) {
 }  // namespace
 
 void add_report(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("report", "Make the page that shows what happened in a run");
+  CLI::App* command = app.add_subcommand("report", "Make the page of a run");
   const auto arguments = std::make_shared<ReportArguments>();
   command->add_option("FOLDER", arguments->folder, "The results of a run")
       ->required()

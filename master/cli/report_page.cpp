@@ -42,7 +42,7 @@ std::vector<std::string> browsers() {
   return commands;
 }
 
-/// Tells whether there is such a program.
+/// Whether there is such a program.
 bool start(std::vector<std::string> command) {
   std::vector<char*> arguments;
   for (std::string& word : command) arguments.push_back(word.data());

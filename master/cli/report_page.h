@@ -6,21 +6,21 @@
 #include <string>
 #include <vector>
 
-#include "master/recorders/result_files.h"
+#include "master/recorders/results_folder.h"
 
 namespace stride::cli {
 
 /// Whether this build can make reports.
 bool has_reports();
 
-/// Writes the report of the results in the folder, which have these names. Returns, in words, what
-/// is missing there, as the page says it, too. Throws core::Error.
+/// Writes the report of the results in the folder, which have these names. Returns
+/// texts about what is missing there, which are on the page, too. Throws core::Error.
 std::vector<std::string> write_report(const std::filesystem::path& folder,
                                       const io::ResultFiles& files,
                                       const std::filesystem::path& report);
 
-/// Hands the file to the programs that $BROWSER names, the first that there is, or else to
-/// xdg-open; does not wait for it. Throws core::Error (Run), whose hint is what to do instead.
+/// Starts the first existing program of $BROWSER, or else xdg-open, with the file, and does not
+/// wait for it. Throws core::Error (Run) with a hint.
 void open_in_browser(const std::filesystem::path& file);
 
 }  // namespace stride::cli

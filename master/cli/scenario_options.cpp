@@ -3,21 +3,31 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace stride::cli {
 namespace {
 
+/// "jacobi|gauss-seidel"
+template <class Choices>
+std::string alternatives(const Choices& choices) {
+  std::vector<std::string> words;
+  for (const auto choice : choices) words.emplace_back(name(choice));
+  return fmt::format("{}", fmt::join(words, "|"));
+}
+
 /// An option whose text the setter takes.
-CLI::Option* add_choice(CLI::App& command, const std::string& name, io::StepChoice& choice,
-                        void (io::StepChoice::*set)(std::string_view), const std::string& help) {
+CLI::Option* add_setting(CLI::App& command, const std::string& name, io::StepSettings& settings,
+                         void (io::StepSettings::*set)(std::string_view), const std::string& help) {
   return command.add_option_function<std::string>(
       name,
-      [&choice, name, set](const std::string& text) {
+      [&settings, name, set](const std::string& text) {
         try {
-          (choice.*set)(text);
+          (settings.*set)(text);
         } catch (const std::invalid_argument& mistake) {
           core::fail_input({}, fmt::format("{} {}: {}", name, text, mistake.what()));
         }
@@ -25,51 +35,50 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, io::StepChoi
       help);
 }
 
-void add_step_options(CLI::App& command, io::StepChoice& choice) {
-  using io::StepChoice;
-  add_choice(command, "--step", choice, &StepChoice::set_size,
-             "Length of the communication steps; of the first one where the error controls them")
+void add_step_options(CLI::App& command, io::StepSettings& settings) {
+  using io::StepSettings;
+  add_setting(command, "--step", settings, &StepSettings::set_size,
+              "Communication step size; that of the first step with error control")
       ->type_name("SECONDS");
-  add_choice(command, "--policy", choice, &StepChoice::set_policy, "What decides on the steps")
-      ->type_name("fixed|event-driven|error-controlled");
-  add_choice(command, "--max-step", choice, &StepChoice::set_maximum, "No step is longer")
+  add_setting(command, "--policy", settings, &StepSettings::set_policy,
+              "How the next communication point is chosen")
+      ->type_name(alternatives(core::kStepPolicies));
+  add_setting(command, "--max-step", settings, &StepSettings::set_maximum,
+              "Upper limit of the step size")
       ->type_name("SECONDS");
-  add_choice(command, "--min-step", choice, &StepChoice::set_minimum,
-             "No shorter one is tried after a rejection")
+  add_setting(command, "--min-step", settings, &StepSettings::set_minimum,
+              "Lower limit of the step size after a rejected step")
       ->type_name("SECONDS");
-  add_choice(command, "--relative-tolerance", choice, &StepChoice::set_relative_tolerance,
-             "Of the inputs, where their error controls the steps")
+  add_setting(command, "--relative-tolerance", settings, &StepSettings::set_relative_tolerance,
+              "Relative tolerance of the inputs, with error control")
       ->type_name("NUMBER");
-  add_choice(command, "--absolute-tolerance", choice, &StepChoice::set_absolute_tolerance,
-             "Likewise, in the unit of the output that feeds the input")
+  add_setting(
+      command, "--absolute-tolerance", settings, &StepSettings::set_absolute_tolerance,
+      "Absolute tolerance of the inputs, in the unit of measure of the output that feeds the input")
       ->type_name("NUMBER");
-  add_choice(
-      command, "--coupling", choice, &StepChoice::set_coupling,
-      "What a unit sees of the others during a step: what they were at its begin, or, of those "
-      "that have stepped before it, where they are")
-      ->type_name("jacobi|gauss-seidel");
-  add_choice(command, "--extrapolation", choice, &StepChoice::set_extrapolation,
-             "How inputs go on during a step")
-      ->type_name("hold|linear|quadratic");
+  add_setting(
+      command, "--coupling", settings, &StepSettings::set_coupling,
+      "Inputs of a unit during a step: the outputs at its begin, or, from units that have stepped "
+      "before it, those at its end")
+      ->type_name(alternatives(core::kCouplings));
+  add_setting(command, "--extrapolation", settings, &StepSettings::set_extrapolation,
+              "How inputs are extrapolated during a step")
+      ->type_name(alternatives(core::kExtrapolations));
 }
 
 void add_host_options(CLI::App& command, HostRequest& request) {
   // a flag, so that what follows a blank is the scenario; without a value it is "true"
   command
       .add_flag("--isolate", request.isolated,
-                "A process of its own for each unit, or as --isolate=COMPONENT, with a glob, for "
-                "some; may be given several times")
+                "Run each unit in a process of its own, or with --isolate=COMPONENT, a glob, some "
+                "units; may be given several times")
       ->transform([](const std::string& value) { return value == "true" ? "*" : value; });
   command
-      .add_option(
-          "--unit-timeout", request.unit_timeout,
-          "How long a call of a unit with a process of its own may take; goes before what the "
-          "scenario says")
+      .add_option("--unit-timeout", request.unit_timeout,
+                  "Time limit of a call of a unit in a process of its own; overrides the scenario")
       ->type_name("SECONDS");
-  command.add_flag(
-      "--no-sandbox", request.no_sandbox,
-      "Let units with processes of their own do whatever you may; goes before what the scenario "
-      "says");
+  command.add_flag("--no-sandbox", request.no_sandbox,
+                   "Run units in processes of their own without a sandbox; overrides the scenario");
 }
 
 }  // namespace
@@ -84,14 +93,12 @@ void add_scenario_options(CLI::App& command, ScenarioRequest& request) {
       ->type_name("SECONDS");
   add_step_options(command, request.step);
   command.add_flag("--no-idle-skip", request.no_idle_skip,
-                   "Call every unit in every step, also those that promise to be idle");
+                   "Step every unit in every step, also while it promises to be idle");
   command
       .add_option("--max-skip", request.max_skip,
-                  "For how long an idle unit is left alone at most; 1 if neither this nor the "
-                  "scenario says it")
+                  "Longest time for which an idle unit is suspended; 1 if the scenario has none")
       ->type_name("SECONDS");
-  command.add_flag("--no-checks", request.no_checks,
-                   "Do not judge by the scenario's checks, as for a run that is to be another");
+  command.add_flag("--no-checks", request.no_checks, "Ignore the scenario's checks");
   add_host_options(command, request.hosts);
   command
       .add_option("--set", request.sets,

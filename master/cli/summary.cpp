@@ -121,25 +121,26 @@ std::string Summary::signal_table() const {
   return text;
 }
 
-/// Nothing where no unit was ever left alone.
+/// Empty if no unit was suspended.
 std::string Summary::idle_line(const core::RunStatistics& statistics) const {
   Duration skipped{};
   const core::UnitStatistics* longest = nullptr;
   for (const core::UnitStatistics& unit : statistics.units) {
-    skipped += unit.rested;
-    if (unit.rests > 0 && (!longest || unit.longest_rest > longest->longest_rest)) longest = &unit;
+    skipped += unit.suspended_time;
+    if (unit.suspensions > 0 && (!longest || unit.longest_suspension > longest->longest_suspension))
+      longest = &unit;
   }
   if (longest == nullptr) return "";
   const double whole = to_seconds(statistics.reached - statistics.start);
   const double all = whole * static_cast<double>(statistics.units.size());
   const auto who = static_cast<std::size_t>(longest - statistics.units.data());
   return fmt::format(
-      "Idle units were left alone for {:.3g} % of their time; the longest time was {:.6g} s ({})\n",
-      all > 0 ? 100 * to_seconds(skipped) / all : 0.0, to_seconds(longest->longest_rest),
+      "Idle units were suspended for {:.3g} % of their time; the longest time was {:.6g} s ({})\n",
+      all > 0 ? 100 * to_seconds(skipped) / all : 0.0, to_seconds(longest->longest_suspension),
       system_.components()[who].name);
 }
 
-/// Nothing where all units were in this process.
+/// Empty if all units were in this process.
 std::string Summary::host_line(const core::RunStatistics& statistics) const {
   std::vector<std::string> hosted;
   for (std::size_t i = 0; i < statistics.units.size(); ++i) {
@@ -177,9 +178,10 @@ std::string Summary::unit_table(const core::RunStatistics& statistics) const {
     table.add({system_.components()[i].name, std::to_string(unit.steps),
                std::to_string(unit.early_returns), std::to_string(unit.rejections),
                std::to_string(unit.rollbacks), std::to_string(unit.events),
-               fmt::format("{:.6g}", to_seconds(unit.rested)), std::to_string(unit.messages_sent),
-               std::to_string(unit.messages_received), io::wall_seconds(unit.initialization_time),
-               io::wall_seconds(unit.step_time), io::wall_seconds(unit.event_time)});
+               fmt::format("{:.6g}", to_seconds(unit.suspended_time)),
+               std::to_string(unit.messages_sent), std::to_string(unit.messages_received),
+               io::wall_seconds(unit.initialization_time), io::wall_seconds(unit.step_time),
+               io::wall_seconds(unit.event_time)});
   }
   return table.text();
 }

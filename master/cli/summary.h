@@ -10,8 +10,8 @@
 
 namespace stride::cli {
 
-/// Watches a run and tells afterwards what happened: the messages in their order, the range of each
-/// recorded number, and what each unit did and cost.
+/// The summary of a run: its messages in order, the range of each recorded number, and the activity
+/// and cost of each unit.
 class Summary : public core::Observer {
  public:
   explicit Summary(const core::System& system) : system_(system) {}
@@ -32,7 +32,7 @@ class Summary : public core::Observer {
   struct Sent {
     core::VariableId id;
     Time time;
-    std::string text;  ///< what it says
+    std::string text;  ///< its content
     std::vector<std::size_t> receivers;
   };
 

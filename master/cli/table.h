@@ -7,8 +7,7 @@
 
 namespace stride::cli {
 
-/// How many characters fit in a line of the terminal to which standard output goes; 120 where it
-/// goes elsewhere.
+/// The width of the terminal of standard output, in characters; 120 if it is no terminal.
 std::size_t output_width();
 
 /// A text table for people: a header, a line under it, and rows; columns as wide as they need.
@@ -18,7 +17,7 @@ class Table {
   struct Column {
     std::string title;
     Align align = Align::Left;
-    bool is_cut = false;  ///< where the table would be too wide
+    bool is_cut = false;  ///< if the table would be too wide
   };
 
   explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
@@ -26,7 +25,7 @@ class Table {
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
   std::size_t size() const { return rows_.size(); }
   /// The lines, each indented by two blanks and ended by a newline; `width` characters wide at
-  /// most, as far as columns may be cut, each of them by what is too much.
+  /// most, as far as columns may be cut.
   std::string text(std::size_t width = kNoLimit) const;
 
   static constexpr std::size_t kNoLimit = std::string::npos;

@@ -7,6 +7,7 @@
 
 #include "master/scenario/scenario.h"
 #include "master/util/error.h"
+#include "master/util/time_text.h"
 
 namespace stride::cli {
 namespace {
@@ -21,7 +22,7 @@ std::string host_name() {
 TestReport::TestReport(std::filesystem::path file, const std::filesystem::path& scenario)
     : file_(std::move(file)) {
   if (file_.empty()) return;
-  std::error_code ignored;  // without the folder the file cannot be made, and that is told
+  std::error_code ignored;  // without the folder the file cannot be made, which is an error then
   std::filesystem::create_directories(file_.parent_path(), ignored);
   report_.suite = io::stem(scenario);
   report_.host = host_name();

@@ -15,8 +15,8 @@
 
 namespace stride::cli {
 
-/// Is on the disk from the beginning: until more is known it says that the run has not ended, so
-/// that one which is killed is no good one.
+/// The file exists from the beginning and says at first that the run has not ended, so a killed run
+/// is not taken for a good one.
 class TestReport {
  public:
   /// Throws core::Error if the file cannot be written. Without a file it does nothing, as do the
@@ -26,7 +26,7 @@ class TestReport {
   /// The run is over; `error` says why if it has not come to its end.
   void write(const core::RunOptions& options, const core::RunStatistics& statistics,
              std::span<const core::Verdict> verdicts, const std::optional<std::string>& error);
-  /// There was no run, or its report was not written.
+  /// For a run that did not begin, or whose report was not written.
   void write(const std::string& error);
   bool is_written() const { return is_written_; }
 

@@ -122,15 +122,15 @@ void add_min_gap(CLI::App& command, const std::shared_ptr<TraceArguments>& argum
               core::fail_input({}, fmt::format("--min-gap {}: {}", text, mistake.what()));
             }
           },
-          "What is longer without any change is a gap; 0.001 if left out")
+          "Shortest time without any change that is a gap; 0.001 by default")
       ->type_name("SECONDS");
 }
 
 }  // namespace
 
 void add_trace(CLI::App& app) {
-  CLI::App* group = app.add_subcommand(
-      "trace", "Show the idle time in a value change dump, take it out, or put it in again");
+  CLI::App* group =
+      app.add_subcommand("trace", "Show, remove or restore the idle time in a value change dump");
   group->require_subcommand(1);
   const auto arguments = std::make_shared<TraceArguments>();
   CLI::App& info =

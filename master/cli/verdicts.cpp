@@ -6,6 +6,7 @@
 
 #include "master/cli/table.h"
 #include "master/util/error.h"
+#include "master/util/time_text.h"
 
 namespace stride::cli {
 namespace {

@@ -1,4 +1,4 @@
-// stride verify: puts a single unit through its paces.
+// stride verify: tests a single unit.
 #include "master/verify/verify.h"
 
 #include <algorithm>
@@ -25,11 +25,11 @@ namespace stride::cli {
 namespace {
 
 struct Options {
-  verify::Request request;
+  verify::VerifyRequest request;
   std::string json;  ///< a file, or empty
 };
 
-/// Which check is at work, on a terminal, where the next one and the table take its place.
+/// The name of the running check, on a terminal, where later output overwrites it.
 void show_progress(const char* check) {
   if (::isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[Kchecking {} …", check);
 }
@@ -59,25 +59,25 @@ std::string failed_checks(const std::vector<verify::Result>& results) {
 }
 
 void run(const Options& options) {
-  verify::Request request = options.request;
+  verify::VerifyRequest request = options.request;
   request.file = find_unit(request.file, {});
-  const verify::Subject subject(std::move(request));
+  const verify::TestedUnit tested(std::move(request));
   std::optional<io::OutputFile> json;
   if (!options.json.empty()) {
     json.emplace(options.json, io::OutputFile::Hints{"name a file where you may write"});
   }
-  const core::UnitDescription& unit = subject.description();
+  const core::UnitDescription& unit = tested.description();
   fmt::print("{}: FMI {}, steps of {} s to {} s, seed {}\n\n", unit.model_name, unit.fmi_version,
-             core::to_text(Time(subject.step())), core::to_text(subject.point(subject.steps())),
-             subject.request().seed);
+             core::to_text(tested.step()), core::to_text(tested.point(tested.steps())),
+             tested.request().seed);
   std::fflush(stdout);
   const Interruption interruption;
   const auto results =
-      verify::verify(subject, {.on_begin = show_progress, .interrupted = &Interruption::flag()});
+      verify::verify(tested, {.on_begin = show_progress, .interrupted = &Interruption::flag()});
   if (::isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K");
   fmt::print("{}\n{}\n", table_text(results), conclusion(results));
   if (json) {
-    json->write(verify::json_text(subject, results));
+    json->write(verify::json_text(tested, results));
     json->close();
   }
   const std::string failures = failed_checks(results);
@@ -108,13 +108,13 @@ Duration parse_step(const std::string& text) {
 
 std::string check_list() {
   std::string text = "Checks:\n";
-  for (const verify::Check& check : verify::checks()) {
+  for (const verify::UnitCheck& check : verify::checks()) {
     text += fmt::format("  {:<14} {}\n", check.name, check.summary);
   }
   return text;
 }
 
-void add_times(CLI::App& command, verify::Request& request) {
+void add_times(CLI::App& command, verify::VerifyRequest& request) {
   add_parsed(
       command, "--step", [&request](const std::string& text) { request.step = parse_step(text); },
       "Size of the communication steps; the unit's own if left out, or 0.001")
@@ -122,7 +122,7 @@ void add_times(CLI::App& command, verify::Request& request) {
   add_parsed(
       command, "--stop",
       [&request](const std::string& text) { request.stop = io::parse_seconds(text); },
-      "How long a run is; the unit's own if left out, or 200 steps, but 1000 steps at most")
+      "Simulated length of a run; by default the unit's own, or 200 steps, but 1000 steps at most")
       ->type_name("SECONDS");
   add_parsed(
       command, "--timeout",
@@ -130,23 +130,23 @@ void add_times(CLI::App& command, verify::Request& request) {
         const double seconds = std::min(io::parse_above_zero(text), 1e9);
         request.limit = std::chrono::milliseconds(std::max(1L, std::lround(seconds * 1000)));
       },
-      "What takes longer hangs; for each check, 60 if left out")
+      "Time limit of each check; 60 by default")
       ->type_name("SECONDS");
 }
 
 }  // namespace
 
 void add_verify(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "verify", "Put a single unit through its paces, to see whether it keeps what it declares");
+  CLI::App* command =
+      app.add_subcommand("verify", "Test whether a single unit keeps what it declares");
   const auto options = std::make_shared<Options>();
-  verify::Request& request = options->request;
+  verify::VerifyRequest& request = options->request;
   command->add_option("FILE", request.file, "An FMU: a .fmu, or its unpacked folder")
       ->required()
       ->type_name("");
   command
       ->add_option("--check", request.checks,
-                   "Only this check of those below; may be given several times")
+                   "Run only this check of those below; may be given several times")
       ->type_name("CHECK")
       ->allow_extra_args(false);
   command
@@ -156,10 +156,10 @@ void add_verify(CLI::App& app) {
       ->type_name("VARIABLE=VALUE")
       ->allow_extra_args(false);
   add_times(*command, request);
-  command->add_option("--seed", request.seed, "Of the course that each other numeric input takes")
+  command->add_option("--seed", request.seed, "Seed of the stimulus of the other numeric inputs")
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--lives", request.lives, "Instances that 'memory' makes and frees")
+  command->add_option("--lives", request.instances, "Instances that 'memory' makes and frees")
       ->type_name("N")
       ->check(CLI::Range(40U, 10'000'000U))
       ->capture_default_str();

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "master/util/time_text.h"
+
 namespace stride::fmi {
 namespace {
 
@@ -20,18 +22,6 @@ std::optional<Duration> read_seconds(const xml::Element& element, const char* at
     element.fail(fmt::format("{}=\"{}\" of {}: {}", attribute, *element.attribute(attribute),
                              element.tag(), error.what()));
   }
-}
-
-core::BaseUnit read_base_unit(const xml::Element& element) {
-  constexpr const char* kQuantities[] = {"kg", "m", "s", "A", "K", "mol", "cd", "rad"};
-  core::BaseUnit base;
-  for (std::size_t i = 0; i < base.exponents.size(); ++i) {
-    base.exponents[i] = element.number<int>(kQuantities[i]).value_or(0);
-  }
-  base.factor = element.number<double>("factor").value_or(1);
-  base.offset = element.number<double>("offset").value_or(0);
-  if (base.factor == 0) element.fail("factor=\"0\" of <BaseUnit>: a unit cannot be zero");
-  return base;
 }
 
 std::string read_model_identifier(const xml::Element& co_simulation) {
@@ -82,7 +72,11 @@ void read_units(const xml::Element& root, core::UnitDescription& unit) {
   if (!definitions) return;
   for (const xml::Element& definition : definitions->children("Unit")) {
     const std::string name = definition.given("name");
-    if (const auto base = definition.child("BaseUnit")) unit.units[name] = read_base_unit(*base);
+    const auto element = definition.child("BaseUnit");
+    if (!element) continue;
+    const core::BaseUnitOfMeasure base = core::read_base_unit(*element);
+    if (base.factor == 0) element->fail("factor=\"0\" of <BaseUnit>: a unit cannot be zero");
+    unit.units[name] = base;
   }
 }
 
@@ -100,7 +94,7 @@ void read_default_experiment(const xml::Element& root, core::UnitDescription& un
     experiment->fail(
         fmt::format("stopTime=\"{}\" of <DefaultExperiment>: expected a time at least a "
                     "picosecond after the start, {} s",
-                    *experiment->attribute("stopTime"), core::to_text(Time(start))));
+                    *experiment->attribute("stopTime"), core::to_text(start)));
   }
   unit.default_stop = Time(*stop);
 }

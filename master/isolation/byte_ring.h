@@ -11,7 +11,7 @@
 namespace stride::host {
 
 /// Bytes on their way from one process to another, in shared memory: one thread writes, one reads,
-/// and neither waits. What is in it outlives who wrote it.
+/// and neither waits. Its content outlives the writer.
 class ByteRing {
  public:
   static constexpr std::size_t kSize = std::size_t{1} << 16;

@@ -10,7 +10,7 @@
 
 #include "master/importer/call_note.h"
 #include "master/isolation/byte_ring.h"
-#include "master/isolation/process/bell.h"
+#include "master/isolation/process/doorbell.h"
 #include "master/isolation/process/shared_memory.h"
 #include "master/isolation/snapshot_board.h"
 
@@ -18,7 +18,7 @@ namespace stride::host {
 
 /// What the master asks for: the functions of core::Unit and its capabilities, and what they need
 /// besides.
-enum class Request : std::uint32_t {
+enum class RequestCode : std::uint32_t {
   Instantiate,
   EnterConfigurationMode,
   ExitConfigurationMode,
@@ -52,28 +52,28 @@ enum class Request : std::uint32_t {
   InputsNotUpdated,  ///< likewise: that has failed
 };
 
-/// What the unit's process says to a request.
-enum class Reply : std::uint32_t {
+/// The answer of the unit's process to a request.
+enum class ReplyCode : std::uint32_t {
   Done,
   Failed,          ///< a core::Error
   CallbackFailed,  ///< what failed is what the master did within the call
   AskInputs,       ///< a question within a step; the reply to the step's request comes later
 };
 
-/// How a process ended, as its keeper saw it.
+/// How a process ended, as its supervisor saw it.
 enum class End : std::uint32_t { None, NotStarted, Exited, Killed };
 
-/// One direction. Who writes sets what and size first, then the number, then rings.
+/// One direction. The writer sets what and size first, then the number, then rings.
 struct alignas(64) Turn {
   std::atomic<std::uint32_t> number = 0;
-  std::atomic<std::uint32_t> what = 0;  ///< a Request or a Reply
+  std::atomic<std::uint32_t> what = 0;  ///< a RequestCode or a ReplyCode
   std::atomic<std::uint64_t> size = 0;  ///< of the message [byte]
-  process::Bell bell;                   ///< for who waits for it
+  process::Doorbell doorbell;           ///< for the process that waits
 };
 
 /// In shared memory. The messages themselves stand in a GrowingMemory beside it, where each takes
-/// the place of the one before. Replies have the number of the request that they are for, so nobody
-/// has to remember anything, and whoever is in charge of the unit may go on with it.
+/// the place of the one before. Replies have the number of their request, so neither
+/// side keeps a state, and any process that is in charge of the unit may go on with it.
 ///
 /// The unit's process may write anything here: sizes are checked, and what is no such value is an
 /// error.
@@ -84,7 +84,7 @@ struct ChannelMemory {
 
   /// The process in charge of the unit. The end of any other does not matter.
   std::atomic<pid_t> active = 0;
-  std::atomic<End> end = End::None;  ///< of that one; written by the keeper
+  std::atomic<End> end = End::None;  ///< of that one; written by the supervisor
   std::atomic<int> end_code = 0;     ///< the error of the start, the exit code, or the signal
 
   std::atomic<std::uint64_t> most_memory = 0;  ///< resident, of those that have ended [byte]
@@ -92,7 +92,7 @@ struct ChannelMemory {
 
   fmi::CallNote call_note;  ///< which function of the unit is being called
   ByteRing logged;          ///< messages of the unit, see log_message.h; written by its process
-  ByteRing printed;         ///< standard output and error; written by the keeper
+  ByteRing printed;         ///< standard output and error; written by the supervisor
 };
 
 /// Both kinds of memory. Made by the master, inherited by the others.

@@ -15,18 +15,18 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "master/isolation/process/signal_name.h"
+#include "master/isolation/process/child.h"
 
 namespace stride::host {
 namespace {
 
 using namespace std::chrono_literals;
 
-struct Line {
+struct ControlSocket {
   process::Descriptor ours, theirs;
 
-  // a socket, since nobody wants SIGPIPE
-  Line() {
+  // a socket, since a write to a closed pipe raises SIGPIPE
+  ControlSocket() {
     std::array<int, 2> ends{};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
       process::fail("socketpair");
@@ -48,26 +48,26 @@ void flush_standard_files() {
 
 HostProcess::HostProcess(Channel& channel, const std::function<void(pid_t)>& serve)
     : channel_(*channel.memory) {
-  Line line;
+  ControlSocket control;
   flush_standard_files();
   const pid_t master = ::getpid();
-  keeper_ = ::fork();
-  if (keeper_ < 0) process::fail("fork");
-  if (keeper_ == 0) {
-    line.ours.close();
-    keep(channel, std::move(line.theirs), master, serve);
+  supervisor_ = ::fork();
+  if (supervisor_ < 0) process::fail("fork");
+  if (supervisor_ == 0) {
+    control.ours.close();
+    supervise(channel, std::move(control.theirs), master, serve);
   }
-  ::setpgid(keeper_, keeper_);  // whoever of the two comes first
-  line_ = std::move(line.ours);
+  ::setpgid(supervisor_, supervisor_);  // in both processes, in whichever order
+  control_ = std::move(control.ours);
   channel.memory.hide_from_children();
   channel.messages.hide_from_children();
 }
 
 bool HostProcess::look_for_end() {
   if (has_ended()) return true;
-  if (!is_keeper_gone()) return false;
-  ::kill(-keeper_, SIGKILL);
-  is_keeper_lost_ = true;
+  if (!is_supervisor_gone()) return false;
+  ::kill(-supervisor_, SIGKILL);
+  is_supervisor_lost_ = true;
   channel_.end = End::Killed;
   channel_.end_code = SIGKILL;
   return true;
@@ -81,34 +81,35 @@ void HostProcess::kill() {
 }
 
 void HostProcess::finish(const std::function<void()>& meanwhile) {
-  if (keeper_ <= 0) return;
+  if (supervisor_ <= 0) return;
   tell(Command::Finish);
-  line_.close();
-  while (!is_keeper_gone()) {
-    const std::uint32_t rings = channel_.reply.bell.rings();
+  control_.close();
+  while (!is_supervisor_gone()) {
+    const std::uint32_t rings = channel_.reply.doorbell.rings();
     meanwhile();
-    channel_.reply.bell.sleep(rings, 1ms);
+    channel_.reply.doorbell.sleep(rings, 1ms);
   }
-  ::kill(-keeper_, SIGKILL);  // in vain, unless something has ended the keeper
+  ::kill(-supervisor_, SIGKILL);  // in vain, unless something has ended the supervisor
   int status = 0;
-  while (::waitpid(keeper_, &status, 0) < 0 && errno == EINTR) {
+  while (::waitpid(supervisor_, &status, 0) < 0 && errno == EINTR) {
   }
-  keeper_ = 0;
+  supervisor_ = 0;
 }
 
-/// Nobody has waited for it yet, so its group has its number.
-bool HostProcess::is_keeper_gone() const {
+/// It has not been waited for yet, so its group still has its number.
+bool HostProcess::is_supervisor_gone() const {
   siginfo_t info{};
   const int options = WEXITED | WNOWAIT | WNOHANG;
-  return ::waitid(P_PID, static_cast<id_t>(keeper_), &info, options) == 0 && info.si_pid == keeper_;
+  return ::waitid(P_PID, static_cast<id_t>(supervisor_), &info, options) == 0 &&
+         info.si_pid == supervisor_;
 }
 
 void HostProcess::tell(Command command) const {
-  ::send(line_.number(), &command, sizeof command, MSG_NOSIGNAL);
+  ::send(control_.number(), &command, sizeof command, MSG_NOSIGNAL);
 }
 
 std::string HostProcess::how_it_ended() const {
-  if (is_keeper_lost_) return "its process was killed, since something has ended its keeper";
+  if (is_supervisor_lost_) return "its process was killed, since something has ended its keeper";
   const int code = channel_.end_code;
   switch (channel_.end.load()) {
     case End::NotStarted:

@@ -8,12 +8,12 @@
 #include <sys/types.h>
 
 #include "master/isolation/channel.h"
-#include "master/isolation/keeper.h"
 #include "master/isolation/process/descriptor.h"
+#include "master/isolation/supervisor.h"
 
 namespace stride::host {
 
-/// A keeper and the process that it keeps. Nothing of them stays when the object is destroyed.
+/// A supervisor and the process that it keeps. Nothing of them stays when the object is destroyed.
 class HostProcess {
  public:
   /// Forks. `serve` is called in the unit's process, with the process id of its parent; that
@@ -25,9 +25,9 @@ class HostProcess {
   HostProcess(const HostProcess&) = delete;
   HostProcess& operator=(const HostProcess&) = delete;
 
-  /// Whether there is nobody in charge of the unit any longer. Cheap.
+  /// Whether no process is in charge of the unit any longer. Cheap.
   bool has_ended() const { return channel_.end.load(std::memory_order_acquire) != End::None; }
-  /// Likewise; also looks whether the keeper lives, and ends the unit's process if it does not.
+  /// Likewise; also looks whether the supervisor runs, and ends the unit's process if it does not.
   bool look_for_end();
   /// Ends the unit's process.
   void kill();
@@ -40,12 +40,12 @@ class HostProcess {
 
  private:
   void tell(Command command) const;
-  bool is_keeper_gone() const;
+  bool is_supervisor_gone() const;
 
   ChannelMemory& channel_;
-  process::Descriptor line_;
-  pid_t keeper_ = 0;
-  bool is_keeper_lost_ = false;
+  process::Descriptor control_;
+  pid_t supervisor_ = 0;
+  bool is_supervisor_lost_ = false;
 };
 
 }  // namespace stride::host

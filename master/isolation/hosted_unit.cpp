@@ -9,7 +9,7 @@ namespace stride::host {
 std::unique_ptr<core::Unit> instantiate(std::shared_ptr<fmi::Fmu> fmu, const std::string& name,
                                         fmi::InstanceOptions options, HostOptions host) {
   return std::make_unique<UnitProxy>(
-      Recipe{std::move(fmu), name, std::move(options), std::move(host)});
+      HostedUnitSpec{std::move(fmu), name, std::move(options), std::move(host)});
 }
 
 }  // namespace stride::host

@@ -1,4 +1,4 @@
-// Units that live in a process of their own.
+// Units in a process of their own.
 #ifndef STRIDE_MASTER_ISOLATION_HOSTED_UNIT_H
 #define STRIDE_MASTER_ISOLATION_HOSTED_UNIT_H
 

@@ -27,7 +27,7 @@ void LogWriter::write(std::string_view bytes) {
   for (;;) {
     bytes.remove_prefix(channel_.logged.write(bytes));
     if (bytes.empty()) return;
-    channel_.reply.bell.ring();
+    channel_.reply.doorbell.ring();
     std::this_thread::sleep_for(std::chrono::microseconds(100));
   }
 }

@@ -1,4 +1,4 @@
-// How what a message says is put into shared memory, and taken from it.
+// The content of a message, written into shared memory and read from it.
 #ifndef STRIDE_MASTER_ISOLATION_MESSAGE_H
 #define STRIDE_MASTER_ISOLATION_MESSAGE_H
 
@@ -52,7 +52,7 @@ class MessageWriter {
   std::size_t size_ = 0;
 };
 
-/// What a message says that is none.
+/// A message that cannot be read.
 class BadMessage : public std::runtime_error {
  public:
   BadMessage() : std::runtime_error("the unit's process has written into the shared memory") {}

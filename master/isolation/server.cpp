@@ -19,7 +19,7 @@
 #include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/capabilities/state_serialization.h"
 #include "master/isolation/codec.h"
-#include "master/isolation/memory_limit.h"
+#include "master/isolation/process/process_memory.h"
 #include "master/isolation/process/surroundings.h"
 #include "master/isolation/sandbox_hint.h"
 
@@ -39,35 +39,35 @@ void on_exit_called(int status, void*) {
   ::_exit(status);
 }
 
-std::vector<process::WritableFolder> writable_folders(const Recipe& recipe) {
+std::vector<process::WritableFolder> writable_folders(const HostedUnitSpec& spec) {
   std::vector<process::WritableFolder> folders;
-  for (const std::filesystem::path& folder : recipe.host.writable) {
+  for (const std::filesystem::path& folder : spec.host.writable) {
     folders.push_back({folder, folder.string()});
   }
-  if (std::filesystem::is_directory(recipe.fmu->resources())) {
-    folders.push_back({recipe.fmu->resources(), "its resources"});
+  if (std::filesystem::is_directory(spec.fmu->resources())) {
+    folders.push_back({spec.fmu->resources(), "its resources"});
   }
-  folders.push_back({recipe.temporary->path(), "a temporary folder"});
+  folders.push_back({spec.temporary->path(), "a temporary folder"});
   return folders;
 }
 
 }  // namespace
 
-void serve(Channel& channel, const Recipe& recipe, pid_t keeper) noexcept {
+void serve(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor) noexcept {
   process::forget_signal_handlers();
-  ::prctl(PR_SET_NAME, recipe.name.c_str());
+  ::prctl(PR_SET_NAME, spec.name.c_str());
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a crash loses no line
   ::on_exit(&on_exit_called, nullptr);
-  Server(channel, recipe, keeper).run();
+  Server(channel, spec, supervisor).run();
   ::_exit(0);
 }
 
-Server::Server(Channel& channel, const Recipe& recipe, pid_t keeper)
-    : channel_(channel), memory_(*channel.memory), recipe_(recipe), log_(*channel.memory) {
-  if (!recipe.has_snapshots()) return;
+Server::Server(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor)
+    : channel_(channel), memory_(*channel.memory), spec_(spec), log_(*channel.memory) {
+  if (!spec.has_snapshots()) return;
   snapshots_.emplace(
-      memory_.snapshots, memory_.active, keeper,
-      SnapshotOptions{context(), {channel.messages.file().number()}, recipe.host.memory_limit});
+      memory_.snapshots, memory_.active, supervisor,
+      SnapshotOptions{context(), {channel.messages.file().number()}, spec.host.memory_limit});
 }
 
 void Server::run() {
@@ -78,10 +78,10 @@ void Server::run() {
 }
 
 process::Protections Server::prepare() {
-  if (recipe_.host.memory_limit) limit_memory(*recipe_.host.memory_limit);
-  if (!recipe_.host.is_sandboxed) return {};
-  ::setenv("TMPDIR", recipe_.temporary->path().c_str(), 1);
-  return process::enter_sandbox(writable_folders(recipe_));
+  if (spec_.host.memory_limit) process::limit_memory(*spec_.host.memory_limit);
+  if (!spec_.host.is_sandboxed) return {};
+  ::setenv("TMPDIR", spec_.temporary->path().c_str(), 1);
+  return process::enter_sandbox(writable_folders(spec_));
 }
 
 // ---- Requests and replies ----
@@ -91,26 +91,28 @@ void Server::await_request() {
     return memory_.request.number.load(std::memory_order_acquire) !=
            memory_.reply.number.load(std::memory_order_relaxed);
   };
-  while (!waiter_.wait(memory_.request.bell, kMasterCheckInterval, is_there)) {
+  while (!waiter_.wait(memory_.request.doorbell, kMasterCheckInterval, is_there)) {
   }
 }
 
-Request Server::requested() const { return static_cast<Request>(memory_.request.what.load()); }
+RequestCode Server::requested() const {
+  return static_cast<RequestCode>(memory_.request.what.load());
+}
 
 void Server::serve() {
   channel_.messages.follow(memory_.request.size);
   MessageReader in({channel_.messages.data(), memory_.request.size});
   MessageWriter out(channel_.messages);
-  Reply what = Reply::Done;
+  ReplyCode what = ReplyCode::Done;
   const auto fail = [&](const std::exception& error) {
-    what = Reply::Failed;
+    what = ReplyCode::Failed;
     out.clear();
-    put_error(out, error, context(), sandbox_hint(error.what(), recipe_.name, recipe_.host));
+    put_error(out, error, context(), sandbox_hint(error.what(), spec_.name, spec_.host));
   };
   try {
     handle(requested(), in, out);
   } catch (const CallbackFailure&) {
-    what = Reply::CallbackFailed;
+    what = ReplyCode::CallbackFailed;
   } catch (const core::Error& error) {
     fail(error);
   } catch (const std::exception& error) {
@@ -129,7 +131,7 @@ C& Server::capability() const {
   return static_cast<C&>(*found);
 }
 
-void Server::reply(Reply what, const MessageWriter& message) {
+void Server::reply(ReplyCode what, const MessageWriter& message) {
   memory_.call_note.clear();
   if (diagnostics_ != nullptr) {
     memory_.calls.store(undone_calls_ + diagnostics_->calls(), std::memory_order_relaxed);
@@ -138,87 +140,87 @@ void Server::reply(Reply what, const MessageWriter& message) {
   memory_.reply.size.store(message.size(), std::memory_order_relaxed);
   memory_.reply.number.store(memory_.request.number.load(std::memory_order_relaxed),
                              std::memory_order_release);
-  memory_.reply.bell.ring();
+  memory_.reply.doorbell.ring();
 }
 
-void Server::handle(Request request, MessageReader& in, MessageWriter& out) {
+void Server::handle(RequestCode request, MessageReader& in, MessageWriter& out) {
   switch (request) {
-    case Request::Instantiate:
+    case RequestCode::Instantiate:
       return instantiate(out);
-    case Request::EnterConfigurationMode:
+    case RequestCode::EnterConfigurationMode:
       return capability<core::ConfigurationMode>().enter_configuration_mode();
-    case Request::ExitConfigurationMode:
+    case RequestCode::ExitConfigurationMode:
       return capability<core::ConfigurationMode>().exit_configuration_mode();
-    case Request::EnterInitialization: {
+    case RequestCode::EnterInitialization: {
       time_ = take_time(in).value();
       return unit_->enter_initialization(*time_, take_time(in));
     }
-    case Request::ExitInitialization:
+    case RequestCode::ExitInitialization:
       return unit_->exit_initialization();
-    case Request::Get:
+    case RequestCode::Get:
       return get(in, out);
-    case Request::Set:
+    case RequestCode::Set:
       return set(in);
-    case Request::MakePlan:
+    case RequestCode::MakePlan:
       return make_plan(in);
-    case Request::Step:
+    case RequestCode::Step:
       return step(in, out);
-    case Request::SaveState:
+    case RequestCode::SaveState:
       return save_state(in);
-    case Request::RestoreState:
+    case RequestCode::RestoreState:
       return restore_state(in);
-    case Request::SelectState:
+    case RequestCode::SelectState:
       return select_state(in.take<std::size_t>());
-    case Request::SerializeState:
+    case RequestCode::SerializeState:
       return out.put_all(
           std::span<const std::uint8_t>(capability<core::StateSerialization>().serialize_state()));
-    case Request::DeserializeState:
+    case RequestCode::DeserializeState:
       return capability<core::StateSerialization>().deserialize_state(in.take_all<std::uint8_t>());
-    case Request::Reset:
+    case RequestCode::Reset:
       return capability<core::Resetting>().reset();
-    case Request::EnterEventMode:
+    case RequestCode::EnterEventMode:
       return unit_->enter_event_mode();
-    case Request::UpdateDiscreteStates:
+    case RequestCode::UpdateDiscreteStates:
       return put_events(out, unit_->update_discrete_states());
-    case Request::EnterStepMode:
+    case RequestCode::EnterStepMode:
       return unit_->enter_step_mode();
-    case Request::GetClockInterval: {
+    case RequestCode::GetClockInterval: {
       const core::ClockInterval said = capability<core::ClockIntervals>().clock_interval(
           variable(in.take<core::ValueReference>()));
       out.put(said.state);
       return out.put(said.interval);
     }
-    case Request::GetClockShift:
+    case RequestCode::GetClockShift:
       return out.put(capability<core::ClockIntervals>().clock_shift(
           variable(in.take<core::ValueReference>())));
-    case Request::GetDirectionalDerivative:
+    case RequestCode::GetDirectionalDerivative:
       return get_directional_derivative(in, out);
-    case Request::SetInputUpdate:
+    case RequestCode::SetInputUpdate:
       return set_input_update(in.take<bool>());
-    case Request::EnableIdleSkipping:
+    case RequestCode::EnableIdleSkipping:
       return capability<core::IdlePromises>().enable_idle_skipping(
           Duration(in.take<Duration::rep>()));
-    case Request::SetIdleTolerances:
+    case RequestCode::SetIdleTolerances:
       return set_idle_tolerances(in);
-    case Request::GetIdleUntil:
+    case RequestCode::GetIdleUntil:
       return put_time(out, capability<core::IdlePromises>().idle_until());
-    case Request::GetDerivatives:
+    case RequestCode::GetDerivatives:
       return get_derivatives(in, out);
-    case Request::DescribeMessage:
+    case RequestCode::DescribeMessage:
       return describe_message(in, out);
-    case Request::Terminate:
+    case RequestCode::Terminate:
       return unit_->terminate();
-    case Request::Free:
+    case RequestCode::Free:
       return free();
-    case Request::InputsUpdated:
-    case Request::InputsNotUpdated:
+    case RequestCode::InputsUpdated:
+    case RequestCode::InputsNotUpdated:
       break;
   }
   throw std::logic_error(fmt::format("request {} came out of order", static_cast<int>(request)));
 }
 
 core::Context Server::context() const {
-  return {.where = recipe_.options.where, .unit = recipe_.name, .variable = {}, .time = time_};
+  return {.where = spec_.options.where, .unit = spec_.name, .variable = {}, .time = time_};
 }
 
 /// Of an exception that has crossed the unit's interface, which none may; nothing otherwise.
@@ -231,14 +233,14 @@ std::string Server::origin() const {
 
 void Server::instantiate(MessageWriter& out) {
   put_protections(out, prepare());
-  fmi::InstanceOptions options = recipe_.options;
+  fmi::InstanceOptions options = spec_.options;
   options.call_note = &memory_.call_note;
   options.log = [this](const std::string&, fmi::Status status, const std::string& category,
                        const std::string& text) {
     log_.write({status, category, text});
   };
   memory_.call_note.write("the loading of its library");
-  unit_ = recipe_.fmu->instantiate(recipe_.name, std::move(options));
+  unit_ = spec_.fmu->instantiate(spec_.name, std::move(options));
   CapabilitySet found;
   for (std::size_t i = 0; i < capabilities_.size(); ++i) {
     capabilities_[i] = unit_->capability(static_cast<core::CapabilityId>(i));
@@ -283,7 +285,7 @@ void Server::get_directional_derivative(MessageReader& in, MessageWriter& out) {
 
 const core::Variable& Server::variable(core::ValueReference reference) const {
   const core::UnitDescription& description =
-      recipe_.options.description ? *recipe_.options.description : *recipe_.fmu->description();
+      spec_.options.description ? *spec_.options.description : *spec_.fmu->description();
   return description.variables.at(description.find(reference).value());
 }
 
@@ -291,11 +293,11 @@ const core::Variable& Server::variable(core::ValueReference reference) const {
 
 void Server::make_plan(MessageReader& in) {
   const auto number = in.take<std::uint32_t>();
-  plans_.at(number) = ServedPlan(in);
+  plans_.at(number) = StepBuffers(in);
 }
 
 void Server::step(MessageReader& in, MessageWriter& out) {
-  ServedPlan& plan = plans_.at(in.take<std::uint32_t>());
+  StepBuffers& plan = plans_.at(in.take<std::uint32_t>());
   const auto interval = in.take<core::StepInterval>();
   plan.take_inputs(in);
   time_ = interval.from;
@@ -320,9 +322,9 @@ void Server::ask_inputs(double seconds_into_step) {
   const fmi::CallNote asking = memory_.call_note;
   MessageWriter question(channel_.messages);
   question.put(seconds_into_step);
-  reply(Reply::AskInputs, question);
-  for (await_request(); requested() != Request::InputsUpdated; await_request()) {
-    if (requested() == Request::InputsNotUpdated) throw CallbackFailure();
+  reply(ReplyCode::AskInputs, question);
+  for (await_request(); requested() != RequestCode::InputsUpdated; await_request()) {
+    if (requested() == RequestCode::InputsNotUpdated) throw CallbackFailure();
     serve();
   }
   memory_.call_note = asking;

@@ -16,7 +16,7 @@
 #include "master/isolation/hosted_unit.h"
 #include "master/isolation/log_message.h"
 #include "master/isolation/message.h"
-#include "master/isolation/process/bell.h"
+#include "master/isolation/process/doorbell.h"
 #include "master/isolation/process/sandbox.h"
 #include "master/isolation/snapshots.h"
 #include "master/isolation/step_plan.h"
@@ -24,8 +24,8 @@
 
 namespace stride::host {
 
-/// What a unit is made from.
-struct Recipe {
+/// What a hosted unit is instantiated from.
+struct HostedUnitSpec {
   std::shared_ptr<fmi::Fmu> fmu;
   std::string name;
   fmi::InstanceOptions options;
@@ -40,7 +40,7 @@ struct Recipe {
 /// The process in which a unit lives: does what the master asks for, one request after the other.
 class Server {
  public:
-  Server(Channel& channel, const Recipe& recipe, pid_t keeper);
+  Server(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor);
 
   /// Returns when the unit was destroyed, because the master wanted it.
   void run();
@@ -52,8 +52,8 @@ class Server {
   void await_request();
   /// Does what the present request wants, and replies.
   void serve();
-  void handle(Request request, MessageReader& in, MessageWriter& out);
-  void reply(Reply what, const MessageWriter& message);
+  void handle(RequestCode request, MessageReader& in, MessageWriter& out);
+  void reply(ReplyCode what, const MessageWriter& message);
 
   void instantiate(MessageWriter& out);
   void free();
@@ -75,13 +75,13 @@ class Server {
   template <core::CapabilityInterface C>
   C& capability() const;
 
-  Request requested() const;
+  RequestCode requested() const;
   core::Context context() const;
   std::string origin() const;
 
   Channel& channel_;
   ChannelMemory& memory_;
-  const Recipe& recipe_;
+  const HostedUnitSpec& spec_;
   LogWriter log_;
   process::Waiter waiter_;
   std::optional<Snapshots> snapshots_;  ///< in place of the unit's own states
@@ -90,13 +90,13 @@ class Server {
   std::unique_ptr<core::Unit> unit_;
   std::array<core::Capability*, core::kCapabilities> capabilities_{};  ///< of the unit
   core::UnitDiagnostics* diagnostics_ = nullptr;  ///< likewise, while there is a unit
-  std::array<ServedPlan, ToldPlans::kMost> plans_;
+  std::array<StepBuffers, KnownStepShapes::kMost> plans_;
   std::optional<Time> time_;  ///< where the unit stands
   bool is_over_ = false;
 };
 
 /// Runs a server in a fresh fork: its surroundings first.
-void serve(Channel& channel, const Recipe& recipe, pid_t keeper) noexcept;
+void serve(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor) noexcept;
 
 }  // namespace stride::host
 

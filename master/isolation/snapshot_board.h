@@ -8,7 +8,7 @@
 
 #include <sys/types.h>
 
-#include "master/isolation/process/bell.h"
+#include "master/isolation/process/doorbell.h"
 
 namespace stride::host {
 
@@ -17,40 +17,40 @@ inline void raise_to(std::atomic<std::uint64_t>& most, std::uint64_t value) {
   if (value > most) most = value;
 }
 
-/// Which snapshots of a unit's process there are, and what they are told. In shared memory, since
-/// whoever is in charge of the unit has to know it, however far it was taken back.
+/// The snapshots of a unit's process, and their orders. In shared memory, since
+/// the process in charge of the unit needs it, however far it was taken back.
 struct SnapshotBoard {
   static constexpr std::size_t kSlots = 16;
-  /// Those that have been told to end have theirs until the keeper has seen that they did.
-  static constexpr std::size_t kPlaces = 2 * kSlots;
+  /// One that was ordered to end keeps its entry until the supervisor has seen its end.
+  static constexpr std::size_t kEntries = 2 * kSlots;
 
   enum class State : std::uint32_t {
     Free,
     Frozen,
-    TakesOver,  ///< it has been told to go on in place of the process in charge
-    Ends,       ///< it has been told to end
+    TakesOver,  ///< it was ordered to replace the process in charge
+    Ends,       ///< it was ordered to end
     Lost,       ///< it has ended untold
   };
   /// Of one snapshot.
-  struct Place {
+  struct Entry {
     std::atomic<State> state = State::Free;
     std::atomic<pid_t> process = 0;
     std::atomic<std::uint64_t> memory = 0;  ///< what it had to itself when it was last measured
-    process::Bell bell;                     ///< for when its state has changed
+    process::Doorbell doorbell;             ///< for when its state has changed
   };
 
-  std::array<Place, kPlaces> places;
-  std::array<std::atomic<std::uint32_t>, kSlots> place_of;  ///< counted from 1; 0: nothing is kept
+  std::array<Entry, kEntries> entries;
+  std::array<std::atomic<std::uint32_t>, kSlots> entry_of;  ///< counted from 1; 0: nothing is kept
   std::atomic<std::uint64_t> snapshots = 0;                 ///< that were made
   std::atomic<std::uint64_t> restores = 0;
   std::atomic<std::uint64_t> most_kept = 0;
   std::atomic<std::uint64_t> most_memory = 0;  ///< of all that were kept at a time [byte]
 
   SnapshotBoard() {
-    for (auto& place : place_of) place = 0;
+    for (auto& entry : entry_of) entry = 0;
   }
 
-  /// For the keeper: a process that is not in charge has ended.
+  /// For the supervisor: a process that is not in charge has ended.
   void note_end(pid_t process);
 };
 

@@ -19,31 +19,31 @@ using State = SnapshotBoard::State;
 
 /// A measurement goes through all pages of a process: it may take this share of the time.
 constexpr int kMeasuredShare = 100;
-/// For how long a snapshot sleeps, if nobody wakes it.
+/// For how long a snapshot sleeps, if it is not woken.
 constexpr std::chrono::hours kAWhile{1};
 
-State wait_while_frozen(SnapshotBoard::Place& place) {
+State wait_while_frozen(SnapshotBoard::Entry& entry) {
   for (;;) {
-    const std::uint32_t rings = place.bell.rings();
-    if (const State state = place.state; state != State::Frozen) return state;
-    place.bell.sleep(rings, kAWhile);
+    const std::uint32_t rings = entry.doorbell.rings();
+    if (const State state = entry.state; state != State::Frozen) return state;
+    entry.doorbell.sleep(rings, kAWhile);
   }
 }
 
 }  // namespace
 
 void SnapshotBoard::note_end(pid_t process) {
-  for (Place& place : places) {
-    if (place.process != process) continue;
-    place.state = place.state == State::Frozen ? State::Lost : State::Free;
+  for (Entry& entry : entries) {
+    if (entry.process != process) continue;
+    entry.state = entry.state == State::Frozen ? State::Lost : State::Free;
   }
 }
 
-Snapshots::Snapshots(SnapshotBoard& board, std::atomic<pid_t>& active, pid_t keeper,
+Snapshots::Snapshots(SnapshotBoard& board, std::atomic<pid_t>& active, pid_t supervisor,
                      SnapshotOptions options)
     : board_(board),
       active_(active),
-      keeper_(keeper),
+      supervisor_(supervisor),
       options_(std::move(options)),
       files_(options_.own_files) {}
 
@@ -51,24 +51,24 @@ bool Snapshots::save(std::size_t slot, std::optional<Time> time) {
   options_.context.time = time;
   check(slot);
   refuse_company();
-  const std::uint32_t number = find_free_place();
-  Place& place = board_.places[number];
+  const std::uint32_t number = find_free_entry();
+  Entry& entry = board_.entries[number];
   pid_t process = 0;
   try {
     files_.note();
-    place.memory = 0;
-    place.process = 0;
-    place.state = State::Frozen;
+    entry.memory = 0;
+    entry.process = 0;
+    entry.state = State::Frozen;
     process = process::fork_sibling();
   } catch (const std::exception& failure) {
-    place.state = State::Free;
+    entry.state = State::Free;
     fail(fmt::format("its process cannot be saved: {}", failure.what()));
   }
-  if (process == 0) return freeze(place);
-  place.process = process;
+  if (process == 0) return freeze(entry);
+  entry.process = process;
   measure_sometimes();
   discard(slot);
-  board_.place_of[slot] = number + 1;
+  board_.entry_of[slot] = number + 1;
   count();
   return false;
 }
@@ -76,32 +76,32 @@ bool Snapshots::save(std::size_t slot, std::optional<Time> time) {
 void Snapshots::restore(std::size_t slot, std::optional<Time> time) {
   options_.context.time = time;
   check(slot);
-  const std::uint32_t number = board_.place_of[slot];
+  const std::uint32_t number = board_.entry_of[slot];
   if (number == 0) fail(fmt::format("it is to be restored, but nothing was saved ({})", slot));
-  Place& place = board_.places[number - 1];
-  active_ = place.process.load();
+  Entry& entry = board_.entries[number - 1];
+  active_ = entry.process.load();
   State expected = State::Frozen;
-  if (!place.state.compare_exchange_strong(expected, State::TakesOver)) {
+  if (!entry.state.compare_exchange_strong(expected, State::TakesOver)) {
     active_ = ::getpid();
     fail("the snapshot of its process that is to be restored has been ended by something",
          "look whether the machine was short of memory");
   }
-  place.bell.ring();
+  entry.doorbell.ring();
   ::_exit(0);
 }
 
-/// In the snapshot: sleeps until it is told what to do.
-bool Snapshots::freeze(Place& place) {
-  process::die_with(keeper_);
-  place.process = ::getpid();
+/// In the snapshot: sleeps until its state changes.
+bool Snapshots::freeze(Entry& entry) {
+  process::die_with(supervisor_);
+  entry.process = ::getpid();
   for (;;) {
-    if (wait_while_frozen(place) == State::Ends) ::_exit(0);
-    place.state = State::Frozen;
+    if (wait_while_frozen(entry) == State::Ends) ::_exit(0);
+    entry.state = State::Frozen;
     pid_t process = 0;
     try {
       process = process::fork_sibling();
     } catch (const std::system_error& failure) {
-      place.state = State::Lost;  // it is in charge itself now
+      entry.state = State::Lost;  // it is in charge itself now
       fail(fmt::format("its process cannot be restored: {}", failure.what()));
     }
     if (process == 0) return take_over();
@@ -109,7 +109,7 @@ bool Snapshots::freeze(Place& place) {
 }
 
 bool Snapshots::take_over() {
-  process::die_with(keeper_);
+  process::die_with(supervisor_);
   active_ = ::getpid();
   ++board_.restores;
   try {
@@ -121,14 +121,14 @@ bool Snapshots::take_over() {
 }
 
 void Snapshots::discard(std::size_t slot) {
-  const std::uint32_t number = board_.place_of[slot].exchange(0);
+  const std::uint32_t number = board_.entry_of[slot].exchange(0);
   if (number == 0) return;
-  Place& place = board_.places[number - 1];
+  Entry& entry = board_.entries[number - 1];
   State expected = State::Frozen;
-  if (place.state.compare_exchange_strong(expected, State::Ends)) {
-    place.bell.ring();
+  if (entry.state.compare_exchange_strong(expected, State::Ends)) {
+    entry.doorbell.ring();
   } else {
-    place.state = State::Free;
+    entry.state = State::Free;
   }
 }
 
@@ -155,12 +155,12 @@ void Snapshots::refuse_company() const {
   }
 }
 
-/// Snapshots that have been told to end do so at once, and the keeper sees it, so one is found
+/// Snapshots that were ordered to end do so at once, and the supervisor sees it, so one is found
 /// soon.
-std::uint32_t Snapshots::find_free_place() {
+std::uint32_t Snapshots::find_free_entry() {
   for (;;) {
-    for (std::uint32_t i = 0; i < board_.places.size(); ++i) {
-      if (board_.places[i].state == State::Free) return i;
+    for (std::uint32_t i = 0; i < board_.entries.size(); ++i) {
+      if (board_.entries[i].state == State::Free) return i;
     }
     ::usleep(100);
   }
@@ -168,8 +168,8 @@ std::uint32_t Snapshots::find_free_place() {
 
 void Snapshots::count() {
   ++board_.snapshots;
-  const auto kept = std::count_if(board_.place_of.begin(), board_.place_of.end(),
-                                  [](const auto& place) { return place != 0; });
+  const auto kept = std::count_if(board_.entry_of.begin(), board_.entry_of.end(),
+                                  [](const auto& entry) { return entry != 0; });
   raise_to(board_.most_kept, static_cast<std::uint64_t>(kept));
 }
 
@@ -183,11 +183,11 @@ void Snapshots::measure_sometimes() {
 
 void Snapshots::measure() {
   std::uint64_t sum = 0;
-  for (const auto& number : board_.place_of) {
+  for (const auto& number : board_.entry_of) {
     if (number == 0) continue;
-    Place& place = board_.places[number - 1];
-    if (place.state == State::Frozen) place.memory = process::private_memory(place.process);
-    sum += place.memory;
+    Entry& entry = board_.entries[number - 1];
+    if (entry.state == State::Frozen) entry.memory = process::private_memory(entry.process);
+    sum += entry.memory;
   }
   raise_to(board_.most_memory, sum);
   if (!options_.memory_limit || sum <= *options_.memory_limit) return;

@@ -29,13 +29,13 @@ struct SnapshotOptions {
 /// one the process ends, and the snapshot forks another that goes on where it was itself forked. So
 /// it can be restored any number of times. Pages are shared until one of them writes into them.
 ///
-/// All these processes are children of one parent, the keeper, and end with it. What a fork does
-/// not hold cannot be saved: threads and processes of the unit are refused; its open files are set
-/// back to the positions and lengths that they had.
+/// All these processes are children of one parent, the supervisor, and end with it. What a fork
+/// does not hold cannot be saved: threads and processes of the unit are refused; its open files are
+/// set back to the positions and lengths that they had.
 class Snapshots {
  public:
-  /// `active` names the process in charge of the unit, `keeper` its parent.
-  Snapshots(SnapshotBoard& board, std::atomic<pid_t>& active, pid_t keeper,
+  /// `active` names the process in charge of the unit, `supervisor` its parent.
+  Snapshots(SnapshotBoard& board, std::atomic<pid_t>& active, pid_t supervisor,
             SnapshotOptions options);
 
   /// Keeps the process in the slot, in place of what was kept there. Returns false; and once more
@@ -53,13 +53,13 @@ class Snapshots {
   void measure();
 
  private:
-  using Place = SnapshotBoard::Place;
+  using Entry = SnapshotBoard::Entry;
   using Clock = std::chrono::steady_clock;
 
   void check(std::size_t slot) const;
   void refuse_company() const;
-  std::uint32_t find_free_place();
-  bool freeze(Place& place);
+  std::uint32_t find_free_entry();
+  bool freeze(Entry& entry);
   bool take_over();
   void discard(std::size_t slot);
   void count();
@@ -68,7 +68,7 @@ class Snapshots {
 
   SnapshotBoard& board_;
   std::atomic<pid_t>& active_;
-  pid_t keeper_;
+  pid_t supervisor_;
   SnapshotOptions options_;
   process::OpenFiles files_;
   Clock::time_point next_measurement_{};

@@ -46,7 +46,7 @@ bool StepShape::fits(const core::StepValues& values) const {
   return host::fits(inputs, values.inputs) && host::fits(outputs, values.outputs);
 }
 
-std::optional<std::uint32_t> ToldPlans::find(const core::StepValues& values) {
+std::optional<std::uint32_t> KnownStepShapes::find(const core::StepValues& values) {
   if (latest_ < shapes_.size() && shapes_[latest_].fits(values)) return latest_;
   for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
     if (shapes_[i].fits(values)) return latest_ = i;
@@ -54,7 +54,7 @@ std::optional<std::uint32_t> ToldPlans::find(const core::StepValues& values) {
   return std::nullopt;
 }
 
-std::uint32_t ToldPlans::add(const core::StepValues& values) {
+std::uint32_t KnownStepShapes::add(const core::StepValues& values) {
   if (shapes_.size() < kMost) {
     shapes_.emplace_back(values);
     return latest_ = static_cast<std::uint32_t>(shapes_.size()) - 1;
@@ -71,10 +71,10 @@ void put_shape(MessageWriter& to, const core::StepValues& values) {
 
 // ---- In the unit's process ----
 
-ServedPlan::ServedPlan(MessageReader& from)
+StepBuffers::StepBuffers(MessageReader& from)
     : inputs_(take_parts(from)), outputs_(take_parts(from)) {}
 
-std::vector<core::BoundValues> ServedPlan::take_parts(MessageReader& from) {
+std::vector<core::BoundValues> StepBuffers::take_parts(MessageReader& from) {
   std::vector<core::BoundValues> bound;
   const std::size_t count = from.take_count(1);
   for (std::size_t i = 0; i < count; ++i) {
@@ -85,11 +85,11 @@ std::vector<core::BoundValues> ServedPlan::take_parts(MessageReader& from) {
   return bound;
 }
 
-void ServedPlan::take_inputs(MessageReader& from) {
+void StepBuffers::take_inputs(MessageReader& from) {
   for (const core::BoundValues& input : inputs_) take_values(from, *input.block);
 }
 
-void ServedPlan::put_outputs(MessageWriter& to) const {
+void StepBuffers::put_outputs(MessageWriter& to) const {
   for (const core::BoundValues& output : outputs_) put_values(to, *output.block);
 }
 

@@ -1,4 +1,4 @@
-// The values that go with a step, told once, so that a step sends elements only.
+// The shape of the values that go with a step is sent once, so that a step sends elements only.
 #ifndef STRIDE_MASTER_ISOLATION_STEP_PLAN_H
 #define STRIDE_MASTER_ISOLATION_STEP_PLAN_H
 
@@ -27,15 +27,15 @@ struct StepShape {
 };
 
 /// In the master: the shapes that the unit's process knows, by their numbers.
-class ToldPlans {
+class KnownStepShapes {
  public:
   static constexpr std::uint32_t kMost = 16;
 
   /// The number of the values' shape; nothing if the process does not know it.
   std::optional<std::uint32_t> find(const core::StepValues& values);
-  /// A number for a shape that is about to be told; an older one may lose it.
+  /// A number for a shape that is about to be sent; an older shape may lose it.
   std::uint32_t add(const core::StepValues& values);
-  /// The process has forgotten them.
+  /// The process has lost them.
   void forget() { shapes_.clear(); }
 
  private:
@@ -45,10 +45,10 @@ class ToldPlans {
 };
 
 /// In the unit's process: memory for the values of a step.
-class ServedPlan {
+class StepBuffers {
  public:
-  ServedPlan() = default;
-  explicit ServedPlan(MessageReader& from);
+  StepBuffers() = default;
+  explicit StepBuffers(MessageReader& from);
 
   void take_inputs(MessageReader& from);
   void put_outputs(MessageWriter& to) const;
@@ -65,7 +65,7 @@ class ServedPlan {
   std::vector<core::BoundValues> inputs_, outputs_;
 };
 
-/// What ServedPlan is made of.
+/// What StepBuffers is made of.
 void put_shape(MessageWriter& to, const core::StepValues& values);
 
 }  // namespace stride::host

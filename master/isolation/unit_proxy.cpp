@@ -9,24 +9,24 @@ namespace stride::host {
 
 // ---- Life and death ----
 
-UnitProxy::UnitProxy(Recipe recipe) : recipe_(std::move(recipe)) {
-  if (recipe_.host.is_sandboxed) {
-    recipe_.temporary = std::make_unique<archive::TemporaryFolder>();
+UnitProxy::UnitProxy(HostedUnitSpec spec) : spec_(std::move(spec)) {
+  if (spec_.host.is_sandboxed) {
+    spec_.temporary = std::make_unique<archive::TemporaryFolder>();
   }
   try {
-    conversation_ = std::make_unique<Conversation>(recipe_);
+    client_ = std::make_unique<HostClient>(spec_);
   } catch (const std::system_error& failure) {
-    core::fail_run({.where = recipe_.options.where, .unit = recipe_.name},
+    core::fail_run({.where = spec_.options.where, .unit = spec_.name},
                    fmt::format("there can be no process for it: {}", failure.what()));
   }
   call(
-      Request::Instantiate, [](MessageWriter&) {},
+      RequestCode::Instantiate, [](MessageWriter&) {},
       [&](MessageReader& from) {
         protections_ = take_protections(from);
         capabilities_ = take_capabilities(from);
       });
   capabilities_.set(static_cast<std::size_t>(core::OwnProcess::kId));
-  if (recipe_.has_snapshots()) {
+  if (spec_.has_snapshots()) {
     capabilities_.set(static_cast<std::size_t>(core::StateSaving::kId));
   }
 }
@@ -42,20 +42,19 @@ core::Capability* UnitProxy::find_capability(core::CapabilityId id) {
 
 UnitProxy::~UnitProxy() {
   try {
-    if (!conversation_->has_failed()) call(Request::Free);
+    if (!client_->has_failed()) call(RequestCode::Free);
   } catch (const std::exception& failure) {
-    conversation_->log(fmi::Status::Warning, "stride",
-                       fmt::format("its end failed: {}", failure.what()));
+    client_->log(fmi::Status::Warning, "stride", fmt::format("its end failed: {}", failure.what()));
   }
-  conversation_->finish();
+  client_->finish();
 }
 
 void UnitProxy::terminate() {
-  if (!conversation_->has_failed()) call(Request::Terminate);
+  if (!client_->has_failed()) call(RequestCode::Terminate);
 }
 
 core::HostStatistics UnitProxy::host_statistics() const {
-  core::HostStatistics statistics = conversation_->statistics();
+  core::HostStatistics statistics = client_->statistics();
   statistics.protections = protections_.in_force;
   statistics.missing_protections = protections_.missing;
   return statistics;
@@ -64,86 +63,86 @@ core::HostStatistics UnitProxy::host_statistics() const {
 // ---- Requests ----
 
 template <class Put, class Take>
-void UnitProxy::call(Request request, Put&& put, Take&& take) {
+void UnitProxy::call(RequestCode request, Put&& put, Take&& take) {
   try {
-    MessageWriter message = conversation_->write();
+    MessageWriter message = client_->write();
     put(message);
-    Reply reply = conversation_->send(request, message, time_);
-    if (reply != Reply::Done) [[unlikely]] {
+    ReplyCode reply = client_->send(request, message, time_);
+    if (reply != ReplyCode::Done) [[unlikely]] {
       reply = answer_questions(reply);
-      if (reply != Reply::Done) throw_reply(reply);
+      if (reply != ReplyCode::Done) throw_reply(reply);
     }
-    MessageReader answer = conversation_->read();
+    MessageReader answer = client_->read();
     take(answer);
   } catch (const BadMessage&) {
-    conversation_->fail_nonsense(time_);
+    client_->fail_nonsense(time_);
   } catch (const std::system_error& failure) {
-    core::fail_run({.where = recipe_.options.where, .unit = recipe_.name, .time = time_},
+    core::fail_run({.where = spec_.options.where, .unit = spec_.name, .time = time_},
                    failure.what());
   }
 }
 
 template <class Put>
-void UnitProxy::call(Request request, Put&& put) {
+void UnitProxy::call(RequestCode request, Put&& put) {
   call(request, put, [](MessageReader&) {});
 }
 
-void UnitProxy::call(Request request) {
+void UnitProxy::call(RequestCode request) {
   call(request, [](MessageWriter&) {});
 }
 
-Reply UnitProxy::answer_questions(Reply reply) {
-  while (reply == Reply::AskInputs) {
-    const Request answer = update_inputs(conversation_->read().take<double>());
-    if (conversation_->has_failed()) return Reply::CallbackFailed;
-    reply = conversation_->send(answer, conversation_->write(), time_);
+ReplyCode UnitProxy::answer_questions(ReplyCode reply) {
+  while (reply == ReplyCode::AskInputs) {
+    const RequestCode answer = update_inputs(client_->read().take<double>());
+    if (client_->has_failed()) return ReplyCode::CallbackFailed;
+    reply = client_->send(answer, client_->write(), time_);
   }
   return reply;
 }
 
-Request UnitProxy::update_inputs(double seconds_into_step) noexcept {
+RequestCode UnitProxy::update_inputs(double seconds_into_step) noexcept {
   try {
     if (input_update_) input_update_(seconds_into_step);
-    return Request::InputsUpdated;
+    return RequestCode::InputsUpdated;
   } catch (...) {
     callback_failure_ = std::current_exception();
-    return Request::InputsNotUpdated;
+    return RequestCode::InputsNotUpdated;
   }
 }
 
-void UnitProxy::throw_reply(Reply reply) {
-  if (reply == Reply::CallbackFailed && callback_failure_) {
+void UnitProxy::throw_reply(ReplyCode reply) {
+  if (reply == ReplyCode::CallbackFailed && callback_failure_) {
     std::rethrow_exception(std::exchange(callback_failure_, nullptr));
   }
-  if (reply != Reply::Failed) throw BadMessage();
-  MessageReader error = conversation_->read();
+  if (reply != ReplyCode::Failed) throw BadMessage();
+  MessageReader error = client_->read();
   throw_error(error);
 }
 
 // ---- Modes ----
 
-void UnitProxy::enter_configuration_mode() { call(Request::EnterConfigurationMode); }
+void UnitProxy::enter_configuration_mode() { call(RequestCode::EnterConfigurationMode); }
 
-void UnitProxy::exit_configuration_mode() { call(Request::ExitConfigurationMode); }
+void UnitProxy::exit_configuration_mode() { call(RequestCode::ExitConfigurationMode); }
 
 void UnitProxy::enter_initialization(Time start, std::optional<Time> stop) {
   time_ = start;
-  call(Request::EnterInitialization, [&](MessageWriter& to) {
+  call(RequestCode::EnterInitialization, [&](MessageWriter& to) {
     put_time(to, start);
     put_time(to, stop);
   });
 }
 
-void UnitProxy::exit_initialization() { call(Request::ExitInitialization); }
+void UnitProxy::exit_initialization() { call(RequestCode::ExitInitialization); }
 
-void UnitProxy::enter_event_mode() { call(Request::EnterEventMode); }
+void UnitProxy::enter_event_mode() { call(RequestCode::EnterEventMode); }
 
-void UnitProxy::enter_step_mode() { call(Request::EnterStepMode); }
+void UnitProxy::enter_step_mode() { call(RequestCode::EnterStepMode); }
 
 core::EventResult UnitProxy::update_discrete_states() {
   core::EventResult result;
   call(
-      Request::UpdateDiscreteStates, [](MessageWriter&) {},
+      RequestCode::UpdateDiscreteStates, [](MessageWriter&) {},
       [&](MessageReader& from) { result = take_events(from); });
   return result;
 }
@@ -152,7 +151,7 @@ core::EventResult UnitProxy::update_discrete_states() {
 
 void UnitProxy::get(References references, core::ValueBlock& values) {
   call(
-      Request::Get,
+      RequestCode::Get,
       [&](MessageWriter& to) {
         to.put_all(references);
         put_shape(to, values);
@@ -161,7 +160,7 @@ void UnitProxy::get(References references, core::ValueBlock& values) {
 }
 
 void UnitProxy::set(References references, const core::ValueBlock& values) {
-  call(Request::Set, [&](MessageWriter& to) {
+  call(RequestCode::Set, [&](MessageWriter& to) {
     to.put_all(references);
     put_shape(to, values);
     put_values(to, values);
@@ -172,7 +171,7 @@ void UnitProxy::get_directional_derivative(References unknowns, References known
                                            std::span<const double> seed,
                                            std::span<double> sensitivity) {
   call(
-      Request::GetDirectionalDerivative,
+      RequestCode::GetDirectionalDerivative,
       [&](MessageWriter& to) {
         to.put_all(unknowns);
         to.put_all(knowns);
@@ -194,7 +193,7 @@ core::StepResult UnitProxy::step(const core::StepInterval& interval,
   time_ = interval.from;
   core::StepResult result;
   call(
-      Request::Step,
+      RequestCode::Step,
       [&](MessageWriter& to) {
         to.put(plan);
         to.put(interval);
@@ -215,7 +214,7 @@ core::StepResult UnitProxy::step(const core::StepInterval& interval,
 std::uint32_t UnitProxy::plan_number(const core::StepValues& values) {
   if (const auto known = plans_.find(values)) return *known;
   const std::uint32_t number = plans_.add(values);
-  call(Request::MakePlan, [&](MessageWriter& to) {
+  call(RequestCode::MakePlan, [&](MessageWriter& to) {
     to.put(number);
     put_shape(to, values);
   });
@@ -224,40 +223,40 @@ std::uint32_t UnitProxy::plan_number(const core::StepValues& values) {
 
 void UnitProxy::set_input_update(core::InputUpdate update) {
   input_update_ = std::move(update);
-  call(Request::SetInputUpdate,
+  call(RequestCode::SetInputUpdate,
        [&](MessageWriter& to) { to.put(static_cast<bool>(input_update_)); });
 }
 
 // ---- States ----
 
 void UnitProxy::save_state() {
-  call(Request::SaveState, [&](MessageWriter& to) { put_time(to, time_); });
+  call(RequestCode::SaveState, [&](MessageWriter& to) { put_time(to, time_); });
 }
 
 /// A process that is taken back knows the plans of its time only.
 void UnitProxy::restore_state() {
-  if (recipe_.has_snapshots()) plans_.forget();
-  call(Request::RestoreState, [&](MessageWriter& to) { put_time(to, time_); });
+  if (spec_.has_snapshots()) plans_.forget();
+  call(RequestCode::RestoreState, [&](MessageWriter& to) { put_time(to, time_); });
 }
 
 void UnitProxy::select_state(std::size_t slot) {
-  call(Request::SelectState, [&](MessageWriter& to) { to.put(slot); });
+  call(RequestCode::SelectState, [&](MessageWriter& to) { to.put(slot); });
 }
 
 std::vector<std::uint8_t> UnitProxy::serialize_state() {
   std::vector<std::uint8_t> bytes;
   call(
-      Request::SerializeState, [](MessageWriter&) {},
+      RequestCode::SerializeState, [](MessageWriter&) {},
       [&](MessageReader& from) { bytes = from.take_all<std::uint8_t>(); });
   return bytes;
 }
 
 void UnitProxy::deserialize_state(std::span<const std::uint8_t> bytes) {
-  call(Request::DeserializeState, [&](MessageWriter& to) { to.put_all(bytes); });
+  call(RequestCode::DeserializeState, [&](MessageWriter& to) { to.put_all(bytes); });
 }
 
 void UnitProxy::reset() {
-  call(Request::Reset);
+  call(RequestCode::Reset);
   time_.reset();
   rejection_reason_.clear();
 }
@@ -267,7 +266,7 @@ void UnitProxy::reset() {
 core::ClockInterval UnitProxy::clock_interval(const core::Variable& clock) {
   core::ClockInterval said;
   call(
-      Request::GetClockInterval, [&](MessageWriter& to) { to.put(clock.reference); },
+      RequestCode::GetClockInterval, [&](MessageWriter& to) { to.put(clock.reference); },
       [&](MessageReader& from) {
         said.state = from.take<core::ClockInterval::State>();
         said.interval = from.take<core::Interval>();
@@ -278,7 +277,7 @@ core::ClockInterval UnitProxy::clock_interval(const core::Variable& clock) {
 core::Interval UnitProxy::clock_shift(const core::Variable& clock) {
   core::Interval shift;
   call(
-      Request::GetClockShift, [&](MessageWriter& to) { to.put(clock.reference); },
+      RequestCode::GetClockShift, [&](MessageWriter& to) { to.put(clock.reference); },
       [&](MessageReader& from) { shift = from.take<core::Interval>(); });
   return shift;
 }
@@ -286,11 +285,11 @@ core::Interval UnitProxy::clock_shift(const core::Variable& clock) {
 // ---- Idle time ----
 
 void UnitProxy::enable_idle_skipping(Duration max_skip) {
-  call(Request::EnableIdleSkipping, [&](MessageWriter& to) { to.put(max_skip.count()); });
+  call(RequestCode::EnableIdleSkipping, [&](MessageWriter& to) { to.put(max_skip.count()); });
 }
 
 void UnitProxy::set_idle_tolerances(References outputs, std::span<const double> tolerances) {
-  call(Request::SetIdleTolerances, [&](MessageWriter& to) {
+  call(RequestCode::SetIdleTolerances, [&](MessageWriter& to) {
     to.put_all(outputs);
     to.put_all(tolerances);
   });
@@ -299,14 +298,14 @@ void UnitProxy::set_idle_tolerances(References outputs, std::span<const double> 
 Time UnitProxy::idle_until() {
   Time until = Time::min();
   call(
-      Request::GetIdleUntil, [](MessageWriter&) {},
+      RequestCode::GetIdleUntil, [](MessageWriter&) {},
       [&](MessageReader& from) { until = take_time(from).value_or(Time::min()); });
   return until;
 }
 
 void UnitProxy::get_derivatives(References outputs, std::span<double> derivatives) {
   call(
-      Request::GetDerivatives,
+      RequestCode::GetDerivatives,
       [&](MessageWriter& to) {
         to.put_all(outputs);
         to.put(derivatives.size());
@@ -319,7 +318,7 @@ void UnitProxy::get_derivatives(References outputs, std::span<double> derivative
 std::string UnitProxy::describe_message(core::ValueReference variable, const core::Binary& value) {
   std::string text;
   call(
-      Request::DescribeMessage,
+      RequestCode::DescribeMessage,
       [&](MessageWriter& to) {
         to.put(variable);
         to.put_all(std::span(value));

@@ -20,7 +20,7 @@
 #include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/unit.h"
 #include "master/isolation/codec.h"
-#include "master/isolation/conversation.h"
+#include "master/isolation/host_client.h"
 #include "master/isolation/server.h"
 #include "master/isolation/step_plan.h"
 
@@ -45,7 +45,7 @@ class UnitProxy final : public core::Unit,
   using References = std::span<const core::ValueReference>;
 
   /// Throws what the unit's own constructor throws.
-  explicit UnitProxy(Recipe recipe);
+  explicit UnitProxy(HostedUnitSpec spec);
   ~UnitProxy() override;
 
   void enter_configuration_mode() override;
@@ -79,7 +79,7 @@ class UnitProxy final : public core::Unit,
   void get_derivatives(References outputs, std::span<double> derivatives) override;
   std::string describe_message(core::ValueReference variable, const core::Binary& value) override;
   void terminate() override;
-  std::uint64_t calls() const override { return conversation_->calls(); }
+  std::uint64_t calls() const override { return client_->calls(); }
   core::HostStatistics host_statistics() const override;
 
  private:
@@ -87,22 +87,22 @@ class UnitProxy final : public core::Unit,
 
   /// Sends put(MessageWriter&) and takes the answer with take(MessageReader&).
   template <class Put, class Take>
-  void call(Request request, Put&& put, Take&& take);
+  void call(RequestCode request, Put&& put, Take&& take);
   template <class Put>
-  void call(Request request, Put&& put);
-  void call(Request request);
+  void call(RequestCode request, Put&& put);
+  void call(RequestCode request);
   /// Serves what the unit asks for until it has replied.
-  Reply answer_questions(Reply reply);
-  void throw_reply(Reply reply);
-  Request update_inputs(double seconds_into_step) noexcept;
+  ReplyCode answer_questions(ReplyCode reply);
+  void throw_reply(ReplyCode reply);
+  RequestCode update_inputs(double seconds_into_step) noexcept;
   std::uint32_t plan_number(const core::StepValues& values);
 
-  Recipe recipe_;
-  std::unique_ptr<Conversation> conversation_;
+  HostedUnitSpec spec_;
+  std::unique_ptr<HostClient> client_;
   process::Protections protections_;
   CapabilitySet capabilities_;
   std::optional<Time> time_;
-  ToldPlans plans_;
+  KnownStepShapes plans_;
   core::InputUpdate input_update_;
   std::exception_ptr callback_failure_;
   std::string rejection_reason_;

@@ -84,36 +84,36 @@ std::optional<std::int64_t> number_of(const EnumerationItems& items, const std::
   return std::nullopt;
 }
 
-/// Puts the passages together, one after the other.
+/// Composes the segments of a path, one after the other.
 class Composer {
  public:
-  Composer(const std::vector<Waypoint>& waypoints, std::span<const Passage> passages,
+  Composer(const std::vector<PathConnector>& path, std::span<const PathSegment> segments,
            const Context& context)
-      : waypoints_(completed(waypoints)), passages_(passages), context_(context) {}
+      : path_(completed(path)), segments_(segments), context_(context) {}
 
   LinearConversion linear() const {
     LinearConversion linear;
     bool is_plain = true;
-    for (std::size_t i = 0; i < passages_.size(); ++i) {
+    for (std::size_t i = 0; i < segments_.size(); ++i) {
       check_types(i);
       check_transformation(i);
-      const Transformation& transformation = passages_[i].transformation;
+      const Transformation& transformation = segments_[i].transformation;
       linear = then(linear, unit_conversion(i));
       if (transformation.kind == Transformation::Kind::Linear) {
         linear = then(linear, transformation.linear);
       }
-      is_plain &= !passages_[i].suppress_unit_conversion &&
+      is_plain &= !segments_[i].suppress_unit_conversion &&
                   transformation.kind != Transformation::Kind::Linear;
     }
-    if (!is_real(type(passages_.size()))) return {};
+    if (!is_real(type(segments_.size()))) return {};
     // by way of another unit, it would be rounded more than once
-    const auto direct = convert(waypoints_.front().unit, waypoints_.back().unit);
+    const auto direct = convert(path_.front().unit, path_.back().unit);
     return is_plain && direct ? *direct : linear;
   }
 
   Conversion conversion() const {
     Conversion conversion{linear(), {}, {}};
-    for (std::size_t i = 0; i < passages_.size(); ++i) {
+    for (std::size_t i = 0; i < segments_.size(); ++i) {
       conversion.map = then(conversion.map, numbers(i));
     }
     check_results(conversion);
@@ -125,8 +125,8 @@ class Composer {
   }
 
   std::string words(std::string text) const {
-    for (std::size_t i = 0; i < passages_.size(); ++i) {
-      const Transformation::Kind kind = passages_[i].transformation.kind;
+    for (std::size_t i = 0; i < segments_.size(); ++i) {
+      const Transformation::Kind kind = segments_[i].transformation.kind;
       if (kind == Transformation::Kind::None || kind == Transformation::Kind::Linear) continue;
       std::string result;
       for (std::size_t at = 0; (at = text.find_first_not_of(" \t\r\n", at)) != text.npos;) {
@@ -140,10 +140,10 @@ class Composer {
   }
 
  private:
-  ValueType type(std::size_t waypoint) const { return *waypoints_[waypoint].type; }
+  ValueType type(std::size_t place) const { return *path_[place].type; }
 
-  std::string wire(std::size_t passage) const {
-    return fmt::format("'{}' to '{}'", waypoints_[passage].name, waypoints_[passage + 1].name);
+  std::string wire(std::size_t segment) const {
+    return fmt::format("'{}' to '{}'", path_[segment].name, path_[segment + 1].name);
   }
 
   [[noreturn]] void fail(const std::string& message, const std::string& hint) const {
@@ -154,17 +154,17 @@ class Composer {
     fail_input({at.where, {}, {}, {}}, message, hint);
   }
 
-  void check_types(std::size_t passage) const {
-    const Waypoint& from = waypoints_[passage];
-    const Waypoint& to = waypoints_[passage + 1];
+  void check_types(std::size_t segment) const {
+    const PathConnector& from = path_[segment];
+    const PathConnector& to = path_[segment + 1];
     // what an enumeration's items become behind a mapping is checked at the end
     const bool is_checked_later =
         is_integer(*from.type) && is_integer(*to.type) &&
-        passages_[passage].transformation.kind != Transformation::Kind::None;
+        segments_[segment].transformation.kind != Transformation::Kind::None;
     if (is_checked_later || converts_without_loss(*from.type, *to.type, from.items)) return;
     if (is_real(*from.type) && is_real(*to.type)) return;
     fail(fmt::format(
-             "cannot connect {}: {} and {} are different types, and {}", wire(passage),
+             "cannot connect {}: {} and {} are different types, and {}", wire(segment),
              core::name(*from.type), core::name(*to.type),
              range_of(*from.type) && range_of(*to.type)
                  ? fmt::format("not every {} is a {}", core::name(*from.type), core::name(*to.type))
@@ -176,17 +176,17 @@ class Composer {
   }
 
   /// Which types a transformation is for: SSP 2.0, "Transformation Choice".
-  void check_transformation(std::size_t passage) const {
-    const Transformation& transformation = passages_[passage].transformation;
+  void check_transformation(std::size_t segment) const {
+    const Transformation& transformation = segments_[segment].transformation;
     const auto both = [&](auto&& is_right) {
-      return is_right(type(passage)) && is_right(type(passage + 1));
+      return is_right(type(segment)) && is_right(type(segment + 1));
     };
     const auto complain = [&](const char* meant_for) {
       fail(transformation,
            fmt::format("a {} is for {}, and {} is a connection from {} to {}",
-                       core::name(transformation.kind), meant_for, wire(passage),
-                       core::name(type(passage)), core::name(type(passage + 1))),
-           fmt::format("transform such values by {}", transformation_for(type(passage))));
+                       core::name(transformation.kind), meant_for, wire(segment),
+                       core::name(type(segment)), core::name(type(segment + 1))),
+           fmt::format("transform such values by {}", transformation_for(type(segment))));
     };
     switch (transformation.kind) {
       case Transformation::Kind::None:
@@ -215,20 +215,20 @@ class Composer {
     return "a unit between the two; SSP has no transformation for them";
   }
 
-  LinearConversion unit_conversion(std::size_t passage) const {
-    if (passages_[passage].suppress_unit_conversion) return {};
-    const Waypoint& from = waypoints_[passage];
-    const Waypoint& to = waypoints_[passage + 1];
+  LinearConversion unit_conversion(std::size_t segment) const {
+    if (segments_[segment].suppress_unit_conversion) return {};
+    const PathConnector& from = path_[segment];
+    const PathConnector& to = path_[segment + 1];
     if (const auto conversion = convert(from.unit, to.unit)) return *conversion;
     fail(fmt::format("cannot connect {}: '{}' is in '{}', '{}' in '{}', and one cannot be "
                      "converted into the other",
-                     wire(passage), from.name, from.unit.name, to.name, to.unit.name),
+                     wire(segment), from.name, from.unit.name, to.name, to.unit.name),
          "correct the wiring, or say suppressUnitConversion=\"true\" if the numbers fit");
   }
 
-  std::int64_t item(const Transformation& transformation, std::size_t waypoint,
+  std::int64_t item(const Transformation& transformation, std::size_t place,
                     const std::string& name) const {
-    const Waypoint& connector = waypoints_[waypoint];
+    const PathConnector& connector = path_[place];
     if (const auto number = number_of(connector.items, name)) return *number;
     std::vector<std::string> known;
     for (const auto& [item, number] : connector.items) known.push_back(item);
@@ -237,16 +237,16 @@ class Composer {
          known.empty() ? "its connector declares no enumeration" : suggestion(name, known));
   }
 
-  /// A passage's mapping as one of numbers.
-  NumberMap numbers(std::size_t passage) const {
-    const Transformation& transformation = passages_[passage].transformation;
+  /// A segment's mapping as one of numbers.
+  NumberMap numbers(std::size_t segment) const {
+    const Transformation& transformation = segments_[segment].transformation;
     NumberMap map = transformation.numbers;
     for (const auto& [source, target] : transformation.names) {
-      map.emplace_back(item(transformation, passage, source),
-                       item(transformation, passage + 1, target));
+      map.emplace_back(item(transformation, segment, source),
+                       item(transformation, segment + 1, target));
     }
     std::sort(map.begin(), map.end());
-    const Waypoint& to = waypoints_[passage + 1];
+    const PathConnector& to = path_[segment + 1];
     const auto range = range_of(*to.type);
     for (const auto& [source, target] : map) {
       if (range && !range->holds(target)) {
@@ -260,7 +260,7 @@ class Composer {
     return map;
   }
 
-  void check_item(const Transformation& transformation, const Waypoint& to,
+  void check_item(const Transformation& transformation, const PathConnector& to,
                   std::int64_t target) const {
     const bool is_known =
         to.items.empty() || std::any_of(to.items.begin(), to.items.end(),
@@ -280,8 +280,8 @@ class Composer {
 
   /// Whatever an enumeration's items, or the numbers of an integer, become must be in the target.
   void check_results(Conversion& conversion) const {
-    const Waypoint& first = waypoints_.front();
-    const Waypoint& last = waypoints_.back();
+    const PathConnector& first = path_.front();
+    const PathConnector& last = path_.back();
     if (!is_integer(*first.type) || !is_integer(*last.type)) return;
     const bool to_items = *last.type == ValueType::Enumeration && !last.items.empty();
     if (*first.type == ValueType::Enumeration && !first.items.empty()) {
@@ -303,8 +303,8 @@ class Composer {
   }
 
   void check_result(const std::string& item, std::int64_t becomes) const {
-    const Waypoint& first = waypoints_.front();
-    const Waypoint& last = waypoints_.back();
+    const PathConnector& first = path_.front();
+    const PathConnector& last = path_.back();
     const bool to_items = *last.type == ValueType::Enumeration && !last.items.empty();
     const bool is_known = to_items ? std::any_of(last.items.begin(), last.items.end(),
                                                  [&](const auto& i) { return i.second == becomes; })
@@ -319,8 +319,8 @@ class Composer {
                   : "say what it becomes, in an <ssc:IntegerMappingTransformation>");
   }
 
-  std::string word(std::size_t passage, const std::string& word) const {
-    const Transformation& transformation = passages_[passage].transformation;
+  std::string word(std::size_t segment, const std::string& word) const {
+    const Transformation& transformation = segments_[segment].transformation;
     if (transformation.kind == Transformation::Kind::EnumerationMapping) {
       for (const auto& [source, target] : transformation.names) {
         if (source == word) return target;
@@ -335,15 +335,15 @@ class Composer {
                                                                                         : "false";
     }
     if (end.ptr != word.data() + word.size() || end.ec != std::errc{}) {
-      const auto named = number_of(waypoints_[passage].items, word);
+      const auto named = number_of(path_[segment].items, word);
       if (!named) return word;
       number = *named;
     }
     return std::to_string(mapped(transformation.numbers, number));
   }
 
-  std::vector<Waypoint> waypoints_;
-  std::span<const Passage> passages_;
+  std::vector<PathConnector> path_;
+  std::span<const PathSegment> segments_;
   const Context& context_;
 };
 
@@ -355,18 +355,7 @@ std::int64_t mapped(const NumberMap& map, std::int64_t value) {
   return found != map.end() && found->first == value ? found->second : value;
 }
 
-std::optional<LinearConversion> convert(const MeasureUnit& from, const MeasureUnit& to) {
-  if (from.name.empty() || to.name.empty()) return LinearConversion{};
-  if (!from.meaning || !to.meaning) {
-    return from.name == to.name ? std::optional(LinearConversion{}) : std::nullopt;
-  }
-  const BaseUnit& a = *from.meaning;
-  const BaseUnit& b = *to.meaning;
-  if (a.exponents != b.exponents) return std::nullopt;
-  return LinearConversion{a.factor / b.factor, (a.offset - b.offset) / b.factor};
-}
-
-MeasureUnit known_unit(MeasureUnit unit, const UnitDescription& description) {
+UnitOfMeasure known_unit(UnitOfMeasure unit, const UnitDescription& description) {
   if (unit.meaning) return unit;
   const auto found = description.units.find(unit.name);
   if (found != description.units.end()) unit.meaning = found->second;
@@ -393,30 +382,30 @@ bool converts_without_loss(ValueType from, ValueType to, const EnumerationItems&
   return target->holds(*source);
 }
 
-std::vector<Waypoint> completed(std::vector<Waypoint> waypoints) {
-  const auto inherit = [](Waypoint& to, const Waypoint& from) {
+std::vector<PathConnector> completed(std::vector<PathConnector> path) {
+  const auto inherit = [](PathConnector& to, const PathConnector& from) {
     if (!to.type) to.type = from.type;
     if (to.unit.name.empty() && to.type && is_real(*to.type)) to.unit = from.unit;
     if (to.items.empty() && to.type == ValueType::Enumeration) to.items = from.items;
   };
-  for (std::size_t i = waypoints.size() - 1; i-- > 0;) {
-    if (waypoints[i].takes_after_next) inherit(waypoints[i], waypoints[i + 1]);
+  for (std::size_t i = path.size() - 1; i-- > 0;) {
+    if (path[i].takes_after_next) inherit(path[i], path[i + 1]);
   }
-  for (std::size_t i = 1; i < waypoints.size(); ++i) inherit(waypoints[i], waypoints[i - 1]);
-  for (std::size_t i = waypoints.size() - 1; i-- > 0;) {
-    if (!waypoints[i].type) inherit(waypoints[i], waypoints[i + 1]);
+  for (std::size_t i = 1; i < path.size(); ++i) inherit(path[i], path[i - 1]);
+  for (std::size_t i = path.size() - 1; i-- > 0;) {
+    if (!path[i].type) inherit(path[i], path[i + 1]);
   }
-  return waypoints;
+  return path;
 }
 
-Conversion compose(const std::vector<Waypoint>& waypoints, std::span<const Passage> passages,
+Conversion compose(const std::vector<PathConnector>& path, std::span<const PathSegment> segments,
                    const Context& context) {
-  return Composer(waypoints, passages, context).conversion();
+  return Composer(path, segments, context).conversion();
 }
 
-TextConversion compose_text(const std::string& text, const std::vector<Waypoint>& waypoints,
-                            std::span<const Passage> passages, const Context& context) {
-  const Composer composer(waypoints, passages, context);
+TextConversion compose_text(const std::string& text, const std::vector<PathConnector>& path,
+                            std::span<const PathSegment> segments, const Context& context) {
+  const Composer composer(path, segments, context);
   return {composer.words(text), composer.linear()};
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "master/model/description.h"
+#include "master/model/unit_of_measure.h"
 #include "master/util/error.h"
 
 namespace stride::core {
@@ -30,19 +31,8 @@ struct Conversion {
 /// The number that it becomes.
 std::int64_t mapped(const NumberMap& map, std::int64_t value);
 
-/// A unit of measurement by its name; empty: none is said. What has no meaning equals what has the
-/// same name.
-struct MeasureUnit {
-  std::string name{};
-  std::optional<BaseUnit> meaning{};
-};
-
-/// How values in one unit become values in another. Where one side has none they are taken as they
-/// are; nothing if they cannot be converted into each other.
-std::optional<LinearConversion> convert(const MeasureUnit& from, const MeasureUnit& to);
-
 /// The unit, with what the description says of it, where the unit itself says nothing.
-MeasureUnit known_unit(MeasureUnit unit, const UnitDescription& description);
+UnitOfMeasure known_unit(UnitOfMeasure unit, const UnitDescription& description);
 
 using EnumerationItems = std::vector<std::pair<std::string, std::int64_t>>;
 
@@ -60,29 +50,30 @@ struct Transformation {
 /// "LinearTransformation", the name of its element.
 const char* name(Transformation::Kind kind);
 
-/// Between two connectors: an ssd:Connection or an ssm:MappingEntry.
-struct Passage {
+/// Between two connectors of a path: an ssd:Connection or an ssm:MappingEntry.
+struct PathSegment {
   bool suppress_unit_conversion = false;
   Transformation transformation{};
 };
 
-/// A connector that a value comes through, as far as it is declared.
-struct Waypoint {
+/// A connector on the path of a value, as far as it is declared.
+struct PathConnector {
   std::string name{};  ///< for people
   std::optional<ValueType> type{};
-  MeasureUnit unit{};
+  UnitOfMeasure unit{};
   EnumerationItems items{};
   /// What is not declared is that of the connector before it (an output of a system) or behind it.
   bool takes_after_next = false;
 };
 
-/// The waypoints with what they take after others. The type of the first or the last is known.
-std::vector<Waypoint> completed(std::vector<Waypoint> waypoints);
+/// The path with what its connectors take after others. The type of the first or the last is known.
+std::vector<PathConnector> completed(std::vector<PathConnector> path);
 
-/// Composes the passages between waypoints, of which there is one more. Throws Error (Input) at
-/// `context`, or at the transformation that is wrong, for units that cannot be converted into each
-/// other, types that cannot or could lose something, and transformations that do not fit the types.
-Conversion compose(const std::vector<Waypoint>& waypoints, std::span<const Passage> passages,
+/// Composes the segments between the connectors of a path, of which there is one more. Throws Error
+/// (Input) at `context`, or at the transformation that is wrong, for units that cannot be converted
+/// into each other, types that cannot or could lose something, and transformations that do not fit
+/// the types.
+Conversion compose(const std::vector<PathConnector>& path, std::span<const PathSegment> segments,
                    const Context& context);
 
 /// Likewise for a value that is given as text, whose type and enumeration need not be known: the
@@ -91,8 +82,8 @@ struct TextConversion {
   std::string text;
   LinearConversion linear;
 };
-TextConversion compose_text(const std::string& text, const std::vector<Waypoint>& waypoints,
-                            std::span<const Passage> passages, const Context& context);
+TextConversion compose_text(const std::string& text, const std::vector<PathConnector>& path,
+                            std::span<const PathSegment> segments, const Context& context);
 
 /// Whether each value of a type is one of the other. An Enumeration is seen as an Int64, and fits
 /// wherever all of its items do.

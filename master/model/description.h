@@ -1,8 +1,7 @@
-// What a unit says of itself: the part of a modelDescription.xml that a master needs.
+// The description of a unit: the part of a modelDescription.xml that a master needs.
 #ifndef STRIDE_MASTER_MODEL_DESCRIPTION_H
 #define STRIDE_MASTER_MODEL_DESCRIPTION_H
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -13,6 +12,7 @@
 #include <stride/time.h>
 
 #include "master/model/interval.h"
+#include "master/model/unit_of_measure.h"
 
 namespace stride::core {
 
@@ -77,13 +77,6 @@ const char* name(Causality causality);
 const char* name(Variability variability);
 const char* name(Initial initial);
 const char* name(IntervalVariability variability);
-
-/// value in SI base units = factor * value + offset. exponents of kg, m, s, A, K, mol, cd, rad.
-struct BaseUnit {
-  std::array<int, 8> exponents{};
-  double factor = 1;
-  double offset = 0;
-};
 
 /// What a description says of a Clock.
 struct ClockAttributes {
@@ -164,8 +157,8 @@ struct UnitDescription {
   std::string instantiation_token;
   std::string description;
   std::string generation_tool;
-  std::vector<Variable> variables;        ///< in the order of the description
-  std::map<std::string, BaseUnit> units;  ///< those whose meaning is given
+  std::vector<Variable> variables;                 ///< in the order of the description
+  std::map<std::string, BaseUnitOfMeasure> units;  ///< those whose meaning is given
   std::vector<Unknown> outputs;
   std::vector<Unknown> initial_unknowns;
 
@@ -208,13 +201,10 @@ struct UnitDescription {
   /// Whether the variable belongs to time-based clocks only: its value is exchanged at their ticks,
   /// and holds between them.
   bool is_sampled(const Variable& variable) const;
-};
-
-/// target = factor * source + offset
-struct LinearConversion {
-  double factor = 1;
-  double offset = 0;
-  bool is_identity() const { return factor == 1 && offset == 0; }
+  /// Whether the variable is a message: its value exists at the ticks of a triggered clock only.
+  bool is_message(const Variable& variable) const {
+    return variable.is_clocked() && !is_sampled(variable);
+  }
 };
 
 }  // namespace stride::core

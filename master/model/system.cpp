@@ -64,33 +64,33 @@ void convert_start(ValueBlock& value, const LinearConversion& conversion) {
 
 /// What a value comes through, from its beginning on.
 struct Way {
-  std::vector<Waypoint> waypoints;
-  std::vector<Passage> passages{};
+  std::vector<PathConnector> path;
+  std::vector<PathSegment> segments{};
 
-  explicit Way(Waypoint first) : waypoints{std::move(first)} {}
+  explicit Way(PathConnector first) : path{std::move(first)} {}
 
   template <class Declaration>
-  void go(const Declaration& wanted, Waypoint last) {
-    for (const ViaDeclaration& via : wanted.via) go(via.connector, via.passage);
-    go(std::move(last), Passage{wanted.suppress_unit_conversion, wanted.transformation});
+  void go(const Declaration& wanted, PathConnector last) {
+    for (const ViaDeclaration& via : wanted.via) go(via.connector, via.segment);
+    go(std::move(last), PathSegment{wanted.suppress_unit_conversion, wanted.transformation});
   }
-  void go(Waypoint next, Passage passage) {
-    waypoints.push_back(std::move(next));
-    passages.push_back(std::move(passage));
+  void go(PathConnector next, PathSegment segment) {
+    path.push_back(std::move(next));
+    segments.push_back(std::move(segment));
   }
 };
 
 }  // namespace
 
-/// What is wrong is told at once, as far as it does not follow from something else.
+/// Mistakes are reported together, except those that follow from others.
 System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
-  Mistakes mistakes;
-  add_components(declaration, mistakes);
-  const std::vector<Target> targets = find_targets(declaration, mistakes);
-  if (!mistakes.attempt([&] { add_structural_values(targets); })) mistakes.raise();
-  add_connections(declaration, mistakes);
-  add_start_values(targets, mistakes);
-  mistakes.raise();
+  Diagnostics diagnostics;
+  add_components(declaration, diagnostics);
+  const std::vector<Target> targets = find_targets(declaration, diagnostics);
+  if (!diagnostics.attempt([&] { add_structural_values(targets); })) diagnostics.raise();
+  add_connections(declaration, diagnostics);
+  add_start_values(targets, diagnostics);
+  diagnostics.raise();
   add_outputs(declaration);
 }
 
@@ -98,7 +98,7 @@ std::string System::prefix(VariableId id) const {
   return is_output(id) ? "" : components_[id.component].name + ".";
 }
 
-void System::add_components(const SystemDeclaration& declaration, Mistakes& mistakes) {
+void System::add_components(const SystemDeclaration& declaration, Diagnostics& diagnostics) {
   if (declaration.components.empty()) {
     fail_input({}, "the system has no component, so there is nothing to simulate");
   }
@@ -109,7 +109,7 @@ void System::add_components(const SystemDeclaration& declaration, Mistakes& mist
                  "give one of them another name");
     }
     for (const ConnectorDeclaration& connector : component.connectors) {
-      mistakes.attempt([&] { check_connector(declaration, component, connector); });
+      diagnostics.attempt([&] { check_connector(declaration, component, connector); });
     }
     check_clocks(component);
     components_.push_back({component.name, component.description, component.early_return_allowed,
@@ -136,7 +136,7 @@ void System::check_connector(const SystemDeclaration& declaration,
                                     core::name(*connector.type), core::name(variable.type)));
   }
   if (connector.unit.name.empty()) return;
-  const MeasureUnit unit = known_unit(connector.unit, *component.description);
+  const UnitOfMeasure unit = known_unit(connector.unit, *component.description);
   if (!convert(unit, known_unit({variable.unit}, *component.description))) {
     fail_input(context, fmt::format("the connector is in '{}', the unit's variable in '{}'",
                                     unit.name, variable.unit));
@@ -176,7 +176,7 @@ VariableId System::find_variable(const std::string& component, const std::string
 }
 
 /// In the unit that the variable has, or else in the one that its connector declares.
-Waypoint System::waypoint(VariableId id) const {
+PathConnector System::path_connector(VariableId id) const {
   const Variable& end = variable(id);
   const auto declared = connector_units_.find(id);
   const bool is_declared = end.unit.empty() && declared != connector_units_.end();
@@ -189,12 +189,12 @@ Waypoint System::waypoint(VariableId id) const {
 Connection System::connect(const ConnectionDeclaration& wanted, const Ends& ends) const {
   const auto [from, to] = ends;
   check_ends(wanted, from, to);
-  Way way(waypoint(from));
-  way.go(wanted, waypoint(to));
-  return {from, to, compose(way.waypoints, way.passages, {wanted.where, {}, {}, {}})};
+  Way way(path_connector(from));
+  way.go(wanted, path_connector(to));
+  return {from, to, compose(way.path, way.segments, {wanted.where, {}, {}, {}})};
 }
 
-/// Nothing, and a warning, where a parameter set holds a value for nobody, as SSP allows it to.
+/// Nothing, and a warning, where a parameter set holds a value for no component, as SSP allows.
 void System::note_missing(const StartDeclaration& wanted) {
   try {
     find_variable(wanted.component, wanted.variable, wanted.where);
@@ -207,7 +207,7 @@ void System::note_missing(const StartDeclaration& wanted) {
 
 /// Of those that are there; of the others, what is not meant to be passed over is an error.
 std::vector<System::Target> System::find_targets(const SystemDeclaration& declaration,
-                                                 Mistakes& mistakes) {
+                                                 Diagnostics& diagnostics) {
   std::vector<Target> targets;
   std::vector<const StartDeclaration*> missing;
   std::set<std::size_t> found_groups;
@@ -220,14 +220,14 @@ std::vector<System::Target> System::find_targets(const SystemDeclaration& declar
     }
     const VariableId id{component, *place};
     found_groups.insert(wanted.group);
-    mistakes.attempt([&] {
+    diagnostics.attempt([&] {
       check_settable(variable(id), {wanted.where, wanted.component, wanted.variable, {}});
       targets.push_back({&wanted, id});
     });
   }
   for (const StartDeclaration* wanted : missing) {
     if (wanted->group != 0 && found_groups.contains(wanted->group)) continue;
-    mistakes.attempt([&] { note_missing(*wanted); });
+    diagnostics.attempt([&] { note_missing(*wanted); });
   }
   return targets;
 }
@@ -236,16 +236,17 @@ ValueBlock System::start_value(const StartDeclaration& wanted, VariableId id) co
   const Variable& target = variable(id);
   const UnitDescription& description = *components_[id.component].description;
   const Context context{wanted.where, wanted.component, wanted.variable, {}};
-  const MeasureUnit unit = known_unit(wanted.unit, description);
-  if (wanted.via.empty() && !wanted.suppress_unit_conversion && !convert(unit, waypoint(id).unit)) {
+  const UnitOfMeasure unit = known_unit(wanted.unit, description);
+  if (wanted.via.empty() && !wanted.suppress_unit_conversion &&
+      !convert(unit, path_connector(id).unit)) {
     fail_input(context,
                fmt::format("the value is in '{}', the variable in '{}'", unit.name,
-                           waypoint(id).unit.name),
+                           path_connector(id).unit.name),
                "give the value in the variable's unit");
   }
   Way way({"the value", {}, unit, {}, true});
-  way.go(wanted, waypoint(id));
-  const auto [text, linear] = compose_text(wanted.value, way.waypoints, way.passages, context);
+  way.go(wanted, path_connector(id));
+  const auto [text, linear] = compose_text(wanted.value, way.path, way.segments, context);
   try {
     ValueBlock value = parse(target, text);
     convert_start(value, linear);
@@ -280,12 +281,12 @@ void System::add_structural_values(const std::vector<Target>& targets) {
   for (auto& [id, value] : values) structural_values_.push_back({id, std::move(value)});
 }
 
-void System::add_start_values(const std::vector<Target>& targets, Mistakes& mistakes) {
+void System::add_start_values(const std::vector<Target>& targets, Diagnostics& diagnostics) {
   std::map<VariableId, ValueBlock> values;
   for (const Target& target : targets) {
     const VariableId id = target.id;
     if (variable(id).causality == Causality::StructuralParameter) continue;
-    mistakes.attempt([&] { values.insert_or_assign(id, start_value(*target.declaration, id)); });
+    diagnostics.attempt([&] { values.insert_or_assign(id, start_value(*target.declaration, id)); });
   }
   for (auto& [id, value] : values) start_values_.push_back({id, std::move(value)});
 }
@@ -305,14 +306,12 @@ void System::add_outputs(const SystemDeclaration& declaration) {
 void System::add_output(const OutputDeclaration& wanted) {
   const VariableId from = find_variable(wanted.component, wanted.variable, wanted.where);
   const Variable& source = variable(from);
-  const bool is_message =
-      source.type == ValueType::Clock || (source.is_clocked() && !is_sampled(from));
-  if (is_message) return;  // it is seen where it is sent
-  Way way(waypoint(from));
-  for (const ViaDeclaration& via : wanted.via) way.go(via.connector, via.passage);
-  const std::vector<Waypoint> waypoints = completed(way.waypoints);
-  const Waypoint& end = waypoints.back();
-  SystemOutput output{from, compose(waypoints, way.passages, {wanted.where, {}, {}, {}}), source};
+  if (source.type == ValueType::Clock || is_message(from)) return;  // it is seen where it is sent
+  Way way(path_connector(from));
+  for (const ViaDeclaration& via : wanted.via) way.go(via.connector, via.segment);
+  const std::vector<PathConnector> path = completed(way.path);
+  const PathConnector& end = path.back();
+  SystemOutput output{from, compose(path, way.segments, {wanted.where, {}, {}, {}}), source};
   output.variable.name = end.name;
   output.variable.aliases.clear();
   output.variable.type = *end.type;

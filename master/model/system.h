@@ -13,8 +13,8 @@
 #include "master/model/description.h"
 #include "master/model/values.h"
 #include "master/model/variable_id.h"
+#include "master/util/diagnostics.h"
 #include "master/util/error.h"
-#include "master/util/mistakes.h"
 
 namespace stride::core {
 
@@ -23,7 +23,7 @@ struct ConnectorDeclaration {
   std::string name;
   std::optional<ValueType> type;
   std::optional<Causality> causality;
-  MeasureUnit unit;
+  UnitOfMeasure unit;
   Location where{};
   EnumerationItems items{};  ///< of its Enumeration, if that is declared
 };
@@ -37,8 +37,8 @@ struct ComponentDeclaration {
 };
 /// A connector of a system that a value comes through, and what is done to it on the way there.
 struct ViaDeclaration {
-  Waypoint connector;
-  Passage passage;
+  PathConnector connector;
+  PathSegment segment;
 };
 struct ConnectionDeclaration {
   std::string from_component, from_connector;
@@ -57,7 +57,7 @@ struct OutputDeclaration {
 struct StartDeclaration {
   std::string component, variable;
   std::string value;
-  MeasureUnit unit;  ///< in which the value is given; no name = the variable's own
+  UnitOfMeasure unit;  ///< in which the value is given; no name = the variable's own
   Location where{};
   bool suppress_unit_conversion = false;
   Transformation transformation{};
@@ -134,14 +134,18 @@ class System {
   bool is_sampled(VariableId id) const {
     return !is_output(id) && components_[id.component].description->is_sampled(variable(id));
   }
+  /// Whether the variable is a message; see UnitDescription::is_message().
+  bool is_message(VariableId id) const {
+    return !is_output(id) && components_[id.component].description->is_message(variable(id));
+  }
   /// "component.variable"; of an output of the system its name.
   std::string full_name(VariableId id) const { return prefix(id) + variable(id).name; }
   /// What stands before the variable's name in that: "component.", or nothing.
   std::string prefix(VariableId id) const;
 
  private:
-  void add_components(const SystemDeclaration& declaration, Mistakes& mistakes);
-  void add_connections(const SystemDeclaration& declaration, Mistakes& mistakes);
+  void add_components(const SystemDeclaration& declaration, Diagnostics& diagnostics);
+  void add_connections(const SystemDeclaration& declaration, Diagnostics& diagnostics);
   void add_outputs(const SystemDeclaration& declaration);
   void add_output(const OutputDeclaration& declaration);
   /// A start value and what it is for.
@@ -149,9 +153,9 @@ class System {
     const StartDeclaration* declaration;
     VariableId id;
   };
-  std::vector<Target> find_targets(const SystemDeclaration& declaration, Mistakes& mistakes);
+  std::vector<Target> find_targets(const SystemDeclaration& declaration, Diagnostics& diagnostics);
   void add_structural_values(const std::vector<Target>& targets);
-  void add_start_values(const std::vector<Target>& targets, Mistakes& mistakes);
+  void add_start_values(const std::vector<Target>& targets, Diagnostics& diagnostics);
   void resize(const StartDeclaration& declaration, VariableId structural_parameter,
               std::size_t size);
   std::size_t find_component(const std::string& name, const Location& where) const;
@@ -167,12 +171,13 @@ class System {
   void check_message(const ConnectionDeclaration& declaration, const Connection& connection) const;
   using Ends = std::pair<VariableId, VariableId>;
   std::optional<Ends> find_ends(const SystemDeclaration& declaration,
-                                const ConnectionDeclaration& wanted, Mistakes& mistakes) const;
+                                const ConnectionDeclaration& wanted,
+                                Diagnostics& diagnostics) const;
   static void check_only(const ConnectionDeclaration& declaration,
                          const ConnectionDeclaration* first);
   Connection connect(const ConnectionDeclaration& declaration, const Ends& ends) const;
   void check_ends(const ConnectionDeclaration& declaration, VariableId from, VariableId to) const;
-  Waypoint waypoint(VariableId id) const;
+  PathConnector path_connector(VariableId id) const;
   void note_missing(const StartDeclaration& declaration);
   ValueBlock start_value(const StartDeclaration& declaration, VariableId id) const;
 
@@ -183,7 +188,7 @@ class System {
   std::vector<SystemOutput> outputs_;
   std::vector<StartValue> structural_values_;
   std::vector<std::string> warnings_;
-  std::map<VariableId, MeasureUnit> connector_units_;  ///< those that connectors declare
+  std::map<VariableId, UnitOfMeasure> connector_units_;  ///< those that connectors declare
 };
 
 }  // namespace stride::core

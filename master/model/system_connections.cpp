@@ -36,12 +36,12 @@ std::vector<VariableId> clocks_of(const System& system, VariableId id) {
 
 }  // namespace
 
-void System::add_connections(const SystemDeclaration& declaration, Mistakes& mistakes) {
+void System::add_connections(const SystemDeclaration& declaration, Diagnostics& diagnostics) {
   std::map<VariableId, const ConnectionDeclaration*> sources;
   for (const ConnectionDeclaration& wanted : declaration.connections) {
-    const std::optional<Ends> ends = find_ends(declaration, wanted, mistakes);
+    const std::optional<Ends> ends = find_ends(declaration, wanted, diagnostics);
     if (!ends) continue;
-    mistakes.attempt([&] {
+    diagnostics.attempt([&] {
       const Connection connection = connect(wanted, *ends);
       check_only(wanted, sources.emplace(connection.to, &wanted).first->second);
       connections_.push_back(connection);
@@ -49,20 +49,20 @@ void System::add_connections(const SystemDeclaration& declaration, Mistakes& mis
   }
   std::sort(connections_.begin(), connections_.end(),
             [](const Connection& a, const Connection& b) { return a.to < b.to; });
-  if (mistakes.any()) return;  // a clock's connection may be among them
+  if (diagnostics.any()) return;  // a clock's connection may be among them
   for (const Connection& connection : connections_) {
-    mistakes.attempt([&] { check_message(*sources.at(connection.to), connection); });
+    diagnostics.attempt([&] { check_message(*sources.at(connection.to), connection); });
   }
 }
 
 /// Both, if they are there and nothing is wrong with them so far.
 std::optional<System::Ends> System::find_ends(const SystemDeclaration& declaration,
                                               const ConnectionDeclaration& wanted,
-                                              Mistakes& mistakes) const {
+                                              Diagnostics& diagnostics) const {
   const auto find = [&](const std::string& component, const std::string& connector) {
     std::optional<VariableId> end;
-    if (mistakes.tell_of(component, connector)) return end;
-    mistakes.attempt(
+    if (diagnostics.mentions(component, connector)) return end;
+    diagnostics.attempt(
         [&] { end = find_variable(component, connector, wanted.where, &declaration); });
     return end;
   };
@@ -111,10 +111,8 @@ void System::check_clocked(const ConnectionDeclaration& wanted, VariableId from,
                            wire, full_name(to), core::name(variable(to).clock->variability)),
                "remove the connection; the master ticks such a clock when its unit says");
   }
-  const bool from_message = variable(from).is_clocked() && !is_sampled(from);
-  const bool to_message = variable(to).is_clocked() && !is_sampled(to);
-  if (from_message == to_message) return;
-  const VariableId message = from_message ? from : to;
+  if (is_message(from) == is_message(to)) return;
+  const VariableId message = is_message(from) ? from : to;
   fail_input(context,
              fmt::format("cannot connect {}: '{}' is a message, which exists at the ticks of its "
                          "triggered clock only, and the other is not",

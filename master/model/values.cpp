@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "master/util/hex.h"
+
 namespace stride::core {
 namespace {
 
@@ -50,13 +52,9 @@ void parse_element(const Variable&, const std::string& text, std::string& value)
 
 void parse_element(const Variable&, const std::string& text, Binary& value) {
   if (text.size() % 2 != 0) reject(text, "an even number of hexadecimal digits");
-  value.resize(text.size() / 2);
-  for (std::size_t i = 0; i < value.size(); ++i) {
-    const char* digits = text.data() + 2 * i;
-    if (std::from_chars(digits, digits + 2, value[i], 16).ptr != digits + 2) {
-      reject(text, "hexadecimal digits");
-    }
-  }
+  auto bytes = from_hex(text);
+  if (!bytes) reject(text, "hexadecimal digits");
+  value = std::move(*bytes);
 }
 
 void parse_enumeration(const Variable& variable, const std::string& text, std::int64_t& value) {
@@ -179,17 +177,6 @@ ValueBlock parse(const Variable& variable, const std::string& text) {
     for (std::size_t i = 0; i < words.size(); ++i) parse_element(variable, words[i], values[i]);
   });
   return block;
-}
-
-std::string to_hex(std::span<const std::uint8_t> bytes) {
-  std::string text;
-  text.reserve(2 * bytes.size());
-  constexpr char kDigits[] = "0123456789abcdef";
-  for (const std::uint8_t byte : bytes) {
-    text += kDigits[byte >> 4];
-    text += kDigits[byte & 15];
-  }
-  return text;
 }
 
 std::string element_text(const ValueBlock& block, std::size_t element) {

@@ -105,6 +105,33 @@ bool copy_elements(ValueBlock& to, std::size_t to_first, const ValueBlock& from,
 double real(const ValueBlock& block, std::size_t element);
 void set_real(ValueBlock& block, std::size_t element, double value);
 
+/// Elements of a block that keeps them: `size` of them, from `first` on. The block must outlive it.
+struct ValueSlice {
+  ValueBlock* block = nullptr;
+  std::size_t first = 0;
+  std::size_t size = 1;
+
+  auto operator<=>(const ValueSlice&) const = default;
+};
+
+/// As copy_elements() of blocks; `to` has the size of `from`.
+inline bool copy_elements(const ValueSlice& to, const ValueSlice& from,
+                          const Conversion& conversion = {}) {
+  return copy_elements(*to.block, to.first, *from.block, from.first, from.size, conversion);
+}
+/// As real() and set_real() of blocks; `element` counts from the beginning of the slice.
+inline double real(const ValueSlice& slice, std::size_t element = 0) {
+  return real(*slice.block, slice.first + element);
+}
+inline void set_real(const ValueSlice& slice, double value, std::size_t element = 0) {
+  set_real(*slice.block, slice.first + element, value);
+}
+/// Whether set_real() would change the element.
+inline bool would_change(const ValueSlice& slice, double value) {
+  return real(slice) !=
+         (slice.block->type() == ValueType::Float32 ? static_cast<float>(value) : value);
+}
+
 /// The value of type To that one of type From becomes.
 template <class To, class From>
 To converted(const From& value, const Conversion& conversion) {
@@ -132,8 +159,6 @@ ValueBlock parse(const Variable& variable, const std::string& text);
 /// The text of one element: shortest decimal form that reads back the same, "true"/"false",
 /// hexadecimal digits.
 std::string element_text(const ValueBlock& block, std::size_t element);
-
-std::string to_hex(std::span<const std::uint8_t> bytes);
 
 }  // namespace stride::core
 

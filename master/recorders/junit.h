@@ -13,7 +13,7 @@
 
 namespace stride::io {
 
-/// What continuous integration is told of a run.
+/// What continuous integration needs of a run.
 struct JunitReport {
   std::string suite;  ///< the scenario's name
   std::string host;   ///< where it ran

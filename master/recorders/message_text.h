@@ -9,7 +9,7 @@
 
 namespace stride::io {
 
-/// What a message says, for people, in a line of `most` characters at most: its content in its
+/// The content of a message, for people, in a line of `most` characters at most: its content in its
 /// component's words, else the text of a String, numbers with their unit of measure, the size of
 /// bytes. Empty for a bare clock.
 std::string message_text(const core::System& system, const core::Message& message,

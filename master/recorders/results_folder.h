@@ -1,13 +1,40 @@
+// The folder of a run's results: its files, and what is drawn of them.
 #ifndef STRIDE_MASTER_RECORDERS_RESULTS_FOLDER_H
 #define STRIDE_MASTER_RECORDERS_RESULTS_FOLDER_H
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "master/recorders/result_files.h"
-
 namespace stride::io {
+
+/// File names inside the results folder; empty = not written.
+struct ResultFiles {
+  std::string signals = "signals.csv";
+  std::string events = "events.csv";
+  std::string trace = "signals.vcd";
+  std::string activity = "activity.csv";
+  std::string statistics = "run.json";
+  std::string report = "report.html";
+};
+
+/// Each of them, with the attribute that names it.
+inline constexpr std::array<std::pair<const char*, std::string ResultFiles::*>, 6> kResultFiles{
+    {{"signals", &ResultFiles::signals},
+     {"events", &ResultFiles::events},
+     {"trace", &ResultFiles::trace},
+     {"activity", &ResultFiles::activity},
+     {"statistics", &ResultFiles::statistics},
+     {"report", &ResultFiles::report}}};
+
+/// Signals that share a diagram, by the names of their columns in signals.csv.
+struct Plot {
+  std::string title;
+  std::vector<std::string> signals;
+  bool operator==(const Plot&) const = default;
+};
 
 /// Where units put their films, each into a folder of its own, and the list of its pictures there.
 inline constexpr const char* kFilmFolder = "film";

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "master/recorders/signal_text.h"
+#include "master/util/hex.h"
 #include "master/util/output_file.h"
 
 namespace stride::io {
@@ -46,10 +47,10 @@ void add(Json& entry, const core::UnitStatistics& unit) {
   entry["events"] = unit.events;
   entry["messages_sent"] = unit.messages_sent;
   entry["messages_received"] = unit.messages_received;
-  if (unit.rests > 0) {
-    entry["idle"] = {{"rests", unit.rests},
-                     {"skipped", to_seconds(unit.rested)},
-                     {"longest", to_seconds(unit.longest_rest)}};
+  if (unit.suspensions > 0) {
+    entry["idle"] = {{"rests", unit.suspensions},
+                     {"skipped", to_seconds(unit.suspended_time)},
+                     {"longest", to_seconds(unit.longest_suspension)}};
   }
   entry["wall_time"] = {{"initialization", seconds(unit.initialization_time)},
                         {"steps", seconds(unit.step_time)},
@@ -62,7 +63,7 @@ Json step_entry(const core::RunOptions& options) {
                 {"size", to_seconds(options.step.size)},
                 {"minimum", to_seconds(options.step.minimum)}};
   if (options.step.maximum) entry["maximum"] = to_seconds(*options.step.maximum);
-  if (options.step.policy == core::StepPolicy::ErrorControlled) {
+  if (options.step.policy->controls_error) {
     entry["relative_tolerance"] = options.step.relative_tolerance;
     entry["absolute_tolerance"] = options.step.absolute_tolerance;
   }
@@ -97,9 +98,8 @@ Json signal_entries(const core::System& system, std::span<const core::VariableId
 
 /// What goes along it.
 const char* kind(const core::System& system, const core::Connection& connection) {
-  const core::Variable& variable = system.variable(connection.from);
-  if (variable.type == core::ValueType::Clock) return "clock";
-  return variable.is_clocked() && !system.is_sampled(connection.from) ? "message" : "value";
+  if (system.variable(connection.from).type == core::ValueType::Clock) return "clock";
+  return system.is_message(connection.from) ? "message" : "value";
 }
 
 Json connection_entries(const core::System& system) {

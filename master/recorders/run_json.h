@@ -10,11 +10,11 @@
 #include "master/algorithm/statistics.h"
 #include "master/algorithm/verdict.h"
 #include "master/model/system.h"
-#include "master/recorders/result_files.h"
+#include "master/recorders/results_folder.h"
 
 namespace stride::io {
 
-/// What there is to tell of a run.
+/// What is reported of a run.
 struct RunRecord {
   std::filesystem::path scenario;
   const core::System& system;

@@ -5,18 +5,6 @@
 #include <fmt/format.h>
 
 namespace stride::io {
-namespace {
-
-void write_quoted(OutputFile& file, std::string_view text) {
-  file.write('"');
-  for (const char c : text) {
-    if (c == '"') file.write('"');
-    file.write(c);
-  }
-  file.write('"');
-}
-
-}  // namespace
 
 std::string element_name(const core::Variable& variable, std::size_t element) {
   if (variable.dimensions.empty()) return variable.name;
@@ -34,9 +22,9 @@ std::string column_name(const core::System& system, core::VariableId id, std::si
 
 std::string csv_field(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string field = "\"";
-  for (const char c : text) field.append(c == '"' ? 2 : 1, c);
-  return field + '"';
+  std::string field;
+  quote_csv(text, [&](char c) { field += c; });
+  return field;
 }
 
 void write_csv(OutputFile& file, const core::ValueBlock& block, std::size_t element) {
@@ -44,7 +32,7 @@ void write_csv(OutputFile& file, const core::ValueBlock& block, std::size_t elem
     const auto& value = values[element];
     using T = std::remove_cvref_t<decltype(value)>;
     if constexpr (std::is_same_v<T, std::string>) {
-      write_quoted(file, value);
+      quote_csv(value, [&](char c) { file.write(c); });
     } else if constexpr (std::is_same_v<T, core::Binary>) {
       file.write_hex(value);
     } else if constexpr (std::is_same_v<T, bool>) {

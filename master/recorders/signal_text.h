@@ -18,7 +18,19 @@ std::string element_name(const core::Variable& variable, std::size_t element);
 /// That of the column which the element has in signals.csv, without its unit: "component.name[1]".
 std::string column_name(const core::System& system, core::VariableId id, std::size_t element);
 
-/// A field of a CSV file (RFC 4180): in quotation marks where its text demands it.
+/// Calls write(char) for each character of the text as a field of a CSV file (RFC 4180) that stands
+/// in quotation marks, which it has twice.
+template <class Write>
+void quote_csv(std::string_view text, Write&& write) {
+  write('"');
+  for (const char c : text) {
+    if (c == '"') write('"');
+    write(c);
+  }
+  write('"');
+}
+
+/// A field of a CSV file: in quotation marks where its text demands it.
 std::string csv_field(std::string_view text);
 
 /// One element as a field of a CSV file: numbers in their shortest form, true or false, text in

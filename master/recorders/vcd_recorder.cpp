@@ -1,15 +1,41 @@
 #include "master/recorders/vcd_recorder.h"
 
+#include <algorithm>
 #include <bit>
 #include <cctype>
+#include <iterator>
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
+#include <fmt/format.h>
+
+#include "master/model/description.h"
 #include "master/recorders/signal_text.h"
 
 namespace stride::io {
 namespace {
+
+using core::ValueType;
+
+/// The dump's word for the type, and its width in bits.
+const char* declaration(ValueType type) {
+  constexpr const char* kDeclarations[] = {"real 64",    "real 64",    "integer 8",  "wire 8",
+                                           "integer 16", "wire 16",    "integer 32", "wire 32",
+                                           "integer 64", "wire 64",    "wire 1",     "string 1",
+                                           "string 1",   "integer 64", "event 1"};
+  static_assert(std::size(kDeclarations) == core::kValueTypeCount);
+  return kDeclarations[static_cast<std::size_t>(type)];
+}
+
+/// Blanks would end the name.
+std::string word(std::string_view name) {
+  std::string text(name);
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c <= ' ' || c == 127; }, '_');
+  return text;
+}
 
 template <class T>
 constexpr bool is_text = std::is_same_v<T, std::string> || std::is_same_v<T, core::Binary>;
@@ -82,11 +108,56 @@ bool is_message_variable(const core::UnitDescription& unit, const core::Variable
   const bool is_connector =
       variable.causality == core::Causality::Input || variable.causality == core::Causality::Output;
   if (!is_connector || variable.is_time_based_clock()) return false;
-  return variable.type == core::ValueType::Clock ||
-         (variable.is_clocked() && !unit.is_sampled(variable));
+  return variable.type == core::ValueType::Clock || unit.is_message(variable);
 }
 
 }  // namespace
+
+/// A tree of scopes, in the order in which their variables were added.
+class VcdScope {
+ public:
+  explicit VcdScope(std::string name = "") : name_(std::move(name)) {}
+
+  /// The scope of this name in this one, made where there is none.
+  VcdScope& scope(std::string_view name);
+  /// Declares a variable; the parts of its name before the last dot are scopes.
+  void add(std::string_view structured_name, core::ValueType type, std::string_view code);
+  /// The declarations within this scope, without its own frame.
+  void write(OutputFile& file) const;
+
+ private:
+  std::string name_;
+  std::vector<VcdScope> scopes_;
+  std::vector<std::string> variables_;
+};
+
+VcdScope& VcdScope::scope(std::string_view name) {
+  const std::string wanted = word(name);
+  const auto found = std::find_if(scopes_.begin(), scopes_.end(),
+                                  [&](const VcdScope& scope) { return scope.name_ == wanted; });
+  return found != scopes_.end() ? *found : scopes_.emplace_back(wanted);
+}
+
+void VcdScope::add(std::string_view structured_name, ValueType type, std::string_view code) {
+  const std::size_t dot = structured_name.find('.');
+  const bool is_nested =
+      dot != std::string_view::npos && dot > 0 && dot + 1 < structured_name.size();
+  if (is_nested) {
+    scope(structured_name.substr(0, dot)).add(structured_name.substr(dot + 1), type, code);
+    return;
+  }
+  variables_.push_back(
+      fmt::format("$var {} {} {} $end\n", declaration(type), code, word(structured_name)));
+}
+
+void VcdScope::write(OutputFile& file) const {
+  for (const std::string& variable : variables_) file.write(variable);
+  for (const VcdScope& scope : scopes_) {
+    file.write(fmt::format("$scope module {} $end\n", scope.name_));
+    scope.write(file);
+    file.write("$upscope $end\n");
+  }
+}
 
 VcdRecorder::VcdRecorder(const core::System& system, std::filesystem::path file)
     : system_(system), file_(std::move(file)) {}

@@ -9,10 +9,11 @@
 
 #include "master/algorithm/observer.h"
 #include "master/model/system.h"
-#include "master/recorders/vcd_scope.h"
 #include "master/util/output_file.h"
 
 namespace stride::io {
+
+class VcdScope;
 
 /// signals.vcd: a value change dump (IEEE 1364) with a time scale of 1 ps, for GTKWave and others.
 /// The parts of a structured name are scopes. The recorded signals are written at communication

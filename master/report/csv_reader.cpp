@@ -80,7 +80,7 @@ CsvReader::Row CsvReader::split() {
   return Row::Unfinished;
 }
 
-/// From its opening quotation mark to the separator behind it; tells whether all of it is there.
+/// From its opening quotation mark to the separator behind it; returns whether all of it is there.
 bool CsvReader::take_quoted(const char*& at, const char* end, Field& field) {
   const char* const first = ++at;
   while (true) {
@@ -99,7 +99,7 @@ bool CsvReader::take_quoted(const char*& at, const char* end, Field& field) {
   return true;
 }
 
-/// Gets more of the file; tells whether there was more.
+/// Gets more of the file; returns whether there was more.
 bool CsvReader::refill() {
   std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_),
             buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());

@@ -25,8 +25,8 @@ class CsvReader {
   /// Throws core::Error (Input) where the file cannot be read or is no regular file.
   explicit CsvReader(std::filesystem::path file);
 
-  /// Reads the next row; tells whether there is one. Throws core::Error (Input) that names the line
-  /// for quotation marks that are out of place, and for a row that is too long to be one.
+  /// Reads the next row; returns whether there is one. Throws core::Error (Input) that names the
+  /// line for quotation marks that are out of place, and for a row that is too long to be one.
   bool next();
 
   /// Of the present row, until the next one is read.

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "master/recorders/result_files.h"
+#include "master/recorders/results_folder.h"
 #include "master/report/column.h"
 #include "master/report/run_file.h"
 

@@ -8,10 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "master/report/blob.h"
 #include "master/report/default_plots.h"
-#include "master/report/json_text.h"
 #include "master/report/page.h"
+#include "master/report/page_data.h"
 #include "master/util/error.h"
 #include "master/util/replacement.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "master/recorders/result_files.h"
+#include "master/recorders/results_folder.h"
 #include "master/report/column.h"
 #include "master/report/run_file.h"
 
@@ -69,7 +69,7 @@ struct Results {
 Results read_results(const std::filesystem::path& folder, const io::ResultFiles& files,
                      const Limits& limits = {});
 
-/// The names that run.json tells, or else the usual ones. Throws core::Error (Input) where it is no
+/// The names in run.json, or else the usual ones. Throws core::Error (Input) where it is no
 /// folder with the results of a run.
 io::ResultFiles result_files(const std::filesystem::path& folder);
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "master/recorders/result_files.h"
+#include "master/recorders/results_folder.h"
 #include "master/report/column.h"
-#include "master/report/json_text.h"
+#include "master/report/page_data.h"
 
 namespace stride::report {
 

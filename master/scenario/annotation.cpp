@@ -45,37 +45,37 @@ auto parse_attribute(const xml::Element& element, const char* name, Parse&& pars
   }
 }
 
-using SetChoice = void (StepChoice::*)(std::string_view);
+using SetSetting = void (StepSettings::*)(std::string_view);
 
-/// Attributes that each set a part of the choice.
-void read_choices(const xml::Element& element, StepChoice& choice,
-                  std::initializer_list<std::pair<const char*, SetChoice>> attributes) {
+/// Attributes that each set one of the settings.
+void read_settings(const xml::Element& element, StepSettings& settings,
+                   std::initializer_list<std::pair<const char*, SetSetting>> attributes) {
   for (const auto& [name, set] : attributes) {
     if (!element.attribute(name)) continue;
     parse_attribute(element, name,
-                    [&, set = set](const std::string& text) { (choice.*set)(text); });
+                    [&, set = set](const std::string& text) { (settings.*set)(text); });
   }
 }
 
-void read_step(const xml::Element& element, StepChoice& choice) {
+void read_step(const xml::Element& element, StepSettings& settings) {
   element.allow_attributes(
       {"policy", "size", "maximum", "minimum", "relativeTolerance", "absoluteTolerance"});
   element.allow_children({});
-  read_choices(element, choice,
-               {{"policy", &StepChoice::set_policy},
-                {"size", &StepChoice::set_size},
-                {"maximum", &StepChoice::set_maximum},
-                {"minimum", &StepChoice::set_minimum},
-                {"relativeTolerance", &StepChoice::set_relative_tolerance},
-                {"absoluteTolerance", &StepChoice::set_absolute_tolerance}});
+  read_settings(element, settings,
+                {{"policy", &StepSettings::set_policy},
+                 {"size", &StepSettings::set_size},
+                 {"maximum", &StepSettings::set_maximum},
+                 {"minimum", &StepSettings::set_minimum},
+                 {"relativeTolerance", &StepSettings::set_relative_tolerance},
+                 {"absoluteTolerance", &StepSettings::set_absolute_tolerance}});
 }
 
-void read_exchange(const xml::Element& element, StepChoice& choice) {
+void read_exchange(const xml::Element& element, StepSettings& settings) {
   element.allow_attributes({"coupling", "extrapolation"});
   element.allow_children({});
-  read_choices(
-      element, choice,
-      {{"coupling", &StepChoice::set_coupling}, {"extrapolation", &StepChoice::set_extrapolation}});
+  read_settings(element, settings,
+                {{"coupling", &StepSettings::set_coupling},
+                 {"extrapolation", &StepSettings::set_extrapolation}});
 }
 
 /// What the attribute `signals` lists.
@@ -123,7 +123,7 @@ void read_early_return(const xml::Element& element, ScenarioAnnotation& annotati
   }
 }
 
-void read_host(const xml::Element& element, HostChoice& choice) {
+void read_host(const xml::Element& element, HostRules& hosts) {
   element.allow_attributes(
       {"components", "process", "timeout", "memoryLimit", "sandbox", "snapshots"});
   element.allow_children({});
@@ -143,10 +143,10 @@ void read_host(const xml::Element& element, HostChoice& choice) {
   }
   if (element.attribute("sandbox")) settings.sandbox = element.flag("sandbox");
   if (element.attribute("snapshots")) settings.snapshots = element.flag("snapshots");
-  for (auto& pattern : read_components(element)) choice.rules.push_back({pattern, settings});
+  for (auto& pattern : read_components(element)) hosts.rules.push_back({pattern, settings});
 }
 
-void read_idle_skip(const xml::Element& element, IdleChoice& choice) {
+void read_idle_skip(const xml::Element& element, IdleSettings& settings) {
   element.allow_attributes({"components", "enabled", "maxSkip"});
   element.allow_children({});
   IdleRule rule{{}, element.flag("enabled", true), std::nullopt, element.where()};
@@ -157,7 +157,7 @@ void read_idle_skip(const xml::Element& element, IdleChoice& choice) {
   if (element.attribute("components")) patterns = read_components(element);
   for (ComponentPattern& pattern : patterns) {
     rule.components = std::move(pattern);
-    choice.rules.push_back(rule);
+    settings.rules.push_back(rule);
   }
 }
 

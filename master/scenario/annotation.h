@@ -7,12 +7,10 @@
 
 #include <stride/time.h>
 
-#include "master/recorders/result_files.h"
+#include "master/recorders/results_folder.h"
 #include "master/scenario/check_declaration.h"
 #include "master/scenario/component_selection.h"
-#include "master/scenario/host_choice.h"
-#include "master/scenario/idle_choice.h"
-#include "master/scenario/step_choice.h"
+#include "master/scenario/run_settings.h"
 #include "master/util/error.h"
 #include "master/util/xml/element.h"
 
@@ -38,15 +36,15 @@ struct EarlyReturnRule {
 
 /// All of it is optional.
 struct ScenarioAnnotation {
-  StepChoice step;
+  StepSettings step;
   std::vector<SignalPattern> record;  ///< none: every output
   std::vector<PlotPattern> plots;
   std::vector<CheckDeclaration> checks;
   ResultFiles results;
-  std::vector<ComponentPattern> main_thread;  ///< who steps on the simulation's own thread only
+  std::vector<ComponentPattern> main_thread;  ///< stepped on the simulation's own thread only
   std::vector<EarlyReturnRule> early_return;  ///< without one: allowed
-  HostChoice hosts;
-  IdleChoice idle;
+  HostRules hosts;
+  IdleSettings idle;
 };
 
 /// Reads the <stride:Scenario> of a <ssd:SystemStructureDescription>, which stands in the root's

@@ -8,10 +8,11 @@
 #include <fmt/format.h>
 
 #include "master/recorders/signal_text.h"
-#include "master/scenario/signal_names.h"
+#include "master/scenario/signal_selection.h"
+#include "master/util/diagnostics.h"
 #include "master/util/glob.h"
-#include "master/util/mistakes.h"
 #include "master/util/suggest.h"
+#include "master/util/time_text.h"
 
 namespace stride::io {
 namespace {
@@ -246,7 +247,7 @@ Definition Selection::answer(const CheckDeclaration& check) const {
   }
   const std::string demand =
       fmt::format("{} answered by {} within {} s{}", system_.full_name(request),
-                  system_.full_name(reply), core::to_text(Time(check.within)), check.window.text());
+                  system_.full_name(reply), core::to_text(check.within), check.window.text());
   return {check.kind,  name_of(check, "", demand, true),
           demand,      check.window,
           check.where, checks::AnswerDemand{request, reply, check.within, check.repeats}};
@@ -271,15 +272,15 @@ std::vector<Definition> select_checks(const core::System& system,
                                       const ScenarioTimes& times) {
   const Selection selection(system, times);
   std::vector<Definition> definitions;
-  core::Mistakes mistakes;
+  core::Diagnostics diagnostics;
   for (const CheckDeclaration& check : declarations) {
-    mistakes.attempt([&] {
+    diagnostics.attempt([&] {
       for (Definition& definition : selection.select(check)) {
         definitions.push_back(std::move(definition));
       }
     });
   }
-  mistakes.raise();
+  diagnostics.raise();
   check_names(definitions);
   return definitions;
 }

@@ -1,23 +1,24 @@
 #include "master/scenario/file_units.h"
 
 #include <fstream>
+#include <map>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "master/importer/binaries.h"
 #include "master/importer/unpacked_fmu.h"
-#include "master/scenario/program_files.h"
 #include "master/scenario/unit_path.h"
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/error.h"
+#include "master/util/xml/document.h"
 
 namespace stride::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// What the unit says of the file that it was given, with the file as the user knows it.
+/// The unit's error about the file, with the path that the user gave.
 std::string shown(std::string text, const fs::path& file, const fs::path& shown_as) {
   const std::size_t at = text.find(file.string());
   if (at == std::string::npos) return text;
@@ -42,6 +43,49 @@ void pack_unit(const std::string& unit, const fs::path& resources, const fs::pat
   }
 }
 
+/// The files that the declaration of a program names.
+struct ProgramFiles {
+  /// Those to be packed: name in the resources -> where it is.
+  std::map<std::string, fs::path> packed;
+  bool has_outside = false;  ///< others stay where they are
+};
+
+void add_file(ProgramFiles& files, const xml::Element& element, const fs::path& folder) {
+  const auto named = element.attribute("file");
+  if (!named) return;
+  const fs::path path = (folder / *named).lexically_normal();
+  if (!fs::is_regular_file(path)) {
+    element.fail(fmt::format("file=\"{}\": there is no file {}", *named, path.string()),
+                 "name it relative to this declaration");
+  }
+  if (element.flag("outside")) {
+    files.has_outside = true;
+    return;
+  }
+  const auto [place, is_new] = files.packed.emplace(path.filename().string(), path);
+  if (is_new || place->second == path) return;
+  element.fail(
+      fmt::format("file=\"{}\": another file of this name is {}", *named, place->second.string()),
+      "all files of a program lie in one folder when they are packed: give them "
+      "different names");
+}
+
+/// Reads as much of the declaration (docs/process-protocol.md) as is needed to pack it: all
+/// attributes `file`, which are relative to it; each stands under its last name in the resources.
+/// Throws core::Error (Input) with the line for a file that is not there, and for two of one name.
+ProgramFiles program_files(const fs::path& declaration) {
+  const xml::Document document(declaration);
+  const xml::Element root = document.root();
+  if (!root.is("", "process")) {
+    root.fail(fmt::format("{} is no declaration of a program", root.tag()),
+              "its root is <process version=\"1\">: see docs/process-protocol.md");
+  }
+  const fs::path folder = fs::absolute(declaration).parent_path();
+  ProgramFiles files;
+  for (const xml::Element& child : root.children()) add_file(files, child, folder);
+  return files;
+}
+
 }  // namespace
 
 bool is_stimuli(const fs::path& path) {
@@ -63,7 +107,7 @@ bool is_program(const fs::path& path) { return path.extension() == ".xml"; }
 
 void pack_program(const fmi::PackRequest& request) {
   require_no_resources(request, "a program is", "process");
-  const io::ProgramFiles files = io::program_files(request.library);
+  const ProgramFiles files = program_files(request.library);
   const archive::TemporaryFolder resources;
   for (const auto& [name, path] : files.packed) fs::copy_file(path, resources.path() / name);
   if (files.has_outside) {

@@ -1,4 +1,4 @@
-// --film: the components that can make pictures of themselves do so.
+// --film: switches on the films of components that can make them.
 #ifndef STRIDE_MASTER_SCENARIO_FILM_H
 #define STRIDE_MASTER_SCENARIO_FILM_H
 
@@ -8,7 +8,7 @@
 
 namespace stride::cli {
 
-/// The parameter [s] by which a unit can be told to make a film (units/mujoco_world).
+/// The parameter [s] that makes a unit write a film (units/mujoco_world).
 inline constexpr const char* kFilmInterval = "film.interval";
 
 /// The interval that the system gives, or else 0.1 s.

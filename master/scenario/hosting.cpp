@@ -13,7 +13,7 @@
 namespace stride::cli {
 namespace {
 
-/// Rules that come after those of the scenario.
+/// Rules behind those of the scenario.
 void add_rules(const HostRequest& request, std::vector<io::HostRule>& rules) {
   for (const std::string& glob : request.isolated) {
     const core::Location where{glob == "*" ? "--isolate" : "--isolate=" + glob, 0};
@@ -48,13 +48,13 @@ host::HostOptions host_options(const core::UnitDescription& unit,
 }  // namespace
 
 std::vector<io::HostSettings> host_settings(std::span<const std::string> components,
-                                            io::HostChoice choice, const HostRequest& request) {
-  add_rules(request, choice.rules);
-  return choice.settings(components);
+                                            io::HostRules rules, const HostRequest& request) {
+  add_rules(request, rules.rules);
+  return rules.settings(components);
 }
 
 std::vector<std::optional<Hosting>> choose_hostings(
-    std::span<const core::ComponentDeclaration> components, core::StepPolicy policy,
+    std::span<const core::ComponentDeclaration> components, const core::StepPolicyType& policy,
     std::span<const io::HostSettings> settings) {
   std::vector<core::ComponentDeclaration> declared(components.begin(), components.end());
   std::vector<std::optional<Hosting>> hostings(declared.size());
@@ -66,7 +66,7 @@ std::vector<std::optional<Hosting>> choose_hostings(
     declared[i].has_snapshots = hostings[i]->options.takes_snapshots;
   }
   for (const std::size_t i : core::missing_snapshots(declared, policy, may_have)) {
-    const char* reason = policy == core::StepPolicy::ErrorControlled
+    const char* reason = policy.controls_error
                              ? "steps that were too long are undone, and it cannot save its state"
                              : "it may return early, as others may, and cannot save its state";
     spdlog::info("unit '{}' has a process of its own, whose snapshots roll it back: {}",

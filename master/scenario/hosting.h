@@ -1,4 +1,4 @@
-// Which components of a scenario have processes of their own, why, and on what terms.
+// Which components of a scenario have processes of their own, why, and with which options.
 #ifndef STRIDE_MASTER_SCENARIO_HOSTING_H
 #define STRIDE_MASTER_SCENARIO_HOSTING_H
 
@@ -10,7 +10,7 @@
 #include "master/algorithm/run_options.h"
 #include "master/isolation/hosted_unit.h"
 #include "master/model/system.h"
-#include "master/scenario/host_choice.h"
+#include "master/scenario/run_settings.h"
 
 namespace stride::cli {
 
@@ -27,18 +27,18 @@ struct Hosting {
   host::HostOptions options;
 };
 
-/// What a scenario and a command line, which goes before it, say of each component. Throws
-/// core::Error (Input) for a pattern that matches none, and for a number that is none.
+/// The settings of each component, from the scenario and the command line, which has precedence.
+/// Throws core::Error (Input) for a pattern that matches none, and for a number that is none.
 std::vector<io::HostSettings> host_settings(std::span<const std::string> components,
-                                            io::HostChoice choice, const HostRequest& request);
+                                            io::HostRules rules, const HostRequest& request);
 
 /// The processes that the settings ask for and, where they leave it open, those whose snapshots a
-/// run with this policy cannot do without; the log tells of these.
+/// run with this policy needs; the latter are logged.
 std::vector<std::optional<Hosting>> choose_hostings(
-    std::span<const core::ComponentDeclaration> components, core::StepPolicy policy,
+    std::span<const core::ComponentDeclaration> components, const core::StepPolicyType& policy,
     std::span<const io::HostSettings> settings);
 
-/// Throws core::Error (Input) where there is a time limit and nothing that it could end.
+/// Throws core::Error (Input) if there is a time limit but no process to which it applies.
 void check_unit_timeout(const HostRequest& request,
                         std::span<const std::optional<Hosting>> hostings);
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "master/algorithm/stepping/step_size.h"
+#include "master/algorithm/step_policies/step_policy.h"
 #include "master/checks/checks.h"
 #include "master/scenario/check_selection.h"
 #include "master/scenario/component_selection.h"
@@ -31,7 +31,7 @@ Duration parse_option(const std::string& option, const std::string& text,
   }
 }
 
-/// The values of --set, which go before all others.
+/// The values of --set, which have precedence.
 std::vector<io::ParameterValue> set_values(const std::vector<std::string>& sets) {
   std::vector<io::ParameterValue> values;
   for (const std::string& text : sets) {
@@ -45,7 +45,7 @@ std::vector<io::ParameterValue> set_values(const std::vector<std::string>& sets)
   return values;
 }
 
-/// A step that is discarded is tried again, so it is no failure yet.
+/// A discarded step is retried, so it is no failure.
 spdlog::level::level_enum level(fmi::Status status) {
   switch (status) {
     case fmi::Status::Ok:
@@ -172,7 +172,7 @@ void LoadedScenario::choose_times(const ScenarioRequest& request) {
   }
 }
 
-void LoadedScenario::choose_steps(const io::StepChoice& request) {
+void LoadedScenario::choose_steps(const io::StepSettings& request) {
   std::optional<Duration> unit_step;
   for (const auto& fmu : fmus_) {
     const core::UnitDescription& unit = *fmu->description();
@@ -184,18 +184,17 @@ void LoadedScenario::choose_steps(const io::StepChoice& request) {
   request.apply(options_);
   if (options_.step.maximum && *options_.step.maximum < options_.step.minimum) {
     core::fail_input({}, fmt::format("the maximum step of {} s is below the minimum of {} s",
-                                     core::to_text(Time(*options_.step.maximum)),
-                                     core::to_text(Time(options_.step.minimum))));
+                                     core::to_text(*options_.step.maximum),
+                                     core::to_text(options_.step.minimum)));
   }
   const core::StepOptions& step = options_.step;
-  if (step.policy == core::StepPolicy::ErrorControlled && step.relative_tolerance == 0 &&
-      step.absolute_tolerance == 0) {
+  if (step.policy->controls_error && step.relative_tolerance == 0 && step.absolute_tolerance == 0) {
     core::fail_input({}, "both tolerances are 0, so no step is good enough",
                      "give a relative or an absolute tolerance above 0");
   }
 }
 
-/// Their intervals are those of the scenario, whatever --stop says.
+/// Their intervals are those of the scenario, also with --stop.
 void LoadedScenario::choose_checks(const ScenarioRequest& request) {
   if (request.no_checks) return;
   const std::optional<Time> stop = request.stop.empty() ? options_.stop : scenario_.stop;
@@ -203,11 +202,11 @@ void LoadedScenario::choose_checks(const ScenarioRequest& request) {
   options_.watched = checks::Checks(checks_).signals();
 }
 
-/// A component that is given snapshots can do more, and so its system is another one.
+/// Snapshots add a capability to a component, so the system is built again.
 void LoadedScenario::choose_hosts(const HostRequest& request) {
   auto& components = scenario_.system.components;
   hostings_ =
-      choose_hostings(components, options_.step.policy,
+      choose_hostings(components, *options_.step.policy,
                       host_settings(component_names(), scenario_.annotation.hosts, request));
   check_unit_timeout(request, hostings_);
   bool is_changed = false;
@@ -219,8 +218,8 @@ void LoadedScenario::choose_hosts(const HostRequest& request) {
 }
 
 void LoadedScenario::check_steps() const {
-  core::StepSize(*system_, options_);  // throws where a unit cannot do what the policy needs
-  if (options_.step.policy != core::StepPolicy::Fixed) return;
+  core::check_step_policy(*system_, options_);
+  if (!options_.step.policy->has_grid) return;
   check_fixed_steps();
   warn_of_internal_steps();
 }
@@ -233,13 +232,13 @@ void LoadedScenario::choose_idle_skips(const ScenarioRequest& request) {
     }
     return;
   }
-  io::IdleChoice choice = scenario_.annotation.idle;
+  io::IdleSettings settings = scenario_.annotation.idle;
   if (!request.max_skip.empty()) {
     const Duration skip(parse_option("--max-skip", request.max_skip, &io::parse_max_skip));
-    for (io::IdleRule& rule : choice.rules) rule.max_skip = skip;
-    choice.rules.insert(choice.rules.begin(), {{"*"}, true, skip, {"--max-skip", 0}});
+    for (io::IdleRule& rule : settings.rules) rule.max_skip = skip;
+    settings.rules.insert(settings.rules.begin(), {{"*"}, true, skip, {"--max-skip", 0}});
   }
-  options_.idle = choice.options(*system_, options_.step);
+  options_.idle = settings.options(*system_, options_.step);
 }
 
 void LoadedScenario::choose_signals(const ScenarioRequest& request) {
@@ -264,7 +263,7 @@ void LoadedScenario::check_fixed_steps() const {
     core::fail_input({component.where, component.name, {}, {}},
                      fmt::format("the unit takes steps of one size only, and the run is no whole "
                                  "number of steps of {} s",
-                                 core::to_text(Time(options_.step.size))),
+                                 core::to_text(options_.step.size)),
                      fmt::format("stop at {} s", core::to_text(options_.stop - rest)));
   }
 }
@@ -278,8 +277,8 @@ void LoadedScenario::warn_of_internal_steps() const {
     spdlog::warn(
         "unit '{}': its internal step of {} s is no part of the communication step of {} s, so it "
         "is not always where the others are",
-        scenario_.system.components[i].name, core::to_text(Time(*internal)),
-        core::to_text(Time(options_.step.size)));
+        scenario_.system.components[i].name, core::to_text(*internal),
+        core::to_text(options_.step.size));
   }
 }
 
@@ -299,7 +298,7 @@ std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate(
     const std::filesystem::path& results) const {
   const auto& components = system_->components();
   std::vector<std::unique_ptr<core::Unit>> units(components.size());
-  // processes first: they begin as copies of this one, which has no unit's library yet
+  // processes first: they are forked from this one, which has loaded no unit's library yet
   for (std::size_t i = 0; i < units.size(); ++i) {
     if (!hostings_[i]) continue;
     host::HostOptions host = hostings_[i]->options;

@@ -1,4 +1,4 @@
-// A scenario with its units: what `run` and `check` have in common.
+// A scenario with its units, ready to run.
 #ifndef STRIDE_MASTER_SCENARIO_LOADED_SCENARIO_H
 #define STRIDE_MASTER_SCENARIO_LOADED_SCENARIO_H
 
@@ -14,19 +14,19 @@
 #include "master/importer/fmu.h"
 #include "master/model/system.h"
 #include "master/scenario/hosting.h"
-#include "master/scenario/plot_selection.h"
 #include "master/scenario/scenario.h"
+#include "master/scenario/signal_selection.h"
 
 namespace stride::cli {
 
-/// What the command line says about a scenario.
+/// The settings of the command line for a scenario.
 struct ScenarioRequest {
   std::filesystem::path scenario;
   std::vector<std::string> swaps;    ///< "component=FILE"
   std::vector<std::string> sets;     ///< "component.variable=value"
   std::vector<std::string> signals;  ///< globs that replace the scenario's
   std::string stop;                  ///< seconds; empty = the scenario's
-  io::StepChoice step;               ///< replaces what the scenario says
+  io::StepSettings step;             ///< overrides the scenario
   bool no_idle_skip = false;
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
   bool no_checks = false;
@@ -35,7 +35,7 @@ struct ScenarioRequest {
 };
 
 /// The scenario with each component's FMU, and the system built from them. Throws core::Error
-/// (Input) for whatever is wrong with what the user gave.
+/// (Input) for every mistake in the input.
 class LoadedScenario {
  public:
   explicit LoadedScenario(const ScenarioRequest& request);
@@ -44,15 +44,15 @@ class LoadedScenario {
   const core::System& system() const { return *system_; }
   /// In the order of system().components().
   const std::vector<std::shared_ptr<fmi::Fmu>>& fmus() const { return fmus_; }
-  /// Likewise; nothing for a component that has no process of its own.
+  /// Likewise; empty for a component without a process of its own.
   const std::vector<std::optional<Hosting>>& hostings() const { return hostings_; }
   const core::RunOptions& options() const { return options_; }
-  /// As the scenario has them, of what is recorded.
+  /// The plots of the scenario, of recorded signals.
   const std::vector<io::Plot>& plots() const { return plots_; }
-  /// What the scenario demands of the run; options() let them be watched.
+  /// The checks of the scenario; options() watch their signals.
   const std::vector<checks::Definition>& checks() const { return checks_; }
 
-  /// Fresh instances in the order of system().components(); what they log goes to the log. Those
+  /// Fresh instances in the order of system().components(). Their messages go to the log. Those
   /// with processes of their own may write to the folder `results`, if it is not empty.
   std::vector<std::unique_ptr<core::Unit>> instantiate(
       const std::filesystem::path& results = {}) const;
@@ -62,7 +62,7 @@ class LoadedScenario {
   void load_units();
   void choose_early_returns();
   void choose_times(const ScenarioRequest& request);
-  void choose_steps(const io::StepChoice& request);
+  void choose_steps(const io::StepSettings& request);
   void choose_checks(const ScenarioRequest& request);
   void choose_hosts(const HostRequest& request);
   void check_steps() const;
@@ -82,12 +82,12 @@ class LoadedScenario {
   std::vector<checks::Definition> checks_;
 };
 
-/// The two sides of "LEFT=RIGHT", which an option was given. Throws core::Error (Input) that says
-/// which `form` was expected.
+/// The two sides of an option's value "LEFT=RIGHT". Throws core::Error (Input) with the expected
+/// `form`.
 std::pair<std::string, std::string> split_option(const std::string& option, const std::string& text,
                                                  const std::string& form);
 
-/// The descriptions of a scenario's units, by component; for `complete`, which wants no system yet.
+/// The FMUs of a scenario's components, in their order; for `complete`, which needs no system.
 std::vector<std::shared_ptr<fmi::Fmu>> load_fmus(const io::Scenario& scenario);
 
 }  // namespace stride::cli

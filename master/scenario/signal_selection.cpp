@@ -1,11 +1,13 @@
 #include "master/scenario/signal_selection.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
 
 #include <fmt/format.h>
 
-#include "master/scenario/signal_names.h"
+#include "master/recorders/signal_text.h"
+#include "master/util/glob.h"
 #include "master/util/suggest.h"
 
 namespace stride::io {
@@ -38,7 +40,78 @@ std::vector<core::VariableId> all_outputs(const core::System& system) {
   return outputs;
 }
 
+[[noreturn]] void fail_without_match(const core::System& system,
+                                     std::span<const core::VariableId> recorded,
+                                     const PlotPattern& plot, const SignalPattern& pattern) {
+  std::vector<std::string> names;
+  for (const core::VariableId id : recorded) names.push_back(system.full_name(id));
+  core::fail_input({.where = pattern.where},
+                   fmt::format("the plot '{}' wants '{}', which matches no signal that is recorded",
+                               plot.title, pattern.text),
+                   core::suggestion(pattern.text, names));
+}
+
+/// Adds the columns of what the pattern matches; returns whether that is anything.
+bool add_matches(const core::System& system, std::span<const core::VariableId> recorded,
+                 const SignalPattern& pattern, std::set<core::VariableId>& taken, Plot& plot) {
+  bool has_match = false;
+  for (const core::VariableId id : recorded) {
+    if (!is_meant(system, id, pattern.text)) continue;
+    has_match = true;
+    if (!taken.insert(id).second) continue;
+    for (std::size_t i = 0; i < system.variable(id).size; ++i) {
+      plot.signals.push_back(column_name(system, id, i));
+    }
+  }
+  return has_match;
+}
+
+/// Calls miss(plot, pattern) for a pattern that matches nothing.
+template <class Miss>
+std::vector<Plot> matching_plots(const core::System& system,
+                                 std::span<const core::VariableId> recorded,
+                                 std::span<const PlotPattern> patterns, Miss&& miss) {
+  std::vector<Plot> plots;
+  for (const PlotPattern& wanted : patterns) {
+    Plot& plot = plots.emplace_back(Plot{wanted.title, {}});
+    std::set<core::VariableId> taken;
+    for (const SignalPattern& pattern : wanted.signals) {
+      if (!add_matches(system, recorded, pattern, taken, plot)) miss(wanted, pattern);
+    }
+  }
+  return plots;
+}
+
 }  // namespace
+
+std::vector<NamedVariable> named_variables(const core::System& system) {
+  std::vector<NamedVariable> found;
+  for (std::size_t c = 0; c < system.components().size(); ++c) {
+    const auto& variables = system.components()[c].description->variables;
+    for (std::size_t v = 0; v < variables.size(); ++v) {
+      if (variables[v].causality == core::Causality::Independent) continue;  // the first column
+      const bool is_message =
+          variables[v].type == core::ValueType::Clock || system.is_message({c, v});
+      found.push_back({{c, v}, system.full_name({c, v}), is_message});
+    }
+  }
+  for (std::size_t i = 0; i < system.outputs().size(); ++i) {
+    const core::VariableId id = system.output_id(i);
+    found.push_back({id, system.full_name(id), false});
+  }
+  return found;
+}
+
+bool is_meant(const core::System& system, core::VariableId id, const std::string& pattern) {
+  const auto is_matched = [&](const std::string& name) {
+    return name == pattern || matches_glob(pattern, name);
+  };
+  if (is_matched(system.full_name(id))) return true;
+  const std::vector<std::string>& aliases = system.variable(id).aliases;
+  return std::any_of(aliases.begin(), aliases.end(), [&](const std::string& alias) {
+    return is_matched(system.prefix(id) + alias);
+  });
+}
 
 std::vector<core::VariableId> select_signals(const core::System& system,
                                              std::span<const SignalPattern> patterns) {
@@ -61,6 +134,24 @@ std::vector<core::VariableId> select_signals(const core::System& system,
     if (!has_match) fail_without_match(pattern, message, all);
   }
   return selected;
+}
+
+std::vector<Plot> select_plots(const core::System& system,
+                               std::span<const core::VariableId> recorded,
+                               std::span<const PlotPattern> patterns) {
+  return matching_plots(system, recorded, patterns,
+                        [&](const PlotPattern& plot, const SignalPattern& pattern) {
+                          fail_without_match(system, recorded, plot, pattern);
+                        });
+}
+
+std::vector<Plot> remaining_plots(const core::System& system,
+                                  std::span<const core::VariableId> recorded,
+                                  std::span<const PlotPattern> patterns) {
+  std::vector<Plot> plots =
+      matching_plots(system, recorded, patterns, [](const PlotPattern&, const SignalPattern&) {});
+  std::erase_if(plots, [](const Plot& plot) { return plot.signals.empty(); });
+  return plots;
 }
 
 }  // namespace stride::io

@@ -1,15 +1,30 @@
-// Which variables of a system are recorded.
+// Which variables of a system are recorded, and which of these are drawn together.
 #ifndef STRIDE_MASTER_SCENARIO_SIGNAL_SELECTION_H
 #define STRIDE_MASTER_SCENARIO_SIGNAL_SELECTION_H
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "master/algorithm/observer.h"
 #include "master/model/system.h"
+#include "master/recorders/results_folder.h"
 #include "master/scenario/annotation.h"
 
 namespace stride::io {
+
+struct NamedVariable {
+  core::VariableId id;
+  std::string name;  ///< "component.variable", or that of an output of the system
+  /// It has a value only when a clock ticks: a clock, or what belongs to a triggered one.
+  bool is_message = false;
+};
+
+/// All but the time, in the order of the system.
+std::vector<NamedVariable> named_variables(const core::System& system);
+
+/// Whether the pattern, a name or a glob, stands for the variable, by its name or an alias of it.
+bool is_meant(const core::System& system, core::VariableId id, const std::string& pattern);
 
 /// The variables whose "component.variable" matches a pattern: in the order of the patterns, for
 /// each pattern in that of the system, each variable once. Without patterns all outputs.
@@ -18,6 +33,19 @@ namespace stride::io {
 /// them. Throws core::Error (Input) for a pattern that matches nothing else, naming what is near.
 std::vector<core::VariableId> select_signals(const core::System& system,
                                              std::span<const SignalPattern> patterns);
+
+/// What the patterns match of the recorded variables: in the order of a plot's patterns, for each
+/// pattern in that of the record, each variable once in a plot. Throws core::Error (Input) for a
+/// pattern that matches nothing recorded, naming what is near.
+std::vector<Plot> select_plots(const core::System& system,
+                               std::span<const core::VariableId> recorded,
+                               std::span<const PlotPattern> patterns);
+
+/// Likewise where the user has chosen other signals than the scenario's: what is not recorded is
+/// not drawn, and a plot of which nothing is left is left out.
+std::vector<Plot> remaining_plots(const core::System& system,
+                                  std::span<const core::VariableId> recorded,
+                                  std::span<const PlotPattern> patterns);
 
 }  // namespace stride::io
 

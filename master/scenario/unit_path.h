@@ -9,15 +9,15 @@
 
 namespace stride::cli {
 
-/// Where units are looked for that are not where they are named: the folders in the environment
-/// variable STRIDE_UNITS (separated by colons), and those beside the program, ../units of a build
-/// and ../lib/stride/units of an installation.
+/// The folders that are searched for units: those in the environment variable STRIDE_UNITS
+/// (separated by colons), and those beside the program, ../units of a build and
+/// ../lib/stride/units of an installation.
 std::vector<std::filesystem::path> unit_folders();
 
 /// The path itself if it exists, else the file of that name in the first unit folder that has it.
-/// Throws core::Error (Input) that lists where it was looked for.
+/// Throws core::Error (Input) that lists the searched folders.
 std::filesystem::path find_unit(const std::filesystem::path& path, const core::Location& where);
-/// Likewise; complaints call the path `shown_as`.
+/// Likewise; errors name the path `shown_as`.
 std::filesystem::path find_shown_unit(const std::filesystem::path& path,
                                       const std::string& shown_as, const core::Location& where);
 

@@ -18,7 +18,7 @@ namespace {
 
 using core::ValueType;
 
-bool is_same(const core::BaseUnit& a, const core::BaseUnit& b) {
+bool is_same(const core::BaseUnitOfMeasure& a, const core::BaseUnitOfMeasure& b) {
   return a.exponents == b.exponents && a.factor == b.factor && a.offset == b.offset;
 }
 
@@ -168,11 +168,11 @@ class Completion {
     return is_same(known->second, meaning->second) ? unit : "";
   }
 
-  std::string unit_definition(const std::string& unit, const core::BaseUnit& base) {
+  std::string unit_definition(const std::string& unit, const core::BaseUnitOfMeasure& base) {
     std::string attributes;
-    for (std::size_t i = 0; i < kBaseUnits.size(); ++i) {
+    for (std::size_t i = 0; i < core::kBaseUnits.size(); ++i) {
       if (base.exponents[i] == 0) continue;
-      attributes += fmt::format(" {}=\"{}\"", kBaseUnits[i], base.exponents[i]);
+      attributes += fmt::format(" {}=\"{}\"", core::kBaseUnits[i], base.exponents[i]);
     }
     if (base.factor != 1) attributes += fmt::format(" factor=\"{}\"", base.factor);
     if (base.offset != 0) attributes += fmt::format(" offset=\"{}\"", base.offset);
@@ -221,7 +221,7 @@ class Completion {
   std::string ssc_;
   bool needs_common_prefix_ = false;
   xml::Editor editor_;
-  std::map<std::string, core::BaseUnit> units_;
+  std::map<std::string, core::BaseUnitOfMeasure> units_;
   std::set<std::string> enumerations_;
   std::vector<std::string> new_units_;
   std::vector<std::string> new_enumerations_;

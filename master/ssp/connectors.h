@@ -12,7 +12,7 @@
 
 namespace stride::io {
 
-/// A file of SSP, as far as those who read its parts need to know it.
+/// A file of SSP, as far as the readers of its parts need it.
 struct SspFile {
   std::string version;      ///< "1.0" or "2.0"
   Definitions definitions;  ///< of units and enumerations

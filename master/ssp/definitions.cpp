@@ -9,13 +9,8 @@
 namespace stride::io {
 namespace {
 
-core::BaseUnit read_base_unit(const xml::Element& element) {
-  core::BaseUnit unit;
-  for (std::size_t i = 0; i < kBaseUnits.size(); ++i) {
-    unit.exponents[i] = element.number<int>(kBaseUnits[i]).value_or(0);
-  }
-  unit.factor = element.number<double>("factor").value_or(1);
-  unit.offset = element.number<double>("offset").value_or(0);
+core::BaseUnitOfMeasure read_meaning(const xml::Element& element) {
+  const core::BaseUnitOfMeasure unit = core::read_base_unit(element);
   if (unit.factor == 0) element.fail("a unit with the factor 0 measures nothing");
   return unit;
 }
@@ -30,12 +25,12 @@ core::EnumerationItems read_items(const xml::Element& enumeration) {
 
 }  // namespace
 
-core::MeasureUnit Definitions::unit(const std::string& name) const {
+core::UnitOfMeasure Definitions::unit(const std::string& name) const {
   const auto found = units.find(name);
   return {name, found == units.end() ? std::nullopt : std::optional(found->second)};
 }
 
-core::MeasureUnit Definitions::unit(const std::string& name, const Definitions& otherwise) const {
+core::UnitOfMeasure Definitions::unit(const std::string& name, const Definitions& otherwise) const {
   return units.contains(name) ? unit(name) : otherwise.unit(name);
 }
 
@@ -44,7 +39,7 @@ Definitions read_definitions(const xml::Element& root, const char* name_space) {
   if (const auto units = root.child({name_space, "Units"})) {
     for (const xml::Element& unit : units->children({kSsc, "Unit"})) {
       const auto base = unit.child({kSsc, "BaseUnit"});
-      if (base) definitions.units.emplace(unit.required("name"), read_base_unit(*base));
+      if (base) definitions.units.emplace(unit.required("name"), read_meaning(*base));
     }
   }
   if (const auto enumerations = root.child({name_space, "Enumerations"})) {

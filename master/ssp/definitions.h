@@ -2,7 +2,6 @@
 #ifndef STRIDE_MASTER_SSP_DEFINITIONS_H
 #define STRIDE_MASTER_SSP_DEFINITIONS_H
 
-#include <array>
 #include <map>
 #include <string>
 
@@ -11,18 +10,14 @@
 
 namespace stride::io {
 
-/// The attributes of a <BaseUnit>, in the order of core::BaseUnit::exponents.
-inline constexpr std::array<const char*, 8> kBaseUnits{"kg", "m",   "s",  "A",
-                                                       "K",  "mol", "cd", "rad"};
-
 struct Definitions {
-  std::map<std::string, core::BaseUnit> units;
+  std::map<std::string, core::BaseUnitOfMeasure> units;
   std::map<std::string, core::EnumerationItems> enumerations;
 
   /// The unit of this name, with its meaning if it is defined.
-  core::MeasureUnit unit(const std::string& name) const;
+  core::UnitOfMeasure unit(const std::string& name) const;
   /// Likewise, where `otherwise` may define it, too.
-  core::MeasureUnit unit(const std::string& name, const Definitions& otherwise) const;
+  core::UnitOfMeasure unit(const std::string& name, const Definitions& otherwise) const;
 };
 
 /// Reads <Units> and <Enumerations> below a root element of this namespace. Throws core::Error

@@ -64,7 +64,7 @@ fs::path Files::system_file(const fs::path& path, const core::Location& where) {
     if (!fs::is_regular_file(package, error) || !begins_as_archive(package)) continue;
     return system_file(package, path.lexically_relative(package).string(), where);
   }
-  return path;  // whoever reads it says that it is not there
+  return path;  // reading it fails if it is not there
 }
 
 fs::path Files::system_file(const fs::path& package, const std::string& name,

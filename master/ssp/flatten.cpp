@@ -19,7 +19,7 @@ class Flattener {
       : root_(root),
         graph_(root),
         ports_(graph_.ports()),
-        wires_(graph_.wires()),
+        connections_(graph_.connections()),
         warnings_(warnings) {}
 
   FlatSystem run() {
@@ -49,21 +49,21 @@ class Flattener {
     flat_.sources.push_back(component.node->source);
   }
 
-  ViaDeclaration via(std::size_t wire) const {
-    return {ports_[wires_[wire].to].waypoint, wires_[wire].passage};
+  ViaDeclaration via(std::size_t connection) const {
+    return {ports_[connections_[connection].to].path_connector, connections_[connection].segment};
   }
 
   void add_connection(const PortGraph::Way& way) {
-    const Wire& last = wires_[way.back()];
-    const Port& from = ports_[wires_[way.front()].from];
+    const PortConnection& last = connections_[way.back()];
+    const Port& from = ports_[connections_[way.front()].from];
     const Port& to = ports_[last.to];
     core::ConnectionDeclaration connection;
     connection.from_component = flat_.declaration.components[from.component].name;
     connection.from_connector = from.connector;
     connection.to_component = flat_.declaration.components[to.component].name;
     connection.to_connector = to.connector;
-    connection.suppress_unit_conversion = last.passage.suppress_unit_conversion;
-    connection.transformation = last.passage.transformation;
+    connection.suppress_unit_conversion = last.segment.suppress_unit_conversion;
+    connection.transformation = last.segment.transformation;
     connection.where = last.where;
     for (std::size_t i = 0; i + 1 < way.size(); ++i) connection.via.push_back(via(way[i]));
     flat_.declaration.connections.push_back(std::move(connection));
@@ -75,13 +75,13 @@ class Flattener {
       if (connector.flow != Flow::Out) continue;
       const PortGraph::Way way =
           graph_.way_to(graph_.connectors(root_).at(connector.declared.name));
-      if (way.empty() || !ports_[wires_[way.front()].from].is_component()) continue;
-      const Port& from = ports_[wires_[way.front()].from];
+      if (way.empty() || !ports_[connections_[way.front()].from].is_component()) continue;
+      const Port& from = ports_[connections_[way.front()].from];
       core::OutputDeclaration output;
       output.component = flat_.declaration.components[from.component].name;
       output.variable = from.connector;
       output.where = connector.declared.where;
-      for (const std::size_t wire : way) output.via.push_back(via(wire));
+      for (const std::size_t connection : way) output.via.push_back(via(connection));
       flat_.declaration.outputs.push_back(std::move(output));
     }
   }
@@ -144,8 +144,8 @@ class Flattener {
     start.value = value.value;
     start.unit = value.unit;
     start.where = value.where;
-    start.suppress_unit_conversion = value.passage.suppress_unit_conversion;
-    start.transformation = value.passage.transformation;
+    start.suppress_unit_conversion = value.segment.suppress_unit_conversion;
+    start.transformation = value.segment.transformation;
     start.is_optional = !value.is_required;
     return start;
   }
@@ -160,38 +160,39 @@ class Flattener {
     if (ports_[port].flow == Flow::Out) return apply_backward(value, port);
     const std::size_t before = flat_.declaration.start_values.size();
     graph_.follow(port, [&](const PortGraph::Way& found) {
-      const Wire& last = wires_[found.back()];
+      const PortConnection& last = connections_[found.back()];
       const Port& to = ports_[last.to];
       core::StartDeclaration start = this->start(value, to.component, to.connector);
-      start.via.push_back({ports_[port].waypoint, value.passage});
+      start.via.push_back({ports_[port].path_connector, value.segment});
       for (std::size_t i = 0; i + 1 < found.size(); ++i) start.via.push_back(via(found[i]));
-      start.suppress_unit_conversion = last.passage.suppress_unit_conversion;
-      start.transformation = last.passage.transformation;
+      start.suppress_unit_conversion = last.segment.suppress_unit_conversion;
+      start.transformation = last.segment.transformation;
       flat_.declaration.start_values.push_back(std::move(start));
     });
     if (flat_.declaration.start_values.size() == before) warn_of_open(value, port);
   }
 
   void apply_backward(const ParameterValue& value, std::size_t port) {
-    std::vector<ViaDeclaration> via{{ports_[port].waypoint, value.passage}};
+    std::vector<ViaDeclaration> via{{ports_[port].path_connector, value.segment}};
     const PortGraph::Way way = graph_.way_to(port);
-    for (auto wire = way.rbegin(); wire != way.rend(); ++wire) {
-      const auto& [from, to, passage, where] = wires_[*wire];
-      if (passage.transformation.kind != core::Transformation::Kind::None) {
+    for (auto connection = way.rbegin(); connection != way.rend(); ++connection) {
+      const auto& [from, to, segment, where] = connections_[*connection];
+      if (segment.transformation.kind != core::Transformation::Kind::None) {
         core::fail_input({value.where, {}, {}, {}},
                          fmt::format("'{}' is an output behind a transformation (line {}), so it "
                                      "cannot be given a start value",
-                                     value.name, passage.transformation.where.line),
+                                     value.name, segment.transformation.where.line),
                          "give the value to the component's variable");
       }
       port = from;
-      via.push_back({ports_[port].waypoint, core::Passage{passage.suppress_unit_conversion, {}}});
+      via.push_back(
+          {ports_[port].path_connector, core::PathSegment{segment.suppress_unit_conversion, {}}});
     }
     if (!ports_[port].is_component()) return warn_of_open(value, port);
     core::StartDeclaration start =
         this->start(value, ports_[port].component, ports_[port].connector);
-    start.suppress_unit_conversion = via.back().passage.suppress_unit_conversion;
-    start.transformation = via.back().passage.transformation;
+    start.suppress_unit_conversion = via.back().segment.suppress_unit_conversion;
+    start.transformation = via.back().segment.transformation;
     via.pop_back();
     start.via = std::move(via);
     flat_.declaration.start_values.push_back(std::move(start));
@@ -242,7 +243,7 @@ class Flattener {
   const SystemNode& root_;
   PortGraph graph_;
   const std::vector<Port>& ports_;
-  const std::vector<Wire>& wires_;
+  const std::vector<PortConnection>& connections_;
   std::vector<std::string>& warnings_;
   FlatSystem flat_;
   std::size_t groups_ = 0;

@@ -193,7 +193,7 @@ std::vector<ParameterValue> map_values(const xml::Element& mapping,
       is_there = true;
       mapped.push_back(value);
       mapped.back().name = target;
-      mapped.back().passage = read_passage(entry);
+      mapped.back().segment = read_path_segment(entry);
     }
     if (is_there) continue;
     context.warnings.push_back(

@@ -26,7 +26,7 @@ std::string joined(const std::string& prefix, const std::string& name) {
 
 PortGraph::PortGraph(const SystemNode& root) {
   add_system(root, "", nullptr);
-  for (std::size_t i = 0; i < wires_.size(); ++i) check_wire(i);
+  for (std::size_t i = 0; i < connections_.size(); ++i) check_connection(i);
 }
 
 // ---- Ports ----
@@ -39,8 +39,8 @@ void PortGraph::add_system(const SystemNode& node, const std::string& prefix,
   for (const Connector& connector : node.connectors) {
     const core::ConnectorDeclaration& declared = connector.declared;
     Port port{joined(prefix, declared.name), connector.flow, Port::kNone, declared.name, {}};
-    port.waypoint = {port.path, declared.type, declared.unit, declared.items,
-                     connector.flow == Flow::In};
+    port.path_connector = {port.path, declared.type, declared.unit, declared.items,
+                           connector.flow == Flow::In};
     system.ports.emplace(declared.name, ports_.size());
     ports_.push_back(std::move(port));
   }
@@ -55,7 +55,7 @@ void PortGraph::add_system(const SystemNode& node, const std::string& prefix,
       add_component(element, path);
     }
   }
-  for (const SystemConnection& connection : node.connections) add_wire(node, connection);
+  for (const SystemConnection& connection : node.connections) add_connection(node, connection);
 }
 
 void PortGraph::add_component(const ElementNode& element, const std::string& path) {
@@ -166,16 +166,16 @@ std::size_t PortGraph::find_signal(const ElementNode& reference, const std::stri
   if (!is_new) return shared->second;
   const core::ConnectorDeclaration& declared = entry->second;
   Port port{joined(path, name), Flow::Unsaid, Port::kNone, name, {}};
-  port.waypoint = {port.path, declared.type, declared.unit, declared.items, false};
+  port.path_connector = {port.path, declared.type, declared.unit, declared.items, false};
   ports_.push_back(std::move(port));
   return shared->second;
 }
 
-// ---- Wires ----
+// ---- Connections ----
 
 /// In SSP, start and end do not say which way a value goes: the kinds of the connectors do. Where
 /// they are left out, the start is the source.
-void PortGraph::add_wire(const SystemNode& node, const SystemConnection& connection) {
+void PortGraph::add_connection(const SystemNode& node, const SystemConnection& connection) {
   auto [start, start_role] = find_end(node, connection.start, connection.where);
   auto [end, end_role] = find_end(node, connection.end, connection.where);
   const bool is_reversed = (start_role == Role::Sink && end_role != Role::Sink) ||
@@ -190,20 +190,20 @@ void PortGraph::add_wire(const SystemNode& node, const SystemConnection& connect
         "outputs to its outputs");
   }
   if (is_reversed) std::swap(start, end);
-  ports_[start].outgoing.push_back(wires_.size());
-  ports_[end].incoming.push_back(wires_.size());
-  wires_.push_back({start, end, connection.passage, connection.where});
+  ports_[start].outgoing.push_back(connections_.size());
+  ports_[end].incoming.push_back(connections_.size());
+  connections_.push_back({start, end, connection.segment, connection.where});
 }
 
-void PortGraph::check_wire(std::size_t wire) const {
-  const Port& port = ports_[wires_[wire].to];
-  if (port.is_component() || port.incoming.front() == wire) return;
-  const Wire& first = wires_[port.incoming.front()];
-  core::fail_input(
-      {wires_[wire].where, {}, {}, {}},
-      fmt::format("'{}' has two sources: '{}' here and '{}' in line {}", port.path,
-                  ports_[wires_[wire].from].path, ports_[first.from].path, first.where.line),
-      "remove one of the two connections");
+void PortGraph::check_connection(std::size_t connection) const {
+  const Port& port = ports_[connections_[connection].to];
+  if (port.is_component() || port.incoming.front() == connection) return;
+  const PortConnection& first = connections_[port.incoming.front()];
+  core::fail_input({connections_[connection].where, {}, {}, {}},
+                   fmt::format("'{}' has two sources: '{}' here and '{}' in line {}", port.path,
+                               ports_[connections_[connection].from].path, ports_[first.from].path,
+                               first.where.line),
+                   "remove one of the two connections");
 }
 
 // ---- Ways ----
@@ -216,14 +216,15 @@ void PortGraph::follow(std::size_t port, const std::function<void(const Way&)>& 
 void PortGraph::follow(std::size_t port, Way& way,
                        const std::function<void(const Way&)>& found) const {
   for (const std::size_t next : ports_[port].outgoing) {
-    const bool is_round = std::any_of(
-        way.begin(), way.end(), [&](std::size_t w) { return wires_[w].from == wires_[next].to; });
-    if (is_round) fail_round(wires_[next]);
+    const bool is_round = std::any_of(way.begin(), way.end(), [&](std::size_t w) {
+      return connections_[w].from == connections_[next].to;
+    });
+    if (is_round) fail_round(connections_[next]);
     way.push_back(next);
-    if (ports_[wires_[next].to].is_component()) {
+    if (ports_[connections_[next].to].is_component()) {
       found(way);
     } else {
-      follow(wires_[next].to, way, found);
+      follow(connections_[next].to, way, found);
     }
     way.pop_back();
   }
@@ -233,19 +234,19 @@ PortGraph::Way PortGraph::way_to(std::size_t port) const {
   Way way;
   std::set<std::size_t> seen;
   while (!ports_[port].is_component() && !ports_[port].incoming.empty()) {
-    const std::size_t wire = ports_[port].incoming.front();
-    if (!seen.insert(wire).second) fail_round(wires_[wire]);
-    way.insert(way.begin(), wire);
-    port = wires_[wire].from;
+    const std::size_t connection = ports_[port].incoming.front();
+    if (!seen.insert(connection).second) fail_round(connections_[connection]);
+    way.insert(way.begin(), connection);
+    port = connections_[connection].from;
   }
   return way;
 }
 
-void PortGraph::fail_round(const Wire& wire) const {
-  core::fail_input({wire.where, {}, {}, {}},
+void PortGraph::fail_round(const PortConnection& connection) const {
+  core::fail_input({connection.where, {}, {}, {}},
                    fmt::format("this connection leads from '{}' back to '{}' through connectors "
                                "of systems alone, so no component says what the value is",
-                               ports_[wire.from].path, ports_[wire.to].path),
+                               ports_[connection.from].path, ports_[connection.to].path),
                    "remove one of the connections in the circle");
 }
 

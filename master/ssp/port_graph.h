@@ -21,17 +21,17 @@ struct Port {
   Flow flow = Flow::Unsaid;
   std::size_t component = kNone;  ///< of a component's connector
   std::string connector;
-  core::Waypoint waypoint{};            ///< of another
-  std::vector<std::size_t> outgoing{};  ///< wires
-  std::vector<std::size_t> incoming{};  ///< one at most, where it is no component's connector
+  core::PathConnector path_connector{};  ///< of another
+  std::vector<std::size_t> outgoing{};   ///< connections
+  std::vector<std::size_t> incoming{};   ///< one at most, where it is no component's connector
 
   bool is_component() const { return component != kNone; }
 };
 
-/// A connection that knows its direction.
-struct Wire {
+/// A connection with its direction.
+struct PortConnection {
   std::size_t from, to;  ///< ports
-  core::Passage passage;
+  core::PathSegment segment;
   core::Location where;
 };
 
@@ -50,7 +50,7 @@ class PortGraph {
   /// In the order of the files, those of a nested system where it stands.
   const std::vector<Component>& components() const { return components_; }
   const std::vector<Port>& ports() const { return ports_; }
-  const std::vector<Wire>& wires() const { return wires_; }
+  const std::vector<PortConnection>& connections() const { return connections_; }
   /// The place of an FMU of the tree.
   std::size_t component(const ElementNode& node) const { return places_.at(&node); }
   /// The ports of a system's own connectors, by name.
@@ -58,7 +58,7 @@ class PortGraph {
     return systems_.at(&system).ports;
   }
 
-  using Way = std::vector<std::size_t>;  ///< wires, one behind the other
+  using Way = std::vector<std::size_t>;  ///< connections, one behind the other
   /// Calls `found` with the way to each component's connector behind the port.
   void follow(std::size_t port, const std::function<void(const Way&)>& found) const;
   /// The way from what feeds the port, another than a component's connector; empty if nothing does.
@@ -84,16 +84,16 @@ class PortGraph {
                         const std::string& connector, const core::Location& where);
   std::size_t find_signal(const ElementNode& reference, const std::string& path,
                           const std::string& name, const core::Location& where);
-  void add_wire(const SystemNode& node, const SystemConnection& connection);
-  void check_wire(std::size_t wire) const;
+  void add_connection(const SystemNode& node, const SystemConnection& connection);
+  void check_connection(std::size_t connection) const;
   void follow(std::size_t port, Way& way, const std::function<void(const Way&)>& found) const;
   [[noreturn]] static void fail_unknown(const System& system, const std::string& path,
                                         const std::string& connector, const core::Location& where);
-  [[noreturn]] void fail_round(const Wire& wire) const;
+  [[noreturn]] void fail_round(const PortConnection& connection) const;
 
   std::vector<Component> components_;
   std::vector<Port> ports_;
-  std::vector<Wire> wires_;
+  std::vector<PortConnection> connections_;
   std::map<std::string, core::Location> names_;  ///< of the components
   std::map<const ElementNode*, std::size_t> places_;
   std::map<const SystemNode*, System> systems_;

@@ -280,7 +280,7 @@ class SystemReader {
     }
     return {{element.attribute_or("startElement"), element.required("startConnector")},
             {element.attribute_or("endElement"), element.required("endConnector")},
-            read_passage(element),
+            read_path_segment(element),
             element.where()};
   }
 

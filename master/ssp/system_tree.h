@@ -25,10 +25,10 @@ struct Connector {
 struct ParameterValue {
   std::string name;   ///< with the binding's prefix before it, or as it is mapped
   std::string value;  ///< the elements of an array separated by blanks
-  core::MeasureUnit unit;
+  core::UnitOfMeasure unit;
   core::Location where;
-  core::Passage passage{};   ///< of its parameter mapping
-  bool is_required = false;  ///< a mistake, if there is nobody for it; SSP's are passed over then
+  core::PathSegment segment{};  ///< of its parameter mapping
+  bool is_required = false;     ///< a mistake, if it has no target; SSP's are passed over then
 };
 
 /// The signals that all references to a signal dictionary share, by name.
@@ -42,7 +42,7 @@ struct ConnectionEnd {
 };
 struct SystemConnection {
   ConnectionEnd start, end;  ///< which does not say which way the value goes
-  core::Passage passage;
+  core::PathSegment segment;
   core::Location where;
 };
 

@@ -69,10 +69,10 @@ void read_mapping(const xml::Element& element, Transformation& transformation) {
 
 }  // namespace
 
-core::Passage read_passage(const xml::Element& owner) {
-  core::Passage passage;
-  passage.suppress_unit_conversion = owner.flag("suppressUnitConversion");
-  Transformation& transformation = passage.transformation;
+core::PathSegment read_path_segment(const xml::Element& owner) {
+  core::PathSegment segment;
+  segment.suppress_unit_conversion = owner.flag("suppressUnitConversion");
+  Transformation& transformation = segment.transformation;
   for (const TransformationKind kind :
        {TransformationKind::Linear, TransformationKind::BooleanMapping,
         TransformationKind::IntegerMapping, TransformationKind::EnumerationMapping}) {
@@ -91,7 +91,7 @@ core::Passage read_passage(const xml::Element& owner) {
       read_mapping(*element, transformation);
     }
   }
-  return passage;
+  return segment;
 }
 
 }  // namespace stride::io

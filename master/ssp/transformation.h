@@ -10,7 +10,7 @@ namespace stride::io {
 /// Reads the attribute suppressUnitConversion and the transformation of an <ssd:Connection> or an
 /// <ssm:MappingEntry>, whose other attributes and children are the caller's. Throws core::Error
 /// (Input).
-core::Passage read_passage(const xml::Element& owner);
+core::PathSegment read_path_segment(const xml::Element& owner);
 
 }  // namespace stride::io
 

@@ -1,10 +1,11 @@
 #include "master/ssp/uri.h"
 
 #include <cctype>
-#include <charconv>
 #include <string_view>
 
 #include <fmt/format.h>
+
+#include "master/util/hex.h"
 
 namespace stride::io {
 namespace {
@@ -27,16 +28,14 @@ std::string percent_decoded(std::string_view text, const xml::Element& element) 
       decoded += text[i];
       continue;
     }
-    unsigned char byte = 0;
-    const char* const first = text.data() + i + 1;
-    const bool is_complete = i + 2 < text.size();
-    if (!is_complete || std::from_chars(first, first + 2, byte, 16).ptr != first + 2 || byte == 0) {
+    const auto byte = core::hex_byte(text.substr(i + 1));
+    if (!byte || *byte == 0) {
       element.fail(fmt::format("source=\"{}\" has a '%' that is not followed by two hexadecimal "
                                "digits",
                                text),
                    "write %25 for a percent sign");
     }
-    decoded += static_cast<char>(byte);
+    decoded += static_cast<char>(*byte);
     i += 2;
   }
   return decoded;

@@ -7,6 +7,7 @@
 
 #include "master/trace/instants.h"
 #include "master/trace/writer.h"
+#include "master/util/time_text.h"
 
 namespace stride::trace {
 namespace {
@@ -76,7 +77,7 @@ std::int64_t min_gap_ticks(const Reader& reader, std::optional<Duration> min_gap
   if (ticks == 0 && min_gap) {
     reader.fail(0,
                 fmt::format("a gap of {} s is shorter than {}, the time scale of this trace",
-                            core::to_text(Time(*min_gap)), timescale.text()),
+                            core::to_text(*min_gap), timescale.text()),
                 fmt::format("the shortest is --min-gap {}", timescale.seconds(1)));
   }
   return std::max(ticks, std::int64_t{1});

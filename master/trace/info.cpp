@@ -30,13 +30,15 @@ std::size_t variables(const Header& header) {
 }
 
 /// Where an instant is, in both times.
-struct Place {
+struct InstantTimes {
   std::int64_t kernel = 0;
   std::int64_t time = 0;
   std::int64_t skipped = 0;
 
-  static Place of(const Instant& instant) { return {instant.stamp, instant.time, instant.skipped}; }
-  Gap to(const Place& later) const { return {time, later.time, later.skipped - skipped}; }
+  static InstantTimes of(const Instant& instant) {
+    return {instant.stamp, instant.time, instant.skipped};
+  }
+  Gap to(const InstantTimes& later) const { return {time, later.time, later.skipped - skipped}; }
 };
 
 /// Goes through the instants.
@@ -45,18 +47,18 @@ class Survey {
   explicit Survey(Info& info) : info_(info) {}
 
   void add(const Instant& instant) {
-    const Place place = Place::of(instant);
-    if (place.skipped > last_.skipped) ++info_.skips;
-    last_ = place;
+    const InstantTimes times = InstantTimes::of(instant);
+    if (times.skipped > last_.skipped) ++info_.skips;
+    last_ = times;
     // a comment before the first stamp is at no instant
     if (!instant.has_stamp && instant.changes == 0) return;
-    if (!std::exchange(has_begun_, true)) first_ = place;
-    info_.kernel_time = place.kernel - first_.kernel;
-    info_.true_time = place.time - first_.time;
+    if (!std::exchange(has_begun_, true)) first_ = times;
+    info_.kernel_time = times.kernel - first_.kernel;
+    info_.true_time = times.time - first_.time;
     if (instant.is_empty) return;
     info_.changes += instant.changes;
-    if (info_.instants++ > 0) add_gap(info_, active_.to(place));
-    active_ = place;
+    if (info_.instants++ > 0) add_gap(info_, active_.to(times));
+    active_ = times;
   }
 
   /// The end of the trace ends a gap, too.
@@ -67,9 +69,9 @@ class Survey {
  private:
   Info& info_;
   bool has_begun_ = false;
-  Place first_;
-  Place active_;  ///< the last one at which something was recorded
-  Place last_;
+  InstantTimes first_;
+  InstantTimes active_;  ///< the last one at which something was recorded
+  InstantTimes last_;
 };
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace stride::trace {
 
 /// Writes a value change dump. An instant at which nothing happened is left out, but for the last
-/// one, which tells how long the trace is. Nothing is left of a file that is not finished.
+/// one, which gives the length of the trace. Nothing is left of a file that is not finished.
 class Writer {
  public:
   /// Throws core::Error (Input) if the file cannot be written, or is the one that is read.

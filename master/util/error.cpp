@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
+
 namespace stride::core {
 Error::Error(Kind kind, Context context, const std::string& message, const std::string& hint)
     : std::runtime_error(to_text(context) + message + (hint.empty() ? "" : "\n  hint: " + hint)),
@@ -44,18 +46,6 @@ std::string quoted(std::span<const std::string> names) {
     if (!text.empty()) text += ", ";
     text += "'" + name + "'";
   }
-  return text;
-}
-
-std::string to_text(Time time) {
-  const std::int64_t ticks = time.time_since_epoch().count();
-  const std::uint64_t magnitude =
-      ticks < 0 ? 0 - static_cast<std::uint64_t>(ticks) : static_cast<std::uint64_t>(ticks);
-  constexpr std::uint64_t kPerSecond = 1'000'000'000'000;
-  std::string text = fmt::format("{}{}.{:012}", ticks < 0 ? "-" : "", magnitude / kPerSecond,
-                                 magnitude % kPerSecond);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
   return text;
 }
 

@@ -49,7 +49,7 @@ class Error : public std::runtime_error {
 };
 
 /// A unit cannot be called, because another one has failed before. Where units step at the same
-/// time the other's failure is the one to tell.
+/// time the other's failure is the one to report.
 class ConsequentError : public Error {
  public:
   using Error::Error;
@@ -66,9 +66,6 @@ std::string to_text(const Context& context);
 
 /// "'a', 'b'"
 std::string quoted(std::span<const std::string> names);
-
-/// The exact decimal text of a time in seconds, without trailing zeros: "14.2".
-std::string to_text(Time time);
 
 }  // namespace stride::core
 

@@ -9,6 +9,8 @@
 #include <unistd.h>
 
 #include "master/util/error.h"
+#include "master/util/hex.h"
+#include "master/util/time_text.h"
 
 namespace stride::io {
 namespace {
@@ -42,7 +44,7 @@ OutputFile::OutputFile(std::filesystem::path path, Hints hints)
 OutputFile::~OutputFile() {
   try {
     close();
-  } catch (const core::Error&) {  // a destructor cannot tell
+  } catch (const core::Error&) {  // a destructor cannot report it
   }
 }
 
@@ -70,11 +72,7 @@ void OutputFile::write_seconds(Time time) {
 }
 
 void OutputFile::write_hex(std::span<const std::uint8_t> bytes) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  for (const std::uint8_t byte : bytes) {
-    write(kDigits[byte >> 4]);
-    write(kDigits[byte & 15]);
-  }
+  core::write_hex(bytes, [&](char digit) { write(digit); });
 }
 
 void OutputFile::flush() {

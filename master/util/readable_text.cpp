@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "master/util/utf8.h"
+#include <utf8.h>
 
 namespace stride::core {
 namespace {
@@ -18,6 +18,20 @@ bool is_control(std::string_view character) {
 }
 
 }  // namespace
+
+std::string_view take_character(std::string_view& text) {
+  constexpr std::size_t kLongest = 4;
+  const std::string_view head = text.substr(0, kLongest);
+  if (utf8::find_invalid(head.begin(), head.end()) == head.begin()) {
+    text.remove_prefix(1);
+    return kReplacement;
+  }
+  const auto* end = text.begin();
+  utf8::unchecked::next(end);
+  const std::string_view character(text.begin(), end);
+  text.remove_prefix(character.size());
+  return character;
+}
 
 std::string readable_text(std::string_view text, std::size_t most) {
   std::string readable;

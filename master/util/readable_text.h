@@ -1,3 +1,4 @@
+// Texts from elsewhere, which may be no UTF-8.
 #ifndef STRIDE_MASTER_UTIL_READABLE_TEXT_H
 #define STRIDE_MASTER_UTIL_READABLE_TEXT_H
 
@@ -6,6 +7,13 @@
 #include <string_view>
 
 namespace stride::core {
+
+/// Stands for what is no character.
+inline constexpr std::string_view kReplacement = "\uFFFD";
+
+/// Takes the first character of UTF-8 off a text that is not empty. A byte that is not of one
+/// counts as the character U+FFFD.
+std::string_view take_character(std::string_view& text);
 
 /// A text from elsewhere, made fit to be shown in a line: `most` characters at most, the last of
 /// which is "…" where there were more; control characters are blanks, and each byte that is not of

@@ -9,8 +9,8 @@
 
 namespace stride::io {
 
-/// Writes "FILE.new" beside a file and puts it in its place at the end, so that nobody ever sees a
-/// half of it, and a failure leaves the old file as it was. What is no regular file, such as a
+/// Writes "FILE.new" beside a file and puts it in its place at the end, so that no reader ever sees
+/// a half of it, and a failure leaves the old file as it was. What is no regular file, such as a
 /// pipe, and whatever stands for an open one, such as /dev/stdout, is written at once. A symbolic
 /// link stays; the file that it leads to is replaced.
 class Replacement {

@@ -27,7 +27,7 @@ void pause() {
 #endif
 }
 
-/// While it lives, threads that are started take no signal but those that their own code raises.
+/// While it exists, threads that are started take no signal but those that their own code raises.
 class BlockedSignals {
  public:
   BlockedSignals() {
@@ -47,7 +47,7 @@ class BlockedSignals {
 }  // namespace
 
 ThreadPool::ThreadPool(std::size_t threads)
-    // where there are more threads than cores, who spins only keeps the others from working
+    // where there are more threads than cores, a spinning thread only keeps the others from working
     : waiter_{threads <= std::thread::hardware_concurrency() ? kMostSpin : kMostSpin.zero()},
       workers_(std::max<std::size_t>(threads, 1) - 1) {
   const BlockedSignals blocked;

@@ -14,7 +14,7 @@ namespace stride::core {
 
 /// All functions are called from the thread that made the pool; only the tasks run on the others.
 ///
-/// Who waits for another spins for 0.1 ms at most, then sleeps. It spins less where that was in
+/// A waiting thread spins for 0.1 ms at most, then sleeps. It spins less where that was in
 /// vain, but for one time in a hundred, to find out whether it still is. A worker starts with the
 /// floating-point environment of the thread that makes the pool, and takes no asynchronous signal,
 /// so handlers run elsewhere.

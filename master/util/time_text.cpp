@@ -7,6 +7,24 @@
 
 #include <fmt/format.h>
 
+namespace stride::core {
+
+std::string to_text(Time time) { return to_text(time.time_since_epoch()); }
+
+std::string to_text(Duration duration) {
+  const std::int64_t ticks = duration.count();
+  const std::uint64_t magnitude =
+      ticks < 0 ? 0 - static_cast<std::uint64_t>(ticks) : static_cast<std::uint64_t>(ticks);
+  constexpr std::uint64_t kPerSecond = 1'000'000'000'000;
+  std::string text = fmt::format("{}{}.{:012}", ticks < 0 ? "-" : "", magnitude / kPerSecond,
+                                 magnitude % kPerSecond);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+}  // namespace stride::core
+
 namespace stride::io {
 namespace {
 

@@ -8,6 +8,14 @@
 
 #include <stride/time.h>
 
+namespace stride::core {
+
+/// The exact decimal text of a time in seconds, without trailing zeros: "14.2".
+std::string to_text(Time time);
+std::string to_text(Duration duration);
+
+}  // namespace stride::core
+
 namespace stride::io {
 
 /// A decimal number of seconds, such as "14.2", "1e-3" or " 30 ", as a count of picoseconds. No

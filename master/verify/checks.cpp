@@ -1,14 +1,87 @@
 #include "master/verify/checks.h"
 
+#include <fmt/format.h>
+
+#include "master/isolation/process/child.h"
+#include "master/util/error.h"
+#include "master/util/time_text.h"
+#include "master/verify/finding.h"
+
 namespace stride::verify {
+namespace {
+
+using End = process::ChildOutcome::End;
+
+/// The last line that is not empty, without what no table can show.
+std::string last_line(const std::string& printed) {
+  std::string line;
+  std::string last;
+  for (const char c : printed + "\n") {
+    if (c == '\n') {
+      if (!line.empty()) last = line;
+      line.clear();
+    } else if (static_cast<unsigned char>(c) >= ' ') {
+      line += c;
+    }
+  }
+  constexpr std::size_t kMost = 200;
+  return last.substr(0, kMost);
+}
+
+}  // namespace
+
+std::string explain(const process::ChildOutcome& outcome, const process::SharedNote& note) {
+  std::string text;
+  switch (outcome.end) {
+    case End::Answered:
+    case End::Threw:
+      return outcome.text;
+    case End::Killed:
+      text = fmt::format("it crashed with signal {} ({})", outcome.code,
+                         process::signal_name(outcome.code));
+      break;
+    case End::Exited:
+      text = fmt::format("it ended the process with exit code {}", outcome.code);
+      break;
+    case End::TimedOut:
+      text = "it did not come to an end in time";
+      break;
+    case End::Interrupted:
+      text = "it was interrupted";
+      break;
+  }
+  if (const std::string function = note.what(); !function.empty()) {
+    text += fmt::format(" in {} at {} s", function, core::to_text(Duration(note.picoseconds())));
+  }
+  if (const std::string said = last_line(outcome.printed); !said.empty()) {
+    text += fmt::format("; its last words: {}", said);
+  }
+  return text;
+}
+
+std::string Trial::in_child(const std::function<std::string()>& work) const {
+  note.clear();
+  process::ChildOutcome outcome = process::run_in_child(work);
+  if (outcome.end == End::Answered) return std::move(outcome.text);
+  throw Failure(explain(outcome, note));
+}
+
+Recording Trial::record(const TestInstanceOptions& options, std::size_t to) const {
+  return recording_from_text(in_child([&] {
+    TestInstance instance = make_instance(options);
+    instance.start();
+    instance.run_to(to == 0 ? tested.steps() : to);
+    return to_text(instance.recording());
+  }));
+}
 
 const char* name(Verdict verdict) {
   constexpr const char* kNames[] = {"passed", "FAILED", "skipped"};
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
-const std::vector<Check>& checks() {
-  static const std::vector<Check> checks = {
+const std::vector<UnitCheck>& checks() {
+  static const std::vector<UnitCheck> checks = {
       {"load", "the library loads, has the functions that are declared, and unloads", &check_load},
       {"description", "the model description is complete and agrees with itself",
        &check_description},

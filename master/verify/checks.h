@@ -1,22 +1,56 @@
-// The checks, each in a file of its own under checks/. docs/verify.md says what they mean.
+// The checks, each in a file of its own under checks/, and what they work with. docs/verify.md says
+// what they mean.
 #ifndef STRIDE_MASTER_VERIFY_CHECKS_H
 #define STRIDE_MASTER_VERIFY_CHECKS_H
 
+#include <functional>
+#include <string>
 #include <vector>
 
+#include "master/isolation/process/child.h"
+#include "master/isolation/process/shared_note.h"
 #include "master/verify/finding.h"
-#include "master/verify/trial.h"
+#include "master/verify/test_instance.h"
+#include "master/verify/tested_unit.h"
 
 namespace stride::verify {
 
-struct Check {
+/// What a check works with. It runs in a process of its own, in which the unit's library was not
+/// loaded before.
+struct Trial {
+  const TestedUnit& tested;
+  process::SharedNote& note;
+
+  /// An instance in this process.
+  TestInstance make_instance(TestInstanceOptions options = {}) const {
+    return TestInstance(tested, note, std::move(options));
+  }
+
+  /// Does the work in a further process, which starts as this one did if no library is loaded here.
+  /// Throws Failure with what the work has thrown, or with how it ended otherwise.
+  std::string in_child(const std::function<std::string()>& work) const;
+
+  /// A whole run of an instance, to point `to` of the grid (0 = to its end), in a further process.
+  Recording record(const TestInstanceOptions& options = {}, std::size_t to = 0) const;
+
+  /// The point of the grid at this share of it.
+  std::size_t point_at(double share) const {
+    return static_cast<std::size_t>(share * static_cast<double>(tested.steps()));
+  }
+};
+
+/// "it crashed with signal 11 (SIGSEGV) in fmi3Reset at 0.1 s", for what ended otherwise than by an
+/// answer or an exception.
+std::string explain(const process::ChildOutcome& outcome, const process::SharedNote& note);
+
+struct UnitCheck {
   const char* name;
   const char* summary;  ///< what passes, in a line
   Finding (*run)(const Trial& trial);
 };
 
 /// In the order in which they are run. The first is the one without which no other makes sense.
-const std::vector<Check>& checks();
+const std::vector<UnitCheck>& checks();
 
 Finding check_load(const Trial& trial);
 Finding check_description(const Trial& trial);

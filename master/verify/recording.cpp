@@ -6,15 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "master/util/error.h"
+#include "master/util/time_text.h"
 
 namespace stride::verify {
 namespace {
 
 using Json = nlohmann::json;
 
-std::string time_text(std::int64_t picoseconds) {
-  return core::to_text(Time(Duration(picoseconds)));
-}
+std::string time_text(std::int64_t picoseconds) { return core::to_text(Duration(picoseconds)); }
 
 std::string shortened(const std::string& text) {
   constexpr std::size_t kMost = 60;
@@ -62,24 +61,24 @@ Recording Recording::without_events() const {
   return rest;
 }
 
-std::vector<std::string> observed_names(const Subject& subject) {
+std::vector<std::string> observed_names(const TestedUnit& tested) {
   std::vector<std::string> names;
-  for (const Subject::Group& group : subject.observed()) {
+  for (const TestedUnit::Group& group : tested.observed()) {
     for (const std::size_t i : group.places) {
-      names.push_back(subject.description().variables[i].name);
+      names.push_back(tested.description().variables[i].name);
     }
   }
   return names;
 }
 
-std::optional<std::string> difference(const Subject& subject, const std::vector<Row>& expected,
+std::optional<std::string> difference(const TestedUnit& tested, const std::vector<Row>& expected,
                                       const std::vector<Row>& seen,
                                       const std::string& expected_when,
                                       const std::string& seen_when) {
   const std::size_t common = std::min(expected.size(), seen.size());
   for (std::size_t i = 0; i < common; ++i) {
     if (expected[i] == seen[i]) continue;
-    return compare(observed_names(subject), expected[i], seen[i], expected_when, seen_when);
+    return compare(observed_names(tested), expected[i], seen[i], expected_when, seen_when);
   }
   if (expected.size() == seen.size()) return std::nullopt;
   const bool is_shorter = seen.size() < expected.size();

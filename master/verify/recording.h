@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "master/verify/subject.h"
+#include "master/verify/tested_unit.h"
 
 namespace stride::verify {
 
 /// The values at one instant, as texts that read back as the same bits.
 struct Row {
   std::int64_t picoseconds = 0;
-  /// Of a communication point the observed variables, in the order of Subject::observed(); of a
+  /// Of a communication point the observed variables, in the order of TestedUnit::observed(); of a
   /// super-dense instant of Event Mode what ticked, "name=value".
   std::vector<std::string> values;
   bool is_event = false;
@@ -35,13 +35,13 @@ struct Recording {
 
 /// `expected_when`, `seen_when`: "in the first run", "in the second". Nothing if the rows are
 /// equal.
-std::optional<std::string> difference(const Subject& subject, const std::vector<Row>& expected,
+std::optional<std::string> difference(const TestedUnit& tested, const std::vector<Row>& expected,
                                       const std::vector<Row>& seen,
                                       const std::string& expected_when,
                                       const std::string& seen_when);
 
 /// Names of the columns of a communication point.
-std::vector<std::string> observed_names(const Subject& subject);
+std::vector<std::string> observed_names(const TestedUnit& tested);
 
 /// The two ways between processes.
 std::string to_text(const Recording& recording);

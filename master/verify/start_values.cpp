@@ -34,18 +34,19 @@ bool has_exact_start(const Variable& variable) {
          variable.causality != Causality::StructuralParameter;
 }
 
-void expect_value(Life& life, const Variable& variable, const ValueBlock& expected,
+void expect_value(TestInstance& instance, const Variable& variable, const ValueBlock& expected,
                   const std::string& when, const std::string& reason) {
-  const ValueBlock value = life.get(variable);
+  const ValueBlock value = instance.get(variable);
   if (value == expected) return;
   throw Failure(fmt::format("'{}' is {} {}, though {} {}", variable.name, text_of(value), when,
                             reason, text_of(expected)));
 }
 
-void expect_start_values(const core::UnitDescription& unit, Life& life, const std::string& when) {
+void expect_start_values(const core::UnitDescription& unit, TestInstance& instance,
+                         const std::string& when) {
   for (const Variable& variable : unit.variables) {
     if (!has_exact_start(variable)) continue;
-    expect_value(life, variable, start_value(variable), when, "its start value is");
+    expect_value(instance, variable, start_value(variable), when, "its start value is");
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "master/verify/life.h"
+#include "master/verify/test_instance.h"
 
 namespace stride::verify {
 
@@ -13,10 +13,12 @@ bool is_readable(const core::Variable& variable);
 bool has_exact_start(const core::Variable& variable);
 
 /// Throws Failure: "'y' is 1 WHEN, though REASON 0".
-void expect_value(Life& life, const core::Variable& variable, const core::ValueBlock& expected,
-                  const std::string& when, const std::string& reason);
+void expect_value(TestInstance& instance, const core::Variable& variable,
+                  const core::ValueBlock& expected, const std::string& when,
+                  const std::string& reason);
 /// Of all that have an exact one, in an instance in which none was set.
-void expect_start_values(const core::UnitDescription& unit, Life& life, const std::string& when);
+void expect_start_values(const core::UnitDescription& unit, TestInstance& instance,
+                         const std::string& when);
 
 }  // namespace stride::verify
 

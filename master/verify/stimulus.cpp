@@ -104,12 +104,12 @@ ValueBlock other_value(const Variable& variable, const ValueBlock& start) {
   return other;
 }
 
-Stimulus::Stimulus(const Subject& subject, std::uint64_t seed) {
-  const auto& variables = subject.description().variables;
+Stimulus::Stimulus(const TestedUnit& tested, std::uint64_t seed) {
+  const auto& variables = tested.description().variables;
   for (std::size_t i = 0; i < variables.size(); ++i) {
     const Variable& variable = variables[i];
     const bool is_stimulated =
-        variable.causality == Causality::Input && is_number(variable.type) && !subject.is_set(i);
+        variable.causality == Causality::Input && is_number(variable.type) && !tested.is_set(i);
     if (!is_stimulated) continue;
     const ValueBlock start = start_value(variable);
     const double luck = uniform(seed, variable.reference);

@@ -1,4 +1,4 @@
-// Inputs for a unit that is alone.
+// Inputs for a single unit.
 #ifndef STRIDE_MASTER_VERIFY_STIMULUS_H
 #define STRIDE_MASTER_VERIFY_STIMULUS_H
 
@@ -7,7 +7,7 @@
 
 #include "master/algorithm/unit.h"
 #include "master/model/values.h"
-#include "master/verify/subject.h"
+#include "master/verify/tested_unit.h"
 
 namespace stride::verify {
 
@@ -18,7 +18,7 @@ namespace stride::verify {
 /// clocked inputs but at the ticks of their clock.
 class Stimulus {
  public:
-  Stimulus(const Subject& subject, std::uint64_t seed);
+  Stimulus(const TestedUnit& tested, std::uint64_t seed);
 
   struct Input {
     std::size_t variable;  ///< its place in the description

@@ -34,7 +34,7 @@ Finding finding_from_text(const std::string& text) {
 
 void check_names(const std::vector<std::string>& wanted) {
   std::vector<std::string> known;
-  for (const Check& check : checks()) known.emplace_back(check.name);
+  for (const UnitCheck& check : checks()) known.emplace_back(check.name);
   for (const std::string& name : wanted) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     core::fail_input(
@@ -43,14 +43,14 @@ void check_names(const std::vector<std::string>& wanted) {
   }
 }
 
-bool is_wanted(const Check& check, const std::vector<std::string>& wanted) {
+bool is_wanted(const UnitCheck& check, const std::vector<std::string>& wanted) {
   return wanted.empty() || std::find(wanted.begin(), wanted.end(), check.name) != wanted.end();
 }
 
-Finding run_isolated(const Check& check, const Subject& subject, const Hooks& hooks) {
+Finding run_isolated(const UnitCheck& check, const TestedUnit& tested, const Hooks& hooks) {
   process::SharedNote note;
   const auto work = [&] {
-    const Trial trial{subject, note};
+    const Trial trial{tested, note};
     try {
       return to_text(check.run(trial));
     } catch (const Failure& failure) {
@@ -60,7 +60,7 @@ Finding run_isolated(const Check& check, const Subject& subject, const Hooks& ho
     }
   };
   const process::ChildOutcome outcome = process::run_in_child(
-      work, {.limit = subject.request().limit, .interrupted = hooks.interrupted});
+      work, {.limit = tested.request().limit, .interrupted = hooks.interrupted});
   if (outcome.end == End::Interrupted) {
     core::fail_run({}, fmt::format("interrupted during the check '{}'", check.name));
   }
@@ -68,7 +68,7 @@ Finding run_isolated(const Check& check, const Subject& subject, const Hooks& ho
   std::string text = explain(outcome, note);
   if (outcome.end == End::TimedOut) {
     text += fmt::format(" (limit: {} s)",
-                        std::chrono::duration<double>(subject.request().limit).count());
+                        std::chrono::duration<double>(tested.request().limit).count());
   }
   return failed(std::move(text));
 }
@@ -84,15 +84,15 @@ void flatten(std::string& text) {
 
 }  // namespace
 
-std::vector<Result> verify(const Subject& subject, const Hooks& hooks) {
-  check_names(subject.request().checks);
+std::vector<Result> verify(const TestedUnit& tested, const Hooks& hooks) {
+  check_names(tested.request().checks);
   std::vector<Result> results;
   bool has_loaded = true;
-  for (const Check& check : checks()) {
-    if (!is_wanted(check, subject.request().checks)) continue;
+  for (const UnitCheck& check : checks()) {
+    if (!is_wanted(check, tested.request().checks)) continue;
     hooks.on_begin(check.name);
     const auto begin = std::chrono::steady_clock::now();
-    Finding finding = has_loaded ? run_isolated(check, subject, hooks)
+    Finding finding = has_loaded ? run_isolated(check, tested, hooks)
                                  : skipped("the library cannot be used, see 'load'");
     if (check.run == &check_load) has_loaded = finding.verdict == Verdict::Passed;
     flatten(finding.seen);
@@ -109,14 +109,14 @@ bool all_good(const std::vector<Result>& results) {
   });
 }
 
-std::string json_text(const Subject& subject, const std::vector<Result>& results) {
-  const core::UnitDescription& unit = subject.description();
-  OrderedJson json = {{"file", subject.request().file.string()},
+std::string json_text(const TestedUnit& tested, const std::vector<Result>& results) {
+  const core::UnitDescription& unit = tested.description();
+  OrderedJson json = {{"file", tested.request().file.string()},
                       {"model", unit.model_name},
                       {"fmi_version", unit.fmi_version},
-                      {"step", to_seconds(subject.step())},
-                      {"stop", to_seconds(subject.point(subject.steps()))},
-                      {"seed", subject.request().seed},
+                      {"step", to_seconds(tested.step())},
+                      {"stop", to_seconds(tested.point(tested.steps()))},
+                      {"seed", tested.request().seed},
                       {"good", all_good(results)},
                       {"checks", OrderedJson::array()}};
   for (const auto& [check, finding, seconds] : results) {

@@ -1,4 +1,4 @@
-// Puts a unit through its paces.
+// Verifies a single unit.
 #ifndef STRIDE_MASTER_VERIFY_VERIFY_H
 #define STRIDE_MASTER_VERIFY_VERIFY_H
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "master/verify/finding.h"
-#include "master/verify/subject.h"
+#include "master/verify/tested_unit.h"
 
 namespace stride::verify {
 
@@ -27,12 +27,12 @@ struct Hooks {
 /// Runs the checks that are asked for, in their order, each in a process of its own, so whatever
 /// the unit does is a verdict. Where the first one, `load`, fails, the others are skipped. Throws
 /// core::Error: Input for the name of a check that there is not.
-std::vector<Result> verify(const Subject& subject, const Hooks& hooks = {});
+std::vector<Result> verify(const TestedUnit& tested, const Hooks& hooks = {});
 
 bool all_good(const std::vector<Result>& results);
 
 /// The results as JSON, as docs/verify.md describes them.
-std::string json_text(const Subject& subject, const std::vector<Result>& results);
+std::string json_text(const TestedUnit& tested, const std::vector<Result>& results);
 
 }  // namespace stride::verify
 

@@ -30,14 +30,14 @@ decltype(auto) noted(process::SharedNote& note, Time now, const char* name, Work
   return work();
 }
 
-bool is_fmi2(const Subject& subject) { return subject.description().fmi_version.starts_with("2"); }
+bool is_fmi2(const TestedUnit& tested) { return tested.description().fmi_version.starts_with("2"); }
 
-std::unique_ptr<core::Unit> instantiate(const Subject& subject, process::SharedNote& note,
+std::unique_ptr<core::Unit> instantiate(const TestedUnit& tested, process::SharedNote& note,
                                         const std::string& name, fmi::InstanceOptions options) {
   note.write("the loading of its library", 0);
-  subject.fmu().load_library();
-  return noted(note, {}, is_fmi2(subject) ? "fmi2Instantiate" : "fmi3InstantiateCoSimulation",
-               [&] { return subject.fmu().instantiate(name, std::move(options)); });
+  tested.fmu().load_library();
+  return noted(note, {}, is_fmi2(tested) ? "fmi2Instantiate" : "fmi3InstantiateCoSimulation",
+               [&] { return tested.fmu().instantiate(name, std::move(options)); });
 }
 
 }  // namespace
@@ -49,11 +49,11 @@ decltype(auto) WatchedUnit::watched(const char* function, Work&& work) {
   return noted(note_, now_, name, std::forward<Work>(work));
 }
 
-WatchedUnit::WatchedUnit(const Subject& subject, process::SharedNote& note, const std::string& name,
-                         fmi::InstanceOptions options)
-    : ForwardingUnit(instantiate(subject, note, name, std::move(options))),
+WatchedUnit::WatchedUnit(const TestedUnit& tested, process::SharedNote& note,
+                         const std::string& name, fmi::InstanceOptions options)
+    : ForwardingUnit(instantiate(tested, note, name, std::move(options))),
       note_(note),
-      is_fmi2_(is_fmi2(subject)),
+      is_fmi2_(is_fmi2(tested)),
       configuration_(inner().capability<core::ConfigurationMode>()),
       state_(inner().capability<core::StateSaving>()),
       serialization_(inner().capability<core::StateSerialization>()),

@@ -12,7 +12,7 @@
 #include "master/algorithm/capabilities/state_serialization.h"
 #include "master/algorithm/forwarding_unit.h"
 #include "master/isolation/process/shared_note.h"
-#include "master/verify/subject.h"
+#include "master/verify/tested_unit.h"
 
 namespace stride::verify {
 
@@ -27,8 +27,8 @@ class WatchedUnit final : public core::ForwardingUnit,
                           public core::ClockIntervals,
                           public core::MessageText {
  public:
-  /// Makes the unit itself, and notes that, too. Subject and note must outlive this object.
-  WatchedUnit(const Subject& subject, process::SharedNote& note, const std::string& name,
+  /// Makes the unit itself, and notes that, too. `tested` and `note` must outlive this object.
+  WatchedUnit(const TestedUnit& tested, process::SharedNote& note, const std::string& name,
               fmi::InstanceOptions options);
   ~WatchedUnit() override;
 

@@ -122,7 +122,7 @@ TEST_CASE("nor does it where units are left alone") {
   core::IdleOptions idle;
   idle.max_skip.assign(11, Duration(10ms));
   const core::RunStatistics statistics = run_counted(system, counter, idle);
-  CHECK(statistics.units.back().rests > 50);
+  CHECK(statistics.units.back().suspensions > 50);
   CHECK(counter.last - counter.at_warm == 0);
 }
 

@@ -194,7 +194,7 @@ core::RunOptions fixed_steps(Duration step, Time stop) {
 }
 
 Results run(const Assembly& assembly, core::RunOptions options,
-            const std::vector<capture::Request>& captures) {
+            const std::vector<capture::CaptureRequest>& captures) {
   const Scratch scratch;
   const core::System system(assembly.declaration());
   options.recorded = all_outputs(system);

@@ -72,7 +72,7 @@ core::RunOptions fixed_steps(Duration step, Time stop);
 
 /// Records all outputs, whatever the options say of it, and captures what these receive.
 Results run(const Assembly& assembly, core::RunOptions options,
-            const std::vector<capture::Request>& captures = {});
+            const std::vector<capture::CaptureRequest>& captures = {});
 /// Runs from 0 s to `stop` in fixed steps.
 inline Results run(const Assembly& assembly, Duration step, Time stop,
                    const core::ThreadOptions& threads = {}) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "master/scenario/check_selection.h"
+#include "master/util/time_text.h"
 #include "tests/property/random_system.h"
 
 using namespace stride;

@@ -70,7 +70,7 @@ TEST_CASE("the error-controlled oscillator gets as accurate as it is asked to be
   double last = 1;
   for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5}) {
     core::RunOptions options = fixed_steps(10ms, Time(2s));
-    options.step.policy = core::StepPolicy::ErrorControlled;
+    options.step.policy = &core::kErrorControlledSteps;
     options.step.relative_tolerance = 0;
     options.step.absolute_tolerance = tolerance;
     options.extrapolation = Extrapolation::Quadratic;

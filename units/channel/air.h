@@ -1,4 +1,4 @@
-// Frames on the air between a reader and tags: who hears what of them, and when.
+// Frames on the air between a reader and tags: which bits each receiver hears, and when.
 #ifndef STRIDE_UNITS_CHANNEL_AIR_H
 #define STRIDE_UNITS_CHANNEL_AIR_H
 
@@ -24,7 +24,7 @@ struct Signals {
   bool operator==(const Signals& other) const { return down == other.down && up == other.up; }
 };
 
-/// What all tags get at one instant, and give back.
+/// The signals of all tags at one instant.
 struct Observation {
   stride::Time time;
   double carrier_power = 0.0;    ///< [W]
@@ -35,7 +35,7 @@ struct Observation {
   }
 };
 
-/// What the reader makes of frames of several tags that are on the air at once.
+/// How the reader receives frames of several tags that are on the air at once.
 enum class Overlap {
   kSuperpose,  ///< one message (superposed()), but for tags that are masked by a stronger one
   kInterfere,  ///< it hears the one whose header came first; each is noise to the others
@@ -44,12 +44,12 @@ enum class Overlap {
 
 struct Rules {
   Overlap overlap = Overlap::kSuperpose;
-  bool half_duplex = true;     ///< nobody hears what overlaps an own transmission
+  bool half_duplex = true;     ///< a receiver does not hear what overlaps its transmission
   double capture_ratio = 1.0;  ///< with kSuperpose: a tag stronger by this factor masks another
 };
 
-/// A channel's frames. A technology derives from it and says how strong signals are and how often
-/// bits are wrong; here is decided which bits are heard, and when.
+/// A channel's frames. A technology derives from it and defines how strong signals are and how
+/// often bits are wrong; this class decides which bits are heard, and when.
 ///
 /// At each instant bring the signals up to date, whose carrier power is carrier_power(), and then
 /// observe(); at an event also the frames that have begun, from_reader() and from_tag(), and when
@@ -61,8 +61,8 @@ struct Rules {
 /// instants the logarithm of a signal's power is taken as linear in time. (Power falls with some
 /// power of the distance, so its logarithm is nearly straight over a step, and a pose per bit would
 /// cost the technology's computation per bit.) A change of the carrier is exact: until the instant
-/// at which it is observed the old one holds. So where signals rest, no result depends on which
-/// instants are observed.
+/// at which it is observed the old one holds. So while signals are constant, no result depends on
+/// which instants are observed.
 ///
 /// A frame may enter late, because its sender could not end its step where it began: it is heard as
 /// if it had entered in time, if it began at the last instant observed before this one or later.
@@ -114,7 +114,7 @@ class Air {
   Air(const Air&) = default;
   Air& operator=(const Air&) = default;
 
-  /// What the technology says of the present instant [W].
+  /// Of the technology at the present instant [W].
   virtual double carrier_power() const = 0;
   /// What each side gets of the other, and would get with another carrier power [W].
   virtual Signals signals(std::size_t tag, double carrier_power) const = 0;
@@ -124,8 +124,8 @@ class Air {
   /// That a bit is heard wrong: 0 to 0.5. `others` is the power of other frames at this receiver.
   virtual double bit_error_probability(Direction direction, std::size_t tag, std::uint32_t bit_rate,
                                        double signal, double others) const = 0;
-  /// When the frame is on the air; unless a technology says something else, as nfc::Frame does. Its
-  /// sender is busy with frames before until `free`.
+  /// When the frame is on the air; unless a technology defines it otherwise, as nfc::Frame does.
+  /// Its sender is busy with frames before until `free`.
   virtual Transit transit(const nfc::Frame& frame, std::size_t tag, stride::Time free) const;
 
  private:

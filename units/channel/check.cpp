@@ -29,6 +29,11 @@ void require_not_negative(const std::string& name, double value) {
   if (!(value >= 0.0 && std::isfinite(value))) out_of_range(name, value, "0 or more");
 }
 
+void require_a_tag(std::size_t tag_count) {
+  if (tag_count > 0) return;
+  throw std::invalid_argument("the channel has no tag: expected one at least");
+}
+
 void require_pose(const std::string& antenna, const Pose& pose) {
   if (!is_place(pose)) {
     throw std::invalid_argument("the position of " + antenna + " is not finite: expected metres");

@@ -2,6 +2,7 @@
 #ifndef STRIDE_UNITS_CHANNEL_CHECK_H
 #define STRIDE_UNITS_CHANNEL_CHECK_H
 
+#include <cstddef>
 #include <string>
 
 #include "units/channel/names.h"
@@ -15,6 +16,9 @@ namespace channel {
 // These throw it for a value that is not finite, too.
 void require_positive(const std::string& name, double value);
 void require_not_negative(const std::string& name, double value);
+
+/// Throws std::invalid_argument for a channel that has no tag.
+void require_a_tag(std::size_t tag_count);
 
 /// Throws std::invalid_argument for an antenna at no place, or with an axis of length zero.
 void require_pose(const std::string& antenna, const Pose& pose);

@@ -21,7 +21,7 @@ struct Transit {
   stride::Duration trailer{};         ///< from the last symbol to the end
   std::uint32_t header_bits = 0;      ///< that have to be heard right for any other to be heard
   stride::Duration propagation{};     ///< since the sender began
-  /// By how much later than it was sent the receiver is told that the frame began.
+  /// The start of the frame as received is later than that of the frame as sent by this much.
   stride::Duration delay{};
   /// The whole frame is needed before it can be sent: one whose sender stops is not sent at all.
   bool is_stored = false;

@@ -4,13 +4,14 @@
 #include <cstdint>
 #include <optional>
 
+#include <stride/nfc/iso14443a.h>
+
 namespace channel {
 namespace {
 
+using nfc::kBitsPerByte;
 using stride::Duration;
 using stride::Time;
-
-constexpr std::size_t kBitsPerByte = 9;  // eight and parity
 
 enum class Slot : std::uint8_t { kSilent, kZero, kOne, kCollision };
 

@@ -7,6 +7,7 @@
 
 #include <stride/nfc/in_words.h>
 
+#include "units/channel/decibels.h"
 #include "units/channel/tag_list.h"
 
 namespace channel {
@@ -86,7 +87,7 @@ void ChannelUnit::step(stride::Step& step) {
 void ChannelUnit::event(stride::Event& event) {
   update_outputs();
   air().observe(event.time());
-  // whoever could not end its step where its frame began may have more of this step
+  // a sender that could not end its step where its frame began may send more of this step
   if (take_frames()) return event.iterate();
   hand_over(event);
   const auto end = air().next_end();
@@ -95,8 +96,16 @@ void ChannelUnit::event(stride::Event& event) {
 
 void ChannelUnit::update_outputs() {
   move(inputs_);
-  for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = outputs(i);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = outputs_of(link(i));
   shown_ = inputs_;
+}
+
+ChannelUnit::Outputs ChannelUnit::outputs_of(const Link& link) {
+  return {link.distance,         link.coupling,
+          link.field_strength,   link.tag_voltage,
+          link.tag_power,        decibels(link.snr_down),
+          decibels(link.snr_up), link.bit_error_rate_down,
+          link.bit_error_rate_up};
 }
 
 stride::Time ChannelUnit::idle_until(stride::Time now) const {
@@ -169,6 +178,13 @@ void ChannelUnit::describe_channel(const std::string& description) {
 void ChannelUnit::list_tag_pose(std::size_t tag, const std::string& place,
                                 const std::string& axis) {
   list_pose(names_[tag].coil(), inputs_.tag_coils[tag], place, axis);
+}
+
+void ChannelUnit::list_antenna_poses(const std::string& axis) {
+  list_reader_pose("the reader's antenna", axis);
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    list_tag_pose(i, "the antenna of the " + names_[i].text(), axis);
+  }
 }
 
 void ChannelUnit::list_carrier_power(const std::string& description) {

@@ -1,4 +1,4 @@
-// What the channels of all technologies are to an importer: the same connectors.
+// The variables that the channels of all technologies have, so that one can replace another.
 #ifndef STRIDE_UNITS_CHANNEL_UNIT_H
 #define STRIDE_UNITS_CHANNEL_UNIT_H
 
@@ -9,7 +9,7 @@
 
 #include <stride/unit.h>
 
-#include "units/channel/air.h"
+#include "units/channel/model.h"
 #include "units/channel/names.h"
 #include "units/channel/pose.h"
 
@@ -21,7 +21,7 @@ std::vector<TagName> tag_names(const stride::Setup& setup, const std::string& ro
 
 /// The antennas' poses, the carrier, the clocks and frames, the events at which frames are handed
 /// over, the promise to be idle, the state. A technology lists these variables and its own in the
-/// order in which they shall stand, and says how its model is made and moved.
+/// order of the variable table, and defines how its model is made and moved.
 ///
 /// While no frame is on the air the outputs are a function of the inputs, so they stay what they
 /// are, field or none.
@@ -50,19 +50,7 @@ class ChannelUnit : public stride::Unit {
     }
   };
 
-  /// Of the link to one tag.
-  struct Outputs {
-    double distance = 0.0;        ///< [m]
-    double coupling = 0.0;        ///< 0 to 1
-    double field_strength = 0.0;  ///< [A/m]
-    double voltage = 0.0;         ///< [V]
-    double power = 0.0;           ///< [W]
-    double snr_down = 0.0;        ///< [dB], -200 to 200
-    double snr_up = 0.0;
-    double bit_error_rate_down = 0.0;  ///< 0 to 0.5
-    double bit_error_rate_up = 0.0;
-  };
-  /// What they mean where technologies differ.
+  /// What the outputs mean where technologies differ.
   struct Meanings {
     std::string distance, coupling, field_strength, voltage, power, snr;
     std::string bit_rate;  ///< for which the ratios and the error rates are
@@ -77,13 +65,15 @@ class ChannelUnit : public stride::Unit {
   /// Brings the model to these inputs.
   virtual void move(const Inputs& inputs) = 0;
   /// Of the model where it is.
-  virtual Outputs outputs(std::size_t tag) const = 0;
+  virtual const Link& link(std::size_t tag) const = 0;
 
   const std::vector<TagName>& tags() const { return names_; }
 
   void describe_channel(const std::string& description);
   void list_reader_pose(const std::string& place, const std::string& axis);
   void list_tag_pose(std::size_t tag, const std::string& place, const std::string& axis);
+  /// The poses of all, where they are the antennas'.
+  void list_antenna_poses(const std::string& axis);
   void list_carrier_power(const std::string& description);
   /// Of all tags.
   void list_outputs(const Meanings& meanings);
@@ -91,6 +81,18 @@ class ChannelUnit : public stride::Unit {
   void list_frames();
 
  private:
+  /// Of the link to one tag.
+  struct Outputs {
+    double distance = 0.0;        ///< [m]
+    double coupling = 0.0;        ///< 0 to 1
+    double field_strength = 0.0;  ///< [A/m]
+    double voltage = 0.0;         ///< [V]
+    double power = 0.0;           ///< [W]
+    double snr_down = 0.0;        ///< [dB], -200 to 200
+    double snr_up = 0.0;
+    double bit_error_rate_down = 0.0;  ///< 0 to 0.5
+    double bit_error_rate_up = 0.0;
+  };
   /// A clock and the frame that comes with its tick.
   struct Port {
     stride::Clock clock;
@@ -102,6 +104,7 @@ class ChannelUnit : public stride::Unit {
     Port from, to;
   };
 
+  static Outputs outputs_of(const Link& link);
   void list_outputs(std::size_t tag, const Meanings& meanings);
   void list_pose(const std::string& name, Pose& pose, const std::string& place,
                  const std::string& axis);
@@ -120,23 +123,24 @@ class ChannelUnit : public stride::Unit {
   std::optional<Inputs> shown_;  ///< that the outputs are of
 };
 
-/// The channel of a technology: its model, which is made from its parameters. Parameters
-/// has a list `tags`, of names or of structs with a `name`.
-template <class Model, class Parameters>
+/// The channel of a technology: its model, a channel::Model, which is made from its parameters.
+/// Parameters has a list `tags`, of names or of structs with a `name`.
+template <class Technology, class Parameters>
 class ModelUnit : public ChannelUnit {
  protected:
   explicit ModelUnit(std::vector<TagName> tags)
       : ChannelUnit(std::move(tags)), p_(parameters_of(this->tags())), channel_(p_) {}
 
-  void make() override { channel_ = Model(p_); }
+  void make() override { channel_ = Technology(p_); }
   Air& air() override { return channel_; }
   const Air& air() const override { return channel_; }
   void move(const Inputs& inputs) override {
     channel_.move(inputs.reader_coil, inputs.tag_coils, inputs.carrier_power);
   }
+  const Link& link(std::size_t tag) const override { return channel_.link(tag); }
 
   Parameters p_;
-  Model channel_;
+  Technology channel_;
 
  private:
   static Parameters parameters_of(const std::vector<TagName>& tags) {

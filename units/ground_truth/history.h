@@ -15,9 +15,8 @@ struct Grain {
   stride::Duration time{};  ///< >= 0
 };
 
-/// Remembers between which bounds a quantity was. It is told the quantity at instants, as close to
-/// each other as somebody likes; between two of them the quantity counts as anywhere between both
-/// values.
+/// Remembers between which bounds a quantity was. Its values are noted at instants, any distance
+/// apart; between two of them the quantity counts as anywhere between both values.
 ///
 /// Neighbouring intervals are joined as long as their bounds together are no wider than the grain,
 /// or they together are no longer, so that neither a slow course nor a fast one takes much memory.
@@ -32,7 +31,7 @@ class History {
   /// All that a rollback has to bring back.
   struct State {
     std::deque<Piece> pieces;
-    stride::Time last;  ///< what was told last, and when
+    stride::Time last;  ///< of the last value that was noted
     double value = 0.0;
   };
   struct Bounds {

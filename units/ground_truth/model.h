@@ -14,12 +14,12 @@ namespace ground_truth {
 
 struct Parameters {
   double tolerance = 0.1;      ///< in the unit of a difference, >= 0
-  stride::Duration max_age{};  ///< by which a measurement may be older than it says, >= 0
+  stride::Duration max_age{};  ///< by which a measurement may be older than its age, >= 0
   stride::Duration memory{};   ///< for how long the truth is remembered, >= 0
   std::uint64_t minimum = 1;   ///< with fewer comparisons the verdict is not good
 };
 
-/// A measurement that was received. It says to be `age` old, or up to `age_resolution` more.
+/// A measurement that was received. Its age is from `age` to `age + age_resolution`.
 struct Measurement {
   stride::Time received;
   double value = 0.0;
@@ -55,7 +55,7 @@ struct Comparison {
 /// Its error is the least that an instant of the interval leaves, and it is right if that is not
 /// greater than the tolerance, which is a maximum permissible error (JCGM 200:2012, 4.26).
 ///
-/// Call note() at each instant at which the truth is told, and compare() after the note() of the
+/// Call note() at each instant at which the truth is known, and compare() after the note() of the
 /// same instant.
 class Judge {
  public:
@@ -82,7 +82,7 @@ class Judge {
   /// Nothing was wrong, and enough was compared.
   bool passed() const { return state_.wrong == 0 && compared() >= parameters_.minimum; }
   /// Such as "2 of 3 measurements right; worst error 0.995 K at 24.0008 s: 22.5 degC for 21.505
-  /// degC"; without a comma, for it stands in tables.
+  /// degC"; without a comma, for tables.
   std::string verdict_text() const;
   /// Of one that is not right, such as "measurement at 24.0008 s: 22.5 degC is wrong, error 0.995
   /// K, tolerance 0.03 K; the nearest truth between 23.9908 s and 24.0008 s is 21.505 degC".

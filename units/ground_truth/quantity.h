@@ -1,4 +1,4 @@
-// The file that says what quantity is compared.
+// The file that defines the quantity that is compared.
 #ifndef STRIDE_UNITS_GROUND_TRUTH_QUANTITY_H
 #define STRIDE_UNITS_GROUND_TRUTH_QUANTITY_H
 

@@ -1,6 +1,6 @@
 #include "units/ideal_channel/model.h"
 
-#include <stdexcept>
+#include <limits>
 
 #include "units/channel/check.h"
 
@@ -8,9 +8,7 @@ namespace ideal_channel {
 namespace {
 
 const Parameters& checked(const Parameters& parameters) {
-  if (parameters.tags.empty()) {
-    throw std::invalid_argument("the channel has no tag: expected one at least");
-  }
+  channel::require_a_tag(parameters.tags.size());
   channel::require_not_negative("delivered_power", parameters.delivered_power);
   channel::require_not_negative("range", parameters.range);
   return parameters;
@@ -26,25 +24,18 @@ channel::Rules rules() {
 }  // namespace
 
 Channel::Channel(const Parameters& parameters)
-    : Air(parameters.tags.size(), rules(), 0),
-      parameters_(checked(parameters)),
-      links_(parameters.tags.size()) {}
+    : Model(parameters.tags, rules(), 0), parameters_(checked(parameters)) {}
 
-void Channel::move(const Pose& reader, const std::vector<Pose>& tags, double carrier_power) {
-  channel::require_carrier_power(carrier_power);
-  channel::require_pose("reader_coil", reader);
-  for (std::size_t i = 0; i < links_.size(); ++i) {
-    channel::require_pose(parameters_.tags[i], tags[i]);
-    Link& link = links_[i];
-    link.distance = (tags[i].position - reader.position).norm();
-    link.in_range = parameters_.range == 0.0 || link.distance <= parameters_.range;
-    link.tag_power = link.in_range && carrier_power > 0.0 ? parameters_.delivered_power : 0.0;
-  }
+void Channel::move_tag(std::size_t, const Pose& reader, const Pose& tag, channel::Link& link) {
+  link.distance = (tag.position - reader.position).norm();
+  const bool in_range = parameters_.range == 0.0 || link.distance <= parameters_.range;
+  link.coupling = in_range ? 1.0 : 0.0;
+  link.tag_power = in_range && Model::carrier_power() > 0.0 ? parameters_.delivered_power : 0.0;
+  link.signals = {link.coupling, link.coupling};
+  link.snr_down = link.snr_up = in_range ? std::numeric_limits<double>::infinity() : 0.0;
+  link.bit_error_rate_down = link.bit_error_rate_up = in_range ? 0.0 : 0.5;
 }
 
-channel::Signals Channel::signals(std::size_t tag, double) const {
-  const double signal = links_[tag].in_range ? 1.0 : 0.0;
-  return {signal, signal};
-}
+channel::Signals Channel::signals(std::size_t tag, double) const { return link(tag).signals; }
 
 }  // namespace ideal_channel

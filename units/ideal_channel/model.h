@@ -5,9 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "units/channel/air.h"
+#include "units/channel/model.h"
 #include "units/channel/names.h"
-#include "units/channel/pose.h"
 
 namespace ideal_channel {
 
@@ -19,27 +18,16 @@ struct Parameters {
   double range = 0.0;             ///< beyond which nothing arrives [m]; 0 = there is no such limit
 };
 
-struct Link {
-  double distance = 0.0;  ///< [m]
-  bool in_range = true;
-  double tag_power = 0.0;  ///< [W]
-};
-
-/// At each instant move() before observe() (channel::Air). Both sides may send at once, and tags
-/// do not disturb each other. The carrier is nothing to the frames.
-class Channel : public channel::Air {
+/// Both sides may send at once, and tags do not disturb each other. The frames do not depend on the
+/// carrier. Of a link the coupling is 1 in range and 0 out of it.
+class Channel : public channel::Model<channel::Link> {
  public:
   /// Throws std::invalid_argument, naming the parameter, if one is out of its range.
   explicit Channel(const Parameters& parameters = {});
 
-  /// Positions in the same coordinates, one for each tag; carrier power in [W]. Throws
-  /// std::invalid_argument for an axis of length zero, a negative power or what is no number,
-  /// naming it.
-  void move(const Pose& reader, const std::vector<Pose>& tags, double carrier_power);
-
-  const Link& link(std::size_t tag = 0) const { return links_[tag]; }
-
  protected:
+  void move_tag(std::size_t index, const Pose& reader, const Pose& tag,
+                channel::Link& link) override;
   double carrier_power() const override { return 1.0; }
   channel::Signals signals(std::size_t tag, double carrier_power) const override;
   double least_signal(channel::Direction, std::size_t) const override { return 0.0; }
@@ -50,7 +38,6 @@ class Channel : public channel::Air {
 
  private:
   Parameters parameters_;
-  std::vector<Link> links_;
 };
 
 }  // namespace ideal_channel

@@ -1,9 +1,6 @@
 // The channel as an FMU: the variable table, and the way from the variables to the model.
 #include "units/channel/unit.h"
 
-#include <string>
-#include <vector>
-
 #include <stride/unit.h>
 
 #include "units/ideal_channel/model.h"
@@ -15,11 +12,7 @@ class IdealChannel : public channel::ModelUnit<Channel, ideal_channel::Parameter
   explicit IdealChannel(const stride::Setup& setup)
       : ModelUnit(channel::tag_names(setup, "ideal-channel")) {
     describe_channel("Channel for debugging: every frame arrives, and power without end");
-    const std::string axis = "of any length but zero; it does not matter";
-    list_reader_pose("the reader's antenna", axis);
-    for (std::size_t i = 0; i < tags().size(); ++i) {
-      list_tag_pose(i, "the antenna of the " + tags()[i].text(), axis);
-    }
+    list_antenna_poses("of any length but zero; it does not matter");
     list_carrier_power("whether tags get power");
     const Meanings meanings{"distance between the antennas",
                             "1 in range, 0 out of it",
@@ -39,16 +32,6 @@ class IdealChannel : public channel::ModelUnit<Channel, ideal_channel::Parameter
         .min(0)
         .description("beyond which nothing arrives; 0 = there is no such limit");
     state();
-  }
-
- private:
-  Outputs outputs(std::size_t tag) const override {
-    const ideal_channel::Link& link = channel_.link(tag);
-    const double snr = link.in_range ? 200.0 : -200.0;
-    const double error_rate = link.in_range ? 0.0 : 0.5;
-    return {
-        link.distance, link.in_range ? 1.0 : 0.0, 0.0, 0.0, link.tag_power, snr, snr, error_rate,
-        error_rate};
   }
 };
 

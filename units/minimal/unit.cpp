@@ -7,8 +7,8 @@
 class LowPass : public stride::Unit {
  public:
   // The constructor lists the variables. A variable is bound to a member, and what the member holds
-  // now is its start value. state() says that the variables are all there is to save, so the unit
-  // can be rolled back.
+  // now is its start value. state() declares that the variables are all there is to save, so the
+  // unit can be rolled back.
   LowPass() {
     describe("First-order low-pass filter: the unit kit's tutorial");
     input("u", u_).description("signal");

@@ -17,7 +17,7 @@ class Clearance {
   explicit Clearance(const mjModel& model);
 
   /// True only if mj_collision() would find no contact at the poses in `data`, which
-  /// mj_kinematics() has computed for the same model. False says nothing.
+  /// mj_kinematics() has computed for the same model. False means nothing.
   bool excludes_contact(const mjModel& model, const mjData& data) const;
 
  private:

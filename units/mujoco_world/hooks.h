@@ -11,12 +11,12 @@ namespace mujoco_world {
 
 /// Points MuJoCo's hooks at this library's: an error throws std::runtime_error with MuJoCo's text,
 /// a warning is kept for take_warnings(). Cheap, and repeated before every call that may report,
-/// because the hooks are shared with whoever else uses MuJoCo in this process.
+/// because the hooks are shared with all other users of MuJoCo in this process.
 ///
-/// The error hook throws whoever's call failed; a standard type, so that two libraries which both
-/// contain this code can serve each other. It may leave through MuJoCo's frames, which need no
-/// clean-up but must have unwind tables: the rule on x86-64 and AArch64, C code included, and
-/// checked by a test. What it leaves behind is MuJoCo's stack mark in mjData.
+/// The error hook throws in any caller's call that fails; a standard type, so that two libraries
+/// which both contain this code can serve each other. It may leave through MuJoCo's frames, which
+/// need no clean-up but must have unwind tables: the rule on x86-64 and AArch64, C code included,
+/// and checked by a test. What it leaves behind is MuJoCo's stack mark in mjData.
 void install_hooks();
 
 /// Calls into MuJoCo with the hooks installed.

@@ -21,7 +21,7 @@ using ModelPointer = std::unique_ptr<mjModel, DeleteModel>;
 /// One scalar control. An actuator with several controls (MuJoCo 3 only) is listed once for each.
 struct Actuator {
   std::string name;
-  std::string unit;  ///< "rad", "m", "rad/s", "m/s", "N.m", "N", or "" where it cannot be told
+  std::string unit;  ///< "rad", "m", "rad/s", "m/s", "N.m", "N", or "" where it is not known
   int id;            ///< of the actuator in the model
   int control;       ///< index into ctrl
   int element;       ///< 1, 2 ... if the actuator has several controls, else 0
@@ -43,7 +43,7 @@ struct Site {
 
 struct Sensor {
   std::string name;
-  std::string unit;  ///< "" where it has none or it cannot be told
+  std::string unit;  ///< "" where it has none or it is not known
   int address;       ///< of its first number in sensordata
   int dimension;
 };

@@ -43,7 +43,7 @@ struct RestSettings {
 /// pose.
 ///
 /// With allow_rest(), a world that has come to rest (RestDetector) is not integrated any more: at a
-/// grid point it is stopped, its velocities set to zero, and stands still until an input changes,
+/// grid point it is stopped, its velocities set to zero, and does not move until an input changes,
 /// but at most for as long as what is seen of the moving one could not leave the tolerances, by the
 /// bounds of its speeds and accelerations. Then it is let go for another half of a window at least.
 /// When that happens is a matter of the grid and the inputs alone, too.

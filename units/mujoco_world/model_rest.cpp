@@ -68,7 +68,7 @@ void World::look_for_rest() {
   std::fill_n(data.qvel, model_->nv, 0.0);
   pose_known_ = sensors_known_ = false;
   const Duration holds = rest_holds_for();
-  // shorter than what it takes to see that it rests, it is not worth it
+  // shorter than the detection of rest takes, it is not worth it
   const bool is_worth_it = stride::to_seconds(holds) >= 2 * rest_detector_.half_window();
   const std::int64_t steps = std::min(holds, rest_settings_->longest) / timestep_;
   if (!is_worth_it || steps < 1) {

@@ -1,4 +1,4 @@
-// What differs between MuJoCo 2.2 (Debian's) and today's 3 stands here and nowhere else.
+// What differs between MuJoCo 2.2 (Debian's) and today's 3 is here and nowhere else.
 #ifndef STRIDE_UNITS_MUJOCO_WORLD_MUJOCO_API_H
 #define STRIDE_UNITS_MUJOCO_WORLD_MUJOCO_API_H
 

@@ -24,7 +24,7 @@ std::string indexed(const std::string& name, int index) {
   return name + "[" + std::to_string(index) + "]";
 }
 
-// what a use case does not tell apart: 0.1 mm at the end of a metre
+// below what matters in use: 0.1 mm at the end of a metre
 constexpr double kPositionTolerance = 1e-4;  // [rad], [m], or of a unit vector's element
 constexpr double kVelocityTolerance = 1e-3;  // [rad/s], [m/s]
 constexpr double kSensorTolerance = 1e-3;    // in the sensor's unit
@@ -113,7 +113,7 @@ class MujocoWorld : public stride::Unit {
     return stride::results_folder() / "film" / name;
   }
 
-  /// As the importer wants it.
+  /// As the importer has set it.
   void allow_rest() {
     if (!max_skip()) return world_.forbid_rest();
     limits_.window = stride::duration_from_seconds(rest_window_);

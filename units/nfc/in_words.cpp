@@ -6,31 +6,22 @@
 #include <stride/nfc/in_words.h>
 #include <stride/nfc/iso14443a.h>
 #include <stride/nfc/names.h>
+#include <stride/nfc/numbers.h>
+#include <stride/value_text.h>
 
 namespace nfc {
 namespace {
 
-constexpr std::size_t kBitsPerByte = 9;  // eight and parity
 constexpr std::size_t kCrcBytes = 2;
-
-/// A part of a frame's content, from `first` on, most significant byte first.
-std::uint32_t number(const Bytes& content, std::size_t first, std::size_t size) {
-  std::uint32_t value = 0;
-  for (std::size_t i = first; i < first + size; ++i) value = value << 8 | content[i];
-  return value;
-}
 
 std::string digits(const Bytes& content, std::size_t first) {
   std::string text;
-  for (std::size_t i = first; i < content.size(); ++i) {
-    text += "0123456789abcdef"[content[i] >> 4];
-    text += "0123456789abcdef"[content[i] & 0xF];
-  }
+  for (std::size_t i = first; i < content.size(); ++i) stride::append_hexadecimal(text, content[i]);
   return text;
 }
 
 std::string temperature(const Bytes& content, std::size_t first) {
-  const int centidegrees = static_cast<std::int16_t>(number(content, first, 2));
+  const int centidegrees = static_cast<std::int16_t>(number_in(content, first, first + 2));
   const int size = std::abs(centidegrees);
   const std::string fraction = std::to_string(100 + size % 100).substr(1);
   return (centidegrees < 0 ? "-" : "") + std::to_string(size / 100) + "." + fraction + " °C";
@@ -39,7 +30,7 @@ std::string temperature(const Bytes& content, std::size_t first) {
 std::string log_in_words(const Bytes& content) {
   std::string text;
   for (std::size_t at = 1; at < content.size(); at += kLogSampleBytes) {
-    const std::uint32_t age = number(content, at, 2);
+    const std::uint32_t age = number_in(content, at, at + 2);
     text += (at == 1 ? " " : ", ") + temperature(content, at + 2) + " " + std::to_string(age) +
             (age == kOldestLogAge ? " s ago or more" : " s ago");
   }
@@ -53,7 +44,7 @@ std::string answer_in_words(const Bytes& content) {
   if (data == 0) return text;
   if (status == Status::kOk) {
     if (data == 2) return text + " " + temperature(content, 1);
-    if (data == 4) return text + " " + hexadecimal(number(content, 1, 4));
+    if (data == 4) return text + " " + hexadecimal(number_in(content, 1, 5));
     const bool is_log = data % kLogSampleBytes == 0 && data / kLogSampleBytes <= kLogSamples;
     if (is_log) return text + log_in_words(content);
   }
@@ -72,9 +63,9 @@ std::string request_in_words(const Bytes& content) {
     case Command::kSetLed:
       return text + " " + std::to_string(content[1]);
     case Command::kSelect:
-      return text + " " + hexadecimal(number(content, 1, 4));
+      return text + " " + hexadecimal(number_in(content, 1, 5));
     case Command::kSetSamplingPeriod:
-      return text + " " + std::to_string(number(content, 1, 2)) + " s";
+      return text + " " + std::to_string(number_in(content, 1, 3)) + " s";
     default:
       return content.size() == 1 ? text : text + " " + digits(content, 1);
   }

@@ -5,8 +5,6 @@
 namespace nfc {
 namespace {
 
-constexpr std::size_t kBitsPerByte = 9;  // eight and parity
-
 std::uint8_t odd_parity(std::uint8_t byte) {
   std::uint8_t ones = 0;
   for (int bit = 0; bit < 8; ++bit) ones ^= (byte >> bit) & 1;

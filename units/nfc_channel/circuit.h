@@ -2,13 +2,14 @@
 #ifndef STRIDE_UNITS_NFC_CHANNEL_CIRCUIT_H
 #define STRIDE_UNITS_NFC_CHANNEL_CIRCUIT_H
 
+#include <cmath>
 #include <complex>
 
 #include "units/nfc_channel/coil.h"
 
 namespace nfc_channel {
 
-inline constexpr double kCarrierAngularFrequency = 2.0 * 3.14159265358979323846 * 13.56e6;
+inline constexpr double kCarrierAngularFrequency = 2.0 * M_PI * 13.56e6;
 
 /// What a tag's chip does to its antenna's terminals.
 struct TagChip {

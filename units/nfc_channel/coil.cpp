@@ -11,8 +11,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979323846;
-
 Vector3d unit_vector(const Vector3d& axis) {
   const double length = axis.norm();
   if (!(length > 0.0)) {
@@ -93,7 +91,7 @@ struct Sum {
 
   void add(const Path& path, int points, double offset) {
     for (int i = 0; i < points; ++i) {
-      const double term = path(2.0 * kPi * (i + offset) / points);
+      const double term = path(2.0 * M_PI * (i + offset) / points);
       value += term;
       magnitude += std::abs(term);
     }
@@ -122,7 +120,7 @@ double mutual_inductance(const Coil& first, const Pose& first_pose, const Coil& 
     points *= 2;
     done = std::abs(sum.value - coarse) <= kTolerance * sum.magnitude || points >= kMostPoints;
   }
-  return first.turns * second.turns * 2.0 * kPi / points * sum.value;
+  return first.turns * second.turns * 2.0 * M_PI / points * sum.value;
 }
 
 double coupling_factor(const Coil& first, const Coil& second, double mutual_inductance) {

@@ -10,8 +10,6 @@
 namespace nfc_channel {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 double seconds_per_bit(std::uint32_t bit_rate) {
   return stride::to_seconds(nfc::bit_duration(bit_rate));
 }
@@ -52,7 +50,7 @@ BitSignal up_signal(std::uint32_t bit_rate, double reader_quality, double tag_qu
 double sideband_power(const Circuit& circuit, double mutual, const Operation& operation) {
   const Operation modulated = circuit.modulate(mutual, operation);
   return std::norm(operation.reader_current - modulated.reader_current) *
-         circuit.reader().resistance / (kPi * kPi);
+         circuit.reader().resistance / (M_PI * M_PI);
 }
 
 double signal_to_noise(double signal_power, const BitSignal& bit, double noise_density) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "units/channel/check.h"
 #include "units/channel/decibels.h"
 
 namespace nfc_channel {
@@ -13,7 +12,6 @@ using channel::Signals;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr std::array<std::uint32_t, 4> kBitRates = {106, 212, 424, 848};
 
 std::size_t index_of(std::uint32_t bit_rate) {
@@ -35,7 +33,7 @@ channel::Rules rules(const Parameters& parameters) {
 }  // namespace
 
 Channel::Channel(const Parameters& parameters)
-    : Air(parameters.tags.size(), rules(parameters), parameters.seed),
+    : Model(channel::names_of(parameters.tags), rules(parameters), parameters.seed),
       parameters_(checked(parameters)),
       reader_noise_density_(noise_density(parameters.reader.noise)) {
   const ReaderAntenna reader(parameters.reader.coil, parameters.reader.capacitance);
@@ -48,36 +46,24 @@ Channel::Channel(const Parameters& parameters)
     }
     tags_.push_back(added);
   }
-  links_.resize(tags_.size());
 }
 
-void Channel::move(const Pose& reader_coil, const std::vector<Pose>& tag_coils,
-                   double carrier_power) {
-  channel::require_carrier_power(carrier_power);
-  channel::require_pose("reader_coil", reader_coil);
-  carrier_power_ = carrier_power;
-  for (std::size_t i = 0; i < tags_.size(); ++i) {
-    channel::require_pose(tags_[i].parameters.name, tag_coils[i]);
-    move_tag(i, reader_coil, tag_coils[i]);
-  }
-}
-
-void Channel::move_tag(std::size_t index, const Pose& reader_coil, const Pose& tag_coil) {
+void Channel::move_tag(std::size_t index, const Pose& reader_coil, const Pose& tag_coil,
+                       Link& link) {
   const Tag& tag = tags_[index];
   const Coil& coil = tag.parameters.coil;
-  Link& link = links_[index];
   link.distance = (tag_coil.position - reader_coil.position).norm();
   link.mutual = mutual_inductance(parameters_.reader.coil, reader_coil, coil, tag_coil);
   link.coupling = coupling_factor(parameters_.reader.coil, coil, link.mutual);
 
-  const Operation operation = tag.circuit.operate(link.mutual, carrier_power_);
+  const Operation operation = tag.circuit.operate(link.mutual, carrier_power());
   const double flux = std::abs(link.mutual * operation.reader_current) / coil.turns;
   link.field_strength =
-      flux / (kVacuumPermeability * kPi * coil.radius * coil.radius) / std::sqrt(2.0);
+      flux / (kVacuumPermeability * M_PI * coil.radius * coil.radius) / std::sqrt(2.0);
   link.tag_voltage = std::abs(operation.tag_voltage);
   link.tag_power = tag.circuit.in_load(operation);
 
-  link.signals = signals_at(index, carrier_power_);
+  link.signals = signals_at(index, carrier_power());
   const std::size_t rate = index_of(parameters_.bit_rate);
   link.snr_down = signal_to_noise(link.signals.down, tag.down[rate], tag.noise_density);
   link.snr_up = signal_to_noise(link.signals.up, tag.up[rate], reader_noise_density_);
@@ -87,12 +73,13 @@ void Channel::move_tag(std::size_t index, const Pose& reader_coil, const Pose& t
 }
 
 Signals Channel::signals(std::size_t tag, double carrier_power) const {
-  return carrier_power == carrier_power_ ? links_[tag].signals : signals_at(tag, carrier_power);
+  return carrier_power == this->carrier_power() ? link(tag).signals
+                                                : signals_at(tag, carrier_power);
 }
 
 Signals Channel::signals_at(std::size_t index, double carrier_power) const {
   const Circuit& circuit = tags_[index].circuit;
-  const double mutual = links_[index].mutual;
+  const double mutual = link(index).mutual;
   return {circuit.in_load(circuit.operate(mutual, carrier_power, false)),
           sideband_power(circuit, mutual, circuit.operate(mutual, carrier_power))};
 }

@@ -1,6 +1,5 @@
 #include "units/nfc_channel/parameters.h"
 
-#include <stdexcept>
 #include <string>
 
 #include "units/channel/check.h"
@@ -51,9 +50,7 @@ void check(const TagParameters& tag) {
 
 void check(const Parameters& parameters) {
   check(parameters.reader);
-  if (parameters.tags.empty()) {
-    throw std::invalid_argument("the channel has no tag: expected one at least");
-  }
+  channel::require_a_tag(parameters.tags.size());
   for (const TagParameters& tag : parameters.tags) check(tag);
   const std::uint32_t rate = parameters.bit_rate;
   if (rate != 106 && rate != 212 && rate != 424 && rate != 848) {

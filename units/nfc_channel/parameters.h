@@ -32,7 +32,7 @@ struct Parameters {
   ReaderParameters reader;
   std::vector<TagParameters> tags = std::vector<TagParameters>(1);
   std::uint64_t seed = 1;        ///< of the bit errors
-  std::uint32_t bit_rate = 106;  ///< for which a Link says how good it is [kbit/s]
+  std::uint32_t bit_rate = 106;  ///< for which a Link has its ratios [kbit/s]
 };
 
 /// Throws std::invalid_argument, which names the parameter, its value and its range, if one is out

@@ -2,20 +2,13 @@
 #include "units/channel/unit.h"
 
 #include <string>
-#include <utility>
-#include <vector>
 
 #include <stride/unit.h>
 
-#include "units/channel/decibels.h"
 #include "units/nfc_channel/model.h"
-
-namespace {
 
 using nfc_channel::Channel;
 using nfc_channel::TagParameters;
-
-}  // namespace
 
 class NfcChannel : public channel::ModelUnit<Channel, nfc_channel::Parameters> {
  public:
@@ -49,19 +42,6 @@ class NfcChannel : public channel::ModelUnit<Channel, nfc_channel::Parameters> {
   }
 
  private:
-  Outputs outputs(std::size_t tag) const override {
-    const nfc_channel::Link& link = channel_.link(tag);
-    return {link.distance,
-            link.coupling,
-            link.field_strength,
-            link.tag_voltage,
-            link.tag_power,
-            channel::decibels(link.snr_down),
-            channel::decibels(link.snr_up),
-            link.bit_error_rate_down,
-            link.bit_error_rate_up};
-  }
-
   void list_coil(const std::string& name, nfc_channel::Coil& coil) {
     list_positive(name + ".radius", coil.radius, "m", "radius of the turns");
     list_positive(name + ".turns", coil.turns, "", "number of turns");

@@ -28,18 +28,18 @@ std::filesystem::path stimuli_file(const std::filesystem::path& resources) {
   return resources / "stimuli.csv";
 }
 
-/// Where the values of one output stand, and how they come there.
-class Place {
+/// The elements of one output, and how they are set.
+class Output {
  public:
-  virtual ~Place() = default;
+  virtual ~Output() = default;
   /// Values of the input, from this one on.
   virtual void show(const player::Values& values, std::size_t first) = 0;
 };
 
 template <class T, class Source>
-class PlaceOf final : public Place {
+class OutputOf final : public Output {
  public:
-  explicit PlaceOf(std::size_t size) : size_(size), elements_(std::make_unique<T[]>(size)) {}
+  explicit OutputOf(std::size_t size) : size_(size), elements_(std::make_unique<T[]>(size)) {}
   T* elements() { return elements_.get(); }
   void show(const player::Values& values, std::size_t first) override {
     const auto& list = std::get<std::vector<Source>>(values);
@@ -58,7 +58,7 @@ class PlayerUnit : public stride::Unit {
   explicit PlayerUnit(const stride::Setup& setup)
       : stimuli_(player::load_stimuli(stimuli_file(setup.resources).string())),
         playback_(stimuli_),
-        places_(stimuli_.inputs.size()),
+        outputs_(stimuli_.inputs.size()),
         clocks_(stimuli_.inputs.size()) {
     auto& info = describe("Plays to '" + stimuli_.unit + "' what '" + stimuli_.component +
                           "' received in '" + stimuli_.system + "'");
@@ -134,9 +134,9 @@ class PlayerUnit : public stride::Unit {
   template <class T, class Source = T>
   stride::VariableBuilder add_output(std::size_t i) {
     const player::Input& input = stimuli_.inputs[i];
-    auto place = std::make_unique<PlaceOf<T, Source>>(input.size);
-    T* const elements = place->elements();
-    places_[i] = std::move(place);
+    auto made = std::make_unique<OutputOf<T, Source>>(input.size);
+    T* const elements = made->elements();
+    outputs_[i] = std::move(made);
     if (input.dimensions.empty()) return output(input.name, *elements);
     return output(input.name, elements, input.size).dimensions(input.dimensions);
   }
@@ -152,8 +152,8 @@ class PlayerUnit : public stride::Unit {
   }
 
   void show_start_values() {
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      if (places_[i]) places_[i]->show(stimuli_.inputs[i].values, 0);
+    for (std::size_t i = 0; i < outputs_.size(); ++i) {
+      if (outputs_[i]) outputs_[i]->show(stimuli_.inputs[i].values, 0);
     }
   }
 
@@ -162,7 +162,7 @@ class PlayerUnit : public stride::Unit {
   }
   void play(const player::Entry& entry) {
     if (entry.kind == player::Entry::Kind::Tick) return clocks_[entry.input]->tick();
-    places_[entry.input]->show(stimuli_.inputs[entry.input].values, entry.first);
+    outputs_[entry.input]->show(stimuli_.inputs[entry.input].values, entry.first);
   }
 
   /// From event() only, because a step may be taken back.
@@ -189,7 +189,7 @@ class PlayerUnit : public stride::Unit {
 
   player::Stimuli stimuli_;
   player::Playback playback_;
-  std::vector<std::unique_ptr<Place>> places_;          ///< by input; none of clocks
+  std::vector<std::unique_ptr<Output>> outputs_;        ///< by input; none of clocks
   std::vector<std::unique_ptr<stride::Clock>> clocks_;  ///< by input; of clocks only
   bool stop_at_stimuli_ = false;
   bool told_start_ = false;

@@ -67,7 +67,7 @@ std::string find_program(const std::string& program) {
                            folders + "); install it, or name it with its path");
 }
 
-/// What an archive has lost that knows nothing of permissions.
+/// For a file from an archive without permissions.
 void make_executable(const std::string& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return;
@@ -86,7 +86,7 @@ class Launch {
   int run(pid_t parent, const std::array<int, 3>& standard) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(127);  // it has died meanwhile
+    if (::getppid() != parent) ::_exit(127);  // it has ended meanwhile
     for (int signal = 1; signal < NSIG; ++signal) ::signal(signal, SIG_DFL);
     sigset_t none;
     ::sigemptyset(&none);
@@ -157,7 +157,7 @@ Child::Child(const std::vector<std::string>& command) {
     ::_exit(127);
   }
   if (id_ < 0) throw std::runtime_error("cannot start '" + path + "': " + reason(errno));
-  ::setpgid(id_, id_);  // whoever comes first
+  ::setpgid(id_, id_);  // here and in the child: either may run first
   failure.write.close();
   if (const int mistake = failure_of(failure.read); mistake != 0) {
     reap(true);
@@ -180,7 +180,7 @@ bool Child::reap(bool blocks) {
     found = ::waitid(P_PID, static_cast<id_t>(id_), &info, options);
   } while (found != 0 && errno == EINTR);
   if (found == 0 && info.si_pid == 0) return false;
-  ::kill(-id_, SIGKILL);  // what it has left behind, as long as its number is its own
+  ::kill(-id_, SIGKILL);  // what is left of its group, while its number cannot be reused
   if (::waitpid(id_, &status_, 0) != id_) status_ = -1;
   has_ended_ = true;
   return true;

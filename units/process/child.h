@@ -61,7 +61,7 @@ class Child {
   Descriptor error_;
   pid_t id_ = -1;
   bool has_ended_ = false;
-  int status_ = 0;  ///< as waitpid() gives it; -1 if somebody else has fetched it
+  int status_ = 0;  ///< as waitpid() gives it; -1 if it was fetched elsewhere in this process
 };
 
 }  // namespace process

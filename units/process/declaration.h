@@ -40,7 +40,7 @@ struct Declaration {
 Declaration load_declaration(const std::filesystem::path& resources);
 
 /// The command with the paths that it has on this machine: files in the resources, files outside
-/// where `origin.txt` in the resources says that the declaration was when it was packed.
+/// relative to the folder of the declaration when it was packed, which is in `origin.txt`.
 /// `other_program` is run in the place of the program unless it is empty. Throws std::runtime_error
 /// where a file cannot be found.
 std::vector<std::string> command_line(const Declaration& declaration,

@@ -41,7 +41,7 @@ Session::Session(const Declaration& declaration, std::vector<Value>& values,
       told_(values),
       has_come_(values.size()),
       log_(std::move(log)),
-      conversation_(command, limits, [this](const std::string& line) { log_(false, line); }) {
+      lines_(command, limits, [this](const std::string& line) { log_(false, line); }) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     places_.emplace(declaration.variables[i].name, i);
     if (declaration.variables[i].role == Role::Input) inputs_.push_back(i);
@@ -51,7 +51,7 @@ Session::Session(const Declaration& declaration, std::vector<Value>& values,
 // ---- Commands ----
 
 Sync Session::start(const Opening& opening, Time time) {
-  std::string& text = conversation_.commands();
+  std::string& text = lines_.commands();
   now_ = last_sent_ = time;
   TagWriter(text, "open")
       .value("protocol", 1)
@@ -70,7 +70,7 @@ Sync Session::start(const Opening& opening, Time time) {
   }
   tell_inputs(true);
   TagWriter(text, "start").value("time", count(time.time_since_epoch())).end();
-  conversation_.send("start");
+  lines_.send("start");
   const Sync sync = read_answer(time, false);
   require_all_outputs();
   return sync;
@@ -85,7 +85,7 @@ void Session::set_time_unit(Time now, Time to) {
   const Duration unit = is_multiple(now) && is_multiple(to) ? wanted : Duration(1);
   if (unit == unit_) return;
   unit_ = unit;
-  TagWriter(conversation_.commands(), "time-unit").value("picoseconds", unit.count()).end();
+  TagWriter(lines_.commands(), "time-unit").value("picoseconds", unit.count()).end();
 }
 
 bool Session::has_news() const {
@@ -105,7 +105,7 @@ void Session::tell_inputs(bool all) {
 
 void Session::tell_value(std::string_view tag, std::size_t variable, std::optional<Time> time) {
   const std::string& name = declaration_.variables[variable].name;
-  TagWriter writer(conversation_.commands(), tag);
+  TagWriter writer(lines_.commands(), tag);
   writer.value("name", name);
   if (time) writer.value("time", count(time->time_since_epoch()));
   try {
@@ -124,24 +124,24 @@ void Session::receive(std::size_t variable) {
 Sync Session::step(Time to, bool may_stop) {
   set_time_unit(now_, to);
   tell_inputs(false);
-  TagWriter(conversation_.commands(), "step")
+  TagWriter(lines_.commands(), "step")
       .value("size", count(to - now_))
       .value("may-stop", may_stop)
       .end();
-  conversation_.send("make a step");
+  lines_.send("make a step");
   return read_answer(to, may_stop);
 }
 
 void Session::finish() {
-  TagWriter(conversation_.commands(), "end").end();
-  conversation_.finish();
+  TagWriter(lines_.commands(), "end").end();
+  lines_.finish();
 }
 
 // ---- Answers ----
 
 Sync Session::read_answer(Time to, bool may_stop) {
   while (true) {
-    const std::string_view line = conversation_.next_line();
+    const std::string_view line = lines_.next_line();
     try {
       tag_.parse(line);
       const std::string_view name = tag_.name();
@@ -154,7 +154,7 @@ Sync Session::read_answer(Time to, bool may_stop) {
         read_tag(name);
       }
     } catch (const std::invalid_argument& mistake) {
-      conversation_.fail_line(mistake.what());
+      lines_.fail_line(mistake.what());
     }
   }
 }
@@ -167,7 +167,7 @@ void Session::read_tag(std::string_view name) {
     unit_ = Duration(picoseconds);
     return;
   }
-  if (name == "error") conversation_.fail("fails: " + std::string(tag_.text("text")));
+  if (name == "error") lines_.fail("fails: " + std::string(tag_.text("text")));
   throw std::invalid_argument("<" + std::string(name) +
                               "> is not known: expected <output>, <message>, <log>, <time-unit>, "
                               "<error> or <sync>");
@@ -265,8 +265,8 @@ void Session::require_all_outputs() const {
     missing += (missing.empty() ? "'" : ", '") + variable.name + "'";
   }
   if (missing.empty()) return;
-  conversation_.fail("has not told the outputs " + missing +
-                     " before it answered <start/>; expected each of them there");
+  lines_.fail("has not sent the outputs " + missing +
+              " before it answered <start/>; expected each of them there");
 }
 
 }  // namespace process

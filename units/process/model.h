@@ -15,8 +15,8 @@
 #include <stride/process/tag.h>
 #include <stride/time.h>
 
-#include "units/process/conversation.h"
 #include "units/process/declaration.h"
+#include "units/process/program_lines.h"
 
 namespace process {
 
@@ -37,14 +37,14 @@ struct Message {
 
 /// How a step has ended.
 struct Sync {
-  stride::Time time;                 ///< where the program stands
+  stride::Time time;                 ///< that the program has reached
   std::optional<stride::Time> next;  ///< when something happens next, if that is known
-  bool ends = false;                 ///< the program wants the simulation to end
+  bool ends = false;                 ///< the program requests the end of the simulation
 };
 
 /// A program from its start to its end. Values are read from and written to `values`, one for each
 /// variable of the declaration, in its order; both must outlive the session. All functions throw
-/// std::runtime_error as Conversation does.
+/// std::runtime_error as ProgramLines does.
 class Session {
  public:
   using Log = std::function<void(bool is_warning, const std::string& text)>;
@@ -52,18 +52,18 @@ class Session {
   Session(const Declaration& declaration, std::vector<Value>& values,
           const std::vector<std::string>& command, const Limits& limits, Log log);
 
-  /// Tells parameters and inputs; the program answers with its outputs.
+  /// Sends parameters and inputs; the program answers with its outputs.
   Sync start(const Opening& opening, stride::Time time);
-  /// Whether an input is not what the program was told last.
+  /// Whether an input differs from what was sent last.
   bool has_news() const;
   /// Hands over a message that has come at the present instant; a step follows.
   void receive(std::size_t variable);
-  /// Tells the inputs that have changed and lets it go from where it stands to `to`, which may be
-  /// the present instant.
+  /// Sends the inputs that have changed, and a step from the present instant to `to`, which may be
+  /// the same.
   Sync step(stride::Time to, bool may_stop);
   void finish();
 
-  /// What the program has sent and nobody has fetched yet, in the order in which it was produced.
+  /// What the program has sent and is not yet taken out, in the order in which it was produced.
   std::deque<Message>& sent() { return sent_; }
 
  private:
@@ -88,13 +88,13 @@ class Session {
 
   const Declaration& declaration_;
   std::vector<Value>& values_;
-  std::vector<Value> told_;  ///< of inputs: what the program knows
+  std::vector<Value> told_;  ///< of inputs: what was sent last
   std::vector<std::size_t> inputs_;
   std::map<std::string, std::size_t, std::less<>> places_;
   std::vector<bool> has_come_;  ///< of outputs, in the answer to the start
-  std::size_t guess_ = 0;       ///< the variable that the program will tell next, probably
+  std::size_t guess_ = 0;       ///< the variable that the program will probably send next
   Log log_;
-  Conversation conversation_;
+  ProgramLines lines_;
   Tag tag_;
   stride::Duration unit_{1};  ///< of the times in the lines
   stride::Time now_;

@@ -1,6 +1,7 @@
 #include "units/reader/answer.h"
 
 #include <stride/nfc/iso14443a.h>
+#include <stride/nfc/numbers.h>
 
 namespace reader {
 namespace {
@@ -43,19 +44,13 @@ bool fits(nfc::Command command, nfc::Status status, std::size_t size) {
   return size >= expected.least && size <= expected.most && size % expected.unit == 0;
 }
 
-std::uint32_t big_endian(const nfc::Bytes& bytes, std::size_t first, std::size_t size) {
-  std::uint32_t value = 0;
-  for (std::size_t i = first; i < first + size; ++i) value = value << 8 | bytes[i];
-  return value;
-}
-
 double temperature(const nfc::Bytes& bytes, std::size_t first) {
-  return static_cast<std::int16_t>(big_endian(bytes, first, 2)) / kCountsPerDegree;
+  return static_cast<std::int16_t>(nfc::number_in(bytes, first, first + 2)) / kCountsPerDegree;
 }
 
 void read_log(const nfc::Bytes& content, Answer& answer) {
   for (std::size_t at = 1; at < content.size(); at += nfc::kLogSampleBytes) {
-    const auto age = static_cast<std::uint16_t>(big_endian(content, at, 2));
+    const auto age = static_cast<std::uint16_t>(nfc::number_in(content, at, at + 2));
     answer.samples[answer.sample_count++] = {age, temperature(content, at + 2)};
   }
 }
@@ -79,7 +74,7 @@ std::optional<Answer> parse_answer(nfc::Command command, const nfc::Bits& bits) 
     return std::nullopt;
   }
   if (answer.status != nfc::Status::kOk) return answer;
-  if (command == nfc::Command::kIdentify) answer.identifier = big_endian(*content, 1, 4);
+  if (command == nfc::Command::kIdentify) answer.identifier = nfc::number_in(*content, 1, 5);
   if (command == nfc::Command::kReadTemperature) answer.temperature = temperature(*content, 1);
   if (command == nfc::Command::kReadLog) read_log(*content, answer);
   return answer;

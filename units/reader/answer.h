@@ -22,7 +22,7 @@ struct Sample {
   double temperature = 0.0;  ///< [degC]
 };
 
-/// What the sensor says to a command.
+/// The sensor's answer to a command.
 struct Answer {
   nfc::Status status = nfc::Status::kOk;
   std::uint32_t identifier = 0;  ///< after identify

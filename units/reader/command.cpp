@@ -3,6 +3,8 @@
 #include <vector>
 
 #include <stride/nfc/names.h>
+#include <stride/nfc/numbers.h>
+#include <stride/value_text.h>
 
 #include "units/xml/text.h"
 
@@ -35,15 +37,6 @@ void allow_attributes(const Element& element, std::vector<std::string> further =
   element.allow_only(further);
 }
 
-template <class Unsigned>
-nfc::Bytes most_significant_first(Unsigned value) {
-  nfc::Bytes bytes(sizeof(Unsigned));
-  for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
-    bytes[i] = static_cast<std::uint8_t>(value >> (8 * (sizeof(Unsigned) - 1 - i)));
-  }
-  return bytes;
-}
-
 std::uint32_t identifier(const Element& element) {
   return static_cast<std::uint32_t>(element.whole_number("identifier", 0, 0xFFFFFFFF));
 }
@@ -54,22 +47,10 @@ nfc::Bytes led(const Element& element) {
   return {static_cast<std::uint8_t>(led == "on" ? 1 : 0)};
 }
 
-int digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
-
 Request raw_request(const Element& element) {
   const std::string text = element.text("bytes");
   nfc::Bytes bytes;
-  bool is_well = !text.empty() && text.size() % 2 == 0 && text.size() / 2 <= kMostBytes;
-  for (std::size_t i = 0; is_well && i < text.size(); i += 2) {
-    is_well = digit(text[i]) >= 0 && digit(text[i + 1]) >= 0;
-    bytes.push_back(static_cast<std::uint8_t>(16 * digit(text[i]) + digit(text[i + 1])));
-  }
-  if (!is_well) {
+  if (!stride::parse_hexadecimal(text, bytes) || bytes.empty() || bytes.size() > kMostBytes) {
     element.fail("bytes=\"" + text + "\": expected 1 to " + std::to_string(kMostBytes) +
                  " bytes of two hexadecimal digits each, such as \"7F01\"");
   }
@@ -99,10 +80,10 @@ Request request(const Element& element) {
       return {command, led(element)};
     case nfc::Command::kSelect:
       allow_attributes(element, {"identifier"});
-      return {command, most_significant_first(identifier(element))};
+      return {command, nfc::most_significant_first(identifier(element))};
     case nfc::Command::kSetSamplingPeriod:
       allow_attributes(element, {"period"});
-      return {command, most_significant_first(
+      return {command, nfc::most_significant_first(
                            static_cast<std::uint16_t>(element.whole_number("period", 0, 0xFFFF)))};
     default:
       allow_attributes(element);
@@ -142,7 +123,7 @@ std::uint32_t bit_rate(const Element& element) {
                "\": expected 106, 212, 424 or 848 kbit/s");
 }
 
-/// The attributes of an <expect> that say something of the data.
+/// The attributes of an <expect> that are about the data.
 std::vector<std::string> data_attributes(nfc::Command command) {
   switch (command) {
     case nfc::Command::kIdentify:

@@ -26,7 +26,7 @@ struct Expectation {
 bool is_met(const Expectation& expectation, nfc::Command command,
             const std::optional<Answer>& answer);
 
-/// Such as "ok 20 to 23 degC" or "no answer"; without a comma, for it stands in tables.
+/// Such as "ok 20 to 23 degC" or "no answer"; without a comma, for tables.
 std::string text_of(const Expectation& expectation);
 
 /// Such as "ok 21.49 degC".

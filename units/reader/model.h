@@ -42,7 +42,7 @@ struct Record {
 struct Measurement {
   stride::Time received;  ///< when its answer ended
   double temperature;     ///< [degC]
-  stride::Duration age;   ///< that the sensor says, when it was received: it is this at least,
+  stride::Duration age;   ///< as the sensor sent it, when it was received: it is this at least,
   stride::Duration age_resolution;  ///< and less than this more, but for the answer's way
 };
 
@@ -69,7 +69,7 @@ struct Counts {
 /// 14443-4, 7.2 does. A frame may arrive at any time from its start to its end; the reader looks at
 /// frame.start and nfc::air_time() only, so it gives a command up when no answer that began in time
 /// can be on the air any more. A command without an intact answer is sent again after its pause as
-/// often as the program says, while the antenna is on.
+/// often as the program requires, while the antenna is on.
 class Reader {
  public:
   /// An answer on the air.

@@ -20,7 +20,7 @@ struct Waypoint {
 /// Coordination of Arm Movements", J. Neuroscience 5 (1985)). Before 0 it is 0, after 1 it is 1.
 double minimum_jerk(double share_of_time);
 
-/// The target of one axis at an instant [rad]. Before the first waypoint the axis stands there, and
+/// The target of one axis at an instant [rad]. Before the first waypoint the axis is there, and
 /// after the last one likewise. The waypoints' times rise strictly, and there is at least one.
 double position(const std::vector<Waypoint>& waypoints, std::size_t axis, stride::Time time);
 

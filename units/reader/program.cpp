@@ -19,7 +19,7 @@ constexpr double kLargestTremor = 0.5;       // [rad]
 constexpr double kLargestStartOffset = 1.0;  // [rad]
 constexpr double kHighestFrequency = 100.0;  // of a tremor [Hz]
 
-/// Fills a program section by section; each may refer to what stands before it.
+/// Fills a program section by section; each may refer to what comes before it.
 class Parser {
  public:
   Program parse(const Element& root) {
@@ -70,7 +70,7 @@ class Parser {
       element.fail("name=\"" + name + "\" cannot be used: expected the name of an actuator");
     }
     if (std::find(axes.begin(), axes.end(), name) != axes.end()) {
-      element.fail("the axis '" + name + "' stands here for the second time");
+      element.fail("the axis '" + name + "' is listed here for the second time");
     }
     if (!poses_.empty()) element.fail("expected all axes before the poses");
     program_.axes.push_back(name);
@@ -106,7 +106,7 @@ class Parser {
     for (const auto& axis : program_.axes) positions.push_back(element.number(axis.c_str()));
     const std::string name = element.text("name");
     if (!poses_.emplace(name, std::move(positions)).second) {
-      element.fail("the pose '" + name + "' stands here for the second time");
+      element.fail("the pose '" + name + "' is listed here for the second time");
     }
   }
 
@@ -120,7 +120,8 @@ class Parser {
     const std::string name = element.text("pose");
     const auto pose = poses_.find(name);
     if (pose == poses_.end()) {
-      element.fail("unknown pose '" + name + "': expected one that stands above: " + pose_names());
+      element.fail("unknown pose '" + name +
+                   "': expected one that is listed above: " + pose_names());
     }
     program_.waypoints.push_back({at, pose->second});
   }

@@ -41,7 +41,7 @@ std::optional<stride::Time> carrier_end(const Program& program, stride::Time tim
 /// Throws std::runtime_error with the file, the line and what was expected there.
 Program load_program(const std::string& path);
 
-/// The same for a text; `name` stands for the file in error messages.
+/// The same for a text; `name` is the file in error messages.
 Program parse_program(const std::string& text, const std::string& name);
 
 }  // namespace reader

@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "units/channel/check.h"
 #include "units/channel/decibels.h"
 
 namespace rf_channel {
@@ -16,7 +15,6 @@ using channel::Signals;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kReceiverResistance = 50.0;  // [Ohm]
 
 const Parameters& checked(const Parameters& parameters) {
@@ -44,16 +42,15 @@ double gain_of(const Radio& first, const Radio& second) {
 double field_strength(double received, const Radio& receiver, double frequency) {
   const double wavelength = kSpeedOfLight / frequency;
   const double gain = channel::from_decibels(receiver.antenna_gain);
-  const double density = received * 4.0 * kPi / (wavelength * wavelength * gain);
+  const double density = received * 4.0 * M_PI / (wavelength * wavelength * gain);
   return std::sqrt(density / kVacuumImpedance);
 }
 
 }  // namespace
 
 Channel::Channel(const Parameters& parameters)
-    : Air(parameters.tags.size(), rules(), parameters.seed),
-      parameters_(checked(parameters)),
-      links_(parameters.tags.size()) {
+    : Model(channel::names_of(parameters.tags), rules(), parameters.seed),
+      parameters_(checked(parameters)) {
   const double bandwidth = packet_format(parameters.modulation).bandwidth;
   reader_noise_ = noise_power(parameters.reader, bandwidth);
   for (const TagParameters& tag : parameters.tags) {
@@ -61,23 +58,13 @@ Channel::Channel(const Parameters& parameters)
   }
 }
 
-void Channel::move(const Pose& reader, const std::vector<Pose>& tags, double carrier_power) {
-  channel::require_carrier_power(carrier_power);
-  channel::require_pose("reader_coil", reader);
-  carrier_power_ = carrier_power;
-  for (std::size_t i = 0; i < links_.size(); ++i) {
-    channel::require_pose(parameters_.tags[i].name, tags[i]);
-    move_tag(i, reader, tags[i]);
-  }
-}
-
-void Channel::move_tag(std::size_t index, const Pose& reader, const Pose& tag) {
+void Channel::move_tag(std::size_t index, const Pose& reader, const Pose& tag, Link& link) {
   const Radio& radio = parameters_.tags[index].radio;
-  Link& link = links_[index];
   link.distance = (tag.position - reader.position).norm();
   link.gain = path_gain(reader, tag, parameters_.antenna, gain_of(parameters_.reader, radio),
                         parameters_.ground, parameters_.frequency);
-  link.signals = signals(index, carrier_power_);
+  link.coupling = std::sqrt(link.gain);
+  link.signals = signals(index, carrier_power());
   link.field_strength = field_strength(link.signals.down, radio, parameters_.frequency);
   link.tag_voltage = std::sqrt(2.0 * kReceiverResistance * link.signals.down);
   link.snr_down = ratio_of(link.signals.down, tag_noises_[index]);
@@ -90,7 +77,7 @@ void Channel::move_tag(std::size_t index, const Pose& reader, const Pose& tag) {
 // The way back is as good as the way there.
 Signals Channel::signals(std::size_t tag, double carrier_power) const {
   if (carrier_power == 0.0) return {};
-  const double gain = links_[tag].gain;
+  const double gain = link(tag).gain;
   return {carrier_power * gain, parameters_.tags[tag].transmit_power * gain};
 }
 
@@ -118,7 +105,7 @@ channel::Transit Channel::transit(const nfc::Frame& frame, std::size_t tag,
   const stride::Time handed_over = frame.start + nfc::air_time(frame);
   channel::Transit transit;
   transit.is_stored = true;
-  transit.propagation = stride::duration_from_seconds(links_[tag].distance / kSpeedOfLight);
+  transit.propagation = stride::duration_from_seconds(link(tag).distance / kSpeedOfLight);
   transit.begin = std::max(handed_over, free) + transit.propagation;
   transit.header = format.header;
   transit.header_bits = format.header_bits;

@@ -6,7 +6,6 @@
 namespace rf_channel {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr stride::Duration kMicrosecond{1'000'000};
 constexpr PacketFormat kOqpskPacket{192 * kMicrosecond, 16, 16 * kMicrosecond, 4, 127, 2e6};
 constexpr PacketFormat kGfskPacket{56 * kMicrosecond, 48, kMicrosecond, 1, 255, 1e6};
@@ -35,7 +34,7 @@ double correlated_fsk_error(double bit_energy_to_noise, double correlation) {
   const double share = std::sqrt((1.0 - root) / (1.0 + root));  // a / b
   double sum = 0.0;
   for (int i = 0; i < kPoints; ++i) {
-    const double q = 1.0 + 2.0 * share * std::sin(2.0 * kPi * i / kPoints) + share * share;
+    const double q = 1.0 + 2.0 * share * std::sin(2.0 * M_PI * i / kPoints) + share * share;
     sum += (1.0 - share * share) / q * std::exp(-0.5 * b_squared * q);
   }
   return std::clamp(0.5 * sum / kPoints, 0.0, 0.5);
@@ -44,7 +43,7 @@ double correlated_fsk_error(double bit_energy_to_noise, double correlation) {
 double bit_error_probability(Modulation modulation, double ratio) {
   if (std::isinf(ratio)) return 0.0;
   if (modulation == Modulation::kOqpsk) return oqpsk_error(ratio);
-  constexpr double kCorrelation = 2.0 / kPi;  // of tones half a bit rate apart
+  constexpr double kCorrelation = 2.0 / M_PI;  // of tones half a bit rate apart
   return correlated_fsk_error(ratio, kCorrelation);
 }
 

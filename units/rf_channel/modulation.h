@@ -14,7 +14,7 @@ enum class Modulation : std::int64_t {
   kGfsk = 1,   ///< as Bluetooth Low Energy, LE 1M
 };
 
-/// What stands in the air around the bits, and how fast they are.
+/// What a packet has around its bits, and how fast they are.
 struct PacketFormat {
   stride::Duration header;    ///< preamble and all that comes before the bits
   std::uint32_t header_bits;  ///< of it, those that have to be heard right

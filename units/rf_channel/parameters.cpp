@@ -1,7 +1,6 @@
 #include "units/rf_channel/parameters.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include "units/channel/check.h"
@@ -39,9 +38,7 @@ void check(const Ground& ground) {
 
 void check(const Parameters& parameters) {
   check("reader", parameters.reader);
-  if (parameters.tags.empty()) {
-    throw std::invalid_argument("the channel has no tag: expected one at least");
-  }
+  channel::require_a_tag(parameters.tags.size());
   for (const TagParameters& tag : parameters.tags) {
     check(tag.name.prefix(), tag.radio);
     require_not_negative(tag.name.prefix() + ".transmit_power", tag.transmit_power);

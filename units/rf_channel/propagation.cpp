@@ -11,8 +11,6 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979323846;
-
 // Straight up, or from an antenna to itself, the plane of incidence is any upright one.
 Vector3d across(const Vector3d& direction) {
   const Vector3d normal = Vector3d::UnitZ().cross(direction);
@@ -28,7 +26,8 @@ Vector3d mirrored(Vector3d vector, double height = 0.0) {
   return vector;
 }
 
-struct Link {
+/// The direct way between two antennas, and the one by way of the ground.
+struct Rays {
   const Pose& first;
   const Pose& second;
   Antenna antenna;
@@ -38,8 +37,8 @@ struct Link {
   double wavelength() const { return kSpeedOfLight / frequency; }
 
   Complex ray(double length) const {
-    const double least = wavelength() / (2.0 * kPi);
-    return std::polar(1.0 / std::max(length, least), -2.0 * kPi * length / wavelength());
+    const double least = wavelength() / (2.0 * M_PI);
+    return std::polar(1.0 / std::max(length, least), -2.0 * M_PI * length / wavelength());
   }
 
   Complex direct() const {
@@ -76,7 +75,7 @@ struct Link {
 }  // namespace
 
 Reflection reflection(const Ground& ground, double sine, double frequency) {
-  const double omega = 2.0 * kPi * frequency;
+  const double omega = 2.0 * M_PI * frequency;
   const Complex permittivity{ground.permittivity,
                              -ground.conductivity / (omega * kVacuumPermittivity)};
   const Complex root = std::sqrt(permittivity - (1.0 - sine * sine));
@@ -86,13 +85,13 @@ Reflection reflection(const Ground& ground, double sine, double frequency) {
 
 double path_gain(const Pose& first, const Pose& second, Antenna antenna, double gain,
                  const Ground& ground, double frequency) {
-  const Link link{first, second, antenna, ground, frequency};
-  Complex field = link.direct();
+  const Rays rays{first, second, antenna, ground, frequency};
+  Complex field = rays.direct();
   if (ground.reflects) {
     if (std::min(first.position.z(), second.position.z()) < ground.height) return 0.0;
-    field += link.reflected();
+    field += rays.reflected();
   }
-  const double amplitude = link.wavelength() / (4.0 * kPi) * std::abs(field);
+  const double amplitude = rays.wavelength() / (4.0 * M_PI) * std::abs(field);
   return std::min(1.0, gain * amplitude * amplitude);
 }
 

@@ -1,13 +1,10 @@
 // The channel as an FMU: the variable table, and the way from the variables to the model.
 #include "units/channel/unit.h"
 
-#include <cmath>
 #include <string>
-#include <vector>
 
 #include <stride/unit.h>
 
-#include "units/channel/decibels.h"
 #include "units/rf_channel/model.h"
 
 using rf_channel::Channel;
@@ -18,11 +15,7 @@ class RfChannel : public channel::ModelUnit<Channel, rf_channel::Parameters> {
   explicit RfChannel(const stride::Setup& setup)
       : ModelUnit(channel::tag_names(setup, "rf-channel")) {
     describe_channel("Packet radio between a reader and tags over a ground: frames, no power");
-    const std::string axis = "direction of the dipole, of any length but zero";
-    list_reader_pose("the reader's antenna", axis);
-    for (std::size_t i = 0; i < tags().size(); ++i) {
-      list_tag_pose(i, "the antenna of the " + tags()[i].text(), axis);
-    }
+    list_antenna_poses("direction of the dipole, of any length but zero");
     list_carrier_power("what the reader's radio sends with, 0 while it is off");
     const Meanings meanings{"distance between the antennas",
                             "amplitude received over amplitude sent",
@@ -40,19 +33,6 @@ class RfChannel : public channel::ModelUnit<Channel, rf_channel::Parameters> {
   }
 
  private:
-  Outputs outputs(std::size_t tag) const override {
-    const rf_channel::Link& link = channel_.link(tag);
-    return {link.distance,
-            std::sqrt(link.gain),
-            link.field_strength,
-            link.tag_voltage,
-            0.0,
-            channel::decibels(link.snr_down),
-            channel::decibels(link.snr_up),
-            link.bit_error_rate_down,
-            link.bit_error_rate_up};
-  }
-
   void list_radio(const std::string& name, rf_channel::Radio& radio) {
     parameter(name + ".antenna_gain", radio.antenna_gain)
         .unit("dB")

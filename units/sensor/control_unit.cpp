@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include <stride/nfc/numbers.h>
 #include <stride/systemc/time.h>
 
 #include "units/sensor/adc.h"
@@ -11,19 +12,11 @@ namespace sensor {
 namespace {
 
 using nfc::Command;
+using nfc::most_significant_first;
 using nfc::Status;
 using stride::systemc::current_time;
 
 constexpr stride::Duration kSecond = std::chrono::seconds(1);
-
-template <class Unsigned>
-nfc::Bytes most_significant_first(Unsigned value) {
-  nfc::Bytes bytes(sizeof(Unsigned));
-  for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
-    bytes[i] = static_cast<std::uint8_t>(value >> (8 * (sizeof(Unsigned) - 1 - i)));
-  }
-  return bytes;
-}
 
 /// By those that are not selected, too.
 bool answered_by_all(Command command) {
@@ -32,9 +25,7 @@ bool answered_by_all(Command command) {
 
 /// The number that the arguments of a command are.
 std::uint32_t argument(const nfc::Bytes& command) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 1; i < command.size(); ++i) value = value << 8 | command[i];
-  return value;
+  return nfc::number_in(command, 1, command.size());
 }
 
 void append(nfc::Bytes& bytes, const nfc::Bytes& more) {

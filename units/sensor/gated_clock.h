@@ -1,4 +1,4 @@
-// A clock that stands still when nobody needs it.
+// A clock that is stopped while it is not needed.
 #ifndef STRIDE_UNITS_SENSOR_GATED_CLOCK_H
 #define STRIDE_UNITS_SENSOR_GATED_CLOCK_H
 

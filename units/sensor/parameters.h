@@ -19,7 +19,7 @@ struct ControlUnitParameters {
   bool clock_gating = true;              ///< the clock stands still while the control unit sleeps
   std::int32_t boot_cycles = 50'000;     ///< from power-on to the first instruction
   std::int32_t wake_up_cycles = 250;     ///< from stop mode to the first instruction
-  std::int32_t decode_cycles = 40;       ///< to tell what a command wants
+  std::int32_t decode_cycles = 40;       ///< to decode a command
   std::int32_t execute_cycles = 60;      ///< to do it, conversions not included
   std::int32_t cycles_per_byte = 24;     ///< to hand one byte of the answer to the transceiver
   double active_current = 2.0e-3;        ///< [A]
@@ -68,15 +68,10 @@ struct ParameterInfo {
   const char* description;
 };
 
-/// Calls visit(ParameterInfo, member) for each parameter, in a fixed order. The member is a double,
-/// a std::int32_t or a bool; it is const if the parameters are.
-template <class Parameters, class Visitor>
-void visit_parameters(Parameters& parameters, Visitor&& visit) {
-  auto& [transceiver, control_unit, adc, power] = parameters;
-  const auto add = [&](auto& member, const char* name, const char* unit, double minimum,
-                       double maximum, const char* description) {
-    visit(ParameterInfo{name, unit, minimum, maximum, description}, member);
-  };
+// For each parameter of a part: add(member, name, unit, minimum, maximum, description).
+
+template <class Part, class Add>
+void add_transceiver(Part& transceiver, const Add& add) {
   add(transceiver.fifo_depth, "transceiver.fifo_depth", "", 1, 1024,
       "commands that can wait for the control unit");
   add(transceiver.transmit_current, "transceiver.transmit_current", "A", 0, 1,
@@ -85,7 +80,10 @@ void visit_parameters(Parameters& parameters, Visitor&& visit) {
       "field power from which on there is a carrier to answer with; 0 if it has its own");
   add(transceiver.always_selected, "transceiver.always_selected", "", 0, 1,
       "whether all commands are answered without a selection");
+}
 
+template <class Part, class Add>
+void add_control_unit(Part& control_unit, const Add& add) {
   add(control_unit.clock_frequency, "control_unit.clock_frequency", "Hz", 1e3, 1e9,
       "frequency of the control unit's clock");
   add(control_unit.clock_gating, "control_unit.clock_gating", "", 0, 1,
@@ -109,14 +107,20 @@ void visit_parameters(Parameters& parameters, Visitor&& visit) {
   add(control_unit.led_current, "control_unit.led_current", "A", 0, 1, "current of the LED");
   add(control_unit.identifier, "control_unit.identifier", "", -2147483648.0, 2147483647.0,
       "the 32-bit identifier, as a signed number");
+}
 
+template <class Part, class Add>
+void add_adc(Part& adc, const Add& add) {
   add(adc.minimum, "adc.minimum", "degC", -273.15, 327, "temperature of code 0");
   add(adc.maximum, "adc.maximum", "degC", -273.15, 327, "temperature of code 4095");
   add(adc.offset_error, "adc.offset_error", "K", -100, 100,
       "by how much too high a temperature is converted, for want of calibration");
   add(adc.conversion_cycles, "adc.conversion_cycles", "", 1, 1e9, "clock cycles of a conversion");
   add(adc.current, "adc.current", "A", 0, 1, "current while it converts");
+}
 
+template <class Part, class Add>
+void add_power(Part& power, const Add& add) {
   add(power.rectifier_efficiency, "power.rectifier_efficiency", "1", 0, 1,
       "share of the antenna's power that is left after the rectifier");
   add(power.capacitance, "power.capacitance", "F", 1e-9, 100, "capacitance of the supercapacitor");
@@ -137,6 +141,21 @@ void visit_parameters(Parameters& parameters, Visitor&& visit) {
       "voltage of the supercapacitor at which the device is switched off");
   add(power.supply_voltage, "power.supply_voltage", "V", 1e-3, 100,
       "voltage that the linear regulator gives to the loads");
+}
+
+/// Calls visit(ParameterInfo, member) for each parameter, in a fixed order. The member is a double,
+/// a std::int32_t or a bool; it is const if the parameters are.
+template <class Parameters, class Visitor>
+void visit_parameters(Parameters& parameters, Visitor&& visit) {
+  auto& [transceiver, control_unit, adc, power] = parameters;
+  const auto add = [&](auto& member, const char* name, const char* unit, double minimum,
+                       double maximum, const char* description) {
+    visit(ParameterInfo{name, unit, minimum, maximum, description}, member);
+  };
+  add_transceiver(transceiver, add);
+  add_control_unit(control_unit, add);
+  add_adc(adc, add);
+  add_power(power, add);
 }
 
 /// Throws std::invalid_argument, which names the parameter, its value and its range, if one is out

@@ -19,7 +19,7 @@ using Currents = std::array<double, kParts>;  ///< of each part [A]
 struct EnergyBooks {
   double field = 0;                    ///< taken from the antenna
   double rectifier = 0;                ///< lost in it
-  double limiter = 0;                  ///< shunted to ground because nobody wants it
+  double limiter = 0;                  ///< shunted to ground, because it is not used
   double charger = 0;                  ///< lost between supply rail and capacitor
   double series_resistance = 0;        ///< lost in that of the capacitor
   double leakage = 0;                  ///< lost in the capacitor's leakage

@@ -22,7 +22,7 @@ struct Answer {
   nfc::Bytes data;  ///< status byte and data, without CRC
 };
 
-/// What the control unit sees of the transceiver.
+/// The part of the transceiver that the control unit uses.
 class TransmitInterface : public virtual sc_core::sc_interface {
  public:
   virtual bool can_send() const = 0;
@@ -36,7 +36,7 @@ struct FrameCounters {
       0;                     ///< wrong parity, CRC, length or bit rate, or garbled by another frame
   std::int32_t sent = 0;     ///< started
   std::int32_t cut = 0;      ///< of these, cut off because power or carrier failed
-  std::int32_t dropped = 0;  ///< answers not started, for want of power or carrier
+  std::int32_t dropped = 0;  ///< answers not started, because power or carrier was missing
 };
 
 /// Half duplex. A frame is received if there was power from its start to its end. Where two

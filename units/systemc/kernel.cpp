@@ -259,7 +259,7 @@ void Kernel::end_threads() noexcept {
       for (sc_process_handle& thread : threads) thread.kill();
     });
     sc_core::sc_start(sc_core::SC_ZERO_TIME);
-  } catch (...) {  // a destructor of the device threw; there is nobody to tell any more
+  } catch (...) {  // a destructor of the device threw; the error can no longer be reported
   }
 }
 

@@ -29,7 +29,7 @@ std::string without_extension(const std::string& path) {
   return file.string();
 }
 
-/// Opens the file and keeps all others from it who do the same, in whichever process, until it is
+/// Opens the file and locks it against all others that open it so, in any process, until it is
 /// unlocked. Returns its descriptor.
 int lock_file(const std::string& path) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);

@@ -9,7 +9,7 @@
 
 namespace stride {
 
-/// When a clock ticks (FMI 3.0, 2.2.8): by the time, in the manner that the word says, or
+/// When a clock ticks (FMI 3.0, 2.2.8): by the time, in the manner of the enumerator, or
 /// triggered.
 enum class IntervalVariability : std::uint8_t {
   Constant,
@@ -21,7 +21,7 @@ enum class IntervalVariability : std::uint8_t {
 };
 
 /// A clock of a unit (FMI 3.0, 2.2.8): the instant at which something happens, separate from its
-/// value. It is triggered, unless its row in the variable table says otherwise.
+/// value. It is triggered, unless its row in the variable table has another variability.
 ///
 /// A triggered output: the unit calls tick() in step() or event(); the importer sees the tick in
 /// the Event Mode that follows, and the kit withdraws it when that super-dense instant is over. An
@@ -40,7 +40,7 @@ class Clock {
   /// Of a periodic clock: from the start to the first tick.
   Duration shift() const { return shift_; }
 
-  /// For a fixed or tunable clock that is declared without an interval: says it, in initialize();
+  /// For a fixed or tunable clock that is declared without an interval: sets it, in initialize();
   /// a tunable one also in event(), from which on the new interval counts.
   void set_interval(Duration interval) {
     if (interval <= Duration{}) throw std::invalid_argument("a clock's interval must be positive");
@@ -65,7 +65,7 @@ class Clock {
 
  private:
   friend class ClockAccess;
-  /// What the importer knows of the interval: nothing yet, not what it is now, all.
+  /// What the importer has read of the interval: nothing yet, not the present one, all.
   enum class Knowledge : std::uint32_t { None, New, Told };
 
   Duration interval_{};

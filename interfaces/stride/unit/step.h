@@ -21,7 +21,7 @@ class InputUpdater {
 /// One communication step, from one communication point to the next.
 class Step {
  public:
-  /// `updater`: who sets the intermediate inputs, if anybody does.
+  /// `updater` sets the intermediate inputs; none if null.
   Step(Time from, Time to, bool early_return_allowed, InputUpdater* updater = nullptr)
       : from_(from), to_(to), early_return_allowed_(early_return_allowed), updater_(updater) {}
 
@@ -49,7 +49,7 @@ class Step {
   /// The unit cannot make this step and is as it was before it: fmi3Discard, with the reason in the
   /// importer's log. Needs UnitInfo::may_reject.
   void reject(std::string reason) { rejection_ = std::move(reason); }
-  /// The unit wants the simulation to end where the step ends.
+  /// Requests the end of the simulation where the step ends.
   void terminate_simulation() { terminate_ = true; }
 
   std::optional<Time> reached() const { return reached_; }
@@ -86,7 +86,7 @@ class Event {
   void no_next_event() { next_.reset(); }
   /// Another event iteration at this same instant is wanted. A tick of an output clock implies it.
   void iterate() { iterate_ = true; }
-  /// The unit wants the simulation to end here.
+  /// Requests the end of the simulation here.
   void terminate_simulation() { terminate_ = true; }
 
   std::optional<Time> next() const { return next_; }

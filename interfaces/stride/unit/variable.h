@@ -12,64 +12,13 @@
 
 #include <stride/time.h>
 #include <stride/unit/clock.h>
+#include <stride/value_type.h>
 
 namespace stride {
-
-using Binary = std::vector<std::uint8_t>;
-
-enum class Type : std::uint8_t {
-  Float32,
-  Float64,
-  Int8,
-  UInt8,
-  Int16,
-  UInt16,
-  Int32,
-  UInt32,
-  Int64,
-  UInt64,
-  Boolean,
-  String,
-  Binary,
-  Enumeration,
-  Clock,
-};
 
 enum class Causality : std::uint8_t { Independent, Parameter, Input, Output, Local };
 enum class Variability : std::uint8_t { Constant, Fixed, Tunable, Discrete, Continuous };
 enum class Initial : std::uint8_t { None, Exact, Approx, Calculated };
-
-namespace detail {
-
-/// The FMI type of a C++ type; any enum with the underlying type std::int64_t is an Enumeration.
-template <class T>
-constexpr Type type_of() {
-  if constexpr (std::is_enum_v<T>) {
-    static_assert(std::is_same_v<std::underlying_type_t<T>, std::int64_t>,
-                  "an FMI enumeration needs 'enum class E : std::int64_t'");
-    return Type::Enumeration;
-  } else if constexpr (std::is_same_v<T, float>) {
-    return Type::Float32;
-  } else if constexpr (std::is_same_v<T, double>) {
-    return Type::Float64;
-  } else if constexpr (std::is_same_v<T, bool>) {
-    return Type::Boolean;
-  } else if constexpr (std::is_same_v<T, std::string>) {
-    return Type::String;
-  } else if constexpr (std::is_same_v<T, Binary>) {
-    return Type::Binary;
-  } else if constexpr (std::is_same_v<T, Clock>) {
-    return Type::Clock;
-  } else {
-    static_assert(std::is_integral_v<T>, "this type has no counterpart in FMI 3.0");
-    constexpr Type kSigned[] = {Type::Int8, Type::Int16, Type::Int32, Type::Int64};
-    constexpr Type kUnsigned[] = {Type::UInt8, Type::UInt16, Type::UInt32, Type::UInt64};
-    constexpr int kLog2 = sizeof(T) == 1 ? 0 : sizeof(T) == 2 ? 1 : sizeof(T) == 4 ? 2 : 3;
-    return std::is_signed_v<T> ? kSigned[kLog2] : kUnsigned[kLog2];
-  }
-}
-
-}  // namespace detail
 
 /// One row. Its start value is what the member holds when the unit's constructor returns.
 struct Variable {
@@ -152,12 +101,12 @@ class VariableBuilder {
   VariableBuilder& every_tunable(Duration interval, Duration shift = {}) {
     return periodic(IntervalVariability::Tunable, interval, shift);
   }
-  /// Periodically, too, with the lengths that the unit says: Clock::set_interval(), set_shift().
+  /// Periodically, too, with the lengths that the unit sets: Clock::set_interval(), set_shift().
   VariableBuilder& every_fixed() { return timed(IntervalVariability::Fixed); }
   VariableBuilder& every_tunable() { return timed(IntervalVariability::Tunable); }
   /// Once after each Clock::count_down(), which each tick must be followed by.
   VariableBuilder& changing() { return timed(IntervalVariability::Changing); }
-  /// Once after each Clock::count_down(), which any event may say.
+  /// Once after each Clock::count_down(), which any event may call.
   VariableBuilder& countdown() { return timed(IntervalVariability::Countdown); }
 
   /// The names of the inputs that an output depends on at the same instant; {} = none. Not for a
@@ -165,7 +114,7 @@ class VariableBuilder {
   VariableBuilder& depends_on(std::vector<std::string> names) {
     return row_.dependencies = std::move(names), *this;
   }
-  /// Where the first derivative of an output stands.
+  /// The member that holds the first derivative of an output.
   VariableBuilder& derivative(const double& member) { return row_.derivative = &member, *this; }
 
   // For a unit that may promise to be idle (UnitInfo::promises_idle, Unit::idle_until()).
@@ -174,7 +123,7 @@ class VariableBuilder {
   /// >= 0. Without one any change ends it.
   VariableBuilder& deadband(double width) { return row_.deadband = width, *this; }
   /// How far this Float64 output may be from its tangent at the promise while it holds, in its
-  /// unit, > 0, unless the importer says another. Without one it stays exactly what it is.
+  /// unit, > 0, unless the importer sets another. Without one it stays exactly what it is.
   VariableBuilder& tolerance(double width) { return row_.tolerance = width, *this; }
 
   // For a unit that judges the run; one output each.
@@ -182,7 +131,7 @@ class VariableBuilder {
   /// What this Boolean output is at the end of a run is the unit's verdict: false, and the run has
   /// failed, however well it went.
   VariableBuilder& verdict() { return row_.is_verdict = true, *this; }
-  /// This String output says, for people, why the verdict is what it is.
+  /// This String output explains the verdict, for people.
   VariableBuilder& verdict_text() { return row_.is_verdict_text = true, *this; }
 
  private:

@@ -11,41 +11,41 @@ Clocks::Clocks(const System& system, std::span<const std::unique_ptr<Unit>> unit
   std::size_t most = 0;
   for (std::size_t i = 0; i < system.components().size(); ++i) {
     const auto& variables = system.components()[i].description->variables;
-    Line line{i, {}, {}};
+    ComponentClocks own{i, {}, {}};
     for (std::size_t v = 0; v < variables.size(); ++v) {
       const Variable& variable = variables[v];
       if (!variable.is_time_based_clock()) continue;
-      line.clocks.push_back({{i, v}, variable.reference, &*variable.clock});
+      own.clocks.push_back({{i, v}, variable.reference, &*variable.clock});
     }
-    line_of_.push_back(lines_.size());
-    if (line.clocks.empty()) {
-      line_of_.back() = system.components().size();
+    index_of_.push_back(clocked_.size());
+    if (own.clocks.empty()) {
+      index_of_.back() = system.components().size();
       continue;
     }
-    most = std::max(most, line.clocks.size());
-    line.ticking.reserve(line.clocks.size());
-    lines_.push_back(std::move(line));
+    most = std::max(most, own.clocks.size());
+    own.ticking.reserve(own.clocks.size());
+    clocked_.push_back(std::move(own));
   }
-  due_.reserve(lines_.size());
+  due_.reserve(clocked_.size());
   ticks_ = ValueBlock(ValueType::Clock, most);
   std::ranges::fill(ticks_.numbers<bool>(), true);
 }
 
-Clocks::Line* Clocks::line(std::size_t component) {
-  const std::size_t place = line_of_[component];
-  return place < lines_.size() ? &lines_[place] : nullptr;
+Clocks::ComponentClocks* Clocks::clocks_of(std::size_t component) {
+  const std::size_t index = index_of_[component];
+  return index < clocked_.size() ? &clocked_[index] : nullptr;
 }
 
 void Clocks::begin(Time start_time) {
-  for (Line& line : lines_) {
-    for (Schedule& clock : line.clocks) start(clock, start_time);
+  for (ComponentClocks& own : clocked_) {
+    for (Schedule& clock : own.clocks) start(clock, start_time);
   }
   is_stale_ = true;
   due(start_time);
 }
 
 void Clocks::resume(const Clocks& other) {
-  lines_ = other.lines_;
+  clocked_ = other.clocked_;
   is_stale_ = true;
   next_.reset();
   due_.clear();
@@ -99,8 +99,8 @@ void Clocks::fail(const Schedule& clock, Time time, const std::string& message) 
 std::span<const std::size_t> Clocks::find_due(Time time) {
   if (is_stale_) {
     next_.reset();
-    for (const Line& line : lines_) {
-      for (const Schedule& clock : line.clocks) {
+    for (const ComponentClocks& own : clocked_) {
+      for (const Schedule& clock : own.clocks) {
         if (clock.next && (!next_ || *clock.next < *next_)) next_ = clock.next;
       }
     }
@@ -109,18 +109,18 @@ std::span<const std::size_t> Clocks::find_due(Time time) {
   due_.clear();
   if (!next_ || *next_ > time) [[likely]]
     return {};
-  for (const Line& line : lines_) {
-    const bool ticks = std::any_of(line.clocks.begin(), line.clocks.end(), [&](const auto& clock) {
+  for (const ComponentClocks& own : clocked_) {
+    const bool ticks = std::any_of(own.clocks.begin(), own.clocks.end(), [&](const auto& clock) {
       return clock.next && *clock.next <= time;
     });
-    if (ticks) due_.push_back(line.component);
+    if (ticks) due_.push_back(own.component);
   }
   return due_;
 }
 
 std::span<const std::size_t> Clocks::tick(Time time) {
   for (const std::size_t component : due_) {
-    Line& ticking = *line(component);
+    ComponentClocks& ticking = *clocks_of(component);
     for (Schedule& clock : ticking.clocks) {
       if (!clock.next || *clock.next > time) continue;
       ticking.ticking.push_back(clock.reference);
@@ -135,13 +135,13 @@ std::span<const std::size_t> Clocks::tick(Time time) {
 }
 
 std::span<const ValueReference> Clocks::ticking(std::size_t component) const {
-  const std::size_t place = line_of_[component];
-  if (place >= lines_.size()) return {};
-  return lines_[place].ticking;
+  const std::size_t index = index_of_[component];
+  if (index >= clocked_.size()) return {};
+  return clocked_[index].ticking;
 }
 
 void Clocks::update(std::size_t component, Time time) {
-  Line* const updated = line(component);
+  ComponentClocks* const updated = clocks_of(component);
   if (updated == nullptr) return;
   for (Schedule& clock : updated->clocks) {
     const auto& ticking = updated->ticking;

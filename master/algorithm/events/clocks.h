@@ -67,14 +67,14 @@ class Clocks {
     std::uint64_t count = 0;  ///< the number of the next tick since `base`
     std::optional<Time> next{};
   };
-  struct Line {
+  struct ComponentClocks {
     std::size_t component;
     std::vector<Schedule> clocks;
     std::vector<ValueReference> ticking;
   };
 
   std::span<const std::size_t> find_due(Time time);
-  Line* line(std::size_t component);
+  ComponentClocks* clocks_of(std::size_t component);
   void start(Schedule& clock, Time start);
   void update(Schedule& clock, Time time, bool ticked);
   /// The unit's word on its clock, checked.
@@ -85,8 +85,8 @@ class Clocks {
   const System& system_;
   std::span<const std::unique_ptr<Unit>> units_;
   std::vector<ClockIntervals*> intervals_;  ///< by component; null = never known
-  std::vector<Line> lines_;                 ///< of the components that have such clocks
-  std::vector<std::size_t> line_of_;        ///< by component; lines_.size() = none
+  std::vector<ComponentClocks> clocked_;    ///< of the components that have such clocks
+  std::vector<std::size_t> index_of_;       ///< by component; clocked_.size() = none
   std::vector<std::size_t> due_;
   ValueBlock ticks_{ValueType::Clock, 0};  ///< as many ticks as a unit can need at once
   std::optional<Time> next_;

@@ -16,11 +16,11 @@ std::vector<VariableId> targets_of(const System& system, VariableId source) {
 }  // namespace
 
 MessageExchange::MessageExchange(const System& system, std::span<const std::unique_ptr<Unit>> units)
-    : system_(system), units_(units), lines_(system.components().size()) {
+    : system_(system), units_(units), senders_(system.components().size()) {
   tick_.numbers<bool>()[0] = true;
-  for (std::size_t component = 0; component < lines_.size(); ++component) {
+  for (std::size_t component = 0; component < senders_.size(); ++component) {
     const UnitDescription& description = *system.components()[component].description;
-    Line& line = lines_[component];
+    Sender& sender = senders_[component];
     for (std::size_t i = 0; i < description.variables.size(); ++i) {
       const Variable& clock = description.variables[i];
       if (clock.type != ValueType::Clock || clock.causality != Causality::Output) continue;
@@ -36,10 +36,10 @@ MessageExchange::MessageExchange(const System& system, std::span<const std::uniq
                                    ValueBlock(variable.type, variable.size),
                                    receivers_of({component, k}, output.targets)});
       }
-      line.references.push_back(clock.reference);
-      line.clocks.push_back(std::move(output));
+      sender.references.push_back(clock.reference);
+      sender.clocks.push_back(std::move(output));
     }
-    line.ticked = ValueBlock(ValueType::Clock, line.clocks.size());
+    sender.ticked = ValueBlock(ValueType::Clock, sender.clocks.size());
   }
 }
 
@@ -64,16 +64,16 @@ std::vector<MessageExchange::Receiver> MessageExchange::receivers_of(
 }
 
 void MessageExchange::begin_instant() {
-  for (Line& line : lines_) {
-    for (OutputClock& clock : line.clocks) clock.is_handed_over = false;
+  for (Sender& sender : senders_) {
+    for (OutputClock& clock : sender.clocks) clock.is_forwarded = false;
   }
 }
 
 bool MessageExchange::poll(std::size_t component) {
-  Line& line = lines_[component];
-  if (line.clocks.empty()) return false;
-  units_[component]->get(line.references, line.ticked);
-  const auto ticked = line.ticked.numbers<bool>();
+  Sender& sender = senders_[component];
+  if (sender.clocks.empty()) return false;
+  units_[component]->get(sender.references, sender.ticked);
+  const auto ticked = sender.ticked.numbers<bool>();
   return std::find(ticked.begin(), ticked.end(), true) != ticked.end();
 }
 

@@ -24,15 +24,15 @@ class MessageExchange {
 
   /// Reads the output clocks of a unit in Event Mode and hands over those that tick and were not
   /// handed over in this instant. `prepare` is called with each receiving component before anything
-  /// is set there (it must be in Event Mode then), `tell` with each message sent or received.
-  template <class Prepare, class Tell>
-  void transmit(std::size_t component, Prepare&& prepare, Tell&& tell) {
+  /// is set there (it must be in Event Mode then), `report` with each message sent or received.
+  template <class Prepare, class Report>
+  void transmit(std::size_t component, Prepare&& prepare, Report&& report) {
     if (!poll(component)) return;
-    Line& line = lines_[component];
-    for (std::size_t i = 0; i < line.clocks.size(); ++i) {
-      if (!line.ticked.numbers<bool>()[i] || line.clocks[i].is_handed_over) continue;
-      line.clocks[i].is_handed_over = true;
-      hand_over(component, line.clocks[i], prepare, tell);
+    Sender& sender = senders_[component];
+    for (std::size_t i = 0; i < sender.clocks.size(); ++i) {
+      if (!sender.ticked.numbers<bool>()[i] || sender.clocks[i].is_forwarded) continue;
+      sender.clocks[i].is_forwarded = true;
+      forward(component, sender.clocks[i], prepare, report);
     }
   }
 
@@ -54,10 +54,10 @@ class MessageExchange {
     VariableId id;
     std::vector<Payload> payloads;
     std::vector<VariableId> targets;
-    bool is_handed_over = false;  ///< in this instant
+    bool is_forwarded = false;  ///< in this instant
   };
   /// All that leaves one component.
-  struct Line {
+  struct Sender {
     std::vector<OutputClock> clocks;
     std::vector<ValueReference> references;  ///< of the clocks
     ValueBlock ticked{ValueType::Clock, 0};
@@ -70,29 +70,29 @@ class MessageExchange {
   std::vector<Receiver> receivers_of(VariableId value,
                                      std::span<const VariableId> clock_targets) const;
 
-  template <class Prepare, class Tell>
-  void hand_over(std::size_t component, OutputClock& clock, Prepare& prepare, Tell& tell) {
+  template <class Prepare, class Report>
+  void forward(std::size_t component, OutputClock& clock, Prepare& prepare, Report& report) {
     for (Payload& payload : clock.payloads) {
       fetch(component, payload);
-      tell(payload.id, false, &payload.block);
+      report(payload.id, false, &payload.block);
     }
-    if (clock.payloads.empty()) tell(clock.id, false, static_cast<const ValueBlock*>(nullptr));
+    if (clock.payloads.empty()) report(clock.id, false, static_cast<const ValueBlock*>(nullptr));
     for (const VariableId target : clock.targets) {
       prepare(target.component);
       set_clock(target);
-      if (clock.payloads.empty()) tell(target, true, static_cast<const ValueBlock*>(nullptr));
+      if (clock.payloads.empty()) report(target, true, static_cast<const ValueBlock*>(nullptr));
     }
     for (Payload& payload : clock.payloads) {
       for (Receiver& receiver : payload.receivers) {
         set_payload(receiver, payload.block);
-        tell(receiver.id, true, &receiver.block);
+        report(receiver.id, true, &receiver.block);
       }
     }
   }
 
   const System& system_;
   std::span<const std::unique_ptr<Unit>> units_;
-  std::vector<Line> lines_;
+  std::vector<Sender> senders_;
   ValueBlock tick_{ValueType::Clock, 1};
 };
 

@@ -15,8 +15,7 @@ namespace stride::core {
 namespace {
 
 bool exchanged(const System& system, VariableId id) {
-  const Variable& variable = system.variable(id);
-  return variable.type != ValueType::Clock && (!variable.is_clocked() || system.is_sampled(id));
+  return system.variable(id).type != ValueType::Clock && !system.is_message(id);
 }
 
 /// One transfer for the variables of a component that have this type, are written at these
@@ -127,7 +126,7 @@ void Exchange::bind_step_values() {
   }
 }
 
-Exchange::Found Exchange::locate(Transfers& transfers, VariableId id) {
+Exchange::TransferSlot Exchange::locate(Transfers& transfers, VariableId id) {
   for (Transfer& transfer : transfers[id.component]) {
     const auto found = std::lower_bound(transfer.ids.begin(), transfer.ids.end(), id);
     if (found == transfer.ids.end() || *found != id) continue;
@@ -136,32 +135,32 @@ Exchange::Found Exchange::locate(Transfers& transfers, VariableId id) {
   return {};
 }
 
-Exchange::Found Exchange::locate_input(VariableId id) {
+Exchange::TransferSlot Exchange::locate_input(VariableId id) {
   return locate(system_.variable(id).is_clocked() ? sampled_inputs_ : inputs_, id);
 }
 
-Exchange::Found Exchange::locate_output(VariableId id) {
+Exchange::TransferSlot Exchange::locate_output(VariableId id) {
   return locate(system_.variable(id).is_clocked() ? sampled_outputs_ : outputs_, id);
 }
 
 Signal Exchange::signal(VariableId id) {
-  const Found input = locate_input(id);
+  const TransferSlot input = locate_input(id);
   if (input.transfer != nullptr && system_.variable(id).is_clocked()) {
     return {id, &input.transfer->delivered, input.first};
   }
-  const Place value = place(id);
+  const ValueSlice value = slice(id);
   return {id, value.block, value.first};
 }
 
-Exchange::Place Exchange::place(VariableId id) {
-  const Found input = locate_input(id);
-  const Found found = input.transfer != nullptr ? input : locate_output(id);
-  return {&found.transfer->block, found.first};
+ValueSlice Exchange::slice(VariableId id) {
+  const TransferSlot input = locate_input(id);
+  const TransferSlot slot = input.transfer != nullptr ? input : locate_output(id);
+  return {&slot.transfer->block, slot.first, system_.variable(id).size};
 }
 
 void Exchange::add_copies(const Connection& connection) {
-  const Found from = locate_output(connection.from);
-  const Found to = locate_input(connection.to);
+  const TransferSlot from = locate_output(connection.from);
+  const TransferSlot to = locate_input(connection.to);
   for (std::size_t i = 0; i < system_.variable(connection.from).size; ++i) {
     add_copy(connection, to.transfer->block, to.first + i, from.transfer->block, from.first + i);
   }
@@ -316,8 +315,8 @@ std::vector<ContinuousLink> Exchange::continuous_links() {
     const bool continuous = source.variability == Variability::Continuous &&
                             target.variability == Variability::Continuous;
     if (!continuous || source.is_clocked() || target.is_clocked()) continue;
-    const Found from = locate_output(connection.from);
-    const Found to = locate_input(connection.to);
+    const TransferSlot from = locate_output(connection.from);
+    const TransferSlot to = locate_input(connection.to);
     for (std::size_t i = 0; i < source.size; ++i) {
       links.push_back({connection.from,
                        connection.to,

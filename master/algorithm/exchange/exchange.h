@@ -16,20 +16,6 @@
 
 namespace stride::core {
 
-/// One element of a Float64 or Float32 variable, where it stands in an exchange's blocks.
-struct RealElement {
-  ValueBlock* block = nullptr;
-  std::size_t at = 0;
-
-  double get() const { return real(*block, at); }
-  void set(double value) const { set_real(*block, at, value); }
-  /// Whether it would be another after set().
-  bool differs_from(double value) const {
-    return get() != (block->type() == ValueType::Float32 ? static_cast<float>(value) : value);
-  }
-  auto operator<=>(const RealElement&) const = default;
-};
-
 /// When variables are written.
 enum class Occasion {
   Point,           ///< at each communication point
@@ -40,7 +26,7 @@ enum class Occasion {
 /// A connection between continuous variables, for one element.
 struct ContinuousLink {
   VariableId from, to;
-  RealElement source, target;
+  ValueSlice source, target;
   LinearConversion conversion;
 };
 
@@ -81,7 +67,7 @@ class Exchange {
     return unit.step(interval, values);
   }
   /// An input was changed where it stands, by another than route().
-  void note_change(std::size_t component) { is_delivered_[component] = false; }
+  void mark_changed(std::size_t component) { is_delivered_[component] = false; }
 
   /// Writes those of a unit's continuous inputs that may change within a step.
   void deliver_within_step(std::size_t component, Unit& unit);
@@ -91,7 +77,7 @@ class Exchange {
 
   struct RealValue {
     VariableId id;
-    RealElement element;
+    ValueSlice element;
   };
   /// The elements of a component's connected inputs that are not discrete.
   std::vector<RealValue> continuous_inputs(std::size_t component);
@@ -114,13 +100,9 @@ class Exchange {
   /// one that belongs to a time-based clock as it was at its last tick.
   Signal signal(VariableId id);
 
-  /// Likewise, of a variable that is connected, for who evaluates single variables: an output that
-  /// was read belongs there, and deliver() takes an input from there. See evaluation.h.
-  struct Place {
-    ValueBlock* block = nullptr;
-    std::size_t first = 0;
-  };
-  Place place(VariableId id);
+  /// The value of a connected variable, for the evaluation of single variables: an output that was
+  /// read is written there, and deliver() reads an input there. See ordered_evaluation.h.
+  ValueSlice slice(VariableId id);
 
  private:
   /// Variables of one type of one unit, read or written by one call.
@@ -196,14 +178,14 @@ class Exchange {
                 std::size_t target_at, const Real* from);
   void add_number(const Connection& connection, ValueBlock& target, std::size_t target_at,
                   const ValueBlock& source, std::size_t source_at);
-  /// The transfer that holds the variable and its place there; null if there is none.
-  struct Found {
+  /// The transfer that holds a variable, null if there is none, and where it begins in the block.
+  struct TransferSlot {
     Transfer* transfer = nullptr;
     std::size_t first = 0;
   };
-  static Found locate(Transfers& transfers, VariableId id);
-  Found locate_input(VariableId id);
-  Found locate_output(VariableId id);
+  static TransferSlot locate(Transfers& transfers, VariableId id);
+  TransferSlot locate_input(VariableId id);
+  TransferSlot locate_output(VariableId id);
 
   const System& system_;
   Transfers outputs_;

@@ -6,29 +6,18 @@
 #include <utility>
 
 namespace stride::core {
-namespace {
-
-/// For the blocks of an exchange.
-bool copy(const Exchange::Place& to, const ValueBlock& from, std::size_t first, std::size_t size,
-          const Conversion& conversion = {}) {
-  return copy_elements(*to.block, to.first, from, first, size, conversion);
-}
-
-}  // namespace
-
-StagedExchange::StagedExchange(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                               Exchange& exchange, const UnitTimer& timer, bool all_new)
-    : system_(system),
-      units_(units),
-      exchange_(exchange),
+StagedExchange::StagedExchange(RunContext& context, const UnitTimer& timer, bool all_new)
+    : system_(context.system),
+      units_(context.units),
+      exchange_(context.exchange),
       timer_(timer),
       all_new_(all_new),
-      due_(units.size()) {}
+      due_(units_.size()) {}
 
 void StagedExchange::add(Batch& batch, VariableId id) {
   const Variable& variable = system_.variable(id);
   batch.references.push_back(variable.reference);
-  batch.pieces.push_back({exchange_.place(id), batch.size, variable.size});
+  batch.members.push_back({exchange_.slice(id), batch.size});
   batch.size += variable.size;
 }
 
@@ -36,22 +25,22 @@ void StagedExchange::complete(Batch& batch) {
   if (batch.values.size() != batch.size) batch.values = ValueBlock(batch.values.type(), batch.size);
 }
 
-StagedExchange::Stage StagedExchange::plan_stage(const EvaluationStep& step) {
-  Stage stage;
-  stage.component_ = step.component;
+StagedExchange::OutputRead StagedExchange::plan_read(const EvaluationStep& step) {
+  OutputRead read;
+  read.component_ = step.component;
   std::map<ValueType, std::vector<VariableId>> types;
   for (const VariableId id : step.outputs) types[system_.variable(id).type].push_back(id);
   for (const auto& [type, ids] : types) {
-    Batch& batch = stage.reads_.emplace_back(make_batch(type, false));
+    Batch& batch = read.batches_.emplace_back(make_batch(type, false));
     for (const VariableId id : ids) add(batch, id);
     complete(batch);
   }
   open_.erase(open_.lower_bound({step.component, ValueType{}}),
               open_.lower_bound({step.component + 1, ValueType{}}));
-  return stage;
+  return read;
 }
 
-StagedExchange::Wire StagedExchange::plan_wire(VariableId id) {
+StagedExchange::Link StagedExchange::plan_link(VariableId id) {
   const auto& all = system_.connections();
   const Connection& connection = *std::lower_bound(
       all.begin(), all.end(), id, [](const Connection& c, VariableId to) { return c.to < to; });
@@ -59,13 +48,12 @@ StagedExchange::Wire StagedExchange::plan_wire(VariableId id) {
   Batch*& batch = open_[{connection.to.component, input.type}];
   if (batch == nullptr) batch = &batches_.emplace_back(make_batch(input.type, all_new_));
   add(*batch, connection.to);
-  Wire wire;
-  wire.connection_ = &connection;
-  wire.from_ = exchange_.place(connection.from);
-  wire.to_ = exchange_.place(connection.to);
-  wire.size_ = input.size;
-  wire.batch_ = batch;
-  return wire;
+  Link link;
+  link.connection_ = &connection;
+  link.from_ = exchange_.slice(connection.from);
+  link.to_ = exchange_.slice(connection.to);
+  link.batch_ = batch;
+  return link;
 }
 
 void StagedExchange::begin() {
@@ -73,13 +61,13 @@ void StagedExchange::begin() {
   for (Batch& batch : batches_) batch.is_due = false;
 }
 
-void StagedExchange::evaluate(Stage& stage) {
-  write(stage.component_);
-  for (Batch& batch : stage.reads_) {
-    timer_.timed(stage.component_,
-                 [&] { units_[stage.component_]->get(batch.references, batch.values); });
-    for (const Batch::Piece& piece : batch.pieces) {
-      copy(piece.place, batch.values, piece.first, piece.size);
+void StagedExchange::evaluate(OutputRead& read) {
+  write(read.component_);
+  for (Batch& batch : read.batches_) {
+    timer_.timed(read.component_,
+                 [&] { units_[read.component_]->get(batch.references, batch.values); });
+    for (const Batch::Member& member : batch.members) {
+      copy_elements(member.value, {&batch.values, member.first, member.value.size});
     }
   }
 }
@@ -87,8 +75,8 @@ void StagedExchange::evaluate(Stage& stage) {
 void StagedExchange::write(std::size_t component) {
   for (Batch* batch : due_[component]) {
     complete(*batch);
-    for (const Batch::Piece& piece : batch->pieces) {
-      copy({&batch->values, piece.first}, *piece.place.block, piece.place.first, piece.size);
+    for (const Batch::Member& member : batch->members) {
+      copy_elements({&batch->values, member.first, member.value.size}, member.value);
     }
     timer_.timed(component, [&] { units_[component]->set(batch->references, batch->values); });
     batch->is_due = batch->is_new = false;
@@ -96,27 +84,26 @@ void StagedExchange::write(std::size_t component) {
   due_[component].clear();
 }
 
-bool StagedExchange::route(Wire& wire) {
-  const bool changes =
-      copy(wire.to_, *wire.from_.block, wire.from_.first, wire.size_, wire.connection_->conversion);
-  if (changes || wire.batch_->is_new) make_due(wire);
+bool StagedExchange::route(Link& link) {
+  const bool changes = copy_elements(link.to_, link.from_, link.connection_->conversion);
+  if (changes || link.batch_->is_new) make_due(link);
   return changes;
 }
 
-void StagedExchange::make_due(Wire& wire) {
-  if (std::exchange(wire.batch_->is_due, true)) return;
-  due_[wire.target().component].push_back(wire.batch_);
+void StagedExchange::make_due(Link& link) {
+  if (std::exchange(link.batch_->is_due, true)) return;
+  due_[link.target().component].push_back(link.batch_);
 }
 
-void StagedExchange::read_input(Wire& wire) {
-  const Variable& input = system_.variable(wire.target());
+void StagedExchange::read_input(Link& link) {
+  const Variable& input = system_.variable(link.target());
   ValueBlock value(input.type, input.size);
-  units_[wire.target().component]->get({&input.reference, 1}, value);
-  copy(wire.to_, value, 0, input.size);
+  units_[link.target().component]->get({&input.reference, 1}, value);
+  copy_elements(link.to_, {&value, 0, input.size});
 }
 
-bool StagedExchange::has_nan(const Stage& stage) const {
-  return std::any_of(stage.reads_.begin(), stage.reads_.end(),
+bool StagedExchange::has_nan(const OutputRead& read) const {
+  return std::any_of(read.batches_.begin(), read.batches_.end(),
                      [](const Batch& batch) { return core::has_nan(batch.values); });
 }
 

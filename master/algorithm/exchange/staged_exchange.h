@@ -10,28 +10,25 @@
 #include <tuple>
 #include <vector>
 
-#include "master/algorithm/exchange/exchange.h"
 #include "master/algorithm/loops/evaluation_order.h"
-#include "master/algorithm/unit.h"
+#include "master/algorithm/run_context.h"
 #include "master/algorithm/unit_timer.h"
-#include "master/model/system.h"
 
 namespace stride::core {
 
-/// Stages and wires are planned in the order in which they will be used; inputs that become known
+/// Stages and links are planned in the order in which they will be used; inputs that become known
 /// between two stages of a component are written by one call. The values stand in the blocks of an
 /// Exchange, which therefore has nothing to route afterwards.
 class StagedExchange {
  private:
   /// Variables of one component and type, read or written by one call.
   struct Batch {
-    struct Piece {
-      Exchange::Place place;
+    struct Member {
+      ValueSlice value;   ///< in the exchange
       std::size_t first;  ///< in `values`
-      std::size_t size;
     };
     std::vector<ValueReference> references;
-    std::vector<Piece> pieces;
+    std::vector<Member> members;
     std::size_t size = 0;  ///< of `values`, which are made when they are needed first
     ValueBlock values;
     bool is_due = false;
@@ -39,52 +36,49 @@ class StagedExchange {
   };
 
  public:
-  /// `units` in the order of system.components(). `all_new`: an input is written when it is first
+  /// The context must outlive this object. `all_new`: an input is written when it is first
   /// routed, whatever its value; otherwise only when it changes.
-  StagedExchange(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                 Exchange& exchange, const UnitTimer& timer, bool all_new);
+  StagedExchange(RunContext& context, const UnitTimer& timer, bool all_new);
 
-  class Wire {
+  class Link {
    public:
     VariableId target() const { return connection_->to; }
-    Exchange::Place place() const { return to_; }  ///< of the target
-    std::size_t size() const { return size_; }
+    const ValueSlice& target_value() const { return to_; }
 
    private:
     friend StagedExchange;
     const Connection* connection_;
-    Exchange::Place from_, to_;
-    std::size_t size_;
+    ValueSlice from_, to_;
     Batch* batch_;
   };
-  class Stage {
+  class OutputRead {
    public:
     std::size_t component() const { return component_; }
 
    private:
     friend StagedExchange;
     std::size_t component_;
-    std::vector<Batch> reads_;
+    std::vector<Batch> batches_;
   };
 
-  Stage plan_stage(const EvaluationStep& step);
+  OutputRead plan_read(const EvaluationStep& step);
   /// The connection that ends at the input.
-  Wire plan_wire(VariableId input);
+  Link plan_link(VariableId input);
 
   /// Nothing routed so far waits to be written.
   void begin();
   /// Writes what was routed to the component, then reads the outputs of the stage.
-  void evaluate(Stage& stage);
+  void evaluate(OutputRead& read);
   /// Writes what was routed to the component.
   void write(std::size_t component);
   /// Copies an output's value to the input; returns whether the input changes.
-  bool route(Wire& wire);
-  /// The input was changed where it stands, see Wire::place().
-  void touch(Wire& wire) { make_due(wire); }
+  bool route(Link& link);
+  /// The input was changed in the exchange, see Link::target_value().
+  void touch(Link& link) { make_due(link); }
   /// Reads what the unit has for the input.
-  void read_input(Wire& wire);
+  void read_input(Link& link);
   /// Whether an output of the stage is NaN.
-  bool has_nan(const Stage& stage) const;
+  bool has_nan(const OutputRead& read) const;
 
  private:
   static Batch make_batch(ValueType type, bool is_new) {
@@ -92,7 +86,7 @@ class StagedExchange {
   }
   static void complete(Batch& batch);
   void add(Batch& batch, VariableId id);
-  void make_due(Wire& wire);
+  void make_due(Link& link);
 
   const System& system_;
   std::span<const std::unique_ptr<Unit>> units_;

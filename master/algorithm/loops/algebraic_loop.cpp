@@ -16,10 +16,10 @@ constexpr int kMostRounds = 100;
 constexpr std::size_t kMostValues = 8;  // in a message
 
 /// Returns whether it was another one.
-bool change_real(const Exchange::Place& place, std::size_t element, double value) {
-  const double before = real(*place.block, place.first + element);
-  set_real(*place.block, place.first + element, value);
-  return real(*place.block, place.first + element) != before;
+bool change_real(const ValueSlice& slice, std::size_t element, double value) {
+  const double before = real(slice, element);
+  set_real(slice, value, element);
+  return real(slice, element) != before;
 }
 
 /// A unit is better not given what is not finite.
@@ -45,20 +45,19 @@ double epsilon(const System& system, const EvaluationBlock& plan) {
 
 }  // namespace
 
-AlgebraicLoop::AlgebraicLoop(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                             const EvaluationBlock& plan, Exchange& exchange,
+AlgebraicLoop::AlgebraicLoop(RunContext& context, const EvaluationBlock& plan,
                              StagedExchange& staged)
-    : system_(system), plan_(plan), staged_(staged) {
-  if (LoopTangents::exist(system, plan)) tangents_.emplace(system, units, plan);
-  scale_.epsilon = epsilon(system, plan);
+    : system_(context.system), plan_(plan), staged_(staged) {
+  if (LoopTangents::exist(system_, plan)) tangents_.emplace(system_, context.units, plan);
+  scale_.epsilon = epsilon(system_, plan);
   for (const Tear& tear : plan.tears) {
-    const Variable& input = system.variable(tear.inputs.front());
+    const Variable& input = system_.variable(tear.inputs.front());
     Cut cut{&tear,
-            exchange.place(tear.source),
+            context.exchange.slice(tear.source),
             {},
             ValueBlock(input.type, input.size),
             is_real(input.type)};
-    for (const VariableId id : tear.inputs) cut.wires.push_back(staged.plan_wire(id));
+    for (const VariableId id : tear.inputs) cut.links.push_back(staged.plan_link(id));
     for (std::size_t i = 0; i < input.size; ++i) {
       unknowns_.push_back({cuts_.size(), i});
       if (!cut.is_real) continue;
@@ -71,12 +70,11 @@ AlgebraicLoop::AlgebraicLoop(const System& system, std::span<const std::unique_p
 
 void AlgebraicLoop::guess() {
   for (Cut& cut : cuts_) {
-    staged_.read_input(cut.wires.front());
-    const Exchange::Place first = cut.wires.front().place();
-    for (StagedExchange::Wire& wire : cut.wires) {
-      copy_elements(*wire.place().block, wire.place().first, *first.block, first.first,
-                    cut.result.size());
-      staged_.touch(wire);
+    staged_.read_input(cut.links.front());
+    const ValueSlice first = cut.links.front().target_value();
+    for (StagedExchange::Link& link : cut.links) {
+      copy_elements(link.target_value(), first);
+      staged_.touch(link);
     }
   }
 }
@@ -89,18 +87,17 @@ bool AlgebraicLoop::is_settled() {
 
 void AlgebraicLoop::collect() {
   for (Cut& cut : cuts_) {
-    copy_elements(cut.result, 0, *cut.source.block, cut.source.first, cut.result.size(),
-                  cut.tear->conversion);
+    copy_elements({&cut.result, 0, cut.result.size()}, cut.source, cut.tear->conversion);
   }
 }
 
 bool AlgebraicLoop::is_settled(const Unknown& unknown) const {
   const Cut& cut = cuts_[unknown.cut];
-  const Exchange::Place place = cut.wires.front().place();
-  const std::size_t at = place.first + unknown.element;
-  if (!cut.is_real) return is_same(*place.block, at, cut.result, unknown.element);
-  const double nominal = system_.variable(cut.wires.front().target()).nominal;
-  return core::is_settled(real(*place.block, at), real(cut.result, unknown.element), nominal,
+  const ValueSlice input = cut.links.front().target_value();
+  const std::size_t at = input.first + unknown.element;
+  if (!cut.is_real) return is_same(*input.block, at, cut.result, unknown.element);
+  const double nominal = system_.variable(cut.links.front().target()).nominal;
+  return core::is_settled(real(input, unknown.element), real(cut.result, unknown.element), nominal,
                           scale_.epsilon);
 }
 
@@ -158,8 +155,7 @@ bool AlgebraicLoop::iterate() {
 bool AlgebraicLoop::solve_reals() {
   std::vector<double> guess;
   for (const Unknown& unknown : reals_) {
-    const Exchange::Place place = cuts_[unknown.cut].wires.front().place();
-    guess.push_back(real(*place.block, place.first + unknown.element));
+    guess.push_back(real(cuts_[unknown.cut].links.front().target_value(), unknown.element));
   }
   const auto function = [&](std::span<const double> x, std::span<double> g) {
     put(x);
@@ -189,9 +185,8 @@ bool AlgebraicLoop::is_held_settled() const {
 AlgebraicLoop::Values AlgebraicLoop::inputs() const {
   Values values;
   for (const Cut& cut : cuts_) {
-    const Exchange::Place place = cut.wires.front().place();
     ValueBlock& value = values.emplace_back(cut.result.type(), cut.result.size());
-    copy_elements(value, 0, *place.block, place.first, value.size());
+    copy_elements({&value, 0, value.size()}, cut.links.front().target_value());
   }
   return values;
 }
@@ -201,16 +196,16 @@ void AlgebraicLoop::put(const Values& values) {
 }
 
 void AlgebraicLoop::put(Cut& cut, const ValueBlock& value) {
-  for (StagedExchange::Wire& wire : cut.wires) {
-    const Exchange::Place to = wire.place();
-    if (copy_elements(*to.block, to.first, value, 0, value.size())) staged_.touch(wire);
+  for (StagedExchange::Link& link : cut.links) {
+    const ValueSlice& to = link.target_value();
+    if (copy_elements(*to.block, to.first, value, 0, value.size())) staged_.touch(link);
   }
 }
 
 void AlgebraicLoop::put(std::span<const double> x) {
   for (std::size_t i = 0; i < reals_.size(); ++i) {
-    for (StagedExchange::Wire& wire : cuts_[reals_[i].cut].wires) {
-      if (change_real(wire.place(), reals_[i].element, x[i])) staged_.touch(wire);
+    for (StagedExchange::Link& link : cuts_[reals_[i].cut].links) {
+      if (change_real(link.target_value(), reals_[i].element, x[i])) staged_.touch(link);
     }
   }
 }
@@ -230,14 +225,14 @@ std::string AlgebraicLoop::values_text() const {
   for (const Unknown& unknown : unknowns_) {
     if (is_settled(unknown) || ++count > kMostValues) continue;
     const Cut& cut = cuts_[unknown.cut];
-    const Exchange::Place place = cut.wires.front().place();
-    const std::size_t at = place.first + unknown.element;
+    const ValueSlice input = cut.links.front().target_value();
     std::string text = fmt::format(
-        "with {}{} = {} it gives back {}", system_.full_name(cut.wires.front().target()),
+        "with {}{} = {} it gives back {}", system_.full_name(cut.links.front().target()),
         cut.result.size() == 1 ? "" : fmt::format("[{}]", unknown.element + 1),
-        element_text(*place.block, at), element_text(cut.result, unknown.element));
+        element_text(*input.block, input.first + unknown.element),
+        element_text(cut.result, unknown.element));
     if (cut.is_real) {
-      const double x = real(*place.block, at);
+      const double x = real(input, unknown.element);
       text += fmt::format(", a residual of {:.3g}", real(cut.result, unknown.element) - x);
     }
     texts.push_back(std::move(text));
@@ -251,7 +246,7 @@ std::string AlgebraicLoop::hint() const {
       "a unit in it whose output does not depend on its input at the same instant, as "
       "a delay or a state, breaks the loop; a start value of {} nearer to the solution "
       "may help",
-      system_.full_name(cuts_.front().wires.front().target()));
+      system_.full_name(cuts_.front().links.front().target()));
   const std::string undeclared = undeclared_text(system_, plan_);
   return undeclared.empty() ? text
                             : text + "; " + undeclared + ", so all inputs are taken for them";

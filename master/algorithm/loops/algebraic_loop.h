@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,12 +11,11 @@
 
 #include <stride/time.h>
 
-#include "master/algorithm/exchange/exchange.h"
 #include "master/algorithm/exchange/staged_exchange.h"
 #include "master/algorithm/loops/evaluation_order.h"
 #include "master/algorithm/loops/loop_solver.h"
 #include "master/algorithm/loops/loop_tangents.h"
-#include "master/model/system.h"
+#include "master/algorithm/run_context.h"
 
 namespace stride::core {
 
@@ -33,8 +31,7 @@ class AlgebraicLoop {
   using Sweep = std::function<void()>;
 
   /// `plan` is a loop and outlives this object, as do the others.
-  AlgebraicLoop(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                const EvaluationBlock& plan, Exchange& exchange, StagedExchange& staged);
+  AlgebraicLoop(RunContext& context, const EvaluationBlock& plan, StagedExchange& staged);
 
   /// Takes the values that the units have for the inputs at which the loop is cut.
   void guess();
@@ -49,8 +46,8 @@ class AlgebraicLoop {
   /// Inputs that get the same value, and the output that it comes from.
   struct Cut {
     const Tear* tear;
-    Exchange::Place source;
-    std::vector<StagedExchange::Wire> wires;
+    ValueSlice source;
+    std::vector<StagedExchange::Link> links;
     ValueBlock result;  ///< what the source says, as the inputs want it
     bool is_real;
   };

@@ -15,8 +15,8 @@ bool never_follows_inputs(const Variable& variable) {
 
 bool carries_value(const System& system, const Connection& connection, Phase phase) {
   const auto has_value = [&](VariableId id) {
-    if (!system.variable(id).is_clocked()) return true;
-    return phase == Phase::Initialization && system.is_sampled(id);
+    return phase == Phase::Initialization ? !system.is_message(id)
+                                          : !system.variable(id).is_clocked();
   };
   return system.variable(connection.from).type != ValueType::Clock && has_value(connection.from) &&
          has_value(connection.to);

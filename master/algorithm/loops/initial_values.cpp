@@ -1,11 +1,11 @@
 #include "master/algorithm/loops/initial_values.h"
 
-#include "master/algorithm/loops/evaluation.h"
+#include "master/algorithm/loops/ordered_evaluation.h"
 
 namespace stride::core {
 namespace {
 
-class AllUnits : public Evaluation::Participants {
+class AllUnits : public OrderedEvaluation::Participants {
  public:
   bool takes_part(std::size_t) const override { return true; }
   void on_jump(VariableId, bool) override {}
@@ -14,10 +14,10 @@ class AllUnits : public Evaluation::Participants {
 
 }  // namespace
 
-void set_initial_values(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                        Exchange& exchange, const UnitTimer& timer, Time start) {
+void set_initial_values(RunContext& context, Time start) {
   AllUnits all;
-  Evaluation(system, units, exchange, Phase::Initialization, timer).run(start, all);
+  OrderedEvaluation(context, Phase::Initialization, &UnitStatistics::initialization_time)
+      .run(start, all);
 }
 
 }  // namespace stride::core

@@ -2,25 +2,18 @@
 #ifndef STRIDE_MASTER_ALGORITHM_LOOPS_INITIAL_VALUES_H
 #define STRIDE_MASTER_ALGORITHM_LOOPS_INITIAL_VALUES_H
 
-#include <memory>
-#include <span>
-
 #include <stride/time.h>
 
-#include "master/algorithm/exchange/exchange.h"
-#include "master/algorithm/unit.h"
-#include "master/algorithm/unit_timer.h"
-#include "master/model/system.h"
+#include "master/algorithm/run_context.h"
 
 namespace stride::core {
 
-/// The units, in the order of system.components(), are in Initialization Mode. Reads each connected
+/// The units are in Initialization Mode. Reads each connected
 /// output once what it depends on is known, and writes each connected input; algebraic loops are
 /// solved. So a value is where it belongs before the first step, however long its way, and a unit
 /// is asked as often only as the declared dependencies demand. Throws Error (Run): a connected
 /// output is NaN, or no solution of a loop was found.
-void set_initial_values(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                        Exchange& exchange, const UnitTimer& timer, Time start);
+void set_initial_values(RunContext& context, Time start);
 
 }  // namespace stride::core
 

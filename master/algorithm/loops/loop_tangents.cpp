@@ -17,48 +17,49 @@ bool LoopTangents::exist(const System& system, const EvaluationBlock& loop) {
 LoopTangents::LoopTangents(const System& system, std::span<const std::unique_ptr<Unit>> units,
                            const EvaluationBlock& loop)
     : system_(system), units_(units), loop_(loop) {
-  place_inputs();
-  for (const EvaluationStep& step : loop.steps) add_stage(step);
-  add_wires();
+  lay_out_inputs();
+  for (const EvaluationStep& step : loop.steps) add_derivatives(step);
+  add_carried();
 }
 
 /// They are sorted, so those of a component stand in a row.
-void LoopTangents::place_inputs() {
+void LoopTangents::lay_out_inputs() {
   for (const VariableId id : loop_.inputs) {
-    input_places_[id] = inputs_.size();
+    input_offsets_[id] = inputs_.size();
     inputs_.resize(inputs_.size() + system_.variable(id).size);
   }
 }
 
-void LoopTangents::add_stage(const EvaluationStep& step) {
-  auto& derivatives = units_[step.component]->require_capability<DirectionalDerivatives>();
-  Stage stage{step.component, &derivatives, {}, {}, outputs_.size(), 0, inputs_.size(), 0};
+void LoopTangents::add_derivatives(const EvaluationStep& step) {
+  auto& unit = units_[step.component]->require_capability<DirectionalDerivatives>();
+  UnitDerivatives derivatives{step.component, &unit, {}, {}, outputs_.size(), 0, inputs_.size(), 0};
   for (const VariableId id : step.outputs) {
-    stage.unknowns.push_back(system_.variable(id).reference);
-    output_places_[id] = outputs_.size();
+    derivatives.unknowns.push_back(system_.variable(id).reference);
+    output_offsets_[id] = outputs_.size();
     outputs_.resize(outputs_.size() + system_.variable(id).size);
   }
-  stage.outputs = outputs_.size() - stage.first_output;
-  for (const auto& [id, place] : input_places_) {
+  derivatives.outputs = outputs_.size() - derivatives.first_output;
+  for (const auto& [id, offset] : input_offsets_) {
     if (id.component != step.component) continue;
-    stage.knowns.push_back(system_.variable(id).reference);
-    stage.first_input = std::min(stage.first_input, place);
-    stage.inputs += system_.variable(id).size;
+    derivatives.knowns.push_back(system_.variable(id).reference);
+    derivatives.first_input = std::min(derivatives.first_input, offset);
+    derivatives.inputs += system_.variable(id).size;
   }
-  stages_.push_back(std::move(stage));
+  derivatives_.push_back(std::move(derivatives));
 }
 
 /// Those at which the loop is cut are not carried on within a sweep.
-void LoopTangents::add_wires() {
+void LoopTangents::add_carried() {
   std::set<VariableId> cut;
   for (const Tear& tear : loop_.tears) cut.insert(tear.inputs.begin(), tear.inputs.end());
   for (std::size_t i = 0; i < loop_.steps.size(); ++i) {
     for (const Connection& connection : system_.connections()) {
-      const auto to = input_places_.find(connection.to);
+      const auto to = input_offsets_.find(connection.to);
       const bool begins_here = std::ranges::binary_search(loop_.steps[i].outputs, connection.from);
-      if (!begins_here || to == input_places_.end() || cut.contains(connection.to)) continue;
-      wires_.push_back({i, output_places_.at(connection.from), to->second,
-                        system_.variable(connection.to).size, connection.conversion.linear.factor});
+      if (!begins_here || to == input_offsets_.end() || cut.contains(connection.to)) continue;
+      carried_.push_back({i, output_offsets_.at(connection.from), to->second,
+                          system_.variable(connection.to).size,
+                          connection.conversion.linear.factor});
     }
   }
 }
@@ -66,23 +67,24 @@ void LoopTangents::add_wires() {
 void LoopTangents::derive(std::size_t tear, std::size_t element, std::span<double> column) {
   std::ranges::fill(inputs_, 0.0);
   for (const VariableId id : loop_.tears[tear].inputs) {
-    inputs_[input_places_.at(id) + element] = 1;
+    inputs_[input_offsets_.at(id) + element] = 1;
   }
-  auto wire = wires_.begin();
-  for (std::size_t i = 0; i < stages_.size(); ++i) {
-    const Stage& stage = stages_[i];
-    stage.derivatives->get_directional_derivative(
-        stage.unknowns, stage.knowns, std::span(inputs_).subspan(stage.first_input, stage.inputs),
-        std::span(outputs_).subspan(stage.first_output, stage.outputs));
-    for (; wire != wires_.end() && wire->stage == i; ++wire) {
-      for (std::size_t k = 0; k < wire->size; ++k) {
-        inputs_[wire->to + k] = wire->factor * outputs_[wire->from + k];
+  auto carried = carried_.begin();
+  for (std::size_t i = 0; i < derivatives_.size(); ++i) {
+    const UnitDerivatives& derivatives = derivatives_[i];
+    derivatives.unit->get_directional_derivative(
+        derivatives.unknowns, derivatives.knowns,
+        std::span(inputs_).subspan(derivatives.first_input, derivatives.inputs),
+        std::span(outputs_).subspan(derivatives.first_output, derivatives.outputs));
+    for (; carried != carried_.end() && carried->step == i; ++carried) {
+      for (std::size_t k = 0; k < carried->size; ++k) {
+        inputs_[carried->to + k] = carried->factor * outputs_[carried->from + k];
       }
     }
   }
   std::size_t row = 0;
   for (const Tear& back : loop_.tears) {
-    const std::size_t from = output_places_.at(back.source);
+    const std::size_t from = output_offsets_.at(back.source);
     for (std::size_t k = 0; k < system_.variable(back.source).size; ++k) {
       column[row++] = back.conversion.linear.factor * outputs_[from + k];
     }

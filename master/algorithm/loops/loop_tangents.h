@@ -33,29 +33,29 @@ class LoopTangents {
 
  private:
   /// Outputs of one component, what of it the loop runs through, and where these lead.
-  struct Stage {
+  struct UnitDerivatives {
     std::size_t component;
-    DirectionalDerivatives* derivatives;
+    DirectionalDerivatives* unit;
     std::vector<ValueReference> unknowns, knowns;
     std::size_t first_output, outputs;  ///< in outputs_
     std::size_t first_input, inputs;    ///< in inputs_
   };
-  struct Wire {
-    std::size_t stage;  ///< behind which it carries
+  struct CarriedDerivative {
+    std::size_t step;  ///< of the loop, after which it is carried
     std::size_t from, to, size;
     double factor;
   };
 
-  void place_inputs();
-  void add_stage(const EvaluationStep& step);
-  void add_wires();
+  void lay_out_inputs();
+  void add_derivatives(const EvaluationStep& step);
+  void add_carried();
 
   const System& system_;
   std::span<const std::unique_ptr<Unit>> units_;
   const EvaluationBlock& loop_;
-  std::map<VariableId, std::size_t> input_places_, output_places_;
-  std::vector<Stage> stages_;
-  std::vector<Wire> wires_;  ///< by stage
+  std::map<VariableId, std::size_t> input_offsets_, output_offsets_;
+  std::vector<UnitDerivatives> derivatives_;
+  std::vector<CarriedDerivative> carried_;  ///< by step
   std::vector<double> inputs_, outputs_;
 };
 

@@ -30,9 +30,8 @@ std::optional<std::size_t> first_final(const std::vector<Component>& components)
   return best;
 }
 
-StepRole role_of(const Component& component, bool is_first_final, StepPolicy policy) {
-  const bool may_go_back =
-      policy == StepPolicy::ErrorControlled || (may_stop(component) && !is_first_final);
+StepRole role_of(const Component& component, bool is_first_final, const StepPolicyType& policy) {
+  const bool may_go_back = policy.controls_error || (may_stop(component) && !is_first_final);
   if (component.can_save_state() && may_go_back) return StepRole::CanRollBack;
   return component.may_return_early() ? StepRole::MayStopEarly : StepRole::DoesAsTold;
 }
@@ -152,14 +151,15 @@ void form_stages(const System& system, std::vector<StepPlace>& order) {
 
 }  // namespace
 
-std::vector<StepPlace> step_order(const System& system, StepPolicy policy, Coupling coupling) {
+std::vector<StepPlace> step_order(const System& system, const StepPolicyType& policy,
+                                  Coupling coupling) {
   const auto& components = system.components();
   const std::optional<std::size_t> final = first_final(components);
   std::vector<StepPlace> order;
   for (std::size_t i = 0; i < components.size(); ++i) {
     const UnitDescription& unit = *components[i].description;
     const StepRole role = role_of(components[i], i == final, policy);
-    bool another_may_stop = policy == StepPolicy::ErrorControlled;
+    bool another_may_stop = policy.controls_error;
     for (std::size_t k = 0; k < components.size(); ++k) {
       another_may_stop |= k != i && may_stop(components[k]);
     }
@@ -181,8 +181,9 @@ std::vector<StepPlace> step_order(const System& system, StepPolicy policy, Coupl
 }
 
 std::vector<std::size_t> missing_snapshots(std::span<const ComponentDeclaration> components,
-                                           StepPolicy policy, const std::vector<bool>& may_have) {
-  const bool all_go_back = policy == StepPolicy::ErrorControlled;
+                                           const StepPolicyType& policy,
+                                           const std::vector<bool>& may_have) {
+  const bool all_go_back = policy.controls_error;
   std::vector<std::size_t> lacking;
   for (std::size_t i = 0; i < components.size(); ++i) {
     const UnitDescription& unit = *components[i].description;

@@ -49,14 +49,16 @@ struct StepPlace {
 ///
 /// A unit that cannot be rolled back begins a new stage where the stage before it has a unit that
 /// may stop: it must not go further than that one does.
-std::vector<StepPlace> step_order(const System& system, StepPolicy policy, Coupling coupling);
+std::vector<StepPlace> step_order(const System& system, const StepPolicyType& policy,
+                                  Coupling coupling);
 
 /// Those that have to be given snapshots, in the order of the file: of the units that may return
 /// early and have neither a state nor snapshots all but one; with error-controlled steps all that
 /// have neither. `may_have`: by component, whether it may be given them; who may not is not among
 /// those returned, and is the one that can do without, if there is one.
 std::vector<std::size_t> missing_snapshots(std::span<const ComponentDeclaration> components,
-                                           StepPolicy policy, const std::vector<bool>& may_have);
+                                           const StepPolicyType& policy,
+                                           const std::vector<bool>& may_have);
 
 }  // namespace stride::core
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "master/algorithm/capabilities/unit_diagnostics.h"
+#include "master/util/time_text.h"
 
 namespace stride::core {
 namespace {
@@ -16,7 +17,7 @@ std::string times(std::uint64_t count) {
 
 }  // namespace
 
-Stepper::Lane::Lane(Unit& stepped, const StepPlace& its_place)
+Stepper::UnitStep::UnitStep(Unit& stepped, const StepPlace& its_place)
     : unit(&stepped),
       place(&its_place),
       component(static_cast<std::uint32_t>(its_place.component)),
@@ -24,42 +25,39 @@ Stepper::Lane::Lane(Unit& stepped, const StepPlace& its_place)
       can_vary_step(its_place.can_vary_step),
       state(saves_state ? &stepped.require_capability<StateSaving>() : nullptr) {}
 
-Stepper::Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                 Exchange& exchange, std::vector<UnitStatistics>& statistics,
-                 const Activities& activities, WallClock clock, const RunOptions& options,
-                 StepInputs* inputs, IdleLedger* ledger)
-    : system_(system),
-      unit_count_(units.size()),
-      exchange_(exchange),
-      statistics_(statistics),
-      activities_(activities),
-      clock_(clock),
-      step_clock_(clock),
+Stepper::Stepper(RunContext& context, InputExtrapolator* inputs, IdleScheduler* idle)
+    : system_(context.system),
+      unit_count_(context.units.size()),
+      exchange_(context.exchange),
+      statistics_(context.statistics.units),
+      activities_(context.activities),
+      clock_(context.clock),
+      step_clock_(context.clock),
       inputs_(inputs),
-      ledger_(ledger),
-      regular_(options.step.size),
-      minimum_(options.step.minimum),
-      order_(step_order(system, options.step.policy, options.coupling)),
-      lane_of_(units.size()),
-      times_(units.size()),
-      failures_(units.size()),
-      split_(plan(options)) {
+      idle_(idle),
+      regular_(context.options.step.size),
+      minimum_(context.options.step.minimum),
+      order_(step_order(system_, *context.options.step.policy, context.options.coupling)),
+      index_of_(unit_count_),
+      times_(unit_count_),
+      failures_(unit_count_),
+      balancer_(plan(context.options)) {
   for (const StepPlace& place : order_) {
-    lane_of_[place.component] = lanes_.size();
-    Lane& lane = lanes_.emplace_back(*units[place.component], place);
-    lane.may_rest = ledger != nullptr && ledger->may_rest(place.component);
-    lane.is_plain =
-        inputs == nullptr && !place.saves_state && place.can_vary_step && !lane.may_rest;
+    index_of_[place.component] = unit_steps_.size();
+    UnitStep& unit_step = unit_steps_.emplace_back(*context.units[place.component], place);
+    unit_step.may_suspend = idle != nullptr && idle->may_suspend(place.component);
+    unit_step.is_plain =
+        inputs == nullptr && !place.saves_state && place.can_vary_step && !unit_step.may_suspend;
   }
   for (std::size_t first = 0, i = 0; i < order_.size(); ++i) {
     if (i + 1 < order_.size() && order_[i + 1].stage == order_[i].stage) continue;
-    stages_.push_back(std::span(lanes_).subspan(first, i + 1 - first));
+    stages_.push_back(std::span(unit_steps_).subspan(first, i + 1 - first));
     first = i + 1;
   }
 }
 
-WorkSplit::Plan Stepper::plan(const RunOptions& options) {
-  WorkSplit::Plan plan;
+LoadBalancer::Plan Stepper::plan(const RunOptions& options) {
+  LoadBalancer::Plan plan;
   plan.threads = options.coupling == Coupling::GaussSeidel ? 1 : options.threads.count;
   plan.always = options.threads.always;
   if (!plan.always) {
@@ -78,7 +76,7 @@ WorkSplit::Plan Stepper::plan(const RunOptions& options) {
 }
 
 ThreadPool& Stepper::pool() {
-  if (!pool_) pool_.emplace(split_.threads());
+  if (!pool_) pool_.emplace(balancer_.threads());
   return *pool_;
 }
 
@@ -86,45 +84,45 @@ Time Stepper::advance(Time from, Time target) {
   ++communication_step_;
   cut_ = {};
   has_requests_ = false;
-  if (split_.is_deciding()) return make_timed_passes(from, target);
+  if (balancer_.is_deciding()) return make_timed_passes(from, target);
   const Time reached = make_passes(from, target);
-  split_.end_step();
+  balancer_.end_step();
   return reached;
 }
 
 Time Stepper::make_timed_passes(Time from, Time target) {
-  step_clock_ = WallClock(clock_.measures() || split_.is_measuring());
+  step_clock_ = WallClock(clock_.measures() || balancer_.is_measuring());
   const auto began = WallClock::Source::now();
   const Time reached = make_passes(from, target);
-  split_.end_step(WallClock::Source::now() - began);
+  balancer_.end_step(WallClock::Source::now() - began);
   step_clock_ = clock_;
   return reached;
 }
 
 void Stepper::undo(Time from) {
-  for (Lane& lane : lanes_) {
-    tell(lane, Activity::Kind::Undone, from, lane.result.reached);
-    restore(lane, from);
-    ++statistics_[lane.component].rollbacks;
+  for (UnitStep& unit_step : unit_steps_) {
+    report(unit_step, Activity::Kind::Undone, from, unit_step.result.reached);
+    restore(unit_step, from);
+    ++statistics_[unit_step.component].rollbacks;
   }
 }
 
 Time Stepper::make_passes(Time from, Time target) {
-  was_parallel_ = split_.is_parallel();
+  was_parallel_ = balancer_.is_parallel();
   if (from != last_end_) last_end_seconds_ = to_seconds(from);
   const double from_seconds = last_end_seconds_;
   while (true) {
     const StepInterval interval(from, from_seconds, target);
     last_end_ = target;
     last_end_seconds_ = interval.end_seconds;
-    const Time reached = step_all(interval);
+    const Time reached = make_pass(interval);
     if (reached == target) return target;
     target = reached;
   }
 }
 
 /// One pass. Returns the target if all units stand there, else the nearer one for the next pass.
-inline Time Stepper::step_all(const StepInterval& interval) {
+inline Time Stepper::make_pass(const StepInterval& interval) {
   for (std::size_t stage = 0; stage < stages_.size(); ++stage) {
     const Time reached = step_stage(stage, interval);
     if (reached != interval.to) return reached;
@@ -133,185 +131,187 @@ inline Time Stepper::step_all(const StepInterval& interval) {
 }
 
 inline Time Stepper::step_stage(std::size_t stage, const StepInterval& interval) {
-  const std::span<const WorkShare> shares = split_.shares(stage);
+  const std::span<const ThreadShare> shares = balancer_.shares(stage);
   if (!shares.empty()) step_on_threads(shares, interval);
   const bool may_be_plain =
       shares.empty() && !step_clock_.measures() && interval.from != interval.to;
   Time reached = interval.to;
-  for (Lane& lane : stages_[stage]) {
-    const bool is_first = lane.communication_step != communication_step_;
-    if (may_be_plain && lane.is_plain && is_first) [[likely]] {
-      if (step_plainly(lane, interval)) continue;
+  for (UnitStep& unit_step : stages_[stage]) {
+    const bool is_first = unit_step.communication_step != communication_step_;
+    if (may_be_plain && unit_step.is_plain && is_first) [[likely]] {
+      if (step_plainly(unit_step, interval)) continue;
     } else if (shares.empty()) {
-      lane.outcome = go_timed(lane, interval);
+      unit_step.outcome = attempt_timed(unit_step, interval);
     }
-    const Time allowed = take_down(lane, interval);
+    const Time allowed = record(unit_step, interval);
     if (allowed >= reached) [[likely]]
       continue;
     reached = allowed;
-    cut_ = {&lane, lane.result.reached, lane.outcome == Outcome::Rejected};
+    cut_ = {&unit_step, unit_step.result.reached, unit_step.outcome == Outcome::Rejected};
   }
   if (reached != interval.to) check_minimum(interval, reached);
   return reached;
 }
 
-void Stepper::step_on_threads(std::span<const WorkShare> shares, const StepInterval& interval) {
+void Stepper::step_on_threads(std::span<const ThreadShare> shares, const StepInterval& interval) {
   pool().run(shares.size(), [&](std::size_t k) noexcept {
-    for (const std::size_t i : shares[k]) step(lanes_[i], interval);
+    for (const std::size_t i : shares[k]) attempt_on_thread(unit_steps_[i], interval);
   });
 }
 
 /// May be called for different units at the same time.
-void Stepper::step(Lane& lane, const StepInterval& interval) noexcept {
+void Stepper::attempt_on_thread(UnitStep& unit_step, const StepInterval& interval) noexcept {
   try {
-    lane.outcome = go_timed(lane, interval);
+    unit_step.outcome = attempt_timed(unit_step, interval);
     return;
   } catch (const ConsequentError&) {
-    failures_[index(lane)] = {std::current_exception(), true};
+    failures_[index(unit_step)] = {std::current_exception(), true};
   } catch (...) {
-    failures_[index(lane)] = {std::current_exception(), false};
+    failures_[index(unit_step)] = {std::current_exception(), false};
   }
-  lane.outcome = Outcome::Failed;
+  unit_step.outcome = Outcome::Failed;
 }
 
-/// What go() comes down to for most units in most steps. Tells whether there is nothing to take
-/// down.
-inline bool Stepper::step_plainly(Lane& lane, const StepInterval& interval) {
-  lane.communication_step = communication_step_;
-  lane.rejections = 0;
-  lane.result = exchange_.step(lane.component, *lane.unit, interval);
-  lane.steps += !lane.result.rejected;
-  if (lane.result.went_through(interval.to)) [[likely]]
+/// What attempt() comes down to for most units in most steps. Tells whether there is nothing to
+/// take down.
+inline bool Stepper::step_plainly(UnitStep& unit_step, const StepInterval& interval) {
+  unit_step.communication_step = communication_step_;
+  unit_step.rejections = 0;
+  unit_step.result = exchange_.step(unit_step.component, *unit_step.unit, interval);
+  unit_step.steps += !unit_step.result.rejected;
+  if (unit_step.result.went_through(interval.to)) [[likely]]
     return true;
-  lane.outcome = lane.result.rejected ? Outcome::Rejected : Outcome::Stepped;
-  if (lane.result.rejected) {
-    lane.possible = lane.result.reached;
-    lane.result = {.reached = interval.from};
+  unit_step.outcome = unit_step.result.rejected ? Outcome::Rejected : Outcome::Stepped;
+  if (unit_step.result.rejected) {
+    unit_step.possible = unit_step.result.reached;
+    unit_step.result = {.reached = interval.from};
   }
   return false;
 }
 
-inline Stepper::Outcome Stepper::go_timed(Lane& lane, const StepInterval& interval) {
-  return step_clock_.timed(times_[index(lane)], [&] { return go(lane, interval); });
+inline Stepper::Outcome Stepper::attempt_timed(UnitStep& unit_step, const StepInterval& interval) {
+  return step_clock_.timed(times_[index(unit_step)], [&] { return attempt(unit_step, interval); });
 }
 
-inline Stepper::Outcome Stepper::go(Lane& lane, const StepInterval& interval) {
-  lane.saved = lane.rolled_back = false;
-  if (lane.may_rest && rests_on(lane, interval)) return Outcome::Stood;
-  if (lane.communication_step != communication_step_) [[likely]] {
-    lane.communication_step = communication_step_;
-    lane.result = {.reached = interval.from};
-    lane.rejections = 0;
-    if (lane.saves_state) save(lane);
-  } else if (lane.result.reached > interval.to) {
-    if (!lane.saves_state) return Outcome::TooFar;
-    go_back(lane, interval);
+inline Stepper::Outcome Stepper::attempt(UnitStep& unit_step, const StepInterval& interval) {
+  unit_step.saved = unit_step.rolled_back = false;
+  if (unit_step.may_suspend && stays_suspended(unit_step, interval)) return Outcome::Idle;
+  if (unit_step.communication_step != communication_step_) [[likely]] {
+    unit_step.communication_step = communication_step_;
+    unit_step.result = {.reached = interval.from};
+    unit_step.rejections = 0;
+    if (unit_step.saves_state) save(unit_step);
+  } else if (unit_step.result.reached > interval.to) {
+    if (!unit_step.saves_state) return Outcome::TooFar;
+    roll_back(unit_step, interval);
   }
-  if (lane.result.reached == interval.to) return Outcome::Stood;
-  if (!lane.can_vary_step && interval.to - interval.from != regular_) fail_size(lane, interval);
-  if (inputs_ != nullptr) inputs_->before_step(lane.component, interval);
-  const StepResult result = exchange_.step(lane.component, *lane.unit, interval);
+  if (unit_step.result.reached == interval.to) return Outcome::Idle;
+  if (!unit_step.can_vary_step && interval.to - interval.from != regular_)
+    fail_size(unit_step, interval);
+  if (inputs_ != nullptr) inputs_->before_step(unit_step.component, interval);
+  const StepResult result = exchange_.step(unit_step.component, *unit_step.unit, interval);
   if (result.rejected) {
-    lane.possible = result.reached;
+    unit_step.possible = result.reached;
     return Outcome::Rejected;
   }
-  lane.result = result;
-  ++lane.steps;
-  if (inputs_ != nullptr) inputs_->after_step(lane.component, result.reached);
+  unit_step.result = result;
+  ++unit_step.steps;
+  if (inputs_ != nullptr) inputs_->after_step(unit_step.component, result.reached);
   return Outcome::Stepped;
 }
 
 /// Whether the unit rests and can be left alone up to the end of the step. If it cannot, it is
 /// brought to where the step begins.
-bool Stepper::rests_on(Lane& lane, const StepInterval& interval) {
-  if (!ledger_->rests(lane.component)) return false;
-  if (!ledger_->covers(lane.component, interval.to)) {
-    ledger_->wake(lane.component, interval.from);
+bool Stepper::stays_suspended(UnitStep& unit_step, const StepInterval& interval) {
+  if (!idle_->is_suspended(unit_step.component)) return false;
+  if (!idle_->covers(unit_step.component, interval.to)) {
+    idle_->catch_up(unit_step.component, interval.from);
     return false;
   }
-  lane.communication_step = communication_step_;
-  lane.result = {.reached = interval.to};
+  unit_step.communication_step = communication_step_;
+  unit_step.result = {.reached = interval.to};
   return true;
 }
 
 /// The inputs are part of the state.
-void Stepper::save(Lane& lane) {
-  exchange_.deliver_routed(lane.component, *lane.unit);
-  lane.state->save_state();
-  lane.saved = true;
+void Stepper::save(UnitStep& unit_step) {
+  exchange_.deliver_routed(unit_step.component, *unit_step.unit);
+  unit_step.state->save_state();
+  unit_step.saved = true;
 }
 
-void Stepper::go_back(Lane& lane, const StepInterval& interval) {
-  lane.undone = lane.result.reached;
-  restore(lane, interval.from);
-  lane.rolled_back = true;
-  if (interval.from == interval.to) exchange_.fetch(lane.component, *lane.unit);
+void Stepper::roll_back(UnitStep& unit_step, const StepInterval& interval) {
+  unit_step.undone = unit_step.result.reached;
+  restore(unit_step, interval.from);
+  unit_step.rolled_back = true;
+  if (interval.from == interval.to) exchange_.fetch(unit_step.component, *unit_step.unit);
 }
 
-void Stepper::restore(Lane& lane, Time from) {
-  lane.state->restore_state();
-  lane.result = {.reached = from};
-  if (inputs_ != nullptr) inputs_->undo_step(lane.component);
+void Stepper::restore(UnitStep& unit_step, Time from) {
+  unit_step.state->restore_state();
+  unit_step.result = {.reached = from};
+  if (inputs_ != nullptr) inputs_->undo_step(unit_step.component);
 }
 
 /// Counts what the unit did, and returns how far it lets the others go.
-inline Time Stepper::take_down(Lane& lane, const StepInterval& interval) {
-  if (lane.may_rest) ledger_->tell_rest(lane.component);
-  if (lane.saves_state) {
-    UnitStatistics& statistics = statistics_[lane.component];
-    statistics.saves += lane.saved;
-    statistics.rollbacks += lane.rolled_back;
-    if (lane.rolled_back) tell(lane, Activity::Kind::Undone, interval.from, lane.undone);
+inline Time Stepper::record(UnitStep& unit_step, const StepInterval& interval) {
+  if (unit_step.may_suspend) idle_->report_suspension(unit_step.component);
+  if (unit_step.saves_state) {
+    UnitStatistics& statistics = statistics_[unit_step.component];
+    statistics.saves += unit_step.saved;
+    statistics.rollbacks += unit_step.rolled_back;
+    if (unit_step.rolled_back)
+      report(unit_step, Activity::Kind::Undone, interval.from, unit_step.undone);
   }
-  if (step_clock_.measures()) take_down_time(lane);
-  switch (lane.outcome) {
-    case Outcome::Stood:
+  if (step_clock_.measures()) record_time(unit_step);
+  switch (unit_step.outcome) {
+    case Outcome::Idle:
       return interval.to;
     case Outcome::Stepped:
-      has_requests_ |= lane.result.event_needed || lane.result.terminate;
-      if (lane.result.reached != interval.to) {
-        ++statistics_[lane.component].early_returns;
-        tell(lane, Activity::Kind::EarlyReturn, interval.from, lane.result.reached);
+      has_requests_ |= unit_step.result.event_needed || unit_step.result.terminate;
+      if (unit_step.result.reached != interval.to) {
+        ++statistics_[unit_step.component].early_returns;
+        report(unit_step, Activity::Kind::EarlyReturn, interval.from, unit_step.result.reached);
       }
-      return lane.result.reached;
+      return unit_step.result.reached;
     case Outcome::Rejected:
-      ++statistics_[lane.component].rejections;
-      ++lane.rejections;
-      tell(lane, Activity::Kind::Rejection, interval.from, interval.to);
-      return retry_target(lane, interval);
+      ++statistics_[unit_step.component].rejections;
+      ++unit_step.rejections;
+      report(unit_step, Activity::Kind::Rejection, interval.from, interval.to);
+      return retry_target(unit_step, interval);
     case Outcome::TooFar:
-      fail_final(lane);
+      fail_final(unit_step);
     case Outcome::Failed:
       break;
   }
-  rethrow_failure(lane);
+  rethrow_failure(unit_step);
 }
 
 /// Where the unit that rejected the step may come to.
-Time Stepper::retry_target(const Lane& lane, const StepInterval& interval) {
-  const bool is_said = interval.from < lane.possible && lane.possible < interval.to;
-  return is_said ? lane.possible : interval.from + (interval.to - interval.from) / 2;
+Time Stepper::retry_target(const UnitStep& unit_step, const StepInterval& interval) {
+  const bool is_said = interval.from < unit_step.possible && unit_step.possible < interval.to;
+  return is_said ? unit_step.possible : interval.from + (interval.to - interval.from) / 2;
 }
 
-void Stepper::take_down_time(const Lane& lane) {
-  const std::chrono::nanoseconds time = std::exchange(times_[index(lane)], {});
-  if (clock_.measures()) statistics_[lane.component].step_time += time;
-  if (split_.is_measuring()) split_.note_cost(index(lane), time);
+void Stepper::record_time(const UnitStep& unit_step) {
+  const std::chrono::nanoseconds time = std::exchange(times_[index(unit_step)], {});
+  if (clock_.measures()) statistics_[unit_step.component].step_time += time;
+  if (balancer_.is_measuring()) balancer_.record_cost(index(unit_step), time);
 }
 
 /// The first failure in the step order that is no mere consequence of another one.
-void Stepper::rethrow_failure(const Lane& first) const {
-  for (const Lane& lane : stages_[first.place->stage]) {
-    const Failure& failure = failures_[index(lane)];
-    if (lane.outcome == Outcome::Failed && !failure.is_consequence) {
+void Stepper::rethrow_failure(const UnitStep& first) const {
+  for (const UnitStep& unit_step : stages_[first.place->stage]) {
+    const Failure& failure = failures_[index(unit_step)];
+    if (unit_step.outcome == Outcome::Failed && !failure.is_consequence) {
       std::rethrow_exception(failure.cause);
     }
   }
   std::rethrow_exception(failures_[index(first)].cause);
 }
 
-const std::string& Stepper::name(const Lane& lane) const {
-  return system_.components()[lane.component].name;
+const std::string& Stepper::name(const UnitStep& unit_step) const {
+  return system_.components()[unit_step.component].name;
 }
 
 void Stepper::check_minimum(const StepInterval& interval, Time reached) const {
@@ -321,7 +321,7 @@ void Stepper::check_minimum(const StepInterval& interval, Time reached) const {
            fmt::format("the unit rejected the step to {} s, {} in all, and the next one to try, to "
                        "{} s, would be shorter than the minimum of {} s{}",
                        to_text(interval.to), times(cut_.by->rejections), to_text(reached),
-                       to_text(Time(minimum_)), reason(cut_)),
+                       to_text(minimum_), reason(cut_)),
            "look at what the unit received before this instant");
 }
 
@@ -332,30 +332,29 @@ std::string Stepper::reason(const Cut& cut) const {
   return said.empty() ? "" : "; it says: " + said;
 }
 
-void Stepper::fail_size(const Lane& lane, const StepInterval& interval) const {
+void Stepper::fail_size(const UnitStep& unit_step, const StepInterval& interval) const {
   const std::string hint =
       "use a unit with canHandleVariableCommunicationStepSize, or none that has events or stops "
       "early";
-  if (cut_.by == &lane) {
-    fail_run({{}, name(lane), {}, interval.from},
+  if (cut_.by == &unit_step) {
+    fail_run({{}, name(unit_step), {}, interval.from},
              fmt::format("the unit rejected its step, and takes steps of one size only, {} s, so "
                          "no shorter one can be tried{}",
-                         to_text(Time(regular_)), reason(cut_)),
+                         to_text(regular_), reason(cut_)),
              "look at what the unit received before this instant");
   }
   const std::string who =
       cut_.by == nullptr ? "an event, or the end of the run,"
                          : fmt::format("'{}', which {},", name(*cut_.by),
                                        cut_.is_rejection ? "rejected its step" : "stopped early");
-  fail_run({{}, name(lane), {}, interval.from},
+  fail_run({{}, name(unit_step), {}, interval.from},
            fmt::format("the unit takes steps of one size only, {} s, but {} asks for one of {} s{}",
-                       to_text(Time(regular_)), who, to_text(Time(interval.to - interval.from)),
-                       reason(cut_)),
+                       to_text(regular_), who, to_text(interval.to - interval.from), reason(cut_)),
            hint);
 }
 
 /// In a process of its own it would be asked before what it reaches can be too late.
-std::string Stepper::hint_for_final(const Lane& stopped) const {
+std::string Stepper::hint_for_final(const UnitStep& stopped) const {
   const std::string others =
       "use a unit that can save its state in place of one of the two, or a smaller step";
   if (stopped.place->role == StepRole::CanRollBack) return others;
@@ -365,7 +364,7 @@ std::string Stepper::hint_for_final(const Lane& stopped) const {
       name(stopped), others);
 }
 
-void Stepper::fail_final(const Lane& ahead) const {
+void Stepper::fail_final(const UnitStep& ahead) const {
   fail_run({{}, name(*cut_.by), {}, cut_.at},
            fmt::format("the unit {}, but '{}' is at {} s already and cannot be rolled back{}",
                        cut_.is_rejection ? "rejected a step from here" : "stopped here",

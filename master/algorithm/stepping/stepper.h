@@ -12,19 +12,13 @@
 
 #include <stride/time.h>
 
-#include "master/algorithm/activities.h"
 #include "master/algorithm/capabilities/state_saving.h"
-#include "master/algorithm/exchange/exchange.h"
-#include "master/algorithm/idle/idle_ledger.h"
-#include "master/algorithm/parallel/work_split.h"
-#include "master/algorithm/run_options.h"
-#include "master/algorithm/statistics.h"
-#include "master/algorithm/stepping/step_inputs.h"
+#include "master/algorithm/idle/idle_scheduler.h"
+#include "master/algorithm/parallel/load_balancer.h"
+#include "master/algorithm/run_context.h"
+#include "master/algorithm/stepping/input_extrapolator.h"
 #include "master/algorithm/stepping/step_order.h"
-#include "master/algorithm/unit.h"
-#include "master/model/system.h"
 #include "master/util/thread_pool.h"
-#include "master/util/wall_clock.h"
 
 namespace stride::core {
 
@@ -38,13 +32,10 @@ namespace stride::core {
 /// fail, the first one's error is thrown, when all threads have come to rest.
 class Stepper {
  public:
-  /// `units` in the order of system.components(). `activities`: who hears of steps that are not
-  /// ordinary. `inputs`: who sets them before each step; null
-  /// if they stay what they are. `ledger`: who rests; null if nobody does. Throws Error as
-  /// step_order() does.
-  Stepper(const System& system, std::span<const std::unique_ptr<Unit>> units, Exchange& exchange,
-          std::vector<UnitStatistics>& statistics, const Activities& activities, WallClock clock,
-          const RunOptions& options, StepInputs* inputs = nullptr, IdleLedger* ledger = nullptr);
+  /// All must outlive this object. `inputs` sets the inputs before each step; null if they keep
+  /// their values. `idle`: optional idle scheduler. Throws Error as step_order() does.
+  explicit Stepper(RunContext& context, InputExtrapolator* inputs = nullptr,
+                   IdleScheduler* idle = nullptr);
 
   const std::vector<StepPlace>& order() const { return order_; }
 
@@ -59,37 +50,39 @@ class Stepper {
 
   /// How the unit's last accepted step ended.
   const StepResult& result(std::size_t component) const {
-    return lanes_[lane_of_[component]].result;
+    return unit_steps_[index_of_[component]].result;
   }
   /// Whether a unit may have asked for something in the last communication step: for an event, or
   /// for the end.
   bool has_requests() const { return has_requests_; }
   /// How many steps the unit has made, redone ones included.
-  std::uint64_t steps(std::size_t component) const { return lanes_[lane_of_[component]].steps; }
+  std::uint64_t steps(std::size_t component) const {
+    return unit_steps_[index_of_[component]].steps;
+  }
 
   /// Whether the last communication step was made on several threads.
   bool was_parallel() const { return was_parallel_; }
 
  private:
-  enum class Outcome : std::uint8_t { Stood, Stepped, Rejected, TooFar, Failed };
+  enum class Outcome : std::uint8_t { Idle, Stepped, Rejected, TooFar, Failed };
 
   /// One unit in the present communication step. Written by the thread that steps it, and read when
   /// that has come to rest; a cache line of its own keeps the threads out of each other's way.
-  struct alignas(64) Lane {
-    Lane(Unit& stepped, const StepPlace& its_place);
+  struct alignas(64) UnitStep {
+    UnitStep(Unit& stepped, const StepPlace& its_place);
 
     Unit* unit;
     const StepPlace* place;
     std::uint32_t component;  ///< these three are the place's
     bool saves_state;
     bool can_vary_step;
-    bool may_rest = false;
+    bool may_suspend = false;
     bool is_plain = false;                 ///< there is nothing to do but the step itself
     StepResult result{};                   ///< where it stands, and how it came there
     Time possible{};                       ///< how far it would have come in a rejected step
     std::uint64_t communication_step = 0;  ///< the last one of which it knows
     std::uint64_t steps = 0;
-    Outcome outcome = Outcome::Stood;  ///< of the present pass, as the flags behind it
+    Outcome outcome = Outcome::Idle;  ///< of the present pass, as the flags behind it
     bool saved = false;
     bool rolled_back = false;
     Time undone{};                 ///< where it stood before that
@@ -98,7 +91,7 @@ class Stepper {
   };
   /// Who cut the present communication step short, last.
   struct Cut {
-    const Lane* by = nullptr;
+    const UnitStep* by = nullptr;
     Time at{};
     bool is_rejection = false;
   };
@@ -109,34 +102,34 @@ class Stepper {
 
   Time make_timed_passes(Time from, Time target);
   Time make_passes(Time from, Time target);
-  Time step_all(const StepInterval& interval);
+  Time make_pass(const StepInterval& interval);
   Time step_stage(std::size_t stage, const StepInterval& interval);
-  void step_on_threads(std::span<const WorkShare> shares, const StepInterval& interval);
-  void step(Lane& lane, const StepInterval& interval) noexcept;
-  bool step_plainly(Lane& lane, const StepInterval& interval);
-  Outcome go_timed(Lane& lane, const StepInterval& interval);
-  Outcome go(Lane& lane, const StepInterval& interval);
-  bool rests_on(Lane& lane, const StepInterval& interval);
-  void save(Lane& lane);
-  void go_back(Lane& lane, const StepInterval& interval);
-  void restore(Lane& lane, Time from);
-  Time take_down(Lane& lane, const StepInterval& interval);
-  void tell(const Lane& lane, Activity::Kind kind, Time from, Time until) const {
-    activities_.tell({lane.component, kind, from, until});
+  void step_on_threads(std::span<const ThreadShare> shares, const StepInterval& interval);
+  void attempt_on_thread(UnitStep& unit_step, const StepInterval& interval) noexcept;
+  bool step_plainly(UnitStep& unit_step, const StepInterval& interval);
+  Outcome attempt_timed(UnitStep& unit_step, const StepInterval& interval);
+  Outcome attempt(UnitStep& unit_step, const StepInterval& interval);
+  bool stays_suspended(UnitStep& unit_step, const StepInterval& interval);
+  void save(UnitStep& unit_step);
+  void roll_back(UnitStep& unit_step, const StepInterval& interval);
+  void restore(UnitStep& unit_step, Time from);
+  Time record(UnitStep& unit_step, const StepInterval& interval);
+  void report(const UnitStep& unit_step, Activity::Kind kind, Time from, Time until) const {
+    activities_.report({unit_step.component, kind, from, until});
   }
-  void take_down_time(const Lane& lane);
-  std::size_t index(const Lane& lane) const {
-    return static_cast<std::size_t>(&lane - lanes_.data());
+  void record_time(const UnitStep& unit_step);
+  std::size_t index(const UnitStep& unit_step) const {
+    return static_cast<std::size_t>(&unit_step - unit_steps_.data());
   }
-  const std::string& name(const Lane& lane) const;
-  [[noreturn]] void rethrow_failure(const Lane& first) const;
-  static Time retry_target(const Lane& lane, const StepInterval& interval);
+  const std::string& name(const UnitStep& unit_step) const;
+  [[noreturn]] void rethrow_failure(const UnitStep& first) const;
+  static Time retry_target(const UnitStep& unit_step, const StepInterval& interval);
   void check_minimum(const StepInterval& interval, Time reached) const;
   std::string reason(const Cut& cut) const;
-  [[noreturn]] void fail_size(const Lane& lane, const StepInterval& interval) const;
-  std::string hint_for_final(const Lane& stopped) const;
-  [[noreturn]] void fail_final(const Lane& ahead) const;
-  WorkSplit::Plan plan(const RunOptions& options);
+  [[noreturn]] void fail_size(const UnitStep& unit_step, const StepInterval& interval) const;
+  std::string hint_for_final(const UnitStep& stopped) const;
+  [[noreturn]] void fail_final(const UnitStep& ahead) const;
+  LoadBalancer::Plan plan(const RunOptions& options);
   ThreadPool& pool();
 
   const System& system_;
@@ -146,22 +139,22 @@ class Stepper {
   const Activities& activities_;
   WallClock clock_;
   WallClock step_clock_;  ///< measures where the work is to be split, too
-  StepInputs* inputs_;
-  IdleLedger* ledger_;
+  InputExtrapolator* inputs_;
+  IdleScheduler* idle_;
   Duration regular_;  ///< the size that units which cannot vary theirs must be given
   Duration minimum_;  ///< a shorter step than this is not asked for after a rejection
   std::vector<StepPlace> order_;
-  std::vector<Lane> lanes_;                      ///< in that order
-  std::vector<std::span<Lane>> stages_;          ///< of them
-  std::vector<std::size_t> lane_of_;             ///< by component
-  std::vector<std::chrono::nanoseconds> times_;  ///< by lane, of the present pass
+  std::vector<UnitStep> unit_steps_;             ///< in that order
+  std::vector<std::span<UnitStep>> stages_;      ///< of them
+  std::vector<std::size_t> index_of_;            ///< by component
+  std::vector<std::chrono::nanoseconds> times_;  ///< by unit_step, of the present pass
   std::vector<Failure> failures_;                ///< likewise
   std::uint64_t communication_step_ = 0;
   Time last_end_{};  ///< of a pass, and the same as a double, since the next begins there
   double last_end_seconds_ = 0;
   Cut cut_;
   bool has_requests_ = false;
-  WorkSplit split_;
+  LoadBalancer balancer_;
   std::optional<ThreadPool> pool_;  ///< from when it is first needed
   bool was_parallel_ = false;
 };

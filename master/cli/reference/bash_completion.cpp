@@ -6,8 +6,8 @@
 namespace stride::cli::reference {
 namespace {
 
-/// What does not depend on the commands. Bash cuts words at '=', so they are put together again,
-/// and what is offered stands in the place of what is behind the last '='.
+/// The part that does not depend on the commands. Bash cuts words at '=', so they are joined again,
+/// and the candidates replace the text behind the last '='.
 constexpr const char* kHead = R"sh(# bash completion for stride, made by `stride reference bash`
 
 _stride_words() { # WORD...

@@ -38,7 +38,7 @@ std::vector<std::string> extensions(const std::string& placeholder, const std::s
 
 std::vector<std::string> check_names() {
   std::vector<std::string> names;
-  for (const verify::Check& check : verify::checks()) names.emplace_back(check.name);
+  for (const verify::UnitCheck& check : verify::checks()) names.emplace_back(check.name);
   return names;
 }
 
@@ -108,7 +108,7 @@ std::string phrase(std::string text) {
   return text;
 }
 
-/// A footer that is handed down stays with the program.
+/// Subcommands inherit the footer; only the program keeps it.
 Command describe(const CLI::App& app, std::vector<std::string> words) {
   words.push_back(app.get_name());
   const CLI::App* const above = app.get_parent();

@@ -62,7 +62,7 @@ Command describe(const CLI::App& app);
 /// The command and all below it, each before those below it.
 std::vector<const Command*> all_of(const Command& command);
 
-/// Those that a page tells of a command: help is told of the program alone.
+/// The options on the page of a command: --help is on the page of the program only.
 std::vector<Option> told_options(const Command& command);
 
 /// "SECONDS", "[=COMPONENT]": what follows the names of an option in a synopsis.
@@ -71,7 +71,7 @@ std::string value_text(const Option& option);
 /// "stride run [OPTION]... FILE"
 std::string synopsis(const Command& command);
 
-/// The description with what it says of the default and of repetition.
+/// The description with the default and whether the option can be repeated.
 std::string meaning(const Option& option);
 
 }  // namespace stride::cli::reference

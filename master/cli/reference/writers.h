@@ -1,4 +1,4 @@
-// What the reference is written as.
+// The reference of the command line in its formats.
 #ifndef STRIDE_MASTER_CLI_REFERENCE_WRITERS_H
 #define STRIDE_MASTER_CLI_REFERENCE_WRITERS_H
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "master/importer/fmi2/fmi2_unit.h"
+#include "master/util/time_text.h"
 
 namespace stride::fmi {
 Status Fmi2Unit::do_step(const core::StepInterval& interval, double size) {

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
+
 namespace stride::fmi {
 namespace {
 
@@ -296,15 +298,15 @@ void Fmi3Unit::compare_times(const core::StepInterval& interval, double last_suc
   checked_time(last_successful, "lastSuccessfulTime");
   if (std::exchange(has_time_warning_, true)) return;
   const auto& internal_step = parts_.description->fixed_internal_step;
-  warn(
-      fmt::format("the step to {} s ended at the unit's own time {} s (lastSuccessfulTime) without "
-                  "an early return{}; its outputs are taken as those at {} s, here and in later "
-                  "steps",
-                  core::to_text(interval.to), last_successful,
-                  internal_step ? fmt::format(", since its fixedInternalStepSize is {} s",
-                                              core::to_text(Time(*internal_step)))
-                                : "",
-                  core::to_text(interval.to)));
+  warn(fmt::format(
+      "the step to {} s ended at the unit's own time {} s (lastSuccessfulTime) without "
+      "an early return{}; its outputs are taken as those at {} s, here and in later "
+      "steps",
+      core::to_text(interval.to), last_successful,
+      internal_step
+          ? fmt::format(", since its fixedInternalStepSize is {} s", core::to_text(*internal_step))
+          : "",
+      core::to_text(interval.to)));
 }
 
 Time Fmi3Unit::reached_early(const core::StepInterval& interval, double last_successful) const {

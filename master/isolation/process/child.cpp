@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstring>
 #include <exception>
 #include <utility>
 
@@ -19,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 using End = ChildOutcome::End;
 
 constexpr std::size_t kPrintedKept = 4096;
-/// How often a child is looked at whose pipes somebody else may hold open.
+/// How often a child is looked at whose pipes another process may hold open.
 constexpr std::chrono::milliseconds kGlance{20};
 
 /// What stands before the child's text.
@@ -138,10 +139,15 @@ ChildOutcome run_in_child(const std::function<std::string()>& work, const ChildO
     settle(parent, output.write.number());
     be_child(work, answer.write.number());
   }
-  ::setpgid(child, child);  // whoever of the two comes first
+  ::setpgid(child, child);  // in both processes, in whichever order
   answer.write.close();
   output.write.close();
   return Watch(child, std::move(answer.read), std::move(output.read), options).run();
+}
+
+std::string signal_name(int signal) {
+  const char* const name = ::sigabbrev_np(signal);
+  return name != nullptr ? std::string("SIG") + name : "an unknown signal";
 }
 
 }  // namespace stride::process

@@ -40,6 +40,9 @@ struct ChildOptions {
 ChildOutcome run_in_child(const std::function<std::string()>& work,
                           const ChildOptions& options = {});
 
+/// "SIGSEGV"
+std::string signal_name(int signal);
+
 }  // namespace stride::process
 
 #endif

@@ -36,13 +36,13 @@ struct Pipe {
   Descriptor read, write;
 };
 
-/// Writes everything, or as much as somebody reads.
+/// Writes everything, or as much as is read.
 void write_all(int file, const char* data, std::size_t size);
 
 /// Appends what there is to read now, 64 KiB at most; closes the file at its end. Returns whether
 /// there was something.
 bool read_some(Descriptor& file, std::string& text);
-/// Likewise without a limit; not for one who may write without end.
+/// Likewise without a limit; not for a writer that may never end.
 void drain(Descriptor& file, std::string& text);
 
 }  // namespace stride::process

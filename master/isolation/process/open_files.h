@@ -7,8 +7,9 @@
 
 namespace stride::process {
 
-/// Where this process stands in its open regular files, and how long those are that it writes. A
-/// forked process has them in common with the other one: what either reads or writes moves both on.
+/// The positions of this process in its open regular files, and how long those are that it writes.
+/// A forked process has them in common with the other one: what either reads or writes moves both
+/// on.
 ///
 /// What was written over is not brought back, nor a file that was opened afterwards: whoever does
 /// the same again writes the same again.

@@ -6,6 +6,11 @@
 #include <string>
 #include <string_view>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "master/isolation/process/descriptor.h"
+
 namespace stride::process {
 namespace {
 
@@ -32,6 +37,12 @@ std::uint64_t private_memory(pid_t process) {
 
 std::uint64_t data_memory(pid_t process) {
   return sum_of({"VmData:", "VmStk:"}, process, "status");
+}
+
+void limit_memory(std::uint64_t bytes) {
+  const rlim_t most = data_memory(::getpid()) + bytes;
+  const rlimit limit{most, most};
+  if (::setrlimit(RLIMIT_DATA, &limit) != 0) fail("setrlimit(RLIMIT_DATA)");
 }
 
 }  // namespace stride::process

@@ -1,4 +1,4 @@
-// What the kernel says of a process's memory (proc(5)).
+// A process's memory: what the kernel says of it (proc(5)), and its limit.
 #ifndef STRIDE_MASTER_ISOLATION_PROCESS_PROCESS_MEMORY_H
 #define STRIDE_MASTER_ISOLATION_PROCESS_PROCESS_MEMORY_H
 
@@ -17,6 +17,10 @@ std::uint64_t private_memory(pid_t process);
 
 /// What it has allocated, and may write to alone, resident or not [byte]; 0 if it is not said.
 std::uint64_t data_memory(pid_t process);
+
+/// Lets this process have so many bytes of data more than it has now: heap, stacks of threads, and
+/// other private memory that can be written to (RLIMIT_DATA). Beyond that there is no memory.
+void limit_memory(std::uint64_t bytes);
 
 }  // namespace stride::process
 

@@ -28,7 +28,7 @@ void forbid_new_privileges() {
   if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) fail("prctl");
 }
 
-/// Keeps of its privileges those for files. Has no effect on who has none.
+/// Keeps of its privileges those for files. Has no effect on a process without any.
 void drop_capabilities() {
   __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
   __user_cap_data_struct sets[_LINUX_CAPABILITY_U32S_3];

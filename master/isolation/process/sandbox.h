@@ -1,4 +1,4 @@
-// What a process gives up for good, before it loads code that nobody here has written.
+// What a process gives up for good, before it loads code of unknown origin.
 #ifndef STRIDE_MASTER_ISOLATION_PROCESS_SANDBOX_H
 #define STRIDE_MASTER_ISOLATION_PROCESS_SANDBOX_H
 
@@ -32,10 +32,10 @@ struct WritableFolder {
 /// - files are only read and executed, but for what stands in the folders `writable` and below, and
 ///   /dev/null and its like. Nothing is made, removed, renamed, truncated or mounted elsewhere. Not
 ///   covered are the owners, modes and times of files, and what is open already (Landlock);
-/// - signals reach, and debuggers attach to, those only who are in the same sandbox;
-/// - no socket but AF_UNIX, and no typing into somebody's terminal (seccomp).
+/// - signals reach, and debuggers attach to, processes in the same sandbox only;
+/// - no socket but AF_UNIX, and no input into a terminal (seccomp).
 ///
-/// What the kernel lacks stands in the answer, and the rest is put on. To be called while this
+/// The answer lists what the kernel lacks; the rest is in force. To be called while this
 /// process has one thread. Throws std::system_error if a folder cannot be opened.
 Protections enter_sandbox(std::span<const WritableFolder> writable);
 

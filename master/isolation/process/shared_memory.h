@@ -27,7 +27,8 @@ class SharedMemory {
   void* data_;
 };
 
-/// One object in shared memory. It has no destructor, since nobody knows who is the last.
+/// One object in shared memory. It has no destructor, since no process knows whether it is the
+/// last.
 template <class T>
 class Shared {
  public:

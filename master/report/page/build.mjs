@@ -1,5 +1,5 @@
 // node build.mjs NODE_MODULES OUTPUT_FOLDER: bundles the page into one html text, report_page.html, and makes a C++
-// source of it, page.cpp. NODE_MODULES is where `npm ci` put the packages of package-lock.json.
+// source of it, page.cpp. NODE_MODULES is the folder into which `npm ci` installed the packages of package-lock.json.
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import path from "node:path";
@@ -10,7 +10,7 @@ const here = path.dirname(fileURLToPath(import.meta.url));
 const [nodeModules, output] = process.argv.slice(2).map((folder) => path.resolve(folder));
 const { build } = createRequire(path.join(nodeModules, "any.js"))("esbuild");
 
-/** The bundled text of one entry, and the files that went into it. */
+/** The bundled text of one entry, and its input files. */
 async function bundle(entry) {
   const result = await build({
     entryPoints: [path.join(here, entry)],
@@ -29,14 +29,14 @@ async function bundle(entry) {
   return { text: result.outputFiles[0].text, inputs: Object.keys(result.metafile.inputs) };
 }
 
-/** The package that a bundled file belongs to, or nothing for our own: "uplot", "@dagrejs/dagre". */
+/** The package that a bundled file belongs to, or nothing for our own files: "uplot", "@dagrejs/dagre". */
 function packageOf(input) {
   const inside = path.relative(nodeModules, path.resolve(here, input)).split(path.sep);
   if (inside[0] === "..") return undefined;
   return inside.slice(0, inside[0].startsWith("@") ? 2 : 1).join("/");
 }
 
-/** The packages, and what they were made of themselves. */
+/** The packages, and their own dependencies. */
 async function withDependencies(packages) {
   const found = new Set(packages);
   for (const name of found) {
@@ -46,7 +46,7 @@ async function withDependencies(packages) {
   return [...found].sort();
 }
 
-/** The licences of all that is bundled, as their authors want them passed on. */
+/** The licences of all bundled packages, as their authors require. */
 async function licences(inputs) {
   const packages = await withDependencies(inputs.map(packageOf).filter(Boolean));
   const texts = packages.map(async (name) => {
@@ -58,7 +58,7 @@ async function licences(inputs) {
 
 const escapeHtml = (text) => text.replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c]);
 
-/** A string literal may not be too long for every compiler, so it is one of many pieces. */
+/** Compilers limit the length of a string literal, so the text is divided into many pieces. */
 function cppSource(html) {
   const pieces = html.match(/[^]{1,12000}/gu).map((piece) => `R"page(${piece})page"`);
   return [

@@ -26,7 +26,7 @@ constexpr const char* kLockSuffix = ".lock";
                  "set TMPDIR to a folder that you may write to and that has room");
 }
 
-/// An open file with flock's lock on it, or -1 if `flags` has LOCK_NB and somebody else holds it.
+/// An open file with flock's lock on it, or -1 if `flags` has LOCK_NB and another process holds it.
 int lock_file(const fs::path& path, int flags) {
   const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
   if (file < 0) fail(path, "open the lock file");
@@ -40,7 +40,7 @@ int lock_file(const fs::path& path, int flags) {
   return file;
 }
 
-/// Held while folders are made and swept, so that nobody sweeps one whose lock is not taken yet.
+/// Held while folders are made and swept, so that none is swept whose lock is not taken yet.
 class ParentLock {
  public:
   explicit ParentLock(const fs::path& parent) : file_(lock_file(parent / kLockSuffix, 0)) {}
@@ -52,7 +52,7 @@ class ParentLock {
   int file_;
 };
 
-/// In a temporary folder that others write to, nobody else may have put this one there.
+/// In a temporary folder that others write to, no other user may have put this one there.
 void make_private(const fs::path& parent) {
   if (::mkdir(parent.c_str(), 0700) != 0 && errno != EEXIST) fail(parent, "make the folder");
   struct stat status {};

@@ -3,21 +3,35 @@
 #ifndef STRIDE_MASTER_UTIL_XML_ELEMENT_H
 #define STRIDE_MASTER_UTIL_XML_ELEMENT_H
 
+#include <charconv>
 #include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
 #include <vector>
 
 #include "master/util/error.h"
-#include "master/util/xml/words.h"
 
 namespace tinyxml2 {
 class XMLElement;
 }
 
 namespace stride::xml {
+
+/// The words of a list (xs:list).
+std::vector<std::string_view> split(std::string_view list);
+
+/// The whole word as a number (xs:int and its kin, xs:float, xs:double).
+template <class T>
+std::optional<T> to_number(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  T value{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
 
 /// An element's name. One text alone is a name in no namespace.
 struct Name {
@@ -87,7 +101,7 @@ class Element {
 
   /// Throws core::Error (Input) with the element's file and line.
   [[noreturn]] void fail(const std::string& message, const std::string& hint = "") const;
-  /// Says that this version cannot do it.
+  /// Fails, since this version does not support it.
   [[noreturn]] void fail_unsupported(const std::string& what, const std::string& hint = "") const;
 
  private:

@@ -4,7 +4,7 @@
 
 #include <tinyxml2.h>
 
-#include "master/util/utf8.h"
+#include "master/util/readable_text.h"
 
 namespace stride::xml {
 namespace {

@@ -15,25 +15,25 @@ enum class State { Instantiated, Initialization, StepMode, EventMode, Terminated
 constexpr const char* kStateNames[] = {"Instantiated", "Initialization Mode", "Step Mode",
                                        "Event Mode", "Terminated"};
 
-/// Leads a new life into a state.
-Life live_until(const Trial& trial, State state) {
-  Life life = trial.live();
-  if (state == State::Instantiated) return life;
-  life.set_start_values();
-  life.enter_initialization();
-  if (state == State::Initialization) return life;
-  life.exit_initialization();
-  life.run_to(3);
-  if (state == State::EventMode) life.unit().enter_event_mode();
-  if (state == State::Terminated) life.terminate();
-  return life;
+/// A new instance in a state.
+TestInstance instance_in(const Trial& trial, State state) {
+  TestInstance instance = trial.make_instance();
+  if (state == State::Instantiated) return instance;
+  instance.set_start_values();
+  instance.enter_initialization();
+  if (state == State::Initialization) return instance;
+  instance.exit_initialization();
+  instance.run_to(3);
+  if (state == State::EventMode) instance.unit().enter_event_mode();
+  if (state == State::Terminated) instance.terminate();
+  return instance;
 }
 
 /// A call that is not allowed in a state (FMI 3.0, 2.3 and 4.2; FMI 2.0, 4.2.4).
 struct Offence {
   std::string function;
   State state;
-  std::function<void(Life&)> commit;
+  std::function<void(TestInstance&)> commit;
 };
 
 ValueReference unused_reference(const core::UnitDescription& unit) {
@@ -44,42 +44,44 @@ ValueReference unused_reference(const core::UnitDescription& unit) {
   return reference + 1;
 }
 
-void step(Life& life) { life.unit().step({life.now(), life.now() + std::chrono::milliseconds(1)}); }
+void step(TestInstance& instance) {
+  instance.unit().step({instance.now(), instance.now() + std::chrono::milliseconds(1)});
+}
 
-std::vector<Offence> offences(const Subject& subject) {
-  const core::UnitDescription& unit = subject.description();
+std::vector<Offence> offences(const TestedUnit& tested) {
+  const core::UnitDescription& unit = tested.description();
   std::vector<Offence> list = {
       {"DoStep", State::Instantiated, step},
       {"DoStep", State::Initialization, step},
       {"DoStep", State::Terminated, step},
       {"ExitInitializationMode", State::Instantiated,
-       [](Life& life) { life.unit().exit_initialization(); }},
+       [](TestInstance& instance) { instance.unit().exit_initialization(); }},
       {"ExitInitializationMode", State::StepMode,
-       [](Life& life) { life.unit().exit_initialization(); }},
+       [](TestInstance& instance) { instance.unit().exit_initialization(); }},
       {"EnterInitializationMode", State::StepMode,
-       [](Life& life) { life.unit().enter_initialization({}, std::nullopt); }},
-      {"Terminate", State::Instantiated, [](Life& life) { life.terminate(); }},
+       [](TestInstance& instance) { instance.unit().enter_initialization({}, std::nullopt); }},
+      {"Terminate", State::Instantiated, [](TestInstance& instance) { instance.terminate(); }},
   };
   if (unit.has_event_mode) {
     list.push_back({"DoStep", State::EventMode, step});
     list.push_back({"EnterEventMode", State::Instantiated,
-                    [](Life& life) { life.unit().enter_event_mode(); }});
+                    [](TestInstance& instance) { instance.unit().enter_event_mode(); }});
     list.push_back({"UpdateDiscreteStates", State::StepMode,
-                    [](Life& life) { life.unit().update_discrete_states(); }});
-    list.push_back(
-        {"EnterStepMode", State::StepMode, [](Life& life) { life.unit().enter_step_mode(); }});
+                    [](TestInstance& instance) { instance.unit().update_discrete_states(); }});
+    list.push_back({"EnterStepMode", State::StepMode,
+                    [](TestInstance& instance) { instance.unit().enter_step_mode(); }});
   }
   if (unit.fmi_version.starts_with("2")) return list;  // there the importer numbers the variables
   const ValueReference unknown = unused_reference(unit);
   list.push_back({"GetBoolean of a value reference that no variable has", State::StepMode,
-                  [unknown](Life& life) {
+                  [unknown](TestInstance& instance) {
                     core::ValueBlock value(core::ValueType::Boolean, 1);
-                    life.unit().get({&unknown, 1}, value);
+                    instance.unit().get({&unknown, 1}, value);
                   }});
   list.push_back({"SetBoolean of a value reference that no variable has", State::StepMode,
-                  [unknown](Life& life) {
+                  [unknown](TestInstance& instance) {
                     const core::ValueBlock value(core::ValueType::Boolean, 1);
-                    life.unit().set({&unknown, 1}, value);
+                    instance.unit().set({&unknown, 1}, value);
                   }});
   return list;
 }
@@ -88,9 +90,9 @@ std::vector<Offence> offences(const Subject& subject) {
 std::string consequence(const Trial& trial, const Offence& offence) {
   try {
     return trial.in_child([&] {
-      Life life = live_until(trial, offence.state);
+      TestInstance instance = instance_in(trial, offence.state);
       try {
-        offence.commit(life);
+        offence.commit(instance);
         return std::string("accepted");
       } catch (const core::Error&) {
         return std::string("refused");
@@ -106,9 +108,9 @@ std::size_t end_everywhere(const Trial& trial) {
   std::size_t count = 0;
   for (const State state : {State::Instantiated, State::Initialization, State::StepMode,
                             State::EventMode, State::Terminated}) {
-    if (state == State::EventMode && !trial.subject.description().has_event_mode) continue;
+    if (state == State::EventMode && !trial.tested.description().has_event_mode) continue;
     trial.in_child([&] {
-      live_until(trial, state);
+      instance_in(trial, state);
       return std::string();
     });
     ++count;
@@ -120,18 +122,19 @@ std::size_t end_everywhere(const Trial& trial) {
 
 Finding check_calls(const Trial& trial) {
   const std::size_t ends = end_everywhere(trial);
-  // the standard wants an error from who detects it, so only our own kit, which does, can fail
+  // the standard demands an error only where one is detected, as our own kit does, so only that can
+  // fail
   const bool is_of_kit = trial.in_child([&] {
-    const auto library = trial.subject.fmu().load_fmi3_library();
+    const auto library = trial.tested.fmu().load_fmi3_library();
     return std::string(library && library->describes_itself() ? "yes" : "no");
   }) == "yes";
   std::vector<std::string> notes;
-  const std::vector<Offence> list = offences(trial.subject);
+  const std::vector<Offence> list = offences(trial.tested);
   for (const Offence& offence : list) {
     const std::string seen = consequence(trial, offence);
     if (seen == "refused") continue;
     std::string text =
-        fmt::format("{} in the state {}: {}", trial.subject.function(offence.function),
+        fmt::format("{} in the state {}: {}", trial.tested.function(offence.function),
                     kStateNames[static_cast<std::size_t>(offence.state)], seen);
     if (is_of_kit) return failed(std::move(text));
     notes.push_back(std::move(text));

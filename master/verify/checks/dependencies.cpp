@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {
@@ -41,38 +42,39 @@ class Prober {
   explicit Prober(const Trial& trial) : trial_(trial) {}
 
   /// The unit is where inputs may be set and outputs read at once: Initialization or Event Mode.
-  void probe(Life& life, const std::vector<Declared>& outputs, const std::string& element) {
-    const auto& variables = trial_.subject.description().variables;
+  void probe(TestInstance& instance, const std::vector<Declared>& outputs,
+             const std::string& element) {
+    const auto& variables = trial_.tested.description().variables;
     for (const Variable& input : variables) {
       const bool is_probed = input.causality == Causality::Input &&
                              input.type != ValueType::Clock && !input.is_clocked();
-      if (is_probed) probe(life, input, outputs, element);
+      if (is_probed) probe(instance, input, outputs, element);
     }
   }
   std::size_t pairs() const { return pairs_; }
 
  private:
-  void probe(Life& life, const Variable& input, const std::vector<Declared>& outputs,
+  void probe(TestInstance& instance, const Variable& input, const std::vector<Declared>& outputs,
              const std::string& element) {
-    const ValueBlock before = life.get(input);
+    const ValueBlock before = instance.get(input);
     const ValueBlock other = other_value(input, before);
     if (other == before) return;
     std::vector<ValueBlock> values;
-    for (const Declared& declared : outputs) values.push_back(life.get(*declared.output));
-    life.set(input, other);
+    for (const Declared& declared : outputs) values.push_back(instance.get(*declared.output));
+    instance.set(input, other);
     for (std::size_t i = 0; i < outputs.size(); ++i) {
       if (outputs[i].may_depend_on(input)) continue;
       ++pairs_;
-      const ValueBlock value = life.get(*outputs[i].output);
+      const ValueBlock value = instance.get(*outputs[i].output);
       if (value == values[i]) continue;
       throw Failure(fmt::format(
           "at {} s '{}' goes from {} to {} when '{}' goes from {} to {}, though its <{}> does not "
           "list that among its dependencies",
-          core::to_text(life.now()), outputs[i].output->name, core::element_text(values[i], 0),
+          core::to_text(instance.now()), outputs[i].output->name, core::element_text(values[i], 0),
           core::element_text(value, 0), input.name, core::element_text(before, 0),
           core::element_text(other, 0), element));
     }
-    life.set(input, before);
+    instance.set(input, before);
   }
 
   const Trial& trial_;
@@ -82,17 +84,17 @@ class Prober {
 }  // namespace
 
 Finding check_dependencies(const Trial& trial) {
-  const core::UnitDescription& unit = trial.subject.description();
+  const core::UnitDescription& unit = trial.tested.description();
   const std::vector<Declared> initial = declared(unit, unit.initial_unknowns);
   const std::vector<Declared> later = declared(unit, unit.outputs);
   if (initial.empty() && later.empty()) return skipped("it declares no dependencies of outputs");
 
-  Life life = trial.live();
+  TestInstance instance = trial.make_instance();
   Prober prober(trial);
-  life.set_start_values();
-  life.enter_initialization();
-  prober.probe(life, initial, "InitialUnknown");
-  life.exit_initialization();
+  instance.set_start_values();
+  instance.enter_initialization();
+  prober.probe(instance, initial, "InitialUnknown");
+  instance.exit_initialization();
   const std::size_t at_start = prober.pairs();
   if (!unit.has_event_mode) {
     return passed(
@@ -102,11 +104,11 @@ Finding check_dependencies(const Trial& trial) {
   }
   constexpr double kInstants[] = {0, 0.1, 0.3, 0.6, 1};
   for (const double instant : kInstants) {
-    life.run_to(trial.point_at(instant), false);
-    if (life.recording().has_ended) break;
-    life.unit().enter_event_mode();
-    prober.probe(life, later, "Output");
-    life.finish_events();
+    instance.run_to(trial.point_at(instant), false);
+    if (instance.recording().has_ended) break;
+    instance.unit().enter_event_mode();
+    prober.probe(instance, later, "Output");
+    instance.finish_events();
   }
   return passed(fmt::format("{} pairs of output and input at the start, {} at events", at_start,
                             prober.pairs() - at_start));

@@ -156,9 +156,9 @@ std::string read_file(const std::filesystem::path& path) {
 
 /// A library of the unit kit knows its description; the one in the archive must be the same.
 void compare_with_library(const Trial& trial, std::vector<std::string>& mistakes) {
-  const auto library = trial.subject.fmu().load_fmi3_library();
+  const auto library = trial.tested.fmu().load_fmi3_library();
   if (!library || !library->describes_itself()) return;
-  const std::filesystem::path folder = trial.subject.fmu().folder();
+  const std::filesystem::path folder = trial.tested.fmu().folder();
   const std::filesystem::path resources = folder / "resources";
   trial.note.write("strideModelDescription", 0);
   const std::string own =
@@ -176,7 +176,7 @@ void compare_with_library(const Trial& trial, std::vector<std::string>& mistakes
 }  // namespace
 
 Finding check_description(const Trial& trial) {
-  const core::UnitDescription& unit = trial.subject.description();
+  const core::UnitDescription& unit = trial.tested.description();
   Examination examination(unit);
   examination.run();
   std::vector<std::string> mistakes = examination.mistakes();

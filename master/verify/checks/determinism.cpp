@@ -44,19 +44,19 @@ void disturb() {
 }  // namespace
 
 Finding check_determinism(const Trial& trial) {
-  const Subject& subject = trial.subject;
+  const TestedUnit& tested = trial.tested;
   const Recording first = trial.record();
   const Recording second = recording_from_text(trial.in_child([&] {
     disturb();
-    Life life = trial.live();
-    life.start();
-    life.run_to(subject.steps());
-    return to_text(life.recording());
+    TestInstance instance = trial.make_instance();
+    instance.start();
+    instance.run_to(tested.steps());
+    return to_text(instance.recording());
   }));
-  const auto differs = difference(subject, first.rows, second.rows, "in one process",
+  const auto differs = difference(tested, first.rows, second.rows, "in one process",
                                   "in another, whose memory is not zero and stands elsewhere");
   if (differs) return failed(*differs);
-  return passed(fmt::format("two processes, {} values at {} instants", subject.observed_count(),
+  return passed(fmt::format("two processes, {} values at {} instants", tested.observed_count(),
                             first.rows.size()));
 }
 

@@ -1,19 +1,20 @@
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {
 
-// A life itself fails a unit that wants Event Mode and has none, announces what is over, or
+// TestInstance itself fails a unit that wants Event Mode and has none, announces what is over, or
 // iterates for ever; an instance, one that returns early where that is not allowed.
 Finding check_events(const Trial& trial) {
-  const core::UnitDescription& unit = trial.subject.description();
+  const core::UnitDescription& unit = trial.tested.description();
   const Recording run = trial.record();
   if (run.early_returns > 0 && !unit.may_return_early) {
     return failed(
         fmt::format("at {} s it returns early, which it does not declare "
                     "(mightReturnEarlyFromDoStep)",
-                    core::to_text(Time(Duration(run.first_early_return)))));
+                    core::to_text(Duration(run.first_early_return))));
   }
   const Recording obedient = trial.record({.early_return_allowed = false});
   std::string text = fmt::format("{} super-dense instants", run.events);

@@ -5,8 +5,9 @@
 namespace stride::verify {
 namespace {
 
-void compare(const Trial& trial, const Recording& alone, const Life& life, const char* which) {
-  const auto differs = difference(trial.subject, alone.rows, life.recording().rows,
+void compare(const Trial& trial, const Recording& alone, const TestInstance& instance,
+             const char* which) {
+  const auto differs = difference(trial.tested, alone.rows, instance.recording().rows,
                                   "in an instance that is alone", which);
   if (differs) throw Failure(*differs);
 }
@@ -14,15 +15,16 @@ void compare(const Trial& trial, const Recording& alone, const Life& life, const
 }  // namespace
 
 Finding check_instances(const Trial& trial) {
-  const Subject& subject = trial.subject;
-  if (subject.description().single_instance) {
+  const TestedUnit& tested = trial.tested;
+  if (tested.description().single_instance) {
     return skipped("it declares canBeInstantiatedOnlyOncePerProcess");
   }
   const Recording alone = trial.record();
-  const std::size_t steps = subject.steps();
-  std::optional<Life> first(trial.live({.name = "first"}));
-  std::optional<Life> second(trial.live({.name = "second", .seed = subject.request().seed + 1}));
-  std::optional<Life> third;
+  const std::size_t steps = tested.steps();
+  std::optional<TestInstance> first(trial.make_instance({.name = "first"}));
+  std::optional<TestInstance> second(
+      trial.make_instance({.name = "second", .seed = tested.request().seed + 1}));
+  std::optional<TestInstance> third;
   first->start();
   second->start();
   // the second is ahead, with other inputs; half-way the third takes its place
@@ -30,7 +32,7 @@ Finding check_instances(const Trial& trial) {
     if (second) second->run_to(std::min(steps, 2 * k + 2), false);
     if (k == steps / 2) {
       second.reset();
-      third.emplace(trial.live({.name = "third"}));
+      third.emplace(trial.make_instance({.name = "third"}));
       third->start();
     }
     if (third) third->run_to(2 * (k - steps / 2));

@@ -42,7 +42,7 @@ std::vector<std::string> declared_functions(const core::UnitDescription& unit) {
 }
 
 std::string version_of(const Trial& trial, void* library) {
-  const std::string name = trial.subject.function("GetVersion");
+  const std::string name = trial.tested.function("GetVersion");
   using GetVersion = const char*();
   auto* const get = reinterpret_cast<GetVersion*>(::dlsym(library, name.c_str()));
   if (get == nullptr) throw Failure(fmt::format("the library does not export {}", name));
@@ -52,7 +52,8 @@ std::string version_of(const Trial& trial, void* library) {
   return version != nullptr ? version : "";
 }
 
-/// A whole life with its own copy of the description, so that the library is unloaded at the end.
+/// A whole run of an instance with its own copy of the description, so that the library is unloaded
+/// at the end.
 void load_and_unload(const Trial& trial, const std::filesystem::path& folder) {
   trial.in_child([&] {
     {
@@ -69,16 +70,16 @@ void load_and_unload(const Trial& trial, const std::filesystem::path& folder) {
 }  // namespace
 
 Finding check_load(const Trial& trial) {
-  const core::UnitDescription& description = trial.subject.description();
-  load_and_unload(trial, trial.subject.fmu().folder());
+  const core::UnitDescription& description = trial.tested.description();
+  load_and_unload(trial, trial.tested.fmu().folder());
   trial.note.write("the loading of its library", 0);
-  const auto library = trial.subject.fmu().load_library();
+  const auto library = trial.tested.fmu().load_library();
   const Handle handle(::dlopen(library->path().c_str(), RTLD_NOW | RTLD_LOCAL));
   trial.note.clear();
   std::vector<std::string> missing;
   const std::vector<std::string> names = declared_functions(description);
   for (const std::string& name : names) {
-    const std::string function = trial.subject.function(name);
+    const std::string function = trial.tested.function(name);
     if (::dlsym(handle.get(), function.c_str()) == nullptr) missing.push_back(function);
   }
   if (!missing.empty()) {
@@ -90,7 +91,7 @@ Finding check_load(const Trial& trial) {
   const std::string version = version_of(trial, handle.get());
   if (version.substr(0, 2) != description.fmi_version.substr(0, 2)) {
     return failed(fmt::format("{} says '{}', but the model description is of fmiVersion '{}'",
-                              trial.subject.function("GetVersion"), version,
+                              trial.tested.function("GetVersion"), version,
                               description.fmi_version));
   }
   return passed(fmt::format("FMI {}, {} variables, {}", version, description.variables.size(),

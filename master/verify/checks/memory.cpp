@@ -16,7 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A block that is lost in every second life, or step, is above this: none takes less than 32
+/// A block that is lost in every second instance, or step, is above this: none takes less than 32
 /// bytes.
 constexpr double kMostHeap = 16;
 /// Pages come and go, and a library may have an allocator of its own.
@@ -109,38 +109,38 @@ constexpr bool kIsSanitized = false;
 
 Finding check_memory(const Trial& trial) {
   if (kIsSanitized) return skipped("memory cannot be measured in a build with sanitizers");
-  const Subject& subject = trial.subject;
-  const auto share = subject.request().limit / 5;  // each of two growths may be measured twice
-  subject.fmu().load_library();
+  const TestedUnit& tested = trial.tested;
+  const auto share = tested.request().limit / 5;  // each of two growths may be measured twice
+  tested.fmu().load_library();
   const std::size_t files_before = open_files();
   const std::size_t threads_before = threads();
-  const std::size_t few_steps = std::min<std::size_t>(5, subject.steps());
+  const std::size_t few_steps = std::min<std::size_t>(5, tested.steps());
 
-  const Growth lives = measure_surely(subject.request().lives, share, [&] {
-    Life life = trial.live();
-    life.start();
-    life.run_to(few_steps, false);
-    if (!life.recording().has_ended) life.terminate();
+  const Growth instances = measure_surely(tested.request().instances, share, [&] {
+    TestInstance instance = trial.make_instance();
+    instance.start();
+    instance.run_to(few_steps, false);
+    if (!instance.recording().has_ended) instance.terminate();
   });
-  if (lives.is_leak()) {
-    return failed(fmt::format("it leaks {}, over {} lives (allowed: {} and {})", lives.text("life"),
-                              lives.count, kMostHeap, kMostResident));
+  if (instances.is_leak()) {
+    return failed(fmt::format("it leaks {}, over {} lives (allowed: {} and {})",
+                              instances.text("life"), instances.count, kMostHeap, kMostResident));
   }
-  const std::size_t all_lives = lives.count + kWarmUp;
+  const std::size_t all_instances = instances.count + kWarmUp;
   const std::size_t files = open_files();
-  if (files > files_before + all_lives / 2) {
-    return failed(fmt::format("{} lives leave {} files open", all_lives, files - files_before));
+  if (files > files_before + all_instances / 2) {
+    return failed(fmt::format("{} lives leave {} files open", all_instances, files - files_before));
   }
   const std::size_t tasks = threads();
-  if (tasks > threads_before + all_lives / 2) {
+  if (tasks > threads_before + all_instances / 2) {
     return failed(
-        fmt::format("{} lives leave {} threads running", all_lives, tasks - threads_before));
+        fmt::format("{} lives leave {} threads running", all_instances, tasks - threads_before));
   }
 
-  Life life = trial.live();
-  life.start();
+  TestInstance instance = trial.make_instance();
+  instance.start();
   const Growth steps =
-      measure_surely(kMostSteps, share, [&] { life.run_to(life.at() + 1, false); });
+      measure_surely(kMostSteps, share, [&] { instance.run_to(instance.at() + 1, false); });
   if (steps.is_leak()) {
     return failed(fmt::format("while it runs it grows by {}, over {} steps (allowed: {} and {})",
                               steps.text("step"), steps.count, kMostHeap, kMostResident));
@@ -154,8 +154,8 @@ Finding check_memory(const Trial& trial) {
     notes.push_back(
         fmt::format("{} threads run on when no instance is left", tasks - threads_before));
   }
-  return passed(fmt::format("{} after {} lives; {} after {} steps", lives.text("life"), lives.count,
-                            steps.text("step"), steps.count),
+  return passed(fmt::format("{} after {} lives; {} after {} steps", instances.text("life"),
+                            instances.count, steps.text("step"), steps.count),
                 std::move(notes));
 }
 

@@ -5,6 +5,7 @@
 
 #include "master/util/error.h"
 #include "master/util/readable_text.h"
+#include "master/util/time_text.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {
@@ -30,13 +31,14 @@ std::vector<const Variable*> binaries(const core::UnitDescription& unit) {
 class Asker {
  public:
   explicit Asker(const Trial& trial)
-      : variables_(binaries(trial.subject.description())), random_(trial.subject.request().seed) {}
+      : variables_(binaries(trial.tested.description())), random_(trial.tested.request().seed) {}
 
-  void ask(Life& life) {
+  void ask(TestInstance& instance) {
     for (const Variable* variable : variables_) {
-      for (std::size_t i = 0; i < kValues; ++i) ask(life, *variable, value(random_() % kLongest));
-      ask(life, *variable, {});
-      ask(life, *variable, value(kHuge));
+      for (std::size_t i = 0; i < kValues; ++i)
+        ask(instance, *variable, value(random_() % kLongest));
+      ask(instance, *variable, {});
+      ask(instance, *variable, value(kHuge));
     }
   }
 
@@ -53,11 +55,11 @@ class Asker {
     return bytes;
   }
 
-  void ask(Life& life, const Variable& variable, const Binary& value) {
-    auto& unit = life.capability<core::MessageText>();
+  void ask(TestInstance& instance, const Variable& variable, const Binary& value) {
+    auto& unit = instance.capability<core::MessageText>();
     const std::string text = unit.describe_message(variable.reference, value);
     const std::string what = fmt::format("what {} bytes say as '{}' at {} s", value.size(),
-                                         variable.name, core::to_text(life.now()));
+                                         variable.name, core::to_text(instance.now()));
     if (!core::is_readable(text)) {
       throw Failure(what + " is not one line of UTF-8 without control characters: \"" +
                     core::readable_text(text, 60) + '"');
@@ -82,24 +84,24 @@ Finding check_messages(const Trial& trial) {
   Asker asker(trial);
   if (asker.variables() == 0) return skipped("it has no Binary variable");
   const Recording expected = trial.record();
-  const auto library = trial.subject.fmu().load_fmi3_library();
+  const auto library = trial.tested.fmu().load_fmi3_library();
   if (library == nullptr || library->describe_functions().DescribeMessage == nullptr) {
     return skipped("its library does not export strideDescribeMessage");
   }
-  Life life = trial.live();
-  asker.ask(life);
-  life.start();
+  TestInstance instance = trial.make_instance();
+  asker.ask(instance);
+  instance.start();
   for (const double share : {0.0, 0.3, 0.7, 1.0}) {
-    life.run_to(trial.point_at(share));
-    asker.ask(life);
+    instance.run_to(trial.point_at(share));
+    asker.ask(instance);
   }
   if (const auto differs =
-          difference(trial.subject, expected.rows, life.recording().rows,
+          difference(trial.tested, expected.rows, instance.recording().rows,
                      "in an instance that is never asked what messages say", "in one that is")) {
     throw Failure(*differs);
   }
-  life.terminate();
-  asker.ask(life);
+  instance.terminate();
+  asker.ask(instance);
   return passed(fmt::format(
       "{} of {} values of {} Binary variable{} have words; asking for them "
       "changes nothing",

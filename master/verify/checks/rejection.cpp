@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "master/util/error.h"
+#include "master/util/time_text.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {
@@ -12,30 +13,29 @@ namespace {
 constexpr int kDoublings = 12;
 constexpr std::size_t kMostRejections = 20;
 
-/// What can be told of a unit in Step Mode.
-struct Portrait {
+/// What can be observed of a unit in Step Mode.
+struct Fingerprint {
   Row row;
   std::vector<std::uint8_t> bytes;  ///< of its state, where it can be serialised
 };
 
-Portrait portrait(const Trial& trial, Life& life) {
-  Portrait picture{{life.now().time_since_epoch().count(), life.observe(), false}, {}};
-  if (!trial.subject.description().can_serialize_state) return picture;
-  life.capability<core::StateSaving>().save_state();
-  picture.bytes = life.capability<core::StateSerialization>().serialize_state();
-  return picture;
+Fingerprint fingerprint(const Trial& trial, TestInstance& instance) {
+  Fingerprint print{{instance.now().time_since_epoch().count(), instance.observe(), false}, {}};
+  if (!trial.tested.description().can_serialize_state) return print;
+  instance.capability<core::StateSaving>().save_state();
+  print.bytes = instance.capability<core::StateSerialization>().serialize_state();
+  return print;
 }
 
 /// Tries longer and longer steps, and after each rejection shorter ones.
-class Daring {
+class RejectionProbe {
  public:
-  Daring(const Trial& trial, Life& life) : trial_(trial), life_(life) {}
+  RejectionProbe(const Trial& trial, TestInstance& instance) : trial_(trial), instance_(instance) {}
 
   void run() {
-    Duration size = trial_.subject.step();
+    Duration size = trial_.tested.step();
     for (int i = 0; i < kDoublings && !is_over(); ++i, size *= 2) {
-      if (const auto& most = trial_.subject.description().maximum_step)
-        size = std::min(size, *most);
+      if (const auto& most = trial_.tested.description().maximum_step) size = std::min(size, *most);
       attempt(size);
     }
   }
@@ -46,12 +46,12 @@ class Daring {
 
  private:
   bool is_over() const {
-    return life_.recording().has_ended || rejections_ >= kMostRejections || !error_.empty();
+    return instance_.recording().has_ended || rejections_ >= kMostRejections || !error_.empty();
   }
 
   void attempt(Duration size) {
-    const Portrait before = portrait(trial_, life_);
-    const Time begin = life_.now();
+    const Fingerprint before = fingerprint(trial_, instance_);
+    const Time begin = instance_.now();
     while (!make(begin + size)) {
       if (!error_.empty()) return;
       ++rejections_;
@@ -62,53 +62,54 @@ class Daring {
       }
     }
     longest_ = std::max(longest_, size);
-    reached_.push_back(life_.now());
+    reached_.push_back(instance_.now());
   }
 
-  /// An error is a way to refuse a step, too, but it ends the life.
+  /// An error is a way to refuse a step, too, but it ends the run.
   bool make(Time to) {
     try {
-      return life_.try_step(to);
+      return instance_.try_step(to);
     } catch (const core::Error& error) {
       error_ = error.what();
       return false;
     }
   }
 
-  void compare(const Portrait& before, Time to) {
-    const Portrait after = portrait(trial_, life_);
+  void compare(const Fingerprint& before, Time to) {
+    const Fingerprint after = fingerprint(trial_, instance_);
     const std::string when = fmt::format("after it has rejected a step to {} s", core::to_text(to));
-    const auto differs = difference(trial_.subject, {before.row}, {after.row}, "before", when);
+    const auto differs = difference(trial_.tested, {before.row}, {after.row}, "before", when);
     if (differs) throw Failure(*differs);
     if (before.bytes == after.bytes) return;
     throw Failure(fmt::format("at {} s its serialised state is another one {}",
-                              core::to_text(life_.now()), when));
+                              core::to_text(instance_.now()), when));
   }
 
   const Trial& trial_;
-  Life& life_;
+  TestInstance& instance_;
   std::vector<Time> reached_;
   std::size_t rejections_ = 0;
   Duration longest_{};
   std::string error_;
 };
 
-/// The values of a life that makes the accepted steps alone.
+/// The values of an instance that makes the accepted steps alone.
 std::vector<std::string> values_without_rejections(const Trial& trial, std::size_t from,
                                                    const std::vector<Time>& steps) {
   const Recording twin = recording_from_text(trial.in_child([&] {
-    Life life = trial.live();
-    life.start();
-    life.run_to(from, false);
+    TestInstance instance = trial.make_instance();
+    instance.start();
+    instance.run_to(from, false);
     for (const Time to : steps) {
-      if (!life.try_step(to)) {
+      if (!instance.try_step(to)) {
         throw Failure(
             fmt::format("a step to {} s that it accepted after a rejection it rejects "
                         "without one",
                         core::to_text(to)));
       }
     }
-    return to_text(Recording{{{life.now().time_since_epoch().count(), life.observe(), false}}});
+    return to_text(
+        Recording{{{instance.now().time_since_epoch().count(), instance.observe(), false}}});
   }));
   return twin.rows.front().values;
 }
@@ -116,8 +117,8 @@ std::vector<std::string> values_without_rejections(const Trial& trial, std::size
 }  // namespace
 
 Finding check_rejection(const Trial& trial) {
-  const Subject& subject = trial.subject;
-  const core::UnitDescription& unit = subject.description();
+  const TestedUnit& tested = trial.tested;
+  const core::UnitDescription& unit = tested.description();
   const Recording run = trial.record();
   const auto fail_if_denied = [&](std::size_t rejections) {
     if (unit.may_reject || rejections == 0) return;
@@ -133,28 +134,28 @@ Finding check_rejection(const Trial& trial) {
                : passed(fmt::format("{} steps are rejected, and made in parts", run.rejections));
   }
   const std::size_t from = trial.point_at(0.2);
-  Life life = trial.live();
-  life.start();
-  life.run_to(from, false);
-  Daring daring(trial, life);
-  daring.run();
-  fail_if_denied(daring.rejections());
+  TestInstance instance = trial.make_instance();
+  instance.start();
+  instance.run_to(from, false);
+  RejectionProbe probe(trial, instance);
+  probe.run();
+  fail_if_denied(probe.rejections());
   std::vector<std::string> notes;
-  if (!daring.error().empty()) notes.push_back("a longer step is an error: " + daring.error());
-  if (daring.rejections() == 0) {
-    return passed(
-        fmt::format("no step is rejected, up to {} s", core::to_text(Time(daring.longest()))),
-        std::move(notes));
+  if (!probe.error().empty()) notes.push_back("a longer step is an error: " + probe.error());
+  if (probe.rejections() == 0) {
+    return passed(fmt::format("no step is rejected, up to {} s", core::to_text(probe.longest())),
+                  std::move(notes));
   }
-  if (daring.error().empty()) {
-    const auto twin = values_without_rejections(trial, from, daring.reached());
-    const std::int64_t now = life.now().time_since_epoch().count();
-    const auto differs = difference(subject, {{now, twin, false}}, {{now, life.observe(), false}},
-                                    "without rejected steps", "with them");
+  if (probe.error().empty()) {
+    const auto twin = values_without_rejections(trial, from, probe.reached());
+    const std::int64_t now = instance.now().time_since_epoch().count();
+    const auto differs =
+        difference(tested, {{now, twin, false}}, {{now, instance.observe(), false}},
+                   "without rejected steps", "with them");
     if (differs) throw Failure(*differs);
   }
   return passed(fmt::format("{} steps rejected, nothing changed; shorter ones are accepted",
-                            daring.rejections() + run.rejections),
+                            probe.rejections() + run.rejections),
                 std::move(notes));
 }
 

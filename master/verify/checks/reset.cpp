@@ -8,23 +8,23 @@ namespace stride::verify {
 namespace {
 
 /// The values with which an instance begins, of all variables that can be read then.
-std::vector<core::ValueBlock> beginning(const core::UnitDescription& unit, Life& life) {
+std::vector<core::ValueBlock> beginning(const core::UnitDescription& unit, TestInstance& instance) {
   std::vector<core::ValueBlock> values;
-  life.enter_initialization();
+  instance.enter_initialization();
   for (const core::Variable& variable : unit.variables) {
-    if (is_readable(variable)) values.push_back(life.get(variable));
+    if (is_readable(variable)) values.push_back(instance.get(variable));
   }
   return values;
 }
 
 /// Likewise, which must be these.
-void compare_beginning(const core::UnitDescription& unit, Life& life,
+void compare_beginning(const core::UnitDescription& unit, TestInstance& instance,
                        const std::vector<core::ValueBlock>& expected, const std::string& when) {
-  life.enter_initialization();
+  instance.enter_initialization();
   auto value = expected.begin();
   for (const core::Variable& variable : unit.variables) {
     if (is_readable(variable)) {
-      expect_value(life, variable, *value++, when, "in a new instance it is");
+      expect_value(instance, variable, *value++, when, "in a new instance it is");
     }
   }
 }
@@ -32,34 +32,34 @@ void compare_beginning(const core::UnitDescription& unit, Life& life,
 }  // namespace
 
 Finding check_reset(const Trial& trial) {
-  const Subject& subject = trial.subject;
+  const TestedUnit& tested = trial.tested;
   const Recording fresh = trial.record();
-  const core::UnitDescription& unit = subject.description();
-  Life life = trial.live();
-  const std::vector<core::ValueBlock> values = beginning(unit, life);
-  life.reset();
+  const core::UnitDescription& unit = tested.description();
+  TestInstance instance = trial.make_instance();
+  const std::vector<core::ValueBlock> values = beginning(unit, instance);
+  instance.reset();
   const auto compare = [&](const char* state) {
-    life.reset();
-    compare_beginning(unit, life, values,
+    instance.reset();
+    compare_beginning(unit, instance, values,
                       fmt::format("in Initialization Mode after a reset {}", state));
-    life.reset();
-    life.start();
-    life.run_to(subject.steps());
-    const auto differs = difference(subject, fresh.rows, life.recording().rows, "in a new instance",
-                                    fmt::format("after a reset {}", state));
+    instance.reset();
+    instance.start();
+    instance.run_to(tested.steps());
+    const auto differs = difference(tested, fresh.rows, instance.recording().rows,
+                                    "in a new instance", fmt::format("after a reset {}", state));
     if (differs) throw Failure(*differs);
   };
-  life.start();
-  life.run_to(trial.point_at(0.6));
+  instance.start();
+  instance.run_to(trial.point_at(0.6));
   compare("in Step Mode");
-  life.terminate();
+  instance.terminate();
   compare("of a terminated instance");
-  life.reset();
-  life.set_start_values();
-  life.enter_initialization();
+  instance.reset();
+  instance.set_start_values();
+  instance.enter_initialization();
   compare("in Initialization Mode");
   return passed(fmt::format("three runs of {} steps after a reset are like that of a new instance",
-                            subject.steps()));
+                            tested.steps()));
 }
 
 }  // namespace stride::verify

@@ -9,26 +9,27 @@ constexpr std::size_t kEarly = 0, kLate = 1, kBeginning = 2;
 
 class Restorer {
  public:
-  Restorer(const Trial& trial, Life& life) : trial_(trial), life_(life) {}
+  Restorer(const Trial& trial, TestInstance& instance) : trial_(trial), instance_(instance) {}
 
   /// Saves here, and notes what follows until point `to`.
   void save(std::size_t slot, std::size_t to) {
-    life_.save(slot);
-    const std::vector<std::string> values = life_.observe();
-    life_.forget_rows();
-    life_.run_to(to);
-    expected_[slot] = {to, values, life_.recording().rows};
+    instance_.save(slot);
+    const std::vector<std::string> values = instance_.observe();
+    instance_.forget_rows();
+    instance_.run_to(to);
+    expected_[slot] = {to, values, instance_.recording().rows};
   }
 
   void restore(std::size_t slot, const std::string& when) {
     const Expected& expected = expected_[slot];
-    life_.restore(slot);
-    const std::int64_t now = life_.now().time_since_epoch().count();
-    compare({{now, expected.values, false}}, {{now, life_.observe(), false}}, "when it was saved",
-            "when it is restored" + when);
-    life_.forget_rows();
-    life_.run_to(expected.to);
-    compare(expected.rows, life_.recording().rows, "after the save", "after the restore" + when);
+    instance_.restore(slot);
+    const std::int64_t now = instance_.now().time_since_epoch().count();
+    compare({{now, expected.values, false}}, {{now, instance_.observe(), false}},
+            "when it was saved", "when it is restored" + when);
+    instance_.forget_rows();
+    instance_.run_to(expected.to);
+    compare(expected.rows, instance_.recording().rows, "after the save",
+            "after the restore" + when);
   }
 
  private:
@@ -40,37 +41,37 @@ class Restorer {
 
   void compare(const std::vector<Row>& expected, const std::vector<Row>& seen,
                const std::string& expected_when, const std::string& seen_when) {
-    const auto differs = difference(trial_.subject, expected, seen, expected_when, seen_when);
+    const auto differs = difference(trial_.tested, expected, seen, expected_when, seen_when);
     if (differs) throw Failure(*differs);
   }
 
   const Trial& trial_;
-  Life& life_;
+  TestInstance& instance_;
   Expected expected_[3];
 };
 
 }  // namespace
 
 Finding check_restore(const Trial& trial) {
-  const Subject& subject = trial.subject;
-  if (!subject.description().can_save_state) return skipped("it has no canGetAndSetFMUState");
-  Life life = trial.live();
-  Restorer restorer(trial, life);
+  const TestedUnit& tested = trial.tested;
+  if (!tested.description().can_save_state) return skipped("it has no canGetAndSetFMUState");
+  TestInstance instance = trial.make_instance();
+  Restorer restorer(trial, instance);
   const std::size_t early = trial.point_at(0.3);
   const std::size_t late = trial.point_at(0.7);
-  life.start();
+  instance.start();
   restorer.save(kBeginning, early);
   restorer.save(kEarly, late);
   restorer.restore(kEarly, "");
   restorer.restore(kEarly, " for the second time");
-  restorer.save(kLate, subject.steps());
+  restorer.save(kLate, tested.steps());
   restorer.restore(kEarly, " from a later instant, with another state saved meanwhile");
   restorer.restore(kLate, " from an earlier instant");
   restorer.restore(kBeginning, " of the beginning");
   return passed(
       fmt::format("three states alive at once, five restores, each followed by {} to {} "
                   "steps",
-                  std::min(early, late - early), subject.steps() - early));
+                  std::min(early, late - early), tested.steps() - early));
 }
 
 }  // namespace stride::verify

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "master/util/error.h"
+#include "master/util/hex.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {
@@ -13,7 +14,7 @@ using Bytes = std::vector<std::uint8_t>;
 /// A state as bytes, where it was made, and what followed.
 struct Serialized {
   Bytes bytes;
-  Life::Position position;
+  TestInstance::Position position;
   std::vector<Row> rows;
   std::size_t to;
 };
@@ -21,15 +22,15 @@ struct Serialized {
 Serialized serialize(const Trial& trial) {
   const std::size_t from = trial.point_at(0.3);
   Serialized made{{}, {}, {}, trial.point_at(0.8)};
-  Life life = trial.live();
-  life.start();
-  life.run_to(from, false);
-  life.capability<core::StateSaving>().save_state();
-  made.bytes = life.capability<core::StateSerialization>().serialize_state();
-  made.position = life.position();
-  life.forget_rows();
-  life.run_to(made.to);
-  made.rows = life.recording().rows;
+  TestInstance instance = trial.make_instance();
+  instance.start();
+  instance.run_to(from, false);
+  instance.capability<core::StateSaving>().save_state();
+  made.bytes = instance.capability<core::StateSerialization>().serialize_state();
+  made.position = instance.position();
+  instance.forget_rows();
+  instance.run_to(made.to);
+  made.rows = instance.recording().rows;
   return made;
 }
 
@@ -44,19 +45,10 @@ std::string to_text(const Serialized& made) {
       .dump();
 }
 
-Bytes from_hex(const std::string& text) {
-  const auto digit = [](char c) { return c <= '9' ? c - '0' : (c | 0x20) - 'a' + 10; };
-  Bytes bytes;
-  for (std::size_t i = 0; i + 1 < text.size(); i += 2) {
-    bytes.push_back(static_cast<std::uint8_t>(16 * digit(text[i]) + digit(text[i + 1])));
-  }
-  return bytes;
-}
-
 Serialized serialized_from_text(const std::string& text) {
   const Json json = Json::parse(text);
   const auto time = [&](const char* key) { return Time(Duration(json[key].get<std::int64_t>())); };
-  Serialized made{from_hex(json["bytes"]),
+  Serialized made{core::from_hex(json["bytes"].get<std::string>()).value(),
                   {time("now"), json["point"], time("next")},
                   recording_from_text(json["recording"]).rows,
                   json["to"]};
@@ -70,27 +62,27 @@ bool has_schedule(const core::UnitDescription& unit) {
 }
 
 /// Goes on from the bytes in an instance that was never started. The importer's own schedule of
-/// time-based clocks is not in them: a second life, which makes the same way, has it.
+/// time-based clocks is not in them: a second instance, which makes the same steps, has it.
 Recording continue_from(const Trial& trial, const Serialized& made) {
   std::optional<core::Clocks> clocks;
-  if (has_schedule(trial.subject.description())) {
-    Life guide = trial.live({.name = "guide"});
+  if (has_schedule(trial.tested.description())) {
+    TestInstance guide = trial.make_instance({.name = "guide"});
     guide.start();
     guide.run_to(made.position.point, false);
     clocks.emplace(guide.clocks());
   }
-  Life life = trial.live();
-  life.capability<core::StateSerialization>().deserialize_state(made.bytes);
-  life.capability<core::StateSaving>().restore_state();
-  life.stand_at(made.position, clocks ? &*clocks : nullptr);
-  life.run_to(made.to);
-  return life.recording();
+  TestInstance instance = trial.make_instance();
+  instance.capability<core::StateSerialization>().deserialize_state(made.bytes);
+  instance.capability<core::StateSaving>().restore_state();
+  instance.stand_at(made.position, clocks ? &*clocks : nullptr);
+  instance.run_to(made.to);
+  return instance.recording();
 }
 
 void compare(const Trial& trial, const Serialized& made, const Recording& seen,
              const std::string& where) {
   const auto differs =
-      difference(trial.subject, made.rows, seen.rows, "in the instance that was serialised", where);
+      difference(trial.tested, made.rows, seen.rows, "in the instance that was serialised", where);
   if (differs) throw Failure(*differs);
 }
 
@@ -98,10 +90,10 @@ void compare(const Trial& trial, const Serialized& made, const Recording& seen,
 std::string reaction(const Trial& trial, const Bytes& bytes) {
   try {
     return trial.in_child([&] {
-      Life life = trial.live();
+      TestInstance instance = trial.make_instance();
       try {
-        life.capability<core::StateSerialization>().deserialize_state(bytes);
-        life.capability<core::StateSaving>().restore_state();
+        instance.capability<core::StateSerialization>().deserialize_state(bytes);
+        instance.capability<core::StateSaving>().restore_state();
         return std::string("accepted");
       } catch (const core::Error&) {
         return std::string("refused");
@@ -115,11 +107,11 @@ std::string reaction(const Trial& trial, const Bytes& bytes) {
 }  // namespace
 
 Finding check_serialization(const Trial& trial) {
-  const core::UnitDescription& unit = trial.subject.description();
+  const core::UnitDescription& unit = trial.tested.description();
   if (!unit.can_serialize_state) return skipped("it has no canSerializeFMUState");
   const Serialized made = serialized_from_text(trial.in_child([&] {
     const Serialized own = serialize(trial);
-    if (!trial.subject.description().single_instance) {
+    if (!trial.tested.description().single_instance) {
       compare(trial, own, continue_from(trial, own), "in another one of the same process");
     }
     return to_text(own);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {
@@ -66,14 +67,14 @@ struct Comparison {
   std::string text;      ///< where it is worst
 };
 
-Comparison compare(const Subject& subject, const std::vector<Row>& whole,
+Comparison compare(const TestedUnit& tested, const std::vector<Row>& whole,
                    const std::vector<Row>& split) {
   Comparison result;
   if (whole.size() != split.size()) {
     return {false, 1,
             fmt::format("the run has {} points instead of {}", split.size(), whole.size())};
   }
-  const std::vector<std::string> names = observed_names(subject);
+  const std::vector<std::string> names = observed_names(tested);
   const std::vector<double> largest = scales(whole, split);
   for (std::size_t row = 0; row < whole.size(); ++row) {
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -83,9 +84,8 @@ Comparison compare(const Subject& subject, const std::vector<Row>& whole,
       result.is_equal = result.is_equal && a == b;
       if (!(share > result.worst)) continue;
       result.worst = share;
-      result.text =
-          fmt::format("at {} s '{}' is {} instead of {}",
-                      core::to_text(Time(Duration(whole[row].picoseconds))), names[i], b, a);
+      result.text = fmt::format("at {} s '{}' is {} instead of {}",
+                                core::to_text(Duration(whole[row].picoseconds)), names[i], b, a);
     }
   }
   return result;
@@ -94,31 +94,31 @@ Comparison compare(const Subject& subject, const std::vector<Row>& whole,
 bool is_multiple(Duration size, Duration of) { return size % of == Duration{}; }
 
 /// Why halves of a step have to give what the whole gives; empty if nothing says so.
-std::string promise_of_halves(const Subject& subject) {
-  const core::UnitDescription& unit = subject.description();
+std::string promise_of_halves(const TestedUnit& tested) {
+  const core::UnitDescription& unit = tested.description();
   if (unit.split_invariant) return "though it declares that steps may be split (splitInvariant)";
-  const bool is_on_grid = unit.fixed_internal_step && subject.step() % 2 == Duration{} &&
-                          is_multiple(subject.step() / 2, *unit.fixed_internal_step);
+  const bool is_on_grid = unit.fixed_internal_step && tested.step() % 2 == Duration{} &&
+                          is_multiple(tested.step() / 2, *unit.fixed_internal_step);
   if (!is_on_grid) return "";
   return fmt::format("though both are multiples of its fixedInternalStepSize, {} s",
-                     core::to_text(Time(*unit.fixed_internal_step)));
+                     core::to_text(*unit.fixed_internal_step));
 }
 
 }  // namespace
 
 Finding check_splitting(const Trial& trial) {
-  const Subject& subject = trial.subject;
-  const core::UnitDescription& unit = subject.description();
+  const TestedUnit& tested = trial.tested;
+  const core::UnitDescription& unit = tested.description();
   const auto run = [&](Split split) {
     return trial.record({.split = split}).without_events().rows;
   };
   const std::vector<Row> whole = run(Split::None);
   std::string text;
   const auto examine = [&](Split split, const std::string& what, const std::string& promise) {
-    const Comparison seen = compare(subject, whole, run(split));
+    const Comparison seen = compare(tested, whole, run(split));
     if (!promise.empty() && seen.worst > kRounding) {
       throw Failure(fmt::format("{} where steps of {} s are split {}, {}", seen.text,
-                                core::to_text(Time(subject.step())), what, promise));
+                                core::to_text(tested.step()), what, promise));
     }
     if (!text.empty()) text += "; ";
     if (seen.is_equal) {
@@ -129,9 +129,9 @@ Finding check_splitting(const Trial& trial) {
       text += fmt::format("{}: other values, which nothing excludes ({})", what, seen.text);
     }
   };
-  examine(Split::Halves, "into halves", promise_of_halves(subject));
+  examine(Split::Halves, "into halves", promise_of_halves(tested));
   if (unit.can_vary_step) {
-    examine(Split::Uneven, "unevenly", unit.split_invariant ? promise_of_halves(subject) : "");
+    examine(Split::Uneven, "unevenly", unit.split_invariant ? promise_of_halves(tested) : "");
   } else {
     text += "; it has no canHandleVariableCommunicationStepSize";
   }

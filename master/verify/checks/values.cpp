@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
 #include "master/verify/checks.h"
 #include "master/verify/start_values.h"
 
@@ -18,33 +19,33 @@ using core::Variable;
 
 /// Sets each start value that can be set, reads them back, before and after the initialization.
 void examine_start(const Trial& trial) {
-  const core::UnitDescription& unit = trial.subject.description();
-  Life life = trial.live();
+  const core::UnitDescription& unit = trial.tested.description();
+  TestInstance instance = trial.make_instance();
   const bool is_readable_at_once = !unit.fmi_version.starts_with("2");
-  if (is_readable_at_once) expect_start_values(unit, life, "in a new instance");
+  if (is_readable_at_once) expect_start_values(unit, instance, "in a new instance");
   for (const Variable& variable : unit.variables) {
     const bool is_set =
         has_exact_start(variable) && variable.variability != core::Variability::Constant;
-    if (is_set) life.set(variable, start_value(variable));
+    if (is_set) instance.set(variable, start_value(variable));
   }
-  life.enter_initialization();
-  expect_start_values(unit, life, "in Initialization Mode");
+  instance.enter_initialization();
+  expect_start_values(unit, instance, "in Initialization Mode");
   for (const Variable& variable : unit.variables) {
     if (variable.causality != Causality::Input || !has_exact_start(variable)) continue;
     const ValueBlock other = other_value(variable, start_value(variable));
-    life.set(variable, other);
-    expect_value(life, variable, other, "in Initialization Mode", "it was set to");
-    life.set(variable, start_value(variable));
+    instance.set(variable, other);
+    expect_value(instance, variable, other, "in Initialization Mode", "it was set to");
+    instance.set(variable, start_value(variable));
   }
-  life.exit_initialization();
+  instance.exit_initialization();
   for (const Variable& variable : unit.variables) {
     const bool is_kept =
         variable.causality == Causality::Input || variable.causality == Causality::Parameter;
     if (is_kept && has_exact_start(variable)) {
-      expect_value(life, variable, start_value(variable), "after the initialization",
+      expect_value(instance, variable, start_value(variable), "after the initialization",
                    "it was set to");
     } else if (is_readable(variable)) {
-      life.get(variable);
+      instance.get(variable);
     }
   }
 }
@@ -56,11 +57,11 @@ struct Range {
   double low, high;
 };
 
-std::vector<Range> ranges(const Subject& subject) {
+std::vector<Range> ranges(const TestedUnit& tested) {
   std::vector<Range> ranges;
-  for (const Subject::Group& group : subject.observed()) {
+  for (const TestedUnit::Group& group : tested.observed()) {
     for (const std::size_t i : group.places) {
-      const Variable& variable = subject.description().variables[i];
+      const Variable& variable = tested.description().variables[i];
       const bool is_number = variable.type != ValueType::String &&
                              variable.type != ValueType::Binary &&
                              variable.type != ValueType::Boolean;
@@ -79,9 +80,8 @@ void examine_row(const std::vector<Range>& ranges, const Row& row) {
     std::istringstream words(row.values[i]);
     for (std::string word; words >> word;) {
       const double number = std::strtod(word.c_str(), nullptr);
-      const std::string at =
-          fmt::format("at {} s '{}' is {}", core::to_text(Time(Duration(row.picoseconds))),
-                      variable->name, word);
+      const std::string at = fmt::format(
+          "at {} s '{}' is {}", core::to_text(Duration(row.picoseconds)), variable->name, word);
       if (std::isnan(number)) throw Failure(at);
       if (number < low) throw Failure(at + ", which is below its min " + variable->min);
       if (number > high) throw Failure(at + ", which is above its max " + variable->max);
@@ -94,15 +94,15 @@ void examine_row(const std::vector<Range>& ranges, const Row& row) {
 Finding check_values(const Trial& trial) {
   examine_start(trial);
   const Recording run = trial.record();
-  const std::vector<Range> declared = ranges(trial.subject);
+  const std::vector<Range> declared = ranges(trial.tested);
   for (const Row& row : run.rows) {
     if (!row.is_event) examine_row(declared, row);
   }
-  const auto& variables = trial.subject.description().variables;
+  const auto& variables = trial.tested.description().variables;
   const auto starts = std::count_if(variables.begin(), variables.end(), has_exact_start);
   return passed(fmt::format("{} start values, {} values in {} steps to {} s{}", starts,
-                            trial.subject.observed_count(), trial.subject.steps(),
-                            core::to_text(trial.subject.point(trial.subject.steps())),
+                            trial.tested.observed_count(), trial.tested.steps(),
+                            core::to_text(trial.tested.point(trial.tested.steps())),
                             run.has_ended ? "; it ended the run before" : ""));
 }
 

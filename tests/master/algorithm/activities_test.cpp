@@ -23,7 +23,7 @@ struct Watcher : Observer {
 struct Meter : Observer {
   const Simulation* simulation = nullptr;
   std::vector<Duration> rested;
-  void on_communication_point(Time) override { rested.push_back(simulation->rested()); }
+  void on_communication_point(Time) override { rested.push_back(simulation->suspended_time()); }
 };
 
 Describe integrator() { return Describe("integrator").input("u").output("y").can_save_state(); }
@@ -92,7 +92,7 @@ TEST_CASE("steps that an input's error undoes are told for each unit") {
   };
   f.add("b", integrator().done());
   f.wire("a", "y", "b", "u");
-  f.options.step.policy = StepPolicy::ErrorControlled;
+  f.options.step.policy = &kErrorControlledSteps;
   const std::vector<Activity> told = run(f, 0.2);
   const auto undone = f.simulation->statistics().undone_steps;
   REQUIRE(undone > 0);
@@ -181,5 +181,5 @@ TEST_CASE("the time of rests that still last is counted while the run goes") {
   meter.simulation = f.simulation.get();
   f.simulation->run();
   CHECK(meter.rested == std::vector<Duration>{0ms, 100ms, 200ms, 300ms, 400ms, 500ms, 600ms});
-  CHECK(f.simulation->rested() == Duration(600ms));
+  CHECK(f.simulation->suspended_time() == Duration(600ms));
 }

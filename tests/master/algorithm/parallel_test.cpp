@@ -188,7 +188,7 @@ TEST_CASE("with Gauss-Seidel or an error-controlled step the bits are the same, 
     system.wire("b", "y", "c", "u");
     system.wire("c", "y", "a", "u");
     system.options.coupling = coupling;
-    system.options.step.policy = StepPolicy::ErrorControlled;
+    system.options.step.policy = &kErrorControlledSteps;
     system.options.threads = std::move(threads);
     Trace trace;
     system.build(0.5, 1ms, all_outputs(system)).add_observer(trace);

@@ -102,7 +102,7 @@ class Describe {
     description_->variables.back().initial = Initial::Exact;
     return *this;
   }
-  Describe& unit(const std::string& symbol, BaseUnit base) {
+  Describe& unit(const std::string& symbol, BaseUnitOfMeasure base) {
     description_->units[symbol] = base;
     return *this;
   }

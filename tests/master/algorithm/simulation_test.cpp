@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "master/util/time_text.h"
 #include "tests/master/algorithm/scripted_system.h"
 
 using namespace stride;
@@ -135,8 +136,8 @@ TEST_CASE("an algebraic loop without a solution is an error") {
 
 TEST_CASE("values are converted between units of measurement") {
   Fixture f;
-  const BaseUnit metre{{0, 1}, 1, 0};
-  const BaseUnit millimetre{{0, 1}, 1e-3, 0};
+  const BaseUnitOfMeasure metre{{0, 1}, 1, 0};
+  const BaseUnitOfMeasure millimetre{{0, 1}, 1e-3, 0};
   auto& a = f.add("a", Describe("a").unit("mm", millimetre).output("y", "mm").done());
   auto& b = f.add("b", Describe("b").unit("m", metre).input("u", "m").done());
   f.wire("a", "y", "b", "u");

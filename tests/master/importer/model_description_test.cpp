@@ -409,6 +409,7 @@ TEST_CASE("what belongs to a clock is discrete") {
   CHECK(variable(unit, "u").variability == Variability::Discrete);
   CHECK(unit.is_sampled(variable(unit, "u")));
   CHECK_FALSE(unit.is_sampled(variable(unit, "tick")));
+  CHECK_FALSE(unit.is_message(variable(unit, "u")));
 }
 
 TEST_CASE("what may change within a step") {

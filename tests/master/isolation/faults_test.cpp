@@ -102,13 +102,13 @@ TEST_CASE("a killed process is noticed at the next call, and between calls") {
   CHECK_THAT(run_error([&] { unit.step(1, 2); }), Contains("signal 9 (SIGKILL)"));
 }
 
-TEST_CASE("without its keeper a unit's process ends, and the master notices") {
+TEST_CASE("without its supervisor a unit's process ends, and the master notices") {
   const Belongings before;
   {
     Fixture unit("faulty");
     unit.start();
     const pid_t server = Fixture::server();
-    ::kill(Fixture::keeper(), SIGKILL);
+    ::kill(Fixture::supervisor(), SIGKILL);
     CHECK_THAT(run_error([&] {
                  for (int i = 0; i < 100'000; ++i) unit.number("y");
                }),
@@ -126,7 +126,7 @@ TEST_CASE("when the master is killed nothing of it is left") {
     const Fixture other("faulty");  // whose processes do not keep those of the first
     unit.start({{"fault", "daemon"}});
     unit.step(0, 1);
-    note.write("", (std::int64_t{Fixture::keeper()} << 32) + Fixture::server());
+    note.write("", (std::int64_t{Fixture::supervisor()} << 32) + Fixture::server());
     std::raise(SIGKILL);
     return std::string();
   });

@@ -219,14 +219,14 @@ TEST_CASE("snapshots end with the unit, and nothing of them stays") {
   CHECK(before == Belongings());
 }
 
-TEST_CASE("snapshots end with the keeper") {
+TEST_CASE("snapshots end with the supervisor") {
   Hosted unit("rejecter_without_state");
   unit.start();
   state(*unit).save_state();
   state(*unit).restore_state();
-  const std::vector<pid_t> processes = children(Hosted::keeper());
+  const std::vector<pid_t> processes = children(Hosted::supervisor());
   CHECK(processes.size() >= 2);
-  ::kill(Hosted::keeper(), SIGKILL);
+  ::kill(Hosted::supervisor(), SIGKILL);
   CHECK(std::all_of(processes.begin(), processes.end(), has_ended));
   CHECK_THROWS_WITH(unit.step(0, 0.1), Contains("unit 'u'") && Contains("ended its keeper"));
 }
@@ -237,7 +237,7 @@ TEST_CASE("a unit that was restored and is killed is an error that tells how") {
   state(*unit).save_state();
   state(*unit).restore_state();
   // the snapshot is not in charge, so it is not missed before it is needed
-  for (const pid_t process : children(Hosted::keeper())) ::kill(process, SIGKILL);
+  for (const pid_t process : children(Hosted::supervisor())) ::kill(process, SIGKILL);
   CHECK_THROWS_WITH(
       [&] {
         for (int i = 0; i < 1000; ++i) unit.step(0.001 * i, 0.001 * (i + 1));

@@ -36,7 +36,7 @@ struct World {
   std::array<std::atomic<int>, 8> seen{};
   std::array<char, 1000> error{};
   int status = 0;          ///< of the process in charge
-  int most_processes = 0;  ///< that the keeper had at a time, as far as it saw
+  int most_processes = 0;  ///< that the supervisor had at a time, as far as it saw
 };
 
 using SharedWorld = process::Shared<World>;
@@ -58,7 +58,7 @@ int count_children() {
   ::_exit(0);
 }
 
-/// Serves in a child of a keeper, until who is in charge ends. Returns the error that left it.
+/// Serves in a child of a supervisor, until who is in charge ends. Returns the error that left it.
 std::string run(SharedWorld& world, const Serve& serve, SnapshotOptions options = {}) {
   options.context.unit = "u";
   const auto outcome = process::run_in_child([&] {
@@ -149,7 +149,7 @@ TEST_CASE("of many snapshots in a slot the last one stays") {
   CHECK(world->board.snapshots == 300);
   CHECK(world->board.most_kept == 1);
   // Those that were in charge before a restore may not have been waited for yet.
-  CHECK(world->most_processes <= static_cast<int>(SnapshotBoard::kPlaces) + kPasses);
+  CHECK(world->most_processes <= static_cast<int>(SnapshotBoard::kEntries) + kPasses);
 }
 
 TEST_CASE("more states than there can be are refused, and so is what was never kept") {
@@ -194,8 +194,8 @@ TEST_CASE("a snapshot that was killed is missed where it is needed") {
   SharedWorld world;
   const auto error = run(world, [](World& w, Snapshots& snapshots) {
     snapshots.save(0);
-    ::kill(w.board.places[0].process, SIGKILL);
-    while (w.board.places[0].state != SnapshotBoard::State::Lost) ::usleep(100);
+    ::kill(w.board.entries[0].process, SIGKILL);
+    while (w.board.entries[0].state != SnapshotBoard::State::Lost) ::usleep(100);
     snapshots.save(1);
     try {
       snapshots.restore(0);
@@ -210,7 +210,7 @@ TEST_CASE("a snapshot that was killed is missed where it is needed") {
   CHECK(world->passes == 2);
 }
 
-TEST_CASE("who was restored and crashes is seen by the keeper") {
+TEST_CASE("who was restored and crashes is seen by the supervisor") {
   SharedWorld world;
   run(world, [](World&, Snapshots& snapshots) {
     if (snapshots.save(0)) std::raise(SIGILL);
@@ -256,13 +256,13 @@ TEST_CASE("what a process taken back has written is not there twice") {
   CHECK(text == "begin buffered branch " + std::string(100000, 'x') + "end");
 }
 
-TEST_CASE("nothing stays when the keeper is killed") {
+TEST_CASE("nothing stays when the supervisor is killed") {
   SharedWorld world;
   const auto outcome = process::run_in_child(
       [&] {
         ::prctl(PR_SET_CHILD_SUBREAPER, 1);
-        const pid_t keeper = ::fork();
-        if (keeper == 0) {
+        const pid_t supervisor = ::fork();
+        if (supervisor == 0) {
           const Serve serve = [](World& w, Snapshots& snapshots) {
             for (const std::size_t slot : {0, 1, 2}) snapshots.save(slot);
             if (++w.passes < 2) snapshots.restore(1);

@@ -28,7 +28,7 @@ struct Values {
 }  // namespace
 
 TEST_CASE("a plan is known again by what it is about, not by where that stands") {
-  ToldPlans plans;
+  KnownStepShapes plans;
   CHECK_FALSE(plans.find(Values({1, 2}).step()));
   CHECK(plans.add(Values({1, 2}).step()) == 0);
   CHECK(plans.find(Values({1, 2}).step()) == 0U);
@@ -44,13 +44,13 @@ TEST_CASE("a plan is known again by what it is about, not by where that stands")
 }
 
 TEST_CASE("of many plans the oldest lose their numbers") {
-  ToldPlans plans;
-  for (std::uint32_t i = 0; i < ToldPlans::kMost + 3; ++i) {
-    CHECK(plans.add(Values({i}).step()) == i % ToldPlans::kMost);
+  KnownStepShapes plans;
+  for (std::uint32_t i = 0; i < KnownStepShapes::kMost + 3; ++i) {
+    CHECK(plans.add(Values({i}).step()) == i % KnownStepShapes::kMost);
   }
   CHECK_FALSE(plans.find(Values({2}).step()));
   CHECK(plans.find(Values({3}).step()) == 3U);
-  CHECK(plans.find(Values({ToldPlans::kMost}).step()) == 0U);
+  CHECK(plans.find(Values({KnownStepShapes::kMost}).step()) == 0U);
 }
 
 TEST_CASE("a served plan has memory for the values that it was told of") {
@@ -63,7 +63,7 @@ TEST_CASE("a served plan has memory for the values that it was told of") {
     out.put_bytes(input.block->bytes(), 2 * sizeof(double));
   }
   MessageReader in({memory.data(), out.size()});
-  ServedPlan plan(in);
+  StepBuffers plan(in);
   plan.take_inputs(in);
   REQUIRE(plan.values().inputs.size() == 1);
   CHECK(plan.values().inputs[0].references[1] == 5);

@@ -114,8 +114,8 @@ class Fixture {
   }
 
   /// The process in which the unit lives, and the one between it and this one.
-  static pid_t keeper() { return children().at(0); }
-  static pid_t server() { return children(keeper()).at(0); }
+  static pid_t supervisor() { return children().at(0); }
+  static pid_t server() { return children(supervisor()).at(0); }
 
   std::vector<Line> log;
 

@@ -11,38 +11,38 @@ using Kind = Transformation::Kind;
 
 namespace {
 
-const MeasureUnit kMetre{"m", BaseUnit{{0, 1, 0, 0, 0, 0, 0, 0}, 1, 0}};
-const MeasureUnit kCentimetre{"cm", BaseUnit{{0, 1, 0, 0, 0, 0, 0, 0}, 0.01, 0}};
-const MeasureUnit kSecond{"s", BaseUnit{{0, 0, 1, 0, 0, 0, 0, 0}, 1, 0}};
+const UnitOfMeasure kMetre{"m", BaseUnitOfMeasure{{0, 1, 0, 0, 0, 0, 0, 0}, 1, 0}};
+const UnitOfMeasure kCentimetre{"cm", BaseUnitOfMeasure{{0, 1, 0, 0, 0, 0, 0, 0}, 0.01, 0}};
+const UnitOfMeasure kSecond{"s", BaseUnitOfMeasure{{0, 0, 1, 0, 0, 0, 0, 0}, 1, 0}};
 
-Waypoint point(const std::string& name, std::optional<ValueType> type, const MeasureUnit& unit = {},
-               bool takes_after_next = false) {
+PathConnector point(const std::string& name, std::optional<ValueType> type,
+                    const UnitOfMeasure& unit = {}, bool takes_after_next = false) {
   return {name, type, unit, {}, takes_after_next};
 }
 
-Waypoint items(const std::string& name, EnumerationItems items) {
+PathConnector items(const std::string& name, EnumerationItems items) {
   return {name, ValueType::Enumeration, {}, std::move(items), false};
 }
 
-Passage linear(double factor, double offset, bool suppress = false) {
+PathSegment linear(double factor, double offset, bool suppress = false) {
   return {suppress, {Kind::Linear, {factor, offset}, {}, {}, {"x.ssd", 7}}};
 }
 
-Passage numbers(Kind kind, NumberMap map) {
+PathSegment numbers(Kind kind, NumberMap map) {
   return {false, {kind, {}, std::move(map), {}, {"x.ssd", 7}}};
 }
 
-Passage names(std::vector<std::pair<std::string, std::string>> entries) {
+PathSegment names(std::vector<std::pair<std::string, std::string>> entries) {
   return {false, {Kind::EnumerationMapping, {}, {}, std::move(entries), {"x.ssd", 7}}};
 }
 
-Conversion of(std::vector<Waypoint> waypoints, const std::vector<Passage>& passages) {
-  return compose(std::move(waypoints), passages, {{"x.ssd", 9}, {}, {}, {}});
+Conversion of(std::vector<PathConnector> path, const std::vector<PathSegment>& segments) {
+  return compose(std::move(path), segments, {{"x.ssd", 9}, {}, {}, {}});
 }
 
-std::string reason(std::vector<Waypoint> waypoints, const std::vector<Passage>& passages) {
+std::string reason(std::vector<PathConnector> path, const std::vector<PathSegment>& segments) {
   try {
-    of(std::move(waypoints), passages);
+    of(std::move(path), segments);
   } catch (const Error& error) {
     CHECK(error.kind() == Error::Kind::Input);
     return error.what();
@@ -54,26 +54,6 @@ const EnumerationItems kLamp{{"off", 0}, {"on", 1}};
 const EnumerationItems kSignal{{"red", 3}, {"green", 4}};
 
 }  // namespace
-
-TEST_CASE("units with the same base are converted, also those with an offset") {
-  const MeasureUnit kelvin{"K", BaseUnit{{0, 0, 0, 0, 1, 0, 0, 0}, 1, 0}};
-  const MeasureUnit celsius{"degC", BaseUnit{{0, 0, 0, 0, 1, 0, 0, 0}, 1, 273.15}};
-  CHECK(convert(kCentimetre, kMetre)->factor == Approx(1e-2));
-  CHECK(convert(kMetre, kCentimetre)->factor == Approx(1e2));
-  const auto to_kelvin = convert(celsius, kelvin);
-  CHECK(to_kelvin->factor * 20 + to_kelvin->offset == Approx(293.15));
-  const auto to_celsius = convert(kelvin, celsius);
-  CHECK(to_celsius->factor * 293.15 + to_celsius->offset == Approx(20));
-}
-
-TEST_CASE(
-    "units of another kind are not, and those that are missing or alike are taken as they are") {
-  const MeasureUnit furlong{"furlong", {}};
-  CHECK_FALSE(convert(kCentimetre, kSecond));
-  CHECK_FALSE(convert(kCentimetre, furlong));
-  CHECK(convert({}, kCentimetre)->is_identity());
-  CHECK(convert(furlong, furlong)->is_identity());
-}
 
 TEST_CASE("units are converted before the transformation, or not at all") {
   const auto y = point("a.y", ValueType::Float64, kCentimetre);
@@ -228,9 +208,9 @@ TEST_CASE("an Enumeration goes to an integer that holds its items, and back if t
 }
 
 TEST_CASE("values that are given as text are mapped word by word") {
-  const auto with = [](const std::string& text, ValueType type, const Passage& passage) {
-    const std::vector<Passage> passages{passage};
-    return compose_text(text, {{"the value", {}, {}, {}, true}, point("b.u", type)}, passages, {})
+  const auto with = [](const std::string& text, ValueType type, const PathSegment& segment) {
+    const std::vector<PathSegment> segments{segment};
+    return compose_text(text, {{"the value", {}, {}, {}, true}, point("b.u", type)}, segments, {})
         .text;
   };
   CHECK(with("on", ValueType::Enumeration, names({{"on", "green"}})) == "green");

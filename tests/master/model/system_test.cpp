@@ -10,9 +10,9 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
-const BaseUnit kMetre{{0, 1, 0, 0, 0, 0, 0, 0}, 1, 0};
-const BaseUnit kMillimetre{{0, 1, 0, 0, 0, 0, 0, 0}, 1e-3, 0};
-const BaseUnit kSecond{{0, 0, 1, 0, 0, 0, 0, 0}, 1, 0};
+const BaseUnitOfMeasure kMetre{{0, 1, 0, 0, 0, 0, 0, 0}, 1, 0};
+const BaseUnitOfMeasure kMillimetre{{0, 1, 0, 0, 0, 0, 0, 0}, 1e-3, 0};
+const BaseUnitOfMeasure kSecond{{0, 0, 1, 0, 0, 0, 0, 0}, 1, 0};
 
 std::shared_ptr<const UnitDescription> description() {
   return Describe("model")
@@ -120,6 +120,17 @@ TEST_CASE("a message needs its clock wired too") {
   CHECK_THAT(reason({wire("frame_out", "frame_in")}),
              Contains("its clock 'beta.clock_in' is not connected"));
   CHECK(reason({wire("frame_out", "frame_in"), wire("clock_out", "clock_in")}) == "accepted");
+}
+
+TEST_CASE("what belongs to a triggered clock is a message") {
+  const auto unit = description();
+  const auto is_message = [&](const std::string& name) {
+    return unit->is_message(unit->variables[unit->find(name).value()]);
+  };
+  CHECK(is_message("frame_in"));
+  CHECK(is_message("frame_out"));
+  CHECK_FALSE(is_message("u"));
+  CHECK_FALSE(is_message("clock_out"));
 }
 
 TEST_CASE("what belongs to a time-based clock may be connected to any value but a message") {

@@ -111,7 +111,7 @@ TEST_CASE("Everything that the annotation can say") {
 }
 
 TEST_CASE("Everything about the stepping can be chosen") {
-  const StepChoice step =
+  const StepSettings step =
       read(at_root(annotations(scenario(
                "<stride:Step policy='error-controlled' size='0.01' maximum='0.1' minimum='1e-6' "
                "relativeTolerance='1e-4' absoluteTolerance='0'/>"
@@ -119,7 +119,7 @@ TEST_CASE("Everything about the stepping can be chosen") {
           .step;
   core::RunOptions options;
   step.apply(options);
-  CHECK(options.step.policy == core::StepPolicy::ErrorControlled);
+  CHECK(options.step.policy == &core::kErrorControlledSteps);
   CHECK(options.step.size == std::chrono::milliseconds(10));
   CHECK(options.step.maximum == Duration(std::chrono::milliseconds(100)));
   CHECK(options.step.minimum == std::chrono::microseconds(1));

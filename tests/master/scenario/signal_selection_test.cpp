@@ -7,6 +7,42 @@
 using namespace stride;
 using namespace stride::io;
 using Catch::Contains;
+using Names = std::vector<std::string>;
+
+namespace {
+
+NamedVariable named(const core::System& system, const std::string& name) {
+  for (const NamedVariable& variable : named_variables(system)) {
+    if (variable.name == name) return variable;
+  }
+  throw std::runtime_error("there is no " + name);
+}
+
+}  // namespace
+
+TEST_CASE("all variables have names, but for the time; messages are told apart") {
+  const core::System system = sample_system();
+  CHECK(named_variables(system).size() == 24);
+  CHECK_THROWS(named(system, "a.time"));
+  for (const char* name : {"a.transmit.clock", "b, c.transmit.frame", "a.tick"}) {
+    CHECK(named(system, name).is_message);
+  }
+  for (const char* name : {"a.distance", "b, c.gain", "a.label"}) {
+    CHECK_FALSE(named(system, name).is_message);
+  }
+  CHECK_FALSE(named(sampled_system(), "s.u").is_message);
+}
+
+TEST_CASE("a variable is meant by its name, an alias, and globs of both") {
+  const core::System system = sample_system();
+  const NamedVariable distance = named(system, "a.distance");
+  for (const char* pattern : {"a.distance", "a.range", "*.dist*", "a.ran?e", "*"}) {
+    CHECK(is_meant(system, distance.id, pattern));
+  }
+  for (const char* pattern : {"distance", "b.range", "a.dist", ""}) {
+    CHECK_FALSE(is_meant(system, distance.id, pattern));
+  }
+}
 
 namespace {
 
@@ -20,8 +56,6 @@ std::vector<std::string> selected(const std::vector<std::string>& patterns) {
   }
   return names;
 }
-
-using Names = std::vector<std::string>;
 
 }  // namespace
 
@@ -71,4 +105,53 @@ TEST_CASE("What is sampled at the ticks of a time-based clock is a signal, the c
   CHECK(select_signals(system, all).size() == 2);
   const std::vector<SignalPattern> clock = {{"s.tick", {"x.ssd", 12}}};
   CHECK_THROWS_WITH(select_signals(system, clock), Contains("cannot be recorded as a signal"));
+}
+
+namespace {
+
+PlotPattern plot(const std::string& title, const Names& signals) {
+  PlotPattern made{title, {}};
+  for (const std::string& text : signals) made.signals.push_back({text, {"x.ssd", 9}});
+  return made;
+}
+
+std::vector<Plot> selected(const std::vector<PlotPattern>& patterns) {
+  const core::System system = sample_system();
+  return select_plots(system, select_signals(system, {}), patterns);
+}
+
+}  // namespace
+
+TEST_CASE("A plot has what its patterns match, in their order and once") {
+  CHECK(selected({plot("Heights", {"b, c.d*", "*.distance"}), plot("Light", {"a.led"})}) ==
+        std::vector<Plot>{{"Heights", {"b, c.distance", "b, c.digest", "a.distance"}},
+                          {"Light", {"a.led"}}});
+}
+
+TEST_CASE("A signal may stand in several plots, and be named by an alias") {
+  CHECK(selected({plot("One", {"a.range"}), plot("Two", {"a.distance"})}) ==
+        std::vector<Plot>{{"One", {"a.distance"}}, {"Two", {"a.distance"}}});
+}
+
+TEST_CASE("Of an array each element is drawn") {
+  CHECK(selected({plot("Place", {"a.position"})}) ==
+        std::vector<Plot>{{"Place", {"a.position[1]", "a.position[2]", "a.position[3]"}}});
+}
+
+TEST_CASE("A pattern that matches nothing recorded is refused where it stands") {
+  CHECK_THROWS_WITH(
+      selected({plot("Height", {"a.distance", "a.distnace"})}),
+      Contains("x.ssd:9: the plot 'Height' wants 'a.distnace', which matches no signal that is "
+               "recorded") &&
+          Contains("did you mean 'a.distance'?"));
+  CHECK_THROWS_WITH(selected({plot("Gain", {"a.gain"})}), Contains("matches no signal"));
+}
+
+TEST_CASE("Where other signals are recorded, what is left of the plots is drawn") {
+  const core::System system = sample_system();
+  const std::vector<core::VariableId> recorded = {{0, 1}};
+  const std::vector<PlotPattern> patterns = {plot("Height", {"a.distance", "a.led"}),
+                                             plot("Light", {"a.led"})};
+  CHECK(remaining_plots(system, recorded, patterns) ==
+        std::vector<Plot>{{"Height", {"a.distance"}}});
 }

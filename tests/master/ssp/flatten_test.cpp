@@ -133,8 +133,8 @@ TEST_CASE("what is done to a value on its way stays with the way") {
   CHECK(connection.transformation.linear.factor == 3);
   CHECK_FALSE(connection.suppress_unit_conversion);
   REQUIRE(connection.via.size() == 1);
-  CHECK(connection.via[0].passage.suppress_unit_conversion);
-  CHECK(connection.via[0].passage.transformation.linear.offset == 2);
+  CHECK(connection.via[0].segment.suppress_unit_conversion);
+  CHECK(connection.via[0].segment.transformation.linear.offset == 2);
   CHECK(connection.via[0].connector.unit.name == "cm");
   CHECK(connection.via[0].connector.unit.meaning->factor == 0.01);
   CHECK(connection.via[0].connector.type == core::ValueType::Float64);

@@ -44,8 +44,9 @@ SystemNode tree() {
 }
 
 std::vector<std::string> names(const PortGraph& graph, const PortGraph::Way& way) {
-  std::vector<std::string> names{graph.ports()[graph.wires()[way.front()].from].path};
-  for (const std::size_t wire : way) names.push_back(graph.ports()[graph.wires()[wire].to].path);
+  std::vector<std::string> names{graph.ports()[graph.connections()[way.front()].from].path};
+  for (const std::size_t wire : way)
+    names.push_back(graph.ports()[graph.connections()[wire].to].path);
   return names;
 }
 

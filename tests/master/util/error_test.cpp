@@ -17,12 +17,3 @@ TEST_CASE("an error leaves out what is not known") {
   CHECK(std::string(Error(Error::Kind::Input, {{"a.ssd", 0}, {}, {}, {}}, "no").what()) ==
         "a.ssd: no");
 }
-
-TEST_CASE("a time's text is exact") {
-  CHECK(to_text(Time{}) == "0");
-  CHECK(to_text(Time(Duration(1))) == "0.000000000001");
-  CHECK(to_text(time_from_seconds(14.2)) == "14.2");
-  CHECK(to_text(time_from_seconds(30)) == "30");
-  CHECK(to_text(Time(Duration(-1'500'000'000'000))) == "-1.5");
-  CHECK(to_text(Time(Duration::min())) == "-9223372.036854775808");
-}

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "master/util/error.h"
+#include "master/util/time_text.h"
 #include "tests/master/ssp/support.h"
 #include "tests/master/util/file_size_limit.h"
 

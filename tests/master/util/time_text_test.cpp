@@ -7,6 +7,8 @@
 #include "tests/master/ssp/support.h"
 
 using stride::Duration;
+using stride::Time;
+using stride::core::to_text;
 using stride::io::parse_seconds;
 
 TEST_CASE("A decimal text becomes the exact count of picoseconds") {
@@ -74,4 +76,14 @@ TEST_CASE("What is no time is refused, and the text says what was expected") {
 TEST_CASE("what a computation took is told to the millisecond") {
   CHECK(stride::io::wall_seconds(std::chrono::nanoseconds(1'234'567'890)) == "1.235");
   CHECK(stride::io::wall_seconds({}) == "0.000");
+}
+
+TEST_CASE("a time's text is exact") {
+  CHECK(to_text(Time{}) == "0");
+  CHECK(to_text(Time(Duration(1))) == "0.000000000001");
+  CHECK(to_text(stride::time_from_seconds(14.2)) == "14.2");
+  CHECK(to_text(stride::time_from_seconds(30)) == "30");
+  CHECK(to_text(Time(Duration(-1'500'000'000'000))) == "-1.5");
+  CHECK(to_text(Duration(-1'500'000'000'000)) == "-1.5");
+  CHECK(to_text(Time(Duration::min())) == "-9223372.036854775808");
 }

@@ -8,10 +8,10 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const Subject& subject() {
-  static const Subject subject(
-      Request{.file = std::filesystem::path(STRIDE_FMU_DIR) / "minimal.fmu"});
-  return subject;
+const TestedUnit& tested() {
+  static const TestedUnit tested(
+      VerifyRequest{.file = std::filesystem::path(STRIDE_FMU_DIR) / "minimal.fmu"});
+  return tested;
 }
 
 constexpr std::int64_t kMilli = 1'000'000'000;
@@ -20,7 +20,7 @@ Row point(std::int64_t time, const std::string& value) { return {time, {value}, 
 Row event(std::int64_t time, const std::string& value) { return {time, {value}, true}; }
 
 std::string compare(const std::vector<Row>& expected, const std::vector<Row>& seen) {
-  return difference(subject(), expected, seen, "here", "there").value_or("");
+  return difference(tested(), expected, seen, "here", "there").value_or("");
 }
 
 }  // namespace

@@ -12,12 +12,12 @@ using core::Variable;
 
 namespace {
 
-Subject types(const std::vector<std::string>& settings = {}) {
-  return Subject(Request{.file = tests::test_fmu("types"), .settings = settings});
+TestedUnit types(const std::vector<std::string>& settings = {}) {
+  return TestedUnit(VerifyRequest{.file = tests::test_fmu("types"), .settings = settings});
 }
 
-std::string name_of(const Subject& subject, const Stimulus::Input& input) {
-  return subject.description().variables[input.variable].name;
+std::string name_of(const TestedUnit& tested, const Stimulus::Input& input) {
+  return tested.description().variables[input.variable].name;
 }
 
 Variable variable(ValueType type, const std::string& min, const std::string& max) {
@@ -54,10 +54,10 @@ TEST_CASE("another value is within min and max") {
 }
 
 TEST_CASE("each number gets a course, texts and bytes and what the user has set do not") {
-  const Subject subject = types({"int8=3"});
-  const Stimulus stimulus(subject, 1);
+  const TestedUnit tested = types({"int8=3"});
+  const Stimulus stimulus(tested, 1);
   std::vector<std::string> names;
-  for (const auto& input : stimulus.inputs()) names.push_back(name_of(subject, input));
+  for (const auto& input : stimulus.inputs()) names.push_back(name_of(tested, input));
   const auto has = [&](const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
@@ -72,10 +72,10 @@ TEST_CASE("each number gets a course, texts and bytes and what the user has set 
 }
 
 TEST_CASE("a course begins at the start value, is smooth where it is continuous, and changes") {
-  const Subject subject = types();
-  const Stimulus stimulus(subject, 1);
+  const TestedUnit tested = types();
+  const Stimulus stimulus(tested, 1);
   for (const auto& input : stimulus.inputs()) {
-    CAPTURE(name_of(subject, input));
+    CAPTURE(name_of(tested, input));
     CHECK(stimulus.value(input, 0) == input.start);
     bool changes = false;
     for (std::size_t k = 1; k < 100; ++k) {
@@ -94,10 +94,10 @@ TEST_CASE("a course begins at the start value, is smooth where it is continuous,
 }
 
 TEST_CASE("the same seed is the same course, another seed another one") {
-  const Subject subject = types();
-  const Stimulus one(subject, 1);
-  const Stimulus same(subject, 1);
-  const Stimulus another(subject, 2);
+  const TestedUnit tested = types();
+  const Stimulus one(tested, 1);
+  const Stimulus same(tested, 1);
+  const Stimulus another(tested, 2);
   bool differs = false;
   for (std::size_t i = 0; i < one.inputs().size(); ++i) {
     for (std::size_t k = 0; k < 50; ++k) {

@@ -16,7 +16,7 @@ namespace {
 /// A unit that is watched.
 struct Watched {
   explicit Watched(const std::string& name)
-      : subject(Request{.file = test_fmu(name)}), unit(subject, note, name, {}) {}
+      : tested(VerifyRequest{.file = test_fmu(name)}), unit(tested, note, name, {}) {}
 
   std::uint64_t calls() { return diagnostics(unit).calls(); }
   void start() {
@@ -26,11 +26,11 @@ struct Watched {
     unit.enter_step_mode();
   }
   const core::Variable& variable(const std::string& name) const {
-    const core::UnitDescription& description = subject.description();
+    const core::UnitDescription& description = tested.description();
     return description.variables.at(description.find(name).value());
   }
 
-  Subject subject;
+  TestedUnit tested;
   process::SharedNote note;
   WatchedUnit unit;
 };
@@ -42,7 +42,7 @@ TEST_CASE("a watched unit has all capabilities of the unit") {
   for (const char* name : {"types", "idler", "resizable", "clocks", "oscillator_mass"}) {
     CAPTURE(name);
     Watched watched(name);
-    const auto unit = watched.subject.fmu().instantiate("alone");
+    const auto unit = watched.tested.fmu().instantiate("alone");
     CHECK(capability_numbers(watched.unit) == capability_numbers(*unit));
     seen.merge(capability_numbers(*unit));
   }

@@ -7,6 +7,9 @@
 
 #include <stride/nfc/iso14443a.h>
 
+#include "tests/units/channel/answer.h"
+
+using namespace channel::tests;
 using channel::superposed;
 using nfc::Bytes;
 using nfc::Frame;
@@ -14,13 +17,6 @@ using stride::Duration;
 using stride::Time;
 
 namespace {
-
-const Time kStart = stride::time_from_seconds(2.0);
-const Duration kBit = nfc::bit_duration(106);
-
-Frame answer(const Bytes& bytes, Time start = kStart) {
-  return {start, 106, nfc::to_bits(nfc::with_crc(bytes))};
-}
 
 bool is_good(const Frame& frame) {
   const auto bytes = nfc::to_bytes(frame.bits);

@@ -1,4 +1,4 @@
-// One channel can stand in another's place: what they have in common is the same.
+// One channel can replace another: what they have in common is the same.
 #include <algorithm>
 #include <set>
 #include <string>
@@ -16,7 +16,7 @@ namespace {
 const std::vector<std::string> kChannels = {STRIDE_NFC_CHANNEL_LIBRARY, STRIDE_RF_CHANNEL_LIBRARY,
                                             STRIDE_IDEAL_CHANNEL_LIBRARY};
 
-/// The elements of inputs and outputs, but for what may differ: where they stand, what they mean,
+/// The elements of inputs and outputs, but for what may differ: their order, what they mean,
 /// and how they start.
 std::vector<std::string> connectors(const std::string& library) {
   const std::string xml = UnitLibrary(library).describe();

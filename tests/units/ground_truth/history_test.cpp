@@ -19,7 +19,7 @@ constexpr Duration kForEver = 1'000'000s;
 
 Time at(double seconds) { return stride::time_from_seconds(seconds); }
 
-/// What was told, and the bounds of an interval by looking at all of it.
+/// All that was noted, and the bounds of an interval by looking at all of it.
 struct Told {
   std::vector<std::pair<Time, double>> notes;
 

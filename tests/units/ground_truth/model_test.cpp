@@ -21,7 +21,7 @@ Parameters parameters(double tolerance, Duration max_age = 0s) {
   return {tolerance, max_age, 3600s, 1};
 }
 
-/// The truth rises by 1 K/s from 20 degC, and is told each 0.1 s for 10 s.
+/// The truth rises by 1 K/s from 20 degC, and is noted each 0.1 s for 10 s.
 Judge rising(const Parameters& parameters) {
   Judge judge(parameters, kTemperature);
   for (int i = 0; i <= 100; ++i) judge.note(at(0.1 * i), 20 + 0.1 * i);

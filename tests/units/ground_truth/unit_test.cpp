@@ -26,7 +26,7 @@ InstanceChoices choices() {
   return choices;
 }
 
-/// A unit that stands in Step Mode.
+/// A unit in Step Mode.
 class GroundTruth {
  public:
   explicit GroundTruth(double tolerance = 0.5, double max_age = 0.0) : unit_(library(), choices()) {

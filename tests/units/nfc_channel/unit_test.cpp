@@ -1,62 +1,22 @@
 // The channel seen by an importer: the variables of its tags, when it wants events, what it hands
 // over.
+#include <algorithm>
 #include <limits>
-#include <optional>
-#include <stdexcept>
 #include <string>
 
 #include <catch2/catch.hpp>
 
-#include <stride/nfc/frame.h>
-#include <stride/nfc/iso14443a.h>
-
-#include "tests/interfaces/unit/importer.h"
-#include "tests/units/resource_folder.h"
+#include "tests/units/channel/unit_bench.h"
 
 using namespace stride::tests;
 
 namespace {
 
-struct Resources : ResourceFolder {
-  explicit Resources(const std::string& text) : ResourceFolder("channel.xml", text) {}
-};
-
 constexpr const char* kTwoTags =
     R"(<nfc-channel version="1"><tag name="door"/><tag name="window"/></nfc-channel>)";
 
-InstanceChoices choices(const Resources& resources) {
-  InstanceChoices choices;
-  choices.resources = resources.path();
-  return choices;
-}
-
-nfc::Frame request(double start) {
-  return {stride::time_from_seconds(start), 106, nfc::to_bits(nfc::with_crc({0x02}))};
-}
-
 double end_of(const nfc::Frame& frame) {
   return stride::to_seconds(frame.start + nfc::air_time(frame));
-}
-
-std::optional<nfc::Frame> frame_at(UnitInstance& unit, const std::string& port) {
-  if (!unit.clock(port + ".clock")) return std::nullopt;
-  const fmi3ValueReference r = unit.reference(port + ".frame");
-  std::size_t size = 0;
-  fmi3Binary bytes = nullptr;
-  REQUIRE(unit.fmi.GetBinary(unit.handle, &r, 1, &size, &bytes, 1) == fmi3OK);
-  return nfc::decode({bytes, bytes + size});
-}
-
-void send(UnitInstance& unit, const std::string& port, const nfc::Frame& frame) {
-  REQUIRE(unit.set_clock(port + ".clock", true) == fmi3OK);
-  REQUIRE(unit.set_binary(port + ".frame", nfc::encode(frame)) == fmi3OK);
-}
-
-/// Takes the frames in that were sent, and sees that there are no more.
-void take_in(UnitInstance& unit) {
-  REQUIRE(unit.update() == fmi3OK);
-  CHECK(unit.iterate);
-  REQUIRE(unit.update() == fmi3OK);
 }
 
 /// One tag, two centimetres away, in a field.
@@ -216,9 +176,9 @@ TEST_CASE("With a frame on the air nothing is promised, without one everything s
 }
 
 TEST_CASE("Tags that channel.xml lists have variables of their own") {
-  const Resources resources(kTwoTags);
+  const TagList resources(kTwoTags);
   const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
-  UnitInstance unit(library, choices(resources));
+  UnitInstance unit(library, resources.choices());
   REQUIRE(unit.set_real("door.coil.position.z", 0.02) == fmi3OK);
   REQUIRE(unit.set_real("window.coil.position.z", 0.03) == fmi3OK);
   REQUIRE(unit.set_real("window.load_resistance", 3000) == fmi3OK);
@@ -252,15 +212,15 @@ TEST_CASE("Tags that channel.xml lists have variables of their own") {
 }
 
 TEST_CASE("Resources without a channel.xml leave the one tag") {
-  const Resources resources("");
+  const TagList resources("");
   const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
-  UnitInstance unit(library, choices(resources));
+  UnitInstance unit(library, resources.choices());
   REQUIRE(unit.start_steps() == fmi3OK);
   CHECK(unit.real("distance") == 0.0);
 }
 
 TEST_CASE("A bad channel.xml is an error with its line") {
-  const Resources resources("<nfc-channel version=\"1\">\n<tag/></nfc-channel>");
+  const TagList resources("<nfc-channel version=\"1\">\n<tag/></nfc-channel>");
   const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
   CHECK_THROWS_WITH(library.describe(resources.path()),
                     Catch::Contains("channel.xml:2") && Catch::Contains("'name'"));
@@ -268,8 +228,6 @@ TEST_CASE("A bad channel.xml is an error with its line") {
 
 TEST_CASE("What makes no sense is an error that names it") {
   const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
-  InstanceChoices logging;
-  logging.logging = true;
   const auto [name, value] = GENERATE(table<std::string, double>({
       {"tag_coil.radius", 0.0},
       {"tag_coil.wire_radius", 0.005},
@@ -277,10 +235,7 @@ TEST_CASE("What makes no sense is an error that names it") {
       {"tag_coil.position.x", std::numeric_limits<double>::quiet_NaN()},
       {"reader_coil.axis.z", 0.0},
   }));
-  UnitInstance unit(library, logging);
-  REQUIRE(unit.set_real(name, value) == fmi3OK);
-  CHECK(unit.initialize() == fmi3Error);
-  CHECK_THAT(unit.last_message(), Catch::Contains(name.substr(0, name.find('.'))));
+  check_is_refused(library, name, value);
 }
 
 TEST_CASE("Bytes that are no frame are an error") {

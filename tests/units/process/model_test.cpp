@@ -69,7 +69,7 @@ std::string started(const std::string& rest = "<sync time=\"0\"/>") {
   return answer("start", kOutputs + rest);
 }
 
-/// What the program is told, by one that writes it to a file and answers each step with its end.
+/// What the program receives, from one that writes it to a file and answers each step with its end.
 std::string told(const std::function<void(Play&)>& play, const Declaration& declaration) {
   const ScratchFolder folder;
   const std::string file = (folder / "told").string();
@@ -221,11 +221,11 @@ TEST_CASE("all outputs are told at the start") {
   Play p(shell(answer("start", "<output name=\"n\" value=\"1\"/>\n<sync time=\"0\"/>") +
                "read -r last"));
   CHECK_THROWS_WITH(p.start(),
-                    Contains("has not told the outputs 'y' before it answered <start/>"));
+                    Contains("has not sent the outputs 'y' before it answered <start/>"));
 }
 
 TEST_CASE("a text that XML cannot hold is refused with the name of its variable") {
   Play p(shell(started() + "read -r last"));
   p.values[kText] = std::string("a\x01");
-  CHECK_THROWS_WITH(p.start(), Contains("'text': this text cannot be told in XML"));
+  CHECK_THROWS_WITH(p.start(), Contains("'text': this text cannot be written in XML"));
 }

@@ -1,4 +1,4 @@
-// The header for programs: what a Program makes of commands.
+// The header for programs: how a Program obeys commands.
 #include <functional>
 #include <string>
 #include <vector>

@@ -11,7 +11,7 @@ using reader::ProgramCommand;
 
 namespace {
 
-/// The commands stand in line 3.
+/// The commands are in line 3.
 std::vector<ProgramCommand> parse_all(const std::string& commands) {
   return reader::parse_program(
              "<reader-program version=\"1\">\n<antenna on=\"1\" off=\"9\" power=\"1\"/>\n" +

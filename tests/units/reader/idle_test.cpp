@@ -4,24 +4,16 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/units/reader/programs.h"
+
 using namespace reader;
+using namespace reader::tests;
 using stride::Duration;
 using stride::Time;
 
 namespace {
 
-constexpr Duration kPicosecond{1};
-
-Time at(double seconds) { return stride::time_from_seconds(seconds); }
-
-Program program(const std::string& commands) {
-  return parse_program(R"(<reader-program version="1">
-      <antenna on="1" off="9" power="0.5"/>)" +
-                           commands + "</reader-program>",
-                       "p.xml");
-}
-
-/// Two axes that stand, move from 2 s to 3 s, stand, and the second moves on from 5 s to 6 s.
+/// Two axes at rest; both move from 2 s to 3 s, and the second also from 5 s to 6 s.
 Program movements() {
   Program program;
   program.axes = {"shoulder", "elbow"};
@@ -62,11 +54,11 @@ TEST_CASE("Axes that tremble never rest") {
 }
 
 TEST_CASE("A robot without axes rests for ever") {
-  CHECK(axes_rest_until(program(""), at(0)) == Time::max());
+  CHECK(axes_rest_until(program_with(""), at(0)) == Time::max());
 }
 
 TEST_CASE("A reader is idle until its antenna, a command or the end of one wants it") {
-  Reader reader(program(R"(<command at="2" name="read_temperature" timeout="0.05"/>)"));
+  Reader reader(program_with(R"(<command at="2" name="read_temperature" timeout="0.05"/>)"));
   CHECK(idle_until(reader, at(0)) == at(1));
   CHECK(idle_until(reader, at(1)) == at(2));
   CHECK(idle_until(reader, at(2)) == at(2));  // due

@@ -7,22 +7,16 @@
 
 #include <stride/nfc/iso14443a.h>
 
+#include "tests/units/reader/programs.h"
+
 using namespace reader;
+using namespace reader::tests;
 using stride::Duration;
 using stride::Time;
 
 namespace {
 
-constexpr Duration kPicosecond{1};
-
-Time at(double seconds) { return stride::time_from_seconds(seconds); }
-
-Reader reader_with(const std::string& commands) {
-  return Reader(parse_program(R"(<reader-program version="1">
-      <antenna on="1" off="9" power="0.5"/>)" +
-                                  commands + "</reader-program>",
-                              "p.xml"));
-}
+Reader reader_with(const std::string& commands) { return Reader(program_with(commands)); }
 
 Reader one_command() {
   return reader_with(R"(<command at="2" name="read_temperature" timeout="0.05"/>)");

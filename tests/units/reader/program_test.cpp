@@ -138,7 +138,7 @@ TEST_CASE("Every error stands with the file and the line") {
   }
   SECTION("waypoints") {
     check([](Lines& l) { l.waypoint = R"(<motion><waypoint at="0" pose="far"/></motion>)"; },
-          "4: <waypoint>", "unknown pose 'far': expected one that stands above: 'rest'");
+          "4: <waypoint>", "unknown pose 'far': expected one that is listed above: 'rest'");
     check([](Lines& l) { l.waypoint = R"(<motion><waypoint pose="rest"/></motion>)"; },
           "4:", "'at'");
     check([](Lines& l) { l.waypoint = R"(<motion><waypoint at="-1" pose="rest"/></motion>)"; },

@@ -7,36 +7,15 @@
 
 #include <catch2/catch.hpp>
 
-#include <stride/nfc/frame.h>
-#include <stride/nfc/iso14443a.h>
-
-#include "tests/interfaces/unit/importer.h"
-#include "tests/units/resource_folder.h"
+#include "tests/units/channel/unit_bench.h"
 
 using namespace stride::tests;
 
 namespace {
 
-struct Resources : ResourceFolder {
-  explicit Resources(const std::string& text) : ResourceFolder("channel.xml", text) {}
-};
-
-nfc::Frame request(double start) {
-  return {stride::time_from_seconds(start), 106, nfc::to_bits(nfc::with_crc({0x02}))};
-}
-
 // 192 us of header, four octets of 32 us
 double packet_end(const nfc::Frame& frame) {
   return stride::to_seconds(frame.start + nfc::air_time(frame)) + 192e-6 + 4 * 32e-6;
-}
-
-nfc::Frame frame_at(UnitInstance& unit, const std::string& port) {
-  REQUIRE(unit.clock(port + ".clock"));
-  const fmi3ValueReference r = unit.reference(port + ".frame");
-  std::size_t size = 0;
-  fmi3Binary bytes = nullptr;
-  REQUIRE(unit.fmi.GetBinary(unit.handle, &r, 1, &size, &bytes, 1) == fmi3OK);
-  return nfc::decode({bytes, bytes + size});
 }
 
 /// Both antennas 0.3 m high, 1 m apart, the reader's radio on, and a frame under way.
@@ -48,11 +27,8 @@ void send_at_one_second(UnitInstance& unit, const nfc::Frame& frame) {
   REQUIRE(unit.start_steps() == fmi3OK);
   REQUIRE(unit.step(0, 1) == fmi3OK);
   REQUIRE(unit.fmi.EnterEventMode(unit.handle) == fmi3OK);
-  REQUIRE(unit.set_clock("from_reader.clock", true) == fmi3OK);
-  REQUIRE(unit.set_binary("from_reader.frame", nfc::encode(frame)) == fmi3OK);
-  REQUIRE(unit.update() == fmi3OK);
-  REQUIRE(unit.iterate);
-  REQUIRE(unit.update() == fmi3OK);
+  send(unit, "from_reader", frame);
+  take_in(unit);
   CHECK_FALSE(unit.clock("to_tag.clock"));
   REQUIRE(unit.fmi.EnterStepMode(unit.handle) == fmi3OK);
 }
@@ -62,7 +38,7 @@ void expect_at_its_end(UnitInstance& unit, double now, const nfc::Frame& frame) 
   CHECK(unit.last.event);
   REQUIRE(unit.fmi.EnterEventMode(unit.handle) == fmi3OK);
   REQUIRE(unit.update() == fmi3OK);
-  const nfc::Frame heard = frame_at(unit, "to_tag");
+  const nfc::Frame heard = frame_at(unit, "to_tag").value();
   CHECK(heard.bits == frame.bits);
   CHECK(stride::to_seconds(heard.start + nfc::air_time(heard)) ==
         Approx(packet_end(frame)).margin(4e-9));  // 1 m of way
@@ -132,12 +108,10 @@ TEST_CASE("Two dipoles in a row hear the ground's echo only") {
 }
 
 TEST_CASE("Tags that channel.xml lists have variables of their own") {
-  const Resources resources(
+  const TagList resources(
       R"(<rf-channel version="1"><tag name="door"/><tag name="window"/></rf-channel>)");
-  InstanceChoices choices;
-  choices.resources = resources.path();
   const UnitLibrary library(STRIDE_RF_CHANNEL_LIBRARY);
-  UnitInstance unit(library, choices);
+  UnitInstance unit(library, resources.choices());
   REQUIRE(unit.set_real("reader_coil.position.z", 1.0) == fmi3OK);
   for (const std::string tag : {"door", "window"}) {
     REQUIRE(unit.set_real(tag + ".coil.position.x", 2.0) == fmi3OK);
@@ -152,7 +126,7 @@ TEST_CASE("Tags that channel.xml lists have variables of their own") {
 }
 
 TEST_CASE("A list of another technology's tags is refused") {
-  const Resources resources("<nfc-channel version=\"1\"><tag name=\"door\"/></nfc-channel>");
+  const TagList resources("<nfc-channel version=\"1\"><tag name=\"door\"/></nfc-channel>");
   const UnitLibrary library(STRIDE_RF_CHANNEL_LIBRARY);
   CHECK_THROWS_WITH(library.describe(resources.path()),
                     Catch::Contains("channel.xml:1") && Catch::Contains("expected <rf-channel>"));
@@ -160,8 +134,6 @@ TEST_CASE("A list of another technology's tags is refused") {
 
 TEST_CASE("What makes no sense is an error that names it") {
   const UnitLibrary library(STRIDE_RF_CHANNEL_LIBRARY);
-  InstanceChoices logging;
-  logging.logging = true;
   const auto [name, value] = GENERATE(table<std::string, double>({
       {"frequency", 2.45},
       {"reader.noise_figure", -1.0},
@@ -170,8 +142,5 @@ TEST_CASE("What makes no sense is an error that names it") {
       {"tag_coil.position.x", std::numeric_limits<double>::quiet_NaN()},
       {"reader_coil.axis.z", 0.0},
   }));
-  UnitInstance unit(library, logging);
-  REQUIRE(unit.set_real(name, value) == fmi3OK);
-  CHECK(unit.initialize() == fmi3Error);
-  CHECK_THAT(unit.last_message(), Catch::Contains(name.substr(0, name.find('.'))));
+  check_is_refused(library, name, value);
 }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "units/mujoco_world/film/at_end.h"
 #include "units/mujoco_world/film/library.h"
 #include "units/mujoco_world/film/off_screen.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 using Display = void*;
 using Config = void*;
-using Context = void*;
+using EglContext = void*;
 using Surface = void*;
 using Device = void*;
 using Int = std::int32_t;
@@ -34,22 +35,22 @@ constexpr std::array<Int, 15> kWanted = {0x3024, 8,   // EGL_RED_SIZE
                                          0x3040, 8,   // EGL_RENDERABLE_TYPE: EGL_OPENGL_BIT
                                          kNone};
 
-struct Functions {
+struct EglFunctions {
   void (*(*address)(const char* name))();
   Display (*platform_display)(unsigned platform, void* native, const std::intptr_t* attributes);
   unsigned (*initialize)(Display, Int* major, Int* minor);
   unsigned (*bind_api)(unsigned api);
   unsigned (*query_api)();
   unsigned (*choose_config)(Display, const Int* attributes, Config*, Int size, Int* count);
-  Context (*create_context)(Display, Config, Context shared, const Int* attributes);
-  unsigned (*destroy_context)(Display, Context);
-  unsigned (*make_current)(Display, Surface draw, Surface read, Context);
+  EglContext (*create_context)(Display, Config, EglContext shared, const Int* attributes);
+  unsigned (*destroy_context)(Display, EglContext);
+  unsigned (*make_current)(Display, Surface draw, Surface read, EglContext);
   Display (*current_display)();
   Surface (*current_surface)(Int which);
-  Context (*current_context)();
+  EglContext (*current_context)();
   Int (*error)();
 
-  Functions() {
+  EglFunctions() {
     const Library library{"libEGL.so.1"};
     library.find("eglGetProcAddress", address);
     library.find("eglGetPlatformDisplay", platform_display);
@@ -67,33 +68,21 @@ struct Functions {
   }
 };
 
-/// Puts what is current back at the end; OpenGL is the API until then.
-class KeepCurrent {
- public:
-  explicit KeepCurrent(const Functions& egl) : egl_(egl), api_(egl.query_api()) {
-    egl_.bind_api(kOpenGl);
-    display_ = egl_.current_display();
-    draw_ = egl_.current_surface(kDraw);
-    read_ = egl_.current_surface(kRead);
-    context_ = egl_.current_context();
-  }
-  ~KeepCurrent() {
-    if (context_ != nullptr) egl_.make_current(display_, draw_, read_, context_);
-    egl_.bind_api(api_);
-  }
-  KeepCurrent(const KeepCurrent&) = delete;
-  KeepCurrent& operator=(const KeepCurrent&) = delete;
+/// What is current is put back at the end of the result's life; OpenGL is the API until then.
+auto keep_current(const EglFunctions& egl) {
+  const unsigned api = egl.query_api();
+  egl.bind_api(kOpenGl);
+  const Display display = egl.current_display();
+  const Surface draw = egl.current_surface(kDraw);
+  const Surface read = egl.current_surface(kRead);
+  const EglContext context = egl.current_context();
+  return AtEnd([=, &egl] {
+    if (context != nullptr) egl.make_current(display, draw, read, context);
+    egl.bind_api(api);
+  });
+}
 
- private:
-  const Functions& egl_;
-  unsigned api_;
-  Display display_;
-  Surface draw_;
-  Surface read_;
-  Context context_;
-};
-
-std::vector<Display> displays(const Functions& egl) {
+std::vector<Display> displays(const EglFunctions& egl) {
   std::vector<Display> displays{egl.platform_display(kPlatformSurfaceless, nullptr, nullptr)};
   const auto query = reinterpret_cast<unsigned (*)(Int most, Device*, Int * count)>(
       egl.address("eglQueryDevicesEXT"));
@@ -109,20 +98,20 @@ std::vector<Display> displays(const Functions& egl) {
   return displays;
 }
 
-struct Place {
+struct DisplayContext {
   Display display = nullptr;
-  Context context = nullptr;
+  EglContext context = nullptr;
 };
 
-/// A display is not closed again: it is the process's, and others may use it.
-Place make_place(const Functions& egl) {
+/// The display is not closed again: it is the process's, and others may use it.
+DisplayContext make_context(const EglFunctions& egl) {
   for (const Display display : displays(egl)) {
     if (display == nullptr || !egl.initialize(display, nullptr, nullptr)) continue;
     Config config = nullptr;
     Int count = 0;
     egl.choose_config(display, kWanted.data(), &config, 1, &count);
     if (count < 1) continue;
-    const Context context = egl.create_context(display, config, nullptr, nullptr);
+    const EglContext context = egl.create_context(display, config, nullptr, nullptr);
     if (context != nullptr) return {display, context};
   }
   throw std::runtime_error("no display gives a context, EGL's error " +
@@ -131,16 +120,16 @@ Place make_place(const Functions& egl) {
 
 class Egl : public OffScreen {
  public:
-  explicit Egl(const Functions& egl) : egl_(egl) {
-    const KeepCurrent keep(egl_);
-    place_ = make_place(egl_);
+  explicit Egl(const EglFunctions& egl) : egl_(egl) {
+    const auto keep = keep_current(egl_);
+    own_ = make_context(egl_);
   }
-  ~Egl() override { egl_.destroy_context(place_.display, place_.context); }
+  ~Egl() override { egl_.destroy_context(own_.display, own_.context); }
 
   void with(const std::function<void()>& work) override {
-    const KeepCurrent keep(egl_);
-    const Release release{egl_, place_.display};
-    if (!egl_.make_current(place_.display, nullptr, nullptr, place_.context)) {
+    const auto keep = keep_current(egl_);
+    const AtEnd release([this] { egl_.make_current(own_.display, nullptr, nullptr, nullptr); });
+    if (!egl_.make_current(own_.display, nullptr, nullptr, own_.context)) {
       throw std::runtime_error("EGL does not make its context current, error " +
                                std::to_string(egl_.error()));
     }
@@ -148,20 +137,14 @@ class Egl : public OffScreen {
   }
 
  private:
-  struct Release {
-    const Functions& egl;
-    Display display;
-    ~Release() { egl.make_current(display, nullptr, nullptr, nullptr); }
-  };
-
-  const Functions& egl_;
-  Place place_;
+  const EglFunctions& egl_;
+  DisplayContext own_;
 };
 
 }  // namespace
 
 std::unique_ptr<OffScreen> make_egl() {
-  static const Functions egl;
+  static const EglFunctions egl;
   return std::make_unique<Egl>(egl);
 }
 

@@ -104,7 +104,7 @@ void Frames::remove_after(stride::Time time) {
 }
 
 void Frames::remove_pictures_from(std::size_t number) const {
-  std::error_code ignored;  // a picture that is not in the list harms nobody
+  std::error_code ignored;  // a picture that is not in the list is not part of the film
   while (fs::remove(picture(number), ignored)) ++number;
 }
 

@@ -10,7 +10,7 @@
 
 namespace mujoco_world::film {
 
-/// Stays loaded until the process ends: graphics libraries do not bear to be unloaded.
+/// Stays loaded until the process ends: graphics libraries may crash when they are unloaded.
 class Library {
  public:
   /// The first one that can be loaded; throws std::runtime_error with the reason of the first.

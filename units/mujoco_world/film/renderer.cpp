@@ -30,7 +30,7 @@ bool is_same(const T* one, const T* other, std::size_t count) {
   return count == 0 || std::memcmp(one, other, count * sizeof(T)) == 0;
 }
 
-/// Makes `kept` what `now` is; says whether it was so before.
+/// Sets `kept` to `now`; returns whether they were equal before.
 template <class T>
 bool update(std::vector<T>& kept, const T* now, int count) {
   const auto size = static_cast<std::size_t>(count);

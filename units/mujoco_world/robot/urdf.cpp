@@ -20,8 +20,8 @@ bool begins_with(const std::string& text, const std::string& start) {
   return text.rfind(start, 0) == 0;
 }
 
-/// The element <mujoco><compiler>, by which a URDF tells MuJoCo how to read it; made if missing.
-XMLElement& compiler_of(XMLElement& robot) {
+/// The element <mujoco><compiler>, with which a URDF controls how MuJoCo reads it; made if missing.
+XMLElement& find_or_make_compiler(XMLElement& robot) {
   const auto child = [](XMLElement& parent, const char* name) -> XMLElement& {
     XMLElement* const found = parent.FirstChildElement(name);
     return found ? *found : *parent.InsertNewChildElement(name);
@@ -87,7 +87,7 @@ void name_meshes(XMLElement& robot, const fs::path& file, const std::string& mes
 bool is_urdf(const XMLElement& root) { return std::string(root.Name()) == "robot"; }
 
 void prepare_urdf(XMLElement& root, const fs::path& file) {
-  XMLElement& compiler = compiler_of(root);
+  XMLElement& compiler = find_or_make_compiler(root);
   const std::string meshdir = attribute(compiler, "meshdir");
   compiler.DeleteAttribute("meshdir");
   compiler.SetAttribute("strippath", "false");

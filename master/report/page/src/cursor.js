@@ -1,7 +1,7 @@
-// Moving the cursor by what there is rather than by time.
+// Moving the cursor by samples and messages rather than by time.
 import { lastAtOrBefore } from "./data/exact_time.js";
 
-/** The row whose values hold at the cursor; -1 where there is no cursor, or nothing before it. */
+/** The row whose values are valid at the cursor; -1 if there is no cursor, or no row before it. */
 export function rowAtCursor({ report, view }) {
   if (view.cursor === null) return -1;
   return view.row ?? lastAtOrBefore(report.seconds, view.cursor);
@@ -17,7 +17,7 @@ export function moveBySamples(context, count) {
   view.holdCursor(report.seconds[row], row);
 }
 
-/** Moves the cursor to the next instant with messages, or to that before, and holds it there. */
+/** Moves the cursor to the next or previous instant with messages, and holds it there. */
 export function moveByMessages({ report, view }, direction) {
   const instants = report.messages.map((message) => message.seconds);
   const now = view.cursor ?? (direction > 0 ? -Infinity : Infinity);

@@ -3,8 +3,8 @@
 const kSvg = "http://www.w3.org/2000/svg";
 
 /**
- * An element with properties, attributes (`aria-…`, `data-…`, `role`, …) and children. Children that are null are left
- * out.
+ * An element with properties, attributes (`aria-…`, `data-…`, `role`, …) and children. Children that are null are
+ * omitted.
  * @param {string} tag such as "button" or "p.note": a tag and its classes
  * @param {Record<string, any>} [properties] `on…` are listeners
  * @param {...(Node|string|number|null|undefined)} children
@@ -18,7 +18,7 @@ export function h(tag, properties = {}, ...children) {
   return element;
 }
 
-/** Likewise of a drawing. */
+/** The same for an SVG element. */
 export function svg(tag, attributes = {}, ...children) {
   const element = document.createElementNS(kSvg, tag);
   for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
@@ -37,7 +37,7 @@ function assign(element, properties) {
 
 const asNode = (child) => (typeof child === "number" ? String(child) : child);
 
-/** A canvas as large as its box, in the screen's own pixels; the context draws in those of CSS. */
+/** A canvas of the size of its box, in device pixels; the context draws in CSS pixels. */
 export function sizedContext(canvas, width, height) {
   const ratio = window.devicePixelRatio || 1;
   canvas.width = Math.round(width * ratio);
@@ -49,7 +49,7 @@ export function sizedContext(canvas, width, height) {
   return context;
 }
 
-/** Lets the page draw and answer; what takes long waits for it now and then. */
+/** Yields to the browser, so that the page is drawn and responds during long work. */
 export function pause() {
   return new Promise((resolve) => {
     const channel = new MessageChannel();

@@ -1,11 +1,11 @@
-// What the keys do. Which key means what is a table, so that the help is made of the same.
+// The actions of the keys. The bindings are a table, from which the help is also made.
 
-/** As many samples at once with Shift. */
+/** The number of samples with Shift. */
 export const kManySamples = 10;
 
 /**
  * @typedef {object} Binding
- * @property {string[]} keys as events name them
+ * @property {string[]} keys as named in events
  * @property {string} shown in the help
  * @property {string} text
  * @property {string} action
@@ -25,13 +25,13 @@ export const kBindings = [
   { keys: ["["], shown: "[", text: "earlier", action: "pan", argument: -0.5 },
   { keys: ["]"], shown: "]", text: "later", action: "pan", argument: 0.5 },
   { keys: ["0"], shown: "0", text: "the whole run", action: "showWhole" },
-  { keys: ["Escape"], shown: "Esc", text: "let the cursor go", action: "releaseCursor" },
+  { keys: ["Escape"], shown: "Esc", text: "release the cursor", action: "releaseCursor" },
   { keys: ["d"], shown: "d", text: "light or dark", action: "switchTheme" },
   { keys: ["?"], shown: "?", text: "show the keys", action: "showHelp" },
 ];
 
 /**
- * What a key means, if anything: an action and its argument.
+ * The binding of a key, if there is one: an action and its argument.
  * @param {{key: string, shiftKey?: boolean, ctrlKey?: boolean, altKey?: boolean, metaKey?: boolean}} event
  */
 export function actionOf({ key, shiftKey, ctrlKey, altKey, metaKey }) {

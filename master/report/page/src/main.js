@@ -1,4 +1,4 @@
-// The page: reads the run's data, puts the parts together, and lets them know of each other what they must.
+// The page: reads the run's data, creates the parts, and connects them.
 import { moveByMessages, moveBySamples } from "./cursor.js";
 import { readReport } from "./data/report.js";
 import { h, pause } from "./dom.js";
@@ -13,7 +13,7 @@ import { Tip } from "./parts/tip.js";
 import { timeStack } from "./rows.js";
 import { View } from "./view.js";
 
-/** What can be done by key or button. */
+/** The actions of keys and buttons. */
 function actionsOf(context, theme, help) {
   const { view } = context;
   return {
@@ -28,7 +28,7 @@ function actionsOf(context, theme, help) {
   };
 }
 
-/** Paper is light, and shows what is out of sight, too. */
+/** Printed pages are light and complete. */
 function printWell(theme, stack) {
   let chosen = null;
   window.addEventListener("beforeprint", () => {
@@ -77,7 +77,7 @@ async function main() {
   const report = await readReport(data, (share) => {
     loading.textContent = `Reading the run … ${Math.round(share * 100)} %`;
   });
-  // for tests and the curious
+  // for tests and debugging
   window.stride = build(report);
   document.getElementById("report").setAttribute("aria-busy", "false");
 }

@@ -1,4 +1,4 @@
-// The rows under the time axis, and what each shows when the cursor moves.
+// The rows under the time axis, and the values that each shows at the cursor.
 import { rowAtCursor } from "./cursor.js";
 import { h } from "./dom.js";
 import { ActivityLane } from "./lanes/activity_lane.js";
@@ -16,7 +16,7 @@ import { Stack } from "./stack.js";
 const note = (text) => h("p.note", {}, text);
 const row = (box, side) => h("div.row", {}, h("div.plot", {}, box), h("div.side", {}, side));
 
-/** Films and messages stand in one row, for the picture beside them is high. */
+/** Films and messages share one row, because the enlarged picture is high. */
 function addFilmsAndMessages(context, stack) {
   const { report, view } = context;
   const strips = report.films.filter(({ frames }) => frames.length > 0).map((film) => new FilmStrip(context, film));
@@ -61,7 +61,7 @@ function addPanes(context, stack) {
   others.forEach((group) => add(group, box));
 }
 
-/** What the colours of the lanes mean. */
+/** The legend of the lanes' colours. */
 function activityKey() {
   const entry = (name) => h("span", {}, h(`span.dot.${name.split(" ")[0]}`), name);
   return h("span.key", {}, ...["idle", "event", "early return", "undone or rejected"].map(entry));
@@ -77,7 +77,7 @@ function addActivity(context, stack) {
   }
 }
 
-/** @param {Record<string, (argument?: any) => void>} actions those of the keys */
+/** @param {Record<string, (argument?: any) => void>} actions of the keys */
 export function timeStack(context, actions) {
   const toolbar = new Toolbar(context, actions);
   const ruler = new Ruler(context);

@@ -1,11 +1,11 @@
-// The rows under the common time axis: film, messages, panes, what the units did. It draws what is in sight, moves the
-// cursor through all rows, and zooms where one drags.
+// The rows under the common time axis: film, messages, panes, activities. It draws the visible rows, moves the
+// cursor through all rows, and zooms by dragging.
 import { h } from "./dom.js";
 import { kGutter } from "./plot/layout.js";
 
 /** A drag shorter than this is a click [px]. */
 const kClick = 4;
-/** How much one turn of the wheel zooms. */
+/** The zoom factor of one turn of the wheel. */
 const kWheel = 1.0015;
 
 /**
@@ -23,7 +23,7 @@ export class Stack {
    * @param {import("./view.js").View} view
    * @param {HTMLElement} head stays at the top while the rows scroll
    * @param {HTMLElement} measure as wide as the drawings; a mark at the cursor is put into it
-   * @param {number[]} failures instants at which something failed [s], which get a line through all rows
+   * @param {number[]} failures instants of failures [s], which are marked by a line through all rows
    */
   constructor(view, head, measure, failures) {
     this.view = view;
@@ -44,7 +44,7 @@ export class Stack {
     this.#listen();
   }
 
-  /** @param {Row} row @param {HTMLElement} [parent] where it stands, if not at the end of the stack */
+  /** @param {Row} row @param {HTMLElement} [parent] of the row, if it is not at the end of the stack */
   add(row, parent = this.body) {
     if (!row.element.isConnected && row.element.parentElement !== parent) parent.append(row.element);
     this.#rows.set(row.element, row);
@@ -57,7 +57,7 @@ export class Stack {
     return this.measure.clientWidth;
   }
 
-  /** Draws all that is in sight; the rest when it comes into sight. */
+  /** Draws all visible rows; the others when they become visible. */
   redraw() {
     for (const row of this.#rows.values()) this.#dirty.add(row);
     this.#drawVisible();
@@ -102,14 +102,14 @@ export class Stack {
     this.clip.style.width = `${this.width}px`;
   }
 
-  /** Puts a line at a time [s], or hides it where that is out of sight or null. */
+  /** Moves a line to a time [s], or hides it if that is out of sight or null. */
   #place(line, seconds) {
     const share = seconds === null ? -1 : this.view.shareOf(seconds);
     line.hidden = !(share >= 0 && share <= 1);
     line.style.transform = `translateX(${kGutter + share * (this.width - kGutter)}px)`;
   }
 
-  /** The time under the pointer [s], and whether the pointer is over drawings at all. */
+  /** The time under the pointer [s], and whether the pointer is over drawings. */
   #timeAt(event) {
     const x = event.clientX - this.element.getBoundingClientRect().left;
     const share = (x - kGutter) / (this.width - kGutter);

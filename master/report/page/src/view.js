@@ -1,12 +1,12 @@
-// What all parts of the page share: which time is shown, and where the cursor is.
+// The state that all parts of the page share: the time range that is shown, and the cursor.
 
-/** Pixels of a display in which no two doubles of time are told apart make no sense. */
+/** Minimum range of the view, so that neighbouring pixels have different times as doubles. */
 const kLeastDoubles = 4096;
 const kLeastSpan = 2e-11;
 
 /**
- * Events: "view" when another time is shown, "cursor" when the cursor has moved. Both are told once for each picture
- * that the screen shows, whatever has changed before.
+ * Events: "view" when another time range is shown, "cursor" when the cursor has moved. Both are dispatched at most
+ * once per animation frame, however many changes there were before.
  */
 export class View extends EventTarget {
   #told = new Set();
@@ -17,11 +17,11 @@ export class View extends EventTarget {
     this.whole = whole;
     this.from = whole.from;
     this.until = whole.until;
-    /** Where the cursor is [s]; null where it is nowhere. */
+    /** The position of the cursor [s]; null if there is none. */
     this.cursor = null;
-    /** The row that the cursor was put on, where it was put on one. */
+    /** The row that the cursor was set to, if it was set to one. */
     this.row = null;
-    /** Whether the cursor stays where it is when the mouse moves. */
+    /** Whether the cursor keeps its position when the mouse moves. */
     this.isHeld = false;
   }
 
@@ -33,7 +33,7 @@ export class View extends EventTarget {
     return this.from === this.whole.from && this.until === this.whole.until;
   }
 
-  /** Shows [from, until], as far as there is such a time. */
+  /** Shows [from, until], limited to the time of the run. */
   show(from, until) {
     const { whole } = this;
     const least = Math.max(kLeastSpan, Math.abs(from) * Number.EPSILON * kLeastDoubles);
@@ -49,13 +49,13 @@ export class View extends EventTarget {
     this.show(this.whole.from, this.whole.until);
   }
 
-  /** Makes the time that is shown `factor` times as long, with `center` at its place. */
+  /** Makes the shown time range `factor` times as long; `center` keeps its position. */
   zoom(factor, center = this.cursor ?? (this.from + this.until) / 2) {
     const middle = Math.min(Math.max(center, this.from), this.until);
     this.show(middle - (middle - this.from) * factor, middle + (this.until - middle) * factor);
   }
 
-  /** Moves by a share of what is shown. */
+  /** Moves by a share of the shown time range. */
   pan(share) {
     const shift = share * this.span;
     const bounded = Math.min(Math.max(shift, this.whole.from - this.from), this.whole.until - this.until);
@@ -71,9 +71,9 @@ export class View extends EventTarget {
   }
 
   /**
-   * Puts the cursor somewhere to stay, and shows the place if it was out of sight.
+   * Sets and holds the cursor, and shows its position if it was out of sight.
    * @param {number} seconds
-   * @param {number} [row] where doubles do not tell it from its neighbours
+   * @param {number} [row] if doubles do not distinguish it from its neighbours
    */
   holdCursor(seconds, row = null) {
     this.isHeld = true;
@@ -90,7 +90,7 @@ export class View extends EventTarget {
     this.#tell("cursor");
   }
 
-  /** Where a time is, as a share of what is shown. */
+  /** The position of a time, as a share of the shown range. */
   shareOf(seconds) {
     return (seconds - this.from) / this.span;
   }
@@ -100,7 +100,7 @@ export class View extends EventTarget {
     this.#told.add(name);
   }
 
-  /** Tells at once what would be told with the next picture. */
+  /** Dispatches pending events at once instead of with the next animation frame. */
   flush() {
     const names = [...this.#told];
     this.#told.clear();

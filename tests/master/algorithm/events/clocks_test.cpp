@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "master/util/time_text.h"
 #include "tests/master/algorithm/scripted_system.h"
 
 using namespace stride;

@@ -14,17 +14,14 @@ using Catch::Matchers::Contains;
 namespace {
 
 struct Fixture : ScriptedSystem {
-  std::unique_ptr<Exchange> exchange;
-  std::vector<UnitStatistics> statistics;
+  std::unique_ptr<RunContext> context;
 
   void run() {
     system = std::make_unique<System>(declaration);
-    exchange = std::make_unique<Exchange>(*system, std::vector<VariableId>{});
-    statistics.resize(units.size());
-    for (auto& unit : units) unit->enter_initialization({}, {});
+    context = std::make_unique<RunContext>(*system, std::move(units), options);
+    for (auto& unit : context->units) unit->enter_initialization({}, {});
     for (ScriptedUnit* unit : instances) unit->gets = 0;
-    const UnitTimer timer(WallClock(false), statistics, &UnitStatistics::initialization_time);
-    set_initial_values(*system, units, *exchange, timer, Time{});
+    set_initial_values(*context, Time{});
   }
   std::string failure() {
     try {
@@ -124,8 +121,8 @@ TEST_CASE("the solution nearest to the start value of the input is found") {
 
 TEST_CASE("arrays and units of measurement in a loop") {
   Fixture f;
-  const BaseUnit metre{{0, 1}, 1, 0};
-  const BaseUnit millimetre{{0, 1}, 1e-3, 0};
+  const BaseUnitOfMeasure metre{{0, 1}, 1, 0};
+  const BaseUnitOfMeasure millimetre{{0, 1}, 1e-3, 0};
   auto& a = f.add("a", Describe("a")
                            .unit("m", metre)
                            .add("u", ValueType::Float64, Causality::Input, "m")

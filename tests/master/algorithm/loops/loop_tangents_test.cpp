@@ -15,8 +15,8 @@ namespace {
 constexpr ValueReference kU = 0, kY = 1;
 
 /// A unit of two inputs and two outputs, whose derivatives are the matrix, row by row.
-ScriptedUnit& linear(ScriptedSystem& system, const std::string& name, const BaseUnit& meaning,
-                     std::vector<double> matrix) {
+ScriptedUnit& linear(ScriptedSystem& system, const std::string& name,
+                     const BaseUnitOfMeasure& meaning, std::vector<double> matrix) {
   ScriptedUnit& unit = system.add(name, Describe("linear")
                                             .unit("unit", meaning)
                                             .add("u", ValueType::Float64, Causality::Input, "unit")
@@ -56,8 +56,8 @@ std::size_t count(const ScriptedUnit& unit, const std::string& call) {
 
 TEST_CASE("the chain rule runs through arrays and units of measurement") {
   ScriptedSystem f;
-  const BaseUnit metre{{0, 1}, 1, 0};
-  const BaseUnit millimetre{{0, 1}, 1e-3, 0};
+  const BaseUnitOfMeasure metre{{0, 1}, 1, 0};
+  const BaseUnitOfMeasure millimetre{{0, 1}, 1e-3, 0};
   linear(f, "a", metre, {1, 2, 3, 4});
   linear(f, "b", millimetre, {5, 0, 7, 11});
   f.wire("a", "y", "b", "u");

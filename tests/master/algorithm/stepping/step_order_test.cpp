@@ -20,7 +20,7 @@ System system_of(std::vector<Describe> units) {
 
 std::string names(const System& system) {
   std::string text;
-  for (const StepPlace& place : step_order(system, StepPolicy::Fixed, Coupling::Jacobi))
+  for (const StepPlace& place : step_order(system, kFixedSteps, Coupling::Jacobi))
     text += system.components()[place.component].name;
   return text;
 }
@@ -46,7 +46,7 @@ TEST_CASE("who never stops follows, and is rolled back only where errors are con
   const System system = system_of({follower(), early(), rollback()});
   CHECK(names(system) == "cba");
   const System pair = system_of({follower(), rollback()});
-  const auto order = step_order(pair, StepPolicy::ErrorControlled, Coupling::Jacobi);
+  const auto order = step_order(pair, kErrorControlledSteps, Coupling::Jacobi);
   CHECK(order[0].component == 0);
   CHECK((order[0].saves_state && order[1].saves_state));
 }
@@ -55,7 +55,7 @@ TEST_CASE("who cannot go back begins a new stage where one before it may stop") 
   const auto stages = [](std::vector<Describe> units) {
     std::string text;
     const System system = system_of(std::move(units));
-    for (const StepPlace& place : step_order(system, StepPolicy::Fixed, Coupling::Jacobi)) {
+    for (const StepPlace& place : step_order(system, kFixedSteps, Coupling::Jacobi)) {
       text += std::to_string(place.stage);
     }
     return text;
@@ -74,7 +74,7 @@ TEST_CASE("a state is saved only where another unit may stop") {
   const auto saves = [](std::vector<Describe> units) {
     std::string text;
     for (const StepPlace& place :
-         step_order(system_of(std::move(units)), StepPolicy::Fixed, Coupling::Jacobi)) {
+         step_order(system_of(std::move(units)), kFixedSteps, Coupling::Jacobi)) {
       text += place.saves_state ? 's' : '-';
     }
     return text;
@@ -114,7 +114,7 @@ SystemDeclaration declare(const std::vector<Hosted>& units) {
 }
 
 /// The step order, with a star behind each name whose state is saved, and a bar between stages.
-std::string order_of(const std::vector<Hosted>& units, StepPolicy policy = StepPolicy::Fixed) {
+std::string order_of(const std::vector<Hosted>& units, const StepPolicyType& policy = kFixedSteps) {
   const System system(declare(units));
   std::string text;
   std::size_t stage = 0;
@@ -127,8 +127,7 @@ std::string order_of(const std::vector<Hosted>& units, StepPolicy policy = StepP
 }
 
 std::string reason_of(const std::vector<Hosted>& units, std::size_t component) {
-  for (const StepPlace& place :
-       step_order(System(declare(units)), StepPolicy::Fixed, Coupling::Jacobi)) {
+  for (const StepPlace& place : step_order(System(declare(units)), kFixedSteps, Coupling::Jacobi)) {
     if (place.component == component) return place.reason;
   }
   return "";
@@ -159,7 +158,7 @@ TEST_CASE("who may only reject a step is saved where another may stop") {
 
 TEST_CASE("with error-controlled steps everybody is saved") {
   CHECK(order_of({{early(), kSnapshots}, {obedient(), kSnapshots}, {follower()}},
-                 StepPolicy::ErrorControlled) == "a*b*c*");
+                 kErrorControlledSteps) == "a*b*c*");
 }
 
 TEST_CASE("a state of its own goes before snapshots") {
@@ -179,7 +178,7 @@ TEST_CASE("the reason says who needs a snapshot, and who does not") {
 
 TEST_CASE("who has to be given snapshots") {
   const auto missing = [](const std::vector<Hosted>& units, std::vector<bool> may_have,
-                          StepPolicy policy = StepPolicy::Fixed) {
+                          const StepPolicyType& policy = kFixedSteps) {
     std::string text;
     for (const std::size_t i : missing_snapshots(declare(units).components, policy, may_have)) {
       text += static_cast<char>('a' + i);
@@ -194,17 +193,16 @@ TEST_CASE("who has to be given snapshots") {
   CHECK(missing({{early()}, {rollback().may_return_early()}, {early()}}, all) == "c");
   CHECK(missing({{early()}, {early()}, {obedient()}}, {true, false, true}) == "a");
   CHECK(missing({{early()}, {early()}, {early()}}, {true, false, false}) == "a");
-  CHECK(missing({{early()}, {obedient()}, {follower()}}, all, StepPolicy::ErrorControlled) == "ab");
+  CHECK(missing({{early()}, {obedient()}, {follower()}}, all, kErrorControlledSteps) == "ab");
   CHECK(missing({{early()}, {obedient(), kSnapshots}, {unknown()}}, {true, true, false},
-                StepPolicy::ErrorControlled) == "a");
+                kErrorControlledSteps) == "a");
 }
 
 TEST_CASE("who is given the snapshots that are missing can step") {
   std::vector<Hosted> units = {{early()}, {unknown()}, {early()}, {early()}, {obedient()}};
   const std::vector<bool> may_have = {true, true, false, true, true};
   CHECK_THROWS_AS(order_of(units), Error);
-  for (const std::size_t i :
-       missing_snapshots(declare(units).components, StepPolicy::Fixed, may_have)) {
+  for (const std::size_t i : missing_snapshots(declare(units).components, kFixedSteps, may_have)) {
     units[i].has_snapshots = true;
   }
   CHECK(order_of(units) == "a*d*|c|b|e");
@@ -213,7 +211,7 @@ TEST_CASE("who is given the snapshots that are missing can step") {
 TEST_CASE("who is not allowed to return early needs no snapshots") {
   SystemDeclaration declaration = declare({{early()}, {early()}});
   declaration.components[1].early_return_allowed = false;
-  CHECK(missing_snapshots(declaration.components, StepPolicy::Fixed, {true, true}).empty());
+  CHECK(missing_snapshots(declaration.components, kFixedSteps, {true, true}).empty());
 }
 
 TEST_CASE("two units that stop early and cannot go back are refused by name") {
@@ -236,7 +234,7 @@ TEST_CASE("who is not allowed to return early does as it is told") {
   }
   declaration.components[0].early_return_allowed = false;
   declaration.components[2].early_return_allowed = false;
-  const auto order = step_order(System(declaration), StepPolicy::Fixed, Coupling::Jacobi);
+  const auto order = step_order(System(declaration), kFixedSteps, Coupling::Jacobi);
   REQUIRE(order.size() == 3);
   CHECK(order[0].component == 1);
   CHECK(order[0].role == StepRole::MayStopEarly);

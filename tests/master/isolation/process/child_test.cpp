@@ -11,7 +11,6 @@
 #include <unistd.h>
 
 #include "master/isolation/process/shared_note.h"
-#include "master/isolation/process/signal_name.h"
 
 using namespace stride::process;
 using namespace std::chrono_literals;

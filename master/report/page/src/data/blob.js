@@ -1,4 +1,4 @@
-// Arrays as the report holds them: little-endian, the bytes of the elements transposed, deflated, in base64.
+// Arrays in the report's format: little-endian, the bytes of the elements transposed, deflated, in base64.
 
 /**
  * @typedef {object} Packed
@@ -6,13 +6,13 @@
  * @property {number} [count]
  * @property {string} [data] base64
  * @property {string[]} [values] of type "strings": the distinct ones
- * @property {Packed} [indices] of type "strings": which of them each element is
+ * @property {Packed} [indices] of type "strings": the index of each element in `values`
  */
 
 const kArrays = { float64: Float64Array, int64: BigInt64Array, int32: Int32Array, uint8: Uint8Array };
 
 /**
- * Characters of base64 that are decoded at once: a multiple of 4, and few enough to take no time that one would notice.
+ * Characters of base64 that are decoded at once: a multiple of 4, and few enough for no noticeable delay.
  */
 const kPiece = 1 << 20;
 
@@ -34,7 +34,7 @@ function compressedStream(base64) {
   });
 }
 
-/** The inflated bytes; an error where they are not as many as expected. */
+/** The inflated bytes; throws if their number is not the expected one. */
 async function inflate(base64, size) {
   const bytes = new Uint8Array(size);
   const reader = compressedStream(base64).pipeThrough(new DecompressionStream("deflate-raw")).getReader();
@@ -48,7 +48,7 @@ async function inflate(base64, size) {
   return bytes;
 }
 
-/** Undoes the transposition: byte `k` of element `i` is at `k * count + i`. */
+/** Reverts the transposition: byte `k` of element `i` is at `k * count + i`. */
 export function untransposed(bytes, count, width) {
   if (width === 1) return bytes;
   const elements = new Uint8Array(bytes.length);
@@ -60,7 +60,7 @@ export function untransposed(bytes, count, width) {
 }
 
 /**
- * The typed array of a packed one that is not of strings.
+ * The typed array of a packed one that does not contain strings.
  * @param {Packed} packed
  * @returns {Promise<Float64Array|BigInt64Array|Int32Array|Uint8Array>}
  */

@@ -1,7 +1,7 @@
-// Which component a name belongs to.
+// Maps names to components.
 
 /**
- * The longest one that the full name begins with, since systems hold others; null where there is none.
+ * The longest component name that is a prefix of the full name, since systems are nested; null if there is none.
  * @param {string} name
  * @param {Set<string>} components
  */
@@ -13,8 +13,8 @@ export function componentOf(name, components) {
   return null;
 }
 
-/** Likewise, but where there is none what stands before the first point. */
+/** The same; if there is none, the part before the first dot. */
 export const ownerOf = (name, components) => componentOf(name, components) ?? name.split(".")[0];
 
-/** What a name is called within its component. */
+/** The name within its component. */
 export const nameWithin = (name, components) => name.slice(ownerOf(name, components).length + 1) || name;

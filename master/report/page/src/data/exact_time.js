@@ -1,4 +1,4 @@
-// Time is an integer count of picoseconds; what is shown of it is exact. Doubles are for drawing only.
+// Time is an integer count of picoseconds, and is shown exactly. Doubles are used for drawing only.
 
 const kPicoseconds = 1_000_000_000_000n;
 const kTwo32 = 4294967296;
@@ -27,11 +27,11 @@ export function secondsOf(picoseconds) {
   return seconds;
 }
 
-/** The same of one instant. */
+/** The same for one instant. */
 export const toSeconds = (picoseconds) => Number(picoseconds) / 1e12;
 
 /**
- * The last index whose time is at or before `time`; -1 where none is.
+ * The last index whose time is at or before `time`; -1 if there is none.
  * @param {ArrayLike<number|bigint>} times ascending
  */
 export function lastAtOrBefore(times, time) {

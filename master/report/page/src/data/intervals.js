@@ -1,4 +1,4 @@
-// What a unit did over time: intervals that follow one another, and how much of any time they cover.
+// The activity of a unit over time: consecutive intervals, and the share of a time range that they cover.
 import { lastAtOrBefore } from "./exact_time.js";
 
 export class Intervals {
@@ -17,37 +17,37 @@ export class Intervals {
     return this.from.length;
   }
 
-  /** The time before `time` that is covered [s], where no two overlap. */
+  /** The covered time before `time` [s], if no two overlap. */
   coveredBefore(time) {
     const last = lastAtOrBefore(this.from, time);
     if (last < 0) return 0;
     return this.covered[last] + Math.min(time, this.until[last]) - this.from[last];
   }
 
-  /** The share of the time from `from` until `until` that is covered, 0 to 1. */
+  /** The covered share of the time from `from` until `until`, 0 to 1. */
   share(from, until) {
     if (!(until > from)) return 0;
     return Math.min(1, Math.max(0, (this.coveredBefore(until) - this.coveredBefore(from)) / (until - from)));
   }
 
-  /** How many begin in [from, until). */
+  /** The number that begin in [from, until). */
   countWithin(from, until) {
     return lastBefore(this.from, until) - lastBefore(this.from, from);
   }
 
-  /** How many begin in [from, until]. */
+  /** The number that begin in [from, until]. */
   countThrough(from, until) {
     return lastAtOrBefore(this.from, until) - lastBefore(this.from, from);
   }
 
-  /** The index of that which covers `time`, or -1. */
+  /** The index of the interval that contains `time`, or -1. */
   at(time) {
     const last = lastAtOrBefore(this.from, time);
     return last >= 0 && time <= this.until[last] ? last : -1;
   }
 }
 
-/** The pixels of the shown time in which some begin; the end of it is in the last one. */
+/** The pixels of the view in which intervals begin; the end of the view is in the last pixel. */
 export function pixelsWith(intervals, { from, until }, width) {
   const perPixel = (until - from) / width;
   const pixels = [];
@@ -66,7 +66,7 @@ function lastBefore(times, time) {
 }
 
 /**
- * The time that all of them cover.
+ * The intersection of all of them.
  * @param {Intervals[]} all each without overlaps
  */
 export function commonIntervals(all) {

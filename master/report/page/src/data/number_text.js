@@ -1,4 +1,4 @@
-// Numbers as signals.csv has them: the shortest text that is read back as the same number, plain where that is no
+// Numbers as in signals.csv: the shortest text that reads back as the same number, without an exponent if that is no
 // longer than with an exponent (std::to_chars of C++).
 
 /** The shortest digits and the exponent of the first one: 0.00123 is { digits: "123", exponent: -3 }. */
@@ -26,7 +26,7 @@ function shortest(magnitude, parts) {
   return short.length <= long.length ? short : long;
 }
 
-/** With so many digits behind the first one; in the middle between two numbers the one with an even last digit. */
+/** With this number of digits after the first one; half-way cases are rounded to an even last digit. */
 function rounded(magnitude, count) {
   const { digits, exponent } = scientific(magnitude.toExponential(60));
   const isInTheMiddle = /^50*$/.test(digits.slice(count + 1));
@@ -34,7 +34,7 @@ function rounded(magnitude, count) {
   return scientific(magnitude.toExponential(count));
 }
 
-/** The shortest text of a single-precision number has fewer digits than that of the double with its value. */
+/** The shortest text of a single-precision number has fewer digits than that of the double of the same value. */
 function singleParts(magnitude) {
   for (let count = 0; count < 9; ++count) {
     const parts = rounded(magnitude, count);
@@ -45,7 +45,7 @@ function singleParts(magnitude) {
 
 /**
  * @param {number} value
- * @param {boolean} [single] whether it is a number of single precision
+ * @param {boolean} [single] whether it is a single-precision number
  */
 export function numberText(value, single = false) {
   if (Number.isNaN(value)) return "nan";
@@ -57,7 +57,7 @@ export function numberText(value, single = false) {
   return sign + shortest(magnitude, parts);
 }
 
-/** For people, where digits do not matter: four of them, with thousands apart. */
+/** For display: four digits, with separated thousands. */
 export function briefText(value) {
   if (!Number.isFinite(value)) return numberText(value);
   const magnitude = Math.abs(value);

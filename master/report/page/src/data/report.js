@@ -12,7 +12,7 @@ const kFormat = 1;
 export class Column {
   /**
    * @param {{name: string, unit?: string, type: string, stepped: boolean}} description
-   * @param {ArrayLike<number>} values of a text: the index of each row's text in `texts`
+   * @param {ArrayLike<number>} values for a text: the index of each row's text in `texts`
    * @param {string[]} [texts]
    */
   constructor(description, values, texts) {
@@ -30,7 +30,7 @@ export class Column {
     return this.type === "Boolean" || this.texts !== undefined;
   }
 
-  /** Exactly what signals.csv has in this row, but for the quotation marks of texts. */
+  /** As signals.csv has it in this row, without the quotation marks of texts. */
   textAt(row) {
     const value = this.values[row];
     if (this.texts) return this.texts[value];
@@ -45,7 +45,7 @@ async function readColumn(description) {
   return new Column(description, await unpack(packed.indices), packed.values);
 }
 
-/** The kinds of activity of each unit: what of it is an interval, and what an instant. */
+/** The kinds of activity of each unit: intervals and instants. */
 async function readActivity(entry) {
   const [from, until] = await Promise.all([unpack(entry.from), unpack(entry.until)]);
   return { component: entry.component, kind: entry.kind, intervals: new Intervals(secondsOf(from), secondsOf(until)) };
@@ -61,7 +61,7 @@ function readMessage(message) {
   return { ...message, time, seconds: toSeconds(time), content: message.content ?? "" };
 }
 
-/** Of each component, by its name: Map<kind, Intervals>. */
+/** For each component, by its name: Map<kind, Intervals>. */
 function byComponent(activity) {
   const components = new Map();
   for (const { component, kind, intervals } of activity) {
@@ -71,7 +71,7 @@ function byComponent(activity) {
   return components;
 }
 
-/** The units' names, in the order of the run; without run.json those that did something. */
+/** The units' names, in the order of the run; without run.json those with activities. */
 function unitNames(run, activity) {
   const names = (run.units ?? []).map((unit) => unit.name);
   return [...new Set([...names, ...activity.keys()])];
@@ -82,7 +82,7 @@ function allIdle(names, activity) {
   return commonIntervals(idle.length > 0 && idle.every(Boolean) ? idle : []);
 }
 
-/** What the time axis shows at most [s]. */
+/** The largest range of the time axis [s]. */
 function wholeTime(report, run) {
   const last = report.seconds.length - 1;
   const candidates = [run.start, run.reached, report.seconds[0], report.seconds[last]];
@@ -95,7 +95,7 @@ function wholeTime(report, run) {
 
 /**
  * @param {object} data of the page
- * @param {(share: number) => void} progress told how much has been read, 0 to 1
+ * @param {(share: number) => void} progress called with the share that has been read, 0 to 1
  */
 export async function readReport(data, progress) {
   if (data.format !== kFormat) {

@@ -1,4 +1,4 @@
-// What one unit did over time: idle time shaded, events and early returns as ticks, what was undone or refused in red.
+// Activity of one unit over time: idle time shaded, events and early returns as ticks, rejections and rollbacks red.
 import { pixelsWith } from "../data/intervals.js";
 import { briefText } from "../data/number_text.js";
 import { h, sizedContext } from "../dom.js";
@@ -8,7 +8,7 @@ import { shadeIntervals } from "../plot/shade.js";
 
 const kHeight = 18;
 
-/** Drawn one over the other; what is rare and matters comes last. Shares of the lane's height, from the top. */
+/** Drawn in this order; rare and important kinds last. Shares of the lane's height, from the top. */
 const kTicks = [
   { kind: "event", color: "--event", top: 0.45, bottom: 1 },
   { kind: "early return", color: "--early-return", top: 0, bottom: 0.45 },
@@ -25,7 +25,7 @@ export class ActivityLane {
     this.box = h("div.activity-lane", {}, h("span.lane-name", { title: component }, component), this.canvas);
   }
 
-  /** In words: "idle 5.9 s, 1 event, 2 rejections". */
+  /** As text: "idle 5.9 s, 1 event, 2 rejections". */
   get summary() {
     const parts = [];
     const idle = this.activity.get("idle");

@@ -1,4 +1,4 @@
-// The film of the world: some of its pictures along the time axis, and that at the cursor large.
+// The film of the world: some of its pictures along the time axis, and the one at the cursor enlarged.
 import { lastAtOrBefore, timeText } from "../data/exact_time.js";
 import { h } from "../dom.js";
 import { kGutter } from "../plot/layout.js";
@@ -27,7 +27,7 @@ export class FilmStrip {
     this.update();
   }
 
-  /** The picture that holds at the cursor: the last one before it, or the first of all. */
+  /** The picture at the cursor: the last one before it, or the first of all. */
   get current() {
     const time = this.view.cursor ?? this.view.from;
     return Math.max(0, lastAtOrBefore(this.film.seconds, time));

@@ -1,15 +1,15 @@
-// Where the marks of messages stand in a lane, and what is written beside them.
+// Layout of the marks of messages in a lane, and of the texts beside them.
 
-/** Marks nearer than this are one [px]. */
+/** Marks nearer than this are combined [px]. */
 export const kMarkWidth = 12;
-/** A text needs this much room [px]. */
+/** Minimum width of a text [px]. */
 const kTextRoom = 28;
-/** Between a text and the next mark [px]. */
+/** Distance between a text and the next mark [px]. */
 const kGap = 6;
-/** A character of "+12" [px]. */
+/** Width of a character of "+12" [px]. */
 const kDigit = 7;
 
-/** How far the next mark must be from this one [px]: behind "+12", where that stands there. */
+/** Minimum distance of the next mark [px]: after "+12", if there is one. */
 function widthOf(mark) {
   const others = mark.messages.length - 1;
   return kMarkWidth + (others > 0 ? kGap + kDigit * (1 + String(others).length) : 0);
@@ -18,9 +18,9 @@ function widthOf(mark) {
 /**
  * @typedef {object} Mark
  * @property {number} x [px]
- * @property {object[]} messages all that stand here, in their order
- * @property {string} text of the first one, with "+2" where two more stand here; empty where there is no room
- * @property {string} more "+2", which is always there where there are more
+ * @property {object[]} messages all messages of this mark, in their order
+ * @property {string} text of the first one, with "+2" if there are two more; empty if there is no room
+ * @property {string} more "+2", shown whenever there are more
  * @property {number} room for text [px]
  */
 
@@ -52,7 +52,7 @@ function label(mark, next) {
   if (mark.room >= kTextRoom) mark.text = shortText(mark.messages[0]);
 }
 
-/** What a message says, or the beginning of its bytes where nobody knows. */
+/** The content of a message, or the beginning of its bytes if the content is unknown. */
 export function shortText(message) {
   if (message.content) return message.content;
   const { payload } = message;

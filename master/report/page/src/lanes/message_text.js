@@ -1,10 +1,10 @@
 // Messages in lines of text.
 import { timeText } from "../data/exact_time.js";
 
-/** More are only counted. */
+/** Further messages are only counted. */
 const kLines = 14;
 
-/** "14.2 s  reader sent transmit.frame: set_led 1" of each. */
+/** "14.2 s  reader sent transmit.frame: set_led 1" for each. */
 export function messageLines(messages) {
   const lines = messages.slice(0, kLines).map(messageLine);
   const others = messages.length - kLines;

@@ -1,11 +1,11 @@
 // Connections of a diagram: those of values from one component to another are one edge, those of messages another.
-// Clocks are left out, for they go where their messages go.
+// Clocks are omitted, because they connect the same components as their messages.
 import { componentOf } from "../data/components.js";
 
 const kSeparator = "\u0000";
 
 /**
- * What belongs to no component is a connector of the system itself, and left out, too.
+ * A name without a component is a connector of the system itself, and omitted, too.
  * @param {{components: {name: string}[], connections: {from: string, to: string, kind: string}[]}} diagram
  * @returns {{from: string, to: string, isMessage: boolean, connections: {from: string, to: string}[]}[]}
  */

@@ -1,4 +1,4 @@
-// What each unit cost, by the wall clock.
+// The cost of each unit, in wall-clock time.
 import { briefText } from "../data/number_text.js";
 import { h } from "../dom.js";
 
@@ -10,7 +10,7 @@ const kPhases = [
 
 const seconds = (value) => (value >= 0.0005 ? value.toFixed(3) : value > 0 ? "< 0.001" : "0");
 
-/** How long a unit was left alone [s]. */
+/** The time for which a unit was suspended [s]. */
 export const idleText = (unit) => (unit.idle ? briefText(unit.idle.skipped) : "");
 
 const total = (unit) => kPhases.reduce((sum, [name]) => sum + (unit.wall_time?.[name] ?? 0), 0);
@@ -38,7 +38,7 @@ function row(unit, most) {
   );
 }
 
-/** What of the run no unit had: the master's own work. */
+/** The wall-clock time of the run that belongs to no unit: the master's own work. */
 function restText(run) {
   const rest = run.wall_time - run.units.reduce((sum, unit) => sum + total(unit), 0);
   const phases = Object.entries(run.phases ?? {}).map(([name, value]) => `${name} ${seconds(value)} s`);

@@ -1,4 +1,4 @@
-// The scenario as blocks and what goes between them, laid out by dagre.
+// The scenario as a block diagram, with a layout by dagre.
 import { Graph, layout } from "@dagrejs/dagre";
 import { h, svg } from "../dom.js";
 import { bundles } from "./bundles.js";
@@ -6,7 +6,7 @@ import { bundles } from "./bundles.js";
 const kHeight = 46;
 const kCharacter = 7.4;
 const kMargin = 12;
-/** Connections that are listed at once; further ones are counted. */
+/** The number of connections that are listed; further ones are counted. */
 const kLines = 24;
 
 function laidOut(diagram, edges) {
@@ -23,7 +23,7 @@ function laidOut(diagram, edges) {
   return graph;
 }
 
-/** A smooth line through the points (Catmull and Rom's, as Bézier curves). */
+/** A smooth line through the points (Catmull-Rom spline, as Bézier curves). */
 export function curve(points) {
   let path = `M${points[0].x},${points[0].y}`;
   for (let i = 0; i + 1 < points.length; ++i) {
@@ -47,7 +47,7 @@ function block({ name, model }, { x, y, width, height }) {
   return svg("g", { class: "block" }, box, title, below);
 }
 
-/** "a.b → c.d" of each connection, as far as there is room. */
+/** "a.b → c.d" for each connection, as far as there is room. */
 function lines({ connections, isMessage }) {
   const listed = connections.slice(0, kLines).map(({ from, to }) => `${from} → ${to}`);
   const others = connections.length - kLines;

@@ -1,4 +1,4 @@
-// The top of the page: which run it was, what came of it, and its numbers.
+// The top of the page: the scenario of the run, its outcome, and its numbers.
 import { h } from "../dom.js";
 import { keyNumbers } from "./numbers.js";
 import { summary, timeLink, verdictTable } from "./verdicts.js";

@@ -2,7 +2,7 @@
 import { h } from "../dom.js";
 import { kBindings } from "../keys.js";
 
-/** What the mouse does, and how. */
+/** The actions of the mouse. */
 export const kMouse = [
   ["move", "the cursor and the values at it"],
   ["click", "hold the cursor there"],

@@ -1,18 +1,18 @@
-// All messages, to be searched; a click on one brings the cursor to it.
+// A searchable table of all messages; a click on one moves the cursor to it.
 import { timeText } from "../data/exact_time.js";
 import { h } from "../dom.js";
 
-/** Rows that are added at once. */
+/** Number of rows that are added at once. */
 const kRows = 200;
 
-/** What of a message is searched, made when it is first needed. */
+/** The text of a message that is searched, created on demand. */
 function searchedText(message) {
   const { time, component, variable, direction, content, payload } = message;
   message.searched ??= `${timeText(time)} ${component}.${variable} ${direction} ${content} ${payload}`.toLowerCase();
   return message.searched;
 }
 
-/** @param {string} text words that must all be there, in whatever case */
+/** @param {string} text words that must all occur, ignoring case */
 export function matching(messages, text, direction) {
   const words = text.toLowerCase().split(/\s+/).filter(Boolean);
   const isWanted = (message) => !direction || message.direction === direction;

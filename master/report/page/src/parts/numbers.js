@@ -1,7 +1,7 @@
-// The numbers of a run, in words.
+// The numbers of a run, as text.
 import { briefText } from "../data/number_text.js";
 
-/** Of all the units' time the share in which they were left alone, 0 to 1; null where nobody was. */
+/** The share of all the units' time in which they were suspended, 0 to 1; null if none was. */
 export function idleShare(run) {
   const units = run.units ?? [];
   const span = (run.reached ?? 0) - (run.start ?? 0);
@@ -13,7 +13,7 @@ export function idleShare(run) {
 const sum = (units, name) => units.reduce((total, unit) => total + (unit[name] ?? 0), 0);
 
 /**
- * Pairs of what and how much; what is not known is left out.
+ * Pairs of a name and a value; unknown ones are omitted.
  * @returns {[string, string][]}
  */
 export function keyNumbers({ run, messages, times }) {
@@ -25,7 +25,7 @@ export function keyNumbers({ run, messages, times }) {
     ["simulated", Number.isFinite(simulated) ? `${briefText(simulated)} s` : null],
     ["took", Number.isFinite(run.wall_time) ? `${briefText(run.wall_time)} s` : null],
     ["speed", run.wall_time > 0 && simulated > 0 ? `${briefText(simulated / run.wall_time)} × real time` : null],
-    ["left alone", share === null ? null : `${(share * 100).toFixed(1)} % of the units’ time`],
+    ["suspended", share === null ? null : `${(share * 100).toFixed(1)} % of the units’ time`],
     ["steps", run.communication_steps?.toLocaleString("en")],
     ["messages sent", sent.toLocaleString("en")],
     ["rejected steps", units.length > 0 ? sum(units, "rejections").toLocaleString("en") : null],

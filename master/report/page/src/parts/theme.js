@@ -1,4 +1,4 @@
-// Light or dark: as the system has it, until somebody chooses.
+// Light or dark: the system's setting, until the user chooses.
 
 const kDark = window.matchMedia("(prefers-color-scheme: dark)");
 
@@ -18,7 +18,7 @@ export class Theme extends EventTarget {
     this.choose(this.isDark ? "light" : "dark");
   }
 
-  /** @param {"light"|"dark"|null} theme null: as the system has it */
+  /** @param {"light"|"dark"|null} theme null: the system's setting */
   choose(theme) {
     this.chosen = theme;
     this.#apply();

@@ -1,4 +1,4 @@
-// A small panel with lines of text beside what the pointer or the focus is on.
+// A small panel with lines of text beside the element that has the pointer or the focus.
 import { h } from "../dom.js";
 
 const kMargin = 8;

@@ -1,4 +1,4 @@
-// Over the time axis: the exact time of the row at the cursor, and what the keys do, as buttons.
+// Above the time axis: the exact time of the row at the cursor, and buttons for the actions of the keys.
 import { rowAtCursor } from "../cursor.js";
 import { rowTimeText } from "../data/report.js";
 import { h } from "../dom.js";
@@ -8,7 +8,7 @@ const button = (text, label, onclick) =>
   h("button", { type: "button", title: label, "aria-label": label, onclick }, text);
 
 export class Toolbar {
-  /** @param {Record<string, (argument?: any) => void>} actions those of the keys */
+  /** @param {Record<string, (argument?: any) => void>} actions of the keys */
   constructor(context, actions) {
     this.context = context;
     this.time = h("output.cursor-time", { "aria-live": "off" });
@@ -44,7 +44,7 @@ export class Toolbar {
   }
 }
 
-/** Both ends of what is shown, with as many digits as tell them apart. */
+/** Both ends of the view, with enough digits to distinguish them. */
 function spanTexts({ from, until }) {
   const { step } = ticks(from, until, 1000);
   return timeTickTexts([from, until], step);

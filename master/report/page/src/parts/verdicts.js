@@ -1,4 +1,4 @@
-// What was judged: the units' own verdicts and the scenario's checks, in one list.
+// The units' own verdicts and the scenario's checks, in one list.
 import { h } from "../dom.js";
 import { numberText } from "../data/number_text.js";
 
@@ -12,7 +12,7 @@ import { numberText } from "../data/number_text.js";
  * @property {number} [line] of the scenario
  */
 
-/** @returns {Judgement[]} what failed first */
+/** @returns {Judgement[]} failed ones first */
 export function judgements(run) {
   const units = (run.verdicts ?? []).map(({ component, passed, text }) => {
     return { name: component, passed, text, time: null, values: [] };
@@ -22,14 +22,14 @@ export function judgements(run) {
   return [...checks, ...units].sort((a, b) => rank(a) - rank(b));
 }
 
-/** When something failed first [s], of each that failed. */
+/** The time of the first failure [s] of each failed one. */
 export function failureTimes(run) {
   const failed = judgements(run).filter(({ passed, time }) => passed === false && time !== null);
   return failed.map(({ time }) => time);
 }
 
 /**
- * What comes of all together.
+ * The verdict on the whole run.
  * @returns {{kind: "good"|"bad"|"open"|"none", text: string, first?: Judgement}}
  */
 export function summary(run) {
@@ -59,7 +59,7 @@ const kSigns = new Map([
 const valueText = ({ signal, value, unit }) =>
   `${signal} = ${typeof value === "number" ? numberText(value) : value}${unit ? ` ${unit}` : ""}`;
 
-/** A button that brings the cursor to a time. */
+/** A button that moves the cursor to a time. */
 export function timeLink(view, seconds) {
   return h("button.time-link", { type: "button", onclick: () => view.holdCursor(seconds) }, `${numberText(seconds)} s`);
 }

@@ -1,6 +1,6 @@
-// Colours come from the style sheet, which knows light and dark.
+// Colours are defined in the style sheet, for light and dark.
 
-/** As many curves of a pane have colours of their own; further ones are dashed. */
+/** The number of curves of a pane with different colours; further ones are dashed. */
 export const kColors = 6;
 
 /** The value of a custom property of the page: color("--curve-1"). */
@@ -9,5 +9,5 @@ export const color = (name) => getComputedStyle(document.documentElement).getPro
 /** The n-th colour of curves. */
 export const curveColor = (index) => `--curve-${(index % kColors) + 1}`;
 
-/** How the n-th curve of a pane is dashed. */
+/** The dash pattern of the n-th curve of a pane. */
 export const curveDash = (index) => [[], [7, 3], [2, 2]][Math.floor(index / kColors) % 3];

@@ -1,4 +1,4 @@
-// Which signals share a pane: those of one plot and one unit of measure; states have rows of their own.
+// The assignment of signals to panes: those of one plot and one unit of measure share a pane; states have rows.
 import { ownerOf } from "../data/components.js";
 
 /**
@@ -11,7 +11,7 @@ export function groupIntoPanes(report) {
 }
 
 /**
- * Likewise what no plot shows: the signals of each component.
+ * The same for signals without a plot: grouped by component.
  * @returns {ReturnType<typeof groupIntoPanes>}
  */
 export function groupOthers(report) {

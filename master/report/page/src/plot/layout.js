@@ -1,4 +1,4 @@
-// Measures that all rows under the time axis share, so that one instant is at one place in all of them.
+// Measures that all rows under the time axis share, so that an instant has the same position in all of them.
 
-/** Where the time axis begins [px]: left of it are axes and names. */
+/** The position of the time axis [px]: axes and names are left of it. */
 export const kGutter = 96;

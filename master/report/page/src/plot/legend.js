@@ -1,4 +1,4 @@
-// Beside a pane: its title, its signals with a button to hide each, and their values under the cursor.
+// Beside a pane: its title, its signals with a button to hide each, and their values at the cursor.
 import { h } from "../dom.js";
 import { curveColor, curveDash } from "./colors.js";
 
@@ -6,7 +6,7 @@ export class Legend {
   /**
    * @param {{title: string, isStates: boolean}} group
    * @param {import("./pane.js").Pane} pane
-   * @param {() => void} changed called when something else is to be drawn
+   * @param {() => void} changed called when the drawing must be updated
    */
   constructor(group, pane, changed) {
     this.pane = pane;
@@ -82,5 +82,5 @@ const swatch = (firstColor, index) => ({
   borderTopStyle: curveDash(index).length > 0 ? "dashed" : "solid",
 });
 
-/** A name may go on in the next line behind each point. */
+/** Allows a line break after each dot of a name. */
 const breakable = (name) => name.replaceAll(".", ".\u200b");

@@ -21,18 +21,18 @@ const kHeight = 132;
 const kFont = "11px system-ui, sans-serif";
 /** Width of curves [px]. */
 const kLine = 1.5;
-/** Samples have dots where there is this much room between them [px]. */
+/** Samples are drawn as dots if they are this far apart at least [px]. */
 const kDotDistance = 14;
-/** uPlot draws no data of its own. */
+/** uPlot draws no data itself. */
 const kNothing = [null, null];
-/** As many numbers stand along the vertical axis at most. */
+/** The maximum number of ticks on the vertical axis. */
 const kMostTicks = 6;
 
 export class Pane {
   /**
    * @param {object} context report and view
    * @param {import("../data/report.js").Column[]} columns of one unit of measure
-   * @param {number} firstColor of its curves; the panes above have those before
+   * @param {number} firstColor of its curves; the colours before it are those of the panes above
    */
   constructor({ report, view }, columns, firstColor) {
     this.report = report;
@@ -47,14 +47,14 @@ export class Pane {
     this.isLogarithmic = this.canBeLogarithmic && columns.some(isMostlySmall);
     this.range = [0, 1];
     this.exponent = 0;
-    /** What is drawn of each curve: its points, and the bars that these have become. */
+    /** The drawing of each curve: its points, and the bars made of them. */
     this.drawn = columns.map(() => ({ groups: [], times: [], values: [] }));
     this.bars = [];
     this.box = document.createElement("div");
     this.box.className = "pane-canvas";
   }
 
-  /** Draws what is shown now. @param {number} width [px] */
+  /** Draws the present view. @param {number} width [px] */
   draw(width) {
     if (!this.plot) this.#create(width);
     else if (this.plot.width !== width) this.plot.setSize({ width, height: kHeight });
@@ -92,7 +92,7 @@ export class Pane {
     this.exponent = this.isLogarithmic ? 0 : commonExponent(Number.isFinite(largest) ? largest : 0);
   }
 
-  /** What stands over the vertical axis. */
+  /** The label above the vertical axis. */
   get axisLabel() {
     const { unit } = this.columns[0];
     return this.exponent === 0 ? unit : `${powerText(this.exponent)}${unit ? ` ${unit}` : ""}`;
@@ -159,7 +159,7 @@ export class Pane {
     };
   }
 
-  /** uPlot gives places, scales and axes; what is drawn of so many rows is ours. */
+  /** uPlot provides positions, scales and axes; so many rows are drawn by our own code. */
   #paths({ bbox, scales }, index) {
     const ratio = window.devicePixelRatio || 1;
     const points = this.drawn[index];
@@ -176,7 +176,7 @@ export class Pane {
     return { stroke: line, fill: null, clip: null, band: null, gaps: null, flags: 0 };
   }
 
-  /** One by one, for a browser takes much longer to fill them all as one path. */
+  /** Filled one by one, because a browser takes much longer to fill them all as one path. */
   #fillBars({ ctx, bbox }, index) {
     ctx.save();
     ctx.beginPath();
@@ -208,7 +208,7 @@ export class Pane {
   }
 }
 
-/** Where times and values are in the picture [px of the screen]. */
+/** The positions of times and values in the picture [device px]. */
 function places(bbox, { x, y }, isLogarithmic) {
   const measure = isLogarithmic ? Math.log10 : (value) => value;
   const [bottom, top] = [measure(y.min), measure(y.max)];

@@ -1,10 +1,10 @@
-// The least and the most of any rows of a column, in a time that does not depend on their number.
+// The minimum and maximum of any range of rows of a column, in a time that does not depend on the number of rows.
 
 const kFactor = 4;
 
 /**
- * Each level holds the least and the most of `kFactor` entries of the level below; the lowest is of rows. NaN counts
- * for neither, so what is NaN throughout has Infinity and -Infinity.
+ * Each level has the minimum and maximum of `kFactor` entries of the level below; the lowest is of rows. NaN is
+ * ignored, so a range with NaN only has Infinity and -Infinity.
  */
 export class Pyramid {
   /** @param {ArrayLike<number>} values */
@@ -21,8 +21,8 @@ export class Pyramid {
   }
 
   /**
-   * The least and the most of the rows from `begin` up to and without `end`.
-   * @returns {{least: number, most: number}} with least > most where there is none
+   * The minimum and maximum of the rows in [begin, end).
+   * @returns {{least: number, most: number}} with least > most if there is none
    */
   extremes(begin, end) {
     const found = { least: Infinity, most: -Infinity };
@@ -30,7 +30,7 @@ export class Pyramid {
     return found;
   }
 
-  /** Takes the ends of [begin, end) from this level, and what lies between from the next one. */
+  /** Takes the ends of [begin, end) from this level, and the part between from the next one. */
   #gather(level, begin, end, found) {
     const least = level < 0 ? this.values : this.levels[level].least;
     const most = level < 0 ? this.values : this.levels[level].most;

@@ -1,4 +1,4 @@
-// The time axis over all rows.
+// The time axis above all rows.
 import { sizedContext } from "../dom.js";
 import { color } from "./colors.js";
 import { kGutter } from "./layout.js";
@@ -6,11 +6,11 @@ import { ticks, timeTickTexts } from "./ticks.js";
 
 const kHeight = 24;
 const kFont = "11px system-ui, sans-serif";
-/** A text takes about this much for each character, and has this much room around it [px]. */
+/** The approximate width of a character of a text, and the room around the text [px]. */
 const kCharacter = 6.2;
 const kRoom = 28;
 
-/** How many ticks of time fit whose texts are as long as those of this view. @param {number} width [px] */
+/** The number of ticks that fit, with texts as long as those of this view. @param {number} width [px] */
 export function timeTicks(view, width) {
   for (let most = Math.max(2, Math.floor(width / 48)); ; --most) {
     const found = ticks(view.from, view.until, most);

@@ -1,10 +1,10 @@
-// Which values a pane shows from bottom to top.
+// The range of values that a pane shows.
 
-/** Below this share of the largest value a logarithmic axis does not go. */
+/** A logarithmic axis begins at this share of the largest value or above. */
 const kDepth = 1e-12;
 
 /**
- * The least and the most of what is drawn, infinities and gaps aside.
+ * The minimum and maximum of the drawn values, without infinities and gaps.
  * @param {(number|null)[][]} columns
  */
 export function finiteExtremes(columns) {
@@ -22,7 +22,7 @@ export function finiteExtremes(columns) {
   return { least, most, leastPositive };
 }
 
-/** Bottom and top of a linear axis: a little more than the values need. */
+/** Bottom and top of a linear axis: a little more than the range of the values. */
 export function linearRange({ least, most }) {
   if (!(least <= most)) return [0, 1];
   const span = most - least;
@@ -30,7 +30,7 @@ export function linearRange({ least, most }) {
   return [least - room, most + room];
 }
 
-/** Bottom and top of a logarithmic axis: whole decades. What is not positive stands at the bottom. */
+/** Bottom and top of a logarithmic axis: whole decades. Values that are not positive are drawn at the bottom. */
 export function logarithmicRange({ most, leastPositive }) {
   if (!(most > 0)) return [1e-1, 1];
   const bottom = Math.floor(Math.log10(Math.max(leastPositive, most * kDepth)) + 1e-9);
@@ -38,7 +38,7 @@ export function logarithmicRange({ most, leastPositive }) {
   return [10 ** bottom, 10 ** Math.max(top, bottom + 1)];
 }
 
-/** What is outside of the range stands at its edge, so that it is seen: infinities, and zeros on a logarithmic axis. */
+/** Values outside of the range are drawn at its edge, so that they are visible: infinities, zeros on a log axis. */
 export const intoRange = (values, [bottom, top]) =>
   values.map((value) => (value === null ? null : Math.min(top, Math.max(bottom, value))));
 
@@ -49,10 +49,10 @@ function samples({ values }) {
   return found;
 }
 
-/** Without NaN, that is. */
+/** NaN is ignored. */
 export const hasNothingNegative = ({ pyramid, values }) => !(pyramid.extremes(0, values.length).least < 0);
 
-/** Whether what is usual would lie at the bottom of a linear axis, so that a logarithmic one shows more. */
+/** Whether most values would be at the bottom of a linear axis, so that a logarithmic one shows more. */
 export function isMostlySmall(column) {
   const { most } = column.pyramid.extremes(0, column.values.length);
   const positive = samples(column)

@@ -1,6 +1,6 @@
-// Intervals as shades, as dark as what they cover of each pixel.
+// Intervals as shades, with an opacity that is the covered share of each pixel.
 
-/** Fills, pixel by pixel, as much as the intervals cover. */
+/** Fills each pixel by the share that the intervals cover. */
 export function shadeIntervals(context, intervals, view, { left, top, width, height }, fill) {
   if (intervals.count === 0) return;
   context.save();
@@ -19,7 +19,7 @@ export function shadeIntervals(context, intervals, view, { left, top, width, hei
   context.restore();
 }
 
-/** In sixteenths, which the eye does not tell apart further; what is there is never nothing. */
+/** In sixteenths, which is sufficient for the eye; a positive share is never rounded to zero. */
 function shareOfPixel(intervals, view, x, perPixel) {
   const from = view.from + x * perPixel;
   return Math.ceil(intervals.share(from, from + perPixel) * 16 - 1e-6) / 16;

@@ -1,4 +1,4 @@
-// Rows of states, one for each signal: a bar while a Boolean is true, boxes with the texts of a text.
+// Rows of states, one for each signal: a bar while a Boolean is true, boxes with the values of a text.
 import { nameWithin } from "../data/components.js";
 import { sizedContext } from "../dom.js";
 import { color, curveColor } from "./colors.js";
@@ -8,7 +8,7 @@ import { rowGroups } from "./thin.js";
 const kRow = 20;
 const kBar = 12;
 const kFont = "11px system-ui, sans-serif";
-/** A text is written where its box has this much room [px]. */
+/** A text is shown if its box has this width at least [px]. */
 const kTextRoom = 24;
 
 export class StatesPane {
@@ -60,7 +60,7 @@ export class StatesPane {
 }
 
 /**
- * The states one after the other: what the value is, or that it is several ones within one pixel.
+ * The consecutive states: the value, or that there are several within one pixel.
  * @returns {{from: number, until?: number, value: number, isMixed: boolean}[]}
  */
 export function states(column, seconds, groups) {
@@ -100,7 +100,7 @@ function drawText(context, { left, right, top, height }, { value, isMixed }, col
   context.fillText(shortened(context, column.texts[value], width - 8), left + 4, top + height / 2 + 0.5);
 }
 
-/** As much of a text as fits. */
+/** The part of a text that fits. */
 export function shortened(context, text, room) {
   if (context.measureText(text).width <= room) return text;
   let end = text.length;

@@ -1,8 +1,8 @@
-// What of the rows is drawn: each, where it has a pixel of its own; else of each pixel the first, the least, the most
-// and the last, by which the picture is that of all rows, and no spike is lost.
+// The rows that are drawn: each, if it has a pixel of its own; else the first, the minimum, the maximum and the last
+// of each pixel, which gives the same picture as all rows, without loss of a spike.
 import { lastAtOrBefore } from "../data/exact_time.js";
 
-/** The first row at or after `from` whose time is at or after `time`. The step grows, since it is mostly near. */
+/** The first row at or after `from` whose time is at or after `time`. The step grows, since the row is mostly near. */
 function rowAtOrAfter(times, time, from) {
   let step = 1;
   let low = from;
@@ -21,7 +21,8 @@ function rowAtOrAfter(times, time, from) {
 }
 
 /**
- * The rows from the last one before the view to the first one after it, so that lines go on at both ends: [begin, end).
+ * The rows from the last one before the view to the first one after it, so that lines continue at both ends:
+ * [begin, end).
  */
 export function rowsInView(times, from, until) {
   const begin = Math.max(0, lastAtOrBefore(times, from));
@@ -63,7 +64,7 @@ export function groupTimes(times, groups) {
 }
 
 /**
- * The values at these instants; null where there is none, which leaves a gap.
+ * The values at these instants; null if there is none, which leaves a gap.
  * @param {import("./pyramid.js").Pyramid} pyramid
  * @returns {(number|null)[]}
  */

@@ -1,8 +1,8 @@
-// Round numbers along an axis, and how they are written.
+// Round numbers along an axis, and their texts.
 
 const kSteps = [1, 2, 5, 10];
 
-/** The least step of 1, 2 or 5 times a power of ten by which `span` has no more than `most` parts. */
+/** The smallest step of 1, 2 or 5 times a power of ten that divides `span` into no more than `most` parts. */
 export function roundStep(span, most) {
   const raw = span / most;
   const power = 10 ** Math.floor(Math.log10(raw));
@@ -20,7 +20,7 @@ export function ticks(from, until, most, least = 0) {
   return { step, values: found };
 }
 
-/** Decimals that tell multiples of `step` apart. */
+/** The number of decimals that distinguishes multiples of `step`. */
 export const decimalsOf = (step) => Math.max(0, Math.min(20, -Math.floor(Math.log10(step) + 1e-9)));
 
 /** Ticks of time [s], all with the same number of decimals. */
@@ -38,7 +38,7 @@ export function powerText(exponent) {
 }
 
 /**
- * The power of ten that is taken out of the numbers of an axis, so that these stay short: 0 for none.
+ * The power of ten that is factored out of the numbers of an axis, so that these are short: 0 for none.
  * @param {number} largest magnitude on the axis
  */
 export function commonExponent(largest) {
@@ -46,7 +46,7 @@ export function commonExponent(largest) {
   return Math.floor(Math.log10(largest) / 3 + 1e-9) * 3;
 }
 
-/** The numbers of an axis with `exponent` taken out. */
+/** The numbers of an axis with `exponent` factored out. */
 export function valueTickTexts(values, exponent) {
   const scaled = values.map((value) => value / 10 ** exponent);
   const step = scaled.length > 1 ? Math.abs(scaled[1] - scaled[0]) : Math.abs(scaled[0]) || 1;

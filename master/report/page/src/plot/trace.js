@@ -1,13 +1,13 @@
 // How a curve is drawn: a line where a pixel has one value or only rises or falls, an upright bar where it has many.
 // Long jagged lines would take a browser ten times as long.
 
-/** Where the values of a pixel are no further apart than this a line is drawn [px]. */
+/** If the values of a pixel are no further apart than this, a line is drawn [px]. */
 const kSlim = 1.5;
 /** Bars nearer than this touch [px]. */
 const kNear = 1.75;
 
 /**
- * @typedef {object} Sink what is drawn on: a line, and rectangles
+ * @typedef {object} Sink the target of drawing: a line, and rectangles
  * @property {(x: number, y: number) => void} moveTo
  * @property {(x: number, y: number) => void} lineTo
  * @property {(x: number, y: number, width: number, height: number) => void} rect
@@ -15,7 +15,7 @@ const kNear = 1.75;
 
 export class Tracer {
   #pen = null;
-  /** The place of a value that no line leads to or from yet. */
+  /** The place of a value that is not yet connected by a line. */
   #lone = null;
 
   /** @param {Sink} sink @param {{isStepped: boolean, hasDots: boolean, width: number}} style width of lines [px] */
@@ -32,14 +32,14 @@ export class Tracer {
     if (this.hasDots) this.#dot(x, y);
   }
 
-  /** Nothing: the line ends, and begins anew behind it. */
+  /** A gap: the line ends, and a new one begins after it. */
   gap() {
     if (this.#lone) this.#dot(this.#lone.x, this.#lone.y);
     this.#pen = this.#lone = null;
   }
 
   /**
-   * All values of a pixel. First and last are null where there is none.
+   * All values of a pixel. First and last are null if there is none.
    * @param {{x: number, y: number|null}} first
    * @param {{x: number, y: number|null}} last
    * @param {number} top the y of the largest value
@@ -84,11 +84,11 @@ export class Tracer {
   }
 }
 
-/** Whether nothing lies beyond the first and the last value, so that a line from one to the other shows all. */
+/** Whether all values are between the first and the last, so that a line from one to the other is complete. */
 const isSlope = (first, last, top, bottom) => Math.min(first, last) === top && Math.max(first, last) === bottom;
 
 /**
- * Draws what groupTimes() and groupValues() have found.
+ * Draws the result of groupTimes() and groupValues().
  * @param {Tracer} tracer
  * @param {{groups: number[], times: number[], values: (number|null)[]}} points
  * @param {{x: (time: number) => number, y: (value: number) => number}} place

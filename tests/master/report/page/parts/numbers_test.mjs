@@ -20,7 +20,7 @@ test("the numbers of a run", () => {
   const numbers = new Map(keyNumbers({ run: kRun, messages, times: new Array(7) }));
   assert.equal(numbers.get("simulated"), "10 s");
   assert.equal(numbers.get("speed"), "5 × real time");
-  assert.equal(numbers.get("left alone"), "25.0 % of the units’ time");
+  assert.equal(numbers.get("suspended"), "25.0 % of the units’ time");
   assert.equal(numbers.get("steps"), "12,345");
   assert.equal(numbers.get("messages sent"), "1");
   assert.equal(numbers.get("rejected steps"), "3");

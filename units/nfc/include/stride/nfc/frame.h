@@ -1,7 +1,7 @@
 // The message that travels between reader, channel and sensor: one frame on the air.
 //
 // A transmitter hands its frame over at the instant at which the frame begins, which is its start.
-// One that has to stop in the middle, because its power or its carrier is gone, hands the frame
+// One that has to stop in the middle, because its power or its carrier is lost, hands the frame
 // over again at the instant of the cut: with the same start, and with the bits that got out
 // (cut_off()); this replaces the frame that is still on the air.
 //

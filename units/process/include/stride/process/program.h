@@ -48,10 +48,10 @@ namespace stride::process {
 
 enum class LogLevel { Info, Warning };
 
-/// One end of the conversation: obeys the commands on its standard input. Its virtual functions are
-/// called in the order start, then steps, finish; parameters are in their members before start(),
-/// inputs and messages before the step that they are for. An exception that leaves one of them ends
-/// the program, and its text is what the run fails with.
+/// The program's side of the protocol: executes the commands on its standard input. Its virtual
+/// functions are called in the order start, then steps, finish; parameters are in their members
+/// before start(), inputs and messages before the step that they are for. An exception that leaves
+/// one of them ends the program, and its text is what the run fails with.
 class Program {
  public:
   /// From here on the standard output is the protocol's: what the program prints goes to its
@@ -65,7 +65,7 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// Obeys until it is told to end, or stride has gone. Returns the exit code of the program.
+  /// Runs until <end/> or the end of its standard input. Returns the exit code of the program.
   int run() noexcept;
 
  protected:
@@ -117,7 +117,7 @@ class Program {
   /// Stride is to end the simulation where this step ends.
   void end_simulation() { wants_end_ = true; }
 
-  /// Where the program stands: the start, or where the last step ended.
+  /// The present instant: the start, or where the last step ended.
   Time now() const { return now_; }
   const std::string& instance_name() const { return instance_name_; }
   /// The folder with the files that were packed with the program.
@@ -226,7 +226,7 @@ inline int Program::run() noexcept {
     try {
       TagWriter(answer_, "error").value("text", std::string_view(failure.what())).end();
       write_answer();
-    } catch (const std::exception&) {  // there is nobody to tell
+    } catch (const std::exception&) {  // it cannot be reported
     }
     return 1;
   }

@@ -1,5 +1,5 @@
 // The lines that stride and a program write to each other: a tag each, as docs/process-protocol.md
-// has it. For both sides, and for programs that do not want <stride/process/program.h>.
+// has it. For both sides, and for programs without <stride/process/program.h>.
 #ifndef STRIDE_PROCESS_TAG_H
 #define STRIDE_PROCESS_TAG_H
 
@@ -15,7 +15,7 @@
 
 namespace stride::process {
 
-/// An XML empty-element tag that stands alone on its line: <name attribute="value" …/>. Names are
+/// An XML empty-element tag that is alone on its line: <name attribute="value" …/>. Names are
 /// of ASCII letters, digits and _ - . :, values are in UTF-8, quoted with " or ', with the
 /// references of XML (&lt; &#10; &#x20AC; …).
 class Tag {
@@ -246,7 +246,8 @@ inline std::uint32_t Tag::take_reference(std::string_view reference) const {
 inline void TagWriter::escape(std::string_view value) {
   if (first_unfit(value) != std::string_view::npos) {
     throw std::invalid_argument(
-        "this text cannot be told in XML: it is not in UTF-8, or has control characters; a Binary "
+        "this text cannot be written in XML: it is not in UTF-8, or has control characters; a "
+        "Binary "
         "can hold it");
   }
   for (const char c : value) {

@@ -1,114 +1,26 @@
-// Values as text, exactly: what is written reads back as the same value.
+// Values and texts of the protocol. Values are written and read as <stride/value_text.h> says;
+// texts are escaped by TagWriter.
 #ifndef STRIDE_PROCESS_VALUE_H
 #define STRIDE_PROCESS_VALUE_H
 
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <initializer_list>
-#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <type_traits>
-#include <vector>
+
+#include <stride/value_text.h>
 
 namespace stride::process {
 
-using Binary = std::vector<std::uint8_t>;
+using stride::append_value;
+using stride::Binary;
+using stride::parse_value;
+using stride::type_name;
 
-/// The name that FMI has for a type: float, double, the integers of C++, bool, std::string, Binary.
-template <class T>
-constexpr const char* type_name() {
-  if constexpr (std::is_same_v<T, float>) {
-    return "Float32";
-  } else if constexpr (std::is_same_v<T, double>) {
-    return "Float64";
-  } else if constexpr (std::is_same_v<T, bool>) {
-    return "Boolean";
-  } else if constexpr (std::is_same_v<T, std::string>) {
-    return "String";
-  } else if constexpr (std::is_same_v<T, Binary>) {
-    return "Binary";
-  } else {
-    static_assert(std::is_integral_v<T>, "this type has no counterpart in the protocol");
-    constexpr const char* kSigned[] = {"Int8", "Int16", "Int32", "Int64"};
-    constexpr const char* kUnsigned[] = {"UInt8", "UInt16", "UInt32", "UInt64"};
-    constexpr int kLog2 = sizeof(T) == 1 ? 0 : sizeof(T) == 2 ? 1 : sizeof(T) == 4 ? 2 : 3;
-    return std::is_signed_v<T> ? kSigned[kLog2] : kUnsigned[kLog2];
-  }
-}
-
-/// Appends the shortest decimal that reads back as the same number, "inf", "-inf" or "nan"; true or
-/// false; two hexadecimal digits for each byte. (Texts are escaped by TagWriter.)
-template <class T>
-void append_value(std::string& text, const T& value) {
-  if constexpr (std::is_same_v<T, bool>) {
-    text += value ? "true" : "false";
-  } else if constexpr (std::is_same_v<T, Binary>) {
-    constexpr char kDigits[] = "0123456789abcdef";
-    for (const std::uint8_t byte : value) {
-      text += kDigits[byte >> 4];
-      text += kDigits[byte & 15];
-    }
-  } else {
-    char digits[32];
-    text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-  }
-}
-
-namespace detail {
-
-[[noreturn]] inline void refuse(std::string_view text, const char* type, const char* expected) {
-  constexpr std::size_t kMost = 60;
-  const std::string shown(text.substr(0, kMost));
-  throw std::invalid_argument("'" + shown + (text.size() > kMost ? "…" : "") + "' is no " + type +
-                              "; expected " + expected);
-}
-
-inline int hexadecimal_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
-
-inline void parse_binary(std::string_view text, Binary& bytes) {
-  bytes.clear();
-  bytes.reserve(text.size() / 2);
-  for (std::size_t i = 0; i < text.size(); i += 2) {
-    const int high = hexadecimal_digit(text[i]);
-    const int low = i + 1 < text.size() ? hexadecimal_digit(text[i + 1]) : -1;
-    if (high < 0 || low < 0) refuse(text, "Binary", "two hexadecimal digits for each byte");
-    bytes.push_back(static_cast<std::uint8_t>(16 * high + low));
-  }
-}
-
-}  // namespace detail
-
-/// Reads a whole text. Throws std::invalid_argument that says what was expected.
-template <class T>
-void parse_value(std::string_view text, T& value) {
-  if constexpr (std::is_same_v<T, std::string>) {
-    value.assign(text);
-  } else if constexpr (std::is_same_v<T, Binary>) {
-    detail::parse_binary(text, value);
-  } else if constexpr (std::is_same_v<T, bool>) {
-    if (text != "true" && text != "false") detail::refuse(text, "Boolean", "true or false");
-    value = text == "true";
-  } else {
-    const char* const last = text.data() + text.size();
-    const auto [end, mistake] = std::from_chars(text.data(), last, value);
-    if (mistake == std::errc() && end == last) return;
-    detail::refuse(
-        text, type_name<T>(),
-        std::is_integral_v<T> ? "a whole number within its range" : "a number such as 1.5e-06");
-  }
-}
-
-/// Whether two values are the same, so that one of them need not be told: a zero has its sign, and
-/// one NaN is as good as the other where their bits are the same.
+/// Whether two values are the same, so that only one of them has to be sent: a zero has its sign,
+/// and two NaNs are the same where their bits are.
 template <class T>
 bool is_same(const T& one, const T& other) {
   if constexpr (std::is_floating_point_v<T>) {

@@ -143,7 +143,7 @@ struct Conversion<sc_dt::sc_lv<W>> {
   using Fmi = std::string;
   static Fmi to_fmi(const sc_dt::sc_lv<W>& value) { return value.to_string(); }
   static sc_dt::sc_lv<W> from_fmi(const Fmi& value) {
-    if (value.empty()) return {};  // all X, as a signal that nobody has written
+    if (value.empty()) return {};  // all X, as a signal that was never written
     if (value.size() != W || value.find_first_not_of("01ZXzx") != std::string::npos) {
       detail::fail_range('"' + value + '"', "sc_lv<" + std::to_string(W) + ">",
                          std::to_string(W) + " digits of 0, 1, Z and X");

@@ -11,7 +11,7 @@
 
 namespace stride::systemc {
 
-/// What a device says of its idle times. Asked at rest, in the device's context.
+/// The idle times of a device. Called at rest, in the device's context.
 class IdleRules {
  public:
   virtual ~IdleRules() = default;

@@ -60,7 +60,7 @@ class Kernel {
   /// made within().
   void own(std::shared_ptr<void> channel) { owned_.push_back(std::move(channel)); }
 
-  /// Ends elaboration and runs the processes until they rest at time 0.
+  /// Ends elaboration and runs the processes until none is left to run at time 0.
   void initialize();
 
   /// Runs all that happens up to and including the instant `to`, and returns it. If the device
@@ -86,7 +86,7 @@ class Kernel {
   /// clock, a wait(time), an event notified with a delay.
   std::optional<Time> next_notification();
 
-  /// Lets time pass in which nothing is simulated: now() moves, SystemC's time stands still. Timers
+  /// Lets time pass in which nothing is simulated: now() moves, SystemC's time does not. Timers
   /// keep their true instants, all other notifications come later by `duration`. To be called at
   /// rest; throws std::logic_error otherwise, or if a timer is due up to the instant reached.
   void skip(Duration duration);

@@ -1,4 +1,4 @@
-// An sc_module with ordinary ports as a unit: say which variable stands for which port.
+// An sc_module with ordinary ports as a unit: a table of which variable belongs to which port.
 //
 //   class Thermometer : public stride::systemc::ModuleUnit<ThermometerModule> {
 //    public:
@@ -144,7 +144,7 @@ class ModuleUnit : public DeviceUnit<Module> {
   // behind the last dot of the name.
 
   /// The target is an sc_fifo_in<T>, which gets the elements of the message (see Message); elements
-  /// that find it full are lost, which the log says. Or a function (Module&, const Binary&), which
+  /// that find it full are lost, which is logged. Or a function (Module&, const Binary&), which
   /// is called outside of all processes, so that it must not wait.
   template <class Target>
   VariableBuilder message_input(std::string name, Target target, int depth = 16) {
@@ -174,9 +174,10 @@ class ModuleUnit : public DeviceUnit<Module> {
 
   // Idle time.
 
-  /// What idle() asks; calls may_idle(). While the module is idle its ports and signals stay what
-  /// they are, so the unit promises that it need not be called. Where outputs are functions or
-  /// plain members, which may move, it promises nothing, unless tangents_hold_for() is overridden.
+  /// The condition for idle(); calls may_idle(). While the module is idle its ports and signals
+  /// stay what they are, so the unit promises that it need not be called. Where outputs are
+  /// functions or plain members, which may move, it promises nothing, unless tangents_hold_for() is
+  /// overridden.
   void idle_when(std::function<bool(const Module&)> idle) {
     this->may_idle();
     idle_ = std::move(idle);

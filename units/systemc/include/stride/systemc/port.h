@@ -25,7 +25,7 @@ Inner<T> inner(std::string name) {
 
 namespace detail {
 
-/// Where a value stands. One of the three is set.
+/// Where a value is held. One of the three is set.
 template <class T>
 struct Place {
   sc_core::sc_object* object = nullptr;  ///< none for a channel that is no object

@@ -176,7 +176,7 @@ class ValueRow final : public Row {
   sc_core::sc_module* module_ = nullptr;
 };
 
-/// A port that no variable stands for: an input has this value always, an output leads nowhere.
+/// A port without a variable: an input has this value always, an output is not connected.
 template <class T>
 class TiedRow final : public PlaceRow<T> {
  public:

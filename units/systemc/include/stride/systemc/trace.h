@@ -77,7 +77,7 @@ struct TraceOptions {
 /// resolution (1 ps by default).
 ///
 /// The file's time is SystemC's. Its variable `advanceTime` is the total that has been skipped:
-/// what stands at the stamp #t happened at t + advanceTime, with the value that this has after t.
+/// what has the stamp #t happened at t + advanceTime, with the value that this has after t.
 class Trace {
  public:
   /// Throws std::invalid_argument for a file that cannot be written or is being written by another

@@ -1,4 +1,4 @@
-// A SystemC device as a unit: derive from DeviceUnit, make the device, and say what goes in and
+// A SystemC device as a unit: derive from DeviceUnit, make the device, and list what goes in and
 // out.
 //
 //   class Blinker : public stride::systemc::DeviceUnit<BlinkerModule> {
@@ -124,7 +124,7 @@ class DeviceUnit : public Unit {
 
   // What idle means. The first is enough for a device whose clocks stand still while it is idle.
 
-  /// To be called in the constructor if idle() may ever say yes.
+  /// To be called in the constructor if idle() can be true.
   void may_idle() { describe(info().description).promises_idle = true; }
   /// With the inputs as they are, nothing happens by itself until the next Timer: no command is
   /// queued, no frame on the air, no wait(time) or delayed notification is pending. Clocks may go

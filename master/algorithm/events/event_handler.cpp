@@ -1,0 +1,326 @@
+#include "master/algorithm/events/event_handler.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/util/readable_text.h"
+
+namespace stride::core {
+namespace {
+
+/// Event iterations at one instant after which units are taken to tick for ever.
+constexpr std::uint32_t kEventLimit = 1000;
+
+}  // namespace
+
+EventHandler::EventHandler(RunContext& context, IdleScheduler* idle)
+    : system_(context.system),
+      units_(context.units),
+      exchange_(context.exchange),
+      messages_(system_, units_),
+      texts_(capabilities<MessageText>(units_)),
+      clocks_(system_, units_),
+      observers_(context.observers),
+      activities_(context.activities),
+      statistics_(context.statistics),
+      clock_(context.clock),
+      idle_(idle),
+      active_(units_.size()),
+      in_event_mode_(units_.size()),
+      had_event_(units_.size()),
+      polled_(units_.size()),
+      next_event_(units_.size()) {
+  for (std::size_t i = 0; i < count(); ++i) {
+    if (!description(i).has_event_mode) continue;
+    event_units_.push_back(i);
+    if (exchange_.has_discrete_inputs(i)) discrete_units_.push_back(i);
+  }
+  evaluation_.emplace(context, Phase::Events, &UnitStatistics::event_time);
+  if (!evaluation_->is_trivial()) return;
+  evaluation_.reset();
+  for (const ContinuousLink& link : exchange_.continuous_links()) {
+    if (description(link.to.component).has_event_mode) links_.push_back(link);
+  }
+}
+
+void EventHandler::begin() {
+  for (const std::size_t i : event_units_) {
+    activate(i);
+    in_event_mode_[i] = has_event_ = true;
+  }
+  for (std::size_t i = 0; i < count(); ++i) exchange_.fetch(i, *units_[i]);
+}
+
+std::optional<Time> EventHandler::next_event() const {
+  const std::optional<Time> tick = clocks_.next();
+  if (!tick || !announced_) return tick ? tick : announced_;
+  return std::min(*tick, *announced_);
+}
+
+void EventHandler::handle_events(Time time) {
+  if (time != time_) index_ = 0;
+  time_ = time;
+  if (std::exchange(had_any_event_, false)) std::fill(had_event_.begin(), had_event_.end(), false);
+  if (announced_ && *announced_ <= time) activate_announced();
+  if (idle_ != nullptr) {
+    for (const std::size_t i : idle_->advance_to(time)) request_event(i);
+  }
+  route();
+  for (std::uint32_t count = 0; prepare_events(); ++count) {
+    if (count == kEventLimit) fail_ticking();
+    const bool terminates = event_iteration();
+    exchange_after_events();
+    ++index_;
+    if (terminates) break;
+  }
+  if (has_event_) leave_event_mode();
+  if (idle_ != nullptr) idle_->suspend_idle(time);
+}
+
+/// Whoever is disturbed by what reaches it is exact again, which may disturb others.
+void EventHandler::route() {
+  exchange_.route(time_);
+  if (idle_ == nullptr) return;
+  while (idle_->catch_up_disturbed(time_)) exchange_.route(time_);
+}
+
+void EventHandler::activate_announced() {
+  for (const std::size_t i : event_units_) {
+    if (next_event_[i] && *next_event_[i] <= time_) activate(i);
+  }
+}
+
+void EventHandler::leave_event_mode() {
+  for (const std::size_t i : event_units_) {
+    had_event_[i] = in_event_mode_[i];
+    if (!in_event_mode_[i]) continue;
+    units_[i]->enter_step_mode();
+    in_event_mode_[i] = false;
+    activities_.report({i, Activity::Kind::Event, time_, time_});
+  }
+  has_event_ = false;
+  had_any_event_ = true;
+  update_announced();
+}
+
+void EventHandler::update_announced() {
+  announced_.reset();
+  for (const std::size_t i : event_units_) {
+    if (!next_event_[i]) continue;
+    announced_ = std::min(*next_event_[i], announced_.value_or(*next_event_[i]));
+  }
+}
+
+/// Units that have an event, or an input that changes discretely, are in Event Mode then and have
+/// their inputs. Tells whether one of them wants another event iteration.
+bool EventHandler::prepare_events() {
+  for (const std::size_t i : clocks_.due(time_)) activate(i);
+  for (const std::size_t i : discrete_units_) {
+    if (exchange_.has_discrete_change(i)) activate(i);
+  }
+  if (!has_active_ && !has_event_) return false;
+  for (const std::size_t i : event_units_) {
+    if (in_event_mode_[i]) exchange_.deliver(i, *units_[i]);
+    if (active_[i]) enter_event_mode(i);
+  }
+  return has_active_;
+}
+
+void EventHandler::enter_event_mode(std::size_t i) {
+  if (in_event_mode_[i]) return;
+  if (idle_ != nullptr && idle_->is_suspended(i)) idle_->catch_up_and_report(i, time_);
+  units_[i]->enter_event_mode();
+  in_event_mode_[i] = has_event_ = true;
+  exchange_.deliver(i, *units_[i]);
+}
+
+/// One super-dense instant: ticks and what is sampled at them, messages, then the units' discrete
+/// states. Leaves in `active_` who wants another. Tells whether a unit wants the end.
+bool EventHandler::event_iteration() {
+  bool terminates = false;
+  ++statistics_.event_iterations;
+  has_active_ = false;
+  tick_clocks();
+  exchange_messages();
+  for (const std::size_t i : event_units_) {
+    if (!in_event_mode_[i]) continue;
+    const EventResult result = clock_.timed(statistics_.units[i].event_time,
+                                            [&] { return units_[i]->update_discrete_states(); });
+    ++statistics_.units[i].events;
+    terminates |= result.terminate;
+    next_event_[i] = result.next_event;
+    const bool is_due = result.next_event && *result.next_event <= time_;
+    active_[i] = result.iterate || is_due;
+    has_active_ |= static_cast<bool>(active_[i]);
+    clocks_.update(i, time_);
+  }
+  if (terminates) statistics_.end = RunEnd::EndedByUnit;
+  return terminates;
+}
+
+/// A value that goes from one ticking clock to another is that of this instant. Without a loop it
+/// crosses each connection once.
+void EventHandler::tick_clocks() {
+  const std::span<const std::size_t> ticking = clocks_.tick(time_);
+  if (ticking.empty()) return;
+  for (std::size_t pass = 0; pass <= system_.connections().size() + 1; ++pass) {
+    if (!exchange_samples(ticking)) return;
+  }
+  fail_sample_loop(ticking);
+}
+
+/// One pass; tells whether an input has yet to be written.
+bool EventHandler::exchange_samples(std::span<const std::size_t> ticking) {
+  for (const std::size_t i : ticking) {
+    exchange_.deliver_sampled(i, *units_[i], clocks_.ticking(i));
+  }
+  for (const std::size_t i : ticking) {
+    exchange_.fetch_sampled(i, *units_[i], clocks_.ticking(i));
+  }
+  exchange_.route(time_);
+  return std::any_of(ticking.begin(), ticking.end(), [&](std::size_t i) {
+    return exchange_.has_sampled_change(i, clocks_.ticking(i));
+  });
+}
+
+/// Who joins brings outputs up to date that may stand before its place in the order.
+void EventHandler::exchange_after_events() {
+  for (bool again = evaluation_.has_value(); again; again = has_joined_) {
+    has_joined_ = false;
+    evaluation_->run(time_, *this);
+  }
+  for (const std::size_t i : event_units_) {
+    if (in_event_mode_[i]) exchange_.fetch(i, *units_[i]);
+  }
+  if (evaluation_) return exchange_.check_nan(time_);
+  find_jumps();
+  route();
+}
+
+/// What an event changes in a continuous output is an event of those who receive it.
+void EventHandler::find_jumps() {
+  for (const auto& [from, to, source, target, conversion] : links_) {
+    if (!in_event_mode_[from.component]) continue;
+    const double value = conversion.factor * real(source) + conversion.offset;
+    if (would_change(target, value)) on_jump(to, false);
+  }
+}
+
+/// FMI wants Event Mode where a continuous input is discontinuous; and at once, if an output
+/// follows it.
+void EventHandler::on_jump(VariableId input, bool is_followed) {
+  if (is_followed) join(input.component);
+  activate(input.component);
+}
+
+bool EventHandler::join(std::size_t i) {
+  if (in_event_mode_[i]) return false;
+  enter_event_mode(i);
+  activate(i);
+  has_joined_ = true;
+  return true;
+}
+
+/// A clock that is set may make the receiver's own clocks tick at once, so receivers are asked
+/// again.
+void EventHandler::exchange_messages() {
+  messages_.begin_instant();
+  polled_ = in_event_mode_;
+  for (bool again = true; again;) {
+    again = false;
+    for (const std::size_t i : event_units_) {
+      if (!polled_[i]) continue;
+      polled_[i] = false;
+      again = true;
+      transmit(i);
+    }
+  }
+}
+
+void EventHandler::transmit(std::size_t sender) {
+  messages_.transmit(
+      sender,
+      [&](std::size_t receiver) {
+        enter_event_mode(receiver);
+        polled_[receiver] = true;
+      },
+      [&](VariableId id, bool received, const ValueBlock* block) {
+        if (!received && block != nullptr && has_nan(*block)) fail_nan(id);
+        UnitStatistics& statistics = statistics_.units[id.component];
+        ++(received ? statistics.messages_received : statistics.messages_sent);
+        notify_observers(id, received, block);
+      });
+}
+
+void EventHandler::notify_observers(VariableId id, bool received, const ValueBlock* block) {
+  Message message{time_, index_, id, received, block, 0};
+  std::string content;
+  if (block != nullptr && std::ranges::any_of(observers_, &Observer::wants_content)) {
+    content = content_of(id, *block);
+    message.content = content;
+  }
+  for (Observer* observer : observers_) observer->on_message(message);
+}
+
+/// The same bytes have the same meaning at the other end of a connection.
+std::string EventHandler::content_of(VariableId id, const ValueBlock& block) const {
+  if (block.type() != ValueType::Binary) return {};
+  std::string content = described_by(id, block);
+  for (const Connection& connection : system_.connections()) {
+    if (!content.empty()) break;
+    if (connection.from == id) content = described_by(connection.to, block);
+    if (connection.to == id) content = described_by(connection.from, block);
+  }
+  return readable_text(content, kLongestContent);
+}
+
+/// Of an array, what its elements say, in their order.
+std::string EventHandler::described_by(VariableId id, const ValueBlock& block) const {
+  MessageText* const unit = texts_[id.component];
+  if (unit == nullptr) return {};
+  std::string text;
+  for (const Binary& value : block.binaries()) {
+    const std::string said = unit->describe_message(system_.variable(id).reference, value);
+    if (!said.empty()) text.append(text.empty() ? "" : "; ").append(said);
+  }
+  return text;
+}
+
+void EventHandler::fail_nan(VariableId id) const {
+  fail_run({{}, system_.components()[id.component].name, system_.variable(id).name, time_},
+           "the unit sends NaN (not a number) to another unit",
+           "look at what this unit received before this instant");
+}
+
+void EventHandler::fail_ticking() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < count(); ++i) {
+    if (active_[i]) names.push_back(system_.components()[i].name);
+  }
+  fail_run(
+      {{}, {}, {}, time_},
+      fmt::format("after {} event iterations at one instant these units still want another: "
+                  "{}",
+                  kEventLimit, quoted(names)),
+      "look for messages or values that answer each other without any delay, and for units that "
+      "announce an event for an instant that is not later than now");
+}
+
+void EventHandler::fail_sample_loop(std::span<const std::size_t> ticking) const {
+  std::vector<std::string> names;
+  for (const std::size_t i : ticking) {
+    for (const VariableId id : exchange_.sampled_changes(i, clocks_.ticking(i))) {
+      names.push_back(system_.full_name(id));
+    }
+  }
+  fail_run({{}, {}, {}, time_},
+           fmt::format("the values that are sampled at one instant do not settle: units feed each "
+                       "other in an algebraic loop, through the inputs {}",
+                       quoted(names)),
+           "let the clocks of the units in the loop tick at different instants, or give one of the "
+           "units an output that does not depend on its input");
+}
+
+}  // namespace stride::core

@@ -1,0 +1,115 @@
+// One instant of a run: values are exchanged and events handled until nothing wants another round.
+#ifndef STRIDE_MASTER_ALGORITHM_EVENTS_EVENT_HANDLER_H
+#define STRIDE_MASTER_ALGORITHM_EVENTS_EVENT_HANDLER_H
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/algorithm/capabilities/message_text.h"
+#include "master/algorithm/events/clocks.h"
+#include "master/algorithm/events/messages.h"
+#include "master/algorithm/idle/idle_scheduler.h"
+#include "master/algorithm/loops/ordered_evaluation.h"
+#include "master/algorithm/run_context.h"
+
+namespace stride::core {
+
+/// What the units do between two communication steps, and who has an event when.
+class EventHandler : private OrderedEvaluation::Participants {
+ public:
+  /// Both must outlive this object. `idle`: optional idle scheduler.
+  explicit EventHandler(RunContext& context, IdleScheduler* idle = nullptr);
+
+  /// Before the end of Initialization Mode: asks for the first ticks of the time-based clocks.
+  void begin_clocks(Time start) { clocks_.begin(start); }
+  /// Initialization Mode is over: the units with Event Mode stand in it, and each handles one event
+  /// at least. Fetches the outputs of all.
+  void begin();
+  /// The unit has an event at the next handle_events(), beside those whose announced time has come.
+  void request_event(std::size_t component) {
+    if (description(component).has_event_mode) activate(component);
+  }
+  /// Exchanges the outputs that have been fetched and handles events until nothing wants another
+  /// round. Outputs of units in Event Mode that depend directly on inputs follow them at once, and
+  /// algebraic loops between such units are solved. Leaves the units in Step Mode; those that had
+  /// no event have yet to be given their inputs (Exchange::deliver_routed). Throws Error (Run)
+  /// where a connected output is NaN, a loop has no solution that could be found, or units tick for
+  /// ever.
+  void handle_events(Time time);
+
+  /// Who handled an event in the last handle_events(), by component.
+  std::span<const char> had_event() const { return had_event_; }
+
+  /// The earliest event announced, or tick of a time-based clock, for later than the last
+  /// handle_events().
+  std::optional<Time> next_event() const;
+
+ private:
+  std::size_t count() const { return units_.size(); }
+  const UnitDescription& description(std::size_t i) const {
+    return *system_.components()[i].description;
+  }
+  void activate(std::size_t i) { active_[i] = has_active_ = true; }
+  void activate_announced();
+  void update_announced();
+  bool prepare_events();
+  void leave_event_mode();
+  void enter_event_mode(std::size_t i);
+  bool event_iteration();
+  void tick_clocks();
+  bool exchange_samples(std::span<const std::size_t> ticking);
+  void exchange_after_events();
+  void exchange_messages();
+  void transmit(std::size_t sender);
+  void notify_observers(VariableId id, bool received, const ValueBlock* block);
+  std::string content_of(VariableId id, const ValueBlock& block) const;
+  std::string described_by(VariableId id, const ValueBlock& block) const;
+  void find_jumps();
+  void route();
+  [[noreturn]] void fail_nan(VariableId id) const;
+  [[noreturn]] void fail_ticking() const;
+  [[noreturn]] void fail_sample_loop(std::span<const std::size_t> ticking) const;
+
+  bool takes_part(std::size_t i) const override { return in_event_mode_[i]; }
+  void on_jump(VariableId input, bool is_followed) override;
+  bool join(std::size_t i) override;
+
+  const System& system_;
+  std::span<const std::unique_ptr<Unit>> units_;
+  Exchange& exchange_;
+  MessageExchange messages_;
+  std::vector<MessageText*> texts_;  ///< by component; null = none
+  Clocks clocks_;
+  std::optional<OrderedEvaluation> evaluation_;  ///< where outputs follow inputs at once
+  const std::vector<Observer*>& observers_;
+  const Activities& activities_;
+  RunStatistics& statistics_;
+  WallClock clock_;
+  IdleScheduler* idle_;
+
+  Time time_{};
+  std::uint32_t index_ = 0;                  ///< of the super-dense instant at that time
+  std::vector<std::size_t> event_units_;     ///< those with Event Mode
+  std::vector<std::size_t> discrete_units_;  ///< those of them with discrete inputs
+  std::vector<ContinuousLink> links_;        ///< to event_units_, where `evaluation_` is not needed
+  std::vector<char> active_;                 ///< wants the next event iteration
+  bool has_active_ = false;
+  bool has_event_ = false;  ///< a unit is in Event Mode
+  std::vector<char> in_event_mode_;
+  std::vector<char> had_event_;
+  bool had_any_event_ = false;
+  bool has_joined_ = false;   ///< a unit has entered Event Mode during an evaluation
+  std::vector<char> polled_;  ///< its output clocks are to be read
+  std::vector<std::optional<Time>> next_event_;
+  std::optional<Time> announced_;  ///< the earliest of these
+};
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,206 @@
+#include "master/algorithm/idle/idle_scheduler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/util/time_text.h"
+
+namespace stride::core {
+
+IdleScheduler::IdleScheduler(RunContext& context)
+    : system_(context.system),
+      units_(context.units),
+      exchange_(context.exchange),
+      statistics_(context.statistics.units),
+      activities_(context.activities),
+      options_(context.options.idle),
+      states_(units_.size()) {
+  for (std::size_t i = 0; i < std::min(units_.size(), options_.max_skip.size()); ++i) {
+    const std::optional<Duration>& max_skip = options_.max_skip[i];
+    if (max_skip && system_.components()[i].description->promises_idle) add_candidate(i, *max_skip);
+  }
+}
+
+void IdleScheduler::add_candidate(std::size_t component, Duration max_skip) {
+  candidates_.push_back(component);
+  IdleState& state = states_[component];
+  state.is_candidate = true;
+  state.promises = &units_[component]->require_capability<IdlePromises>();
+  state.max_skip = max_skip;
+  for (const auto& [id, element] : exchange_.continuous_inputs(component)) {
+    double deadband = system_.variable(id).deadband;
+    for (const IdleSetting& setting : options_.deadbands) {
+      if (setting.id == id) deadband = setting.value;
+    }
+    state.inputs.push_back({element, deadband});
+  }
+  std::size_t elements = 0;
+  for (const auto& [id, element] : exchange_.outputs_with_tolerance(component)) {
+    if (elements == state.tangents.size()) {
+      state.references.push_back(system_.variable(id).reference);
+      elements += system_.variable(id).size;
+    }
+    state.tangents.push_back({element});
+  }
+  state.slopes.resize(elements);
+}
+
+void IdleScheduler::enable() {
+  for (const std::size_t i : candidates_) {
+    states_[i].promises->enable_idle_skipping(states_[i].max_skip);
+  }
+  for (const IdleSetting& setting : options_.tolerances) {
+    if (!may_suspend(setting.id.component)) continue;
+    states_[setting.id.component].promises->set_idle_tolerances(
+        {&system_.variable(setting.id).reference, 1}, {&setting.value, 1});
+  }
+}
+
+std::optional<Time> IdleScheduler::all_suspended_until() const {
+  if (candidates_.size() != states_.size()) return std::nullopt;
+  Time earliest = Time::max();
+  for (const IdleState& state : states_) {
+    if (!state.is_suspended) return std::nullopt;
+    earliest = std::min(earliest, state.end);
+  }
+  return earliest;
+}
+
+Duration IdleScheduler::suspended_time(Time time) const {
+  Duration sum{};
+  for (const std::size_t i : candidates_) {
+    sum += statistics_[i].suspended_time;
+    if (states_[i].is_suspended) sum += time - states_[i].since;
+  }
+  return sum;
+}
+
+bool IdleScheduler::catch_up(std::size_t component, Time time) {
+  IdleState& state = states_[component];
+  state.is_suspended = false;
+  const Duration lag = time - state.since;
+  if (lag == Duration{}) return false;
+  state.unreported_end = time;
+  const StepResult result = units_[component]->step({state.since, time});
+  check_promise(component, time, result);
+  exchange_.fetch(component, *units_[component]);
+  UnitStatistics& statistics = statistics_[component];
+  ++statistics.suspensions;
+  statistics.suspended_time += lag;
+  statistics.longest_suspension = std::max(statistics.longest_suspension, lag);
+  return result.event_needed;
+}
+
+void IdleScheduler::report_suspension(std::size_t component) {
+  IdleState& state = states_[component];
+  const std::optional<Time> ended = std::exchange(state.unreported_end, std::nullopt);
+  if (ended) activities_.report({component, Activity::Kind::Idle, state.since, *ended});
+}
+
+bool IdleScheduler::catch_up_and_report(std::size_t component, Time time) {
+  const bool has_event = catch_up(component, time);
+  report_suspension(component);
+  return has_event;
+}
+
+void IdleScheduler::report_unfinished(Time time) {
+  for (const std::size_t i : candidates_) {
+    IdleState& state = states_[i];
+    if (std::exchange(state.is_suspended, false) && state.since < time) state.unreported_end = time;
+    report_suspension(i);
+  }
+}
+
+void IdleScheduler::check_promise(std::size_t component, Time time,
+                                  const StepResult& result) const {
+  const IdleState& state = states_[component];
+  const bool is_early_event = result.event_needed && time < state.until;
+  if (!result.rejected && result.reached == time && !is_early_event) return;
+  const std::string deed = result.rejected ? "rejects the step to there"
+                           : result.reached != time
+                               ? fmt::format("returns early at {} s", to_text(result.reached))
+                               : "has an event";
+  fail_run(
+      {{}, system_.components()[component].name, {}, time},
+      fmt::format(
+          "the unit promised at {} s to be idle until {}, but {}", to_text(state.since),
+          state.until == Time::max() ? "something disturbs it" : to_text(state.until) + " s", deed),
+      "the promise is the unit's own fault; until it is mended, switch idle skipping off for "
+      "it");
+}
+
+std::span<const std::size_t> IdleScheduler::advance_to(Time time) {
+  events_.clear();
+  for (const std::size_t i : candidates_) {
+    IdleState& state = states_[i];
+    if (!state.is_suspended) continue;
+    if (state.end <= time) {
+      if (catch_up_and_report(i, time)) events_.push_back(i);
+      continue;
+    }
+    const double elapsed = to_seconds(time - state.since);
+    for (const Tangent& tangent : state.tangents) {
+      set_real(tangent.element, tangent.value + tangent.slope * elapsed);
+    }
+  }
+  return events_;
+}
+
+bool IdleScheduler::is_disturbed(const IdleState& state) const {
+  return std::any_of(state.inputs.begin(), state.inputs.end(), [](const WatchedInput& input) {
+    return !(std::abs(real(input.element) - input.held) <= input.deadband);
+  });
+}
+
+bool IdleScheduler::catch_up_disturbed(Time time) {
+  bool any = false;
+  for (const std::size_t i : candidates_) {
+    if (!states_[i].is_suspended) continue;
+    if (!exchange_.has_discrete_change(i) && !is_disturbed(states_[i])) continue;
+    any |= states_[i].since < time;
+    catch_up_and_report(i, time);
+  }
+  return any;
+}
+
+void IdleScheduler::suspend_idle(Time time) {
+  for (const std::size_t i : candidates_) {
+    if (states_[i].is_suspended) continue;
+    exchange_.deliver_routed(i, *units_[i]);
+    const Time until = states_[i].promises->idle_until();
+    if (until <= time) continue;
+    const Duration max_skip = states_[i].max_skip;
+    const bool is_bounded = max_skip != Duration::max() && time + max_skip < until;
+    const Time end = is_bounded ? time + max_skip : until;
+    if (end - options_.least >= time) suspend(i, time, until, end);
+  }
+}
+
+void IdleScheduler::suspend(std::size_t component, Time time, Time until, Time end) {
+  IdleState& state = states_[component];
+  state.is_suspended = true;
+  state.since = time;
+  state.until = until;
+  state.end = end;
+  exchange_.fetch(component, *units_[component]);
+  for (WatchedInput& input : state.inputs) input.held = real(input.element);
+  if (state.tangents.empty()) return;
+  state.promises->get_derivatives(state.references, state.slopes);
+  for (std::size_t k = 0; k < state.tangents.size(); ++k) {
+    Tangent& tangent = state.tangents[k];
+    tangent.value = real(tangent.element);
+    tangent.slope = state.slopes[k];
+  }
+}
+
+void IdleScheduler::catch_up_all(Time time) {
+  for (const std::size_t i : candidates_) {
+    if (states_[i].is_suspended) catch_up_and_report(i, time);
+  }
+}
+
+}  // namespace stride::core

@@ -1,0 +1,157 @@
+#include "master/algorithm/loops/ordered_evaluation.h"
+
+#include <algorithm>
+
+namespace stride::core {
+
+OrderedEvaluation::OrderedEvaluation(RunContext& context, Phase phase, UnitTimer::Sum time)
+    : system_(context.system),
+      exchange_(context.exchange),
+      phase_(phase),
+      order_(evaluation_order(system_, phase)),
+      staged_(context, UnitTimer(context.clock, context.statistics.units, time),
+              phase == Phase::Initialization) {
+  std::map<VariableId, std::vector<VariableId>> targets;
+  for (const Connection& connection : system_.connections()) {
+    if (carries_value(system_, connection, phase)) {
+      targets[connection.from].push_back(connection.to);
+    }
+  }
+  blocks_.reserve(order_.size());
+  for (const EvaluationBlock& planned : order_) plan(planned, targets, context);
+  if (phase == Phase::Events) find_direct_inputs();
+}
+
+void OrderedEvaluation::plan(const EvaluationBlock& planned, const Targets& targets,
+                             RunContext& context) {
+  Block& block = blocks_.emplace_back();
+  block.plan = &planned;
+  std::set<VariableId> inner(planned.inputs.begin(), planned.inputs.end());
+  std::set<VariableId> cut;
+  if (planned.is_loop()) block.loop.emplace(context, planned, staged_);
+  for (const Tear& tear : planned.tears) cut.insert(tear.inputs.begin(), tear.inputs.end());
+  std::vector<VariableId> onward;
+  for (const EvaluationStep& step : planned.steps) {
+    EvaluationStage& stage =
+        block.stages.emplace_back(EvaluationStage{staged_.plan_read(step), {}});
+    for (const VariableId output : step.outputs) {
+      for (const VariableId input : targets.at(output)) {
+        if (planned.is_loop() && inner.count(input) == 0) {
+          onward.push_back(input);
+        } else if (cut.count(input) == 0) {
+          stage.links.push_back(staged_.plan_link(input));
+        }
+      }
+    }
+  }
+  for (const VariableId input : onward) block.onward.push_back(staged_.plan_link(input));
+}
+
+void OrderedEvaluation::find_direct_inputs() {
+  const Dependencies dependencies(system_, phase_);
+  std::set<VariableId> sources;
+  for (const Connection& connection : system_.connections()) sources.insert(connection.from);
+  for (std::size_t i = 0; i < system_.components().size(); ++i) {
+    const auto& variables = system_.components()[i].description->variables;
+    const std::vector<std::size_t>& all = dependencies.all_inputs(i);
+    std::set<std::size_t> direct;
+    for (std::size_t k = 0; k < variables.size() && direct.size() < all.size(); ++k) {
+      const Variable& output = variables[k];
+      const bool is_local = output.causality == Causality::Local && sources.contains({i, k});
+      if ((output.causality != Causality::Output && !is_local) || output.is_clocked()) continue;
+      if (output.type == ValueType::Clock) continue;
+      const Dependencies::Inputs inputs = dependencies.inputs_of({i, k});
+      const auto& depends_on = inputs.declared ? inputs.variables : all;
+      direct.insert(depends_on.begin(), depends_on.end());
+    }
+    has_direct_inputs_ |= !direct.empty();
+    for (const std::size_t k : direct) {
+      if (variables[k].variability == Variability::Continuous) followed_.insert({i, k});
+    }
+  }
+}
+
+void OrderedEvaluation::run(Time time, Participants& participants) {
+  time_ = time;
+  participants_ = &participants;
+  staged_.begin();
+  for (Block& block : blocks_) {
+    if (block.loop) {
+      evaluate_loop(block);
+    } else if (takes_part(block)) {
+      evaluate(block.stages.front());
+      check_nan(block);
+    }
+  }
+  for (std::size_t i = 0; i < system_.components().size(); ++i) {
+    if (participants.takes_part(i)) staged_.write(i);
+  }
+}
+
+void OrderedEvaluation::evaluate(EvaluationStage& stage) {
+  if (!participants_->takes_part(stage.read.component())) return;
+  staged_.evaluate(stage.read);
+  for (StagedExchange::Link& link : stage.links) route(link);
+}
+
+void OrderedEvaluation::route(StagedExchange::Link& link) {
+  if (staged_.route(link)) report(link.target());
+}
+
+void OrderedEvaluation::report(VariableId input) {
+  const bool may_jump = phase_ == Phase::Events &&
+                        system_.variable(input).variability == Variability::Continuous &&
+                        system_.components()[input.component].description->has_event_mode;
+  if (!is_trying_ && may_jump) participants_->on_jump(input, followed_.count(input) != 0);
+}
+
+void OrderedEvaluation::sweep(Block& block) {
+  for (EvaluationStage& stage : block.stages) evaluate(stage);
+}
+
+bool OrderedEvaluation::takes_part(const Block& block) const {
+  return std::any_of(block.stages.begin(), block.stages.end(), [&](const EvaluationStage& stage) {
+    return participants_->takes_part(stage.read.component());
+  });
+}
+
+void OrderedEvaluation::evaluate_loop(Block& block) {
+  if (!takes_part(block)) return;
+  if (phase_ == Phase::Initialization) block.loop->guess();
+  sweep(block);
+  if (!block.loop->is_settled()) solve(block);
+  check_nan(block);
+  for (StagedExchange::Link& link : block.onward) route(link);
+}
+
+void OrderedEvaluation::solve(Block& block) {
+  bool has_joined = false;
+  for (EvaluationStage& stage : block.stages)
+    has_joined |= participants_->join(stage.read.component());
+  std::vector<ValueBlock> before;
+  for (const VariableId input : block.plan->inputs) before.push_back(value(input));
+  is_trying_ = true;
+  if (has_joined) sweep(block);
+  if (!block.loop->is_settled()) block.loop->solve([&] { sweep(block); }, time_);
+  is_trying_ = false;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const VariableId input = block.plan->inputs[i];
+    if (!(before[i] == value(input))) report(input);
+  }
+}
+
+ValueBlock OrderedEvaluation::value(VariableId id) {
+  const ValueSlice slice = exchange_.slice(id);
+  ValueBlock value(slice.block->type(), slice.size);
+  copy_elements({&value, 0, slice.size}, slice);
+  return value;
+}
+
+void OrderedEvaluation::check_nan(const Block& block) const {
+  const bool has_nan =
+      std::any_of(block.stages.begin(), block.stages.end(),
+                  [&](const EvaluationStage& s) { return staged_.has_nan(s.read); });
+  if (has_nan) exchange_.check_nan(time_);
+}
+
+}  // namespace stride::core

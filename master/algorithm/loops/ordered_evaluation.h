@@ -1,0 +1,98 @@
+// Evaluates the values of a system at one instant: each output behind those that it depends on,
+// algebraic loops solved.
+#ifndef STRIDE_MASTER_ALGORITHM_LOOPS_ORDERED_EVALUATION_H
+#define STRIDE_MASTER_ALGORITHM_LOOPS_ORDERED_EVALUATION_H
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/algorithm/exchange/staged_exchange.h"
+#include "master/algorithm/loops/algebraic_loop.h"
+#include "master/algorithm/loops/evaluation_order.h"
+#include "master/algorithm/run_context.h"
+#include "master/algorithm/unit_timer.h"
+
+namespace stride::core {
+
+/// evaluation_order(), put into practice on instances. Values go through the blocks of an Exchange,
+/// so that nothing remains to be routed.
+class OrderedEvaluation {
+ public:
+  /// Who takes part. Where a component does not, its outputs stay, and its inputs are left to the
+  /// Exchange.
+  class Participants {
+   public:
+    virtual ~Participants() = default;
+    virtual bool takes_part(std::size_t component) const = 0;
+    /// In the phase Events: another value reaches the continuous input of a component with Event
+    /// Mode. `is_followed`: one of its outputs depends on it directly.
+    virtual void on_jump(VariableId input, bool is_followed) = 0;
+    /// Makes the component take part, because a loop that it belongs to has to be solved; returns
+    /// whether it did not before.
+    virtual bool join(std::size_t component) = 0;
+  };
+
+  /// The context must outlive this object. `time`: where the wall-clock time of the units'
+  /// functions is added up.
+  OrderedEvaluation(RunContext& context, Phase phase, UnitTimer::Sum time);
+  OrderedEvaluation(const OrderedEvaluation&) = delete;
+  OrderedEvaluation& operator=(const OrderedEvaluation&) = delete;
+
+  /// Whether no output of a unit follows a connected input, so that run() is a mere exchange.
+  bool is_trivial() const { return !has_direct_inputs_; }
+
+  /// Reads and writes the values of those who take part. At the initialisation, the solution of a
+  /// loop is searched from the values that its inputs have, and each connected input is written
+  /// once at least. Throws Error (Run): a connected output is NaN, or no solution of a loop was
+  /// found.
+  void run(Time time, Participants& participants);
+
+ private:
+  struct EvaluationStage {
+    StagedExchange::OutputRead read;
+    std::vector<StagedExchange::Link> links;  ///< of a loop: those that stay in it and are not cut
+  };
+  struct Block {
+    std::vector<EvaluationStage> stages;
+    std::optional<AlgebraicLoop> loop;
+    const EvaluationBlock* plan;
+    std::vector<StagedExchange::Link> onward;  ///< out of the loop
+  };
+
+  using Targets = std::map<VariableId, std::vector<VariableId>>;  // of an output
+  void plan(const EvaluationBlock& planned, const Targets& targets, RunContext& context);
+  void find_direct_inputs();
+  void evaluate(EvaluationStage& stage);
+  void route(StagedExchange::Link& link);
+  void evaluate_loop(Block& block);
+  void solve(Block& block);
+  void sweep(Block& block);
+  void check_nan(const Block& block) const;
+  void report(VariableId input);
+  bool takes_part(const Block& block) const;
+  ValueBlock value(VariableId id);
+
+  const System& system_;
+  Exchange& exchange_;
+  Phase phase_;
+  std::vector<EvaluationBlock> order_;
+  StagedExchange staged_;
+  std::vector<Block> blocks_;
+  std::set<VariableId> followed_;   ///< continuous inputs on which an output depends
+  bool has_direct_inputs_ = false;  ///< of any kind
+
+  Participants* participants_ = nullptr;
+  Time time_{};
+  bool is_trying_ = false;  ///< values that may not last
+};
+
+}  // namespace stride::core
+
+#endif

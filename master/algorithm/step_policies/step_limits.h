@@ -1,0 +1,49 @@
+// What bounds the steps of a run, whatever its policy.
+#ifndef STRIDE_MASTER_ALGORITHM_STEP_POLICIES_STEP_LIMITS_H
+#define STRIDE_MASTER_ALGORITHM_STEP_POLICIES_STEP_LIMITS_H
+
+#include <optional>
+
+#include <stride/time.h>
+
+#include "master/algorithm/run_options.h"
+#include "master/model/system.h"
+
+namespace stride::core {
+
+/// The span of the run, the longest step that the user and the units allow, and the units' fixed
+/// internal steps.
+class StepLimits {
+ public:
+  /// `default_maximum` applies where the user gives none.
+  StepLimits(const System& system, const RunOptions& options,
+             std::optional<Duration> default_maximum = std::nullopt);
+
+  Time start() const { return start_; }
+  Time stop() const { return stop_; }
+  /// Nothing: neither the user nor a unit limits the steps.
+  std::optional<Duration> maximum() const { return maximum_; }
+  /// A common multiple of all fixed internal steps; 1 ps where there are none.
+  Duration quantum() const { return quantum_; }
+
+  /// The target, or the end of the longest step where that is nearer.
+  Time limited(Time now, Time target) const {
+    return maximum_ && target - now > *maximum_ ? now + *maximum_ : target;
+  }
+  /// The end of a step of this size, the stop time at most, moved back to the last point of the
+  /// units' internal steps. Where that is no step at all, it is moved on to the next such point, or
+  /// if that is further than the maximum, not at all.
+  Time end_of_step(Time now, Duration size) const;
+
+ private:
+  void refine_quantum(Duration internal);
+
+  Time start_;
+  Time stop_;
+  std::optional<Duration> maximum_;
+  Duration quantum_{1};
+};
+
+}  // namespace stride::core
+
+#endif

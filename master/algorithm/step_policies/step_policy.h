@@ -1,0 +1,45 @@
+// Where the communication points of a run are, as far as no event comes before them.
+#ifndef STRIDE_MASTER_ALGORITHM_STEP_POLICIES_STEP_POLICY_H
+#define STRIDE_MASTER_ALGORITHM_STEP_POLICIES_STEP_POLICY_H
+
+#include <memory>
+
+#include <stride/time.h>
+
+#include "master/algorithm/run_options.h"
+#include "master/algorithm/stepping/input_extrapolator.h"
+#include "master/model/system.h"
+
+namespace stride::core {
+
+/// Chooses the communication points of one run. No step is longer than a unit allows
+/// (maximum_step). Steps that are not on a grid end on the units' fixed internal steps, as far as
+/// events and maxima allow.
+class StepPolicy {
+ public:
+  virtual ~StepPolicy() = default;
+
+  /// The next communication point: later than `now`, and the stop time at most.
+  virtual Time next(Time now) = 0;
+
+  /// Likewise, where no unit has to be called before `quiet_until`. A policy with a grid goes on to
+  /// the last point of the grid that is not later than that.
+  virtual Time stride(Time now, Time /*quiet_until*/) { return next(now); }
+
+  /// Whether the step is accepted. If not, it is undone, and next() chooses a nearer point. Called
+  /// where StepPolicyType::controls_error only. Throws Error (Run) where no shorter step is
+  /// allowed.
+  virtual bool accept(Time /*from*/, Time /*reached*/, const Excess& /*excess*/) { return true; }
+};
+
+/// Throws Error (Input) where a unit does not fulfil what the policy of the options requires: steps
+/// of various sizes, and with StepPolicyType::controls_error that steps can be undone. Throws
+/// std::invalid_argument for a step size that is not positive.
+void check_step_policy(const System& system, const RunOptions& options);
+
+/// The policy of the options. The system must outlive it. Throws as check_step_policy() does.
+std::unique_ptr<StepPolicy> make_step_policy(const System& system, const RunOptions& options);
+
+}  // namespace stride::core
+
+#endif

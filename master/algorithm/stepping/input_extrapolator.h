@@ -1,0 +1,95 @@
+// What the units' continuous inputs are during a communication step.
+#ifndef STRIDE_MASTER_ALGORITHM_STEPPING_INPUT_EXTRAPOLATOR_H
+#define STRIDE_MASTER_ALGORITHM_STEPPING_INPUT_EXTRAPOLATOR_H
+
+#include <cstddef>
+#include <map>
+#include <span>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/algorithm/run_context.h"
+#include "master/algorithm/stepping/signal_history.h"
+
+namespace stride::core {
+
+/// The largest error of an input's extrapolation.
+struct Excess {
+  double ratio = 0;  ///< of the error and what is tolerated
+  VariableId output{};
+};
+
+/// Sets the inputs of a unit for the step that it is about to make, from the polynomials through
+/// what the connected outputs were at the last communication points and, with Gauss-Seidel, at the
+/// end of the step, for those units that have made it already.
+///
+/// FMI 3.0 Co-Simulation holds an input during a step, so the value set is the polynomial's mean
+/// over the step: what a unit integrates is then right up to the next order. Inputs that may change
+/// within a step have the polynomial's own value at its begin and wherever the unit asks for it.
+class InputExtrapolator {
+ public:
+  explicit InputExtrapolator(RunContext& context);
+
+  /// Sets a unit's inputs to their values within the step for which before_step() was called last.
+  void within_step(std::size_t component, Unit& unit, double seconds_into_step);
+
+  /// All units stand at a communication point, and their outputs have been fetched. The history of
+  /// those that had an event begins anew: nothing is extrapolated across a jump.
+  void accept(Time time, std::span<const char> had_event);
+
+  /// Leaves the inputs in the exchange, to be delivered. Throws Error (Run) where, with
+  /// Gauss-Seidel, the new value of an output that feeds one of them is NaN.
+  void before_step(std::size_t component, const StepInterval& interval);
+  /// Its outputs have been fetched.
+  void after_step(std::size_t component, Time reached);
+  /// The unit's step is undone.
+  void undo_step(std::size_t component);
+
+  /// After a step to `time` of all, with their outputs fetched: how far these are from where their
+  /// polynomials lead to, at most, as a multiple of absolute + relative * |value|.
+  Excess excess(Time time, double absolute, double relative);
+
+ private:
+  /// The continuous outputs of one component that others are connected to.
+  struct Source {
+    std::vector<ValueSlice> signals;
+    std::vector<VariableId> ids;
+    SignalHistory history{0, 0};
+    bool is_ahead = false;  ///< the newest sample belongs to a step that is not accepted yet
+    bool is_nan = false;    ///< a value of that sample is
+  };
+  struct FedInput {
+    std::size_t signal;
+    bool within_step;  ///< whether the target may change there
+    ValueSlice target;
+    LinearConversion conversion;
+  };
+  /// What one component feeds another.
+  struct Feed {
+    std::size_t source;
+    std::vector<FedInput> inputs;
+  };
+
+  struct Step {
+    Time from, to;
+  };
+
+  /// The place of each signal in its source.
+  using SignalIndices = std::map<ValueSlice, std::size_t>;
+  std::size_t signal_of(const ContinuousLink& link, SignalIndices& indices);
+  void sample(Source& source, Time time);
+  /// Sets the targets that may change within a step, or the others.
+  static void set_targets(const Feed& feed, const SignalHistory& history,
+                          const SignalHistory::Weights& weights, bool within_step);
+
+  Exchange& exchange_;
+  bool sequential_;
+  std::vector<Source> sources_;           ///< by component
+  std::vector<Step> steps_;               ///< the present or last one, by target component
+  std::vector<std::vector<Feed>> feeds_;  ///< by target component
+};
+
+}  // namespace stride::core
+
+#endif

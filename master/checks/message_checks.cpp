@@ -1,0 +1,101 @@
+#include "master/checks/message_checks.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "master/util/time_text.h"
+
+namespace stride::checks {
+namespace {
+
+std::string requests(std::uint64_t count) {
+  return count == 1 ? "1 request" : fmt::format("{} requests", count);
+}
+
+}  // namespace
+
+AnswerCheck::AnswerCheck(const Definition& definition)
+    : Check(definition), demand_(std::get<AnswerDemand>(definition.what)) {}
+
+void AnswerCheck::on_message(const core::Message& message) {
+  if (message.id == demand_.reply) {
+    expire_before(message.time);
+    answer(message.time);
+  } else if (message.id == demand_.request && window().contains(message.time)) {
+    expire_before(message.time);
+    ask(message.time);
+  }
+}
+
+void AnswerCheck::on_point(Time time) {
+  last_ = time;
+  expire_before(later(time, Duration(1)));
+}
+
+void AnswerCheck::expire_before(Time time) {
+  while (!open_.empty() && deadline(open_.front()) < time) {
+    if (!unanswered_) unanswered_ = open_.front();
+    open_.erase(open_.begin());
+  }
+}
+
+void AnswerCheck::ask(Time time) {
+  if (demand_.repeats && !open_.empty()) return;
+  ++requests_;
+  open_.push_back(time);
+}
+
+void AnswerCheck::answer(Time time) {
+  if (open_.empty()) return;
+  ++answered_;
+  slowest_ = std::max(slowest_, time - open_.front());
+  open_.erase(open_.begin());
+}
+
+core::Verdict AnswerCheck::verdict(const Ending& ending) const {
+  if (unanswered_) return unanswered_verdict();
+  if (!open_.empty()) {
+    return make(std::nullopt, fmt::format("the request at {} s was still open where the run ended, "
+                                          "at {} s; {} of {} answered",
+                                          core::to_text(open_.front()),
+                                          core::to_text(ending.reached), answered_, requests_));
+  }
+  if (!last_ || !is_over(*last_, ending)) return cut_short(ending);
+  if (requests_ == 0) return make(std::nullopt, "there was no request");
+  return make(true, fmt::format("{} answered, after {} s at most", requests(requests_),
+                                core::to_text(slowest_)));
+}
+
+core::Verdict AnswerCheck::unanswered_verdict() const {
+  return failed(deadline(*unanswered_),
+                fmt::format("no reply to the request at {} s; {} of {} answered in time",
+                            core::to_text(*unanswered_), answered_, requests(requests_)));
+}
+
+CountCheck::CountCheck(const Definition& definition)
+    : Check(definition), demand_(std::get<CountDemand>(definition.what)) {}
+
+void CountCheck::on_message(const core::Message& message) {
+  if (message.id != demand_.event || !window().contains(message.time)) return;
+  ++count_;
+  if (!exceeded_at_ && demand_.max && count_ > *demand_.max) exceeded_at_ = message.time;
+}
+
+core::Verdict CountCheck::verdict(const Ending& ending) const {
+  if (exceeded_at_) {
+    return failed(*exceeded_at_, fmt::format("message number {}; expected {} at most",
+                                             *demand_.max + 1, *demand_.max));
+  }
+  const bool has_enough = !demand_.min || count_ >= *demand_.min;
+  if (has_enough && !demand_.max) return make(true, text());
+  if (!last_ || !is_over(*last_, ending)) return cut_short(ending);
+  if (has_enough) return make(true, text());
+  return failed(end(ending), fmt::format("{}; expected {} at least", text(), *demand_.min));
+}
+
+std::string CountCheck::text() const {
+  return count_ == 1 ? "1 message" : fmt::format("{} messages", count_);
+}
+
+}  // namespace stride::checks

@@ -1,0 +1,62 @@
+// Checks of messages.
+#ifndef STRIDE_MASTER_CHECKS_MESSAGE_CHECKS_H
+#define STRIDE_MASTER_CHECKS_MESSAGE_CHECKS_H
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "master/checks/check.h"
+
+namespace stride::checks {
+
+/// Answer: each request is followed by a reply in time.
+class AnswerCheck final : public Check {
+ public:
+  /// What it demands is an AnswerDemand.
+  explicit AnswerCheck(const Definition& definition);
+
+  void on_message(const core::Message& message) override;
+  void on_point(Time time) override;
+  core::Verdict verdict(const Ending& ending) const override;
+
+ private:
+  Time deadline(Time request) const { return later(request, demand_.within); }
+  /// Gives up the requests whose time was out before this time.
+  void expire_before(Time time);
+  void answer(Time time);
+  void ask(Time time);
+  core::Verdict unanswered_verdict() const;
+
+  const AnswerDemand& demand_;
+  std::vector<Time> open_;  ///< requests, the oldest first
+  std::uint64_t requests_ = 0;
+  std::uint64_t answered_ = 0;
+  Duration slowest_{};
+  std::optional<Time> unanswered_;  ///< the first request without a reply in time
+  std::optional<Time> last_;        ///< the last communication point
+};
+
+/// Count: how many messages travel during the interval.
+class CountCheck final : public Check {
+ public:
+  /// What it demands is a CountDemand.
+  explicit CountCheck(const Definition& definition);
+
+  void on_message(const core::Message& message) override;
+  void on_point(Time time) override { last_ = time; }
+  core::Verdict verdict(const Ending& ending) const override;
+
+ private:
+  std::string text() const;
+
+  const CountDemand& demand_;
+  std::uint64_t count_ = 0;
+  std::optional<Time> exceeded_at_;
+  std::optional<Time> last_;  ///< the last communication point
+};
+
+}  // namespace stride::checks
+
+#endif

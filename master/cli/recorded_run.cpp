@@ -1,0 +1,172 @@
+#include "master/cli/recorded_run.h"
+
+#include <exception>
+#include <utility>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "master/cli/report_page.h"
+#include "master/cli/verdicts.h"
+#include "master/recorders/results_folder.h"
+#include "master/recorders/run_json.h"
+#include "master/util/error.h"
+
+namespace stride::cli {
+namespace {
+
+/// For work whose failure must not hide how the run ended.
+template <class Work>
+void warn_of_failure(Work&& work) {
+  try {
+    work();
+  } catch (const std::exception& failure) {
+    spdlog::warn("{}", failure.what());
+  }
+}
+
+}  // namespace
+
+Recorders::Recorders(const core::System& system, const ResultsTarget& results) {
+  const auto& [folder, files] = results;
+  if (!files.signals.empty()) signals_.emplace(system, folder / files.signals);
+  if (!files.events.empty()) events_.emplace(system, folder / files.events);
+  if (!files.trace.empty()) trace_.emplace(system, folder / files.trace);
+  if (!files.activity.empty()) activity_.emplace(system, folder / files.activity);
+}
+
+void Recorders::add_to(core::Simulation& simulation) {
+  if (signals_) simulation.add_observer(*signals_);
+  if (events_) simulation.add_observer(*events_);
+  if (trace_) simulation.add_observer(*trace_);
+  if (activity_) simulation.add_observer(*activity_);
+}
+
+RecordedRun::RecordedRun(const LoadedScenario& loaded, const core::RunOptions& options,
+                         ResultsTarget results, const RunDisplay& display,
+                         std::vector<std::unique_ptr<core::Unit>> units, capture::Capture& capture,
+                         TestReport& test_report)
+    : loaded_(loaded),
+      options_(options),
+      results_(std::move(results)),
+      display_(display),
+      capture_(capture),
+      test_report_(test_report),
+      simulation_(loaded.system(), std::move(units), options_),
+      recorders_(loaded.system(), results_),
+      checks_(loaded.checks()),
+      summary_(loaded.system()),
+      progress_(display.progress, options_.start, options_.stop, simulation_) {
+  capture_.follow(simulation_);
+  recorders_.add_to(simulation_);
+  if (!checks_.is_empty()) simulation_.add_observer(checks_, checks_.signals());
+  if (!capture_.is_empty()) simulation_.add_observer(capture_);
+  if (!display_.quiet) simulation_.add_observer(summary_);
+  simulation_.add_observer(progress_);
+}
+
+void RecordedRun::run() {
+  try {
+    simulation_.run();
+  } catch (const std::exception& failure) {
+    conclude_failure(failure.what());
+    throw;
+  }
+  const core::RunEnd end = simulation_.statistics().end;
+  progress_.end(name(end));
+  capture_.end(name(end));
+  collect_verdicts(end == core::RunEnd::EndedByUnit ||
+                   (end == core::RunEnd::Completed && !is_cut_short()));
+  write_statistics(std::nullopt);
+  conclude();
+}
+
+/// The failure of the run is the error to report, so later failures are warnings.
+void RecordedRun::conclude_failure(const std::string& error) {
+  progress_.end("failed");
+  warn_of_failure([&] { capture_.end(fmt::format("failed: {}", error)); });
+  collect_verdicts(false);
+  warn_of_failure([&] { write_statistics(error); });
+  warn_of_failure([&] { write_page(); });
+  warn_of_verdicts();
+}
+
+/// A report that cannot be written does not hide how the run ended.
+void RecordedRun::conclude() {
+  std::exception_ptr page_failure;
+  try {
+    write_page();
+  } catch (const std::exception&) {
+    page_failure = std::current_exception();
+  }
+  const auto rethrow_page_failure = [&] {
+    if (page_failure) std::rethrow_exception(page_failure);
+  };
+  if (!display_.quiet) print_summary();
+  const bool is_good =
+      simulation_.statistics().end != core::RunEnd::Interrupted && failures_text(verdicts_).empty();
+  if (!is_good) warn_of_failure(rethrow_page_failure);
+  require_end();
+  require_passed(verdicts_);
+  rethrow_page_failure();
+}
+
+/// By --stop, before what the scenario demands of all of it.
+bool RecordedRun::is_cut_short() const {
+  return options_.stop < loaded_.scenario().stop.value_or(Time{});
+}
+
+void RecordedRun::collect_verdicts(bool is_complete) {
+  const auto of_units = simulation_.verdicts();
+  verdicts_.assign(of_units.begin(), of_units.end());
+  for (core::Verdict& verdict : checks_.verdicts({simulation_.statistics().reached, is_complete})) {
+    verdicts_.push_back(std::move(verdict));
+  }
+}
+
+/// In a run that did not reach its end, which is the error to report.
+void RecordedRun::warn_of_verdicts() const {
+  const std::string failures = failures_text(verdicts_);
+  if (!failures.empty()) spdlog::warn("checks have failed before the end of the run:{}", failures);
+}
+
+void RecordedRun::write_statistics(const std::optional<std::string>& error) {
+  test_report_.write(options_, simulation_.statistics(), verdicts_, error);
+  if (results_.files.statistics.empty()) return;
+  io::write_run_json(results_.folder / results_.files.statistics,
+                     {.scenario = loaded_.scenario().path,
+                      .system = loaded_.system(),
+                      .options = options_,
+                      .statistics = simulation_.statistics(),
+                      .verdicts = verdicts_,
+                      .error = error,
+                      .files = results_.files,
+                      .plots = loaded_.plots()});
+}
+
+void RecordedRun::write_page() const {
+  const auto& [folder, files] = results_;
+  if (files.report.empty()) return;
+  write_report(folder, files, folder / files.report);
+  if (display_.open_report) warn_of_failure([&] { open_in_browser(folder / files.report); });
+}
+
+void RecordedRun::require_end() const {
+  const core::RunStatistics& statistics = simulation_.statistics();
+  if (statistics.end != core::RunEnd::Interrupted) return;
+  warn_of_verdicts();
+  core::fail_run({{}, {}, {}, statistics.reached},
+                 "the run was interrupted; its results up to there are complete");
+}
+
+void RecordedRun::print_summary() const {
+  const auto& [folder, files] = results_;
+  fmt::print("\n{}{}\nResults in {}:", summary_.text(simulation_.statistics()),
+             verdict_table(verdicts_), folder.string());
+  for (const auto& [what, member] : io::kResultFiles) {
+    if (!(files.*member).empty()) fmt::print(" {}", files.*member);
+  }
+  fmt::print("{}\n", std::filesystem::exists(folder / io::kFilmFolder) ? " film/" : "");
+}
+
+}  // namespace stride::cli

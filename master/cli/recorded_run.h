@@ -1,0 +1,96 @@
+// A run with everything that records, checks and shows it.
+#ifndef STRIDE_MASTER_CLI_RECORDED_RUN_H
+#define STRIDE_MASTER_CLI_RECORDED_RUN_H
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "master/algorithm/run_options.h"
+#include "master/algorithm/simulation.h"
+#include "master/algorithm/unit.h"
+#include "master/algorithm/verdict.h"
+#include "master/capture/capture.h"
+#include "master/checks/checks.h"
+#include "master/cli/progress.h"
+#include "master/cli/summary.h"
+#include "master/cli/test_report.h"
+#include "master/recorders/activity_recorder.h"
+#include "master/recorders/csv_recorder.h"
+#include "master/recorders/event_recorder.h"
+#include "master/recorders/result_files.h"
+#include "master/recorders/vcd_recorder.h"
+#include "master/scenario/loaded_scenario.h"
+
+namespace stride::cli {
+
+/// Where the results go, and which of them are written.
+struct ResultsTarget {
+  std::filesystem::path folder;
+  io::ResultFiles files;
+};
+
+struct RunDisplay {
+  ProgressStyle progress = ProgressStyle::Auto;
+  bool quiet = false;        ///< no summary
+  bool open_report = false;  ///< in a browser, when the run is over
+};
+
+/// The recorders of the result files that are written.
+class Recorders {
+ public:
+  /// Creates the files. Throws core::Error.
+  Recorders(const core::System& system, const ResultsTarget& results);
+
+  void add_to(core::Simulation& simulation);
+
+ private:
+  std::optional<io::CsvRecorder> signals_;
+  std::optional<io::EventRecorder> events_;
+  std::optional<io::VcdRecorder> trace_;
+  std::optional<io::ActivityRecorder> activity_;
+};
+
+/// One simulation with its recorders, checks, captures, summary, progress and reports.
+class RecordedRun {
+ public:
+  /// `units` are the instances of the scenario, with the captured ones wrapped by `capture`. The
+  /// scenario, the capture and the test report must outlive this object. Creates the result files.
+  RecordedRun(const LoadedScenario& loaded, const core::RunOptions& options, ResultsTarget results,
+              const RunDisplay& display, std::vector<std::unique_ptr<core::Unit>> units,
+              capture::Capture& capture, TestReport& test_report);
+
+  /// Throws core::Error (Run) if the run fails or is interrupted, and if a verdict on it is bad.
+  /// Whatever happens, the results are complete up to the last communication point.
+  void run();
+
+ private:
+  void conclude_failure(const std::string& error);
+  void conclude();
+  void collect_verdicts(bool is_complete);
+  void write_statistics(const std::optional<std::string>& error);
+  void write_page() const;
+  void print_summary() const;
+  void require_end() const;
+  void warn_of_verdicts() const;
+  bool is_cut_short() const;
+
+  const LoadedScenario& loaded_;
+  const core::RunOptions options_;
+  const ResultsTarget results_;
+  const RunDisplay display_;
+  capture::Capture& capture_;
+  TestReport& test_report_;
+  core::Simulation simulation_;
+  Recorders recorders_;
+  checks::Checks checks_;
+  std::vector<core::Verdict> verdicts_;
+  Summary summary_;
+  Progress progress_;
+};
+
+}  // namespace stride::cli
+
+#endif

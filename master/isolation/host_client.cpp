@@ -1,0 +1,170 @@
+#include "master/isolation/host_client.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "master/isolation/process/process_memory.h"
+#include "master/isolation/sandbox_hint.h"
+#include "master/util/readable_text.h"
+
+namespace stride::host {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+/// How often is looked whether the supervisor is still there.
+constexpr std::chrono::milliseconds kProcessCheckInterval{50};
+
+double seconds(std::chrono::milliseconds time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+}  // namespace
+
+HostClient::HostClient(const HostedUnitSpec& spec)
+    : spec_(spec),
+      process_(channel_, [&](pid_t supervisor) { serve(channel_, spec, supervisor); }),
+      log_(*channel_.memory) {}
+
+// ---- To and fro ----
+
+ReplyCode HostClient::send(RequestCode request, const MessageWriter& message,
+                           std::optional<Time> time) {
+  if (has_failed()) [[unlikely]]
+    core::fail_run(context(time), "it cannot be called, because " + failure_);
+  Turn& turn = channel_.memory->request;
+  turn.what.store(static_cast<std::uint32_t>(request), std::memory_order_relaxed);
+  turn.size.store(message.size(), std::memory_order_relaxed);
+  turn.number.store(++number_, std::memory_order_release);
+  turn.doorbell.ring();
+  if (!waiter_.spin([&] { return has_reply(); })) await_reply(time);
+  if (!log_.is_empty()) [[unlikely]]
+    take_lines();
+  return static_cast<ReplyCode>(channel_.memory->reply.what.load(std::memory_order_relaxed));
+}
+
+MessageReader HostClient::read() {
+  const std::size_t size = channel_.memory->reply.size.load(std::memory_order_relaxed);
+  if (!channel_.messages.follow(size)) throw BadMessage();
+  return MessageReader({channel_.messages.data(), size});
+}
+
+void HostClient::await_reply(std::optional<Time> time) {
+  const auto begin = Clock::now();
+  const auto limit = spec_.host.call_limit;
+  process::Doorbell& doorbell = channel_.memory->reply.doorbell;
+  for (;;) {
+    const std::uint32_t rings = doorbell.rings();
+    take_lines();
+    if (has_reply()) return;
+    if (process_.look_for_end()) {
+      take_lines();
+      if (has_reply()) return;
+      fail(process_.how_it_ended() + present_call(), time);
+    }
+    const auto waited = Clock::now() - begin;
+    if (limit && waited >= *limit) {
+      const std::string call = present_call();
+      process_.kill();
+      take_lines();
+      fail(fmt::format("it took longer than {} s{}, so its process was ended", seconds(*limit),
+                       call),
+           time);
+    }
+    if (!limit && waited > spec_.options.patience) complain_of_waiting();
+    doorbell.sleep(
+        rings, limit ? std::min<std::chrono::nanoseconds>(kProcessCheckInterval, *limit - waited)
+                     : kProcessCheckInterval);
+  }
+}
+
+void HostClient::complain_of_waiting() {
+  if (std::exchange(has_complained_, true)) return;
+  log(fmi::Status::Warning, "stride",
+      fmt::format("it has taken more than {} s{}, and there is no limit (--unit-timeout)",
+                  seconds(spec_.options.patience), present_call()));
+}
+
+core::HostStatistics HostClient::statistics() const {
+  const SnapshotBoard& snapshots = channel_.memory->snapshots;
+  core::HostStatistics statistics;
+  statistics.snapshots = snapshots.snapshots;
+  statistics.restores = snapshots.restores;
+  statistics.most_snapshots = snapshots.most_kept;
+  statistics.most_snapshot_memory = snapshots.most_memory;
+  statistics.most_memory = channel_.memory->most_memory;
+  if (!process_.has_ended()) {
+    statistics.most_memory =
+        std::max(statistics.most_memory, process::most_memory(channel_.memory->active));
+  }
+  return statistics;
+}
+
+void HostClient::finish() {
+  process_.finish([&] { take_lines(); });
+  take_lines();
+  take_last_line();
+}
+
+// ---- What is said besides ----
+
+void HostClient::take_lines() {
+  log_.read([&](LogMessage&& message) {
+    output_tail_.add_logged(message.text);
+    log(message.status, message.category, message.text);
+  });
+  channel_.memory->printed.read(printed_.bytes());
+  printed_.take([&](std::string_view line) { tell_printed(line); });
+}
+
+void HostClient::tell_printed(std::string_view line) {
+  output_tail_.add_printed(line);
+  log(fmi::Status::Ok, kPrinted, std::string(line));
+}
+
+/// A line without an end, when nothing comes behind it.
+void HostClient::take_last_line() {
+  printed_.take_rest([&](std::string_view line) { tell_printed(line); });
+}
+
+void HostClient::log(fmi::Status status, const std::string& category,
+                     const std::string& text) const noexcept {
+  try {
+    if (spec_.options.log) spec_.options.log(spec_.name, status, category, text);
+  } catch (...) {  // as in the unit's own process, where nothing may cross its C code
+  }
+}
+
+// ---- Failures ----
+
+void HostClient::fail(const std::string& what, std::optional<Time> time) {
+  failure_ = what;
+  if (process_.has_ended()) take_last_line();
+  std::string hint = sandbox_hint(output_tail_.text(), spec_.name, spec_.host);
+  if (hint.empty() && spec_.host.memory_limit) {
+    hint = fmt::format("its memory is limited to {} MiB (memoryLimit); it may need more",
+                       *spec_.host.memory_limit >> 20);
+  }
+  core::fail_run(context(time), failure_ + output_tail_.text(), hint);
+}
+
+void HostClient::fail_nonsense(std::optional<Time> time) {
+  process_.kill();
+  take_lines();
+  fail(BadMessage().what() + present_call(), time);
+}
+
+std::string HostClient::present_call() const {
+  constexpr std::size_t kLongest = 100;
+  const std::string function =
+      core::readable_text(channel_.memory->call_note.read(), kLongest);  // the unit can write there
+  return function.empty() ? "" : " in " + function;
+}
+
+core::Context HostClient::context(std::optional<Time> time) const {
+  return {.where = spec_.options.where, .unit = spec_.name, .variable = {}, .time = time};
+}
+
+}  // namespace stride::host

@@ -1,0 +1,74 @@
+#ifndef STRIDE_MASTER_ISOLATION_HOST_CLIENT_H
+#define STRIDE_MASTER_ISOLATION_HOST_CLIENT_H
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "master/algorithm/statistics.h"
+#include "master/isolation/channel.h"
+#include "master/isolation/host_process.h"
+#include "master/isolation/message.h"
+#include "master/isolation/output_tail.h"
+#include "master/isolation/process/doorbell.h"
+#include "master/isolation/server.h"
+
+namespace stride::host {
+
+/// The master's side of requests and replies, and of the process that replies. What the unit logs
+/// and prints meanwhile reaches the log.
+class HostClient {
+ public:
+  /// Starts the process. Throws std::system_error if there can be none.
+  explicit HostClient(const HostedUnitSpec& spec);
+
+  /// A message to be written and sent; it takes the place of whatever came before.
+  MessageWriter write() { return MessageWriter(channel_.messages); }
+  /// Sends a request and waits for what is said to it. Throws core::Error of the kind Run, at
+  /// `time`, if the process ends before, or is ended because its time is over.
+  ReplyCode send(RequestCode request, const MessageWriter& message, std::optional<Time> time);
+  /// What was said, until the next message is written.
+  MessageReader read();
+
+  /// Logs something about the unit.
+  void log(fmi::Status status, const std::string& category, const std::string& text) const noexcept;
+  /// Ends the process, and lets the log have what it still has to say.
+  void finish();
+
+  /// The process has ended, or sends what cannot be read: nothing can be sent any longer.
+  bool has_failed() const { return !failure_.empty(); }
+  [[noreturn]] void fail_nonsense(std::optional<Time> time);
+  /// Of snapshots and memory; also after a failure.
+  core::HostStatistics statistics() const;
+  std::uint64_t calls() const { return channel_.memory->calls.load(std::memory_order_relaxed); }
+
+ private:
+  bool has_reply() const {
+    return channel_.memory->reply.number.load(std::memory_order_acquire) == number_;
+  }
+  void await_reply(std::optional<Time> time);
+  void take_lines();
+  void take_last_line();
+  void tell_printed(std::string_view line);
+  void complain_of_waiting();
+  [[noreturn]] void fail(const std::string& what, std::optional<Time> time);
+  std::string present_call() const;
+  core::Context context(std::optional<Time> time) const;
+
+  const HostedUnitSpec& spec_;
+  Channel channel_;
+  HostProcess process_;
+  process::Waiter waiter_;
+  std::uint32_t number_ = 0;  ///< of the latest request
+  LogReader log_;
+  PrintedLines printed_;
+  OutputTail output_tail_;
+  bool has_complained_ = false;
+  std::string failure_;  ///< why nothing can be sent any longer
+};
+
+}  // namespace stride::host
+
+#endif

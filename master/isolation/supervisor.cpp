@@ -1,0 +1,191 @@
+#include "master/isolation/supervisor.h"
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/signalfd.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "master/isolation/process/surroundings.h"
+#include "master/util/archive/temporary_folder.h"
+
+namespace stride::host {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// How often is looked whether the master has made room for printed lines.
+constexpr int kNoRoomPause = 5;  // [ms]
+
+/// A file that becomes readable when a child ends.
+process::Descriptor watch_children() {
+  sigset_t children;
+  ::sigemptyset(&children);
+  ::sigaddset(&children, SIGCHLD);
+  ::sigprocmask(SIG_BLOCK, &children, nullptr);
+  return process::Descriptor(::signalfd(-1, &children, SFD_CLOEXEC | SFD_NONBLOCK));
+}
+
+/// Those that are its own, and those whose parents have ended.
+std::vector<pid_t> children() {
+  const std::string self = std::to_string(::getpid());
+  std::ifstream file("/proc/self/task/" + self + "/children");
+  if (!file) ::kill(0, SIGKILL);  // without /proc: the whole group, this one with it
+  std::vector<pid_t> found;
+  for (pid_t child = 0; file >> child;) found.push_back(child);
+  return found;
+}
+
+class Supervisor {
+ public:
+  Supervisor(ChannelMemory& channel, process::Descriptor control, process::Descriptor output)
+      : channel_(channel),
+        control_(std::move(control)),
+        output_(std::move(output)),
+        ends_(watch_children()) {}
+
+  /// Returns true when the master wants it to finish, false when the master is gone.
+  bool run() {
+    for (;;) {
+      wait();
+      pass_on();
+      bury();
+      char command = 0;
+      const ssize_t size = ::recv(control_.number(), &command, 1, MSG_DONTWAIT);
+      if (size < 0 && (errno == EAGAIN || errno == EINTR)) continue;
+      if (size <= 0) return false;
+      kill_children();
+      if (static_cast<Command>(command) == Command::Finish) return true;
+    }
+  }
+
+  /// What has been printed so far, if the master makes room for it in time.
+  void pass_on_all(std::chrono::milliseconds patience) {
+    while (pass_on() && patience > 0ms) {
+      if (pending_.empty()) continue;
+      std::this_thread::sleep_for(1ms);
+      patience -= 1ms;
+    }
+  }
+
+  /// Those of them that have children of their own leave these to this process.
+  void kill_children() {
+    for (;;) {
+      const std::vector<pid_t> found = children();
+      if (found.empty()) return;
+      for (const pid_t child : found) ::kill(child, SIGKILL);
+      for (const pid_t child : found) {
+        int status = 0;
+        rusage usage{};
+        while (::wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {
+        }
+        note_end(child, status, usage);
+      }
+    }
+  }
+
+ private:
+  void wait() const {
+    const bool has_room = pending_.empty();
+    std::array<pollfd, 3> files{{{control_.number(), POLLIN, 0},
+                                 {ends_.number(), POLLIN, 0},
+                                 {has_room ? output_.number() : -1, POLLIN, 0}}};
+    ::poll(files.data(), files.size(), has_room ? -1 : kNoRoomPause);
+  }
+
+  /// What the unit has printed, a piece of it; returns whether there was something.
+  bool pass_on() {
+    if (pending_.empty() && !process::read_some(output_, pending_)) return false;
+    pending_.erase(0, channel_.printed.write(pending_));
+    channel_.reply.doorbell.ring();
+    return true;
+  }
+
+  void bury() {
+    signalfd_siginfo ignored;
+    while (::read(ends_.number(), &ignored, sizeof ignored) > 0) {
+    }
+    int status = 0;
+    rusage usage{};
+    for (pid_t child = 0; (child = ::wait4(-1, &status, WNOHANG, &usage)) > 0;) {
+      note_end(child, status, usage);
+    }
+  }
+
+  void note_end(pid_t child, int status, const rusage& usage) {
+    raise_to(channel_.most_memory, static_cast<std::uint64_t>(usage.ru_maxrss) * 1024);
+    channel_.snapshots.note_end(child);
+    if (child != channel_.active || channel_.end != End::None) return;
+    pass_on_all(100ms);  // what it has said comes first
+    channel_.end_code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
+    channel_.end = WIFSIGNALED(status) ? End::Killed : End::Exited;
+    channel_.reply.doorbell.ring();
+  }
+
+  ChannelMemory& channel_;
+  process::Descriptor control_, output_, ends_;
+  std::string pending_;  ///< printed, and there was no room for it
+};
+
+/// The master's locks are free when it is no longer there at all.
+void clean_up_after(pid_t master) {
+  for (int i = 0; i < 1000 && ::getppid() == master; ++i) std::this_thread::sleep_for(1ms);
+  archive::TemporaryFolder::sweep_abandoned();
+}
+
+}  // namespace
+
+void supervise(Channel& channel, process::Descriptor control, pid_t master,
+               const std::function<void(pid_t)>& serve) noexcept {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+  ::prctl(PR_SET_NAME, "stride-keeper");
+  process::forget_signal_handlers();
+  const process::Descriptor nowhere(::open("/dev/null", O_RDWR | O_CLOEXEC));
+  process::redirect_standard_files(nowhere.number());
+  const int messages = channel.messages.file().number();
+  process::close_other_files({control.number(), messages});
+  process::Pipe output;
+  const pid_t self = ::getpid();
+  const pid_t server = ::fork();
+  if (server == 0) {
+    process::die_with(self);
+    channel.memory->active = ::getpid();  // which may be another one when this is seen below
+    process::redirect_standard_files(output.write.number());
+    process::close_other_files({messages});
+    serve(self);
+    ::_exit(0);
+  }
+  pid_t nobody = 0;
+  channel.memory->active.compare_exchange_strong(nobody, server);
+  output.write.close();
+  if (server < 0) {
+    channel.memory->end_code = errno;
+    channel.memory->end = End::NotStarted;
+    channel.memory->reply.doorbell.ring();
+  }
+  Supervisor supervisor(*channel.memory, std::move(control), std::move(output.read));
+  const bool is_wanted = supervisor.run();
+  supervisor.kill_children();
+  if (is_wanted) {
+    supervisor.pass_on_all(1000ms);
+  } else {
+    clean_up_after(master);
+  }
+  ::_exit(0);
+}
+
+}  // namespace stride::host

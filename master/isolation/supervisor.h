@@ -1,0 +1,30 @@
+#ifndef STRIDE_MASTER_ISOLATION_SUPERVISOR_H
+#define STRIDE_MASTER_ISOLATION_SUPERVISOR_H
+
+#include <functional>
+
+#include <sys/types.h>
+
+#include "master/isolation/channel.h"
+#include "master/isolation/process/descriptor.h"
+
+namespace stride::host {
+
+/// What the master sends to a supervisor through the control socket; its end is the end of the
+/// master.
+enum class Command : char {
+  Kill = 'K',    ///< end the unit's process, and tell how it ended
+  Finish = 'F',  ///< end, and leave nothing
+};
+
+/// Supervises a unit's process, which it forks: it passes on what that process prints, notes how it
+/// ends, and ends it with all its children when the master is gone, whose temporary folders it then
+/// removes. To be called in a fresh fork of the master.
+///
+/// `serve` is called in the unit's process, with the supervisor's process id.
+[[noreturn]] void supervise(Channel& channel, process::Descriptor control, pid_t master,
+                            const std::function<void(pid_t)>& serve) noexcept;
+
+}  // namespace stride::host
+
+#endif

@@ -1,0 +1,28 @@
+#include "master/model/unit_of_measure.h"
+
+#include "master/util/xml/element.h"
+
+namespace stride::core {
+
+BaseUnitOfMeasure read_base_unit(const xml::Element& element) {
+  BaseUnitOfMeasure unit;
+  for (std::size_t i = 0; i < kBaseUnits.size(); ++i) {
+    unit.exponents[i] = element.number<int>(kBaseUnits[i]).value_or(0);
+  }
+  unit.factor = element.number<double>("factor").value_or(1);
+  unit.offset = element.number<double>("offset").value_or(0);
+  return unit;
+}
+
+std::optional<LinearConversion> convert(const UnitOfMeasure& from, const UnitOfMeasure& to) {
+  if (from.name.empty() || to.name.empty()) return LinearConversion{};
+  if (!from.meaning || !to.meaning) {
+    return from.name == to.name ? std::optional(LinearConversion{}) : std::nullopt;
+  }
+  const BaseUnitOfMeasure& a = *from.meaning;
+  const BaseUnitOfMeasure& b = *to.meaning;
+  if (a.exponents != b.exponents) return std::nullopt;
+  return LinearConversion{a.factor / b.factor, (a.offset - b.offset) / b.factor};
+}
+
+}  // namespace stride::core

@@ -1,0 +1,180 @@
+#include "master/scenario/run_settings.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "master/util/number_text.h"
+#include "master/util/suggest.h"
+#include "master/util/time_text.h"
+#include "master/util/xml/element.h"
+
+namespace stride::io {
+namespace {
+
+template <class Choices>
+typename Choices::value_type parse_word(std::string_view text, const Choices& choices) {
+  std::vector<std::string> words;
+  for (const auto choice : choices) {
+    words.emplace_back(name(choice));
+    if (text == words.back()) return choice;
+  }
+  throw std::invalid_argument(
+      fmt::format("'{}' is none of them; {}", text, core::suggestion(std::string(text), words)));
+}
+
+Duration parse_step(std::string_view text) {
+  const Duration step = parse_seconds(text);
+  if (step <= Duration::zero()) throw std::invalid_argument("a step must be above 0 s");
+  return step;
+}
+
+/// Replaces what is set already, if the other value is set.
+template <class T, class U>
+void take(T& mine, const std::optional<U>& other) {
+  if (other) mine = *other;
+}
+
+constexpr std::uint64_t kMebibyte = 1024 * 1024;
+
+/// The variable, if `fits` says that it is of the kind. What else is named has no promise to widen.
+template <class Fits>
+core::VariableId find(const core::System& system, const IdleNumber& number, const char* kind,
+                      Fits&& fits) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < system.components().size(); ++i) {
+    const auto& variables = system.components()[i].description->variables;
+    for (std::size_t k = 0; k < variables.size(); ++k) {
+      if (!fits(*system.components()[i].description, variables[k])) continue;
+      names.push_back(system.full_name({i, k}));
+      if (names.back() == number.variable) return {i, k};
+    }
+  }
+  core::fail_input({number.where, {}, {}, {}}, fmt::format("'{}' is no {}", number.variable, kind),
+                   core::suggestion(number.variable, names));
+}
+
+void check(const IdleRule& rule, const core::StepOptions& step) {
+  if (!rule.max_skip || !step.policy->has_grid || *rule.max_skip >= step.size) {
+    return;
+  }
+  core::fail_input({rule.where, {}, {}, {}},
+                   fmt::format("the longest skip of {} s is below the communication step of {} s, "
+                               "so nothing could be skipped",
+                               core::to_text(*rule.max_skip), core::to_text(step.size)),
+                   "choose a longer one, or switch idle skipping off (enabled=\"false\", "
+                   "--no-idle-skip)");
+}
+
+}  // namespace
+
+void StepSettings::set_policy(std::string_view text) {
+  policy = parse_word(text, core::kStepPolicies);
+}
+void StepSettings::set_size(std::string_view text) { size = parse_step(text); }
+void StepSettings::set_maximum(std::string_view text) { maximum = parse_step(text); }
+void StepSettings::set_minimum(std::string_view text) { minimum = parse_step(text); }
+void StepSettings::set_relative_tolerance(std::string_view text) {
+  relative_tolerance = parse_at_least_zero(text);
+}
+void StepSettings::set_absolute_tolerance(std::string_view text) {
+  absolute_tolerance = parse_at_least_zero(text);
+}
+void StepSettings::set_coupling(std::string_view text) {
+  coupling = parse_word(text, core::kCouplings);
+}
+void StepSettings::set_extrapolation(std::string_view text) {
+  extrapolation = parse_word(text, core::kExtrapolations);
+}
+
+void StepSettings::apply(core::RunOptions& options) const {
+  take(options.step.policy, policy);
+  take(options.step.size, size);
+  take(options.step.maximum, maximum);
+  take(options.step.minimum, minimum);
+  take(options.step.relative_tolerance, relative_tolerance);
+  take(options.step.absolute_tolerance, absolute_tolerance);
+  take(options.coupling, coupling);
+  take(options.extrapolation, extrapolation);
+}
+
+void HostSettings::override_with(const HostSettings& other) {
+  if (other.process) where = other.where;
+  take(process, other.process);
+  take(call_limit, other.call_limit);
+  take(memory_limit, other.memory_limit);
+  take(sandbox, other.sandbox);
+  take(snapshots, other.snapshots);
+}
+
+std::vector<HostSettings> HostRules::settings(std::span<const std::string> components) const {
+  std::vector<HostSettings> settings(components.size());
+  for (const HostRule& rule : rules) {
+    for (const std::size_t i : select_components(components, {&rule.components, 1})) {
+      settings[i].override_with(rule.settings);
+    }
+  }
+  return settings;
+}
+
+std::chrono::milliseconds parse_call_limit(std::string_view text) {
+  const Duration limit = parse_seconds(text);
+  if (limit <= Duration::zero()) throw std::invalid_argument("a time limit must be above 0 s");
+  return std::chrono::ceil<std::chrono::milliseconds>(limit);
+}
+
+std::uint64_t parse_memory_limit(std::string_view text) {
+  const auto number = xml::to_number<std::uint64_t>(text);
+  const bool fits =
+      number && *number > 0 && *number <= std::numeric_limits<std::uint64_t>::max() / kMebibyte;
+  if (!fits) {
+    throw std::invalid_argument(
+        fmt::format("'{}' is no whole number of MiB; expected at least 1", text));
+  }
+  return *number * kMebibyte;
+}
+
+core::IdleOptions IdleSettings::options(const core::System& system,
+                                        const core::StepOptions& step) const {
+  core::IdleOptions options;
+  options.least = step.policy->has_grid ? step.size : Duration{1};
+  std::vector<std::string> names;
+  for (const core::Component& component : system.components()) names.push_back(component.name);
+  options.max_skip.assign(names.size(), kDefaultMaxSkip);
+  for (const IdleRule& rule : rules) {
+    check(rule, step);
+    for (const std::size_t i : select_components(names, {&rule.components, 1})) {
+      options.max_skip[i].reset();
+      if (rule.enabled) options.max_skip[i] = rule.max_skip.value_or(kDefaultMaxSkip);
+    }
+  }
+  for (const IdleNumber& deadband : deadbands) {
+    const auto is_input = [](const core::UnitDescription& unit, const core::Variable& variable) {
+      return unit.promises_idle && variable.causality == core::Causality::Input &&
+             variable.type == core::ValueType::Float64;
+    };
+    options.deadbands.push_back(
+        {find(system, deadband, "Float64 input of a unit that can promise to be idle", is_input),
+         deadband.value});
+  }
+  for (const IdleNumber& tolerance : tolerances) {
+    const auto has_one = [](const core::UnitDescription&, const core::Variable& variable) {
+      return variable.tolerance.has_value();
+    };
+    options.tolerances.push_back(
+        {find(system, tolerance, "output with a tolerance", has_one), tolerance.value});
+  }
+  return options;
+}
+
+Duration parse_max_skip(std::string_view text) {
+  const Duration skip = parse_seconds(text);
+  if (skip <= Duration::zero()) throw std::invalid_argument("a skip must be above 0 s");
+  return skip;
+}
+
+}  // namespace stride::io

@@ -1,0 +1,112 @@
+// What a scenario or a command line says about steps, processes and idle skipping.
+#ifndef STRIDE_MASTER_SCENARIO_RUN_SETTINGS_H
+#define STRIDE_MASTER_SCENARIO_RUN_SETTINGS_H
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/algorithm/run_options.h"
+#include "master/model/system.h"
+#include "master/scenario/component_selection.h"
+#include "master/util/error.h"
+
+namespace stride::io {
+
+/// What is said about the stepping; nothing where nothing is said.
+struct StepSettings {
+  std::optional<const core::StepPolicyType*> policy;
+  std::optional<Duration> size;
+  std::optional<Duration> maximum;
+  std::optional<Duration> minimum;
+  std::optional<double> relative_tolerance;
+  std::optional<double> absolute_tolerance;
+  std::optional<core::Coupling> coupling;
+  std::optional<core::Extrapolation> extrapolation;
+
+  /// Each takes a text into its place. Throws std::invalid_argument whose text says what was
+  /// expected. Times are above 0 s, tolerances at least 0.
+  void set_policy(std::string_view text);
+  void set_size(std::string_view text);
+  void set_maximum(std::string_view text);
+  void set_minimum(std::string_view text);
+  void set_relative_tolerance(std::string_view text);
+  void set_absolute_tolerance(std::string_view text);
+  void set_coupling(std::string_view text);
+  void set_extrapolation(std::string_view text);
+
+  /// What is said here replaces what stands in the options.
+  void apply(core::RunOptions& options) const;
+};
+
+/// What is said of one component; nothing where nothing is said.
+struct HostSettings {
+  std::optional<bool> process{};  ///< whether it has a process of its own
+  core::Location where{};         ///< what says so
+  std::optional<std::chrono::milliseconds> call_limit{};
+  std::optional<std::uint64_t> memory_limit{};  ///< [byte]
+  std::optional<bool> sandbox{};
+  std::optional<bool> snapshots{};  ///< whether these may roll it back, if it has no state
+
+  /// What the other one says goes before what is said here.
+  void override_with(const HostSettings& other);
+};
+
+struct HostRule {
+  ComponentPattern components;
+  HostSettings settings;
+};
+
+struct HostRules {
+  std::vector<HostRule> rules;  ///< a later one goes before an earlier one
+
+  /// For each of the components. Throws core::Error (Input) for a pattern that matches none.
+  std::vector<HostSettings> settings(std::span<const std::string> components) const;
+};
+
+/// Takes a number of seconds, and rounds up to milliseconds. Throws std::invalid_argument whose
+/// text says what was expected.
+std::chrono::milliseconds parse_call_limit(std::string_view text);
+/// Takes a whole number of MiB, and returns bytes. Throws likewise.
+std::uint64_t parse_memory_limit(std::string_view text);
+
+/// Whether and for how long components may be left alone.
+struct IdleRule {
+  ComponentPattern components;
+  bool enabled = true;
+  std::optional<Duration> max_skip;  ///< none: the default
+  core::Location where{};
+};
+
+/// A number for "component.variable".
+struct IdleNumber {
+  std::string variable;
+  double value = 0;
+  core::Location where{};
+};
+
+struct IdleSettings {
+  static constexpr Duration kDefaultMaxSkip = std::chrono::seconds(1);
+
+  std::vector<IdleRule> rules;  ///< a later one goes before an earlier one; without one: enabled
+  std::vector<IdleNumber> deadbands;
+  std::vector<IdleNumber> tolerances;
+
+  /// For a run whose steps are chosen already. Throws core::Error (Input) for a pattern or a
+  /// variable that the system has not, a deadband of what is no Float64 input, a tolerance of what
+  /// is no output with one, and a max_skip below the step.
+  core::IdleOptions options(const core::System& system, const core::StepOptions& step) const;
+};
+
+/// Takes the text of a max_skip. Throws std::invalid_argument whose text says what was expected.
+Duration parse_max_skip(std::string_view text);
+
+}  // namespace stride::io
+
+#endif

@@ -1,0 +1,69 @@
+#include "master/util/diagnostics.h"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace stride::core {
+namespace {
+
+constexpr std::size_t kMostLines = 60;
+
+/// Those about one unit behind its first one.
+std::vector<Error> by_unit(const std::vector<Error>& mistakes) {
+  std::vector<Error> sorted;
+  for (const Error& mistake : mistakes) {
+    const auto is_same = [&](const Error& other) {
+      return other.context().unit == mistake.context().unit;
+    };
+    const auto last = std::find_if(sorted.rbegin(), sorted.rend(), is_same);
+    sorted.insert(last == sorted.rend() ? sorted.end() : last.base(), mistake);
+  }
+  return sorted;
+}
+
+/// A hint that several share is reported once, behind them all.
+std::string shared_hints(const std::vector<Error>& mistakes, std::map<std::string, int>& uses) {
+  std::string text;
+  for (const Error& mistake : mistakes) {
+    int& count = uses[mistake.hint()];
+    if (mistake.hint().empty() || count < 2) continue;
+    text += (text.empty() ? "" : "\n  hint: ") + mistake.hint();
+    count = 0;
+  }
+  return text;
+}
+
+}  // namespace
+
+bool Diagnostics::mentions(const std::string& unit, const std::string& variable) const {
+  return std::any_of(kept_.begin(), kept_.end(), [&](const Error& mistake) {
+    return mistake.context().unit == unit && mistake.context().variable == variable;
+  });
+}
+
+void Diagnostics::raise() const {
+  if (kept_.empty()) return;
+  if (kept_.size() == 1) throw kept_.front();
+  const std::vector<Error> sorted = by_unit(kept_);
+  const std::string& unit = sorted.front().context().unit;
+  const bool is_of_one_unit = sorted.back().context().unit == unit && !unit.empty();
+  std::string text = is_of_one_unit ? fmt::format("{} things do not fit:", sorted.size())
+                                    : fmt::format("there are {} mistakes:", sorted.size());
+  std::map<std::string, int> hint_uses;
+  for (const Error& mistake : sorted) ++hint_uses[mistake.hint()];
+  for (std::size_t i = 0; i < std::min(sorted.size(), kMostLines); ++i) {
+    const std::string& hint = sorted[i].hint();
+    Context context = sorted[i].context();
+    if (is_of_one_unit) context.unit.clear();
+    text += fmt::format("\n  {}{}", to_text(context), sorted[i].message());
+    if (!hint.empty() && hint_uses[hint] == 1) text += fmt::format(" ({})", hint);
+  }
+  if (sorted.size() > kMostLines) {
+    text += fmt::format("\n  … and {} more", sorted.size() - kMostLines);
+  }
+  fail_input({{}, is_of_one_unit ? unit : "", {}, {}}, text, shared_hints(sorted, hint_uses));
+}
+
+}  // namespace stride::core

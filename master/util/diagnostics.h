@@ -1,0 +1,44 @@
+// Mistakes in the input, collected and reported together.
+#ifndef STRIDE_MASTER_UTIL_DIAGNOSTICS_H
+#define STRIDE_MASTER_UTIL_DIAGNOSTICS_H
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "master/util/error.h"
+
+namespace stride::core {
+
+/// Collects what is wrong with the input while the rest of it is checked.
+class Diagnostics {
+ public:
+  /// Calls `check`, and keeps the Error of the kind Input that it throws. Returns whether it threw
+  /// none.
+  template <class Check>
+  bool attempt(Check&& check) {
+    try {
+      std::forward<Check>(check)();
+      return true;
+    } catch (const Error& mistake) {
+      if (mistake.kind() != Error::Kind::Input) throw;
+      kept_.push_back(mistake);
+      return false;
+    }
+  }
+
+  bool any() const { return !kept_.empty(); }
+  /// Whether one of them concerns this variable or connector of a unit.
+  bool mentions(const std::string& unit, const std::string& variable) const;
+
+  /// Throws what was kept, if anything was: a single mistake as it is, several as one Error with a
+  /// line for each, those about one unit together, in the order in which they were found.
+  void raise() const;
+
+ private:
+  std::vector<Error> kept_;
+};
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,121 @@
+// One instance of the unit, simulated from point to point of the grid with a stimulus.
+#ifndef STRIDE_MASTER_VERIFY_TEST_INSTANCE_H
+#define STRIDE_MASTER_VERIFY_TEST_INSTANCE_H
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "master/algorithm/events/clocks.h"
+#include "master/verify/recording.h"
+#include "master/verify/stimulus.h"
+#include "master/verify/tested_unit.h"
+#include "master/verify/watched_unit.h"
+
+namespace stride::verify {
+
+/// How a step of the grid is cut into communication steps. The inputs change at the grid alone.
+enum class Split { None, Halves, Uneven };
+
+struct TestInstanceOptions {
+  std::string name = "unit";
+  bool early_return_allowed = true;
+  Split split = Split::None;
+  std::uint64_t seed = 0;  ///< of the stimulus; 0 = that of the request
+};
+
+/// Call order: {start(), run_to() with ascending points} again after each reset(). Throws Failure
+/// where the unit does what no unit may, core::Error where it fails.
+class TestInstance {
+ public:
+  TestInstance(const TestedUnit& tested, process::SharedNote& note,
+               TestInstanceOptions options = {});
+
+  core::Unit& unit() { return *units_.front(); }
+  /// A capability that the unit has by its description.
+  template <core::CapabilityInterface C>
+  C& capability() {
+    return unit().require_capability<C>();
+  }
+  Time now() const { return position_.now; }
+  /// The last point of the grid that was reached.
+  std::size_t at() const { return position_.point; }
+  /// What happened since the last start; its rows are those of run_to(… , true).
+  const Recording& recording() const { return recording_; }
+  void forget_rows() { recording_.rows.clear(); }
+
+  /// Sets the start values and goes through initialization and the first events.
+  void start();
+  /// The same in parts, to look at the unit in between.
+  void set_start_values();
+  void enter_initialization();
+  void exit_initialization();
+
+  /// To the communication point k, unless the unit wants the simulation to end before.
+  void run_to(std::size_t k, bool records = true);
+  /// One communication step with the inputs as they are, and the events at its end; false if it was
+  /// rejected, in which case nothing has changed.
+  bool try_step(Time to);
+  /// Event Mode at this instant, with the inputs of point k where it is given.
+  void handle_events(std::optional<std::size_t> k = std::nullopt);
+
+  /// The iterations of Event Mode, and back to Step Mode.
+  void finish_events();
+
+  void terminate() { unit().terminate(); }
+  /// Resets the unit and this object.
+  void reset();
+
+  std::vector<std::string> observe();
+  core::ValueBlock get(const core::Variable& variable);
+  void set(const core::Variable& variable, const core::ValueBlock& value);
+
+  /// What belongs to the instance beside its unit's state.
+  struct Position {
+    Time now{};
+    std::size_t point = 0;
+    std::optional<Time> next_event;
+  };
+  const Position& position() const { return position_; }
+  /// Keeps the unit's state and the position in a slot, and goes back there.
+  void save(std::size_t slot);
+  void restore(std::size_t slot);
+  /// After the unit itself got a state of another instance at this position. `clocks` may be null
+  /// for a unit without time-based clocks.
+  void stand_at(const Position& position, const core::Clocks* clocks);
+  const core::Clocks& clocks() const { return *clocks_; }
+
+ private:
+  struct Saved {  // by slot
+    Position position;
+    std::optional<core::Clocks> clocks;
+  };
+
+  void advance(Time to);
+  void shorten(Time to);
+  void enter_grid_step(std::size_t k);
+  void set_inputs(std::size_t k, bool continuous_only);
+  void set_clocked_inputs(std::size_t k);
+  std::vector<Time> targets(std::size_t k) const;
+  bool is_event_due();
+  void tick_triggered(std::size_t k);
+  bool ticks(core::ValueReference clock) const;
+  void record_ticks();
+
+  const TestedUnit& tested_;
+  TestInstanceOptions options_;
+  Stimulus stimulus_;
+  std::vector<std::unique_ptr<core::Unit>> units_;  ///< one
+  std::optional<core::Clocks> clocks_;              ///< new with each start
+  std::vector<core::ValueBlock> blocks_;            ///< for the groups of TestedUnit::observed()
+  std::vector<core::ValueReference> ticking_;       ///< input clocks in this super-dense instant
+  Position position_;
+  Recording recording_;
+  bool records_ = false;
+  std::vector<Saved> saved_;
+};
+
+}  // namespace stride::verify
+
+#endif

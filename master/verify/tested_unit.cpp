@@ -1,0 +1,113 @@
+#include "master/verify/tested_unit.h"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "master/util/time_text.h"
+
+namespace stride::verify {
+namespace {
+
+using core::Causality;
+using core::ValueType;
+using core::Variable;
+
+constexpr Duration kDefaultStep = std::chrono::milliseconds(1);
+constexpr std::int64_t kDefaultSteps = 200;
+constexpr std::int64_t kMostSimulatedSteps = 1000;
+/// Values that are kept of one run, so that a unit with many variables is not verified for ever.
+constexpr std::int64_t kMostValues = 500'000;
+constexpr std::int64_t kFewestSteps = 20;
+
+bool is_observed(const Variable& variable) {
+  if (variable.type == ValueType::Clock || variable.is_clocked()) return false;
+  return variable.causality == Causality::Output || variable.causality == Causality::Local ||
+         variable.causality == Causality::CalculatedParameter;
+}
+
+core::SystemDeclaration declaration(const VerifyRequest& request, const fmi::Fmu& fmu) {
+  core::SystemDeclaration system{"verify", {}, {}, {}};
+  system.components.push_back({"unit", fmu.description(), {}, {}});
+  for (const std::string& text : request.settings) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      core::fail_input({}, fmt::format("--set {}: expected variable=value", text));
+    }
+    system.start_values.push_back({.component = "unit",
+                                   .variable = text.substr(0, equals),
+                                   .value = text.substr(equals + 1),
+                                   .unit = {},
+                                   .where = {fmt::format("--set {}", text), 0}});
+  }
+  return system;
+}
+
+}  // namespace
+
+TestedUnit::TestedUnit(VerifyRequest request) : request_(std::move(request)) {
+  const auto& file = request_.file;
+  if (file.extension() == ".so") {
+    core::fail_input({},
+                     fmt::format("'{}' is a library, which would have to be loaded before anything "
+                                 "is known of it",
+                                 file.string()),
+                     "make an FMU of it: stride pack LIBRARY --output FILE.fmu");
+  }
+  fmu_ = fmi::Fmu::load(file);
+  system_.emplace(declaration(request_, *fmu_));
+  choose_observed();
+  choose_times();
+}
+
+bool TestedUnit::is_set(std::size_t variable) const {
+  const auto& values = system_->start_values();
+  return std::any_of(values.begin(), values.end(),
+                     [&](const core::StartValue& value) { return value.id.variable == variable; });
+}
+
+void TestedUnit::choose_observed() {
+  std::map<ValueType, Group> groups;
+  const auto& variables = description().variables;
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    if (!is_observed(variables[i])) continue;
+    Group& group = groups[variables[i].type];
+    group.type = variables[i].type;
+    group.size += variables[i].size;
+    group.references.push_back(variables[i].reference);
+    group.places.push_back(i);
+    ++observed_count_;
+  }
+  for (auto& [type, group] : groups) observed_.push_back(std::move(group));
+}
+
+void TestedUnit::choose_times() {
+  const core::UnitDescription& unit = description();
+  step_ = unit.default_step.value_or(unit.fixed_internal_step.value_or(kDefaultStep));
+  if (unit.maximum_step) step_ = std::min(step_, *unit.maximum_step);
+  if (request_.step) step_ = *request_.step;
+  std::int64_t steps = kDefaultSteps;
+  const auto values = static_cast<std::int64_t>(std::max<std::size_t>(1, observed_count_));
+  if (request_.stop) {
+    steps = *request_.stop / step_;
+    if (steps < 4) {
+      core::fail_input({},
+                       fmt::format("there are {} steps of {} s to the stop time {} s; expected 4 "
+                                   "at least",
+                                   steps, core::to_text(step_), core::to_text(*request_.stop)),
+                       "choose a smaller --step or a later --stop");
+    }
+  } else if (unit.default_stop) {
+    steps = std::clamp(unit.default_stop->time_since_epoch() / step_, kFewestSteps,
+                       kMostSimulatedSteps);
+  }
+  if (!request_.stop) steps = std::min(steps, std::max(kFewestSteps, kMostValues / values));
+  steps_ = static_cast<std::size_t>(steps);
+}
+
+std::string TestedUnit::function(const std::string& name) const {
+  return (description().fmi_version.starts_with("2") ? "fmi2" : "fmi3") + name;
+}
+
+}  // namespace stride::verify

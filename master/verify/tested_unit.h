@@ -1,0 +1,83 @@
+// What is verified, and how.
+#ifndef STRIDE_MASTER_VERIFY_TESTED_UNIT_H
+#define STRIDE_MASTER_VERIFY_TESTED_UNIT_H
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/importer/fmu.h"
+#include "master/model/system.h"
+
+namespace stride::verify {
+
+/// What the user asks for.
+struct VerifyRequest {
+  std::filesystem::path file{};  ///< a .fmu or its unpacked folder
+  std::vector<std::string>
+      settings{};                     ///< "variable=value"; an input that is set is not stimulated
+  std::vector<std::string> checks{};  ///< only these; empty = all
+  std::optional<Duration> step{};     ///< nothing = the unit's own, or 1 ms
+  std::optional<Duration> stop{};     ///< nothing = the unit's own, within reason
+  std::uint64_t seed = 1;             ///< of the stimulus
+  unsigned instances = 1000;          ///< of the check of memory
+  std::chrono::milliseconds limit{60'000};  ///< for each check
+};
+
+/// A unit with the choices that the checks share. Its library is not loaded by this.
+class TestedUnit {
+ public:
+  /// Variables of one type that are read by one call.
+  struct Group {
+    core::ValueType type;
+    std::size_t size = 0;  ///< the number of elements
+    std::vector<core::ValueReference> references;
+    std::vector<std::size_t> places;  ///< in description().variables
+  };
+
+  /// Throws core::Error (Input) for what cannot be verified as asked.
+  explicit TestedUnit(VerifyRequest request);
+
+  const VerifyRequest& request() const { return request_; }
+  fmi::Fmu& fmu() const { return *fmu_; }
+  /// With the array sizes that the user has set by structural parameters.
+  const core::UnitDescription& description() const { return *system_->components()[0].description; }
+  /// One component, the unit, with the values that the user has set.
+  const core::System& system() const { return *system_; }
+  bool is_set(std::size_t variable) const;
+
+  /// The grid of communication points: k * step() for k = 0 … steps().
+  Duration step() const { return step_; }
+  std::size_t steps() const { return steps_; }
+  Time point(std::size_t k) const { return Time(step_ * static_cast<std::int64_t>(k)); }
+
+  /// What can be read at each communication point, and tells how the unit is: outputs, locals and
+  /// calculated parameters that have no clock.
+  const std::vector<Group>& observed() const { return observed_; }
+  std::size_t observed_count() const { return observed_count_; }
+
+  /// "fmi3DoStep", from "DoStep"; for an FMI 2.0 unit "fmi2DoStep".
+  std::string function(const std::string& name) const;
+
+ private:
+  void choose_times();
+  void choose_observed();
+
+  VerifyRequest request_;
+  std::shared_ptr<fmi::Fmu> fmu_;
+  std::optional<core::System> system_;
+  Duration step_{};
+  std::size_t steps_ = 0;
+  std::vector<Group> observed_;
+  std::size_t observed_count_ = 0;
+};
+
+}  // namespace stride::verify
+
+#endif

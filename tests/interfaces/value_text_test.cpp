@@ -1,0 +1,40 @@
+// Bytes as hexadecimal digits, and a type's name in errors; all else is tested as the process
+// protocol has it (tests/units/process/value_test.cpp).
+#include <catch2/catch.hpp>
+
+#include <stride/value_text.h>
+
+using namespace stride;
+
+TEST_CASE("bytes are two hexadecimal digits each, of either case when read") {
+  std::string text;
+  for (const int byte : {0, 0x0F, 0xA5, 0xFF}) {
+    append_hexadecimal(text, static_cast<std::uint8_t>(byte));
+  }
+  CHECK(text == "000fa5ff");
+  Binary bytes;
+  CHECK(parse_hexadecimal("000Fa5fF", bytes));
+  CHECK(bytes == Binary{0, 0x0F, 0xA5, 0xFF});
+  CHECK(parse_hexadecimal("", bytes));
+  CHECK(bytes.empty());
+  for (const char* bad : {"0", "0g", "/0", "@0", "`0", "0 "}) {
+    INFO(bad);
+    CHECK_FALSE(parse_hexadecimal(bad, bytes));
+  }
+}
+
+TEST_CASE("an error names the type, as it is called where the value is") {
+  std::int64_t item = 0;
+  CHECK_THROWS_WITH(parse_value("red", item, type_name(Type::Enumeration)),
+                    "'red' is no Enumeration; expected a whole number within its range");
+  CHECK_THROWS_WITH(parse_value("red", item),
+                    "'red' is no Int64; expected a whole number within its range");
+}
+
+TEST_CASE("every type has its name of FMI 3.0") {
+  CHECK(type_name(Type::Float32) == std::string("Float32"));
+  CHECK(type_name(Type::Enumeration) == std::string("Enumeration"));
+  CHECK(type_name(Type::Clock) == std::string("Clock"));
+  CHECK(type_name<std::uint64_t>() == std::string("UInt64"));
+  CHECK(type_name<Binary>() == std::string("Binary"));
+}

@@ -1,0 +1,145 @@
+#include "master/checks/message_checks.h"
+
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "tests/master/checks/support.h"
+
+using namespace stride;
+using namespace stride::checks;
+using Limit = std::optional<std::uint64_t>;
+
+namespace {
+
+/// A course in words: each letter is a millisecond, 'q' a request, 'r' a reply, 'b' a reply and
+/// then a request, 'o' a request and its reply in the same instant; a blank is a communication
+/// point where neither comes, '-' is none.
+core::Verdict judged(const std::string& course, int within, bool repeats = false, Window of = {},
+                     bool is_complete = true) {
+  const Definition definition{
+      Kind::Answer, "answers", "",
+      of,           {},        AnswerDemand{{0, 1}, {0, 2}, at(within) - Time{}, repeats}};
+  AnswerCheck check(definition);
+  for (std::size_t i = 0; i < course.size(); ++i) {
+    const auto time = static_cast<std::int64_t>(i);
+    if (course[i] == '-') continue;
+    if (course[i] == 'q' || course[i] == 'o') check.on_message(message(time, 1));
+    if (course[i] != 'q' && course[i] != ' ') check.on_message(message(time, 2));
+    if (course[i] == 'b') check.on_message(message(time, 1));
+    check.on_message(message(time, 3));
+    check.on_point(at(time));
+  }
+  return check.verdict({at(static_cast<std::int64_t>(course.size()) - 1), is_complete});
+}
+
+}  // namespace
+
+TEST_CASE("a reply in time, to the very instant") {
+  const auto verdict = judged("q r  qr ", 2);
+  CHECK(verdict.passed == true);
+  CHECK(verdict.text == "2 requests answered, after 0.002 s at most");
+  CHECK(judged("o   ", 0).text == "1 request answered, after 0 s at most");
+  CHECK(judged("q--r", 3).passed == true);
+}
+
+TEST_CASE("a reply too late: the failure is where the time was out") {
+  const auto verdict = judged(" q  r  qr ", 2);
+  CHECK((verdict.passed == false && verdict.time == at(3)));
+  CHECK(verdict.text == "no reply to the request at 0.001 s; 1 of 2 requests answered in time");
+  CHECK(judged("q---r", 3).time == at(3));
+  CHECK(judged("q    ", 4).time == at(4));
+}
+
+TEST_CASE("a reply before the request is none") {
+  CHECK(judged("rq ", 1).passed == false);
+  CHECK(judged("qrb  ", 1).time == at(3));
+}
+
+TEST_CASE("a reply answers one request, the oldest") {
+  CHECK(judged("qqrr", 2).passed == true);
+  const auto verdict = judged("qqr  ", 2);
+  CHECK((verdict.passed == false && verdict.time == at(3)));
+}
+
+TEST_CASE("with repeats it answers all that are open, whose time counts from the first") {
+  CHECK(judged("qqr  ", 2, true).passed == true);
+  CHECK(judged("qqr  ", 2, true).text == "1 request answered, after 0.002 s at most");
+  CHECK(judged("qqqr", 2, true).time == at(2));
+  CHECK(judged("qrqr", 1, true).text == "2 requests answered, after 0.001 s at most");
+}
+
+TEST_CASE("a request whose time is not out where the run ends is undecided") {
+  const auto verdict = judged("qr q", 1);
+  CHECK_FALSE(verdict.passed);
+  CHECK(verdict.text ==
+        "the request at 0.003 s was still open where the run ended, at 0.003 s; 1 of 2 answered");
+  CHECK(judged("q  q", 1).passed == false);
+}
+
+TEST_CASE("the interval is that of the requests") {
+  CHECK(judged("q qr q", 1, false, window(1, 4)).passed == true);
+  CHECK(judged("   q  r", 3, false, window(3, 3)).passed == true);
+  CHECK(judged("   q   ", 3, false, window(3, 3)).time == at(6));
+}
+
+TEST_CASE("no request, and a run that breaks off, decide nothing") {
+  CHECK(judged("  r ", 1).text == "there was no request");
+  CHECK_FALSE(judged("  r ", 1).passed);
+  CHECK_FALSE(judged("qr  ", 1, false, {}, false).passed);
+  CHECK(judged("qr  ", 1, false, window(0, 2), false).passed == true);
+  CHECK(judged("q   ", 1, false, {}, false).time == at(1));
+}
+
+namespace {
+
+/// Messages at 1, 2, 3 and 4 ms, with others between, and communication points there and at 5 ms.
+core::Verdict counted(Limit min, Limit max, Window of = {}, const Ending& ending = ended(5)) {
+  const Definition definition{Kind::Count, "frames", "", of, {}, CountDemand{{0, 3}, min, max}};
+  CountCheck check(definition);
+  check.on_point(at(0));
+  for (int time = 1; time <= 4; ++time) {
+    check.on_message(message(time, 3));
+    check.on_message(message(time, 4));
+    check.on_point(at(time));
+  }
+  check.on_point(at(5));
+  return check.verdict(ending);
+}
+
+}  // namespace
+
+TEST_CASE("messages of the variable are counted, and no others") {
+  const auto verdict = counted(4, 4);
+  CHECK((verdict.passed == true && verdict.text == "4 messages" && verdict.kind == "count"));
+  CHECK(counted(1, 1, window(4, {})).text == "1 message");
+}
+
+TEST_CASE("one too many fails where it comes, also if the run breaks off") {
+  for (const Ending& ending : {ended(5), broke(5)}) {
+    const auto verdict = counted({}, 2, {}, ending);
+    CHECK((verdict.passed == false && verdict.time == at(3)));
+    CHECK(verdict.text == "message number 3; expected 2 at most");
+  }
+}
+
+TEST_CASE("too few fail where the interval ends") {
+  const auto verdict = counted(5, {});
+  CHECK((verdict.passed == false && verdict.time == at(5)));
+  CHECK(verdict.text == "4 messages; expected 5 at least");
+  CHECK(counted(3, {}, window(0, 2)).time == at(2));
+}
+
+TEST_CASE("the interval's ends belong to it") {
+  CHECK(counted(3, 3, window(2, 4)).passed == true);
+  CHECK(counted(0, 0, window(5, {})).passed == true);
+}
+
+TEST_CASE("a run that breaks off leaves open what could still come") {
+  CHECK_FALSE(counted(5, {}, {}, broke(5)).passed);
+  CHECK_FALSE(counted({}, 4, {}, broke(5)).passed);
+  CHECK(counted(4, {}, {}, broke(5)).passed == true);
+  CHECK(counted({}, 4, window({}, 5), broke(5)).passed == true);
+  CHECK_FALSE(counted({}, 4, window({}, 6), ended(5)).passed);
+}
