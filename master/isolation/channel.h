@@ -16,7 +16,8 @@
 
 namespace stride::host {
 
-/// What the master asks for: the functions of core::Unit, and what they need besides.
+/// What the master asks for: the functions of core::Unit and its capabilities, and what they need
+/// besides.
 enum class RequestCode : std::uint32_t {
   Instantiate,
   EnterConfigurationMode,

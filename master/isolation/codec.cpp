@@ -154,6 +154,14 @@ std::vector<std::string> take_lines(MessageReader& from) {
 
 }  // namespace
 
+void put_capabilities(MessageWriter& to, const CapabilitySet& capabilities) {
+  to.put(std::uint64_t{capabilities.to_ullong()});
+}
+
+CapabilitySet take_capabilities(MessageReader& from) {
+  return CapabilitySet(from.take<std::uint64_t>());
+}
+
 void put_protections(MessageWriter& to, const process::Protections& protections) {
   put_lines(to, protections.in_force);
   put_lines(to, protections.missing);

@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_ISOLATION_CODEC_H
 #define STRIDE_MASTER_ISOLATION_CODEC_H
 
+#include <bitset>
 #include <optional>
 
 #include "master/algorithm/unit.h"
@@ -35,6 +36,11 @@ void put_error(MessageWriter& to, const std::exception& error, const core::Conte
                const std::string& hint = "");
 /// Throws it.
 [[noreturn]] void throw_error(MessageReader& from);
+
+/// Those of a unit.
+using CapabilitySet = std::bitset<core::kCapabilities>;
+void put_capabilities(MessageWriter& to, const CapabilitySet& capabilities);
+CapabilitySet take_capabilities(MessageReader& from);
 
 void put_protections(MessageWriter& to, const process::Protections& protections);
 process::Protections take_protections(MessageReader& from);

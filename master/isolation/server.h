@@ -9,6 +9,7 @@
 
 #include <sys/types.h>
 
+#include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/unit.h"
 #include "master/importer/fmu.h"
 #include "master/isolation/channel.h"
@@ -70,6 +71,9 @@ class Server {
   void get_derivatives(MessageReader& in, MessageWriter& out);
   void describe_message(MessageReader& in, MessageWriter& out);
   const core::Variable& variable(core::ValueReference reference) const;
+  /// The master asks for nothing else.
+  template <core::CapabilityInterface C>
+  C& capability() const;
 
   RequestCode requested() const;
   core::Context context() const;
@@ -84,6 +88,8 @@ class Server {
   std::size_t slot_ = 0;                ///< of them
   std::uint64_t undone_calls_ = 0;      ///< of functions of the unit, by processes taken back
   std::unique_ptr<core::Unit> unit_;
+  std::array<core::Capability*, core::kCapabilities> capabilities_{};  ///< of the unit
+  core::UnitDiagnostics* diagnostics_ = nullptr;  ///< likewise, while there is a unit
   std::array<StepBuffers, KnownStepShapes::kMost> plans_;
   std::optional<Time> time_;  ///< where the unit stands
   bool is_over_ = false;

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "master/isolation/codec.h"
-
 namespace stride::host {
 
 // ---- Life and death ----
@@ -23,7 +21,23 @@ UnitProxy::UnitProxy(HostedUnitSpec spec) : spec_(std::move(spec)) {
   }
   call(
       RequestCode::Instantiate, [](MessageWriter&) {},
-      [&](MessageReader& from) { protections_ = take_protections(from); });
+      [&](MessageReader& from) {
+        protections_ = take_protections(from);
+        capabilities_ = take_capabilities(from);
+      });
+  capabilities_.set(static_cast<std::size_t>(core::OwnProcess::kId));
+  if (spec_.has_snapshots()) {
+    capabilities_.set(static_cast<std::size_t>(core::StateSaving::kId));
+  }
+}
+
+core::Capability* UnitProxy::find_capability(core::CapabilityId id) {
+  if (!capabilities_.test(static_cast<std::size_t>(id))) return nullptr;
+  return core::select_capability<
+      core::ConfigurationMode, core::StateSaving, core::StateSerialization, core::Resetting,
+      core::IdlePromises, core::DirectionalDerivatives, core::ClockIntervals,
+      core::InputsWithinStep, core::MessageText, core::UnitDiagnostics, core::OwnProcess>(*this,
+                                                                                          id);
 }
 
 UnitProxy::~UnitProxy() {
@@ -39,7 +53,7 @@ void UnitProxy::terminate() {
   if (!client_->has_failed()) call(RequestCode::Terminate);
 }
 
-std::optional<core::HostStatistics> UnitProxy::host_statistics() const {
+core::HostStatistics UnitProxy::host_statistics() const {
   core::HostStatistics statistics = client_->statistics();
   statistics.protections = protections_.in_force;
   statistics.missing_protections = protections_.missing;

@@ -33,6 +33,11 @@ class TestInstance {
                TestInstanceOptions options = {});
 
   core::Unit& unit() { return *units_.front(); }
+  /// A capability that the unit has by its description.
+  template <core::CapabilityInterface C>
+  C& capability() {
+    return unit().require_capability<C>();
+  }
   Time now() const { return position_.now; }
   /// The last point of the grid that was reached.
   std::size_t at() const { return position_.point; }

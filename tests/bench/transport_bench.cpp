@@ -20,6 +20,7 @@
 #include "master/importer/fmu.h"
 #include "master/isolation/hosted_unit.h"
 #include "tests/bench/stopwatch.h"
+#include "tests/master/algorithm/unit_capabilities.h"
 
 namespace {
 
@@ -51,7 +52,7 @@ class Stepped {
   double steps(int count, bool saves = false) {
     const auto began = Wall::now();
     for (int i = 0; i < count; ++i) {
-      if (saves) unit_->save_state();
+      if (saves) tests::state(*unit_).save_state();
       input_value_.numbers<double>()[0] = 1 + i;
       const Time to = now_ + kStep;
       const core::StepResult result =

@@ -113,9 +113,9 @@ TEST_CASE("a restored state promises what the saved one did") {
     CAPTURE(instant.count());
     Life life = life_at(instant, 10s);
     const Time promised = life.promise();
-    life.unit().save_state();
+    state(life.unit()).save_state();
     life.advance(life.now() + 20ms, 3ms);
-    life.unit().restore_state();
-    CHECK(std::max(Time(instant), life.unit().idle_until()) == promised);
+    state(life.unit()).restore_state();
+    CHECK(std::max(Time(instant), idle(life.unit()).idle_until()) == promised);
   }
 }

@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/master/algorithm/unit_capabilities.h"
 #include "tests/physics/fmu_system.h"
 
 using namespace stride;
@@ -48,7 +49,8 @@ double error(Duration step, const std::string& largest_step, bool follows) {
   unit->update_discrete_states();
   unit->enter_step_mode();
   Time now{};
-  unit->set_input_update([&](double seconds) { set_inputs(to_seconds(now) + seconds); });
+  inputs_within_step(*unit).set_input_update(
+      [&](double seconds) { set_inputs(to_seconds(now) + seconds); });
   for (; now < Time(kEnd); now += step) {
     set_inputs(to_seconds(now));
     unit->step({now, now + step});

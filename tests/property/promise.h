@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "master/importer/fmu.h"
+#include "tests/master/algorithm/unit_capabilities.h"
 
 namespace stride::tests {
 

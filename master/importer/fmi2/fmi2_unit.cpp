@@ -43,6 +43,13 @@ Fmi2Unit::~Fmi2Unit() {
   if (!is_condemned_) fmi_.FreeInstance(instance_);
 }
 
+core::Capability* Fmi2Unit::find_capability(core::CapabilityId id) {
+  if (!declares(id)) return nullptr;
+  return core::select_capability<core::StateSaving, core::StateSerialization, core::Resetting,
+                                 core::DirectionalDerivatives, core::InputsWithinStep,
+                                 core::UnitDiagnostics>(*this, id);
+}
+
 void Fmi2Unit::enter_initialization(Time start, std::optional<Time> stop) {
   time_ = start;
   call("fmi2SetupExperiment", fmi_.SetupExperiment, fmi2False, 0.0, to_seconds(start),

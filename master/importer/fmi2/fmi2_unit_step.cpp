@@ -140,10 +140,6 @@ bool Fmi2Unit::wants_end() {
 
 // ---- Inputs within a step ----
 
-void Fmi2Unit::set_input_update(core::InputUpdate update) {
-  if (parts_.description->provides_intermediate_update) input_update_ = std::move(update);
-}
-
 /// The input update sets inputs at three instants, and these are its.
 void Fmi2Unit::set_input_derivatives(double size) {
   struct Sampling {

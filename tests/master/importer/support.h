@@ -11,6 +11,7 @@
 #include "master/importer/binaries.h"
 #include "master/importer/fmu.h"
 #include "master/isolation/hosted_unit.h"
+#include "tests/master/algorithm/unit_capabilities.h"
 #include "tests/master/util/archive/support.h"
 
 namespace stride::tests {

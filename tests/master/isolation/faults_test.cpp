@@ -41,7 +41,7 @@ TEST_CASE("however the process of a unit ends, it is an error that tells how") {
                Catch::StartsWith(kHead + says) && Contains("\n  it printed: now comes: " + fault));
     CHECK_THAT(run_error([&] { unit.step(1, 2); }),
                Contains("it cannot be called, because " + says));
-    CHECK_THROWS_AS(unit->save_state(), core::Error);
+    CHECK_THROWS_AS(state(*unit).save_state(), core::Error);
     CHECK_NOTHROW(unit->terminate());
   }
   CHECK(Belongings() == before);

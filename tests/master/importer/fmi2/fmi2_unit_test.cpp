@@ -118,7 +118,7 @@ TEST_CASE("an FMI 2.0 unit lives from its instantiation to its end", "[here]") {
   CHECK(unit.global<double>("fmi2_step_size") == 0.5);
   CHECK(unit.global<fmi2Boolean>("fmi2_no_restore") == fmi2True);
   CHECK(unit.get("x") == Approx(1 + 4 * std::exp(-1.5)).epsilon(1e-14));
-  CHECK(unit->calls() == 11);
+  CHECK(diagnostics(*unit).calls() == 11);
   CHECK_NOTHROW(unit->terminate());
 }
 
@@ -129,7 +129,7 @@ TEST_CASE("instances and states are freed", "[here]") {
     Fmi2Fixture unit(fmu);
     unit.start();
     unit.step({}, Time(1s));
-    unit->save_state();
+    state(*unit).save_state();
     CHECK(unit.global<int>("fmi2_living_units") == 2);
     CHECK(unit.global<int>("fmi2_living_states") == 2);
   }
@@ -221,7 +221,8 @@ TEST_CASE("directional derivatives of an FMI 2.0 unit") {
   const std::vector knowns{unit.reference("gain"), unit.reference("real")};
   const std::vector unknowns{unit.reference("real.echo")};
   double sensitivity = 0;
-  unit->get_directional_derivative(unknowns, knowns, std::vector{1.0, 0.5}, {&sensitivity, 1});
+  derivatives(*unit).get_directional_derivative(unknowns, knowns, std::vector{1.0, 0.5},
+                                                {&sensitivity, 1});
   CHECK(sensitivity == 3.5);
 }
 
@@ -274,7 +275,7 @@ TEST_CASE("a step that ends early is undone where the state was saved, and says 
   const core::StepResult result = unit.step({}, Time(1s));
   CHECK(result.rejected);
   CHECK(result.reached == at(0.25));
-  CHECK(unit->rejection_reason() == "there is a turn at 0.25 s");
+  CHECK(diagnostics(*unit).rejection_reason() == "there is a turn at 0.25 s");
   CHECK(unit.get("y") == 0);
   CHECK(unit.step({}, at(0.25)).went_through(at(0.25)));
   CHECK(unit.get("y") == 0.25);
@@ -285,9 +286,9 @@ TEST_CASE("a step that ends early is undone where the state was saved, and says 
 TEST_CASE("the inputs of a step that is undone stay set") {
   Fmi2Fixture unit("fmi2_turner");
   unit.start();
-  unit->save_state();
+  state(*unit).save_state();
   for (int i = 0; i < 3; ++i) CHECK(unit.step({}, Time(1s)).rejected);
-  unit->restore_state();
+  state(*unit).restore_state();
   CHECK(unit.step({}, Time(1s)).reached == at(0.25));
   CHECK(unit.get("y") == 0);
 }
@@ -296,14 +297,14 @@ TEST_CASE("a state that was just saved for core is not saved again", "[here]") {
   Fmi2Fixture unit("fmi2_turner");
   unit.start();
   const int before = unit.global<int>("fmi2_saved_states");
-  unit->save_state();
+  state(*unit).save_state();
   CHECK(unit.step({}, Time(1s)).rejected);
   CHECK(unit.get("y") == 0);
   CHECK(unit.step({}, at(0.125)).went_through(at(0.125)));
   CHECK(unit.global<int>("fmi2_saved_states") == before + 1);
   unit.step(at(0.125), at(0.2));
   CHECK(unit.global<int>("fmi2_saved_states") == before + 2);
-  unit->restore_state();
+  state(*unit).restore_state();
   CHECK(unit.step({}, Time(1s)).rejected);
   CHECK(unit.global<int>("fmi2_saved_states") == before + 2);
   CHECK(unit.get("y") == 0);
@@ -316,7 +317,7 @@ TEST_CASE("a unit that does not say how far it came is undone all the same") {
   const core::StepResult result = unit.step({}, Time(1s));
   CHECK(result.rejected);
   CHECK(result.reached == Time{});
-  CHECK(unit->rejection_reason() == "there is a turn at 0.25 s");
+  CHECK(diagnostics(*unit).rejection_reason() == "there is a turn at 0.25 s");
   CHECK(unit.step({}, at(0.125)).went_through(at(0.125)));
 }
 
@@ -403,7 +404,7 @@ TEST_CASE("the status of a pending step is that of the step") {
   const core::StepResult result = discards.step({}, Time(1s));
   CHECK(result.rejected);
   CHECK(result.reached == at(0.5));
-  CHECK(discards->rejection_reason() == "the night was short");
+  CHECK(diagnostics(*discards).rejection_reason() == "the night was short");
   CHECK(discards.get("y") == 0);
 
   Fmi2Fixture fails("fmi2_sleeper");
@@ -442,7 +443,7 @@ TEST_CASE("a unit that interpolates is given the derivatives of its inputs") {
   const ValueReference u = unit.reference("u");
   Time begin{};
   const auto input = [](double t) { return 1 + 2 * t + 3 * t * t; };
-  unit->set_input_update([&](double seconds) {
+  inputs_within_step(*unit).set_input_update([&](double seconds) {
     ValueBlock block(ValueType::Float64, 1);
     block.numbers<double>()[0] = input(to_seconds(begin) + seconds);
     unit->set({&u, 1}, block);
@@ -458,9 +459,10 @@ TEST_CASE("a unit that interpolates is given the derivatives of its inputs") {
 TEST_CASE("what an input update throws, step() throws") {
   Fmi2Fixture unit("fmi2_integrator");
   unit.start();
-  unit->set_input_update([](double) { throw std::runtime_error("no inputs today"); });
+  inputs_within_step(*unit).set_input_update(
+      [](double) { throw std::runtime_error("no inputs today"); });
   CHECK_THROWS_WITH(unit.step({}, Time(1s)), "no inputs today");
-  unit->set_input_update({});
+  inputs_within_step(*unit).set_input_update({});
   unit.set("u", 2);
   unit.step({}, Time(1s));
   CHECK(unit.get("x") == 2);
