@@ -7,11 +7,9 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "master/model/description.h"
 #include "master/recorders/signal_text.h"
 
 namespace stride::io {
@@ -112,24 +110,6 @@ bool is_message_variable(const core::UnitDescription& unit, const core::Variable
 }
 
 }  // namespace
-
-/// A tree of scopes, in the order in which their variables were added.
-class VcdScope {
- public:
-  explicit VcdScope(std::string name = "") : name_(std::move(name)) {}
-
-  /// The scope of this name in this one, made where there is none.
-  VcdScope& scope(std::string_view name);
-  /// Declares a variable; the parts of its name before the last dot are scopes.
-  void add(std::string_view structured_name, core::ValueType type, std::string_view code);
-  /// The declarations within this scope, without its own frame.
-  void write(OutputFile& file) const;
-
- private:
-  std::string name_;
-  std::vector<VcdScope> scopes_;
-  std::vector<std::string> variables_;
-};
 
 VcdScope& VcdScope::scope(std::string_view name) {
   const std::string wanted = word(name);
