@@ -25,14 +25,22 @@ endif()
 include(StrideTestHeaders)
 
 function(stride_add_tests prefix)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "PROGRAM" "SOURCES;EXCEPT")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "PROGRAM" "SOURCES;EXCEPT;LIBRARIES;FMUS;DEPENDS;DEFINITIONS")
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "stride_add_tests(${prefix}): ${arg_UNPARSED_ARGUMENTS} belongs to nothing")
+  endif()
   set(program ${prefix}_tests)
   if(arg_PROGRAM)
     set(program ${arg_PROGRAM})
   endif()
   file(GLOB sources RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS ${arg_SOURCES})
   list(REMOVE_ITEM sources ${arg_EXCEPT})
-  stride_add_test_program(${program} SOURCES ${sources} ${arg_UNPARSED_ARGUMENTS})
+  stride_add_test_program(${program}
+    SOURCES ${sources}
+    LIBRARIES ${arg_LIBRARIES}
+    FMUS ${arg_FMUS}
+    DEPENDS ${arg_DEPENDS}
+    DEFINITIONS ${arg_DEFINITIONS})
   set(tests "")
   foreach(source IN LISTS sources)
     cmake_path(GET source STEM test)
