@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 constexpr std::size_t kMaxMessages = 8;
@@ -174,4 +174,4 @@ bool FmuInstance::is_end(const core::StepInterval& interval, double seconds) {
   return std::abs(seconds - interval.end_seconds) <= time_tolerance(interval);
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

@@ -22,7 +22,7 @@
 #include "master/importer/status.h"
 #include "master/util/error.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 struct InstanceOptions {
   bool early_return_allowed = false;
@@ -211,6 +211,6 @@ std::vector<std::uint8_t> FmuInstance::serialized(void* state, const char* size_
   return bytes;
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

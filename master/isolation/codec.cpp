@@ -3,7 +3,7 @@
 #include <string>
 #include <type_traits>
 
-namespace stride::host {
+namespace stride::isolation {
 namespace {
 
 constexpr bool is_number(core::ValueType type) {
@@ -162,16 +162,16 @@ CapabilitySet take_capabilities(MessageReader& from) {
   return CapabilitySet(from.take<std::uint64_t>());
 }
 
-void put_protections(MessageWriter& to, const process::Protections& protections) {
+void put_protections(MessageWriter& to, const Protections& protections) {
   put_lines(to, protections.in_force);
   put_lines(to, protections.missing);
 }
 
-process::Protections take_protections(MessageReader& from) {
-  process::Protections protections;
+Protections take_protections(MessageReader& from) {
+  Protections protections;
   protections.in_force = take_lines(from);
   protections.missing = take_lines(from);
   return protections;
 }
 
-}  // namespace stride::host
+}  // namespace stride::isolation

@@ -11,7 +11,7 @@
 #include "master/model/values.h"
 #include "master/util/error.h"
 
-namespace stride::host {
+namespace stride::isolation {
 
 /// The elements only: the other side knows type and size.
 void put_values(MessageWriter& to, const core::ValueBlock& values);
@@ -42,9 +42,9 @@ using CapabilitySet = std::bitset<core::kCapabilities>;
 void put_capabilities(MessageWriter& to, const CapabilitySet& capabilities);
 CapabilitySet take_capabilities(MessageReader& from);
 
-void put_protections(MessageWriter& to, const process::Protections& protections);
-process::Protections take_protections(MessageReader& from);
+void put_protections(MessageWriter& to, const Protections& protections);
+Protections take_protections(MessageReader& from);
 
-}  // namespace stride::host
+}  // namespace stride::isolation
 
 #endif

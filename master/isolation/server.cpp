@@ -23,7 +23,7 @@
 #include "master/isolation/process/surroundings.h"
 #include "master/isolation/sandbox_hint.h"
 
-namespace stride::host {
+namespace stride::isolation {
 namespace {
 
 /// Where the master is so long in coming, nothing is lost by another look.
@@ -39,8 +39,8 @@ void on_exit_called(int status, void*) {
   ::_exit(status);
 }
 
-std::vector<process::WritableFolder> writable_folders(const HostedUnitSpec& spec) {
-  std::vector<process::WritableFolder> folders;
+std::vector<WritableFolder> writable_folders(const HostedUnitSpec& spec) {
+  std::vector<WritableFolder> folders;
   for (const std::filesystem::path& folder : spec.host.writable) {
     folders.push_back({folder, folder.string()});
   }
@@ -54,7 +54,7 @@ std::vector<process::WritableFolder> writable_folders(const HostedUnitSpec& spec
 }  // namespace
 
 void serve(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor) noexcept {
-  process::forget_signal_handlers();
+  forget_signal_handlers();
   ::prctl(PR_SET_NAME, spec.name.c_str());
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a crash loses no line
   ::on_exit(&on_exit_called, nullptr);
@@ -77,11 +77,11 @@ void Server::run() {
   }
 }
 
-process::Protections Server::prepare() {
-  if (spec_.host.memory_limit) process::limit_memory(*spec_.host.memory_limit);
+Protections Server::prepare() {
+  if (spec_.host.memory_limit) limit_memory(*spec_.host.memory_limit);
   if (!spec_.host.is_sandboxed) return {};
   ::setenv("TMPDIR", spec_.temporary->path().c_str(), 1);
-  return process::enter_sandbox(writable_folders(spec_));
+  return enter_sandbox(writable_folders(spec_));
 }
 
 // ---- Requests and replies ----
@@ -233,9 +233,9 @@ std::string Server::origin() const {
 
 void Server::instantiate(MessageWriter& out) {
   put_protections(out, prepare());
-  fmi::InstanceOptions options = spec_.options;
+  importer::InstanceOptions options = spec_.options;
   options.call_note = &memory_.call_note;
-  options.log = [this](const std::string&, fmi::Status status, const std::string& category,
+  options.log = [this](const std::string&, importer::Status status, const std::string& category,
                        const std::string& text) {
     log_.write({status, category, text});
   };
@@ -319,7 +319,7 @@ void Server::set_input_update(bool is_set) {
 
 /// The master may get and set before it answers.
 void Server::ask_inputs(double seconds_into_step) {
-  const fmi::CallNote asking = memory_.call_note;
+  const importer::CallNote asking = memory_.call_note;
   MessageWriter question(channel_.messages);
   question.put(seconds_into_step);
   reply(ReplyCode::AskInputs, question);
@@ -371,4 +371,4 @@ void Server::describe_message(MessageReader& in, MessageWriter& out) {
   out.put(capability<core::MessageText>().describe_message(variable, value));
 }
 
-}  // namespace stride::host
+}  // namespace stride::isolation

@@ -22,13 +22,13 @@
 #include "master/isolation/step_plan.h"
 #include "master/util/archive/temporary_folder.h"
 
-namespace stride::host {
+namespace stride::isolation {
 
 /// What a hosted unit is instantiated from.
 struct HostedUnitSpec {
-  std::shared_ptr<fmi::Fmu> fmu;
+  std::shared_ptr<importer::Fmu> fmu;
   std::string name;
-  fmi::InstanceOptions options;
+  importer::InstanceOptions options;
   HostOptions host;
   /// For a unit in a sandbox: $TMPDIR, since that of others is closed to it.
   std::unique_ptr<archive::TemporaryFolder> temporary{};
@@ -47,7 +47,7 @@ class Server {
 
  private:
   /// All that has to be so before code of the unit runs in this process.
-  process::Protections prepare();
+  Protections prepare();
 
   void await_request();
   /// Does what the present request wants, and replies.
@@ -83,7 +83,7 @@ class Server {
   ChannelMemory& memory_;
   const HostedUnitSpec& spec_;
   LogWriter log_;
-  process::Waiter waiter_;
+  Waiter waiter_;
   std::optional<Snapshots> snapshots_;  ///< in place of the unit's own states
   std::size_t slot_ = 0;                ///< of them
   std::uint64_t undone_calls_ = 0;      ///< of functions of the unit, by processes taken back
@@ -98,6 +98,6 @@ class Server {
 /// Runs a server in a fresh fork: its surroundings first.
 void serve(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor) noexcept;
 
-}  // namespace stride::host
+}  // namespace stride::isolation
 
 #endif

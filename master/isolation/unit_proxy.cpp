@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace stride::host {
+namespace stride::isolation {
 
 // ---- Life and death ----
 
@@ -44,7 +44,8 @@ UnitProxy::~UnitProxy() {
   try {
     if (!client_->has_failed()) call(RequestCode::Free);
   } catch (const std::exception& failure) {
-    client_->log(fmi::Status::Warning, "stride", fmt::format("its end failed: {}", failure.what()));
+    client_->log(importer::Status::Warning, "stride",
+                 fmt::format("its end failed: {}", failure.what()));
   }
   client_->finish();
 }
@@ -327,4 +328,4 @@ std::string UnitProxy::describe_message(core::ValueReference variable, const cor
   return text;
 }
 
-}  // namespace stride::host
+}  // namespace stride::isolation

@@ -24,7 +24,7 @@
 #include "master/isolation/server.h"
 #include "master/isolation/step_plan.h"
 
-namespace stride::host {
+namespace stride::isolation {
 
 /// Stands for a unit in another process: each function is a request, and what the unit answers or
 /// throws is answered and thrown here. Its capabilities are those of the unit, besides OwnProcess,
@@ -99,7 +99,7 @@ class UnitProxy final : public core::Unit,
 
   HostedUnitSpec spec_;
   std::unique_ptr<HostClient> client_;
-  process::Protections protections_;
+  Protections protections_;
   CapabilitySet capabilities_;
   std::optional<Time> time_;
   KnownStepShapes plans_;
@@ -108,6 +108,6 @@ class UnitProxy final : public core::Unit,
   std::string rejection_reason_;
 };
 
-}  // namespace stride::host
+}  // namespace stride::isolation
 
 #endif

@@ -12,7 +12,7 @@
 
 #include "master/recorders/signal_text.h"
 
-namespace stride::io {
+namespace stride::recorders {
 namespace {
 
 using core::ValueType;
@@ -52,7 +52,7 @@ std::uint64_t bits_of(T value) {
 
 /// A negative number stands in two's complement of its type's width.
 template <class Integer>
-void write_binary_digits(OutputFile& file, Integer value) {
+void write_binary_digits(core::OutputFile& file, Integer value) {
   auto rest = static_cast<std::make_unsigned_t<Integer>>(value);
   char digits[64];
   std::size_t first = sizeof digits;
@@ -65,7 +65,7 @@ void write_binary_digits(OutputFile& file, Integer value) {
 }
 
 /// GTKWave takes what is no printable character as an octal escape.
-void write_escaped(OutputFile& file, std::string_view text) {
+void write_escaped(core::OutputFile& file, std::string_view text) {
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte > ' ' && byte < 127 && c != '\\') {
@@ -78,7 +78,7 @@ void write_escaped(OutputFile& file, std::string_view text) {
 }
 
 template <class T>
-void write_change(OutputFile& file, const T& value, std::string_view code) {
+void write_change(core::OutputFile& file, const T& value, std::string_view code) {
   if constexpr (std::is_same_v<T, bool>) {
     file.write(value ? '1' : '0');
   } else if constexpr (std::is_floating_point_v<T>) {
@@ -130,7 +130,7 @@ void VcdScope::add(std::string_view structured_name, ValueType type, std::string
       fmt::format("$var {} {} {} $end\n", declaration(type), code, word(structured_name)));
 }
 
-void VcdScope::write(OutputFile& file) const {
+void VcdScope::write(core::OutputFile& file) const {
   for (const std::string& variable : variables_) file.write(variable);
   for (const VcdScope& scope : scopes_) {
     file.write(fmt::format("$scope module {} $end\n", scope.name_));
@@ -255,4 +255,4 @@ void VcdRecorder::on_finish() {
   file_.close();
 }
 
-}  // namespace stride::io
+}  // namespace stride::recorders

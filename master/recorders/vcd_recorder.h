@@ -13,7 +13,7 @@
 #include "master/model/system.h"
 #include "master/util/output_file.h"
 
-namespace stride::io {
+namespace stride::recorders {
 
 /// A tree of scopes, in the order in which their variables were added.
 class VcdScope {
@@ -25,7 +25,7 @@ class VcdScope {
   /// Declares a variable; the parts of its name before the last dot are scopes.
   void add(std::string_view structured_name, core::ValueType type, std::string_view code);
   /// The declarations within this scope, without its own frame.
-  void write(OutputFile& file) const;
+  void write(core::OutputFile& file) const;
 
  private:
   std::string name_;
@@ -70,7 +70,7 @@ class VcdRecorder : public core::Observer {
   void write_changes(bool all);
 
   const core::System& system_;
-  OutputFile file_;
+  core::OutputFile file_;
   std::uint64_t codes_ = 0;
   std::vector<Channel> channels_;
   std::vector<std::vector<MessageCodes>> messages_;  ///< by component and variable
@@ -79,6 +79,6 @@ class VcdRecorder : public core::Observer {
   bool is_first_point_ = true;
 };
 
-}  // namespace stride::io
+}  // namespace stride::recorders
 
 #endif

@@ -50,7 +50,7 @@ std::string text_of(const ValueBlock& block, std::size_t first, std::size_t size
 
 }  // namespace
 
-TestInstance::TestInstance(const TestedUnit& tested, process::SharedNote& note,
+TestInstance::TestInstance(const TestedUnit& tested, isolation::SharedNote& note,
                            TestInstanceOptions options)
     : tested_(tested),
       options_(std::move(options)),
@@ -59,9 +59,9 @@ TestInstance::TestInstance(const TestedUnit& tested, process::SharedNote& note,
         std::vector<std::unique_ptr<core::Unit>> units;
         units.push_back(std::make_unique<WatchedUnit>(
             tested, note, options_.name,
-            fmi::InstanceOptions{.early_return_allowed = options_.early_return_allowed,
-                                 .may_go_back = true,
-                                 .description = tested.system().components()[0].description}));
+            importer::InstanceOptions{.early_return_allowed = options_.early_return_allowed,
+                                      .may_go_back = true,
+                                      .description = tested.system().components()[0].description}));
         return units;
       }()) {
   clocks_.emplace(tested_.system(), units_);

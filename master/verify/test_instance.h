@@ -29,7 +29,7 @@ struct TestInstanceOptions {
 /// where the unit does what no unit may, core::Error where it fails.
 class TestInstance {
  public:
-  TestInstance(const TestedUnit& tested, process::SharedNote& note,
+  TestInstance(const TestedUnit& tested, isolation::SharedNote& note,
                TestInstanceOptions options = {});
 
   core::Unit& unit() { return *units_.front(); }

@@ -21,10 +21,10 @@ struct Accessor {
 
 /// Notes what is done at `now` while `work` does it.
 template <class Work>
-decltype(auto) noted(process::SharedNote& note, Time now, const char* name, Work&& work) {
+decltype(auto) noted(isolation::SharedNote& note, Time now, const char* name, Work&& work) {
   note.write(name, now.time_since_epoch().count());
   struct End {
-    process::SharedNote& note;
+    isolation::SharedNote& note;
     ~End() { note.clear(); }
   } end{note};
   return work();
@@ -32,8 +32,9 @@ decltype(auto) noted(process::SharedNote& note, Time now, const char* name, Work
 
 bool is_fmi2(const TestedUnit& tested) { return tested.description().fmi_version.starts_with("2"); }
 
-std::unique_ptr<core::Unit> instantiate(const TestedUnit& tested, process::SharedNote& note,
-                                        const std::string& name, fmi::InstanceOptions options) {
+std::unique_ptr<core::Unit> instantiate(const TestedUnit& tested, isolation::SharedNote& note,
+                                        const std::string& name,
+                                        importer::InstanceOptions options) {
   note.write("the loading of its library", 0);
   tested.fmu().load_library();
   return noted(note, {}, is_fmi2(tested) ? "fmi2Instantiate" : "fmi3InstantiateCoSimulation",
@@ -49,8 +50,8 @@ decltype(auto) WatchedUnit::watched(const char* function, Work&& work) {
   return noted(note_, now_, name, std::forward<Work>(work));
 }
 
-WatchedUnit::WatchedUnit(const TestedUnit& tested, process::SharedNote& note,
-                         const std::string& name, fmi::InstanceOptions options)
+WatchedUnit::WatchedUnit(const TestedUnit& tested, isolation::SharedNote& note,
+                         const std::string& name, importer::InstanceOptions options)
     : ForwardingUnit(instantiate(tested, note, name, std::move(options))),
       note_(note),
       is_fmi2_(is_fmi2(tested)),

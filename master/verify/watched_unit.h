@@ -28,8 +28,8 @@ class WatchedUnit final : public core::ForwardingUnit,
                           public core::MessageText {
  public:
   /// Makes the unit itself, and notes that, too. `tested` and `note` must outlive this object.
-  WatchedUnit(const TestedUnit& tested, process::SharedNote& note, const std::string& name,
-              fmi::InstanceOptions options);
+  WatchedUnit(const TestedUnit& tested, isolation::SharedNote& note, const std::string& name,
+              importer::InstanceOptions options);
   ~WatchedUnit() override;
 
   void enter_initialization(Time start, std::optional<Time> stop) override;
@@ -67,7 +67,7 @@ class WatchedUnit final : public core::ForwardingUnit,
   template <class Work>
   decltype(auto) watched(const char* function, Work&& work);
 
-  process::SharedNote& note_;
+  isolation::SharedNote& note_;
   bool is_fmi2_;
   Time now_{};
   // the unit's capabilities; null where it does not have them

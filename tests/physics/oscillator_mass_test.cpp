@@ -21,9 +21,9 @@ constexpr Duration kEnd = 1s;
 /// How x(1 s) differs from the closed form, with inputs that are right at the beginning of each
 /// step, or all the time.
 double error(Duration step, const std::string& largest_step, bool follows) {
-  const auto loaded = fmi::Fmu::load(test_fmu("oscillator_mass"));
+  const auto loaded = importer::Fmu::load(test_fmu("oscillator_mass"));
   const core::UnitDescription& description = *loaded->description();
-  fmi::InstanceOptions options;
+  importer::InstanceOptions options;
   options.intermediate_update = follows;
   const auto unit = loaded->instantiate("mass", options);
   const auto variable = [&](const std::string& name) -> const core::Variable& {

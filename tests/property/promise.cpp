@@ -120,7 +120,7 @@ std::string check_in_steps(Life& life, Time begin, Time until, const std::vector
 
 }  // namespace
 
-Life::Life(std::shared_ptr<fmi::Fmu> fmu, const Settings& settings,
+Life::Life(std::shared_ptr<importer::Fmu> fmu, const Settings& settings,
            std::optional<Duration> max_skip)
     : fmu_(std::move(fmu)), unit_(fmu_->instantiate("unit", {.early_return_allowed = true})) {
   if (max_skip) idle(*unit_).enable_idle_skipping(*max_skip);

@@ -8,7 +8,7 @@
 
 #include "master/importer/fmi2/fmi2_log.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 // ---- Life and death ----
 
@@ -279,4 +279,4 @@ core::StepResult Fmi2Unit::step(const core::StepInterval& interval,
   return result;
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

@@ -22,7 +22,7 @@
 #include "master/importer/fmu_instance.h"
 #include "master/importer/saved_states.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// See core::Unit for the order of calls, and FmuInstance for failures; terminate() does nothing
 /// after one. Such a unit has neither Event Mode nor clocks.
@@ -154,6 +154,6 @@ class Fmi2Unit final : public FmuInstance,
   std::vector<fmi2String> texts_;
 };
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

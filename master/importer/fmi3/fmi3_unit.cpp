@@ -7,7 +7,7 @@
 
 #include "master/util/time_text.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 /// The getter and setter of a C type. Enumerations travel as Int64.
@@ -346,4 +346,4 @@ core::EventResult Fmi3Unit::update_discrete_states() {
   return result;
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

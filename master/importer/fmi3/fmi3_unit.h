@@ -24,7 +24,7 @@
 #include "master/importer/saved_states.h"
 #include "master/util/error.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// See core::Unit for the order of calls, and FmuInstance for failures; terminate() does nothing
 /// after one.
@@ -156,6 +156,6 @@ class Fmi3Unit final : public FmuInstance,
   std::vector<std::size_t> sizes_;
 };
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "master/importer/fmi3/fmi3_unit.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 std::vector<Fmi3Unit::TangentOutput> Fmi3Unit::tangent_outputs(
     const core::UnitDescription& description) {
@@ -87,4 +87,4 @@ void Fmi3Unit::get_derivatives(References outputs, std::span<double> derivatives
   }
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

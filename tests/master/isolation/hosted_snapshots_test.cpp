@@ -23,8 +23,8 @@ class Hosted : public Fixture {
   std::uint64_t steps() { return get("steps").numbers<std::uint64_t>()[0]; }
 
  private:
-  static host::HostOptions options(const fs::path& writable) {
-    host::HostOptions options;
+  static isolation::HostOptions options(const fs::path& writable) {
+    isolation::HostOptions options;
     options.takes_snapshots = true;
     if (!writable.empty()) options.writable.push_back(writable);
     return options;

@@ -122,11 +122,11 @@ TEST_CASE("a unit that allows one instance per process has one in each") {
 
 TEST_CASE("what cannot be loaded is the same error as in this process") {
   const Scratch scratch;
-  const auto fmu = fmi::Fmu::load(make_raw_fmu(scratch, "raw_with_missing_library"));
+  const auto fmu = importer::Fmu::load(make_raw_fmu(scratch, "raw_with_missing_library"));
   const auto make = [&](auto&& how) { return input_error([&] { how(); }); };
-  const fmi::InstanceOptions options{.where = {"system.ssd", 3}};
+  const importer::InstanceOptions options{.where = {"system.ssd", 3}};
   const Belongings before;
-  CHECK(make([&] { host::instantiate(fmu, "u", options, {}); }) ==
+  CHECK(make([&] { isolation::instantiate(fmu, "u", options, {}); }) ==
         make([&] { fmu->instantiate("u", options); }));
   CHECK(Belongings() == before);
 }

@@ -31,7 +31,7 @@ struct Watched {
   }
 
   TestedUnit tested;
-  process::SharedNote note;
+  isolation::SharedNote note;
   WatchedUnit unit;
 };
 

@@ -15,7 +15,7 @@ class Relaxation {
  public:
   Relaxation() : Relaxation(false) {}
   /// `serializes`: whether the description says that it can be serialised, which it cannot.
-  explicit Relaxation(bool serializes) : fmu_(fmi::Fmu::load(test_fmu("fmi2_relaxation"))) {
+  explicit Relaxation(bool serializes) : fmu_(importer::Fmu::load(test_fmu("fmi2_relaxation"))) {
     auto description = std::make_shared<core::UnitDescription>(*fmu_->description());
     description->can_serialize_state = serializes;
     unit_ = make_unit(fmu_, "unit", {.description = std::move(description)});
@@ -51,7 +51,7 @@ class Relaxation {
     return description.variables[description.find(name).value()].reference;
   }
 
-  std::shared_ptr<fmi::Fmu> fmu_;
+  std::shared_ptr<importer::Fmu> fmu_;
   std::unique_ptr<core::Unit> unit_;
   Time now_{};
 };

@@ -21,19 +21,19 @@ namespace {
 
 struct Line {
   std::string unit, category, message;
-  fmi::Status status;
+  importer::Status status;
 };
 
 /// An instance of one of the FMI 2.0 units, and what it logs.
 class Fmi2Fixture {
  public:
-  explicit Fmi2Fixture(const std::string& name, fmi::InstanceOptions options = {})
-      : Fmi2Fixture(fmi::Fmu::load(test_fmu(name)), std::move(options)) {}
-  explicit Fmi2Fixture(std::shared_ptr<fmi::Fmu> fmu, fmi::InstanceOptions options = {})
+  explicit Fmi2Fixture(const std::string& name, importer::InstanceOptions options = {})
+      : Fmi2Fixture(importer::Fmu::load(test_fmu(name)), std::move(options)) {}
+  explicit Fmi2Fixture(std::shared_ptr<importer::Fmu> fmu, importer::InstanceOptions options = {})
       : fmu_(std::move(fmu)) {
     if (!options.log) {
-      options.log = [this](const std::string& unit, fmi::Status status, const std::string& category,
-                           const std::string& message) {
+      options.log = [this](const std::string& unit, importer::Status status,
+                           const std::string& category, const std::string& message) {
         lines.push_back({unit, category, message, status});
       };
     }
@@ -94,7 +94,7 @@ class Fmi2Fixture {
   std::vector<Line> lines;
 
  private:
-  std::shared_ptr<fmi::Fmu> fmu_;
+  std::shared_ptr<importer::Fmu> fmu_;
   std::unique_ptr<core::Unit> unit_;
 };
 
@@ -123,7 +123,7 @@ TEST_CASE("an FMI 2.0 unit lives from its instantiation to its end", "[here]") {
 }
 
 TEST_CASE("instances and states are freed", "[here]") {
-  const auto fmu = fmi::Fmu::load(test_fmu("fmi2_relaxation"));
+  const auto fmu = importer::Fmu::load(test_fmu("fmi2_relaxation"));
   Fmi2Fixture keeper(fmu);
   {
     Fmi2Fixture unit(fmu);
@@ -151,13 +151,13 @@ TEST_CASE("start values of inputs wait for Initialization Mode") {
 
 TEST_CASE("an FMI 2.0 unit that cannot be instantiated says why") {
   const Scratch scratch;
-  const fmi::UnpackedFmu unpacked(test_fmu("fmi2_types"));
+  const importer::UnpackedFmu unpacked(test_fmu("fmi2_types"));
   fs::copy(unpacked.folder(), scratch / "unit", fs::copy_options::recursive);
   std::string text = read(scratch / "unit/modelDescription.xml");
   const std::string guid = "{fmi2_types}";
   text.replace(text.find(guid), guid.size(), "{another}");
   scratch.write("unit/modelDescription.xml", text);
-  const auto fmu = fmi::Fmu::load(scratch / "unit");
+  const auto fmu = importer::Fmu::load(scratch / "unit");
   CHECK_THAT(run_error([&] {
                make_unit(fmu, "u1", {.where = {"system.ssd", 7}});
              }),
@@ -330,7 +330,7 @@ TEST_CASE("a unit without a state stands where it came to, which the log says on
   CHECK(unit.get("y") == 0.25);
   std::vector<Line> warnings;
   for (const Line& line : unit.lines) {
-    if (line.status == fmi::Status::Warning) warnings.push_back(line);
+    if (line.status == importer::Status::Warning) warnings.push_back(line);
   }
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0].message, Contains("the step to 1 s ended at 0.25 s (fmi2Discard)") &&
@@ -419,9 +419,9 @@ TEST_CASE("a step that takes long is told once, with what the unit says of it", 
   std::vector<std::string> told;
   std::function<void()> release;
   Fmi2Fixture unit("fmi2_sleeper", {.patience = 0ms,
-                                    .log = [&](const std::string&, fmi::Status status,
+                                    .log = [&](const std::string&, importer::Status status,
                                                const std::string&, const std::string& message) {
-                                      CHECK(status == fmi::Status::Warning);
+                                      CHECK(status == importer::Status::Warning);
                                       told.push_back(message);
                                       release();
                                     }});
@@ -498,7 +498,7 @@ TEST_CASE("a warning of an FMI 2.0 unit is logged and the step stands") {
   CHECK(unit.step({}, Time(1s)).went_through(Time(1s)));
   REQUIRE(unit.lines.size() == 1);
   CHECK(unit.lines[0].unit == "u1");
-  CHECK(unit.lines[0].status == fmi::Status::Warning);
+  CHECK(unit.lines[0].status == importer::Status::Warning);
   CHECK(unit.lines[0].category == "logStatus");
   CHECK(unit.lines[0].message == "tank.level is 0.5 m, 50 %");
 }
@@ -512,7 +512,7 @@ TEST_CASE("a call that the unit does not allow is a failure") {
 
 // Last, since nothing of this library can be called after it.
 TEST_CASE("after fmi2Fatal nothing of the library is called", "[here]") {
-  const auto fmu = fmi::Fmu::load(test_fmu("fmi2_grumbler"));
+  const auto fmu = importer::Fmu::load(test_fmu("fmi2_grumbler"));
   Fmi2Fixture unit(fmu);
   unit.set_number("mood", 4);
   unit.start();

@@ -17,8 +17,9 @@ using core::ValueType;
 namespace {
 
 struct ClocksFixture {
-  explicit ClocksFixture(const std::string& name, fmi::InstanceOptions options = {})
-      : fmu(fmi::Fmu::load(test_fmu(name))), unit(make_unit(fmu, "unit", std::move(options))) {}
+  explicit ClocksFixture(const std::string& name, importer::InstanceOptions options = {})
+      : fmu(importer::Fmu::load(test_fmu(name))),
+        unit(make_unit(fmu, "unit", std::move(options))) {}
 
   const core::Variable& variable(const std::string& name) const {
     return fmu->description()->variables[fmu->description()->find(name).value()];
@@ -47,7 +48,7 @@ struct ClocksFixture {
     unit->enter_step_mode();
   }
 
-  std::shared_ptr<fmi::Fmu> fmu;
+  std::shared_ptr<importer::Fmu> fmu;
   std::unique_ptr<core::Unit> unit;
 };
 
@@ -59,14 +60,14 @@ struct RawClock {
         "<Clock name=\"tick\" valueReference=\"1\" causality=\"input\" " + attributes + "/>\n";
     scratch.write("raw_extended/modelDescription.xml",
                   description_text("raw_extended", "hasEventMode=\"true\"", clock));
-    fmu = fmi::Fmu::load(folder);
+    fmu = importer::Fmu::load(folder);
     unit = make_unit(fmu, behaviour);
     unit->enter_initialization(Time(2s), std::nullopt);
   }
   const core::Variable& tick() const { return fmu->description()->variables[0]; }
 
   Scratch scratch;
-  std::shared_ptr<fmi::Fmu> fmu;
+  std::shared_ptr<importer::Fmu> fmu;
   std::unique_ptr<core::Unit> unit;
 };
 
@@ -81,8 +82,8 @@ struct Follower {
   std::shared_ptr<int> calls = std::make_shared<int>(0);
 };
 
-fmi::InstanceOptions intermediate() {
-  fmi::InstanceOptions options;
+importer::InstanceOptions intermediate() {
+  importer::InstanceOptions options;
   options.intermediate_update = true;
   return options;
 }

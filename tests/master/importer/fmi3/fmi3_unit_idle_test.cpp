@@ -18,7 +18,7 @@ using core::ValueType;
 namespace {
 
 struct Idler {
-  explicit Idler(const std::string& name = "idler") : fmu(fmi::Fmu::load(test_fmu(name))) {
+  explicit Idler(const std::string& name = "idler") : fmu(importer::Fmu::load(test_fmu(name))) {
     unit = make_unit(fmu, "tank", {.early_return_allowed = true});
   }
 
@@ -49,7 +49,7 @@ struct Idler {
     unit->enter_step_mode();
   }
 
-  std::shared_ptr<fmi::Fmu> fmu;
+  std::shared_ptr<importer::Fmu> fmu;
   std::unique_ptr<core::Unit> unit;
 };
 
@@ -118,13 +118,13 @@ TEST_CASE("an output without a tolerance has no tangent") {
 
 TEST_CASE("an output whose manifest gives it no derivative has the derivative 0") {
   const Scratch scratch;
-  const fmi::UnpackedFmu unpacked(test_fmu("idler"));
+  const importer::UnpackedFmu unpacked(test_fmu("idler"));
   const fs::path manifest = unpacked.folder() / STRIDE_IDLE_MANIFEST;
   std::string text = read(manifest);
   const std::string word = "hasDerivative=\"true\"";
   text.replace(text.find(word), word.size(), "hasDerivative=\"false\"");
   std::ofstream(manifest) << text;
-  const auto fmu = fmi::Fmu::load(unpacked.folder());
+  const auto fmu = importer::Fmu::load(unpacked.folder());
   const auto unit = make_unit(fmu, "tank");
   unit->enter_initialization({}, std::nullopt);
   unit->exit_initialization();
@@ -210,7 +210,7 @@ TEST_CASE("what another tool's unit promises is checked") {
                 "ls:fmi-ls-name=\"org.stride.idle\" ls:fmi-ls-version=\"1.0.0\">"
                 "<Output name=\"y\" valueReference=\"1\" tolerance=\"1\" "
                 "hasDerivative=\"true\"/></fmiLayeredStandardManifest>");
-  const auto fmu = fmi::Fmu::load(folder);
+  const auto fmu = importer::Fmu::load(folder);
   const auto promise = [&](const char* behaviour) {
     const auto unit = make_unit(fmu, behaviour);
     idle(*unit).enable_idle_skipping(1s);

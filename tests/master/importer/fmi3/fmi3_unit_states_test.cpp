@@ -14,7 +14,7 @@ namespace {
 class Stepper {
  public:
   explicit Stepper(const std::string& fmu = "stepper")
-      : fmu_(fmi::Fmu::load(test_fmu(fmu))), unit_(make_unit(fmu_, "unit")) {}
+      : fmu_(importer::Fmu::load(test_fmu(fmu))), unit_(make_unit(fmu_, "unit")) {}
 
   core::Unit& operator*() { return *unit_; }
   core::Unit* operator->() { return unit_.get(); }
@@ -35,7 +35,7 @@ class Stepper {
   }
 
  private:
-  std::shared_ptr<fmi::Fmu> fmu_;
+  std::shared_ptr<importer::Fmu> fmu_;
   std::unique_ptr<core::Unit> unit_;
 };
 

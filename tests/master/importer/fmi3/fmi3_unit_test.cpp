@@ -23,8 +23,9 @@ using stride::tests::at;
 /// An instance of a unit made for tests, with access by name.
 class Fmi3Fixture {
  public:
-  explicit Fmi3Fixture(const std::string& unit, fmi::InstanceOptions options = {})
-      : fmu_(fmi::Fmu::load(test_fmu(unit))), unit_(make_unit(fmu_, "unit", std::move(options))) {}
+  explicit Fmi3Fixture(const std::string& unit, importer::InstanceOptions options = {})
+      : fmu_(importer::Fmu::load(test_fmu(unit))),
+        unit_(make_unit(fmu_, "unit", std::move(options))) {}
 
   core::Unit& operator*() { return *unit_; }
   core::Unit* operator->() { return unit_.get(); }
@@ -60,7 +61,7 @@ class Fmi3Fixture {
   }
 
  private:
-  std::shared_ptr<fmi::Fmu> fmu_;
+  std::shared_ptr<importer::Fmu> fmu_;
   std::unique_ptr<core::Unit> unit_;
 };
 
@@ -68,10 +69,10 @@ constexpr const char* kKeepsStates = "hasEventMode=\"true\" canGetAndSetFMUState
 
 /// A raw unit, whose instance's name chooses what it does.
 struct Raw {
-  explicit Raw(const std::string& name, fmi::InstanceOptions options = {},
+  explicit Raw(const std::string& name, importer::InstanceOptions options = {},
                const std::string& library = "raw",
                const std::string& flags = "hasEventMode=\"true\"")
-      : fmu(fmi::Fmu::load(make_raw_fmu(scratch, library, flags))),
+      : fmu(importer::Fmu::load(make_raw_fmu(scratch, library, flags))),
         unit(make_unit(fmu, name, std::move(options))) {
     unit->enter_initialization({}, Time(1s));
     unit->exit_initialization();
@@ -86,7 +87,7 @@ struct Raw {
     return value;
   }
   Scratch scratch;
-  std::shared_ptr<fmi::Fmu> fmu;
+  std::shared_ptr<importer::Fmu> fmu;
   std::unique_ptr<core::Unit> unit;
 };
 
@@ -328,10 +329,10 @@ TEST_CASE("a small drift of a unit's own time is tolerated") {
 
 TEST_CASE("a unit's own time may differ from the end of the step, which the log says once") {
   std::vector<std::string> logged;
-  const fmi::LogSink log = [&](const std::string& unit, fmi::Status status, const std::string&,
-                               const std::string& message) {
+  const importer::LogSink log = [&](const std::string& unit, importer::Status status,
+                                    const std::string&, const std::string& message) {
     CHECK(unit == "lies");
-    CHECK(status == fmi::Status::Warning);
+    CHECK(status == importer::Status::Warning);
     logged.push_back(message);
   };
   Raw fixed("lies", {.log = log}, "raw", "hasEventMode=\"true\" fixedInternalStepSize=\"0.5\"");
@@ -419,9 +420,9 @@ TEST_CASE("after fmi3Error the instance is freed, after fmi3Fatal it is not touc
 TEST_CASE("after fmi3Fatal no other instance of the FMU is touched, and its library stays",
           "[here]") {
   Scratch scratch;
-  auto fmu = fmi::Fmu::load(make_raw_fmu(scratch, "raw"));
+  auto fmu = importer::Fmu::load(make_raw_fmu(scratch, "raw"));
   const std::string path = fmu->load_library()->path();
-  const auto again = fmi::Fmu::load(scratch / "raw");  // the same library by another object
+  const auto again = importer::Fmu::load(scratch / "raw");  // the same library by another object
   auto fatal = make_unit(fmu, "fatal");
   auto same = make_unit(fmu, "same");
   auto other = make_unit(again, "other");
@@ -449,7 +450,7 @@ TEST_CASE("after fmi3Fatal no other instance of the FMU is touched, and its libr
 
 TEST_CASE("a library whose instances do well is unloaded with the last of them", "[here]") {
   Scratch scratch;
-  auto fmu = fmi::Fmu::load(make_raw_fmu(scratch, "raw"));
+  auto fmu = importer::Fmu::load(make_raw_fmu(scratch, "raw"));
   const std::string path = fmu->load_library()->path();
   auto unit = make_unit(fmu, "unit");
   fmu.reset();
@@ -524,7 +525,7 @@ TEST_CASE("a state that cannot be saved or restored is an error") {
 
 TEST_CASE("a warning is logged and the step stands") {
   std::vector<std::string> logged;
-  Raw raw("warning", {.log = [&](const std::string& unit, fmi::Status status,
+  Raw raw("warning", {.log = [&](const std::string& unit, importer::Status status,
                                  const std::string& category, const std::string& message) {
             logged.push_back(unit + "/" + std::to_string(static_cast<int>(status)) + "/" +
                              category + "/" + message);
@@ -568,7 +569,7 @@ TEST_CASE("a unit without resources gets none") {
   CHECK(path.strings()[0] == "NULL");
 
   fs::create_directory(raw.scratch / "raw/resources");
-  const auto unit = make_unit(fmi::Fmu::load(raw.scratch / "raw"), "unit");
+  const auto unit = make_unit(importer::Fmu::load(raw.scratch / "raw"), "unit");
   unit->get(std::span(&any, 1), path);
   CHECK(path.strings()[0] == (raw.scratch / "raw/resources").string() + "/");
 }
@@ -605,7 +606,7 @@ TEST_CASE("Event Mode is not wanted by who has none") {
 }
 
 TEST_CASE("structural parameters are set in Configuration Mode, before all others") {
-  const auto fmu = fmi::Fmu::load(test_fmu("resizable"));
+  const auto fmu = importer::Fmu::load(test_fmu("resizable"));
   const auto unit = make_unit(fmu, "unit");
   const auto reference = [&](const char* name) {
     return fmu->description()->variables[*fmu->description()->find(name)].reference;
@@ -638,7 +639,7 @@ TEST_CASE("what a library does not export for structure and derivatives is named
                 description_text("raw", "providesDirectionalDerivatives=\"true\"",
                                  "<UInt64 name=\"n\" valueReference=\"1\" start=\"1\" "
                                  "causality=\"structuralParameter\" variability=\"fixed\"/>\n"));
-  const auto fmu = fmi::Fmu::load(folder);
+  const auto fmu = importer::Fmu::load(folder);
   const auto unit = make_unit(fmu, "unit");
   CHECK_THAT(run_error([&] { configuration(*unit).enter_configuration_mode(); }),
              Contains("does not export fmi3EnterConfigurationMode"));
@@ -658,7 +659,7 @@ TEST_CASE("a unit says what a message says") {
   CHECK(texts(*unit).describe_message(frame, {}) == "");
   CHECK(texts(*unit).describe_message(frame, {0}) == "");
   const std::string longest = texts(*unit).describe_message(frame, {2});
-  CHECK(longest.size() == fmi::Fmi3Unit::kLongestDescription);
+  CHECK(longest.size() == importer::Fmi3Unit::kLongestDescription);
   CHECK(longest.substr(longest.size() - 2) == "é");
   CHECK_THAT(run_error([&] { texts(*unit).describe_message(unit.reference("float64"), {1}); }),
              Contains("strideDescribeMessage returned fmi3Error: ") && Contains("not Binary"));
