@@ -10,6 +10,10 @@
 
 #include <fmt/format.h>
 
+#include "master/algorithm/capabilities/configuration_mode.h"
+#include "master/algorithm/capabilities/inputs_within_step.h"
+#include "master/algorithm/capabilities/own_process.h"
+#include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/events/event_handler.h"
 #include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/loops/initial_values.h"
@@ -70,8 +74,10 @@ class Simulation::Run {
     }
     statistics_.wall_time = WallClock::Source::now() - began;
     for (std::size_t i = 0; i < count(); ++i) {
-      statistics_.units[i].calls = units_[i]->calls();
-      statistics_.units[i].host = units_[i]->host_statistics();
+      auto* const diagnostics = units_[i]->capability<UnitDiagnostics>();
+      auto* const process = units_[i]->capability<OwnProcess>();
+      if (diagnostics != nullptr) statistics_.units[i].calls = diagnostics->calls();
+      if (process != nullptr) statistics_.units[i].host = process->host_statistics();
       statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].suspensions;
     }
     finish_suspensions(failure);
@@ -139,13 +145,13 @@ class Simulation::Run {
   void configure() {
     const std::span<const StartValue> all = system_.structural_values();
     for (auto first = all.begin(); first != all.end();) {
-      Unit& unit = *units_[first->id.component];
+      auto& configuration = units_[first->id.component]->require_capability<ConfigurationMode>();
       const auto last = std::find_if(first, all.end(), [&](const StartValue& value) {
         return value.id.component != first->id.component;
       });
-      unit.enter_configuration_mode();
+      configuration.enter_configuration_mode();
       std::for_each(first, last, [&](const StartValue& value) { set(value); });
-      unit.exit_configuration_mode();
+      configuration.exit_configuration_mode();
       first = last;
     }
   }
@@ -179,7 +185,9 @@ class Simulation::Run {
   void connect_input_updates() {
     for (std::size_t i = 0; i < count(); ++i) {
       Unit& unit = *units_[i];
-      unit.set_input_update(
+      auto* const inputs = unit.capability<InputsWithinStep>();
+      if (inputs == nullptr) continue;
+      inputs->set_input_update(
           [this, i, &unit](double seconds) { inputs_->within_step(i, unit, seconds); });
     }
   }

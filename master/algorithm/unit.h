@@ -2,17 +2,15 @@
 #ifndef STRIDE_MASTER_ALGORITHM_UNIT_H
 #define STRIDE_MASTER_ALGORITHM_UNIT_H
 
-#include <cstdint>
-#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include <stride/time.h>
 
-#include "master/algorithm/statistics.h"
+#include "master/algorithm/capability.h"
 #include "master/model/description.h"
 #include "master/model/values.h"
 
@@ -73,34 +71,18 @@ struct EventResult {
   std::optional<Time> next_event;
 };
 
-/// What a unit says of the interval of one of its time-based clocks.
-struct ClockInterval {
-  enum class State { NotYetKnown, Unchanged, Changed };
-  State state = State::NotYetKnown;
-  Interval interval{};  ///< with Unchanged, the one that was told before
-};
-
-/// Called by a unit within a step, `seconds_into_step` after its begin: sets those of its inputs
-/// that have `intermediate_update` to their values at that instant. Instants come in any order.
-using InputUpdate = std::function<void(double seconds_into_step)>;
-
-/// One instance of a unit. Call order, as in FMI 3.0 Co-Simulation:
+/// One instance of a unit: what each unit has, and the way to ask for what only some have. Call
+/// order, as in FMI 3.0 Co-Simulation:
 ///
-///   {enter_configuration_mode, set (structural parameters), exit_configuration_mode},
 ///   set (start values), enter_initialization, {get, set}, exit_initialization, then
 ///   {events: {get, set, update_discrete_states}, enter_step_mode, {get, set, step},
 ///   enter_event_mode}, terminate.
 ///
-/// With has_event_mode the unit stands in Event Mode after exit_initialization, without in Step
-/// Mode. Each function throws core::Error that names the unit. An object is used by one thread at a
-/// time.
+/// With has_event_mode the unit is in Event Mode after exit_initialization, without in Step Mode.
+/// Each function throws core::Error that names the unit. An object is used by one thread at a time.
 class Unit {
  public:
   virtual ~Unit() = default;
-
-  /// Only for a unit that has structural parameters.
-  virtual void enter_configuration_mode() {}
-  virtual void exit_configuration_mode() {}
 
   virtual void enter_initialization(Time start, std::optional<Time> stop) = 0;
   virtual void exit_initialization() = 0;
@@ -119,86 +101,42 @@ class Unit {
     for (const BoundValues& output : values.outputs) get(output.references, *output.block);
     return result;
   }
-  /// What the unit said when it last rejected a step; empty if it said nothing.
-  virtual std::string rejection_reason() const { return {}; }
-
-  /// Keeps what the unit is now, in place of what was kept before. Only with can_save_state.
-  virtual void save_state() = 0;
-  /// Makes the unit what it was at save_state(), any number of times.
-  virtual void restore_state() = 0;
-  /// Chooses among several kept states the one that the calls above and below are about; it is the
-  /// first, 0, until another is chosen. The others stay.
-  virtual void select_state(std::size_t /*slot*/) {
-    throw std::logic_error("this kind of unit keeps one state only");
-  }
-  /// The kept state as bytes, for any unit of the same FMU, also in another process. Only with
-  /// can_serialize_state.
-  virtual std::vector<std::uint8_t> serialize_state() {
-    throw std::logic_error("this kind of unit cannot serialise its state");
-  }
-  /// Keeps the state that these bytes are, in place of what was kept before.
-  virtual void deserialize_state(std::span<const std::uint8_t> /*bytes*/) {
-    throw std::logic_error("this kind of unit cannot deserialise a state");
-  }
-  /// Makes the unit what it was when it was made: no start value is set, and kept states stay. Also
-  /// after it has failed, or was terminated.
-  virtual void reset() { throw std::logic_error("this kind of unit cannot be reset"); }
 
   virtual void enter_event_mode() = 0;
   virtual EventResult update_discrete_states() = 0;
   virtual void enter_step_mode() = 0;
 
-  /// The interval of a time-based clock that does not stand in the description. In Initialization
-  /// Mode it counts from the first tick of a periodic clock, and from the start to the first tick
-  /// of another; in Event Mode, after update_discrete_states(), from the present instant.
-  virtual ClockInterval clock_interval(const Variable& /*clock*/) { return {}; }
-  /// From the start to the first tick of a periodic clock; in Initialization Mode only.
-  virtual Interval clock_shift(const Variable& /*clock*/) { return {}; }
-
-  /// How Float64 and Float32 unknowns change with known inputs: the sum over the knowns of
-  /// (∂ unknown / ∂ known) seed, arrays element by element. In Initialization Mode, Event Mode and
-  /// Step Mode; only with provides_directional_derivatives.
-  virtual void get_directional_derivative(std::span<const ValueReference> /*unknowns*/,
-                                          std::span<const ValueReference> /*knowns*/,
-                                          std::span<const double> /*seed*/,
-                                          std::span<double> /*sensitivity*/) {
-    throw std::logic_error("this kind of unit has no directional derivatives");
-  }
-
-  /// Whom to ask for inputs within a step; an empty function ends it. A unit that has no use for it
-  /// steps with the inputs that it was given before.
-  virtual void set_input_update(InputUpdate /*update*/) {}
-
-  /// Before enter_initialization, with promises_idle: the unit may skip its own idle time, and will
-  /// promise to be idle, for max_skip at most.
-  virtual void enable_idle_skipping(Duration /*max_skip*/) {}
-  /// Likewise: how far Float64 outputs may be from their tangents meanwhile.
-  virtual void set_idle_tolerances(std::span<const ValueReference> /*outputs*/,
-                                   std::span<const double> /*tolerances*/) {}
-  /// Where a step or Event Mode has just ended: the instant before which the unit need not be
-  /// called, while its inputs stay within their deadbands and none of its clocks is set. Not after
-  /// the present instant if it promises nothing.
-  virtual Time idle_until() { return Time::min(); }
-  /// The first derivatives of Float64 outputs that have a tolerance, arrays element by element; 0
-  /// where there is none (has_derivative).
-  virtual void get_derivatives(std::span<const ValueReference> /*outputs*/,
-                               std::span<double> /*derivatives*/) {}
-
-  /// What a value of a Binary variable says, in the unit's own words, which nobody has looked at
-  /// yet (readable_text()); empty where it says nothing. At any time; changes nothing.
-  virtual std::string describe_message(ValueReference /*variable*/, const Binary& /*value*/) {
-    return {};
-  }
-
   virtual void terminate() = 0;
 
-  /// How many functions of the unit's interface were called so far, where they are counted.
-  virtual std::uint64_t calls() const { return 0; }
+  /// The unit's implementation of the capability; null if the unit does not have it. The answer
+  /// never changes, so it is asked for once, where a run begins, and kept.
+  Capability* capability(CapabilityId id) { return find_capability(id); }
+  template <CapabilityInterface C>
+  C* capability() {
+    return static_cast<C*>(find_capability(C::kId));
+  }
+  /// Likewise of a unit whose description promises it. Throws std::logic_error if the unit does not
+  /// have it.
+  template <CapabilityInterface C>
+  C& require_capability() {
+    if (C* const found = capability<C>()) return *found;
+    throw std::logic_error("a unit does not have a capability that its description promises");
+  }
 
-  /// Of the process that the unit has to itself; nothing if it has none. At any time, also after a
-  /// failure.
-  virtual std::optional<HostStatistics> host_statistics() const { return std::nullopt; }
+ private:
+  /// The unit's interface with this identifier, as a pointer made from a pointer to that interface
+  /// (select_capability()); null if it does not have the capability.
+  virtual Capability* find_capability(CapabilityId /*id*/) { return nullptr; }
 };
+
+/// The capability C of each unit, in their order; null where a unit does not have it.
+template <CapabilityInterface C>
+std::vector<C*> capabilities(std::span<const std::unique_ptr<Unit>> units) {
+  std::vector<C*> found;
+  found.reserve(units.size());
+  for (const std::unique_ptr<Unit>& unit : units) found.push_back(unit->capability<C>());
+  return found;
+}
 
 }  // namespace stride::core
 

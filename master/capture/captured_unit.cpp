@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <stdexcept>
 #include <type_traits>
+
+#include "master/algorithm/capabilities/resetting.h"
+#include "master/algorithm/capabilities/state_serialization.h"
 
 namespace stride::capture {
 namespace {
@@ -35,11 +39,21 @@ core::ValueBlock part(const core::ValueBlock& values, std::size_t first, std::si
 CapturedUnit::CapturedUnit(std::unique_ptr<core::Unit> unit,
                            const core::UnitDescription& description, StimuliFile& file,
                            const SuperDenseIndex& index)
-    : unit_(std::move(unit)), description_(description), file_(file), index_(index) {
+    : ForwardingUnit(std::move(unit)),
+      state_(inner().capability<core::StateSaving>()),
+      idle_(inner().capability<core::IdlePromises>()),
+      description_(description),
+      file_(file),
+      index_(index) {
   for (const core::Variable& variable : description.variables) {
     if (is_stimulus(variable)) inputs_.push_back({&variable, description.is_message(variable)});
   }
   std::ranges::sort(inputs_, {}, [](const Input& input) { return input.variable->reference; });
+}
+
+core::Capability* CapturedUnit::find_capability(core::CapabilityId id) {
+  if (id == core::StateSerialization::kId || id == core::Resetting::kId) return nullptr;
+  return find_decorated<core::StateSaving, core::IdlePromises>(*this, id);
 }
 
 CapturedUnit::Input* CapturedUnit::find_input(core::ValueReference reference) {
@@ -52,7 +66,7 @@ CapturedUnit::Input* CapturedUnit::find_input(core::ValueReference reference) {
 
 void CapturedUnit::set(std::span<const core::ValueReference> references,
                        const core::ValueBlock& values) {
-  unit_->set(references, values);
+  ForwardingUnit::set(references, values);
   note(references, values);
 }
 
@@ -102,7 +116,7 @@ void CapturedUnit::write_waiting(std::uint64_t index) {
 // ---- What it is told to do ----
 
 void CapturedUnit::enter_initialization(Time start, std::optional<Time> stop) {
-  unit_->enter_initialization(start, stop);
+  ForwardingUnit::enter_initialization(start, stop);
   file_.end_head(start);
   time_ = start;
   mode_ = Mode::Initialization;
@@ -110,7 +124,7 @@ void CapturedUnit::enter_initialization(Time start, std::optional<Time> stop) {
 
 /// What was tried on the way to the initial values is left out.
 void CapturedUnit::exit_initialization() {
-  unit_->exit_initialization();
+  ForwardingUnit::exit_initialization();
   for (const Input& input : inputs_) {
     if (input.latest) write(input, "", *input.latest);
   }
@@ -118,14 +132,14 @@ void CapturedUnit::exit_initialization() {
 }
 
 core::StepResult CapturedUnit::step(const core::StepInterval& interval) {
-  const core::StepResult result = unit_->step(interval);
+  const core::StepResult result = ForwardingUnit::step(interval);
   note_step(interval, result);
   return result;
 }
 
 core::StepResult CapturedUnit::step(const core::StepInterval& interval,
                                     const core::StepValues& values) {
-  const core::StepResult result = unit_->step(interval, values);
+  const core::StepResult result = ForwardingUnit::step(interval, values);
   for (const core::BoundValues& input : values.inputs) note(input.references, *input.block);
   note_step(interval, result);
   return result;
@@ -138,7 +152,7 @@ void CapturedUnit::note_step(const core::StepInterval& interval, const core::Ste
 }
 
 void CapturedUnit::enter_event_mode() {
-  unit_->enter_event_mode();
+  ForwardingUnit::enter_event_mode();
   mode_ = Mode::Event;
 }
 
@@ -146,11 +160,11 @@ core::EventResult CapturedUnit::update_discrete_states() {
   const std::uint64_t index = index_.at(time_);
   write_waiting(index);
   next_index_ = index + 1;
-  return unit_->update_discrete_states();
+  return ForwardingUnit::update_discrete_states();
 }
 
 void CapturedUnit::enter_step_mode() {
-  unit_->enter_step_mode();
+  ForwardingUnit::enter_step_mode();
   write_waiting(next_index_);
   mode_ = Mode::Step;
 }
@@ -158,33 +172,37 @@ void CapturedUnit::enter_step_mode() {
 // ---- States, idle time, the end ----
 
 void CapturedUnit::save_state() {
-  unit_->save_state();
+  state_->save_state();
   saved_ = {file_.mark(), time_, mode_, inputs_};
 }
 
 void CapturedUnit::restore_state() {
-  unit_->restore_state();
+  state_->restore_state();
   file_.drop(saved_.mark);
   time_ = saved_.time;
   mode_ = saved_.mode;
   inputs_ = saved_.inputs;
 }
 
+void CapturedUnit::select_state(std::size_t) {
+  throw std::logic_error("this kind of unit keeps one state only");
+}
+
 void CapturedUnit::enable_idle_skipping(Duration max_skip) {
-  unit_->enable_idle_skipping(max_skip);
+  idle_->enable_idle_skipping(max_skip);
   file_.add_skip(max_skip);
 }
 
 void CapturedUnit::set_idle_tolerances(std::span<const core::ValueReference> outputs,
                                        std::span<const double> tolerances) {
-  unit_->set_idle_tolerances(outputs, tolerances);
+  idle_->set_idle_tolerances(outputs, tolerances);
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     file_.add_tolerance(description_.variables[*description_.find(outputs[i])], tolerances[i]);
   }
 }
 
 void CapturedUnit::terminate() {
-  unit_->terminate();
+  ForwardingUnit::terminate();
   commit();
 }
 

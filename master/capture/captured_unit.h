@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "master/algorithm/statistics.h"
+#include "master/algorithm/capabilities/idle_promises.h"
+#include "master/algorithm/capabilities/state_saving.h"
+#include "master/algorithm/forwarding_unit.h"
 #include "master/algorithm/unit.h"
 #include "master/capture/stimuli_file.h"
 
@@ -41,9 +43,12 @@ class SuperDenseIndex {
 /// in which event iteration, and the steps that it makes. What is undone by a restored state is
 /// taken back; a rejected step has not been.
 ///
-/// One state is kept at a time; a reset and serialised states are refused, as those of a unit that
-/// has none.
-class CapturedUnit final : public core::Unit {
+/// One state is kept at a time. A reset and states from elsewhere cannot be taken back from the
+/// file, so StateSerialization and Resetting are not among the capabilities. Inputs within steps
+/// are not written; Capture refuses runs that have them.
+class CapturedUnit final : public core::ForwardingUnit,
+                           public core::StateSaving,
+                           public core::IdlePromises {
  public:
   /// All but the unit must outlive this object.
   CapturedUnit(std::unique_ptr<core::Unit> unit, const core::UnitDescription& description,
@@ -52,54 +57,35 @@ class CapturedUnit final : public core::Unit {
   /// All units have reached a communication point: what was written is final.
   void commit() { file_.commit(time_); }
 
-  void enter_configuration_mode() override { unit_->enter_configuration_mode(); }
-  void exit_configuration_mode() override { unit_->exit_configuration_mode(); }
   void enter_initialization(Time start, std::optional<Time> stop) override;
   void exit_initialization() override;
-  void get(std::span<const core::ValueReference> references, core::ValueBlock& values) override {
-    unit_->get(references, values);
-  }
   void set(std::span<const core::ValueReference> references,
            const core::ValueBlock& values) override;
   core::StepResult step(const core::StepInterval& interval) override;
   core::StepResult step(const core::StepInterval& interval,
                         const core::StepValues& values) override;
-  std::string rejection_reason() const override { return unit_->rejection_reason(); }
-  void save_state() override;
-  void restore_state() override;
   void enter_event_mode() override;
   core::EventResult update_discrete_states() override;
   void enter_step_mode() override;
-  core::ClockInterval clock_interval(const core::Variable& clock) override {
-    return unit_->clock_interval(clock);
-  }
-  core::Interval clock_shift(const core::Variable& clock) override {
-    return unit_->clock_shift(clock);
-  }
-  void get_directional_derivative(std::span<const core::ValueReference> unknowns,
-                                  std::span<const core::ValueReference> knowns,
-                                  std::span<const double> seed,
-                                  std::span<double> sensitivity) override {
-    unit_->get_directional_derivative(unknowns, knowns, seed, sensitivity);
-  }
+  void terminate() override;
+
+  void save_state() override;
+  void restore_state() override;
+  /// Throws std::logic_error.
+  void select_state(std::size_t slot) override;
+
   void enable_idle_skipping(Duration max_skip) override;
   void set_idle_tolerances(std::span<const core::ValueReference> outputs,
                            std::span<const double> tolerances) override;
-  Time idle_until() override { return unit_->idle_until(); }
+  Time idle_until() override { return idle_->idle_until(); }
   void get_derivatives(std::span<const core::ValueReference> outputs,
                        std::span<double> derivatives) override {
-    unit_->get_derivatives(outputs, derivatives);
-  }
-  std::string describe_message(core::ValueReference variable, const core::Binary& value) override {
-    return unit_->describe_message(variable, value);
-  }
-  void terminate() override;
-  std::uint64_t calls() const override { return unit_->calls(); }
-  std::optional<core::HostStatistics> host_statistics() const override {
-    return unit_->host_statistics();
+    idle_->get_derivatives(outputs, derivatives);
   }
 
  private:
+  core::Capability* find_capability(core::CapabilityId id) override;
+
   enum class Mode { Start, Initialization, Event, Step };
 
   /// An input, and what it was given last.
@@ -127,7 +113,8 @@ class CapturedUnit final : public core::Unit {
   void write(const Input& input, std::string_view event, const core::ValueBlock& values);
   void write_waiting(std::uint64_t index);
 
-  std::unique_ptr<core::Unit> unit_;
+  core::StateSaving* state_;  ///< of the unit; null if it has none
+  core::IdlePromises* idle_;  ///< likewise
   const core::UnitDescription& description_;
   StimuliFile& file_;
   const SuperDenseIndex& index_;

@@ -14,13 +14,13 @@
 namespace stride::capture {
 namespace {
 
-constexpr io::OutputFile::Hints kHints{
+constexpr core::OutputFile::Hints kHints{
     .create = "name a file that you may write: --capture COMPONENT=FILE",
     .write = "make room on the disk that the file is on; the lines before are complete"};
 
 /// Always in quotation marks, so that an empty text is not taken for nothing.
 void append_quoted(std::string& text, std::string_view value) {
-  io::quote_csv(value, [&](char c) { text += c; });
+  recorders::quote_csv(value, [&](char c) { text += c; });
 }
 
 core::ValueBlock start_values(const core::Variable& variable) {
@@ -52,8 +52,8 @@ StimuliFile::StimuliFile(std::filesystem::path path, const Origin& origin)
   const core::UnitDescription& description = *origin.description;
   fmt::format_to(std::back_inserter(pending_),
                  "stride stimuli,1\nunit,{}\ncomponent,{}\nsystem,{}\n",
-                 io::csv_field(description.model_name), io::csv_field(origin.component),
-                 io::csv_field(origin.system));
+                 recorders::csv_field(description.model_name),
+                 recorders::csv_field(origin.component), recorders::csv_field(origin.system));
   for (const core::Variable& variable : description.variables) {
     if (is_stimulus(variable)) add_input(description, variable);
   }
@@ -62,14 +62,15 @@ StimuliFile::StimuliFile(std::filesystem::path path, const Origin& origin)
 void StimuliFile::add_input(const core::UnitDescription& description, const core::Variable& input) {
   std::vector<std::size_t> sizes;
   for (const core::Dimension& dimension : input.dimensions) sizes.push_back(dimension.size);
-  fmt::format_to(std::back_inserter(pending_), "input,{},{},{},{},{},{}", io::csv_field(input.name),
-                 core::name(input.type), core::name(input.variability), io::csv_field(input.unit),
-                 io::csv_field(clock_name(description, input)), fmt::join(sizes, " "));
+  fmt::format_to(std::back_inserter(pending_), "input,{},{},{},{},{},{}",
+                 recorders::csv_field(input.name), core::name(input.type),
+                 core::name(input.variability), recorders::csv_field(input.unit),
+                 recorders::csv_field(clock_name(description, input)), fmt::join(sizes, " "));
   if (input.type != core::ValueType::Clock) add_elements(input, start_values(input), 0);
   pending_ += '\n';
   for (const auto& [item, number] : input.items) {
-    fmt::format_to(std::back_inserter(pending_), "item,{},{},{}\n", io::csv_field(input.name),
-                   io::csv_field(item), number);
+    fmt::format_to(std::back_inserter(pending_), "item,{},{},{}\n",
+                   recorders::csv_field(input.name), recorders::csv_field(item), number);
   }
 }
 
@@ -87,7 +88,7 @@ void StimuliFile::add_elements(const core::Variable& variable, const core::Value
 
 void StimuliFile::add_start_value(const core::Variable& variable, const core::ValueBlock& values,
                                   std::size_t first) {
-  fmt::format_to(std::back_inserter(pending_), "set,{}", io::csv_field(variable.name));
+  fmt::format_to(std::back_inserter(pending_), "set,{}", recorders::csv_field(variable.name));
   add_elements(variable, values, first);
   pending_ += '\n';
 }
@@ -99,8 +100,8 @@ void StimuliFile::add_skip(Duration max_skip) {
 }
 
 void StimuliFile::add_tolerance(const core::Variable& output, double tolerance) {
-  fmt::format_to(std::back_inserter(pending_), "tolerance,{},{}\n", io::csv_field(output.name),
-                 tolerance);
+  fmt::format_to(std::back_inserter(pending_), "tolerance,{},{}\n",
+                 recorders::csv_field(output.name), tolerance);
 }
 
 void StimuliFile::end_head(Time start) {
@@ -119,14 +120,14 @@ void StimuliFile::add_moment(Time time, std::string_view event) {
 void StimuliFile::add_value(Time time, std::string_view event, const core::Variable& variable,
                             const core::ValueBlock& values, std::size_t first) {
   add_moment(time, event);
-  pending_ += io::csv_field(variable.name);
+  pending_ += recorders::csv_field(variable.name);
   add_elements(variable, values, first);
   pending_ += '\n';
 }
 
 void StimuliFile::add_tick(Time time, std::string_view event, const core::Variable& clock) {
   add_moment(time, event);
-  pending_ += io::csv_field(clock.name);
+  pending_ += recorders::csv_field(clock.name);
   pending_ += ",\n";
 }
 

@@ -27,7 +27,7 @@ struct Origin {
 bool is_stimulus(const core::Variable& variable);
 
 /// Rows wait until they are committed, and can be taken back until then. commit(), flush() and
-/// close() throw core::Error (Run) as io::OutputFile does.
+/// close() throw core::Error (Run) as core::OutputFile does.
 class StimuliFile {
  public:
   /// Creates the file and begins its head. Throws core::Error (Input) if it cannot be created.
@@ -66,7 +66,7 @@ class StimuliFile {
                     std::size_t first);
   void add_input(const core::UnitDescription& description, const core::Variable& input);
 
-  io::OutputFile file_;
+  core::OutputFile file_;
   std::string pending_;
   bool has_head_ = false;
   Time committed_{};

@@ -18,7 +18,7 @@ namespace {
 
 std::string seconds(Duration duration) { return core::to_text(duration); }
 
-std::string unit_table(const LoadedScenario& loaded) {
+std::string unit_table(const scenario::LoadedScenario& loaded) {
   Table table({{"component"}, {"unit"}, {"FMI"}, {"variables", Table::Align::Right}, {"file"}});
   for (std::size_t i = 0; i < loaded.fmus().size(); ++i) {
     const core::UnitDescription& unit = *loaded.fmus()[i]->description();
@@ -29,16 +29,16 @@ std::string unit_table(const LoadedScenario& loaded) {
 }
 
 /// Empty if all units are in this process.
-std::string host_table(const LoadedScenario& loaded) {
+std::string host_table(const scenario::LoadedScenario& loaded) {
   Table table({{"component"},
                {"call limit [s]", Table::Align::Right},
                {"memory limit [MiB]", Table::Align::Right},
                {"sandbox"},
                {"why"}});
   for (std::size_t i = 0; i < loaded.hostings().size(); ++i) {
-    const std::optional<Hosting>& hosting = loaded.hostings()[i];
+    const std::optional<scenario::Hosting>& hosting = loaded.hostings()[i];
     if (!hosting) continue;
-    const host::HostOptions& options = hosting->options;
+    const isolation::HostOptions& options = hosting->options;
     table.add({loaded.system().components()[i].name,
                options.call_limit ? seconds(*options.call_limit) : "none",
                options.memory_limit ? std::to_string(*options.memory_limit >> 20) : "none",
@@ -81,7 +81,7 @@ std::string steps(const core::RunOptions& options) {
                          : fmt::format("extrapolated ({})", name(options.extrapolation)));
 }
 
-std::string order_table(const LoadedScenario& loaded) {
+std::string order_table(const scenario::LoadedScenario& loaded) {
   const core::System& system = loaded.system();
   Table table(
       {{"", Table::Align::Right}, {"stage", Table::Align::Right}, {"component"}, {"why here"}});
@@ -104,8 +104,8 @@ std::string check_table(std::span<const checks::Definition> checks) {
   return table.size() == 0 ? "" : "\nChecks\n" + table.text();
 }
 
-void check(const ScenarioRequest& request) {
-  const LoadedScenario loaded(request);
+void check(const scenario::ScenarioRequest& request) {
+  const scenario::LoadedScenario loaded(request);
   loaded.instantiate();
   const core::System& system = loaded.system();
   const core::RunOptions& options = loaded.options();
@@ -127,7 +127,7 @@ void add_check(CLI::App& app) {
   CLI::App* command = app.add_subcommand("check",
                                          "Load a scenario and its units, print units, connections, "
                                          "orders and algebraic loops; run nothing");
-  const auto request = std::make_shared<ScenarioRequest>();
+  const auto request = std::make_shared<scenario::ScenarioRequest>();
   add_scenario_options(*command, *request);
   command->callback([request] { check(*request); });
 }

@@ -21,7 +21,7 @@ struct CompleteArguments {
 };
 
 /// A package is packed again, with the one file changed.
-void write_package(const CompleteArguments& arguments, const io::Files::Archive& package,
+void write_package(const CompleteArguments& arguments, const ssp::Files::Archive& package,
                    const std::filesystem::path& file, const std::string& text) {
   archive::Contents contents;
   archive::add_folder(contents, "", package.folder);
@@ -30,17 +30,18 @@ void write_package(const CompleteArguments& arguments, const io::Files::Archive&
 }
 
 void complete(const CompleteArguments& arguments) {
-  const io::Scenario scenario = io::read_scenario(arguments.scenario, {find_unit, {}});
-  io::Descriptions descriptions;
-  const auto fmus = load_fmus(scenario);
+  const scenario::Scenario scenario =
+      scenario::read_scenario(arguments.scenario, {scenario::find_unit, {}});
+  ssp::Descriptions descriptions;
+  const auto fmus = scenario::load_fmus(scenario);
   for (std::size_t i = 0; i < fmus.size(); ++i) {
     descriptions[scenario.system.components[i].name] = fmus[i]->description();
   }
   const std::filesystem::path file = scenario.files->system_file(arguments.scenario);
-  const std::string text = io::complete(file, descriptions, scenario.files->shown(file));
+  const std::string text = ssp::complete(file, descriptions, scenario.files->shown(file));
   const auto archive = scenario.files->archive_of(file);
   if (archive) return write_package(arguments, *archive, file, text);
-  io::Replacement output(arguments.output.empty() ? file : arguments.output);
+  core::Replacement output(arguments.output.empty() ? file : arguments.output);
   output.file().write(text);
   output.commit();
 }

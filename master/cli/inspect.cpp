@@ -76,7 +76,7 @@ std::string meaning(const core::Variable& variable) {
 }
 
 void inspect(const std::filesystem::path& file) {
-  const auto fmu = fmi::Fmu::load(find_unit(file, {}));
+  const auto fmu = importer::Fmu::load(scenario::find_unit(file, {}));
   const core::UnitDescription& unit = *fmu->description();
   fmt::print("{}: FMI {} Co-Simulation{}\n", unit.model_name, unit.fmi_version,
              unit.generation_tool.empty() ? "" : ", made with " + unit.generation_tool);

@@ -26,12 +26,12 @@ namespace fs = std::filesystem;
 class FmuArchives {
  public:
   fs::path operator()(const fs::path& source, const core::Location& where) {
-    const fs::path unit = find_unit(source, where);
+    const fs::path unit = scenario::find_unit(source, where);
     const bool is_library = unit.extension() == ".so";
     if (!is_library && !fs::is_directory(unit)) return unit;
     const fs::path made = folder_.path() / fmt::format("{}.fmu", ++count_);
     if (is_library) {
-      fmi::pack({unit, {}, {}, made});
+      importer::pack({unit, {}, {}, made});
     } else {
       archive::Contents contents;
       archive::add_folder(contents, "", unit);
@@ -49,7 +49,7 @@ bool is_scenario(const fs::path& path) {
   return fs::is_directory(path) || path.extension() == ".ssd" || path.extension() == ".ssp";
 }
 
-void pack_scenario(const fmi::PackRequest& request) {
+void pack_scenario(const importer::PackRequest& request) {
   if (!request.resources.empty() || !request.bundled.empty()) {
     core::fail_input({}, "--resources and --bundle are for the library of a unit",
                      "a scenario is packed with all that it names");
@@ -60,11 +60,12 @@ void pack_scenario(const fmi::PackRequest& request) {
         fmt::format("--output {}: a scenario becomes a package (.ssp)", request.output.string()),
         "give the output a name that ends in .ssp");
   }
-  const io::Scenario scenario = io::read_scenario(request.library, {find_unit, {}});
+  const scenario::Scenario scenario =
+      scenario::read_scenario(request.library, {scenario::find_unit, {}});
   FmuArchives fmus;
   archive::write_zip(request.output,
-                     io::package_contents(scenario.files->system_file(request.library),
-                                          *scenario.files, std::ref(fmus)));
+                     ssp::package_contents(scenario.files->system_file(request.library),
+                                           *scenario.files, std::ref(fmus)));
 }
 
 }  // namespace
@@ -75,7 +76,7 @@ void add_pack(CLI::App& app) {
       "Make a .fmu from a library of the unit kit, or from another .fmu, and a resources folder, "
       "from stimuli that --capture wrote, or from the declaration of a program; or a .ssp from a "
       "scenario and all that it names");
-  const auto request = std::make_shared<fmi::PackRequest>();
+  const auto request = std::make_shared<importer::PackRequest>();
   command
       ->add_option(
           "FILE", request->library,
@@ -95,11 +96,11 @@ void add_pack(CLI::App& app) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   command->callback([request] {
-    request->library = find_unit(request->library, {});
+    request->library = scenario::find_unit(request->library, {});
     if (is_scenario(request->library)) return pack_scenario(*request);
-    if (is_stimuli(request->library)) return pack_stimuli(*request);
-    if (is_program(request->library)) return pack_program(*request);
-    fmi::pack(*request);
+    if (scenario::is_stimuli(request->library)) return scenario::pack_stimuli(*request);
+    if (scenario::is_program(request->library)) return scenario::pack_program(*request);
+    importer::pack(*request);
   });
 }
 

@@ -42,7 +42,7 @@ void Recorders::add_to(core::Simulation& simulation) {
   if (activity_) simulation.add_observer(*activity_);
 }
 
-RecordedRun::RecordedRun(const LoadedScenario& loaded, const core::RunOptions& options,
+RecordedRun::RecordedRun(const scenario::LoadedScenario& loaded, const core::RunOptions& options,
                          ResultsTarget results, const RunDisplay& display,
                          std::vector<std::unique_ptr<core::Unit>> units, capture::Capture& capture,
                          TestReport& test_report)
@@ -133,15 +133,15 @@ void RecordedRun::warn_of_verdicts() const {
 void RecordedRun::write_statistics(const std::optional<std::string>& error) {
   test_report_.write(options_, simulation_.statistics(), verdicts_, error);
   if (results_.files.statistics.empty()) return;
-  io::write_run_json(results_.folder / results_.files.statistics,
-                     {.scenario = loaded_.scenario().path,
-                      .system = loaded_.system(),
-                      .options = options_,
-                      .statistics = simulation_.statistics(),
-                      .verdicts = verdicts_,
-                      .error = error,
-                      .files = results_.files,
-                      .plots = loaded_.plots()});
+  recorders::write_run_json(results_.folder / results_.files.statistics,
+                            {.scenario = loaded_.scenario().path,
+                             .system = loaded_.system(),
+                             .options = options_,
+                             .statistics = simulation_.statistics(),
+                             .verdicts = verdicts_,
+                             .error = error,
+                             .files = results_.files,
+                             .plots = loaded_.plots()});
 }
 
 void RecordedRun::write_page() const {
@@ -163,10 +163,10 @@ void RecordedRun::print_summary() const {
   const auto& [folder, files] = results_;
   fmt::print("\n{}{}\nResults in {}:", summary_.text(simulation_.statistics()),
              verdict_table(verdicts_), folder.string());
-  for (const auto& [what, member] : io::kResultFiles) {
+  for (const auto& [what, member] : recorders::kResultFiles) {
     if (!(files.*member).empty()) fmt::print(" {}", files.*member);
   }
-  fmt::print("{}\n", std::filesystem::exists(folder / io::kFilmFolder) ? " film/" : "");
+  fmt::print("{}\n", std::filesystem::exists(folder / recorders::kFilmFolder) ? " film/" : "");
 }
 
 }  // namespace stride::cli

@@ -29,7 +29,7 @@ namespace stride::cli {
 /// Where the results go, and which of them are written.
 struct ResultsTarget {
   std::filesystem::path folder;
-  io::ResultFiles files;
+  recorders::ResultFiles files;
 };
 
 struct RunDisplay {
@@ -47,10 +47,10 @@ class Recorders {
   void add_to(core::Simulation& simulation);
 
  private:
-  std::optional<io::CsvRecorder> signals_;
-  std::optional<io::EventRecorder> events_;
-  std::optional<io::VcdRecorder> trace_;
-  std::optional<io::ActivityRecorder> activity_;
+  std::optional<recorders::CsvRecorder> signals_;
+  std::optional<recorders::EventRecorder> events_;
+  std::optional<recorders::VcdRecorder> trace_;
+  std::optional<recorders::ActivityRecorder> activity_;
 };
 
 /// One simulation with its recorders, checks, captures, summary, progress and reports.
@@ -58,9 +58,10 @@ class RecordedRun {
  public:
   /// `units` are the instances of the scenario, with the captured ones wrapped by `capture`. The
   /// scenario, the capture and the test report must outlive this object. Creates the result files.
-  RecordedRun(const LoadedScenario& loaded, const core::RunOptions& options, ResultsTarget results,
-              const RunDisplay& display, std::vector<std::unique_ptr<core::Unit>> units,
-              capture::Capture& capture, TestReport& test_report);
+  RecordedRun(const scenario::LoadedScenario& loaded, const core::RunOptions& options,
+              ResultsTarget results, const RunDisplay& display,
+              std::vector<std::unique_ptr<core::Unit>> units, capture::Capture& capture,
+              TestReport& test_report);
 
   /// Throws core::Error (Run) if the run fails or is interrupted, and if a verdict on it is bad.
   /// Whatever happens, the results are complete up to the last communication point.
@@ -77,7 +78,7 @@ class RecordedRun {
   void warn_of_verdicts() const;
   bool is_cut_short() const;
 
-  const LoadedScenario& loaded_;
+  const scenario::LoadedScenario& loaded_;
   const core::RunOptions options_;
   const ResultsTarget results_;
   const RunDisplay display_;

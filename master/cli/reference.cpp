@@ -28,14 +28,14 @@ void add_text(CLI::App& app, CLI::App& group, const std::string& name, const std
 
 void write_pages(const CLI::App& app, const std::filesystem::path& folder) {
   for (const auto& [name, text] : reference::man_pages(reference::describe(app), STRIDE_VERSION)) {
-    io::OutputFile file(folder / name);
+    core::OutputFile file(folder / name);
     file.write(text);
     file.close();
   }
 }
 
 void print_components(const std::filesystem::path& file) {
-  const io::Scenario scenario = io::read_scenario(file, {find_unit, {}});
+  const scenario::Scenario scenario = scenario::read_scenario(file, {scenario::find_unit, {}});
   for (const core::ComponentDeclaration& component : scenario.system.components) {
     fmt::print("{}\n", component.name);
   }

@@ -20,8 +20,8 @@ struct ReportArguments {
 };
 
 void make_report(const ReportArguments& arguments) {
-  const io::ResultFiles files = report::result_files(arguments.folder);
-  const std::string& name = files.report.empty() ? io::ResultFiles().report : files.report;
+  const recorders::ResultFiles files = report::result_files(arguments.folder);
+  const std::string& name = files.report.empty() ? recorders::ResultFiles().report : files.report;
   const std::filesystem::path file =
       arguments.out.empty() ? arguments.folder / name : arguments.out;
   for (const std::string& note : write_report(arguments.folder, files, file)) {

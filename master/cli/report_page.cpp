@@ -56,7 +56,7 @@ bool start(std::vector<std::string> command) {
 bool has_reports() { return !report::page().empty(); }
 
 std::vector<std::string> write_report(const std::filesystem::path& folder,
-                                      const io::ResultFiles& files,
+                                      const recorders::ResultFiles& files,
                                       const std::filesystem::path& report) {
   const report::Results results = report::read_results(folder, files);
   report::write_report(report, results, STRIDE_VERSION);

@@ -16,7 +16,7 @@ bool has_reports();
 /// Writes the report of the results in the folder, which have these names. Returns
 /// texts about what is missing there, which are on the page, too. Throws core::Error.
 std::vector<std::string> write_report(const std::filesystem::path& folder,
-                                      const io::ResultFiles& files,
+                                      const recorders::ResultFiles& files,
                                       const std::filesystem::path& report);
 
 /// Starts the first existing program of $BROWSER, or else xdg-open, with the file, and does not

@@ -27,7 +27,7 @@ namespace {
 constexpr int kMostThreads = 1024;
 
 struct RunArguments {
-  ScenarioRequest scenario;
+  scenario::ScenarioRequest scenario;
   std::filesystem::path out;
   std::vector<std::string> captures;  ///< "component=FILE"
   std::filesystem::path junit;        ///< empty: none
@@ -39,19 +39,21 @@ struct RunArguments {
   bool quiet = false;
 };
 
-std::filesystem::path make_folder(const RunArguments& arguments, const io::Scenario& scenario) {
-  std::filesystem::path folder = arguments.out.empty()
-                                     ? std::filesystem::path("results") / io::stem(scenario.path)
-                                     : arguments.out;
-  io::make_results_folder(folder);
-  io::remove_results(folder, scenario.annotation.results);
+std::filesystem::path make_folder(const RunArguments& arguments,
+                                  const scenario::Scenario& scenario) {
+  std::filesystem::path folder =
+      arguments.out.empty() ? std::filesystem::path("results") / scenario::stem(scenario.path)
+                            : arguments.out;
+  recorders::make_results_folder(folder);
+  recorders::remove_results(folder, scenario.annotation.results);
   // where units put the files that they write themselves
   ::setenv("STRIDE_RESULTS", std::filesystem::absolute(folder).c_str(), 1);
   return folder;
 }
 
-io::ResultFiles chosen_files(const RunArguments& arguments, const io::Scenario& scenario) {
-  io::ResultFiles files = scenario.annotation.results;
+recorders::ResultFiles chosen_files(const RunArguments& arguments,
+                                    const scenario::Scenario& scenario) {
+  recorders::ResultFiles files = scenario.annotation.results;
   if (arguments.no_trace) files.trace.clear();
   if (arguments.no_report || !has_reports()) files.report.clear();
   if (arguments.open && files.report.empty()) {
@@ -61,7 +63,8 @@ io::ResultFiles chosen_files(const RunArguments& arguments, const io::Scenario& 
   return files;
 }
 
-core::RunOptions run_options(const RunArguments& arguments, const LoadedScenario& loaded) {
+core::RunOptions run_options(const RunArguments& arguments,
+                             const scenario::LoadedScenario& loaded) {
   core::RunOptions options = loaded.options();
   options.threads.count = arguments.threads;
   options.interrupted = &Interruption::flag();
@@ -75,7 +78,7 @@ ProgressStyle progress_style(const RunArguments& arguments) {
 std::vector<capture::CaptureRequest> captures(const RunArguments& arguments) {
   std::vector<capture::CaptureRequest> captures;
   for (const std::string& text : arguments.captures) {
-    auto [component, file] = split_option("--capture", text, "COMPONENT=FILE");
+    auto [component, file] = scenario::split_option("--capture", text, "COMPONENT=FILE");
     if (file.empty()) core::fail_input({}, fmt::format("--capture {}: no file is named", text));
     captures.push_back({std::move(component), std::move(file)});
   }
@@ -86,8 +89,8 @@ std::vector<capture::CaptureRequest> captures(const RunArguments& arguments) {
 /// results folder, and the environment variable that names it.
 void run(const RunArguments& arguments, TestReport& report) {
   const Interruption interruption;
-  const LoadedScenario loaded(arguments.scenario);
-  const io::ResultFiles files = chosen_files(arguments, loaded.scenario());
+  const scenario::LoadedScenario loaded(arguments.scenario);
+  const recorders::ResultFiles files = chosen_files(arguments, loaded.scenario());
   const std::filesystem::path folder = make_folder(arguments, loaded.scenario());
   const core::RunOptions options = run_options(arguments, loaded);
   capture::Capture capture(loaded.system(), loaded.scenario().name, options, captures(arguments));
@@ -135,7 +138,8 @@ void add_run(CLI::App& app) {
       ->add_flag("--film", arguments->scenario.film,
                  "Pictures of the MuJoCo worlds in film/, every 0.1 s of simulated time, or as in "
                  "--film=SECONDS")
-      ->transform([](const std::string& value) { return value == "true" ? kFilmAsItIs : value; });
+      ->transform(
+          [](const std::string& value) { return value == "true" ? scenario::kFilmAsItIs : value; });
   command
       ->add_option("--junit", arguments->junit,
                    "Write a test report in the XML of JUnit, with a test case for the run, each "

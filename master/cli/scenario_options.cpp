@@ -21,8 +21,10 @@ std::string alternatives(const Choices& choices) {
 }
 
 /// An option whose text the setter takes.
-CLI::Option* add_setting(CLI::App& command, const std::string& name, io::StepSettings& settings,
-                         void (io::StepSettings::*set)(std::string_view), const std::string& help) {
+CLI::Option* add_setting(CLI::App& command, const std::string& name,
+                         scenario::StepSettings& settings,
+                         void (scenario::StepSettings::*set)(std::string_view),
+                         const std::string& help) {
   return command.add_option_function<std::string>(
       name,
       [&settings, name, set](const std::string& text) {
@@ -35,8 +37,8 @@ CLI::Option* add_setting(CLI::App& command, const std::string& name, io::StepSet
       help);
 }
 
-void add_step_options(CLI::App& command, io::StepSettings& settings) {
-  using io::StepSettings;
+void add_step_options(CLI::App& command, scenario::StepSettings& settings) {
+  using scenario::StepSettings;
   add_setting(command, "--step", settings, &StepSettings::set_size,
               "Communication step size; that of the first step with error control")
       ->type_name("SECONDS");
@@ -66,7 +68,7 @@ void add_step_options(CLI::App& command, io::StepSettings& settings) {
       ->type_name(alternatives(core::kExtrapolations));
 }
 
-void add_host_options(CLI::App& command, HostRequest& request) {
+void add_host_options(CLI::App& command, scenario::HostRequest& request) {
   // a flag, so that what follows a blank is the scenario; without a value it is "true"
   command
       .add_flag("--isolate", request.isolated,
@@ -83,7 +85,7 @@ void add_host_options(CLI::App& command, HostRequest& request) {
 
 }  // namespace
 
-void add_scenario_options(CLI::App& command, ScenarioRequest& request) {
+void add_scenario_options(CLI::App& command, scenario::ScenarioRequest& request) {
   command
       .add_option("FILE", request.scenario,
                   "The scenario: an SSP system file (.ssd) or package (.ssp)")

@@ -10,7 +10,7 @@ class App;
 namespace stride::cli {
 
 /// The options that every command on a scenario has. `request` must outlive the command line.
-void add_scenario_options(CLI::App& command, ScenarioRequest& request);
+void add_scenario_options(CLI::App& command, scenario::ScenarioRequest& request);
 
 }  // namespace stride::cli
 

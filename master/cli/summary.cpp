@@ -45,7 +45,7 @@ void Summary::on_message(const core::Message& message) {
     ++message_count_;
     if (messages_.size() < kMostMessages) {
       messages_.push_back(
-          {message.id, message.time, io::message_text(system_, message, kLongestText), {}});
+          {message.id, message.time, recorders::message_text(system_, message, kLongestText), {}});
     }
   } else if (message_count_ <= kMostMessages) {
     note_receiver(message.id);
@@ -180,8 +180,8 @@ std::string Summary::unit_table(const core::RunStatistics& statistics) const {
                std::to_string(unit.rollbacks), std::to_string(unit.events),
                fmt::format("{:.6g}", to_seconds(unit.suspended_time)),
                std::to_string(unit.messages_sent), std::to_string(unit.messages_received),
-               io::wall_seconds(unit.initialization_time), io::wall_seconds(unit.step_time),
-               io::wall_seconds(unit.event_time)});
+               core::wall_seconds(unit.initialization_time), core::wall_seconds(unit.step_time),
+               core::wall_seconds(unit.event_time)});
   }
   return table.text();
 }

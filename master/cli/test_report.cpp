@@ -24,7 +24,7 @@ TestReport::TestReport(std::filesystem::path file, const std::filesystem::path& 
   if (file_.empty()) return;
   std::error_code ignored;  // without the folder the file cannot be made, which is an error then
   std::filesystem::create_directories(file_.parent_path(), ignored);
-  report_.suite = io::stem(scenario);
+  report_.suite = scenario::stem(scenario);
   report_.host = host_name();
   report_.began = std::chrono::system_clock::now();
   report_.properties = {{"scenario", scenario.string()}, {"stride", STRIDE_VERSION}};
@@ -58,7 +58,7 @@ void TestReport::write(const std::string& error) {
 }
 
 void TestReport::put() const {
-  if (!file_.empty()) io::write_junit(file_, report_);
+  if (!file_.empty()) recorders::write_junit(file_, report_);
 }
 
 }  // namespace stride::cli

@@ -36,7 +36,7 @@ class TestReport {
 
   std::filesystem::path file_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-  io::JunitReport report_;
+  recorders::JunitReport report_;
   bool is_written_ = false;
 };
 

@@ -117,7 +117,7 @@ void add_min_gap(CLI::App& command, const std::shared_ptr<TraceArguments>& argum
           "--min-gap",
           [arguments](const std::string& text) {
             try {
-              arguments->min_gap = io::parse_seconds(text);
+              arguments->min_gap = core::parse_seconds(text);
             } catch (const std::invalid_argument& mistake) {
               core::fail_input({}, fmt::format("--min-gap {}: {}", text, mistake.what()));
             }

@@ -60,11 +60,11 @@ std::string failed_checks(const std::vector<verify::Result>& results) {
 
 void run(const Options& options) {
   verify::VerifyRequest request = options.request;
-  request.file = find_unit(request.file, {});
+  request.file = scenario::find_unit(request.file, {});
   const verify::TestedUnit tested(std::move(request));
-  std::optional<io::OutputFile> json;
+  std::optional<core::OutputFile> json;
   if (!options.json.empty()) {
-    json.emplace(options.json, io::OutputFile::Hints{"name a file where you may write"});
+    json.emplace(options.json, core::OutputFile::Hints{"name a file where you may write"});
   }
   const core::UnitDescription& unit = tested.description();
   fmt::print("{}: FMI {}, steps of {} s to {} s, seed {}\n\n", unit.model_name, unit.fmi_version,
@@ -101,7 +101,7 @@ CLI::Option* add_parsed(CLI::App& command, const std::string& name, Take take,
 }
 
 Duration parse_step(const std::string& text) {
-  const Duration step = io::parse_seconds(text);
+  const Duration step = core::parse_seconds(text);
   if (step <= Duration::zero()) throw std::invalid_argument("expected a step above 0 s");
   return step;
 }
@@ -121,13 +121,13 @@ void add_times(CLI::App& command, verify::VerifyRequest& request) {
       ->type_name("SECONDS");
   add_parsed(
       command, "--stop",
-      [&request](const std::string& text) { request.stop = io::parse_seconds(text); },
+      [&request](const std::string& text) { request.stop = core::parse_seconds(text); },
       "Simulated length of a run; by default the unit's own, or 200 steps, but 1000 steps at most")
       ->type_name("SECONDS");
   add_parsed(
       command, "--timeout",
       [&request](const std::string& text) {
-        const double seconds = std::min(io::parse_above_zero(text), 1e9);
+        const double seconds = std::min(core::parse_above_zero(text), 1e9);
         request.limit = std::chrono::milliseconds(std::max(1L, std::lround(seconds * 1000)));
       },
       "Time limit of each check; 60 by default")

@@ -1,6 +1,6 @@
 #include "master/importer/asynchronous_step.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 void AsynchronousStep::begin() {
   const std::lock_guard lock(mutex_);
@@ -29,4 +29,4 @@ std::optional<Status> AsynchronousStep::wait(std::chrono::microseconds time) {
   return status_;
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

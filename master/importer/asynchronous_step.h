@@ -9,7 +9,7 @@
 
 #include "master/importer/status.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// Where a unit's callback stepFinished says how a step ended, on whatever thread, before
 /// fmi2DoStep returns or after it, and even after the unit has said the same when it was asked.
@@ -31,6 +31,6 @@ class AsynchronousStep {
   unsigned late_ = 0;  ///< callbacks of earlier steps that have not come yet
 };
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

@@ -24,7 +24,7 @@
 #error "FMI platform names: add those of this architecture (FMI 3.0, 2.5.1.1; FMI 2.0, 2.3)"
 #endif
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 namespace fs = std::filesystem;
@@ -95,4 +95,4 @@ fs::path find_library(const fs::path& fmu_folder, const std::string& fmi_version
       has_sources ? how_to_compile(is_fmi2, relative) : "export the unit for this platform");
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

@@ -7,7 +7,7 @@
 
 #include "master/util/error.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// The name of this build's folder in binaries/: the platform tuple of FMI 3.0 ("x86_64-linux").
 const char* platform();
@@ -22,6 +22,6 @@ std::filesystem::path find_library(const std::filesystem::path& fmu_folder,
                                    const std::string& model_identifier,
                                    const core::Location& where = {});
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

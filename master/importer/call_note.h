@@ -6,7 +6,7 @@
 #include <cstring>
 #include <string>
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// The name of the function of a unit that is being called, for whoever looks into the memory of a
 /// process that has crashed.
@@ -26,6 +26,6 @@ class CallNote {
   std::array<char, 64> name_{};
 };
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 using core::Interval;
@@ -109,4 +109,4 @@ core::ClockAttributes read_clock_attributes(const xml::Element& clock,
   return ClockReader(clock, declared_type).read(causality);
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

@@ -7,7 +7,7 @@
 #include "master/model/description.h"
 #include "master/util/xml/element.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// The attributes of a <Clock>, which its declared <ClockType> may give as well (FMI 3.0, 2.4.7.4).
 /// Throws core::Error of the kind Input that names the attribute and its line: no interval where
@@ -16,6 +16,6 @@ core::ClockAttributes read_clock_attributes(const xml::Element& clock,
                                             const std::optional<xml::Element>& declared_type,
                                             core::Causality causality);
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

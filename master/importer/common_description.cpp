@@ -9,7 +9,7 @@
 
 #include "master/util/time_text.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 /// Nothing if there is no such attribute.
@@ -99,4 +99,4 @@ void read_default_experiment(const xml::Element& root, core::UnitDescription& un
   unit.default_stop = Time(*stop);
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

@@ -10,7 +10,7 @@
 #include "master/model/description.h"
 #include "master/util/xml/element.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 // Each throws core::Error of the kind Input that names the place of what is wrong.
 
@@ -25,6 +25,6 @@ std::optional<Duration> read_step_size(const xml::Element& element, const char* 
 void read_units(const xml::Element& root, core::UnitDescription& unit);
 void read_default_experiment(const xml::Element& root, core::UnitDescription& unit);
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

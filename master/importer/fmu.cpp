@@ -11,7 +11,7 @@
 #include "master/importer/idle_manifest.h"
 #include "master/importer/model_description.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 namespace fs = std::filesystem;
@@ -158,4 +158,4 @@ std::unique_ptr<core::Unit> Fmu::instantiate(const std::string& name, InstanceOp
                                     std::move(options));
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

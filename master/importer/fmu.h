@@ -14,7 +14,7 @@
 #include "master/importer/model_description.h"
 #include "master/importer/unpacked_fmu.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// A unit on disk, of which instances can be made. Each of
 ///
@@ -68,6 +68,6 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   std::shared_ptr<const Fmi3Library> fmi3_library_;
 };
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

@@ -1,6 +1,8 @@
 #include "master/importer/fmu_instance.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -8,7 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 constexpr std::size_t kMaxMessages = 8;
@@ -22,6 +24,11 @@ double time_tolerance(const core::StepInterval& interval) {
   return kPicosecond + rounding + kShareOfStep * (end - interval.begin_seconds);
 }
 
+template <class Predicate>
+bool has_variable(const core::UnitDescription& unit, Predicate&& predicate) {
+  return std::ranges::any_of(unit.variables, predicate);
+}
+
 }  // namespace
 
 FmuInstance::FmuInstance(const char* prefix, std::shared_ptr<const SharedLibrary> library,
@@ -33,6 +40,37 @@ FmuInstance::FmuInstance(const char* prefix, std::shared_ptr<const SharedLibrary
       options_(std::move(options)),
       prefix_(prefix),
       library_(std::move(library)) {}
+
+bool FmuInstance::declares(core::CapabilityId id) const {
+  using core::CapabilityId;
+  const core::UnitDescription& unit = *parts_.description;
+  switch (id) {
+    case CapabilityId::Resetting:
+    case CapabilityId::UnitDiagnostics:
+      return true;
+    case CapabilityId::ConfigurationMode:
+      return has_variable(unit, [](const core::Variable& variable) {
+        return variable.causality == core::Causality::StructuralParameter;
+      });
+    case CapabilityId::StateSaving:
+      return unit.can_save_state || unit.can_serialize_state;
+    case CapabilityId::StateSerialization:
+      return unit.can_serialize_state;
+    case CapabilityId::IdlePromises:
+      return unit.promises_idle;
+    case CapabilityId::DirectionalDerivatives:
+      return unit.provides_directional_derivatives;
+    case CapabilityId::ClockIntervals:
+      return has_variable(unit, std::mem_fn(&core::Variable::is_time_based_clock));
+    case CapabilityId::InputsWithinStep:
+      return unit.provides_intermediate_update;
+    case CapabilityId::MessageText:
+    case CapabilityId::OwnProcess:
+    case CapabilityId::End:
+      return false;
+  }
+  return false;
+}
 
 // ---- Calls and failures ----
 
@@ -136,4 +174,4 @@ bool FmuInstance::is_end(const core::StepInterval& interval, double seconds) {
   return std::abs(seconds - interval.end_seconds) <= time_tolerance(interval);
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

@@ -15,17 +15,18 @@
 #include <utility>
 #include <vector>
 
+#include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/unit.h"
 #include "master/importer/call_note.h"
 #include "master/importer/shared_library.h"
 #include "master/importer/status.h"
 #include "master/util/error.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 struct InstanceOptions {
   bool early_return_allowed = false;
-  /// Whether the unit may ask for its inputs within a step, where it can (set_input_update()).
+  /// Whether the unit may ask for its inputs within a step, where it can (InputsWithinStep).
   bool intermediate_update = false;
   /// Whether states from before the present communication point may be restored; else the unit may
   /// forget what it would need for that.
@@ -53,7 +54,7 @@ struct UnitParts {
 /// kind Run, with the name of the function, the simulated time and the unit's own messages. After
 /// it the instance is freed, and no other function of it is called; after Fatal none of any
 /// instance of the FMU, so they are not freed either, and the library stays loaded.
-class FmuInstance : public core::Unit {
+class FmuInstance : public core::Unit, public core::UnitDiagnostics {
  public:
   FmuInstance(const FmuInstance&) = delete;
   FmuInstance& operator=(const FmuInstance&) = delete;
@@ -72,6 +73,9 @@ class FmuInstance : public core::Unit {
   FmuInstance(const char* prefix, std::shared_ptr<const SharedLibrary> library, std::string name,
               UnitParts parts, InstanceOptions options);
   ~FmuInstance() override = default;
+
+  /// Whether the description promises the capability; of MessageText only the library knows.
+  bool declares(core::CapabilityId id) const;
 
   /// Calls function(instance, arguments...).
   template <class Function, class... Arguments>
@@ -207,6 +211,6 @@ std::vector<std::uint8_t> FmuInstance::serialized(void* state, const char* size_
   return bytes;
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

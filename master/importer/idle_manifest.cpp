@@ -10,7 +10,7 @@
 
 #include "master/util/xml/document.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 constexpr const char* kNamespace = "http://fmi-standard.org/fmi-ls-manifest";
@@ -118,4 +118,4 @@ void read_idle_manifest(const std::filesystem::path& file, const std::string& sh
   ManifestReader(unit).read(xml::Document(file, shown_as).root());
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

@@ -8,7 +8,7 @@
 
 #include "master/model/description.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// Fills in promises_idle, and the deadbands and tolerances of the variables. Throws core::Error of
 /// the kind Input, with file and line, for what is no manifest of org.stride.idle 1.x, and for
@@ -20,6 +20,6 @@ void read_idle_manifest(const std::filesystem::path& file, const std::string& sh
 void parse_idle_manifest(const std::string& text, const std::string& shown_as,
                          core::UnitDescription& unit);
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

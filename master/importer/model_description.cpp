@@ -7,7 +7,7 @@
 #include "master/importer/fmi3/fmi3_description.h"
 #include "master/util/xml/document.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 [[noreturn]] void fail_version(const xml::Element& root, const std::string& version) {
@@ -43,4 +43,4 @@ ModelDescription read_model_description(const std::filesystem::path& file,
   return read(xml::Document(file, shown_as).root());
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

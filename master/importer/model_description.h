@@ -9,7 +9,7 @@
 #include "master/importer/fmi2/fmi2_attributes.h"
 #include "master/model/description.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// A unit's description, and what only its instances need to know.
 struct ModelDescription : core::UnitDescription {
@@ -28,6 +28,6 @@ ModelDescription read_model_description(const std::filesystem::path& file,
 /// The same from the document's text.
 ModelDescription parse_model_description(const std::string& text, const std::string& shown_as);
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

@@ -15,7 +15,7 @@
 #include "master/util/archive/zip.h"
 #include "master/util/error.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 namespace fs = std::filesystem;
@@ -90,4 +90,4 @@ void pack(const PackRequest& request) {
   archive::write_zip(request.output, collect(with_library_of(fmu.folder(), request)));
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace stride::fmi {
+namespace stride::importer {
 
 struct PackRequest {
   std::filesystem::path library;               ///< or a .fmu that has one
@@ -22,6 +22,6 @@ struct PackRequest {
 /// complete. Throws core::Error: Input for what is given wrongly, Run if it cannot be written.
 void pack(const PackRequest& request);
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <deque>
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// One for each slot, of which one is chosen: the first, until another is.
 template <class State>
@@ -29,6 +29,6 @@ class SavedStates {
   State* chosen_ = &slots_.front();
 };
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

@@ -9,7 +9,7 @@
 
 #include "master/importer/binaries.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 namespace fs = std::filesystem;
@@ -92,4 +92,4 @@ void* SharedLibrary::address(const std::string& symbol) const {
   return ::dlsym(handle_.get(), symbol.c_str());
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

@@ -13,7 +13,7 @@
 
 #include "master/util/error.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// A loaded library; unloaded with the object, unless it is condemned.
 class SharedLibrary {
@@ -59,6 +59,6 @@ constexpr bool contains(const std::string_view (&names)[kSize], std::string_view
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

@@ -8,7 +8,7 @@
 #include <stride/fmi2.h>
 #include <stride/fmi3.h>
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// The status codes of both versions; Pending is FMI 2.0's alone.
 enum class Status { Ok, Warning, Discard, Error, Fatal, Pending };
@@ -26,6 +26,6 @@ static_assert(static_cast<int>(Status::Pending) == fmi2Pending);
 using LogSink = std::function<void(const std::string& unit, Status status,
                                    const std::string& category, const std::string& message)>;
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

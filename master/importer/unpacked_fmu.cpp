@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,4 +31,4 @@ UnpackedFmu::UnpackedFmu(const fs::path& path, const core::Location& where)
                    missing_description_hint(folder()));
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

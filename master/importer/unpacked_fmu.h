@@ -5,7 +5,7 @@
 
 #include "master/util/archive/unpacked_archive.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// The folder of an FMU: a `.fmu` archive unpacked into a temporary folder that goes with this
 /// object, or a folder that is used where it is.
@@ -22,6 +22,6 @@ class UnpackedFmu {
   archive::UnpackedArchive archive_;
 };
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

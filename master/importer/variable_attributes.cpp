@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 using core::Causality;
@@ -130,4 +130,4 @@ std::vector<std::pair<std::string, std::int64_t>> read_items(const xml::Element&
   return items;
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

@@ -14,7 +14,7 @@
 #include "master/model/description.h"
 #include "master/util/xml/element.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// The enumerator of this name, of the first `count`.
 template <class Enum>
@@ -68,6 +68,6 @@ double read_nominal(const xml::Element& element, core::ValueType type,
 /// The items of an enumeration's type.
 std::vector<std::pair<std::string, std::int64_t>> read_items(const xml::Element& type);
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

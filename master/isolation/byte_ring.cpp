@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace stride::host {
+namespace stride::isolation {
 
 std::size_t ByteRing::room() const {
   const std::uint64_t used = written_.load() - read_.load(std::memory_order_acquire);
@@ -32,4 +32,4 @@ void ByteRing::read(std::string& bytes) {
   read_.store(end, std::memory_order_release);
 }
 
-}  // namespace stride::host
+}  // namespace stride::isolation

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace stride::host {
+namespace stride::isolation {
 
 /// Bytes on their way from one process to another, in shared memory: one thread writes, one reads,
 /// and neither waits. Its content outlives the writer.
@@ -31,6 +31,6 @@ class ByteRing {
   std::array<char, kSize> bytes_{};
 };
 
-}  // namespace stride::host
+}  // namespace stride::isolation
 
 #endif

@@ -14,9 +14,10 @@
 #include "master/isolation/process/shared_memory.h"
 #include "master/isolation/snapshot_board.h"
 
-namespace stride::host {
+namespace stride::isolation {
 
-/// What the master asks for: the functions of core::Unit, and what they need besides.
+/// What the master asks for: the functions of core::Unit and its capabilities, and what they need
+/// besides.
 enum class RequestCode : std::uint32_t {
   Instantiate,
   EnterConfigurationMode,
@@ -67,7 +68,7 @@ struct alignas(64) Turn {
   std::atomic<std::uint32_t> number = 0;
   std::atomic<std::uint32_t> what = 0;  ///< a RequestCode or a ReplyCode
   std::atomic<std::uint64_t> size = 0;  ///< of the message [byte]
-  process::Doorbell doorbell;           ///< for the process that waits
+  Doorbell doorbell;                    ///< for the process that waits
 };
 
 /// In shared memory. The messages themselves stand in a GrowingMemory beside it, where each takes
@@ -89,17 +90,17 @@ struct ChannelMemory {
   std::atomic<std::uint64_t> most_memory = 0;  ///< resident, of those that have ended [byte]
   SnapshotBoard snapshots;
 
-  fmi::CallNote call_note;  ///< which function of the unit is being called
-  ByteRing logged;          ///< messages of the unit, see log_message.h; written by its process
-  ByteRing printed;         ///< standard output and error; written by the supervisor
+  importer::CallNote call_note;  ///< which function of the unit is being called
+  ByteRing logged;   ///< messages of the unit, see log_message.h; written by its process
+  ByteRing printed;  ///< standard output and error; written by the supervisor
 };
 
 /// Both kinds of memory. Made by the master, inherited by the others.
 struct Channel {
-  process::Shared<ChannelMemory> memory;
-  process::GrowingMemory messages{"stride-unit", std::size_t{1} << 16};
+  Shared<ChannelMemory> memory;
+  GrowingMemory messages{"stride-unit", std::size_t{1} << 16};
 };
 
-}  // namespace stride::host
+}  // namespace stride::isolation
 
 #endif

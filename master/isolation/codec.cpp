@@ -3,7 +3,7 @@
 #include <string>
 #include <type_traits>
 
-namespace stride::host {
+namespace stride::isolation {
 namespace {
 
 constexpr bool is_number(core::ValueType type) {
@@ -154,16 +154,24 @@ std::vector<std::string> take_lines(MessageReader& from) {
 
 }  // namespace
 
-void put_protections(MessageWriter& to, const process::Protections& protections) {
+void put_capabilities(MessageWriter& to, const CapabilitySet& capabilities) {
+  to.put(std::uint64_t{capabilities.to_ullong()});
+}
+
+CapabilitySet take_capabilities(MessageReader& from) {
+  return CapabilitySet(from.take<std::uint64_t>());
+}
+
+void put_protections(MessageWriter& to, const Protections& protections) {
   put_lines(to, protections.in_force);
   put_lines(to, protections.missing);
 }
 
-process::Protections take_protections(MessageReader& from) {
-  process::Protections protections;
+Protections take_protections(MessageReader& from) {
+  Protections protections;
   protections.in_force = take_lines(from);
   protections.missing = take_lines(from);
   return protections;
 }
 
-}  // namespace stride::host
+}  // namespace stride::isolation

@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_ISOLATION_CODEC_H
 #define STRIDE_MASTER_ISOLATION_CODEC_H
 
+#include <bitset>
 #include <optional>
 
 #include "master/algorithm/unit.h"
@@ -10,7 +11,7 @@
 #include "master/model/values.h"
 #include "master/util/error.h"
 
-namespace stride::host {
+namespace stride::isolation {
 
 /// The elements only: the other side knows type and size.
 void put_values(MessageWriter& to, const core::ValueBlock& values);
@@ -36,9 +37,14 @@ void put_error(MessageWriter& to, const std::exception& error, const core::Conte
 /// Throws it.
 [[noreturn]] void throw_error(MessageReader& from);
 
-void put_protections(MessageWriter& to, const process::Protections& protections);
-process::Protections take_protections(MessageReader& from);
+/// Those of a unit.
+using CapabilitySet = std::bitset<core::kCapabilities>;
+void put_capabilities(MessageWriter& to, const CapabilitySet& capabilities);
+CapabilitySet take_capabilities(MessageReader& from);
 
-}  // namespace stride::host
+void put_protections(MessageWriter& to, const Protections& protections);
+Protections take_protections(MessageReader& from);
+
+}  // namespace stride::isolation
 
 #endif

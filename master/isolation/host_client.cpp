@@ -8,7 +8,7 @@
 #include "master/isolation/sandbox_hint.h"
 #include "master/util/readable_text.h"
 
-namespace stride::host {
+namespace stride::isolation {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -54,7 +54,7 @@ MessageReader HostClient::read() {
 void HostClient::await_reply(std::optional<Time> time) {
   const auto begin = Clock::now();
   const auto limit = spec_.host.call_limit;
-  process::Doorbell& doorbell = channel_.memory->reply.doorbell;
+  Doorbell& doorbell = channel_.memory->reply.doorbell;
   for (;;) {
     const std::uint32_t rings = doorbell.rings();
     take_lines();
@@ -82,7 +82,7 @@ void HostClient::await_reply(std::optional<Time> time) {
 
 void HostClient::complain_of_waiting() {
   if (std::exchange(has_complained_, true)) return;
-  log(fmi::Status::Warning, "stride",
+  log(importer::Status::Warning, "stride",
       fmt::format("it has taken more than {} s{}, and there is no limit (--unit-timeout)",
                   seconds(spec_.options.patience), present_call()));
 }
@@ -96,8 +96,7 @@ core::HostStatistics HostClient::statistics() const {
   statistics.most_snapshot_memory = snapshots.most_memory;
   statistics.most_memory = channel_.memory->most_memory;
   if (!process_.has_ended()) {
-    statistics.most_memory =
-        std::max(statistics.most_memory, process::most_memory(channel_.memory->active));
+    statistics.most_memory = std::max(statistics.most_memory, most_memory(channel_.memory->active));
   }
   return statistics;
 }
@@ -121,7 +120,7 @@ void HostClient::take_lines() {
 
 void HostClient::tell_printed(std::string_view line) {
   output_tail_.add_printed(line);
-  log(fmi::Status::Ok, kPrinted, std::string(line));
+  log(importer::Status::Ok, kPrinted, std::string(line));
 }
 
 /// A line without an end, when nothing comes behind it.
@@ -129,7 +128,7 @@ void HostClient::take_last_line() {
   printed_.take_rest([&](std::string_view line) { tell_printed(line); });
 }
 
-void HostClient::log(fmi::Status status, const std::string& category,
+void HostClient::log(importer::Status status, const std::string& category,
                      const std::string& text) const noexcept {
   try {
     if (spec_.options.log) spec_.options.log(spec_.name, status, category, text);
@@ -167,4 +166,4 @@ core::Context HostClient::context(std::optional<Time> time) const {
   return {.where = spec_.options.where, .unit = spec_.name, .variable = {}, .time = time};
 }
 
-}  // namespace stride::host
+}  // namespace stride::isolation

@@ -15,7 +15,7 @@
 #include "master/isolation/process/doorbell.h"
 #include "master/isolation/server.h"
 
-namespace stride::host {
+namespace stride::isolation {
 
 /// The master's side of requests and replies, and of the process that replies. What the unit logs
 /// and prints meanwhile reaches the log.
@@ -33,7 +33,8 @@ class HostClient {
   MessageReader read();
 
   /// Logs something about the unit.
-  void log(fmi::Status status, const std::string& category, const std::string& text) const noexcept;
+  void log(importer::Status status, const std::string& category,
+           const std::string& text) const noexcept;
   /// Ends the process, and lets the log have what it still has to say.
   void finish();
 
@@ -60,7 +61,7 @@ class HostClient {
   const HostedUnitSpec& spec_;
   Channel channel_;
   HostProcess process_;
-  process::Waiter waiter_;
+  Waiter waiter_;
   std::uint32_t number_ = 0;  ///< of the latest request
   LogReader log_;
   PrintedLines printed_;
@@ -69,6 +70,6 @@ class HostClient {
   std::string failure_;  ///< why nothing can be sent any longer
 };
 
-}  // namespace stride::host
+}  // namespace stride::isolation
 
 #endif

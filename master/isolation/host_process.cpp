@@ -17,22 +17,22 @@
 
 #include "master/isolation/process/child.h"
 
-namespace stride::host {
+namespace stride::isolation {
 namespace {
 
 using namespace std::chrono_literals;
 
 struct ControlSocket {
-  process::Descriptor ours, theirs;
+  Descriptor ours, theirs;
 
   // a socket, since a write to a closed pipe raises SIGPIPE
   ControlSocket() {
     std::array<int, 2> ends{};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-      process::fail("socketpair");
+      fail("socketpair");
     }
-    ours = process::Descriptor(ends[0]);
-    theirs = process::Descriptor(ends[1]);
+    ours = Descriptor(ends[0]);
+    theirs = Descriptor(ends[1]);
   }
 };
 
@@ -52,7 +52,7 @@ HostProcess::HostProcess(Channel& channel, const std::function<void(pid_t)>& ser
   flush_standard_files();
   const pid_t master = ::getpid();
   supervisor_ = ::fork();
-  if (supervisor_ < 0) process::fail("fork");
+  if (supervisor_ < 0) fail("fork");
   if (supervisor_ == 0) {
     control.ours.close();
     supervise(channel, std::move(control.theirs), master, serve);
@@ -120,7 +120,7 @@ std::string HostProcess::how_it_ended() const {
     case End::None:
       break;
   }
-  return fmt::format("its process was ended by signal {} ({})", code, process::signal_name(code));
+  return fmt::format("its process was ended by signal {} ({})", code, signal_name(code));
 }
 
-}  // namespace stride::host
+}  // namespace stride::isolation

@@ -11,7 +11,7 @@
 #include "master/isolation/process/descriptor.h"
 #include "master/isolation/supervisor.h"
 
-namespace stride::host {
+namespace stride::isolation {
 
 /// A supervisor and the process that it keeps. Nothing of them stays when the object is destroyed.
 class HostProcess {
@@ -43,11 +43,11 @@ class HostProcess {
   bool is_supervisor_gone() const;
 
   ChannelMemory& channel_;
-  process::Descriptor control_;
+  Descriptor control_;
   pid_t supervisor_ = 0;
   bool is_supervisor_lost_ = false;
 };
 
-}  // namespace stride::host
+}  // namespace stride::isolation
 
 #endif

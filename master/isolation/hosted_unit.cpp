@@ -4,12 +4,12 @@
 
 #include "master/isolation/unit_proxy.h"
 
-namespace stride::host {
+namespace stride::isolation {
 
-std::unique_ptr<core::Unit> instantiate(std::shared_ptr<fmi::Fmu> fmu, const std::string& name,
-                                        fmi::InstanceOptions options, HostOptions host) {
+std::unique_ptr<core::Unit> instantiate(std::shared_ptr<importer::Fmu> fmu, const std::string& name,
+                                        importer::InstanceOptions options, HostOptions host) {
   return std::make_unique<UnitProxy>(
       HostedUnitSpec{std::move(fmu), name, std::move(options), std::move(host)});
 }
 
-}  // namespace stride::host
+}  // namespace stride::isolation

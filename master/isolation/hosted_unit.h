@@ -13,7 +13,7 @@
 #include "master/algorithm/unit.h"
 #include "master/importer/fmu.h"
 
-namespace stride::host {
+namespace stride::isolation {
 
 /// The category of log messages that are lines of a unit's standard output or error.
 inline constexpr const char* kPrinted = "printed";
@@ -29,8 +29,8 @@ struct HostOptions {
 };
 
 /// Makes an instance in a process of its own: its library is loaded there and nowhere else, but for
-/// a bare one, which is asked for its description here (fmi::Fmu). To be called while this process
-/// has one thread.
+/// a bare one, which is asked for its description here (importer::Fmu). To be called while this
+/// process has one thread.
 ///
 /// The instance behaves as one of fmu->instantiate(), with the same errors. Beyond those, a call of
 /// a unit whose process ends, or which takes longer than its limit, throws core::Error of the kind
@@ -38,9 +38,9 @@ struct HostOptions {
 /// does each call after it but terminate(), which does nothing then. `options.patience` is also how
 /// long a call may take before the log says so. Nothing of the process stays when the unit is
 /// destroyed, or when this process ends, however it does.
-std::unique_ptr<core::Unit> instantiate(std::shared_ptr<fmi::Fmu> fmu, const std::string& name,
-                                        fmi::InstanceOptions options, HostOptions host);
+std::unique_ptr<core::Unit> instantiate(std::shared_ptr<importer::Fmu> fmu, const std::string& name,
+                                        importer::InstanceOptions options, HostOptions host);
 
-}  // namespace stride::host
+}  // namespace stride::isolation
 
 #endif

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <thread>
 
-namespace stride::host {
+namespace stride::isolation {
 namespace {
 
 struct Head {
@@ -38,12 +38,12 @@ bool LogReader::next(LogMessage& message) {
   std::memcpy(&head, bytes_.data(), sizeof head);
   const std::size_t rest = bytes_.size() - sizeof head;
   if (rest < head.category_size || rest - head.category_size < head.text_size) return false;
-  const auto last = static_cast<std::uint32_t>(fmi::Status::Pending);
-  message.status = static_cast<fmi::Status>(head.status <= last ? head.status : last);
+  const auto last = static_cast<std::uint32_t>(importer::Status::Pending);
+  message.status = static_cast<importer::Status>(head.status <= last ? head.status : last);
   message.category = bytes_.substr(sizeof head, head.category_size);
   message.text = bytes_.substr(sizeof head + head.category_size, head.text_size);
   bytes_.erase(0, sizeof head + head.category_size + head.text_size);
   return true;
 }
 
-}  // namespace stride::host
+}  // namespace stride::isolation

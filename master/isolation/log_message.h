@@ -8,10 +8,10 @@
 #include "master/importer/status.h"
 #include "master/isolation/channel.h"
 
-namespace stride::host {
+namespace stride::isolation {
 
 struct LogMessage {
-  fmi::Status status = fmi::Status::Ok;
+  importer::Status status = importer::Status::Ok;
   std::string category, text;
 };
 
@@ -50,6 +50,6 @@ class LogReader {
   std::string bytes_;  ///< read, and not taken yet
 };
 
-}  // namespace stride::host
+}  // namespace stride::isolation
 
 #endif

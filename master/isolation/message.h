@@ -15,13 +15,13 @@
 
 #include "master/isolation/process/shared_memory.h"
 
-namespace stride::host {
+namespace stride::isolation {
 
 /// Puts one thing behind another. Numbers and structures of them are copied as they are: both ends
 /// are the same program.
 class MessageWriter {
  public:
-  explicit MessageWriter(process::GrowingMemory& memory) : memory_(memory) {}
+  explicit MessageWriter(GrowingMemory& memory) : memory_(memory) {}
 
   std::size_t size() const { return size_; }
   void clear() { size_ = 0; }
@@ -48,7 +48,7 @@ class MessageWriter {
   void put(const std::string& text) { put(std::string_view(text)); }
 
  private:
-  process::GrowingMemory& memory_;
+  GrowingMemory& memory_;
   std::size_t size_ = 0;
 };
 
@@ -106,6 +106,6 @@ class MessageReader {
   std::span<const std::byte> rest_;
 };
 
-}  // namespace stride::host
+}  // namespace stride::isolation
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "master/util/readable_text.h"
 
-namespace stride::host {
+namespace stride::isolation {
 
 void OutputTail::add(const char* how, std::string_view line) {
   if (lines_.size() == kMost) lines_.pop_front();
@@ -17,4 +17,4 @@ std::string OutputTail::text() const {
   return text;
 }
 
-}  // namespace stride::host
+}  // namespace stride::isolation

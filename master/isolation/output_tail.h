@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace stride::host {
+namespace stride::isolation {
 
 /// The last lines that a unit has logged or printed, for the error that reports its end.
 class OutputTail {
@@ -55,6 +55,6 @@ class PrintedLines {
   std::string bytes_;
 };
 
-}  // namespace stride::host
+}  // namespace stride::isolation
 
 #endif

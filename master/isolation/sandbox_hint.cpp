@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace stride::host {
+namespace stride::isolation {
 namespace {
 
 /// EACCES and EPERM, as programs in various languages put them.
@@ -30,4 +30,4 @@ std::string sandbox_hint(std::string_view said, const std::string& unit, const H
       folders, unit);
 }
 
-}  // namespace stride::host
+}  // namespace stride::isolation

@@ -9,12 +9,21 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include "master/algorithm/capabilities/clock_intervals.h"
+#include "master/algorithm/capabilities/configuration_mode.h"
+#include "master/algorithm/capabilities/directional_derivatives.h"
+#include "master/algorithm/capabilities/idle_promises.h"
+#include "master/algorithm/capabilities/inputs_within_step.h"
+#include "master/algorithm/capabilities/message_text.h"
+#include "master/algorithm/capabilities/resetting.h"
+#include "master/algorithm/capabilities/state_saving.h"
+#include "master/algorithm/capabilities/state_serialization.h"
 #include "master/isolation/codec.h"
 #include "master/isolation/process/process_memory.h"
 #include "master/isolation/process/surroundings.h"
 #include "master/isolation/sandbox_hint.h"
 
-namespace stride::host {
+namespace stride::isolation {
 namespace {
 
 /// Where the master is so long in coming, nothing is lost by another look.
@@ -30,8 +39,8 @@ void on_exit_called(int status, void*) {
   ::_exit(status);
 }
 
-std::vector<process::WritableFolder> writable_folders(const HostedUnitSpec& spec) {
-  std::vector<process::WritableFolder> folders;
+std::vector<WritableFolder> writable_folders(const HostedUnitSpec& spec) {
+  std::vector<WritableFolder> folders;
   for (const std::filesystem::path& folder : spec.host.writable) {
     folders.push_back({folder, folder.string()});
   }
@@ -45,7 +54,7 @@ std::vector<process::WritableFolder> writable_folders(const HostedUnitSpec& spec
 }  // namespace
 
 void serve(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor) noexcept {
-  process::forget_signal_handlers();
+  forget_signal_handlers();
   ::prctl(PR_SET_NAME, spec.name.c_str());
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a crash loses no line
   ::on_exit(&on_exit_called, nullptr);
@@ -68,11 +77,11 @@ void Server::run() {
   }
 }
 
-process::Protections Server::prepare() {
-  if (spec_.host.memory_limit) process::limit_memory(*spec_.host.memory_limit);
+Protections Server::prepare() {
+  if (spec_.host.memory_limit) limit_memory(*spec_.host.memory_limit);
   if (!spec_.host.is_sandboxed) return {};
   ::setenv("TMPDIR", spec_.temporary->path().c_str(), 1);
-  return process::enter_sandbox(writable_folders(spec_));
+  return enter_sandbox(writable_folders(spec_));
 }
 
 // ---- Requests and replies ----
@@ -115,9 +124,18 @@ void Server::serve() {
   reply(what, out);
 }
 
+template <core::CapabilityInterface C>
+C& Server::capability() const {
+  core::Capability* const found = capabilities_.at(static_cast<std::size_t>(C::kId));
+  if (found == nullptr) throw std::logic_error("a capability was asked for that the unit lacks");
+  return static_cast<C&>(*found);
+}
+
 void Server::reply(ReplyCode what, const MessageWriter& message) {
   memory_.call_note.clear();
-  if (unit_) memory_.calls.store(undone_calls_ + unit_->calls(), std::memory_order_relaxed);
+  if (diagnostics_ != nullptr) {
+    memory_.calls.store(undone_calls_ + diagnostics_->calls(), std::memory_order_relaxed);
+  }
   memory_.reply.what.store(static_cast<std::uint32_t>(what), std::memory_order_relaxed);
   memory_.reply.size.store(message.size(), std::memory_order_relaxed);
   memory_.reply.number.store(memory_.request.number.load(std::memory_order_relaxed),
@@ -130,9 +148,9 @@ void Server::handle(RequestCode request, MessageReader& in, MessageWriter& out) 
     case RequestCode::Instantiate:
       return instantiate(out);
     case RequestCode::EnterConfigurationMode:
-      return unit_->enter_configuration_mode();
+      return capability<core::ConfigurationMode>().enter_configuration_mode();
     case RequestCode::ExitConfigurationMode:
-      return unit_->exit_configuration_mode();
+      return capability<core::ConfigurationMode>().exit_configuration_mode();
     case RequestCode::EnterInitialization: {
       time_ = take_time(in).value();
       return unit_->enter_initialization(*time_, take_time(in));
@@ -154,11 +172,12 @@ void Server::handle(RequestCode request, MessageReader& in, MessageWriter& out) 
     case RequestCode::SelectState:
       return select_state(in.take<std::size_t>());
     case RequestCode::SerializeState:
-      return out.put_all(std::span<const std::uint8_t>(unit_->serialize_state()));
+      return out.put_all(
+          std::span<const std::uint8_t>(capability<core::StateSerialization>().serialize_state()));
     case RequestCode::DeserializeState:
-      return unit_->deserialize_state(in.take_all<std::uint8_t>());
+      return capability<core::StateSerialization>().deserialize_state(in.take_all<std::uint8_t>());
     case RequestCode::Reset:
-      return unit_->reset();
+      return capability<core::Resetting>().reset();
     case RequestCode::EnterEventMode:
       return unit_->enter_event_mode();
     case RequestCode::UpdateDiscreteStates:
@@ -166,23 +185,25 @@ void Server::handle(RequestCode request, MessageReader& in, MessageWriter& out) 
     case RequestCode::EnterStepMode:
       return unit_->enter_step_mode();
     case RequestCode::GetClockInterval: {
-      const core::ClockInterval said =
-          unit_->clock_interval(variable(in.take<core::ValueReference>()));
+      const core::ClockInterval said = capability<core::ClockIntervals>().clock_interval(
+          variable(in.take<core::ValueReference>()));
       out.put(said.state);
       return out.put(said.interval);
     }
     case RequestCode::GetClockShift:
-      return out.put(unit_->clock_shift(variable(in.take<core::ValueReference>())));
+      return out.put(capability<core::ClockIntervals>().clock_shift(
+          variable(in.take<core::ValueReference>())));
     case RequestCode::GetDirectionalDerivative:
       return get_directional_derivative(in, out);
     case RequestCode::SetInputUpdate:
       return set_input_update(in.take<bool>());
     case RequestCode::EnableIdleSkipping:
-      return unit_->enable_idle_skipping(Duration(in.take<Duration::rep>()));
+      return capability<core::IdlePromises>().enable_idle_skipping(
+          Duration(in.take<Duration::rep>()));
     case RequestCode::SetIdleTolerances:
       return set_idle_tolerances(in);
     case RequestCode::GetIdleUntil:
-      return put_time(out, unit_->idle_until());
+      return put_time(out, capability<core::IdlePromises>().idle_until());
     case RequestCode::GetDerivatives:
       return get_derivatives(in, out);
     case RequestCode::DescribeMessage:
@@ -212,17 +233,25 @@ std::string Server::origin() const {
 
 void Server::instantiate(MessageWriter& out) {
   put_protections(out, prepare());
-  fmi::InstanceOptions options = spec_.options;
+  importer::InstanceOptions options = spec_.options;
   options.call_note = &memory_.call_note;
-  options.log = [this](const std::string&, fmi::Status status, const std::string& category,
+  options.log = [this](const std::string&, importer::Status status, const std::string& category,
                        const std::string& text) {
     log_.write({status, category, text});
   };
   memory_.call_note.write("the loading of its library");
   unit_ = spec_.fmu->instantiate(spec_.name, std::move(options));
+  CapabilitySet found;
+  for (std::size_t i = 0; i < capabilities_.size(); ++i) {
+    capabilities_[i] = unit_->capability(static_cast<core::CapabilityId>(i));
+    found.set(i, capabilities_[i] != nullptr);
+  }
+  diagnostics_ = &capability<core::UnitDiagnostics>();
+  put_capabilities(out, found);
 }
 
 void Server::free() {
+  diagnostics_ = nullptr;
   unit_.reset();
   std::fflush(nullptr);
   is_over_ = true;
@@ -249,7 +278,8 @@ void Server::get_directional_derivative(MessageReader& in, MessageWriter& out) {
   const auto knowns = in.take_all<core::ValueReference>();
   const auto seed = in.take_all<double>();
   std::vector<double> sensitivity(in.take<std::size_t>());
-  unit_->get_directional_derivative(unknowns, knowns, seed, sensitivity);
+  capability<core::DirectionalDerivatives>().get_directional_derivative(unknowns, knowns, seed,
+                                                                        sensitivity);
   out.put_bytes(sensitivity.data(), sensitivity.size() * sizeof(double));
 }
 
@@ -275,7 +305,7 @@ void Server::step(MessageReader& in, MessageWriter& out) {
   if (!result.rejected) time_ = result.reached;
   put_step(out, result);
   if (result.rejected) {
-    out.put(unit_->rejection_reason());
+    out.put(diagnostics_->rejection_reason());
   } else {
     plan.put_outputs(out);
   }
@@ -284,12 +314,12 @@ void Server::step(MessageReader& in, MessageWriter& out) {
 void Server::set_input_update(bool is_set) {
   core::InputUpdate update;
   if (is_set) update = [this](double seconds) { ask_inputs(seconds); };
-  unit_->set_input_update(std::move(update));
+  capability<core::InputsWithinStep>().set_input_update(std::move(update));
 }
 
 /// The master may get and set before it answers.
 void Server::ask_inputs(double seconds_into_step) {
-  const fmi::CallNote asking = memory_.call_note;
+  const importer::CallNote asking = memory_.call_note;
   MessageWriter question(channel_.messages);
   question.put(seconds_into_step);
   reply(ReplyCode::AskInputs, question);
@@ -305,19 +335,19 @@ void Server::ask_inputs(double seconds_into_step) {
 /// With snapshots it returns once more for each restored state, in the process that goes on then,
 /// and the request is one to restore.
 void Server::save_state(MessageReader& in) {
-  if (!snapshots_) return unit_->save_state();
+  if (!snapshots_) return capability<core::StateSaving>().save_state();
   memory_.call_note.write("the snapshot of its process");
-  if (snapshots_->save(slot_, take_time(in))) undone_calls_ = memory_.calls - unit_->calls();
+  if (snapshots_->save(slot_, take_time(in))) undone_calls_ = memory_.calls - diagnostics_->calls();
 }
 
 void Server::restore_state(MessageReader& in) {
-  if (!snapshots_) return unit_->restore_state();
+  if (!snapshots_) return capability<core::StateSaving>().restore_state();
   memory_.call_note.write("the return to a snapshot of its process");
   snapshots_->restore(slot_, take_time(in));
 }
 
 void Server::select_state(std::size_t slot) {
-  if (!snapshots_) return unit_->select_state(slot);
+  if (!snapshots_) return capability<core::StateSaving>().select_state(slot);
   slot_ = slot;
 }
 
@@ -325,20 +355,20 @@ void Server::select_state(std::size_t slot) {
 
 void Server::set_idle_tolerances(MessageReader& in) {
   const auto outputs = in.take_all<core::ValueReference>();
-  unit_->set_idle_tolerances(outputs, in.take_all<double>());
+  capability<core::IdlePromises>().set_idle_tolerances(outputs, in.take_all<double>());
 }
 
 void Server::get_derivatives(MessageReader& in, MessageWriter& out) {
   const auto outputs = in.take_all<core::ValueReference>();
   std::vector<double> derivatives(in.take<std::size_t>());
-  unit_->get_derivatives(outputs, derivatives);
+  capability<core::IdlePromises>().get_derivatives(outputs, derivatives);
   out.put_bytes(derivatives.data(), derivatives.size() * sizeof(double));
 }
 
 void Server::describe_message(MessageReader& in, MessageWriter& out) {
   const auto variable = in.take<core::ValueReference>();
   const core::Binary value = in.take_all<core::Binary::value_type>();
-  out.put(unit_->describe_message(variable, value));
+  out.put(capability<core::MessageText>().describe_message(variable, value));
 }
 
-}  // namespace stride::host
+}  // namespace stride::isolation

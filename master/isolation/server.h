@@ -9,6 +9,7 @@
 
 #include <sys/types.h>
 
+#include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/unit.h"
 #include "master/importer/fmu.h"
 #include "master/isolation/channel.h"
@@ -21,13 +22,13 @@
 #include "master/isolation/step_plan.h"
 #include "master/util/archive/temporary_folder.h"
 
-namespace stride::host {
+namespace stride::isolation {
 
 /// What a hosted unit is instantiated from.
 struct HostedUnitSpec {
-  std::shared_ptr<fmi::Fmu> fmu;
+  std::shared_ptr<importer::Fmu> fmu;
   std::string name;
-  fmi::InstanceOptions options;
+  importer::InstanceOptions options;
   HostOptions host;
   /// For a unit in a sandbox: $TMPDIR, since that of others is closed to it.
   std::unique_ptr<archive::TemporaryFolder> temporary{};
@@ -46,7 +47,7 @@ class Server {
 
  private:
   /// All that has to be so before code of the unit runs in this process.
-  process::Protections prepare();
+  Protections prepare();
 
   void await_request();
   /// Does what the present request wants, and replies.
@@ -70,6 +71,9 @@ class Server {
   void get_derivatives(MessageReader& in, MessageWriter& out);
   void describe_message(MessageReader& in, MessageWriter& out);
   const core::Variable& variable(core::ValueReference reference) const;
+  /// The master asks for nothing else.
+  template <core::CapabilityInterface C>
+  C& capability() const;
 
   RequestCode requested() const;
   core::Context context() const;
@@ -79,11 +83,13 @@ class Server {
   ChannelMemory& memory_;
   const HostedUnitSpec& spec_;
   LogWriter log_;
-  process::Waiter waiter_;
+  Waiter waiter_;
   std::optional<Snapshots> snapshots_;  ///< in place of the unit's own states
   std::size_t slot_ = 0;                ///< of them
   std::uint64_t undone_calls_ = 0;      ///< of functions of the unit, by processes taken back
   std::unique_ptr<core::Unit> unit_;
+  std::array<core::Capability*, core::kCapabilities> capabilities_{};  ///< of the unit
+  core::UnitDiagnostics* diagnostics_ = nullptr;  ///< likewise, while there is a unit
   std::array<StepBuffers, KnownStepShapes::kMost> plans_;
   std::optional<Time> time_;  ///< where the unit stands
   bool is_over_ = false;
@@ -92,6 +98,6 @@ class Server {
 /// Runs a server in a fresh fork: its surroundings first.
 void serve(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor) noexcept;
 
-}  // namespace stride::host
+}  // namespace stride::isolation
 
 #endif

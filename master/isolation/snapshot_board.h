@@ -10,7 +10,7 @@
 
 #include "master/isolation/process/doorbell.h"
 
-namespace stride::host {
+namespace stride::isolation {
 
 /// Only ever called by one process at a time for the same number.
 inline void raise_to(std::atomic<std::uint64_t>& most, std::uint64_t value) {
@@ -36,7 +36,7 @@ struct SnapshotBoard {
     std::atomic<State> state = State::Free;
     std::atomic<pid_t> process = 0;
     std::atomic<std::uint64_t> memory = 0;  ///< what it had to itself when it was last measured
-    process::Doorbell doorbell;             ///< for when its state has changed
+    Doorbell doorbell;                      ///< for when its state has changed
   };
 
   std::array<Entry, kEntries> entries;
@@ -54,6 +54,6 @@ struct SnapshotBoard {
   void note_end(pid_t process);
 };
 
-}  // namespace stride::host
+}  // namespace stride::isolation
 
 #endif

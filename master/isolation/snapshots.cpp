@@ -12,7 +12,7 @@
 #include "master/isolation/process/sibling.h"
 #include "master/isolation/process/surroundings.h"
 
-namespace stride::host {
+namespace stride::isolation {
 namespace {
 
 using State = SnapshotBoard::State;
@@ -59,7 +59,7 @@ bool Snapshots::save(std::size_t slot, std::optional<Time> time) {
     entry.memory = 0;
     entry.process = 0;
     entry.state = State::Frozen;
-    process = process::fork_sibling();
+    process = fork_sibling();
   } catch (const std::exception& failure) {
     entry.state = State::Free;
     fail(fmt::format("its process cannot be saved: {}", failure.what()));
@@ -92,14 +92,14 @@ void Snapshots::restore(std::size_t slot, std::optional<Time> time) {
 
 /// In the snapshot: sleeps until its state changes.
 bool Snapshots::freeze(Entry& entry) {
-  process::die_with(supervisor_);
+  die_with(supervisor_);
   entry.process = ::getpid();
   for (;;) {
     if (wait_while_frozen(entry) == State::Ends) ::_exit(0);
     entry.state = State::Frozen;
     pid_t process = 0;
     try {
-      process = process::fork_sibling();
+      process = fork_sibling();
     } catch (const std::system_error& failure) {
       entry.state = State::Lost;  // it is in charge itself now
       fail(fmt::format("its process cannot be restored: {}", failure.what()));
@@ -109,7 +109,7 @@ bool Snapshots::freeze(Entry& entry) {
 }
 
 bool Snapshots::take_over() {
-  process::die_with(supervisor_);
+  die_with(supervisor_);
   active_ = ::getpid();
   ++board_.restores;
   try {
@@ -145,12 +145,12 @@ void Snapshots::refuse_company() const {
       "use a unit that can save its state (canGetAndSetFMUState), or see that it need not be "
       "rolled "
       "back: `stride check` says why it is";
-  if (const std::size_t threads = process::thread_count(); threads > 1) {
+  if (const std::size_t threads = thread_count(); threads > 1) {
     fail(fmt::format("the unit runs {} threads, and a snapshot of its process holds one only",
                      threads),
          "let it run on one thread (with OpenMP: OMP_NUM_THREADS=1), or " + hint);
   }
-  if (process::has_children()) {
+  if (has_children()) {
     fail("the unit has started another process, which a snapshot of its own does not hold", hint);
   }
 }
@@ -186,7 +186,7 @@ void Snapshots::measure() {
   for (const auto& number : board_.entry_of) {
     if (number == 0) continue;
     Entry& entry = board_.entries[number - 1];
-    if (entry.state == State::Frozen) entry.memory = process::private_memory(entry.process);
+    if (entry.state == State::Frozen) entry.memory = private_memory(entry.process);
     sum += entry.memory;
   }
   raise_to(board_.most_memory, sum);
@@ -202,4 +202,4 @@ void Snapshots::fail(const std::string& message, const std::string& hint) const 
   core::fail_run(options_.context, message, hint);
 }
 
-}  // namespace stride::host
+}  // namespace stride::isolation

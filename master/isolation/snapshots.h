@@ -16,7 +16,7 @@
 #include "master/isolation/snapshot_board.h"
 #include "master/util/error.h"
 
-namespace stride::host {
+namespace stride::isolation {
 
 struct SnapshotOptions {
   core::Context context{};       ///< of the unit, for errors
@@ -70,10 +70,10 @@ class Snapshots {
   std::atomic<pid_t>& active_;
   pid_t supervisor_;
   SnapshotOptions options_;
-  process::OpenFiles files_;
+  OpenFiles files_;
   Clock::time_point next_measurement_{};
 };
 
-}  // namespace stride::host
+}  // namespace stride::isolation
 
 #endif

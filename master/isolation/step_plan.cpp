@@ -5,7 +5,7 @@
 
 #include "master/isolation/codec.h"
 
-namespace stride::host {
+namespace stride::isolation {
 namespace {
 
 using Bound = std::span<const core::BoundValues>;
@@ -43,7 +43,7 @@ StepShape::StepShape(const core::StepValues& values)
     : inputs(shape(values.inputs)), outputs(shape(values.outputs)) {}
 
 bool StepShape::fits(const core::StepValues& values) const {
-  return host::fits(inputs, values.inputs) && host::fits(outputs, values.outputs);
+  return isolation::fits(inputs, values.inputs) && isolation::fits(outputs, values.outputs);
 }
 
 std::optional<std::uint32_t> KnownStepShapes::find(const core::StepValues& values) {
@@ -93,4 +93,4 @@ void StepBuffers::put_outputs(MessageWriter& to) const {
   for (const core::BoundValues& output : outputs_) put_values(to, *output.block);
 }
 
-}  // namespace stride::host
+}  // namespace stride::isolation

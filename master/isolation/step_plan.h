@@ -11,7 +11,7 @@
 #include "master/algorithm/unit.h"
 #include "master/isolation/message.h"
 
-namespace stride::host {
+namespace stride::isolation {
 
 /// What a step's values are made of, without the values.
 struct StepShape {
@@ -68,6 +68,6 @@ class StepBuffers {
 /// What StepBuffers is made of.
 void put_shape(MessageWriter& to, const core::StepValues& values);
 
-}  // namespace stride::host
+}  // namespace stride::isolation
 
 #endif

@@ -22,7 +22,7 @@
 #include "master/isolation/process/surroundings.h"
 #include "master/util/archive/temporary_folder.h"
 
-namespace stride::host {
+namespace stride::isolation {
 namespace {
 
 using namespace std::chrono_literals;
@@ -31,12 +31,12 @@ using namespace std::chrono_literals;
 constexpr int kNoRoomPause = 5;  // [ms]
 
 /// A file that becomes readable when a child ends.
-process::Descriptor watch_children() {
+Descriptor watch_children() {
   sigset_t children;
   ::sigemptyset(&children);
   ::sigaddset(&children, SIGCHLD);
   ::sigprocmask(SIG_BLOCK, &children, nullptr);
-  return process::Descriptor(::signalfd(-1, &children, SFD_CLOEXEC | SFD_NONBLOCK));
+  return Descriptor(::signalfd(-1, &children, SFD_CLOEXEC | SFD_NONBLOCK));
 }
 
 /// Those that are its own, and those whose parents have ended.
@@ -51,7 +51,7 @@ std::vector<pid_t> children() {
 
 class Supervisor {
  public:
-  Supervisor(ChannelMemory& channel, process::Descriptor control, process::Descriptor output)
+  Supervisor(ChannelMemory& channel, Descriptor control, Descriptor output)
       : channel_(channel),
         control_(std::move(control)),
         output_(std::move(output)),
@@ -108,7 +108,7 @@ class Supervisor {
 
   /// What the unit has printed, a piece of it; returns whether there was something.
   bool pass_on() {
-    if (pending_.empty() && !process::read_some(output_, pending_)) return false;
+    if (pending_.empty() && !read_some(output_, pending_)) return false;
     pending_.erase(0, channel_.printed.write(pending_));
     channel_.reply.doorbell.ring();
     return true;
@@ -136,7 +136,7 @@ class Supervisor {
   }
 
   ChannelMemory& channel_;
-  process::Descriptor control_, output_, ends_;
+  Descriptor control_, output_, ends_;
   std::string pending_;  ///< printed, and there was no room for it
 };
 
@@ -148,24 +148,24 @@ void clean_up_after(pid_t master) {
 
 }  // namespace
 
-void supervise(Channel& channel, process::Descriptor control, pid_t master,
+void supervise(Channel& channel, Descriptor control, pid_t master,
                const std::function<void(pid_t)>& serve) noexcept {
   ::setpgid(0, 0);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
   ::prctl(PR_SET_NAME, "stride-keeper");
-  process::forget_signal_handlers();
-  const process::Descriptor nowhere(::open("/dev/null", O_RDWR | O_CLOEXEC));
-  process::redirect_standard_files(nowhere.number());
+  forget_signal_handlers();
+  const Descriptor nowhere(::open("/dev/null", O_RDWR | O_CLOEXEC));
+  redirect_standard_files(nowhere.number());
   const int messages = channel.messages.file().number();
-  process::close_other_files({control.number(), messages});
-  process::Pipe output;
+  close_other_files({control.number(), messages});
+  Pipe output;
   const pid_t self = ::getpid();
   const pid_t server = ::fork();
   if (server == 0) {
-    process::die_with(self);
+    die_with(self);
     channel.memory->active = ::getpid();  // which may be another one when this is seen below
-    process::redirect_standard_files(output.write.number());
-    process::close_other_files({messages});
+    redirect_standard_files(output.write.number());
+    close_other_files({messages});
     serve(self);
     ::_exit(0);
   }
@@ -188,4 +188,4 @@ void supervise(Channel& channel, process::Descriptor control, pid_t master,
   ::_exit(0);
 }
 
-}  // namespace stride::host
+}  // namespace stride::isolation

@@ -8,7 +8,7 @@
 #include "master/isolation/channel.h"
 #include "master/isolation/process/descriptor.h"
 
-namespace stride::host {
+namespace stride::isolation {
 
 /// What the master sends to a supervisor through the control socket; its end is the end of the
 /// master.
@@ -22,9 +22,9 @@ enum class Command : char {
 /// removes. To be called in a fresh fork of the master.
 ///
 /// `serve` is called in the unit's process, with the supervisor's process id.
-[[noreturn]] void supervise(Channel& channel, process::Descriptor control, pid_t master,
+[[noreturn]] void supervise(Channel& channel, Descriptor control, pid_t master,
                             const std::function<void(pid_t)>& serve) noexcept;
 
-}  // namespace stride::host
+}  // namespace stride::isolation
 
 #endif

@@ -5,9 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "master/isolation/codec.h"
-
-namespace stride::host {
+namespace stride::isolation {
 
 // ---- Life and death ----
 
@@ -23,14 +21,31 @@ UnitProxy::UnitProxy(HostedUnitSpec spec) : spec_(std::move(spec)) {
   }
   call(
       RequestCode::Instantiate, [](MessageWriter&) {},
-      [&](MessageReader& from) { protections_ = take_protections(from); });
+      [&](MessageReader& from) {
+        protections_ = take_protections(from);
+        capabilities_ = take_capabilities(from);
+      });
+  capabilities_.set(static_cast<std::size_t>(core::OwnProcess::kId));
+  if (spec_.has_snapshots()) {
+    capabilities_.set(static_cast<std::size_t>(core::StateSaving::kId));
+  }
+}
+
+core::Capability* UnitProxy::find_capability(core::CapabilityId id) {
+  if (!capabilities_.test(static_cast<std::size_t>(id))) return nullptr;
+  return core::select_capability<
+      core::ConfigurationMode, core::StateSaving, core::StateSerialization, core::Resetting,
+      core::IdlePromises, core::DirectionalDerivatives, core::ClockIntervals,
+      core::InputsWithinStep, core::MessageText, core::UnitDiagnostics, core::OwnProcess>(*this,
+                                                                                          id);
 }
 
 UnitProxy::~UnitProxy() {
   try {
     if (!client_->has_failed()) call(RequestCode::Free);
   } catch (const std::exception& failure) {
-    client_->log(fmi::Status::Warning, "stride", fmt::format("its end failed: {}", failure.what()));
+    client_->log(importer::Status::Warning, "stride",
+                 fmt::format("its end failed: {}", failure.what()));
   }
   client_->finish();
 }
@@ -39,7 +54,7 @@ void UnitProxy::terminate() {
   if (!client_->has_failed()) call(RequestCode::Terminate);
 }
 
-std::optional<core::HostStatistics> UnitProxy::host_statistics() const {
+core::HostStatistics UnitProxy::host_statistics() const {
   core::HostStatistics statistics = client_->statistics();
   statistics.protections = protections_.in_force;
   statistics.missing_protections = protections_.missing;
@@ -313,4 +328,4 @@ std::string UnitProxy::describe_message(core::ValueReference variable, const cor
   return text;
 }
 
-}  // namespace stride::host
+}  // namespace stride::isolation

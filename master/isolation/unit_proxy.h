@@ -7,16 +7,40 @@
 #include <string>
 #include <vector>
 
+#include "master/algorithm/capabilities/clock_intervals.h"
+#include "master/algorithm/capabilities/configuration_mode.h"
+#include "master/algorithm/capabilities/directional_derivatives.h"
+#include "master/algorithm/capabilities/idle_promises.h"
+#include "master/algorithm/capabilities/inputs_within_step.h"
+#include "master/algorithm/capabilities/message_text.h"
+#include "master/algorithm/capabilities/own_process.h"
+#include "master/algorithm/capabilities/resetting.h"
+#include "master/algorithm/capabilities/state_saving.h"
+#include "master/algorithm/capabilities/state_serialization.h"
+#include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/unit.h"
+#include "master/isolation/codec.h"
 #include "master/isolation/host_client.h"
 #include "master/isolation/server.h"
 #include "master/isolation/step_plan.h"
 
-namespace stride::host {
+namespace stride::isolation {
 
 /// Stands for a unit in another process: each function is a request, and what the unit answers or
-/// throws is answered and thrown here.
-class UnitProxy final : public core::Unit {
+/// throws is answered and thrown here. Its capabilities are those of the unit, besides OwnProcess,
+/// and StateSaving where states are snapshots of the process.
+class UnitProxy final : public core::Unit,
+                        public core::ConfigurationMode,
+                        public core::StateSaving,
+                        public core::StateSerialization,
+                        public core::Resetting,
+                        public core::IdlePromises,
+                        public core::DirectionalDerivatives,
+                        public core::ClockIntervals,
+                        public core::InputsWithinStep,
+                        public core::MessageText,
+                        public core::UnitDiagnostics,
+                        public core::OwnProcess {
  public:
   using References = std::span<const core::ValueReference>;
 
@@ -56,9 +80,11 @@ class UnitProxy final : public core::Unit {
   std::string describe_message(core::ValueReference variable, const core::Binary& value) override;
   void terminate() override;
   std::uint64_t calls() const override { return client_->calls(); }
-  std::optional<core::HostStatistics> host_statistics() const override;
+  core::HostStatistics host_statistics() const override;
 
  private:
+  core::Capability* find_capability(core::CapabilityId id) override;
+
   /// Sends put(MessageWriter&) and takes the answer with take(MessageReader&).
   template <class Put, class Take>
   void call(RequestCode request, Put&& put, Take&& take);
@@ -73,7 +99,8 @@ class UnitProxy final : public core::Unit {
 
   HostedUnitSpec spec_;
   std::unique_ptr<HostClient> client_;
-  process::Protections protections_;
+  Protections protections_;
+  CapabilitySet capabilities_;
   std::optional<Time> time_;
   KnownStepShapes plans_;
   core::InputUpdate input_update_;
@@ -81,6 +108,6 @@ class UnitProxy final : public core::Unit {
   std::string rejection_reason_;
 };
 
-}  // namespace stride::host
+}  // namespace stride::isolation
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "master/recorders/signal_text.h"
 
-namespace stride::io {
+namespace stride::recorders {
 
 const char* name(core::Activity::Kind kind) {
   using Kind = core::Activity::Kind;
@@ -48,4 +48,4 @@ void ActivityRecorder::on_activity(const core::Activity& activity) {
 
 void ActivityRecorder::on_finish() { file_.close(); }
 
-}  // namespace stride::io
+}  // namespace stride::recorders

@@ -9,7 +9,7 @@
 #include "master/model/system.h"
 #include "master/util/output_file.h"
 
-namespace stride::io {
+namespace stride::recorders {
 
 /// The word of activity.csv: "early return".
 const char* name(core::Activity::Kind kind);
@@ -28,10 +28,10 @@ class ActivityRecorder : public core::Observer {
 
  private:
   const core::System& system_;
-  OutputFile file_;
+  core::OutputFile file_;
   std::vector<std::string> fields_;  ///< ",component," by place
 };
 
-}  // namespace stride::io
+}  // namespace stride::recorders
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "master/recorders/signal_text.h"
 
-namespace stride::io {
+namespace stride::recorders {
 
 CsvRecorder::CsvRecorder(const core::System& system, std::filesystem::path file)
     : system_(system), file_(std::move(file)) {}
@@ -37,4 +37,4 @@ void CsvRecorder::on_communication_point(Time time) {
 
 void CsvRecorder::on_finish() { file_.close(); }
 
-}  // namespace stride::io
+}  // namespace stride::recorders

@@ -8,7 +8,7 @@
 #include "master/model/system.h"
 #include "master/util/output_file.h"
 
-namespace stride::io {
+namespace stride::recorders {
 
 /// signals.csv: the header "time,component.variable [unit],…" (each element of an array in a column
 /// of its own), then a row for each communication point. Times are exact, numbers read back as the
@@ -29,10 +29,10 @@ class CsvRecorder : public core::Observer {
     std::size_t element;
   };
   const core::System& system_;
-  OutputFile file_;
+  core::OutputFile file_;
   std::vector<Column> columns_;
 };
 
-}  // namespace stride::io
+}  // namespace stride::recorders
 
 #endif

@@ -8,7 +8,7 @@
 
 #include "master/recorders/signal_text.h"
 
-namespace stride::io {
+namespace stride::recorders {
 
 EventRecorder::EventRecorder(const core::System& system, std::filesystem::path file)
     : system_(system), file_(std::move(file)) {}
@@ -50,4 +50,4 @@ void EventRecorder::write_payload(const core::Message& message) {
 
 void EventRecorder::on_finish() { file_.close(); }
 
-}  // namespace stride::io
+}  // namespace stride::recorders

@@ -9,7 +9,7 @@
 #include "master/model/system.h"
 #include "master/util/output_file.h"
 
-namespace stride::io {
+namespace stride::recorders {
 
 /// events.csv: "time,index,component,variable,direction,payload,content", a row for each message
 /// that a component sends or receives, at its exact time. The payload of Binary is written in
@@ -29,10 +29,10 @@ class EventRecorder : public core::Observer {
   void write_payload(const core::Message& message);
 
   const core::System& system_;
-  OutputFile file_;
+  core::OutputFile file_;
   std::vector<std::vector<std::string>> fields_;  ///< ",component,variable," by place
 };
 
-}  // namespace stride::io
+}  // namespace stride::recorders
 
 #endif

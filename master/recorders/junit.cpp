@@ -11,7 +11,7 @@
 #include "master/util/time_text.h"
 #include "master/util/xml/writer.h"
 
-namespace stride::io {
+namespace stride::recorders {
 namespace {
 
 /// An attribute cannot hold a line feed.
@@ -119,9 +119,9 @@ class JunitWriter {
 }  // namespace
 
 void write_junit(const std::filesystem::path& file, const JunitReport& report) {
-  OutputFile output(file, {.create = "choose a folder in which you may write"});
+  core::OutputFile output(file, {.create = "choose a folder in which you may write"});
   output.write(JunitWriter(report).document());
   output.close();
 }
 
-}  // namespace stride::io
+}  // namespace stride::recorders

@@ -11,7 +11,7 @@
 
 #include "master/algorithm/verdict.h"
 
-namespace stride::io {
+namespace stride::recorders {
 
 /// What continuous integration needs of a run.
 struct JunitReport {
@@ -29,6 +29,6 @@ struct JunitReport {
 /// core::Error if it cannot be written.
 void write_junit(const std::filesystem::path& file, const JunitReport& report);
 
-}  // namespace stride::io
+}  // namespace stride::recorders
 
 #endif

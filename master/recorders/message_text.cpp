@@ -6,7 +6,7 @@
 
 #include "master/util/readable_text.h"
 
-namespace stride::io {
+namespace stride::recorders {
 namespace {
 
 template <class T>
@@ -38,4 +38,4 @@ std::string message_text(const core::System& system, const core::Message& messag
   return core::readable_text(text, most);
 }
 
-}  // namespace stride::io
+}  // namespace stride::recorders

@@ -7,7 +7,7 @@
 #include "master/algorithm/observer.h"
 #include "master/model/system.h"
 
-namespace stride::io {
+namespace stride::recorders {
 
 /// The content of a message, for people, in a line of `most` characters at most: its content in its
 /// component's words, else the text of a String, numbers with their unit of measure, the size of
@@ -15,6 +15,6 @@ namespace stride::io {
 std::string message_text(const core::System& system, const core::Message& message,
                          std::size_t most);
 
-}  // namespace stride::io
+}  // namespace stride::recorders
 
 #endif

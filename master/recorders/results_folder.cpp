@@ -11,7 +11,7 @@
 
 #include "master/util/error.h"
 
-namespace stride::io {
+namespace stride::recorders {
 namespace {
 
 namespace fs = std::filesystem;
@@ -78,4 +78,4 @@ void remove_results(const fs::path& folder, const ResultFiles& files) {
   }
 }
 
-}  // namespace stride::io
+}  // namespace stride::recorders

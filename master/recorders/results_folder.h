@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace stride::io {
+namespace stride::recorders {
 
 /// File names inside the results folder; empty = not written.
 struct ResultFiles {
@@ -54,6 +54,6 @@ std::vector<std::filesystem::path> folder_entries(const std::filesystem::path& f
 /// begins: what that does not write itself, or not before it is killed, would be taken for its own.
 void remove_results(const std::filesystem::path& folder, const ResultFiles& files);
 
-}  // namespace stride::io
+}  // namespace stride::recorders
 
 #endif

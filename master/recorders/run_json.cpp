@@ -9,7 +9,7 @@
 #include "master/util/hex.h"
 #include "master/util/output_file.h"
 
-namespace stride::io {
+namespace stride::recorders {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -207,10 +207,10 @@ void write_run_json(const std::filesystem::path& file, const RunRecord& record) 
   run["files"] = file_entries(files);
   run["signals"] = signal_entries(system, options.recorded);
   run["plots"] = plot_entries(plots);
-  OutputFile output(file);
+  core::OutputFile output(file);
   output.write(run.dump(2, ' ', false, Json::error_handler_t::replace));
   output.write('\n');
   output.close();
 }
 
-}  // namespace stride::io
+}  // namespace stride::recorders

@@ -12,7 +12,7 @@
 #include "master/model/system.h"
 #include "master/recorders/results_folder.h"
 
-namespace stride::io {
+namespace stride::recorders {
 
 /// What is reported of a run.
 struct RunRecord {
@@ -31,6 +31,6 @@ struct RunRecord {
 /// results this file does, too. Throws core::Error.
 void write_run_json(const std::filesystem::path& file, const RunRecord& record);
 
-}  // namespace stride::io
+}  // namespace stride::recorders
 
 #endif

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace stride::io {
+namespace stride::recorders {
 
 std::string element_name(const core::Variable& variable, std::size_t element) {
   if (variable.dimensions.empty()) return variable.name;
@@ -27,7 +27,7 @@ std::string csv_field(std::string_view text) {
   return field;
 }
 
-void write_csv(OutputFile& file, const core::ValueBlock& block, std::size_t element) {
+void write_csv(core::OutputFile& file, const core::ValueBlock& block, std::size_t element) {
   core::visit(block, [&](auto values) {
     const auto& value = values[element];
     using T = std::remove_cvref_t<decltype(value)>;
@@ -43,4 +43,4 @@ void write_csv(OutputFile& file, const core::ValueBlock& block, std::size_t elem
   });
 }
 
-}  // namespace stride::io
+}  // namespace stride::recorders

@@ -9,7 +9,7 @@
 #include "master/model/values.h"
 #include "master/util/output_file.h"
 
-namespace stride::io {
+namespace stride::recorders {
 
 /// The name of an element: that of a scalar variable, else "name[1]" or "name[2,1]", counted from 1
 /// in row-major order.
@@ -35,8 +35,8 @@ std::string csv_field(std::string_view text);
 
 /// One element as a field of a CSV file: numbers in their shortest form, true or false, text in
 /// quotation marks, bytes as hexadecimal digits.
-void write_csv(OutputFile& file, const core::ValueBlock& block, std::size_t element);
+void write_csv(core::OutputFile& file, const core::ValueBlock& block, std::size_t element);
 
-}  // namespace stride::io
+}  // namespace stride::recorders
 
 #endif

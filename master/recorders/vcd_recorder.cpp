@@ -7,14 +7,12 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "master/model/description.h"
 #include "master/recorders/signal_text.h"
 
-namespace stride::io {
+namespace stride::recorders {
 namespace {
 
 using core::ValueType;
@@ -54,7 +52,7 @@ std::uint64_t bits_of(T value) {
 
 /// A negative number stands in two's complement of its type's width.
 template <class Integer>
-void write_binary_digits(OutputFile& file, Integer value) {
+void write_binary_digits(core::OutputFile& file, Integer value) {
   auto rest = static_cast<std::make_unsigned_t<Integer>>(value);
   char digits[64];
   std::size_t first = sizeof digits;
@@ -67,7 +65,7 @@ void write_binary_digits(OutputFile& file, Integer value) {
 }
 
 /// GTKWave takes what is no printable character as an octal escape.
-void write_escaped(OutputFile& file, std::string_view text) {
+void write_escaped(core::OutputFile& file, std::string_view text) {
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte > ' ' && byte < 127 && c != '\\') {
@@ -80,7 +78,7 @@ void write_escaped(OutputFile& file, std::string_view text) {
 }
 
 template <class T>
-void write_change(OutputFile& file, const T& value, std::string_view code) {
+void write_change(core::OutputFile& file, const T& value, std::string_view code) {
   if constexpr (std::is_same_v<T, bool>) {
     file.write(value ? '1' : '0');
   } else if constexpr (std::is_floating_point_v<T>) {
@@ -113,24 +111,6 @@ bool is_message_variable(const core::UnitDescription& unit, const core::Variable
 
 }  // namespace
 
-/// A tree of scopes, in the order in which their variables were added.
-class VcdScope {
- public:
-  explicit VcdScope(std::string name = "") : name_(std::move(name)) {}
-
-  /// The scope of this name in this one, made where there is none.
-  VcdScope& scope(std::string_view name);
-  /// Declares a variable; the parts of its name before the last dot are scopes.
-  void add(std::string_view structured_name, core::ValueType type, std::string_view code);
-  /// The declarations within this scope, without its own frame.
-  void write(OutputFile& file) const;
-
- private:
-  std::string name_;
-  std::vector<VcdScope> scopes_;
-  std::vector<std::string> variables_;
-};
-
 VcdScope& VcdScope::scope(std::string_view name) {
   const std::string wanted = word(name);
   const auto found = std::find_if(scopes_.begin(), scopes_.end(),
@@ -150,7 +130,7 @@ void VcdScope::add(std::string_view structured_name, ValueType type, std::string
       fmt::format("$var {} {} {} $end\n", declaration(type), code, word(structured_name)));
 }
 
-void VcdScope::write(OutputFile& file) const {
+void VcdScope::write(core::OutputFile& file) const {
   for (const std::string& variable : variables_) file.write(variable);
   for (const VcdScope& scope : scopes_) {
     file.write(fmt::format("$scope module {} $end\n", scope.name_));
@@ -275,4 +255,4 @@ void VcdRecorder::on_finish() {
   file_.close();
 }
 
-}  // namespace stride::io
+}  // namespace stride::recorders

@@ -5,15 +5,33 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "master/algorithm/observer.h"
+#include "master/model/description.h"
 #include "master/model/system.h"
 #include "master/util/output_file.h"
 
-namespace stride::io {
+namespace stride::recorders {
 
-class VcdScope;
+/// A tree of scopes, in the order in which their variables were added.
+class VcdScope {
+ public:
+  explicit VcdScope(std::string name = "") : name_(std::move(name)) {}
+
+  /// The scope of this name in this one, made where there is none.
+  VcdScope& scope(std::string_view name);
+  /// Declares a variable; the parts of its name before the last dot are scopes.
+  void add(std::string_view structured_name, core::ValueType type, std::string_view code);
+  /// The declarations within this scope, without its own frame.
+  void write(core::OutputFile& file) const;
+
+ private:
+  std::string name_;
+  std::vector<VcdScope> scopes_;
+  std::vector<std::string> variables_;
+};
 
 /// signals.vcd: a value change dump (IEEE 1364) with a time scale of 1 ps, for GTKWave and others.
 /// The parts of a structured name are scopes. The recorded signals are written at communication
@@ -52,7 +70,7 @@ class VcdRecorder : public core::Observer {
   void write_changes(bool all);
 
   const core::System& system_;
-  OutputFile file_;
+  core::OutputFile file_;
   std::uint64_t codes_ = 0;
   std::vector<Channel> channels_;
   std::vector<std::vector<MessageCodes>> messages_;  ///< by component and variable
@@ -61,6 +79,6 @@ class VcdRecorder : public core::Observer {
   bool is_first_point_ = true;
 };
 
-}  // namespace stride::io
+}  // namespace stride::recorders
 
 #endif

@@ -29,13 +29,13 @@ std::string title(const std::string& component, const Column& column) {
 
 }  // namespace
 
-std::vector<io::Plot> default_plots(std::span<const Column> columns,
-                                    std::span<const RunFile::Component> components) {
-  std::vector<io::Plot> plots;
+std::vector<recorders::Plot> default_plots(std::span<const Column> columns,
+                                           std::span<const RunFile::Component> components) {
+  std::vector<recorders::Plot> plots;
   for (const Column& column : columns) {
     const std::string wanted = title(component_of(column.name(), components), column);
     auto plot = std::find_if(plots.begin(), plots.end(),
-                             [&](const io::Plot& p) { return p.title == wanted; });
+                             [&](const recorders::Plot& p) { return p.title == wanted; });
     if (plot == plots.end()) plot = plots.insert(plot, {wanted, {}});
     plot->signals.push_back(column.name());
   }

@@ -13,8 +13,8 @@ namespace stride::report {
 /// What shares a diagram where the scenario says nothing: the real numbers of a component that have
 /// the same unit of measure, and all else of a component (Booleans, counts, texts) together. In the
 /// order of the columns. Without components, what stands before a name's first point is one.
-std::vector<io::Plot> default_plots(std::span<const Column> columns,
-                                    std::span<const RunFile::Component> components);
+std::vector<recorders::Plot> default_plots(std::span<const Column> columns,
+                                           std::span<const RunFile::Component> components);
 
 }  // namespace stride::report
 

@@ -24,7 +24,7 @@ constexpr int kFormat = 1;
 /// Writes the members of the data, one after the other, so that no two large ones are in memory.
 class DataWriter {
  public:
-  explicit DataWriter(io::OutputFile& file) : file_(file) {}
+  explicit DataWriter(core::OutputFile& file) : file_(file) {}
 
   void write(const Results& results, const std::string& version) {
     file_.write(R"(<script type="application/json" id="stride-report">{)");
@@ -104,10 +104,10 @@ class DataWriter {
   }
 
   static Json plots(const Results& results) {
-    std::vector<io::Plot> plots = results.run.plots;
+    std::vector<recorders::Plot> plots = results.run.plots;
     if (plots.empty()) plots = default_plots(results.signals.columns, results.run.components);
     Json entries = Json::array();
-    for (const io::Plot& plot : plots) {
+    for (const recorders::Plot& plot : plots) {
       entries.push_back({{"title", plot.title}, {"signals", plot.signals}});
     }
     return entries;
@@ -125,7 +125,7 @@ class DataWriter {
     return {{"components", components}, {"connections", connections}};
   }
 
-  io::OutputFile& file_;
+  core::OutputFile& file_;
 };
 
 }  // namespace
@@ -136,7 +136,7 @@ void write_report(const fs::path& file, const Results& results, const std::strin
   if (mark == std::string_view::npos) {
     core::fail_input({}, "this stride was built without reports (STRIDE_REPORT=OFF)");
   }
-  io::Replacement report(file);
+  core::Replacement report(file);
   report.file().write(text.substr(0, mark));
   DataWriter(report.file()).write(results, version);
   report.file().write(text.substr(mark + kDataMark.size()));

@@ -80,7 +80,7 @@ std::vector<Activities> read_activities(const fs::path& file, Notes& notes) {
 }
 
 Film read_film(const fs::path& folder, Notes& notes) {
-  Table table(folder / io::kFilmList);
+  Table table(folder / recorders::kFilmList);
   Film film{folder.filename().string(), {}, {}};
   if (table.columns().empty()) return film;
   const std::size_t time = table.place("time");
@@ -99,17 +99,18 @@ Film read_film(const fs::path& folder, Notes& notes) {
     film.pictures.push_back(picture);
   }
   if (missing > 0) {
-    notes.add(folder / io::kFilmList, fmt::format("{} of its pictures are missing", missing));
+    notes.add(folder / recorders::kFilmList,
+              fmt::format("{} of its pictures are missing", missing));
   }
-  notes.add_cut(folder / io::kFilmList, table.cut());
+  notes.add_cut(folder / recorders::kFilmList, table.cut());
   return film;
 }
 
 std::vector<Film> read_films(const fs::path& folder, Notes& notes) {
   std::vector<fs::path> folders;
   std::error_code error;
-  for (const fs::path& path : io::folder_entries(folder)) {
-    if (fs::exists(path / io::kFilmList, error)) folders.push_back(path);
+  for (const fs::path& path : recorders::folder_entries(folder)) {
+    if (fs::exists(path / recorders::kFilmList, error)) folders.push_back(path);
   }
   std::vector<Film> films;
   for (const fs::path& path : folders) {
@@ -130,7 +131,8 @@ std::optional<fs::path> present(const fs::path& folder, const std::string& name,
 
 }  // namespace
 
-Results read_results(const fs::path& folder, const io::ResultFiles& files, const Limits& limits) {
+Results read_results(const fs::path& folder, const recorders::ResultFiles& files,
+                     const Limits& limits) {
   Results results;
   Notes notes(folder);
   if (const auto file = present(folder, files.statistics, notes)) {
@@ -145,24 +147,24 @@ Results read_results(const fs::path& folder, const io::ResultFiles& files, const
   if (const auto file = present(folder, files.activity, notes)) {
     results.activities = read_activities(*file, notes);
   }
-  results.films = read_films(folder / io::kFilmFolder, notes);
+  results.films = read_films(folder / recorders::kFilmFolder, notes);
   results.notes = notes.texts();
   return results;
 }
 
-io::ResultFiles result_files(const fs::path& folder) {
+recorders::ResultFiles result_files(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) {
     core::fail_input({.where = {folder.string(), 0}}, "this is no folder",
                      "name a folder with the results of `stride run`");
   }
   if (const fs::path run = find_run_file(folder); !run.empty()) {
-    io::ResultFiles files = read_run_file(run).files;
+    recorders::ResultFiles files = read_run_file(run).files;
     files.statistics = run.filename().string();
     return files;
   }
-  const io::ResultFiles usual;
-  for (const auto& [what, member] : io::kResultFiles) {
+  const recorders::ResultFiles usual;
+  for (const auto& [what, member] : recorders::kResultFiles) {
     if (what != std::string_view("report") && fs::exists(folder / (usual.*member), error)) {
       return usual;
     }

@@ -66,12 +66,12 @@ struct Results {
 /// Reads what there is of a run: a folder without run.json, or with files that were cut off when
 /// the run was killed, has results, too. `files`: their names. Throws core::Error (Input) that
 /// names file, line and column, and what was expected there.
-Results read_results(const std::filesystem::path& folder, const io::ResultFiles& files,
+Results read_results(const std::filesystem::path& folder, const recorders::ResultFiles& files,
                      const Limits& limits = {});
 
 /// The names in run.json, or else the usual ones. Throws core::Error (Input) where it is no
 /// folder with the results of a run.
-io::ResultFiles result_files(const std::filesystem::path& folder);
+recorders::ResultFiles result_files(const std::filesystem::path& folder);
 
 }  // namespace stride::report
 

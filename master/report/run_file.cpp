@@ -29,11 +29,11 @@ const Json& entries(const Json& json, const char* name) {
   return found == json.end() ? kNone : *found;
 }
 
-void read_files(const Json& json, io::ResultFiles& files) {
+void read_files(const Json& json, recorders::ResultFiles& files) {
   if (!json.contains("files")) return;
-  for (const auto& [what, member] : io::kResultFiles) {
+  for (const auto& [what, member] : recorders::kResultFiles) {
     const std::string name = json["files"].value(what, std::string());
-    if (!io::is_plain_file_name(name)) {
+    if (!recorders::is_plain_file_name(name)) {
       throw std::invalid_argument(fmt::format("'{}' is no file of this folder", name));
     }
     files.*member = name;
@@ -119,9 +119,9 @@ RunFile read_run_file(const std::filesystem::path& file) {
 
 std::filesystem::path find_run_file(const std::filesystem::path& folder) {
   std::error_code error;
-  const std::filesystem::path usual = folder / io::ResultFiles().statistics;
+  const std::filesystem::path usual = folder / recorders::ResultFiles().statistics;
   if (std::filesystem::exists(usual, error)) return usual;
-  for (const std::filesystem::path& other : io::folder_entries(folder)) {
+  for (const std::filesystem::path& other : recorders::folder_entries(folder)) {
     if (other.extension() == ".json" && is_run_file(other)) return other;
   }
   return {};

@@ -24,11 +24,11 @@ struct RunFile {
   };
 
   Json json;  ///< all of it; null where there is none
-  io::ResultFiles files{};
+  recorders::ResultFiles files{};
   std::vector<SignalInfo> signals{};
   std::vector<Component> components{};
   std::vector<Connection> connections{};
-  std::vector<io::Plot> plots{};
+  std::vector<recorders::Plot> plots{};
 };
 
 /// What there is of it: an older program wrote less. Throws core::Error (Input) that names the

@@ -37,7 +37,7 @@ bool Table::next() {
 
 std::int64_t Table::time(std::size_t place) const {
   try {
-    return io::parse_seconds(field(place).text).count();
+    return core::parse_seconds(field(place).text).count();
   } catch (const std::invalid_argument& mistake) {
     fail(place, mistake.what());
   }

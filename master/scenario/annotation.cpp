@@ -13,13 +13,13 @@
 #include "master/util/number_text.h"
 #include "master/util/xml/element.h"
 
-namespace stride::io {
+namespace stride::scenario {
 namespace {
 
 constexpr const char* kType = "org.stride";
 
 void collect(const xml::Element& element, std::vector<xml::Element>& found) {
-  if (element.is(kSsc, "Annotation") && element.attribute("type") == kType) {
+  if (element.is(ssp::kSsc, "Annotation") && element.attribute("type") == kType) {
     found.push_back(element);
     return;
   }
@@ -32,7 +32,7 @@ bool is_of_root_or_system(const xml::Element& annotation, const xml::Element& ro
   if (!owner) return false;
   if (owner->index() == root.index()) return true;
   const auto above = owner->parent();
-  return owner->is(kSsd, "System") && above && above->index() == root.index();
+  return owner->is(ssp::kSsd, "System") && above && above->index() == root.index();
 }
 
 /// What `parse` makes of the attribute, which is there; a std::invalid_argument is its mistake.
@@ -169,7 +169,7 @@ IdleNumber read_idle_number(const xml::Element& element, double (*parse)(std::st
 }
 
 void check_file_name(const xml::Element& element, const char* attribute, const std::string& name) {
-  if (!is_plain_file_name(name)) {
+  if (!recorders::is_plain_file_name(name)) {
     element.fail(fmt::format("{}=\"{}\" is no plain file name", attribute, name),
                  "the file goes into the results folder, so give its name only");
   }
@@ -179,7 +179,7 @@ void read_results(const xml::Element& element, ScenarioAnnotation& annotation) {
   element.allow_attributes({"signals", "events", "trace", "activity", "statistics", "report"});
   element.allow_children({});
   std::set<std::string> taken;
-  for (const auto& [attribute, member] : kResultFiles) {
+  for (const auto& [attribute, member] : recorders::kResultFiles) {
     std::string& file = annotation.results.*member;
     if (element.attribute(attribute)) file = element.required(attribute);
     if (file == "none") file.clear();
@@ -192,52 +192,52 @@ void read_results(const xml::Element& element, ScenarioAnnotation& annotation) {
 
 ScenarioAnnotation read_scenario_element(const xml::Element& scenario) {
   scenario.allow_attributes({});
-  scenario.allow_children({{kStrideScenario, "Step"},
-                           {kStrideScenario, "Exchange"},
-                           {kStrideScenario, "Record"},
-                           {kStrideScenario, "Checks"},
-                           {kStrideScenario, "Results"},
-                           {kStrideScenario, "Plot"},
-                           {kStrideScenario, "MainThread"},
-                           {kStrideScenario, "EarlyReturn"},
-                           {kStrideScenario, "Host"},
-                           {kStrideScenario, "IdleSkip"},
-                           {kStrideScenario, "Deadband"},
-                           {kStrideScenario, "Tolerance"}});
+  scenario.allow_children({{ssp::kStrideScenario, "Step"},
+                           {ssp::kStrideScenario, "Exchange"},
+                           {ssp::kStrideScenario, "Record"},
+                           {ssp::kStrideScenario, "Checks"},
+                           {ssp::kStrideScenario, "Results"},
+                           {ssp::kStrideScenario, "Plot"},
+                           {ssp::kStrideScenario, "MainThread"},
+                           {ssp::kStrideScenario, "EarlyReturn"},
+                           {ssp::kStrideScenario, "Host"},
+                           {ssp::kStrideScenario, "IdleSkip"},
+                           {ssp::kStrideScenario, "Deadband"},
+                           {ssp::kStrideScenario, "Tolerance"}});
   ScenarioAnnotation annotation;
-  if (const auto step = scenario.child({kStrideScenario, "Step"}))
+  if (const auto step = scenario.child({ssp::kStrideScenario, "Step"}))
     read_step(*step, annotation.step);
-  if (const auto exchange = scenario.child({kStrideScenario, "Exchange"})) {
+  if (const auto exchange = scenario.child({ssp::kStrideScenario, "Exchange"})) {
     read_exchange(*exchange, annotation.step);
   }
-  for (const xml::Element& record : scenario.children({kStrideScenario, "Record"})) {
+  for (const xml::Element& record : scenario.children({ssp::kStrideScenario, "Record"})) {
     read_record(record, annotation);
   }
-  for (const xml::Element& element : scenario.children({kStrideScenario, "Plot"})) {
+  for (const xml::Element& element : scenario.children({ssp::kStrideScenario, "Plot"})) {
     read_plot(element, annotation);
   }
-  if (const auto checks = scenario.child({kStrideScenario, "Checks"})) {
+  if (const auto checks = scenario.child({ssp::kStrideScenario, "Checks"})) {
     annotation.checks = read_checks(*checks);
   }
-  for (const xml::Element& element : scenario.children({kStrideScenario, "MainThread"})) {
+  for (const xml::Element& element : scenario.children({ssp::kStrideScenario, "MainThread"})) {
     read_main_thread(element, annotation);
   }
-  for (const xml::Element& element : scenario.children({kStrideScenario, "EarlyReturn"})) {
+  for (const xml::Element& element : scenario.children({ssp::kStrideScenario, "EarlyReturn"})) {
     read_early_return(element, annotation);
   }
-  for (const xml::Element& element : scenario.children({kStrideScenario, "Host"})) {
+  for (const xml::Element& element : scenario.children({ssp::kStrideScenario, "Host"})) {
     read_host(element, annotation.hosts);
   }
-  for (const xml::Element& element : scenario.children({kStrideScenario, "IdleSkip"})) {
+  for (const xml::Element& element : scenario.children({ssp::kStrideScenario, "IdleSkip"})) {
     read_idle_skip(element, annotation.idle);
   }
-  for (const xml::Element& element : scenario.children({kStrideScenario, "Deadband"})) {
-    annotation.idle.deadbands.push_back(read_idle_number(element, parse_at_least_zero));
+  for (const xml::Element& element : scenario.children({ssp::kStrideScenario, "Deadband"})) {
+    annotation.idle.deadbands.push_back(read_idle_number(element, core::parse_at_least_zero));
   }
-  for (const xml::Element& element : scenario.children({kStrideScenario, "Tolerance"})) {
-    annotation.idle.tolerances.push_back(read_idle_number(element, parse_above_zero));
+  for (const xml::Element& element : scenario.children({ssp::kStrideScenario, "Tolerance"})) {
+    annotation.idle.tolerances.push_back(read_idle_number(element, core::parse_above_zero));
   }
-  if (const auto results = scenario.child({kStrideScenario, "Results"})) {
+  if (const auto results = scenario.child({ssp::kStrideScenario, "Results"})) {
     read_results(*results, annotation);
   }
   return annotation;
@@ -260,14 +260,14 @@ ScenarioAnnotation read_annotation(const xml::Element& root) {
                   "put everything into one <stride:Scenario>");
   }
   found[0].allow_attributes({"type"});
-  found[0].allow_children({{kStrideScenario, "Scenario"}});
-  const auto scenario = found[0].child({kStrideScenario, "Scenario"});
+  found[0].allow_children({{ssp::kStrideScenario, "Scenario"}});
+  const auto scenario = found[0].child({ssp::kStrideScenario, "Scenario"});
   if (!scenario) {
     found[0].fail(
         fmt::format("the annotation of the type '{}' holds no <stride:Scenario>", kType),
-        fmt::format("write <stride:Scenario xmlns:stride=\"{}\"> into it", kStrideScenario));
+        fmt::format("write <stride:Scenario xmlns:stride=\"{}\"> into it", ssp::kStrideScenario));
   }
   return read_scenario_element(*scenario);
 }
 
-}  // namespace stride::io
+}  // namespace stride::scenario

@@ -14,7 +14,7 @@
 #include "master/util/error.h"
 #include "master/util/xml/element.h"
 
-namespace stride::io {
+namespace stride::scenario {
 
 /// A glob over "component.variable", and where it was written (an empty Location: nowhere).
 struct SignalPattern {
@@ -40,7 +40,7 @@ struct ScenarioAnnotation {
   std::vector<SignalPattern> record;  ///< none: every output
   std::vector<PlotPattern> plots;
   std::vector<CheckDeclaration> checks;
-  ResultFiles results;
+  recorders::ResultFiles results;
   std::vector<ComponentPattern> main_thread;  ///< stepped on the simulation's own thread only
   std::vector<EarlyReturnRule> early_return;  ///< without one: allowed
   HostRules hosts;
@@ -52,6 +52,6 @@ struct ScenarioAnnotation {
 /// or in another place.
 ScenarioAnnotation read_annotation(const xml::Element& root);
 
-}  // namespace stride::io
+}  // namespace stride::scenario
 
 #endif

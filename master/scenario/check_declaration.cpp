@@ -9,7 +9,7 @@
 #include "master/ssp/ssp.h"
 #include "master/util/time_text.h"
 
-namespace stride::io {
+namespace stride::scenario {
 namespace {
 
 std::optional<Duration> read_duration(const xml::Element& element, const char* attribute) {
@@ -100,16 +100,16 @@ constexpr std::array kWords{Word{"Always", checks::Kind::Always, read_lasting},
 
 std::vector<CheckDeclaration> read_checks(const xml::Element& checks) {
   checks.allow_attributes({});
-  checks.allow_children({{kStrideScenario, "Always"},
-                         {kStrideScenario, "Never"},
-                         {kStrideScenario, "Eventually"},
-                         {kStrideScenario, "Final"},
-                         {kStrideScenario, "Count"},
-                         {kStrideScenario, "Answer"}});
+  checks.allow_children({{ssp::kStrideScenario, "Always"},
+                         {ssp::kStrideScenario, "Never"},
+                         {ssp::kStrideScenario, "Eventually"},
+                         {ssp::kStrideScenario, "Final"},
+                         {ssp::kStrideScenario, "Count"},
+                         {ssp::kStrideScenario, "Answer"}});
   std::vector<CheckDeclaration> found;
   for (const xml::Element& element : checks.children()) {
     for (const Word& word : kWords) {
-      if (!element.is(kStrideScenario, word.element)) continue;
+      if (!element.is(ssp::kStrideScenario, word.element)) continue;
       element.allow_children({});
       CheckDeclaration& check = found.emplace_back();
       check.kind = word.kind;
@@ -121,4 +121,4 @@ std::vector<CheckDeclaration> read_checks(const xml::Element& checks) {
   return found;
 }
 
-}  // namespace stride::io
+}  // namespace stride::scenario

@@ -14,7 +14,7 @@
 #include "master/util/error.h"
 #include "master/util/xml/element.h"
 
-namespace stride::io {
+namespace stride::scenario {
 
 /// One element in <stride:Checks>; which of the members it has depends on its kind.
 struct CheckDeclaration {
@@ -37,6 +37,6 @@ struct CheckDeclaration {
 /// for an interval or a count that ends before it begins.
 std::vector<CheckDeclaration> read_checks(const xml::Element& checks);
 
-}  // namespace stride::io
+}  // namespace stride::scenario
 
 #endif

@@ -14,7 +14,7 @@
 #include "master/util/suggest.h"
 #include "master/util/time_text.h"
 
-namespace stride::io {
+namespace stride::scenario {
 namespace {
 
 using checks::Definition;
@@ -112,7 +112,7 @@ void Selection::check_window(const CheckDeclaration& check) const {
                                           bool wants_message) const {
   std::vector<std::string> names;
   for (const NamedVariable& variable : variables_) {
-    if (!is_glob(pattern) && is_meant(system_, variable.id, pattern)) {
+    if (!core::is_glob(pattern) && is_meant(system_, variable.id, pattern)) {
       fail_unsuitable(check, variable, wants_message);
     }
     const bool fits = wants_message ? is_told(variable) : !variable.is_message;
@@ -153,8 +153,8 @@ std::vector<Element> Selection::find_elements(const CheckDeclaration& check) con
     const core::Variable& described = system_.variable(variable.id);
     const bool is_whole = is_meant(system_, variable.id, pattern);
     for (std::size_t i = 0; i < described.size; ++i) {
-      std::string name = system_.prefix(variable.id) + element_name(described, i);
-      const bool is_one = name == pattern || matches_glob(pattern, name);
+      std::string name = system_.prefix(variable.id) + recorders::element_name(described, i);
+      const bool is_one = name == pattern || core::matches_glob(pattern, name);
       if (is_whole || is_one) found.push_back({&variable, i, std::move(name)});
     }
   }
@@ -285,4 +285,4 @@ std::vector<Definition> select_checks(const core::System& system,
   return definitions;
 }
 
-}  // namespace stride::io
+}  // namespace stride::scenario

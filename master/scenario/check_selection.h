@@ -12,7 +12,7 @@
 #include "master/model/system.h"
 #include "master/scenario/check_declaration.h"
 
-namespace stride::io {
+namespace stride::scenario {
 
 /// When a scenario begins, and when it ends as far as it says so itself.
 struct ScenarioTimes {
@@ -29,6 +29,6 @@ std::vector<checks::Definition> select_checks(const core::System& system,
                                               std::span<const CheckDeclaration> declarations,
                                               const ScenarioTimes& times);
 
-}  // namespace stride::io
+}  // namespace stride::scenario
 
 #endif

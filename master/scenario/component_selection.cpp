@@ -7,7 +7,7 @@
 #include "master/util/glob.h"
 #include "master/util/suggest.h"
 
-namespace stride::io {
+namespace stride::scenario {
 
 std::vector<std::size_t> select_components(std::span<const std::string> names,
                                            std::span<const ComponentPattern> patterns) {
@@ -15,7 +15,7 @@ std::vector<std::size_t> select_components(std::span<const std::string> names,
   for (const ComponentPattern& pattern : patterns) {
     bool has_match = false;
     for (std::size_t i = 0; i < names.size(); ++i) {
-      if (names[i] != pattern.text && !matches_glob(pattern.text, names[i])) continue;
+      if (names[i] != pattern.text && !core::matches_glob(pattern.text, names[i])) continue;
       has_match = true;
       selected.insert(i);
     }
@@ -27,4 +27,4 @@ std::vector<std::size_t> select_components(std::span<const std::string> names,
   return {selected.begin(), selected.end()};
 }
 
-}  // namespace stride::io
+}  // namespace stride::scenario

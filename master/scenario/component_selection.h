@@ -8,7 +8,7 @@
 
 #include "master/util/error.h"
 
-namespace stride::io {
+namespace stride::scenario {
 
 /// A glob over the names of components, and where it was written.
 struct ComponentPattern {
@@ -21,6 +21,6 @@ struct ComponentPattern {
 std::vector<std::size_t> select_components(std::span<const std::string> names,
                                            std::span<const ComponentPattern> patterns);
 
-}  // namespace stride::io
+}  // namespace stride::scenario
 
 #endif

@@ -13,7 +13,7 @@
 #include "master/util/error.h"
 #include "master/util/xml/document.h"
 
-namespace stride::cli {
+namespace stride::scenario {
 namespace {
 
 namespace fs = std::filesystem;
@@ -25,7 +25,7 @@ std::string shown(std::string text, const fs::path& file, const fs::path& shown_
   return text.replace(0, at + file.string().size(), shown_as.string());
 }
 
-void require_no_resources(const fmi::PackRequest& request, const std::string& what,
+void require_no_resources(const importer::PackRequest& request, const std::string& what,
                           const std::string& unit) {
   if (request.resources.empty() && request.bundled.empty()) return;
   core::fail_input({}, "--resources and --bundle are for the library of a unit",
@@ -34,10 +34,11 @@ void require_no_resources(const fmi::PackRequest& request, const std::string& wh
 
 /// The unit with these resources, of which `file` is what the user has given.
 void pack_unit(const std::string& unit, const fs::path& resources, const fs::path& file,
-               const fmi::PackRequest& request) {
-  const fmi::UnpackedFmu unpacked(find_unit(unit + ".fmu", {}));
+               const importer::PackRequest& request) {
+  const importer::UnpackedFmu unpacked(find_unit(unit + ".fmu", {}));
   try {
-    fmi::pack({fmi::find_library(unpacked.folder(), "3.0", unit), resources, {}, request.output});
+    importer::pack(
+        {importer::find_library(unpacked.folder(), "3.0", unit), resources, {}, request.output});
   } catch (const core::Error& failure) {
     core::fail_input({}, shown(failure.what(), file, request.library));
   }
@@ -95,7 +96,7 @@ bool is_stimuli(const fs::path& path) {
   return path.extension() == ".csv" || line.rfind(kBegin, 0) == 0;
 }
 
-void pack_stimuli(const fmi::PackRequest& request) {
+void pack_stimuli(const importer::PackRequest& request) {
   require_no_resources(request, "stimuli are", "player");
   const archive::TemporaryFolder resources;
   const fs::path copy = resources.path() / "stimuli.csv";
@@ -105,7 +106,7 @@ void pack_stimuli(const fmi::PackRequest& request) {
 
 bool is_program(const fs::path& path) { return path.extension() == ".xml"; }
 
-void pack_program(const fmi::PackRequest& request) {
+void pack_program(const importer::PackRequest& request) {
   require_no_resources(request, "a program is", "process");
   const ProgramFiles files = program_files(request.library);
   const archive::TemporaryFolder resources;
@@ -119,4 +120,4 @@ void pack_program(const fmi::PackRequest& request) {
   pack_unit("process", resources.path(), copy, request);
 }
 
-}  // namespace stride::cli
+}  // namespace stride::scenario

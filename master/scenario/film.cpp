@@ -8,7 +8,7 @@
 
 #include "master/util/time_text.h"
 
-namespace stride::cli {
+namespace stride::scenario {
 namespace {
 
 constexpr const char* kDefaultInterval = "0.1";
@@ -16,7 +16,7 @@ constexpr const char* kDefaultInterval = "0.1";
 void check_interval(const std::string& text) {
   std::string mistake = "expected a time above 0";
   try {
-    if (io::parse_seconds(text) > Duration{}) return;
+    if (core::parse_seconds(text) > Duration{}) return;
   } catch (const std::invalid_argument& error) {
     mistake = error.what();
   }
@@ -52,4 +52,4 @@ void switch_film_on(core::SystemDeclaration& system, const std::string& interval
   all.insert(is_default ? all.begin() : all.end(), values.begin(), values.end());
 }
 
-}  // namespace stride::cli
+}  // namespace stride::scenario

@@ -6,7 +6,7 @@
 
 #include "master/model/system.h"
 
-namespace stride::cli {
+namespace stride::scenario {
 
 /// The parameter [s] that makes a unit write a film (units/mujoco_world).
 inline constexpr const char* kFilmInterval = "film.interval";
@@ -19,6 +19,6 @@ inline constexpr const char* kFilmAsItIs = "as it is";
 /// number, and if no component has the parameter.
 void switch_film_on(core::SystemDeclaration& system, const std::string& interval);
 
-}  // namespace stride::cli
+}  // namespace stride::scenario
 
 #endif

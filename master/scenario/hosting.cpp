@@ -10,11 +10,11 @@
 #include "master/algorithm/stepping/step_order.h"
 #include "master/util/error.h"
 
-namespace stride::cli {
+namespace stride::scenario {
 namespace {
 
 /// Rules behind those of the scenario.
-void add_rules(const HostRequest& request, std::vector<io::HostRule>& rules) {
+void add_rules(const HostRequest& request, std::vector<HostRule>& rules) {
   for (const std::string& glob : request.isolated) {
     const core::Location where{glob == "*" ? "--isolate" : "--isolate=" + glob, 0};
     rules.push_back({{glob, where}, {.process = true, .where = where}});
@@ -22,7 +22,7 @@ void add_rules(const HostRequest& request, std::vector<io::HostRule>& rules) {
   if (!request.unit_timeout.empty()) {
     const std::string option = fmt::format("--unit-timeout {}", request.unit_timeout);
     try {
-      const auto limit = io::parse_call_limit(request.unit_timeout);
+      const auto limit = parse_call_limit(request.unit_timeout);
       rules.push_back({{"*", {option, 0}}, {.call_limit = limit}});
     } catch (const std::invalid_argument& mistake) {
       core::fail_input({}, fmt::format("{}: {}", option, mistake.what()));
@@ -35,9 +35,9 @@ std::string text(const core::Location& where) {
   return where.line == 0 ? where.file : fmt::format("{}:{}", where.file, where.line);
 }
 
-host::HostOptions host_options(const core::UnitDescription& unit,
-                               const io::HostSettings& settings) {
-  host::HostOptions options;
+isolation::HostOptions host_options(const core::UnitDescription& unit,
+                                    const HostSettings& settings) {
+  isolation::HostOptions options;
   options.call_limit = settings.call_limit;
   options.memory_limit = settings.memory_limit;
   options.is_sandboxed = settings.sandbox.value_or(true);
@@ -47,15 +47,15 @@ host::HostOptions host_options(const core::UnitDescription& unit,
 
 }  // namespace
 
-std::vector<io::HostSettings> host_settings(std::span<const std::string> components,
-                                            io::HostRules rules, const HostRequest& request) {
+std::vector<HostSettings> host_settings(std::span<const std::string> components, HostRules rules,
+                                        const HostRequest& request) {
   add_rules(request, rules.rules);
   return rules.settings(components);
 }
 
 std::vector<std::optional<Hosting>> choose_hostings(
     std::span<const core::ComponentDeclaration> components, const core::StepPolicyType& policy,
-    std::span<const io::HostSettings> settings) {
+    std::span<const HostSettings> settings) {
   std::vector<core::ComponentDeclaration> declared(components.begin(), components.end());
   std::vector<std::optional<Hosting>> hostings(declared.size());
   std::vector<bool> may_have;
@@ -88,4 +88,4 @@ void check_unit_timeout(const HostRequest& request,
                    "say --isolate as well, or --isolate=COMPONENT");
 }
 
-}  // namespace stride::cli
+}  // namespace stride::scenario

@@ -12,7 +12,7 @@
 #include "master/model/system.h"
 #include "master/scenario/run_settings.h"
 
-namespace stride::cli {
+namespace stride::scenario {
 
 /// What the command line says.
 struct HostRequest {
@@ -24,24 +24,24 @@ struct HostRequest {
 /// The process of a component.
 struct Hosting {
   std::string reason;  ///< for people
-  host::HostOptions options;
+  isolation::HostOptions options;
 };
 
 /// The settings of each component, from the scenario and the command line, which has precedence.
 /// Throws core::Error (Input) for a pattern that matches none, and for a number that is none.
-std::vector<io::HostSettings> host_settings(std::span<const std::string> components,
-                                            io::HostRules rules, const HostRequest& request);
+std::vector<HostSettings> host_settings(std::span<const std::string> components, HostRules rules,
+                                        const HostRequest& request);
 
 /// The processes that the settings ask for and, where they leave it open, those whose snapshots a
 /// run with this policy needs; the latter are logged.
 std::vector<std::optional<Hosting>> choose_hostings(
     std::span<const core::ComponentDeclaration> components, const core::StepPolicyType& policy,
-    std::span<const io::HostSettings> settings);
+    std::span<const HostSettings> settings);
 
 /// Throws core::Error (Input) if there is a time limit but no process to which it applies.
 void check_unit_timeout(const HostRequest& request,
                         std::span<const std::optional<Hosting>> hostings);
 
-}  // namespace stride::cli
+}  // namespace stride::scenario
 
 #endif

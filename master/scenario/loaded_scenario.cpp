@@ -17,13 +17,13 @@
 #include "master/util/suggest.h"
 #include "master/util/time_text.h"
 
-namespace stride::cli {
+namespace stride::scenario {
 namespace {
 
 constexpr Duration kDefaultStep = std::chrono::milliseconds(1);
 
 Duration parse_option(const std::string& option, const std::string& text,
-                      Duration (*parse)(std::string_view) = &io::parse_seconds) {
+                      Duration (*parse)(std::string_view) = &core::parse_seconds) {
   try {
     return parse(text);
   } catch (const std::invalid_argument& mistake) {
@@ -32,11 +32,11 @@ Duration parse_option(const std::string& option, const std::string& text,
 }
 
 /// The values of --set, which have precedence.
-std::vector<io::ParameterValue> set_values(const std::vector<std::string>& sets) {
-  std::vector<io::ParameterValue> values;
+std::vector<ssp::ParameterValue> set_values(const std::vector<std::string>& sets) {
+  std::vector<ssp::ParameterValue> values;
   for (const std::string& text : sets) {
     const auto [name, value] = split_option("--set", text, "component.variable=value");
-    io::ParameterValue& added = values.emplace_back();
+    ssp::ParameterValue& added = values.emplace_back();
     added.name = name;
     added.value = value;
     added.where = {fmt::format("--set {}", text), 0};
@@ -46,23 +46,23 @@ std::vector<io::ParameterValue> set_values(const std::vector<std::string>& sets)
 }
 
 /// A discarded step is retried, so it is no failure.
-spdlog::level::level_enum level(fmi::Status status) {
+spdlog::level::level_enum level(importer::Status status) {
   switch (status) {
-    case fmi::Status::Ok:
-    case fmi::Status::Discard:
-    case fmi::Status::Pending:
+    case importer::Status::Ok:
+    case importer::Status::Discard:
+    case importer::Status::Pending:
       return spdlog::level::info;
-    case fmi::Status::Warning:
+    case importer::Status::Warning:
       return spdlog::level::warn;
     default:
       return spdlog::level::err;
   }
 }
 
-void log_message(const std::string& unit, fmi::Status status, const std::string& category,
+void log_message(const std::string& unit, importer::Status status, const std::string& category,
                  const std::string& message) {
-  spdlog::log(level(status), "unit '{}'{}: {}", unit, category == host::kPrinted ? " printed" : "",
-              message);
+  spdlog::log(level(status), "unit '{}'{}: {}", unit,
+              category == isolation::kPrinted ? " printed" : "", message);
 }
 
 }  // namespace
@@ -76,23 +76,23 @@ std::pair<std::string, std::string> split_option(const std::string& option, cons
   return {text.substr(0, at), text.substr(at + 1)};
 }
 
-std::vector<std::shared_ptr<fmi::Fmu>> load_fmus(const io::Scenario& scenario) {
-  std::map<std::filesystem::path, std::shared_ptr<fmi::Fmu>> loaded;
-  std::vector<std::shared_ptr<fmi::Fmu>> fmus;
+std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario) {
+  std::map<std::filesystem::path, std::shared_ptr<importer::Fmu>> loaded;
+  std::vector<std::shared_ptr<importer::Fmu>> fmus;
   for (std::size_t i = 0; i < scenario.sources.size(); ++i) {
     const core::Location& where = scenario.system.components[i].where;
     const std::filesystem::path& source = scenario.sources[i];
     const std::filesystem::path path =
         find_shown_unit(source, scenario.files->shown(source), where);
     auto& fmu = loaded[path];
-    if (!fmu) fmu = fmi::Fmu::load(path, where);
+    if (!fmu) fmu = importer::Fmu::load(path, where);
     fmus.push_back(fmu);
   }
   return fmus;
 }
 
 LoadedScenario::LoadedScenario(const ScenarioRequest& request)
-    : scenario_(io::read_scenario(request.scenario, {find_unit, set_values(request.sets)})) {
+    : scenario_(read_scenario(request.scenario, {find_unit, set_values(request.sets)})) {
   for (const std::string& text : request.swaps) swap(text);
   load_units();
   if (!request.film.empty()) switch_film_on(scenario_.system, request.film);
@@ -108,7 +108,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   choose_idle_skips(request);
   choose_signals(request);
   options_.threads.main_only =
-      io::select_components(component_names(), scenario_.annotation.main_thread);
+      select_components(component_names(), scenario_.annotation.main_thread);
   choose_checks(request);
 }
 
@@ -141,8 +141,8 @@ void LoadedScenario::load_units() {
 
 void LoadedScenario::choose_early_returns() {
   const std::vector<std::string> names = component_names();
-  for (const io::EarlyReturnRule& rule : scenario_.annotation.early_return) {
-    for (const std::size_t i : io::select_components(names, {&rule.components, 1})) {
+  for (const EarlyReturnRule& rule : scenario_.annotation.early_return) {
+    for (const std::size_t i : select_components(names, {&rule.components, 1})) {
       scenario_.system.components[i].early_return_allowed = rule.allowed;
     }
   }
@@ -172,7 +172,7 @@ void LoadedScenario::choose_times(const ScenarioRequest& request) {
   }
 }
 
-void LoadedScenario::choose_steps(const io::StepSettings& request) {
+void LoadedScenario::choose_steps(const StepSettings& request) {
   std::optional<Duration> unit_step;
   for (const auto& fmu : fmus_) {
     const core::UnitDescription& unit = *fmu->description();
@@ -198,7 +198,7 @@ void LoadedScenario::choose_steps(const io::StepSettings& request) {
 void LoadedScenario::choose_checks(const ScenarioRequest& request) {
   if (request.no_checks) return;
   const std::optional<Time> stop = request.stop.empty() ? options_.stop : scenario_.stop;
-  checks_ = io::select_checks(*system_, scenario_.annotation.checks, {options_.start, stop});
+  checks_ = select_checks(*system_, scenario_.annotation.checks, {options_.start, stop});
   options_.watched = checks::Checks(checks_).signals();
 }
 
@@ -232,26 +232,26 @@ void LoadedScenario::choose_idle_skips(const ScenarioRequest& request) {
     }
     return;
   }
-  io::IdleSettings settings = scenario_.annotation.idle;
+  IdleSettings settings = scenario_.annotation.idle;
   if (!request.max_skip.empty()) {
-    const Duration skip(parse_option("--max-skip", request.max_skip, &io::parse_max_skip));
-    for (io::IdleRule& rule : settings.rules) rule.max_skip = skip;
+    const Duration skip(parse_option("--max-skip", request.max_skip, &parse_max_skip));
+    for (IdleRule& rule : settings.rules) rule.max_skip = skip;
     settings.rules.insert(settings.rules.begin(), {{"*"}, true, skip, {"--max-skip", 0}});
   }
   options_.idle = settings.options(*system_, options_.step);
 }
 
 void LoadedScenario::choose_signals(const ScenarioRequest& request) {
-  const io::ScenarioAnnotation& chosen = scenario_.annotation;
+  const ScenarioAnnotation& chosen = scenario_.annotation;
   if (request.signals.empty()) {
-    options_.recorded = io::select_signals(*system_, chosen.record);
-    plots_ = io::select_plots(*system_, options_.recorded, chosen.plots);
+    options_.recorded = select_signals(*system_, chosen.record);
+    plots_ = select_plots(*system_, options_.recorded, chosen.plots);
     return;
   }
-  std::vector<io::SignalPattern> patterns;
+  std::vector<SignalPattern> patterns;
   for (const std::string& text : request.signals) patterns.push_back({text, {"--signals", 0}});
-  options_.recorded = io::select_signals(*system_, patterns);
-  plots_ = io::remaining_plots(*system_, options_.recorded, chosen.plots);
+  options_.recorded = select_signals(*system_, patterns);
+  plots_ = remaining_plots(*system_, options_.recorded, chosen.plots);
 }
 
 void LoadedScenario::check_fixed_steps() const {
@@ -282,9 +282,9 @@ void LoadedScenario::warn_of_internal_steps() const {
   }
 }
 
-fmi::InstanceOptions LoadedScenario::instance_options(std::size_t component) const {
+importer::InstanceOptions LoadedScenario::instance_options(std::size_t component) const {
   const core::ComponentDeclaration& declared = scenario_.system.components[component];
-  fmi::InstanceOptions options;
+  importer::InstanceOptions options;
   options.log = log_message;
   options.debug_logging = true;  // the log's level decides what is shown
   options.early_return_allowed = declared.early_return_allowed;
@@ -301,9 +301,9 @@ std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate(
   // processes first: they are forked from this one, which has loaded no unit's library yet
   for (std::size_t i = 0; i < units.size(); ++i) {
     if (!hostings_[i]) continue;
-    host::HostOptions host = hostings_[i]->options;
+    isolation::HostOptions host = hostings_[i]->options;
     if (!results.empty()) host.writable.push_back(std::filesystem::absolute(results));
-    units[i] = host::instantiate(fmus_[i], components[i].name, instance_options(i), host);
+    units[i] = isolation::instantiate(fmus_[i], components[i].name, instance_options(i), host);
   }
   for (std::size_t i = 0; i < units.size(); ++i) {
     if (!units[i]) units[i] = fmus_[i]->instantiate(components[i].name, instance_options(i));
@@ -311,4 +311,4 @@ std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate(
   return units;
 }
 
-}  // namespace stride::cli
+}  // namespace stride::scenario

@@ -17,7 +17,7 @@
 #include "master/scenario/scenario.h"
 #include "master/scenario/signal_selection.h"
 
-namespace stride::cli {
+namespace stride::scenario {
 
 /// The settings of the command line for a scenario.
 struct ScenarioRequest {
@@ -26,7 +26,7 @@ struct ScenarioRequest {
   std::vector<std::string> sets;     ///< "component.variable=value"
   std::vector<std::string> signals;  ///< globs that replace the scenario's
   std::string stop;                  ///< seconds; empty = the scenario's
-  io::StepSettings step;             ///< overrides the scenario
+  StepSettings step;                 ///< overrides the scenario
   bool no_idle_skip = false;
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
   bool no_checks = false;
@@ -40,15 +40,15 @@ class LoadedScenario {
  public:
   explicit LoadedScenario(const ScenarioRequest& request);
 
-  const io::Scenario& scenario() const { return scenario_; }
+  const Scenario& scenario() const { return scenario_; }
   const core::System& system() const { return *system_; }
   /// In the order of system().components().
-  const std::vector<std::shared_ptr<fmi::Fmu>>& fmus() const { return fmus_; }
+  const std::vector<std::shared_ptr<importer::Fmu>>& fmus() const { return fmus_; }
   /// Likewise; empty for a component without a process of its own.
   const std::vector<std::optional<Hosting>>& hostings() const { return hostings_; }
   const core::RunOptions& options() const { return options_; }
   /// The plots of the scenario, of recorded signals.
-  const std::vector<io::Plot>& plots() const { return plots_; }
+  const std::vector<recorders::Plot>& plots() const { return plots_; }
   /// The checks of the scenario; options() watch their signals.
   const std::vector<checks::Definition>& checks() const { return checks_; }
 
@@ -62,7 +62,7 @@ class LoadedScenario {
   void load_units();
   void choose_early_returns();
   void choose_times(const ScenarioRequest& request);
-  void choose_steps(const io::StepSettings& request);
+  void choose_steps(const StepSettings& request);
   void choose_checks(const ScenarioRequest& request);
   void choose_hosts(const HostRequest& request);
   void check_steps() const;
@@ -71,14 +71,14 @@ class LoadedScenario {
   void check_fixed_steps() const;
   void warn_of_internal_steps() const;
   std::vector<std::string> component_names() const;
-  fmi::InstanceOptions instance_options(std::size_t component) const;
+  importer::InstanceOptions instance_options(std::size_t component) const;
 
-  io::Scenario scenario_;
-  std::vector<std::shared_ptr<fmi::Fmu>> fmus_;
+  Scenario scenario_;
+  std::vector<std::shared_ptr<importer::Fmu>> fmus_;
   std::optional<core::System> system_;
   std::vector<std::optional<Hosting>> hostings_;
   core::RunOptions options_;
-  std::vector<io::Plot> plots_;
+  std::vector<recorders::Plot> plots_;
   std::vector<checks::Definition> checks_;
 };
 
@@ -88,8 +88,8 @@ std::pair<std::string, std::string> split_option(const std::string& option, cons
                                                  const std::string& form);
 
 /// The FMUs of a scenario's components, in their order; for `complete`, which needs no system.
-std::vector<std::shared_ptr<fmi::Fmu>> load_fmus(const io::Scenario& scenario);
+std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario);
 
-}  // namespace stride::cli
+}  // namespace stride::scenario
 
 #endif

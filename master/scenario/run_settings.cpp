@@ -13,7 +13,7 @@
 #include "master/util/time_text.h"
 #include "master/util/xml/element.h"
 
-namespace stride::io {
+namespace stride::scenario {
 namespace {
 
 template <class Choices>
@@ -79,10 +79,10 @@ void StepSettings::set_size(std::string_view text) { size = parse_step(text); }
 void StepSettings::set_maximum(std::string_view text) { maximum = parse_step(text); }
 void StepSettings::set_minimum(std::string_view text) { minimum = parse_step(text); }
 void StepSettings::set_relative_tolerance(std::string_view text) {
-  relative_tolerance = parse_at_least_zero(text);
+  relative_tolerance = core::parse_at_least_zero(text);
 }
 void StepSettings::set_absolute_tolerance(std::string_view text) {
-  absolute_tolerance = parse_at_least_zero(text);
+  absolute_tolerance = core::parse_at_least_zero(text);
 }
 void StepSettings::set_coupling(std::string_view text) {
   coupling = parse_word(text, core::kCouplings);
@@ -177,4 +177,4 @@ Duration parse_max_skip(std::string_view text) {
   return skip;
 }
 
-}  // namespace stride::io
+}  // namespace stride::scenario

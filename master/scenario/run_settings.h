@@ -17,7 +17,7 @@
 #include "master/scenario/component_selection.h"
 #include "master/util/error.h"
 
-namespace stride::io {
+namespace stride::scenario {
 
 /// What is said about the stepping; nothing where nothing is said.
 struct StepSettings {
@@ -107,6 +107,6 @@ struct IdleSettings {
 /// Takes the text of a max_skip. Throws std::invalid_argument whose text says what was expected.
 Duration parse_max_skip(std::string_view text);
 
-}  // namespace stride::io
+}  // namespace stride::scenario
 
 #endif

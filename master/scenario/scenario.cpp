@@ -12,7 +12,7 @@
 #include "master/util/time_text.h"
 #include "master/util/xml/document.h"
 
-namespace stride::io {
+namespace stride::scenario {
 namespace {
 
 std::optional<Time> read_instant(const xml::Element& element, const char* attribute) {
@@ -26,10 +26,10 @@ std::optional<Time> read_instant(const xml::Element& element, const char* attrib
 }
 
 void read_default_experiment(const xml::Element& root, Scenario& scenario) {
-  const auto experiment = root.child({kSsd, "DefaultExperiment"});
+  const auto experiment = root.child({ssp::kSsd, "DefaultExperiment"});
   if (!experiment) return;
   experiment->allow_attributes({"startTime", "stopTime"});
-  experiment->allow_children({{kSsd, "Annotations"}});
+  experiment->allow_children({{ssp::kSsd, "Annotations"}});
   scenario.start = read_instant(*experiment, "startTime");
   scenario.stop = read_instant(*experiment, "stopTime");
   if (scenario.stop && *scenario.stop <= scenario.start.value_or(Time{})) {
@@ -50,17 +50,17 @@ std::string stem(const std::filesystem::path& path) {
 Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& options) {
   Scenario scenario;
   scenario.path = path;
-  scenario.files = std::make_shared<Files>(options.find_unit);
+  scenario.files = std::make_shared<ssp::Files>(options.find_unit);
   const std::filesystem::path file = scenario.files->system_file(path);
   const xml::Document document(file, scenario.files->shown(file));
   const xml::Element root = document.root();
-  check_system_description(root);
+  ssp::check_system_description(root);
   scenario.name = root.required("name");
   scenario.ssp_version = root.required("version");
-  SystemNode system = read_system(root, file, *scenario.files, scenario.warnings);
+  ssp::SystemNode system = ssp::read_system(root, file, *scenario.files, scenario.warnings);
   system.parameters.insert(system.parameters.end(), options.parameters.begin(),
                            options.parameters.end());
-  FlatSystem flat = flatten(system, scenario.warnings);
+  ssp::FlatSystem flat = ssp::flatten(system, scenario.warnings);
   scenario.system = std::move(flat.declaration);
   scenario.sources = std::move(flat.sources);
   read_default_experiment(root, scenario);
@@ -68,4 +68,4 @@ Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& opt
   return scenario;
 }
 
-}  // namespace stride::io
+}  // namespace stride::scenario

@@ -15,7 +15,7 @@
 #include "master/ssp/files.h"
 #include "master/ssp/system_tree.h"
 
-namespace stride::io {
+namespace stride::scenario {
 
 struct Scenario {
   std::filesystem::path path;  ///< as it was given
@@ -29,7 +29,7 @@ struct Scenario {
   std::optional<Time> stop;
   ScenarioAnnotation annotation;
   std::vector<std::string> warnings;  ///< of what is odd, but no mistake
-  std::shared_ptr<Files> files;       ///< holds the folders that packages are unpacked to
+  std::shared_ptr<ssp::Files> files;  ///< holds the folders that packages are unpacked to
 };
 
 /// A name for the results of a scenario: that of its file, or of its folder.
@@ -37,8 +37,8 @@ std::string stem(const std::filesystem::path& scenario);
 
 /// What a scenario is read with.
 struct ReadOptions {
-  UnitFinder find_unit{};                    ///< says where the FMUs are that hold parameters
-  std::vector<ParameterValue> parameters{};  ///< bound to the root system behind all others
+  ssp::UnitFinder find_unit{};                    ///< says where the FMUs are that hold parameters
+  std::vector<ssp::ParameterValue> parameters{};  ///< bound to the root system behind all others
 };
 
 /// Reads a system of SSP 1.0 or 2.0: a .ssd, a package (.ssp), or the folder that one unpacks to;
@@ -48,6 +48,6 @@ struct ReadOptions {
 /// other tools' annotations).
 Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& options = {});
 
-}  // namespace stride::io
+}  // namespace stride::scenario
 
 #endif

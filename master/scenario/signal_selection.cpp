@@ -10,7 +10,7 @@
 #include "master/util/glob.h"
 #include "master/util/suggest.h"
 
-namespace stride::io {
+namespace stride::scenario {
 namespace {
 
 [[noreturn]] void fail_without_match(const SignalPattern& pattern, const NamedVariable* message,
@@ -53,14 +53,15 @@ std::vector<core::VariableId> all_outputs(const core::System& system) {
 
 /// Adds the columns of what the pattern matches; returns whether that is anything.
 bool add_matches(const core::System& system, std::span<const core::VariableId> recorded,
-                 const SignalPattern& pattern, std::set<core::VariableId>& taken, Plot& plot) {
+                 const SignalPattern& pattern, std::set<core::VariableId>& taken,
+                 recorders::Plot& plot) {
   bool has_match = false;
   for (const core::VariableId id : recorded) {
     if (!is_meant(system, id, pattern.text)) continue;
     has_match = true;
     if (!taken.insert(id).second) continue;
     for (std::size_t i = 0; i < system.variable(id).size; ++i) {
-      plot.signals.push_back(column_name(system, id, i));
+      plot.signals.push_back(recorders::column_name(system, id, i));
     }
   }
   return has_match;
@@ -68,12 +69,12 @@ bool add_matches(const core::System& system, std::span<const core::VariableId> r
 
 /// Calls miss(plot, pattern) for a pattern that matches nothing.
 template <class Miss>
-std::vector<Plot> matching_plots(const core::System& system,
-                                 std::span<const core::VariableId> recorded,
-                                 std::span<const PlotPattern> patterns, Miss&& miss) {
-  std::vector<Plot> plots;
+std::vector<recorders::Plot> matching_plots(const core::System& system,
+                                            std::span<const core::VariableId> recorded,
+                                            std::span<const PlotPattern> patterns, Miss&& miss) {
+  std::vector<recorders::Plot> plots;
   for (const PlotPattern& wanted : patterns) {
-    Plot& plot = plots.emplace_back(Plot{wanted.title, {}});
+    recorders::Plot& plot = plots.emplace_back(recorders::Plot{wanted.title, {}});
     std::set<core::VariableId> taken;
     for (const SignalPattern& pattern : wanted.signals) {
       if (!add_matches(system, recorded, pattern, taken, plot)) miss(wanted, pattern);
@@ -104,7 +105,7 @@ std::vector<NamedVariable> named_variables(const core::System& system) {
 
 bool is_meant(const core::System& system, core::VariableId id, const std::string& pattern) {
   const auto is_matched = [&](const std::string& name) {
-    return name == pattern || matches_glob(pattern, name);
+    return name == pattern || core::matches_glob(pattern, name);
   };
   if (is_matched(system.full_name(id))) return true;
   const std::vector<std::string>& aliases = system.variable(id).aliases;
@@ -136,22 +137,22 @@ std::vector<core::VariableId> select_signals(const core::System& system,
   return selected;
 }
 
-std::vector<Plot> select_plots(const core::System& system,
-                               std::span<const core::VariableId> recorded,
-                               std::span<const PlotPattern> patterns) {
+std::vector<recorders::Plot> select_plots(const core::System& system,
+                                          std::span<const core::VariableId> recorded,
+                                          std::span<const PlotPattern> patterns) {
   return matching_plots(system, recorded, patterns,
                         [&](const PlotPattern& plot, const SignalPattern& pattern) {
                           fail_without_match(system, recorded, plot, pattern);
                         });
 }
 
-std::vector<Plot> remaining_plots(const core::System& system,
-                                  std::span<const core::VariableId> recorded,
-                                  std::span<const PlotPattern> patterns) {
-  std::vector<Plot> plots =
+std::vector<recorders::Plot> remaining_plots(const core::System& system,
+                                             std::span<const core::VariableId> recorded,
+                                             std::span<const PlotPattern> patterns) {
+  std::vector<recorders::Plot> plots =
       matching_plots(system, recorded, patterns, [](const PlotPattern&, const SignalPattern&) {});
-  std::erase_if(plots, [](const Plot& plot) { return plot.signals.empty(); });
+  std::erase_if(plots, [](const recorders::Plot& plot) { return plot.signals.empty(); });
   return plots;
 }
 
-}  // namespace stride::io
+}  // namespace stride::scenario

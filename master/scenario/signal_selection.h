@@ -11,7 +11,7 @@
 #include "master/recorders/results_folder.h"
 #include "master/scenario/annotation.h"
 
-namespace stride::io {
+namespace stride::scenario {
 
 struct NamedVariable {
   core::VariableId id;
@@ -37,16 +37,16 @@ std::vector<core::VariableId> select_signals(const core::System& system,
 /// What the patterns match of the recorded variables: in the order of a plot's patterns, for each
 /// pattern in that of the record, each variable once in a plot. Throws core::Error (Input) for a
 /// pattern that matches nothing recorded, naming what is near.
-std::vector<Plot> select_plots(const core::System& system,
-                               std::span<const core::VariableId> recorded,
-                               std::span<const PlotPattern> patterns);
+std::vector<recorders::Plot> select_plots(const core::System& system,
+                                          std::span<const core::VariableId> recorded,
+                                          std::span<const PlotPattern> patterns);
 
 /// Likewise where the user has chosen other signals than the scenario's: what is not recorded is
 /// not drawn, and a plot of which nothing is left is left out.
-std::vector<Plot> remaining_plots(const core::System& system,
-                                  std::span<const core::VariableId> recorded,
-                                  std::span<const PlotPattern> patterns);
+std::vector<recorders::Plot> remaining_plots(const core::System& system,
+                                             std::span<const core::VariableId> recorded,
+                                             std::span<const PlotPattern> patterns);
 
-}  // namespace stride::io
+}  // namespace stride::scenario
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "master/util/suggest.h"
 
-namespace stride::cli {
+namespace stride::scenario {
 namespace {
 
 namespace fs = std::filesystem;
@@ -71,4 +71,4 @@ fs::path find_shown_unit(const fs::path& path, const std::string& shown_as,
                                  : core::suggestion(path.filename().string(), known));
 }
 
-}  // namespace stride::cli
+}  // namespace stride::scenario

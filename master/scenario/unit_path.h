@@ -7,7 +7,7 @@
 
 #include "master/util/error.h"
 
-namespace stride::cli {
+namespace stride::scenario {
 
 /// The folders that are searched for units: those in the environment variable STRIDE_UNITS
 /// (separated by colons), and those beside the program, ../units of a build and
@@ -21,6 +21,6 @@ std::filesystem::path find_unit(const std::filesystem::path& path, const core::L
 std::filesystem::path find_shown_unit(const std::filesystem::path& path,
                                       const std::string& shown_as, const core::Location& where);
 
-}  // namespace stride::cli
+}  // namespace stride::scenario
 
 #endif

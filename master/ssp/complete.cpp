@@ -13,7 +13,7 @@
 #include "master/util/xml/document.h"
 #include "master/util/xml/editor.h"
 
-namespace stride::io {
+namespace stride::ssp {
 namespace {
 
 using core::ValueType;
@@ -238,4 +238,4 @@ std::string complete(const std::filesystem::path& path, const Descriptions& desc
   return Completion(document, descriptions).result();
 }
 
-}  // namespace stride::io
+}  // namespace stride::ssp

@@ -9,7 +9,7 @@
 
 #include "master/model/description.h"
 
-namespace stride::io {
+namespace stride::ssp {
 
 /// By the component's name.
 using Descriptions = std::map<std::string, std::shared_ptr<const core::UnitDescription>>;
@@ -26,6 +26,6 @@ using Descriptions = std::map<std::string, std::shared_ptr<const core::UnitDescr
 std::string complete(const std::filesystem::path& path, const Descriptions& descriptions,
                      const std::string& shown_as = "");
 
-}  // namespace stride::io
+}  // namespace stride::ssp
 
 #endif

@@ -9,7 +9,7 @@
 #include "master/ssp/ssp.h"
 #include "master/util/suggest.h"
 
-namespace stride::io {
+namespace stride::ssp {
 namespace {
 
 using core::Causality;
@@ -119,4 +119,4 @@ std::vector<Connector> read_connectors(const xml::Element& owner, const SspFile&
   return all;
 }
 
-}  // namespace stride::io
+}  // namespace stride::ssp

@@ -10,7 +10,7 @@
 #include "master/ssp/system_tree.h"
 #include "master/util/xml/element.h"
 
-namespace stride::io {
+namespace stride::ssp {
 
 /// A file of SSP, as far as the readers of its parts need it.
 struct SspFile {
@@ -27,6 +27,6 @@ std::vector<Connector> read_connectors(const xml::Element& owner, const SspFile&
 bool read_type(const xml::Element& child, const SspFile& file,
                core::ConnectorDeclaration& connector);
 
-}  // namespace stride::io
+}  // namespace stride::ssp
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "master/ssp/ssp.h"
 
-namespace stride::io {
+namespace stride::ssp {
 namespace {
 
 core::BaseUnitOfMeasure read_meaning(const xml::Element& element) {
@@ -50,4 +50,4 @@ Definitions read_definitions(const xml::Element& root, const char* name_space) {
   return definitions;
 }
 
-}  // namespace stride::io
+}  // namespace stride::ssp

@@ -8,7 +8,7 @@
 #include "master/model/conversion.h"
 #include "master/util/xml/element.h"
 
-namespace stride::io {
+namespace stride::ssp {
 
 struct Definitions {
   std::map<std::string, core::BaseUnitOfMeasure> units;
@@ -24,6 +24,6 @@ struct Definitions {
 /// (Input).
 Definitions read_definitions(const xml::Element& root, const char* name_space);
 
-}  // namespace stride::io
+}  // namespace stride::ssp
 
 #endif

@@ -10,7 +10,7 @@
 
 #include "master/util/suggest.h"
 
-namespace stride::io {
+namespace stride::ssp {
 namespace {
 
 namespace fs = std::filesystem;
@@ -109,4 +109,4 @@ std::string Files::shown(const fs::path& path) const {
   return shown(archive->path) + "/" + path.lexically_relative(archive->folder).string();
 }
 
-}  // namespace stride::io
+}  // namespace stride::ssp

@@ -12,7 +12,7 @@
 #include "master/util/archive/unpacked_archive.h"
 #include "master/util/error.h"
 
-namespace stride::io {
+namespace stride::ssp {
 
 /// Says where the FMU is that a scenario names by this path; throws core::Error (Input) if it is
 /// nowhere.
@@ -52,6 +52,6 @@ class Files {
   std::map<std::filesystem::path, std::unique_ptr<archive::UnpackedArchive>> archives_;
 };
 
-}  // namespace stride::io
+}  // namespace stride::ssp
 
 #endif

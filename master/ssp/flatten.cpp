@@ -8,7 +8,7 @@
 #include "master/ssp/port_graph.h"
 #include "master/util/suggest.h"
 
-namespace stride::io {
+namespace stride::ssp {
 namespace {
 
 using core::ViaDeclaration;
@@ -255,4 +255,4 @@ FlatSystem flatten(const SystemNode& root, std::vector<std::string>& warnings) {
   return Flattener(root, warnings).run();
 }
 
-}  // namespace stride::io
+}  // namespace stride::ssp

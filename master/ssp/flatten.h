@@ -9,7 +9,7 @@
 #include "master/model/system.h"
 #include "master/ssp/system_tree.h"
 
-namespace stride::io {
+namespace stride::ssp {
 
 struct FlatSystem {
   core::SystemDeclaration declaration;
@@ -23,6 +23,6 @@ struct FlatSystem {
 /// all that it leads to. What leads nowhere is listed in `warnings`. Throws core::Error (Input).
 FlatSystem flatten(const SystemNode& root, std::vector<std::string>& warnings);
 
-}  // namespace stride::io
+}  // namespace stride::ssp
 
 #endif

@@ -12,7 +12,7 @@
 #include "master/util/xml/document.h"
 #include "master/util/xml/editor.h"
 
-namespace stride::io {
+namespace stride::ssp {
 namespace {
 
 namespace fs = std::filesystem;
@@ -112,4 +112,4 @@ archive::Contents package_contents(const fs::path& system, Files& files, const F
   return Packer(files, make_fmu).run(system);
 }
 
-}  // namespace stride::io
+}  // namespace stride::ssp

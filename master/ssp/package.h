@@ -9,7 +9,7 @@
 #include "master/util/archive/zip.h"
 #include "master/util/error.h"
 
-namespace stride::io {
+namespace stride::ssp {
 
 /// Says which .fmu archive to pack for the FMU that a source names; throws core::Error (Input) if
 /// there is none.
@@ -23,6 +23,6 @@ using FmuMaker =
 archive::Contents package_contents(const std::filesystem::path& system, Files& files,
                                    const FmuMaker& make_fmu);
 
-}  // namespace stride::io
+}  // namespace stride::ssp
 
 #endif

@@ -14,7 +14,7 @@
 #include "master/ssp/uri.h"
 #include "master/util/xml/document.h"
 
-namespace stride::io {
+namespace stride::ssp {
 namespace {
 
 constexpr const char* kParameterSetType = "application/x-ssp-parameter-set";
@@ -260,4 +260,4 @@ std::vector<ParameterValue> read_parameters(const xml::Element& owner,
   return values;
 }
 
-}  // namespace stride::io
+}  // namespace stride::ssp

@@ -11,7 +11,7 @@
 #include "master/ssp/system_tree.h"
 #include "master/util/xml/element.h"
 
-namespace stride::io {
+namespace stride::ssp {
 
 /// Where the bindings of a component or system stand.
 struct BindingContext {
@@ -28,6 +28,6 @@ struct BindingContext {
 std::vector<ParameterValue> read_parameters(const xml::Element& owner,
                                             const BindingContext& context);
 
-}  // namespace stride::io
+}  // namespace stride::ssp
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "master/util/suggest.h"
 
-namespace stride::io {
+namespace stride::ssp {
 namespace {
 
 std::string joined(const std::string& prefix, const std::string& name) {
@@ -250,4 +250,4 @@ void PortGraph::fail_round(const PortConnection& connection) const {
                    "remove one of the connections in the circle");
 }
 
-}  // namespace stride::io
+}  // namespace stride::ssp

@@ -11,7 +11,7 @@
 
 #include "master/ssp/system_tree.h"
 
-namespace stride::io {
+namespace stride::ssp {
 
 /// Where connections meet: a component's connector, a system's, or a signal of a dictionary.
 struct Port {
@@ -102,6 +102,6 @@ class PortGraph {
   std::map<std::pair<const void*, std::string>, std::size_t> shared_;
 };
 
-}  // namespace stride::io
+}  // namespace stride::ssp
 
 #endif

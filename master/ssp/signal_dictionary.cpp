@@ -8,7 +8,7 @@
 #include "master/ssp/uri.h"
 #include "master/util/xml/document.h"
 
-namespace stride::io {
+namespace stride::ssp {
 namespace {
 
 constexpr const char* kDictionaryType = "application/x-ssp-signal-dictionary";
@@ -76,4 +76,4 @@ std::map<std::string, SignalDictionary> read_signal_dictionaries(
   return all;
 }
 
-}  // namespace stride::io
+}  // namespace stride::ssp

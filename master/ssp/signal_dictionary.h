@@ -11,13 +11,13 @@
 #include "master/ssp/system_tree.h"
 #include "master/util/xml/element.h"
 
-namespace stride::io {
+namespace stride::ssp {
 
 /// Reads <ssd:SignalDictionaries>, inline or from files relative to `folder`. Throws core::Error
 /// (Input).
 std::map<std::string, SignalDictionary> read_signal_dictionaries(
     const xml::Element& dictionaries, const std::filesystem::path& folder, const Files& files);
 
-}  // namespace stride::io
+}  // namespace stride::ssp
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef STRIDE_MASTER_SSP_SSP_H
 #define STRIDE_MASTER_SSP_SSP_H
 
-namespace stride::io {
+namespace stride::ssp {
 
 inline constexpr const char* kSsd = "http://ssp-standard.org/SSP1/SystemStructureDescription";
 inline constexpr const char* kSsc = "http://ssp-standard.org/SSP1/SystemStructureCommon";
@@ -11,6 +11,6 @@ inline constexpr const char* kSsm = "http://ssp-standard.org/SSP1/SystemStructur
 inline constexpr const char* kSsb = "http://ssp-standard.org/SSP1/SystemStructureSignalDictionary";
 inline constexpr const char* kStrideScenario = "urn:org.stride:scenario:1";
 
-}  // namespace stride::io
+}  // namespace stride::ssp
 
 #endif

@@ -17,7 +17,7 @@
 #include "master/util/suggest.h"
 #include "master/util/xml/document.h"
 
-namespace stride::io {
+namespace stride::ssp {
 namespace {
 
 constexpr const char* kFmuType = "application/x-fmu-sharedlibrary";
@@ -321,4 +321,4 @@ SystemNode read_system(const xml::Element& root, const std::filesystem::path& pa
   return SystemReader(root, path, reading).read();
 }
 
-}  // namespace stride::io
+}  // namespace stride::ssp

@@ -11,7 +11,7 @@
 #include "master/ssp/system_tree.h"
 #include "master/util/xml/element.h"
 
-namespace stride::io {
+namespace stride::ssp {
 
 /// Checks the root element of a .ssd. Throws core::Error (Input), also for a file of another kind,
 /// which it calls by its name.
@@ -23,6 +23,6 @@ void check_system_description(const xml::Element& root);
 SystemNode read_system(const xml::Element& root, const std::filesystem::path& path, Files& files,
                        std::vector<std::string>& warnings);
 
-}  // namespace stride::io
+}  // namespace stride::ssp
 
 #endif

@@ -11,7 +11,7 @@
 
 #include "master/model/system.h"
 
-namespace stride::io {
+namespace stride::ssp {
 
 /// Which way a value goes through a connector, seen from outside of its element. Unsaid: its kind
 /// is left out or leaves it open, as inout and unspecified do.
@@ -69,6 +69,6 @@ struct SystemNode {
   std::vector<ParameterValue> parameters;  ///< a later one replaces an earlier one
 };
 
-}  // namespace stride::io
+}  // namespace stride::ssp
 
 #endif

@@ -9,7 +9,7 @@
 
 #include "master/ssp/ssp.h"
 
-namespace stride::io {
+namespace stride::ssp {
 namespace {
 
 using core::Transformation;
@@ -94,4 +94,4 @@ core::PathSegment read_path_segment(const xml::Element& owner) {
   return segment;
 }
 
-}  // namespace stride::io
+}  // namespace stride::ssp

@@ -5,13 +5,13 @@
 #include "master/model/conversion.h"
 #include "master/util/xml/element.h"
 
-namespace stride::io {
+namespace stride::ssp {
 
 /// Reads the attribute suppressUnitConversion and the transformation of an <ssd:Connection> or an
 /// <ssm:MappingEntry>, whose other attributes and children are the caller's. Throws core::Error
 /// (Input).
 core::PathSegment read_path_segment(const xml::Element& owner);
 
-}  // namespace stride::io
+}  // namespace stride::ssp
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "master/util/hex.h"
 
-namespace stride::io {
+namespace stride::ssp {
 namespace {
 
 std::string take_scheme(std::string_view& uri) {
@@ -94,4 +94,4 @@ std::string uri_of(const std::filesystem::path& path) {
   return uri;
 }
 
-}  // namespace stride::io
+}  // namespace stride::ssp

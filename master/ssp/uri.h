@@ -7,7 +7,7 @@
 
 #include "master/util/xml/element.h"
 
-namespace stride::io {
+namespace stride::ssp {
 
 /// What the attribute `source` of an element names.
 struct Source {
@@ -25,6 +25,6 @@ std::filesystem::path source_path(const xml::Element& element, const std::filesy
 /// A relative path as a URI: what is neither a letter, a digit nor one of "-._~/" is escaped.
 std::string uri_of(const std::filesystem::path& path);
 
-}  // namespace stride::io
+}  // namespace stride::ssp
 
 #endif

@@ -61,7 +61,7 @@ void Spool::spill() {
   memory_.clear();
 }
 
-void Spool::copy_to(io::OutputFile& file) const {
+void Spool::copy_to(core::OutputFile& file) const {
   constexpr std::size_t kPiece = std::size_t{1} << 16;
   const auto piece = std::make_unique<char[]>(spilled_ > 0 ? kPiece : 0);
   for (std::size_t done = 0; done < spilled_;) {

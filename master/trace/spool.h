@@ -25,7 +25,7 @@ class Spool {
   void write(char c) { memory_.push_back(c); }
   bool empty() const { return memory_.empty() && spilled_ == 0; }
   void clear();
-  void copy_to(io::OutputFile& file) const;
+  void copy_to(core::OutputFile& file) const;
 
  private:
   static constexpr std::size_t kMost = std::size_t{4} << 20;

@@ -26,7 +26,7 @@ Writer::Writer(const std::filesystem::path& from, const std::filesystem::path& t
 void Writer::write_stamp(std::int64_t stamp) {
   if (stamp_ == stamp) return;
   stamp_ = stamp;
-  io::OutputFile& file = output_.file();
+  core::OutputFile& file = output_.file();
   file.write('#');
   file.write_number(stamp);
   file.write('\n');
@@ -35,7 +35,7 @@ void Writer::write_stamp(std::int64_t stamp) {
 void Writer::write_advance_time(std::int64_t total, std::string_view code) {
   char digits[64];
   const auto end = std::to_chars(digits, digits + sizeof digits, total, 2).ptr;
-  io::OutputFile& file = output_.file();
+  core::OutputFile& file = output_.file();
   file.write('b');
   file.write(std::string_view(digits, static_cast<std::size_t>(end - digits)));
   file.write(' ');

@@ -27,7 +27,7 @@ class Writer {
   void finish() { output_.commit(); }
 
  private:
-  io::Replacement output_;
+  core::Replacement output_;
   std::optional<std::int64_t> stamp_;
 };
 

@@ -2,7 +2,7 @@
 
 #include <fnmatch.h>
 
-namespace stride::io {
+namespace stride::core {
 
 bool matches_glob(const std::string& pattern, const std::string& text) {
   return ::fnmatch(pattern.c_str(), text.c_str(), 0) == 0;
@@ -12,4 +12,4 @@ bool is_glob(const std::string& pattern) {
   return pattern.find_first_of("*?[\\") != std::string::npos;
 }
 
-}  // namespace stride::io
+}  // namespace stride::core

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace stride::io {
+namespace stride::core {
 
 /// Whether the whole text matches the pattern: `*` stands for any characters (dots, too), `?` for
 /// one, `[a-c]` and `[!a-c]` for one within or outside the set, `\` takes away a special meaning.
@@ -12,6 +12,6 @@ bool matches_glob(const std::string& pattern, const std::string& text);
 /// Whether the pattern has any of these special characters.
 bool is_glob(const std::string& pattern);
 
-}  // namespace stride::io
+}  // namespace stride::core
 
 #endif

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace stride::io {
+namespace stride::core {
 namespace {
 
 std::optional<double> finite_number(std::string_view text) {
@@ -31,4 +31,4 @@ double parse_above_zero(std::string_view text) {
   throw std::invalid_argument(fmt::format("'{}' is no number above 0", text));
 }
 
-}  // namespace stride::io
+}  // namespace stride::core

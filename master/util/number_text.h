@@ -4,13 +4,13 @@
 
 #include <string_view>
 
-namespace stride::io {
+namespace stride::core {
 
 /// Each takes the text of a finite number. Throws std::invalid_argument whose text says what was
 /// expected.
 double parse_at_least_zero(std::string_view text);
 double parse_above_zero(std::string_view text);
 
-}  // namespace stride::io
+}  // namespace stride::core
 
 #endif

@@ -12,7 +12,7 @@
 #include "master/util/hex.h"
 #include "master/util/time_text.h"
 
-namespace stride::io {
+namespace stride::core {
 namespace {
 
 const char* hint_for(int error) {
@@ -35,16 +35,15 @@ OutputFile::OutputFile(std::filesystem::path path, Hints hints)
   constexpr mode_t kEverybodyMayRead = 0666;  // less the umask
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kEverybodyMayRead);
   if (descriptor_ >= 0) return;
-  core::fail_input(
-      {.where = {path_.string(), 0}},
-      fmt::format("cannot create the file: {}", std::generic_category().message(errno)),
-      hints_.create);
+  fail_input({.where = {path_.string(), 0}},
+             fmt::format("cannot create the file: {}", std::generic_category().message(errno)),
+             hints_.create);
 }
 
 OutputFile::~OutputFile() {
   try {
     close();
-  } catch (const core::Error&) {  // a destructor cannot report it
+  } catch (const Error&) {  // a destructor cannot report it
   }
 }
 
@@ -60,7 +59,7 @@ void OutputFile::write_slowly(std::string_view text) {
 void OutputFile::write_seconds(Time time) {
   constexpr std::int64_t kPerSecond = 1'000'000'000'000;
   const std::int64_t ticks = time.time_since_epoch().count();
-  if (ticks < 0) return write(core::to_text(time));  // no run begins before 0
+  if (ticks < 0) return write(to_text(time));  // no run begins before 0
   write_number(ticks / kPerSecond);
   std::int64_t fraction = ticks % kPerSecond;
   if (fraction == 0) return;
@@ -72,7 +71,7 @@ void OutputFile::write_seconds(Time time) {
 }
 
 void OutputFile::write_hex(std::span<const std::uint8_t> bytes) {
-  core::write_hex(bytes, [&](char digit) { write(digit); });
+  write_hex(bytes, [&](char digit) { write(digit); });
 }
 
 void OutputFile::flush() {
@@ -104,9 +103,9 @@ void OutputFile::fail(int error) {
   has_failed_ = true;
   // fails for what is no regular file, where there is nothing to cut
   if (descriptor_ >= 0 && taken_ > line_end_) (void)!::ftruncate(descriptor_, line_end_);
-  core::fail_run({.where = {path_.string(), 0}, .time = time_},
-                 fmt::format("cannot write the file: {}", std::generic_category().message(error)),
-                 hints_.write != nullptr ? hints_.write : hint_for(error));
+  fail_run({.where = {path_.string(), 0}, .time = time_},
+           fmt::format("cannot write the file: {}", std::generic_category().message(error)),
+           hints_.write != nullptr ? hints_.write : hint_for(error));
 }
 
-}  // namespace stride::io
+}  // namespace stride::core

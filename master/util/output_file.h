@@ -14,10 +14,10 @@
 
 #include <stride/time.h>
 
-namespace stride::io {
+namespace stride::core {
 
 /// Collects what is written in a buffer and hands it to the system in large pieces. When that fails
-/// (the disk is full), the file is cut behind its last whole line and core::Error (Run) is thrown,
+/// (the disk is full), the file is cut behind its last whole line and Error (Run) is thrown,
 /// which names the file and the simulated time; nothing is written from then on.
 class OutputFile {
  public:
@@ -27,7 +27,7 @@ class OutputFile {
     const char* write = nullptr;  ///< what suits the error, for results, where there is none
   };
 
-  /// Creates the file or empties it. Throws core::Error (Input) if that is not possible.
+  /// Creates the file or empties it. Throws Error (Input) if that is not possible.
   explicit OutputFile(std::filesystem::path path) : OutputFile(std::move(path), Hints{}) {}
   OutputFile(std::filesystem::path path, Hints hints);
   /// Closes the file; a failure is lost then, so call close() where it matters.
@@ -83,6 +83,6 @@ class OutputFile {
   bool has_failed_ = false;
 };
 
-}  // namespace stride::io
+}  // namespace stride::core
 
 #endif

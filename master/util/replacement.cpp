@@ -7,7 +7,7 @@
 
 #include "master/util/error.h"
 
-namespace stride::io {
+namespace stride::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -25,7 +25,7 @@ bool is_device(const fs::path& path) {
 
 /// The file that is to be replaced.
 fs::path target_of(const fs::path& path) {
-  if (path.empty()) core::fail_input({}, "no file is named to write to");
+  if (path.empty()) fail_input({}, "no file is named to write to");
   std::error_code error;
   if (is_device(path)) return path;
   if (fs::is_symlink(path, error)) {
@@ -36,13 +36,13 @@ fs::path target_of(const fs::path& path) {
 }
 
 void check(const fs::path& path) {
-  const core::Context where{.where = {path.string(), 0}};
+  const Context where{.where = {path.string(), 0}};
   if (fs::is_directory(path)) {
-    core::fail_input(where, "this is a folder; expected a file to write to");
+    fail_input(where, "this is a folder; expected a file to write to");
   }
   if (!path.parent_path().empty() && !fs::is_directory(path.parent_path())) {
-    core::fail_input(where, "the folder of this file does not exist",
-                     "make the folder, or choose another output file");
+    fail_input(where, "the folder of this file does not exist",
+               "make the folder, or choose another output file");
   }
 }
 
@@ -67,10 +67,10 @@ void Replacement::commit() {
   std::error_code error;
   fs::rename(fresh_, target_, error);
   if (error) {
-    core::fail_run({.where = {target_.string(), 0}},
-                   fmt::format("cannot replace the file: {}", error.message()));
+    fail_run({.where = {target_.string(), 0}},
+             fmt::format("cannot replace the file: {}", error.message()));
   }
   fresh_.clear();
 }
 
-}  // namespace stride::io
+}  // namespace stride::core

@@ -7,7 +7,7 @@
 
 #include "master/util/output_file.h"
 
-namespace stride::io {
+namespace stride::core {
 
 /// Writes "FILE.new" beside a file and puts it in its place at the end, so that no reader ever sees
 /// a half of it, and a failure leaves the old file as it was. What is no regular file, such as a
@@ -15,7 +15,7 @@ namespace stride::io {
 /// link stays; the file that it leads to is replaced.
 class Replacement {
  public:
-  /// Throws core::Error (Input) if the file cannot be written.
+  /// Throws Error (Input) if the file cannot be written.
   explicit Replacement(const std::filesystem::path& path);
   /// Without commit(), nothing is left of what was written.
   ~Replacement();
@@ -23,7 +23,7 @@ class Replacement {
   Replacement& operator=(const Replacement&) = delete;
 
   OutputFile& file() { return *file_; }
-  /// Throws core::Error (Run) if the file cannot be written whole.
+  /// Throws Error (Run) if the file cannot be written whole.
   void commit();
 
  private:
@@ -32,6 +32,6 @@ class Replacement {
   std::optional<OutputFile> file_;
 };
 
-}  // namespace stride::io
+}  // namespace stride::core
 
 #endif

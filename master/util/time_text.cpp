@@ -23,9 +23,6 @@ std::string to_text(Duration duration) {
   return text;
 }
 
-}  // namespace stride::core
-
-namespace stride::io {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
@@ -144,4 +141,4 @@ std::string wall_seconds(std::chrono::nanoseconds time) {
   return fmt::format("{:.3f}", std::chrono::duration<double>(time).count());
 }
 
-}  // namespace stride::io
+}  // namespace stride::core

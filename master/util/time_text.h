@@ -14,10 +14,6 @@ namespace stride::core {
 std::string to_text(Time time);
 std::string to_text(Duration duration);
 
-}  // namespace stride::core
-
-namespace stride::io {
-
 /// A decimal number of seconds, such as "14.2", "1e-3" or " 30 ", as a count of picoseconds. No
 /// double comes between, so twelve decimals are exact; further ones are rounded half up. Throws
 /// std::invalid_argument, whose text says what was expected, for what is negative, too large or no
@@ -27,6 +23,6 @@ Duration parse_seconds(std::string_view text);
 /// Seconds that a computation took, with three decimals.
 std::string wall_seconds(std::chrono::nanoseconds time);
 
-}  // namespace stride::io
+}  // namespace stride::core
 
 #endif

@@ -10,7 +10,7 @@
 namespace stride::verify {
 namespace {
 
-using End = process::ChildOutcome::End;
+using End = isolation::ChildOutcome::End;
 
 /// The last line that is not empty, without what no table can show.
 std::string last_line(const std::string& printed) {
@@ -30,7 +30,7 @@ std::string last_line(const std::string& printed) {
 
 }  // namespace
 
-std::string explain(const process::ChildOutcome& outcome, const process::SharedNote& note) {
+std::string explain(const isolation::ChildOutcome& outcome, const isolation::SharedNote& note) {
   std::string text;
   switch (outcome.end) {
     case End::Answered:
@@ -38,7 +38,7 @@ std::string explain(const process::ChildOutcome& outcome, const process::SharedN
       return outcome.text;
     case End::Killed:
       text = fmt::format("it crashed with signal {} ({})", outcome.code,
-                         process::signal_name(outcome.code));
+                         isolation::signal_name(outcome.code));
       break;
     case End::Exited:
       text = fmt::format("it ended the process with exit code {}", outcome.code);
@@ -61,7 +61,7 @@ std::string explain(const process::ChildOutcome& outcome, const process::SharedN
 
 std::string Trial::in_child(const std::function<std::string()>& work) const {
   note.clear();
-  process::ChildOutcome outcome = process::run_in_child(work);
+  isolation::ChildOutcome outcome = isolation::run_in_child(work);
   if (outcome.end == End::Answered) return std::move(outcome.text);
   throw Failure(explain(outcome, note));
 }

@@ -19,7 +19,7 @@ namespace stride::verify {
 /// loaded before.
 struct Trial {
   const TestedUnit& tested;
-  process::SharedNote& note;
+  isolation::SharedNote& note;
 
   /// An instance in this process.
   TestInstance make_instance(TestInstanceOptions options = {}) const {
@@ -41,7 +41,7 @@ struct Trial {
 
 /// "it crashed with signal 11 (SIGSEGV) in fmi3Reset at 0.1 s", for what ended otherwise than by an
 /// answer or an exception.
-std::string explain(const process::ChildOutcome& outcome, const process::SharedNote& note);
+std::string explain(const isolation::ChildOutcome& outcome, const isolation::SharedNote& note);
 
 struct UnitCheck {
   const char* name;

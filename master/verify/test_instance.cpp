@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/util/time_text.h"
 #include "master/verify/finding.h"
 
@@ -49,7 +50,7 @@ std::string text_of(const ValueBlock& block, std::size_t first, std::size_t size
 
 }  // namespace
 
-TestInstance::TestInstance(const TestedUnit& tested, process::SharedNote& note,
+TestInstance::TestInstance(const TestedUnit& tested, isolation::SharedNote& note,
                            TestInstanceOptions options)
     : tested_(tested),
       options_(std::move(options)),
@@ -58,9 +59,9 @@ TestInstance::TestInstance(const TestedUnit& tested, process::SharedNote& note,
         std::vector<std::unique_ptr<core::Unit>> units;
         units.push_back(std::make_unique<WatchedUnit>(
             tested, note, options_.name,
-            fmi::InstanceOptions{.early_return_allowed = options_.early_return_allowed,
-                                 .may_go_back = true,
-                                 .description = tested.system().components()[0].description}));
+            importer::InstanceOptions{.early_return_allowed = options_.early_return_allowed,
+                                      .may_go_back = true,
+                                      .description = tested.system().components()[0].description}));
         return units;
       }()) {
   clocks_.emplace(tested_.system(), units_);
@@ -83,9 +84,10 @@ void TestInstance::set_start_values() {
     for (const core::StartValue& start : values) set(system.variable(start.id), start.value);
   };
   if (!system.structural_values().empty()) {
-    unit().enter_configuration_mode();
+    auto& configuration = capability<core::ConfigurationMode>();
+    configuration.enter_configuration_mode();
     set_all(system.structural_values());
-    unit().exit_configuration_mode();
+    configuration.exit_configuration_mode();
   }
   set_all(system.start_values());
 }
@@ -105,7 +107,7 @@ void TestInstance::exit_initialization() {
 }
 
 void TestInstance::reset() {
-  unit().reset();
+  capability<core::Resetting>().reset();
   position_ = {};
 }
 
@@ -210,10 +212,10 @@ void TestInstance::shorten(Time to) {
   do {
     size /= 2;
     if (size < kShortestStep) {
-      throw Failure(
-          fmt::format("at {} s it rejects every step, down to one of {} s{}", core::to_text(begin),
-                      core::to_text(2 * size),
-                      unit().rejection_reason().empty() ? "" : ": " + unit().rejection_reason()));
+      const std::string reason = capability<core::UnitDiagnostics>().rejection_reason();
+      throw Failure(fmt::format("at {} s it rejects every step, down to one of {} s{}",
+                                core::to_text(begin), core::to_text(2 * size),
+                                reason.empty() ? "" : ": " + reason));
     }
   } while (!try_step(begin + size));
 }
@@ -330,16 +332,18 @@ void TestInstance::record_ticks() {
 // ---- States ----
 
 void TestInstance::save(std::size_t slot) {
-  unit().select_state(slot);
-  unit().save_state();
+  auto& state = capability<core::StateSaving>();
+  state.select_state(slot);
+  state.save_state();
   if (saved_.size() <= slot) saved_.resize(slot + 1);
   saved_[slot].position = position_;
   saved_[slot].clocks.emplace(*clocks_);
 }
 
 void TestInstance::restore(std::size_t slot) {
-  unit().select_state(slot);
-  unit().restore_state();
+  auto& state = capability<core::StateSaving>();
+  state.select_state(slot);
+  state.restore_state();
   stand_at(saved_[slot].position, &*saved_[slot].clocks);
 }
 

@@ -29,10 +29,15 @@ struct TestInstanceOptions {
 /// where the unit does what no unit may, core::Error where it fails.
 class TestInstance {
  public:
-  TestInstance(const TestedUnit& tested, process::SharedNote& note,
+  TestInstance(const TestedUnit& tested, isolation::SharedNote& note,
                TestInstanceOptions options = {});
 
   core::Unit& unit() { return *units_.front(); }
+  /// A capability that the unit has by its description.
+  template <core::CapabilityInterface C>
+  C& capability() {
+    return unit().require_capability<C>();
+  }
   Time now() const { return position_.now; }
   /// The last point of the grid that was reached.
   std::size_t at() const { return position_.point; }

@@ -27,7 +27,7 @@ bool is_observed(const Variable& variable) {
          variable.causality == Causality::CalculatedParameter;
 }
 
-core::SystemDeclaration declaration(const VerifyRequest& request, const fmi::Fmu& fmu) {
+core::SystemDeclaration declaration(const VerifyRequest& request, const importer::Fmu& fmu) {
   core::SystemDeclaration system{"verify", {}, {}, {}};
   system.components.push_back({"unit", fmu.description(), {}, {}});
   for (const std::string& text : request.settings) {
@@ -55,7 +55,7 @@ TestedUnit::TestedUnit(VerifyRequest request) : request_(std::move(request)) {
                                  file.string()),
                      "make an FMU of it: stride pack LIBRARY --output FILE.fmu");
   }
-  fmu_ = fmi::Fmu::load(file);
+  fmu_ = importer::Fmu::load(file);
   system_.emplace(declaration(request_, *fmu_));
   choose_observed();
   choose_times();

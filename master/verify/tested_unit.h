@@ -45,7 +45,7 @@ class TestedUnit {
   explicit TestedUnit(VerifyRequest request);
 
   const VerifyRequest& request() const { return request_; }
-  fmi::Fmu& fmu() const { return *fmu_; }
+  importer::Fmu& fmu() const { return *fmu_; }
   /// With the array sizes that the user has set by structural parameters.
   const core::UnitDescription& description() const { return *system_->components()[0].description; }
   /// One component, the unit, with the values that the user has set.
@@ -70,7 +70,7 @@ class TestedUnit {
   void choose_observed();
 
   VerifyRequest request_;
-  std::shared_ptr<fmi::Fmu> fmu_;
+  std::shared_ptr<importer::Fmu> fmu_;
   std::optional<core::System> system_;
   Duration step_{};
   std::size_t steps_ = 0;

@@ -17,7 +17,7 @@ namespace stride::verify {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
-using End = process::ChildOutcome::End;
+using End = isolation::ChildOutcome::End;
 
 std::string dump(const OrderedJson& json) {
   return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace);
@@ -48,7 +48,7 @@ bool is_wanted(const UnitCheck& check, const std::vector<std::string>& wanted) {
 }
 
 Finding run_isolated(const UnitCheck& check, const TestedUnit& tested, const Hooks& hooks) {
-  process::SharedNote note;
+  isolation::SharedNote note;
   const auto work = [&] {
     const Trial trial{tested, note};
     try {
@@ -59,7 +59,7 @@ Finding run_isolated(const UnitCheck& check, const TestedUnit& tested, const Hoo
       return to_text(failed(error.what()));
     }
   };
-  const process::ChildOutcome outcome = process::run_in_child(
+  const isolation::ChildOutcome outcome = isolation::run_in_child(
       work, {.limit = tested.request().limit, .interrupted = hooks.interrupted});
   if (outcome.end == End::Interrupted) {
     core::fail_run({}, fmt::format("interrupted during the check '{}'", check.name));

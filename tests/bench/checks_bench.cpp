@@ -23,8 +23,8 @@ constexpr int kUnits = 10;
 constexpr int kSteps = 20'000;
 constexpr Duration kStep = std::chrono::milliseconds(1);
 
-std::shared_ptr<fmi::Fmu> minimal() {
-  static const auto fmu = fmi::Fmu::load(STRIDE_FMU_DIR "/minimal.fmu");
+std::shared_ptr<importer::Fmu> minimal() {
+  static const auto fmu = importer::Fmu::load(STRIDE_FMU_DIR "/minimal.fmu");
   return fmu;
 }
 
@@ -41,10 +41,10 @@ core::System ring() {
 }
 
 /// Ranges of the units' outputs, one after another.
-std::vector<io::CheckDeclaration> ranges(int count) {
-  std::vector<io::CheckDeclaration> checks;
+std::vector<scenario::CheckDeclaration> ranges(int count) {
+  std::vector<scenario::CheckDeclaration> checks;
   for (int i = 0; i < count; ++i) {
-    io::CheckDeclaration& check = checks.emplace_back();
+    scenario::CheckDeclaration& check = checks.emplace_back();
     check.name = fmt::format("check {}", i);
     check.subject = fmt::format("u{}.y", i % kUnits);
     check.condition.min = "-1";
@@ -54,7 +54,7 @@ std::vector<io::CheckDeclaration> ranges(int count) {
 }
 
 double run(const core::System& system, int count) {
-  checks::Checks checks(io::select_checks(system, ranges(count), {}));
+  checks::Checks checks(scenario::select_checks(system, ranges(count), {}));
   std::vector<std::unique_ptr<core::Unit>> units;
   for (const core::Component& component : system.components()) {
     units.push_back(minimal()->instantiate(component.name));

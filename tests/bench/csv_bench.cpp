@@ -79,7 +79,7 @@ double write_with_stride(const core::System& system, int rows, const std::string
   core::ValueBlock block(core::ValueType::Float64, count);
   std::vector<core::Signal> signals;
   for (std::size_t k = 0; k < count; ++k) signals.push_back({{0, k}, &block, k});
-  io::CsvRecorder recorder(system, file);
+  recorders::CsvRecorder recorder(system, file);
   recorder.on_start(signals);
   const auto began = Wall::now();
   for (int row = 0; row < rows; ++row) {

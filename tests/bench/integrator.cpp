@@ -3,7 +3,7 @@
 
 namespace {
 
-class Integrator : public stride::process::Program {
+class Integrator : public stride::isolation::Program {
  public:
   Integrator() {
     input("u", u_);

@@ -50,8 +50,6 @@ class BusyUnit : public core::Unit {
     benchmark::DoNotOptimize(value_);
     return {.reached = interval.to};
   }
-  void save_state() override {}
-  void restore_state() override {}
   void enter_event_mode() override {}
   core::EventResult update_discrete_states() override { return {}; }
   void enter_step_mode() override {}

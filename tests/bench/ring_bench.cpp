@@ -19,8 +19,8 @@ using namespace stride::bench;
 constexpr Duration kStep = std::chrono::milliseconds(1);
 constexpr int kUnitSteps = 200'000;  // per measured run, whatever the size of the ring
 
-std::shared_ptr<fmi::Fmu> minimal() {
-  static const auto fmu = fmi::Fmu::load(STRIDE_FMU_DIR "/minimal.fmu");
+std::shared_ptr<importer::Fmu> minimal() {
+  static const auto fmu = importer::Fmu::load(STRIDE_FMU_DIR "/minimal.fmu");
   return fmu;
 }
 
@@ -47,7 +47,7 @@ double run_stride(int size) {
 
 double run_by_hand(int size) {
   const auto library = minimal()->load_fmi3_library();
-  const fmi::Fmi3Functions& fmi = library->functions();
+  const importer::Fmi3Functions& fmi = library->functions();
   const auto& description = *minimal()->description();
   const fmi3ValueReference u = description.variables[*description.find("u")].reference;
   const fmi3ValueReference y = description.variables[*description.find("y")].reference;

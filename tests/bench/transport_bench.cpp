@@ -20,6 +20,7 @@
 #include "master/importer/fmu.h"
 #include "master/isolation/hosted_unit.h"
 #include "tests/bench/stopwatch.h"
+#include "tests/master/algorithm/unit_capabilities.h"
 
 namespace {
 
@@ -51,7 +52,7 @@ class Stepped {
   double steps(int count, bool saves = false) {
     const auto began = Wall::now();
     for (int i = 0; i < count; ++i) {
-      if (saves) unit_->save_state();
+      if (saves) tests::state(*unit_).save_state();
       input_value_.numbers<double>()[0] = 1 + i;
       const Time to = now_ + kStep;
       const core::StepResult result =
@@ -77,24 +78,24 @@ class Stepped {
 };
 
 /// A unit that has no state of its own.
-std::shared_ptr<fmi::Fmu> integrator() {
-  static const auto fmu = fmi::Fmu::load(STRIDE_TEST_FMU_DIR "/early_without_state.fmu");
+std::shared_ptr<importer::Fmu> integrator() {
+  static const auto fmu = importer::Fmu::load(STRIDE_TEST_FMU_DIR "/early_without_state.fmu");
   return fmu;
 }
 
-Stepped in_process(const std::shared_ptr<fmi::Fmu>& fmu) {
+Stepped in_process(const std::shared_ptr<importer::Fmu>& fmu) {
   return {*fmu->description(), fmu->instantiate("unit")};
 }
 
 Stepped piped() {
-  static const auto fmu = fmi::Fmu::load(STRIDE_TEST_FMU_DIR "/integrator.fmu");
+  static const auto fmu = importer::Fmu::load(STRIDE_TEST_FMU_DIR "/integrator.fmu");
   return in_process(fmu);
 }
 
 Stepped hosted() {
-  host::HostOptions options;
+  isolation::HostOptions options;
   options.takes_snapshots = true;
-  return {*integrator()->description(), host::instantiate(integrator(), "unit", {}, options)};
+  return {*integrator()->description(), isolation::instantiate(integrator(), "unit", {}, options)};
 }
 
 void transport(benchmark::State& state) {

@@ -20,8 +20,8 @@ constexpr Duration kStep = std::chrono::milliseconds(1);
 constexpr std::size_t kWidth = 100;              // of the unit `wide`
 constexpr std::size_t kConnections = 2'000'000;  // per measured run, whatever the number of units
 
-std::shared_ptr<fmi::Fmu> wide() {
-  static const auto fmu = fmi::Fmu::load(STRIDE_TEST_FMU_DIR "/wide.fmu");
+std::shared_ptr<importer::Fmu> wide() {
+  static const auto fmu = importer::Fmu::load(STRIDE_TEST_FMU_DIR "/wide.fmu");
   return fmu;
 }
 
@@ -66,7 +66,7 @@ std::vector<fmi3ValueReference> references(const std::string& name) {
 
 double run_by_hand(std::size_t units, std::size_t steps) {
   const auto library = wide()->load_fmi3_library();
-  const fmi::Fmi3Functions& fmi = library->functions();
+  const importer::Fmi3Functions& fmi = library->functions();
   const std::vector<fmi3ValueReference> inputs = references("u");
   const std::vector<fmi3ValueReference> outputs = references("y");
   std::vector<fmi3Instance> instances;

@@ -72,7 +72,7 @@ TEST_CASE("a unit without a binary for this platform tells which it has") {
   workspace.scratch().write("windows/modelDescription.xml", description_text("windows"));
   workspace.scratch().write("windows/binaries/x86_64-windows/windows.dll", "MZ");
   CHECK_THAT(mistake_of(workspace),
-             Contains(std::string("no binaries for ") + stride::fmi::platform()) &&
+             Contains(std::string("no binaries for ") + stride::importer::platform()) &&
                  Contains("it has x86_64-windows"));
 }
 

@@ -20,7 +20,7 @@ Parts mixed(const std::string& turner) {
 /// An FMU whose description is another's, with a part replaced, and without its libraries.
 void write_other(const Workspace& workspace, const std::string& part,
                  const std::string& replacement) {
-  const stride::fmi::UnpackedFmu unpacked(test_fmu("fmi2_relaxation"));
+  const stride::importer::UnpackedFmu unpacked(test_fmu("fmi2_relaxation"));
   std::string text = read(unpacked.folder() / "modelDescription.xml");
   text.replace(text.find(part), part.size(), replacement);
   workspace.scratch().write("other/modelDescription.xml", text);

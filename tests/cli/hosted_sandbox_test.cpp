@@ -41,7 +41,7 @@ std::string protections_of(const Workspace& workspace, const std::string& unit) 
 
 bool lacks_landlock() {
   try {
-    stride::process::landlock_version();
+    stride::isolation::landlock_version();
     return false;
   } catch (const std::exception& error) {
     WARN("skipped: " << error.what());

@@ -60,7 +60,7 @@ struct Altered {
   fs::path folder = scratch / "unit";
 
   Altered(const std::string& fmu, const std::string& from, const std::string& to) {
-    const stride::fmi::UnpackedFmu unpacked(test_fmu(fmu));
+    const stride::importer::UnpackedFmu unpacked(test_fmu(fmu));
     fs::copy(unpacked.folder(), folder, fs::copy_options::recursive);
     std::string text = read(folder / "modelDescription.xml");
     const std::size_t at = text.find(from);
@@ -301,7 +301,7 @@ TEST_CASE("a damaged archive is refused, and leaves nothing") {
 
 TEST_CASE("a damaged description is refused or judged") {
   const Workspace workspace(two_filters());
-  fs::copy(stride::fmi::UnpackedFmu(test_fmu("types")).folder(), workspace / "unit",
+  fs::copy(stride::importer::UnpackedFmu(test_fmu("types")).folder(), workspace / "unit",
            fs::copy_options::recursive);
   const std::string whole = read(workspace / "unit/modelDescription.xml");
   Mutator mutator(20241122);

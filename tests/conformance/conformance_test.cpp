@@ -22,19 +22,19 @@ constexpr double kStep = 1e-3;
 
 /// The unit under test, unpacked and loaded once.
 struct Subject {
-  std::shared_ptr<fmi::Fmu> fmu;
-  std::shared_ptr<const fmi::Fmi3Library> library;
+  std::shared_ptr<importer::Fmu> fmu;
+  std::shared_ptr<const importer::Fmi3Library> library;
   std::string resources;
 
   Subject() {
     const char* const path = std::getenv("STRIDE_FMU");
     if (path == nullptr) throw std::runtime_error("name the unit in STRIDE_FMU");
-    fmu = fmi::Fmu::load(path);
+    fmu = importer::Fmu::load(path);
     library = fmu->load_fmi3_library();
     const auto root = library->path().parent_path().parent_path().parent_path();
-    resources = fmi::resource_path(root / "resources");
+    resources = importer::resource_path(root / "resources");
   }
-  const fmi::Fmi3Functions& call() const { return library->functions(); }
+  const importer::Fmi3Functions& call() const { return library->functions(); }
   const core::UnitDescription& description() const { return *fmu->description(); }
 };
 
@@ -97,7 +97,7 @@ class Instance {
   }
 
  private:
-  static const fmi::Fmi3Functions& call() { return subject().call(); }
+  static const importer::Fmi3Functions& call() { return subject().call(); }
 
   void handle_events() {
     bool again = true;

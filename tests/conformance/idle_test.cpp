@@ -15,11 +15,11 @@ using namespace stride;
 using namespace stride::tests;
 using namespace std::chrono_literals;
 
-const std::shared_ptr<fmi::Fmu>& fmu() {
-  static const std::shared_ptr<fmi::Fmu> fmu = [] {
+const std::shared_ptr<importer::Fmu>& fmu() {
+  static const std::shared_ptr<importer::Fmu> fmu = [] {
     const char* const path = std::getenv("STRIDE_FMU");
     if (path == nullptr) throw std::runtime_error("name the unit in STRIDE_FMU");
-    return fmi::Fmu::load(path);
+    return importer::Fmu::load(path);
   }();
   return fmu;
 }
@@ -50,7 +50,7 @@ TEST_CASE("nothing is promised unless skipping is enabled") {
   const auto& fmi = library->functions();
   const auto& description = *fmu()->description();
   const auto root = library->path().parent_path().parent_path().parent_path();
-  const std::string resources = fmi::resource_path(root / "resources");
+  const std::string resources = importer::resource_path(root / "resources");
   fmi3Instance const unit = fmi.InstantiateCoSimulation(
       "unit", description.instantiation_token.c_str(),
       resources.empty() ? nullptr : resources.c_str(), false, false, description.has_event_mode,
@@ -113,9 +113,9 @@ TEST_CASE("a restored state promises what the saved one did") {
     CAPTURE(instant.count());
     Life life = life_at(instant, 10s);
     const Time promised = life.promise();
-    life.unit().save_state();
+    state(life.unit()).save_state();
     life.advance(life.now() + 20ms, 3ms);
-    life.unit().restore_state();
-    CHECK(std::max(Time(instant), life.unit().idle_until()) == promised);
+    state(life.unit()).restore_state();
+    CHECK(std::max(Time(instant), idle(life.unit()).idle_until()) == promised);
   }
 }

@@ -22,15 +22,15 @@ const fs::path kFmu = test_fmu("types");
 TEST_CASE("a mutated model description is read or refused, and never anything else") {
   const std::string unit = GENERATE("types", "fmi2_types", "fmi2_relaxation");
   CAPTURE(unit);
-  const fmi::UnpackedFmu unpacked(test_fmu(unit));
+  const importer::UnpackedFmu unpacked(test_fmu(unit));
   const std::string xml = read(unpacked.folder() / "modelDescription.xml");
-  REQUIRE_NOTHROW(fmi::parse_model_description(xml, "x.xml"));
+  REQUIRE_NOTHROW(importer::parse_model_description(xml, "x.xml"));
   Mutator mutator(20240118);
   int accepted = 0;
   int refused = 0;
   for (int i = 0; i < 4000; ++i) {
     try {
-      const auto read = fmi::parse_model_description(mutator.mutate(xml), "x.xml");
+      const auto read = importer::parse_model_description(mutator.mutate(xml), "x.xml");
       ++accepted;
       if (read.fmi2) CHECK(read.fmi2->references.size() == read.variables.size());
     } catch (const core::Error& error) {
@@ -44,16 +44,17 @@ TEST_CASE("a mutated model description is read or refused, and never anything el
 }
 
 TEST_CASE("a mutated idle manifest is read or refused, and never anything else") {
-  const fmi::UnpackedFmu unpacked(fs::path(STRIDE_TEST_FMU_DIR) / "idler.fmu");
+  const importer::UnpackedFmu unpacked(fs::path(STRIDE_TEST_FMU_DIR) / "idler.fmu");
   const std::string xml = read(unpacked.folder() / STRIDE_IDLE_MANIFEST);
-  const auto described = fmi::read_model_description(unpacked.folder() / "modelDescription.xml");
+  const auto described =
+      importer::read_model_description(unpacked.folder() / "modelDescription.xml");
   Mutator mutator(20240120);
   int accepted = 0;
   int refused = 0;
   for (int i = 0; i < 4000; ++i) {
     core::UnitDescription unit = described;
     try {
-      fmi::parse_idle_manifest(mutator.mutate(xml), "x.xml", unit);
+      importer::parse_idle_manifest(mutator.mutate(xml), "x.xml", unit);
       ++accepted;
       CHECK(unit.promises_idle);
       for (const core::Variable& variable : unit.variables) {
@@ -78,7 +79,7 @@ TEST_CASE("a mutated archive is unpacked or refused, and leaves nothing behind")
   for (int i = 0; i < 300; ++i) {
     const fs::path file = scratch.write("x.fmu", mutator.mutate(bytes));
     try {
-      fmi::Fmu::load(file);
+      importer::Fmu::load(file);
     } catch (const core::Error& error) {
       ++refused;
       CHECK(error.kind() == core::Error::Kind::Input);

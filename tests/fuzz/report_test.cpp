@@ -49,7 +49,7 @@ void check(const report::Results& results) {
 }  // namespace
 
 TEST_CASE("mutated results are read, or refused with the file that is wrong") {
-  const io::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   std::filesystem::create_directories(folder / "film/world");
   folder.write("film/world/0.jpg", "");
   folder.write("film/world/1.jpg", "");

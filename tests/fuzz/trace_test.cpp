@@ -48,7 +48,7 @@ void attempt(const std::filesystem::path& file, Outcomes& outcomes, Work&& work)
 
 class Subject {
  public:
-  explicit Subject(const io::TemporaryFolder& folder)
+  explicit Subject(const tests::TemporaryFolder& folder)
       : folder_(folder), short_(folder / "short.vcd"), long_(folder / "long.vcd") {}
 
   void try_all(const std::string& text, CutOff cut_off) {
@@ -80,7 +80,7 @@ class Subject {
     CHECK(found.gaps == expected.gaps);
   }
 
-  const io::TemporaryFolder& folder_;
+  const tests::TemporaryFolder& folder_;
   std::filesystem::path short_;
   std::filesystem::path long_;
 };
@@ -90,7 +90,7 @@ constexpr const char* kAlphabet = "#$01xzbrs!\"\n 9-";
 }  // namespace
 
 TEST_CASE("A mutated trace of a device that skips is read or refused, and never anything else") {
-  const io::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   Subject subject(folder);
   subject.try_all(kSkipping, CutOff::Refuse);
   REQUIRE(subject.expanded.good == 1);
@@ -108,7 +108,7 @@ TEST_CASE("A mutated trace of a device that skips is read or refused, and never 
 }
 
 TEST_CASE("A mutated trace of any simulator is read or refused, and never anything else") {
-  const io::TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   Subject subject(folder);
   tests::Mutator mutator(20240202, kAlphabet);
   for (unsigned i = 0; i < 1000; ++i) {

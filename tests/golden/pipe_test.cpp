@@ -40,8 +40,8 @@ std::string changes(const ScenarioRun& run) {
 
 TEST_CASE("what is declared of the program is what the unit sensor has") {
   const std::filesystem::path units = STRIDE_FMU_DIR;
-  const auto piped = stride::fmi::Fmu::load(units / "nfc_pipe_sensor.fmu")->description();
-  const auto sensor = stride::fmi::Fmu::load(units / "sensor.fmu")->description();
+  const auto piped = stride::importer::Fmu::load(units / "nfc_pipe_sensor.fmu")->description();
+  const auto sensor = stride::importer::Fmu::load(units / "sensor.fmu")->description();
   std::size_t count = 0;
   for (const stride::core::Variable& variable : piped->variables) {
     const bool is_own = variable.name.rfind("process.", 0) == 0 || variable.name == "trace.file";

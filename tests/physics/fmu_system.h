@@ -42,7 +42,7 @@ class FmuSystem {
  public:
   void add(const std::string& name, const std::filesystem::path& fmu,
            const std::map<std::string, std::string>& start_values = {}) {
-    const auto loaded = fmi::Fmu::load(fmu);
+    const auto loaded = importer::Fmu::load(fmu);
     declaration_.components.push_back({name, loaded->description(), {}, {}});
     units_.push_back(loaded->instantiate(name));
     for (const auto& [variable, value] : start_values) {

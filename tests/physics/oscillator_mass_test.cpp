@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/master/algorithm/unit_capabilities.h"
 #include "tests/physics/fmu_system.h"
 
 using namespace stride;
@@ -20,9 +21,9 @@ constexpr Duration kEnd = 1s;
 /// How x(1 s) differs from the closed form, with inputs that are right at the beginning of each
 /// step, or all the time.
 double error(Duration step, const std::string& largest_step, bool follows) {
-  const auto loaded = fmi::Fmu::load(test_fmu("oscillator_mass"));
+  const auto loaded = importer::Fmu::load(test_fmu("oscillator_mass"));
   const core::UnitDescription& description = *loaded->description();
-  fmi::InstanceOptions options;
+  importer::InstanceOptions options;
   options.intermediate_update = follows;
   const auto unit = loaded->instantiate("mass", options);
   const auto variable = [&](const std::string& name) -> const core::Variable& {
@@ -48,7 +49,8 @@ double error(Duration step, const std::string& largest_step, bool follows) {
   unit->update_discrete_states();
   unit->enter_step_mode();
   Time now{};
-  unit->set_input_update([&](double seconds) { set_inputs(to_seconds(now) + seconds); });
+  inputs_within_step(*unit).set_input_update(
+      [&](double seconds) { set_inputs(to_seconds(now) + seconds); });
   for (; now < Time(kEnd); now += step) {
     set_inputs(to_seconds(now));
     unit->step({now, now + step});

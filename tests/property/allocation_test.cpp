@@ -89,7 +89,7 @@ TEST_CASE("nor does it beside units that return early, announce events and send 
 }
 
 TEST_CASE("nor does it where checks watch signals and messages") {
-  using io::CheckDeclaration;
+  using scenario::CheckDeclaration;
   Assembly assembly = ring();
   assembly.add("ticker", "ticker", {{"period", "0.0047"}}).add("listener", "listener");
   assembly.wire_message("ticker.tick", "listener.message");
@@ -100,7 +100,7 @@ TEST_CASE("nor does it where checks watch signals and messages") {
   declared[1].max = 1'000'000;
   declared[2].reply = "listener.message.number";
   const core::System system(assembly.declaration());
-  checks::Checks checks(io::select_checks(system, declared, {}));
+  checks::Checks checks(scenario::select_checks(system, declared, {}));
   core::RunOptions options = fixed_steps(1ms, Time(1s));
   options.watched = checks.signals();
   core::Simulation simulation(system, assembly.instantiate(), options);

@@ -72,10 +72,10 @@ class ValueRecorder : public core::Observer {
 
 }  // namespace
 
-std::shared_ptr<fmi::Fmu> test_unit(const std::string& name) {
-  static std::map<std::string, std::shared_ptr<fmi::Fmu>> loaded;
-  std::shared_ptr<fmi::Fmu>& fmu = loaded[name];
-  if (!fmu) fmu = fmi::Fmu::load(test_fmu(name));
+std::shared_ptr<importer::Fmu> test_unit(const std::string& name) {
+  static std::map<std::string, std::shared_ptr<importer::Fmu>> loaded;
+  std::shared_ptr<importer::Fmu>& fmu = loaded[name];
+  if (!fmu) fmu = importer::Fmu::load(test_fmu(name));
   return fmu;
 }
 
@@ -84,7 +84,7 @@ Assembly& Assembly::add(const std::string& name, const std::string& unit,
   return add(name, test_unit(unit), start_values);
 }
 
-Assembly& Assembly::add(const std::string& name, std::shared_ptr<fmi::Fmu> unit,
+Assembly& Assembly::add(const std::string& name, std::shared_ptr<importer::Fmu> unit,
                         const Values& start_values) {
   declaration_.components.push_back({name, unit->description(), {}, {}});
   units_[name] = std::move(unit);
@@ -138,16 +138,17 @@ Assembly Assembly::shuffled(unsigned seed) const {
 }
 
 std::vector<std::unique_ptr<core::Unit>> Assembly::instantiate() const {
-  const fmi::InstanceOptions options{.early_return_allowed = true, .intermediate_update = true};
+  const importer::InstanceOptions options{.early_return_allowed = true,
+                                          .intermediate_update = true};
   std::vector<std::unique_ptr<core::Unit>> units;
   for (const core::ComponentDeclaration& component : declaration_.components) {
-    const std::shared_ptr<fmi::Fmu>& fmu = units_.at(component.name);
+    const std::shared_ptr<importer::Fmu>& fmu = units_.at(component.name);
     if (hosted_.count(component.name) == 0) {
       units.push_back(fmu->instantiate(component.name, options));
     } else {
-      host::HostOptions host;
+      isolation::HostOptions host;
       host.takes_snapshots = component.has_snapshots;
-      units.push_back(host::instantiate(fmu, component.name, options, host));
+      units.push_back(isolation::instantiate(fmu, component.name, options, host));
     }
   }
   return units;
@@ -199,8 +200,8 @@ Results run(const Assembly& assembly, core::RunOptions options,
   const core::System system(assembly.declaration());
   options.recorded = all_outputs(system);
   Results results;
-  io::CsvRecorder signals(system, scratch / "signals.csv");
-  io::EventRecorder events(system, scratch / "events.csv");
+  recorders::CsvRecorder signals(system, scratch / "signals.csv");
+  recorders::EventRecorder events(system, scratch / "events.csv");
   ValueRecorder values(system, results);
   capture::Capture capture(system, "assembly", options, captures);
   auto units = assembly.instantiate();

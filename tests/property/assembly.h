@@ -23,14 +23,14 @@ inline constexpr bool kSanitized = false;
 #endif
 
 /// A unit made for tests, loaded once.
-std::shared_ptr<fmi::Fmu> test_unit(const std::string& name);
+std::shared_ptr<importer::Fmu> test_unit(const std::string& name);
 
 class Assembly {
  public:
   using Values = std::vector<std::pair<std::string, std::string>>;
 
   Assembly& add(const std::string& name, const std::string& unit, const Values& start_values = {});
-  Assembly& add(const std::string& name, std::shared_ptr<fmi::Fmu> unit,
+  Assembly& add(const std::string& name, std::shared_ptr<importer::Fmu> unit,
                 const Values& start_values = {});
   /// "a.y", "b.u"
   Assembly& wire(const std::string& from, const std::string& to);
@@ -52,8 +52,8 @@ class Assembly {
 
  private:
   core::SystemDeclaration declaration_;
-  std::map<std::string, std::shared_ptr<fmi::Fmu>> units_;  ///< by component
-  std::set<std::string> hosted_;                            ///< components
+  std::map<std::string, std::shared_ptr<importer::Fmu>> units_;  ///< by component
+  std::set<std::string> hosted_;                                 ///< components
 };
 
 struct Results {

@@ -17,7 +17,7 @@ using namespace stride;
 using namespace stride::tests;
 using namespace std::chrono_literals;
 using checks::Kind;
-using io::CheckDeclaration;
+using scenario::CheckDeclaration;
 
 namespace {
 
@@ -258,7 +258,7 @@ std::vector<core::Verdict> judged(const Assembly& assembly,
                                   const std::vector<CheckDeclaration>& declared,
                                   std::size_t threads = 1) {
   const core::System system(assembly.declaration());
-  checks::Checks checks(io::select_checks(system, declared, {Time{}, kChecksStop}));
+  checks::Checks checks(scenario::select_checks(system, declared, {Time{}, kChecksStop}));
   core::RunOptions options = fixed_steps(kChecksStep, kChecksStop);
   options.watched = checks.signals();
   options.threads = {.count = threads, .always = threads > 1};

@@ -16,7 +16,7 @@ namespace {
 constexpr std::int64_t kSteps = kSanitized ? 20'000 : 1'000'000;
 
 /// Tells the library which step size its instance insists on.
-void set_raw_step(fmi::Fmu& fmu, Duration step) {
+void set_raw_step(importer::Fmu& fmu, Duration step) {
   void* const handle = dlopen(fmu.load_library()->path().c_str(), RTLD_NOW | RTLD_NOLOAD);
   REQUIRE(handle != nullptr);
   *static_cast<long long*>(dlsym(handle, "raw_step")) = step.count();
@@ -45,7 +45,7 @@ core::RunStatistics run_beside(const Assembly& system, Duration step, Time stop,
 TEST_CASE("a million steps lead exactly to the end, to a unit that insists on each of them") {
   const Duration step = GENERATE(Duration(1ms), Duration(333'333'333));
   const Scratch scratch;
-  const auto raw = fmi::Fmu::load(make_raw_fmu(scratch, "raw"));
+  const auto raw = importer::Fmu::load(make_raw_fmu(scratch, "raw"));
   set_raw_step(*raw, step);
   Assembly system;
   system.add("insists", raw);
@@ -65,7 +65,7 @@ TEST_CASE("a million steps lead exactly to the end, to a unit that insists on ea
 
 TEST_CASE("the unit that insists does reject a step that is no whole one") {
   const Scratch scratch;
-  const auto raw = fmi::Fmu::load(
+  const auto raw = importer::Fmu::load(
       make_raw_fmu(scratch, "raw", "canHandleVariableCommunicationStepSize=\"true\""));
   set_raw_step(*raw, 1ms);
   Assembly system;

@@ -38,7 +38,7 @@ class Relaxation {
   }
 
  private:
-  static std::shared_ptr<fmi::Fmu> fmu() { return test_unit("fmi2_relaxation"); }
+  static std::shared_ptr<importer::Fmu> fmu() { return test_unit("fmi2_relaxation"); }
   static const core::ValueReference& reference(const std::string& name) {
     const auto& description = *fmu()->description();
     return description.variables[description.find(name).value()].reference;

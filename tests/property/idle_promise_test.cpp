@@ -21,14 +21,14 @@ double between(Random& random, double low, double high) {
 std::string number(double value) { return fmt::format("{}", value); }
 Time after(double seconds) { return time_from_seconds(seconds); }
 
-std::shared_ptr<fmi::Fmu> unit(const std::string& name) {
-  return fmi::Fmu::load(std::string(STRIDE_FMU_DIR) + "/" + name + ".fmu");
+std::shared_ptr<importer::Fmu> unit(const std::string& name) {
+  return importer::Fmu::load(std::string(STRIDE_FMU_DIR) + "/" + name + ".fmu");
 }
-std::shared_ptr<fmi::Fmu> test_unit(const std::string& name) {
-  return fmi::Fmu::load(std::string(STRIDE_TEST_FMU_DIR) + "/" + name + ".fmu");
+std::shared_ptr<importer::Fmu> test_unit(const std::string& name) {
+  return importer::Fmu::load(std::string(STRIDE_TEST_FMU_DIR) + "/" + name + ".fmu");
 }
 
-PromiseCheck lives(const std::shared_ptr<fmi::Fmu>& fmu, const Life::Settings& settings,
+PromiseCheck lives(const std::shared_ptr<importer::Fmu>& fmu, const Life::Settings& settings,
                    std::uint64_t seed, Duration max_skip = Duration::max()) {
   return {Life(fmu, settings, max_skip), Life(fmu, settings, max_skip),
           Life(fmu, settings, std::nullopt), seed};

@@ -120,10 +120,10 @@ std::string check_in_steps(Life& life, Time begin, Time until, const std::vector
 
 }  // namespace
 
-Life::Life(std::shared_ptr<fmi::Fmu> fmu, const Settings& settings,
+Life::Life(std::shared_ptr<importer::Fmu> fmu, const Settings& settings,
            std::optional<Duration> max_skip)
     : fmu_(std::move(fmu)), unit_(fmu_->instantiate("unit", {.early_return_allowed = true})) {
-  if (max_skip) unit_->enable_idle_skipping(*max_skip);
+  if (max_skip) idle(*unit_).enable_idle_skipping(*max_skip);
   for (const auto& [name, text] : settings) set(name, text);
   unit_->enter_initialization(now_, std::nullopt);
   unit_->exit_initialization();
@@ -149,7 +149,7 @@ core::ValueBlock Life::get(const Variable& variable) {
 
 std::vector<double> Life::slopes(const Variable& variable) {
   std::vector<double> slopes(variable.size);
-  unit_->get_derivatives(std::span(&variable.reference, 1), slopes);
+  idle(*unit_).get_derivatives(std::span(&variable.reference, 1), slopes);
   return slopes;
 }
 
@@ -186,7 +186,7 @@ void Life::handle_events() {
   unit_->enter_step_mode();
 }
 
-Time Life::promise() { return std::max(now_, unit_->idle_until()); }
+Time Life::promise() { return std::max(now_, idle(*unit_).idle_until()); }
 
 std::string PromiseCheck::run(Time& promised) {
   promised = payer.promise();

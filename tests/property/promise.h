@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "master/importer/fmu.h"
+#include "tests/master/algorithm/unit_capabilities.h"
 
 namespace stride::tests {
 
@@ -19,7 +20,8 @@ class Life {
   using Settings = std::vector<std::pair<std::string, std::string>>;
 
   /// Stands in Step Mode at 0 s, with its first event handled. Without max_skip skipping stays off.
-  Life(std::shared_ptr<fmi::Fmu> fmu, const Settings& settings, std::optional<Duration> max_skip);
+  Life(std::shared_ptr<importer::Fmu> fmu, const Settings& settings,
+       std::optional<Duration> max_skip);
 
   Time now() const { return now_; }
   core::Unit& unit() { return *unit_; }
@@ -43,7 +45,7 @@ class Life {
  private:
   void handle_events();
 
-  std::shared_ptr<fmi::Fmu> fmu_;
+  std::shared_ptr<importer::Fmu> fmu_;
   std::unique_ptr<core::Unit> unit_;
   Time now_{};
   std::optional<Time> next_event_;

@@ -25,21 +25,21 @@ constexpr Duration kReplayStep = 1ms;
 constexpr Time kReplayStop{100ms};
 
 /// The unit player with this file, as `stride pack` makes it, but for the archive.
-std::shared_ptr<fmi::Fmu> player_of(const Scratch& scratch, const fs::path& stimuli) {
+std::shared_ptr<importer::Fmu> player_of(const Scratch& scratch, const fs::path& stimuli) {
   const fs::path folder = scratch / "player";
-  const fs::path binaries = folder / "binaries" / fmi::platform();
+  const fs::path binaries = folder / "binaries" / importer::platform();
   fs::create_directories(folder / "resources");
   fs::create_directories(binaries);
   fs::copy_file(stimuli, folder / "resources/stimuli.csv");
   fs::create_symlink(STRIDE_PLAYER_LIBRARY, binaries / "player.so");
-  const fmi::Fmi3Library library(STRIDE_PLAYER_LIBRARY);
+  const importer::Fmi3Library library(STRIDE_PLAYER_LIBRARY);
   scratch.write("player/modelDescription.xml", library.describe(folder / "resources"));
-  return fmi::Fmu::load(folder);
+  return importer::Fmu::load(folder);
 }
 
 /// The component of the system, as it is there, with a player in the place of all others.
 Assembly alone(const Assembly& system, const std::string& component,
-               std::shared_ptr<fmi::Fmu> player) {
+               std::shared_ptr<importer::Fmu> player) {
   const core::SystemDeclaration& whole = system.declaration();
   const auto declared = std::find_if(whole.components.begin(), whole.components.end(),
                                      [&](const auto& c) { return c.name == component; });

@@ -7,7 +7,7 @@
 namespace stride::core {
 
 Clocks::Clocks(const System& system, std::span<const std::unique_ptr<Unit>> units)
-    : system_(system), units_(units) {
+    : system_(system), units_(units), intervals_(capabilities<ClockIntervals>(units)) {
   std::size_t most = 0;
   for (std::size_t i = 0; i < system.components().size(); ++i) {
     const auto& variables = system.components()[i].description->variables;
@@ -62,7 +62,7 @@ void Clocks::start(Schedule& clock, Time start_time) {
     if (said.state == ClockInterval::State::NotYetKnown) return;
     clock.interval = said.interval;
     const bool periodic = clock.attributes->is_periodic();
-    clock.shift = periodic ? units_[clock.id.component]->clock_shift(system_.variable(clock.id))
+    clock.shift = periodic ? intervals_[clock.id.component]->clock_shift(system_.variable(clock.id))
                            : said.interval;
   }
   check_interval(clock, start_time);
@@ -70,7 +70,10 @@ void Clocks::start(Schedule& clock, Time start_time) {
 }
 
 ClockInterval Clocks::ask(const Schedule& clock, Time time) {
-  const ClockInterval said = units_[clock.id.component]->clock_interval(system_.variable(clock.id));
+  ClockIntervals* const intervals = intervals_[clock.id.component];
+  const ClockInterval said = intervals == nullptr
+                                 ? ClockInterval{}
+                                 : intervals->clock_interval(system_.variable(clock.id));
   const bool may_be_unknown = clock.attributes->variability == IntervalVariability::Countdown;
   if (said.state == ClockInterval::State::NotYetKnown && !may_be_unknown) {
     fail(clock, time, "the unit does not know the clock's interval yet");

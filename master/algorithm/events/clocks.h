@@ -10,6 +10,7 @@
 
 #include <stride/time.h>
 
+#include "master/algorithm/capabilities/clock_intervals.h"
 #include "master/algorithm/unit.h"
 #include "master/model/system.h"
 
@@ -84,8 +85,9 @@ class Clocks {
 
   const System& system_;
   std::span<const std::unique_ptr<Unit>> units_;
-  std::vector<ComponentClocks> clocked_;  ///< of the components that have such clocks
-  std::vector<std::size_t> index_of_;     ///< by component; clocked_.size() = none
+  std::vector<ClockIntervals*> intervals_;  ///< by component; null = never known
+  std::vector<ComponentClocks> clocked_;    ///< of the components that have such clocks
+  std::vector<std::size_t> index_of_;       ///< by component; clocked_.size() = none
   std::vector<std::size_t> due_;
   ValueBlock ticks_{ValueType::Clock, 0};  ///< as many ticks as a unit can need at once
   std::optional<Time> next_;

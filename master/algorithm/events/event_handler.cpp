@@ -20,6 +20,7 @@ EventHandler::EventHandler(RunContext& context, IdleScheduler* idle)
       units_(context.units),
       exchange_(context.exchange),
       messages_(system_, units_),
+      texts_(capabilities<MessageText>(units_)),
       clocks_(system_, units_),
       observers_(context.observers),
       activities_(context.activities),
@@ -277,10 +278,11 @@ std::string EventHandler::content_of(VariableId id, const ValueBlock& block) con
 
 /// The texts of all elements of an array, in their order.
 std::string EventHandler::described_by(VariableId id, const ValueBlock& block) const {
+  MessageText* const unit = texts_[id.component];
+  if (unit == nullptr) return {};
   std::string text;
   for (const Binary& value : block.binaries()) {
-    const std::string said =
-        units_[id.component]->describe_message(system_.variable(id).reference, value);
+    const std::string said = unit->describe_message(system_.variable(id).reference, value);
     if (!said.empty()) text.append(text.empty() ? "" : "; ").append(said);
   }
   return text;

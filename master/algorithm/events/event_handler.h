@@ -11,6 +11,7 @@
 
 #include <stride/time.h>
 
+#include "master/algorithm/capabilities/message_text.h"
 #include "master/algorithm/events/clocks.h"
 #include "master/algorithm/events/messages.h"
 #include "master/algorithm/idle/idle_scheduler.h"
@@ -84,6 +85,7 @@ class EventHandler : private OrderedEvaluation::Participants {
   std::span<const std::unique_ptr<Unit>> units_;
   Exchange& exchange_;
   MessageExchange messages_;
+  std::vector<MessageText*> texts_;  ///< by component; null = none
   Clocks clocks_;
   std::optional<OrderedEvaluation> evaluation_;  ///< where outputs follow inputs at once
   const std::vector<Observer*>& observers_;

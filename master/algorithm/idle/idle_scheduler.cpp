@@ -29,6 +29,7 @@ void IdleScheduler::add_candidate(std::size_t component, Duration max_skip) {
   candidates_.push_back(component);
   IdleState& state = states_[component];
   state.is_candidate = true;
+  state.promises = &units_[component]->require_capability<IdlePromises>();
   state.max_skip = max_skip;
   for (const auto& [id, element] : exchange_.continuous_inputs(component)) {
     double deadband = system_.variable(id).deadband;
@@ -49,11 +50,13 @@ void IdleScheduler::add_candidate(std::size_t component, Duration max_skip) {
 }
 
 void IdleScheduler::enable() {
-  for (const std::size_t i : candidates_) units_[i]->enable_idle_skipping(states_[i].max_skip);
+  for (const std::size_t i : candidates_) {
+    states_[i].promises->enable_idle_skipping(states_[i].max_skip);
+  }
   for (const IdleSetting& setting : options_.tolerances) {
     if (!may_suspend(setting.id.component)) continue;
-    units_[setting.id.component]->set_idle_tolerances({&system_.variable(setting.id).reference, 1},
-                                                      {&setting.value, 1});
+    states_[setting.id.component].promises->set_idle_tolerances(
+        {&system_.variable(setting.id).reference, 1}, {&setting.value, 1});
   }
 }
 
@@ -168,7 +171,7 @@ void IdleScheduler::suspend_idle(Time time) {
   for (const std::size_t i : candidates_) {
     if (states_[i].is_suspended) continue;
     exchange_.deliver_routed(i, *units_[i]);
-    const Time until = units_[i]->idle_until();
+    const Time until = states_[i].promises->idle_until();
     if (until <= time) continue;
     const Duration max_skip = states_[i].max_skip;
     const bool is_bounded = max_skip != Duration::max() && time + max_skip < until;
@@ -186,7 +189,7 @@ void IdleScheduler::suspend(std::size_t component, Time time, Time until, Time e
   exchange_.fetch(component, *units_[component]);
   for (WatchedInput& input : state.inputs) input.held = real(input.element);
   if (state.tangents.empty()) return;
-  units_[component]->get_derivatives(state.references, state.slopes);
+  state.promises->get_derivatives(state.references, state.slopes);
   for (std::size_t k = 0; k < state.tangents.size(); ++k) {
     Tangent& tangent = state.tangents[k];
     tangent.value = real(tangent.element);

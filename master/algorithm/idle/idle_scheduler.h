@@ -10,6 +10,7 @@
 
 #include <stride/time.h>
 
+#include "master/algorithm/capabilities/idle_promises.h"
 #include "master/algorithm/run_context.h"
 
 namespace stride::core {
@@ -79,6 +80,7 @@ class IdleScheduler {
   };
   struct IdleState {
     bool is_candidate = false;
+    IdlePromises* promises = nullptr;  ///< of a candidate
     bool is_suspended = false;
     Time since{};                        ///< the last time that the unit has reached
     Time until{};                        ///< the promise

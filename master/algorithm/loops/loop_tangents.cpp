@@ -31,7 +31,8 @@ void LoopTangents::lay_out_inputs() {
 }
 
 void LoopTangents::add_derivatives(const EvaluationStep& step) {
-  UnitDerivatives derivatives{step.component, {}, {}, outputs_.size(), 0, inputs_.size(), 0};
+  auto& unit = units_[step.component]->require_capability<DirectionalDerivatives>();
+  UnitDerivatives derivatives{step.component, &unit, {}, {}, outputs_.size(), 0, inputs_.size(), 0};
   for (const VariableId id : step.outputs) {
     derivatives.unknowns.push_back(system_.variable(id).reference);
     output_offsets_[id] = outputs_.size();
@@ -71,7 +72,7 @@ void LoopTangents::derive(std::size_t tear, std::size_t element, std::span<doubl
   auto carried = carried_.begin();
   for (std::size_t i = 0; i < derivatives_.size(); ++i) {
     const UnitDerivatives& derivatives = derivatives_[i];
-    units_[derivatives.component]->get_directional_derivative(
+    derivatives.unit->get_directional_derivative(
         derivatives.unknowns, derivatives.knowns,
         std::span(inputs_).subspan(derivatives.first_input, derivatives.inputs),
         std::span(outputs_).subspan(derivatives.first_output, derivatives.outputs));

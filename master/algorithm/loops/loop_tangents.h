@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "master/algorithm/capabilities/directional_derivatives.h"
 #include "master/algorithm/loops/evaluation_order.h"
 #include "master/algorithm/unit.h"
 #include "master/model/system.h"
@@ -35,6 +36,7 @@ class LoopTangents {
   /// The derivatives of the outputs of one component in those of its inputs that are in the loop.
   struct UnitDerivatives {
     std::size_t component;
+    DirectionalDerivatives* unit;
     std::vector<ValueReference> unknowns, knowns;
     std::size_t first_output, outputs;  ///< in outputs_
     std::size_t first_input, inputs;    ///< in inputs_

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/util/time_text.h"
 
 namespace stride::core {
@@ -21,7 +22,8 @@ Stepper::UnitStep::UnitStep(Unit& stepped, const StepPlace& its_place)
       place(&its_place),
       component(static_cast<std::uint32_t>(its_place.component)),
       saves_state(its_place.saves_state),
-      can_vary_step(its_place.can_vary_step) {}
+      can_vary_step(its_place.can_vary_step),
+      state(saves_state ? &stepped.require_capability<StateSaving>() : nullptr) {}
 
 Stepper::Stepper(RunContext& context, InputExtrapolator* inputs, IdleScheduler* idle)
     : system_(context.system),
@@ -234,7 +236,7 @@ bool Stepper::stays_suspended(UnitStep& unit_step, const StepInterval& interval)
 /// The inputs are part of the state.
 void Stepper::save(UnitStep& unit_step) {
   exchange_.deliver_routed(unit_step.component, *unit_step.unit);
-  unit_step.unit->save_state();
+  unit_step.state->save_state();
   unit_step.saved = true;
 }
 
@@ -246,7 +248,7 @@ void Stepper::roll_back(UnitStep& unit_step, const StepInterval& interval) {
 }
 
 void Stepper::restore(UnitStep& unit_step, Time from) {
-  unit_step.unit->restore_state();
+  unit_step.state->restore_state();
   unit_step.result = {.reached = from};
   if (inputs_ != nullptr) inputs_->undo_step(unit_step.component);
 }
@@ -325,7 +327,8 @@ void Stepper::check_minimum(const StepInterval& interval, Time reached) const {
 
 /// The unit's reason for the rejection.
 std::string Stepper::reason(const Cut& cut) const {
-  const std::string said = cut.is_rejection ? cut.by->unit->rejection_reason() : "";
+  auto* const unit = cut.is_rejection ? cut.by->unit->capability<UnitDiagnostics>() : nullptr;
+  const std::string said = unit != nullptr ? unit->rejection_reason() : "";
   return said.empty() ? "" : "; it says: " + said;
 }
 

@@ -12,6 +12,7 @@
 
 #include <stride/time.h>
 
+#include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/parallel/load_balancer.h"
 #include "master/algorithm/run_context.h"
@@ -86,6 +87,7 @@ class Stepper {
     bool rolled_back = false;
     Time undone{};                 ///< the time that it had reached before
     std::uint32_t rejections = 0;  ///< in the present communication step
+    StateSaving* state = nullptr;  ///< where saves_state
   };
   /// The last unit that cut the present communication step short.
   struct Cut {

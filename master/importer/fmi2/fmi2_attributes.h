@@ -6,7 +6,7 @@
 
 #include <stride/fmi2.h>
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// In FMI 2.0 a value reference is unique among the variables of one base type, and several of them
 /// may share it (aliases). To core, each variable has a reference of its own, its place in the
@@ -16,6 +16,6 @@ struct Fmi2Attributes {
   bool can_run_asynchronously = false;         ///< fmi2DoStep may return fmi2Pending
 };
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

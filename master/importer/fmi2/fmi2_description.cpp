@@ -11,7 +11,7 @@
 #include "master/importer/common_description.h"
 #include "master/importer/variable_attributes.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 using core::Causality;
@@ -176,4 +176,4 @@ void read_fmi2_description(const xml::Element& root, ModelDescription& unit) {
   unit.initial_unknowns = read_unknowns(*structure, "InitialUnknowns", unit);
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

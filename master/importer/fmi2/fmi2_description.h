@@ -5,7 +5,7 @@
 #include "master/importer/model_description.h"
 #include "master/util/xml/element.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// Each <ScalarVariable> becomes a variable, aliases as well: they may differ in causality, and so
 /// in what can be connected, and in their dependencies. Its reference is its place, see
@@ -13,6 +13,6 @@ namespace stride::fmi {
 /// each other, which FMI 2.0 forbids (2.2.7).
 void read_fmi2_description(const xml::Element& root, ModelDescription& unit);
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

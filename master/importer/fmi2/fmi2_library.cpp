@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 namespace fs = std::filesystem;
@@ -91,4 +91,4 @@ std::string resource_uri(const fs::path& resources) {
   return uri;
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

@@ -10,7 +10,7 @@
 #include "master/importer/shared_library.h"
 #include "master/util/error.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// The entry table: a pointer for each fmi2<Name>, null if the library does not have it.
 struct Fmi2Functions {
@@ -37,6 +37,6 @@ class Fmi2Library : public SharedLibrary {
 /// 3986, 2.3).
 std::string resource_uri(const std::filesystem::path& resources);
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 constexpr std::string_view kTypes = "ribs";
@@ -78,4 +78,4 @@ std::string name_variables(const std::string& message, const VariableName& name_
   return text;
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

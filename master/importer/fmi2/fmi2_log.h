@@ -8,7 +8,7 @@
 
 #include <stride/fmi2.h>
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// The text of a message and what follows it in a call of the logger. What cannot be formatted is
 /// given as it is: what vsnprintf refuses, and what has %n, which would write to memory.
@@ -22,6 +22,6 @@ using VariableName = std::function<std::string(char type, fmi2ValueReference ref
 /// refers to no variable stays as it is.
 std::string name_variables(const std::string& message, const VariableName& name_of);
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

@@ -8,7 +8,7 @@
 
 #include "master/importer/fmi2/fmi2_log.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 // ---- Life and death ----
 
@@ -41,6 +41,13 @@ Fmi2Unit::~Fmi2Unit() {
   for (SavedState& saved : states_) free_state(saved);
   note_call("fmi2FreeInstance");
   if (!is_condemned_) fmi_.FreeInstance(instance_);
+}
+
+core::Capability* Fmi2Unit::find_capability(core::CapabilityId id) {
+  if (!declares(id)) return nullptr;
+  return core::select_capability<core::StateSaving, core::StateSerialization, core::Resetting,
+                                 core::DirectionalDerivatives, core::InputsWithinStep,
+                                 core::UnitDiagnostics>(*this, id);
 }
 
 void Fmi2Unit::enter_initialization(Time start, std::optional<Time> stop) {
@@ -272,4 +279,4 @@ core::StepResult Fmi2Unit::step(const core::StepInterval& interval,
   return result;
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

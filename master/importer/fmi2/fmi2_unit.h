@@ -10,6 +10,11 @@
 
 #include <stride/fmi2.h>
 
+#include "master/algorithm/capabilities/directional_derivatives.h"
+#include "master/algorithm/capabilities/inputs_within_step.h"
+#include "master/algorithm/capabilities/resetting.h"
+#include "master/algorithm/capabilities/state_saving.h"
+#include "master/algorithm/capabilities/state_serialization.h"
 #include "master/importer/asynchronous_step.h"
 #include "master/importer/fmi2/fmi2_attributes.h"
 #include "master/importer/fmi2/fmi2_library.h"
@@ -17,7 +22,7 @@
 #include "master/importer/fmu_instance.h"
 #include "master/importer/saved_states.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// See core::Unit for the order of calls, and FmuInstance for failures; terminate() does nothing
 /// after one. Such a unit has neither Event Mode nor clocks.
@@ -44,7 +49,12 @@ namespace stride::fmi {
 ///
 /// After the first exchange, get(), set() and step() do not allocate, except where a string
 /// outgrows the longest before it.
-class Fmi2Unit final : public FmuInstance {
+class Fmi2Unit final : public FmuInstance,
+                       public core::StateSaving,
+                       public core::StateSerialization,
+                       public core::Resetting,
+                       public core::DirectionalDerivatives,
+                       public core::InputsWithinStep {
  public:
   /// Throws core::Error of the kind Run, with the unit's messages, if it cannot be instantiated.
   Fmi2Unit(std::string name, std::shared_ptr<const Fmi2Library> library,
@@ -72,10 +82,12 @@ class Fmi2Unit final : public FmuInstance {
   void enter_event_mode() override;
   core::EventResult update_discrete_states() override;
   void enter_step_mode() override;
-  void set_input_update(core::InputUpdate update) override;
+  void set_input_update(core::InputUpdate update) override { input_update_ = std::move(update); }
   void terminate() override;
 
  private:
+  core::Capability* find_capability(core::CapabilityId id) override;
+
   /// What the unit was at some time.
   struct SavedState {
     fmi2FMUstate state = nullptr;
@@ -142,6 +154,6 @@ class Fmi2Unit final : public FmuInstance {
   std::vector<fmi2String> texts_;
 };
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

@@ -1,7 +1,7 @@
 // Kept states, states as bytes, and the way back to the beginning.
 #include "master/importer/fmi2/fmi2_unit.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 constexpr const char* kFmi2Saving = "canGetAndSetFMUstate";
@@ -68,4 +68,4 @@ void Fmi2Unit::reset() {
   kept_inputs_.clear();
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

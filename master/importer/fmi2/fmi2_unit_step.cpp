@@ -7,7 +7,7 @@
 #include "master/importer/fmi2/fmi2_unit.h"
 #include "master/util/time_text.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 Status Fmi2Unit::do_step(const core::StepInterval& interval, double size) {
   if (callbacks_.stepFinished != nullptr) asynchronous_.begin();
   // noSetFMUStatePriorToCurrentPoint
@@ -140,10 +140,6 @@ bool Fmi2Unit::wants_end() {
 
 // ---- Inputs within a step ----
 
-void Fmi2Unit::set_input_update(core::InputUpdate update) {
-  if (parts_.description->provides_intermediate_update) input_update_ = std::move(update);
-}
-
 /// The input update sets inputs at three instants, and these are its.
 void Fmi2Unit::set_input_derivatives(double size) {
   struct Sampling {
@@ -168,4 +164,4 @@ void Fmi2Unit::set_input_derivatives(double size) {
        references.size(), input_derivatives_.orders().data(), input_derivatives_.values().data());
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

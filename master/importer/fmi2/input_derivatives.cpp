@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace stride::fmi {
+namespace stride::importer {
 
 void InputDerivatives::begin_sample(int k) {
   present_ = k;
@@ -49,4 +49,4 @@ void InputDerivatives::compute(double step) {
   }
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

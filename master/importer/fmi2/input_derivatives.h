@@ -9,7 +9,7 @@
 
 #include <stride/fmi2.h>
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// The derivatives of inputs at the beginning of a step of h seconds, from samples at 0, h/2 and h:
 ///
@@ -48,6 +48,6 @@ class InputDerivatives {
   bool has_second_ = false;  ///< from when one of them was not 0 first
 };
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

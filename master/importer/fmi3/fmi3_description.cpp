@@ -5,7 +5,7 @@
 #include "master/importer/common_description.h"
 #include "master/importer/fmi3/fmi3_variables.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 void read_co_simulation(const xml::Element& element, core::UnitDescription& unit) {
@@ -85,4 +85,4 @@ void read_fmi3_description(const xml::Element& root, core::UnitDescription& unit
   read_annotation(root, unit);
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

@@ -5,11 +5,11 @@
 #include "master/model/description.h"
 #include "master/util/xml/element.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// Throws as read_model_description() does.
 void read_fmi3_description(const xml::Element& root, core::UnitDescription& unit);
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

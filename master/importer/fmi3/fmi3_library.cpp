@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 namespace fs = std::filesystem;
@@ -120,4 +120,4 @@ std::string resource_path(const fs::path& resources) {
   return fs::is_directory(folder) ? folder.string() : "";
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

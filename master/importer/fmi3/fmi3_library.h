@@ -14,7 +14,7 @@
 #include "master/importer/shared_library.h"
 #include "master/util/error.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// The entry table: a pointer for each fmi3<Name>, null if the library does not have it.
 struct Fmi3Functions {
@@ -76,6 +76,6 @@ class Fmi3Library : public SharedLibrary {
 /// end; empty if there is no such folder.
 std::string resource_path(const std::filesystem::path& resources);
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

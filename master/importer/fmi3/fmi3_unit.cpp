@@ -7,7 +7,7 @@
 
 #include "master/util/time_text.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 /// The getter and setter of a C type. Enumerations travel as Int64.
@@ -70,6 +70,16 @@ Fmi3Unit::~Fmi3Unit() {
   if (!is_condemned_) fmi_.FreeInstance(instance_);
 }
 
+core::Capability* Fmi3Unit::find_capability(core::CapabilityId id) {
+  const bool has_text = library_->describe_functions().DescribeMessage != nullptr;
+  if (id == core::MessageText::kId ? !has_text : !declares(id)) return nullptr;
+  return core::select_capability<core::ConfigurationMode, core::StateSaving,
+                                 core::StateSerialization, core::Resetting, core::IdlePromises,
+                                 core::DirectionalDerivatives, core::ClockIntervals,
+                                 core::InputsWithinStep, core::MessageText, core::UnitDiagnostics>(
+      *this, id);
+}
+
 void Fmi3Unit::enter_configuration_mode() {
   const char* const capability = "structural parameters";
   require("fmi3EnterConfigurationMode", fmi_.EnterConfigurationMode, capability);
@@ -99,7 +109,6 @@ void Fmi3Unit::terminate() {
 std::string Fmi3Unit::describe_message(core::ValueReference variable, const core::Binary& value) {
   const char* const name = "strideDescribeMessage";
   auto* const function = library_->describe_functions().DescribeMessage;
-  if (function == nullptr) return {};
   const fmi3Byte none = 0;
   std::string text(kLongestDescription, '\0');
   std::size_t size = 0;
@@ -337,4 +346,4 @@ core::EventResult Fmi3Unit::update_discrete_states() {
   return result;
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

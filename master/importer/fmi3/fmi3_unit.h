@@ -10,12 +10,21 @@
 
 #include <stride/fmi3.h>
 
+#include "master/algorithm/capabilities/clock_intervals.h"
+#include "master/algorithm/capabilities/configuration_mode.h"
+#include "master/algorithm/capabilities/directional_derivatives.h"
+#include "master/algorithm/capabilities/idle_promises.h"
+#include "master/algorithm/capabilities/inputs_within_step.h"
+#include "master/algorithm/capabilities/message_text.h"
+#include "master/algorithm/capabilities/resetting.h"
+#include "master/algorithm/capabilities/state_saving.h"
+#include "master/algorithm/capabilities/state_serialization.h"
 #include "master/importer/fmi3/fmi3_library.h"
 #include "master/importer/fmu_instance.h"
 #include "master/importer/saved_states.h"
 #include "master/util/error.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// See core::Unit for the order of calls, and FmuInstance for failures; terminate() does nothing
 /// after one.
@@ -27,7 +36,16 @@ namespace stride::fmi {
 ///
 /// After the first exchange, get(), set(), step() and get_derivatives() do not allocate, except
 /// where a string or binary value outgrows the longest before it; idle_until() never does.
-class Fmi3Unit final : public FmuInstance {
+class Fmi3Unit final : public FmuInstance,
+                       public core::ConfigurationMode,
+                       public core::StateSaving,
+                       public core::StateSerialization,
+                       public core::Resetting,
+                       public core::IdlePromises,
+                       public core::DirectionalDerivatives,
+                       public core::ClockIntervals,
+                       public core::InputsWithinStep,
+                       public core::MessageText {
  public:
   /// Throws core::Error of the kind Run, with the unit's messages, if it cannot be instantiated.
   Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library, UnitParts parts,
@@ -73,6 +91,8 @@ class Fmi3Unit final : public FmuInstance {
   static constexpr std::size_t kLongestDescription = 1024;
 
  private:
+  core::Capability* find_capability(core::CapabilityId id) override;
+
   static void on_intermediate_update(fmi3InstanceEnvironment environment, fmi3Float64 time,
                                      fmi3Boolean set_requested, fmi3Boolean get_allowed,
                                      fmi3Boolean step_finished, fmi3Boolean can_return_early,
@@ -111,7 +131,6 @@ class Fmi3Unit final : public FmuInstance {
     bool has_derivative;
   };
   static std::vector<TangentOutput> tangent_outputs(const core::UnitDescription& description);
-  void require_idle_functions() const;
   const TangentOutput& tangent_output(core::ValueReference reference) const;
 
   Time reached_early(const core::StepInterval& interval, double last_successful) const;
@@ -137,6 +156,6 @@ class Fmi3Unit final : public FmuInstance {
   std::vector<std::size_t> sizes_;
 };
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

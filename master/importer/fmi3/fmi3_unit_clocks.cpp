@@ -5,7 +5,7 @@
 
 #include "master/importer/fmi3/fmi3_unit.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 using core::ClockInterval;
 using core::Interval;
@@ -71,4 +71,4 @@ Interval Fmi3Unit::clock_shift(const Variable& clock) {
   return checked_interval(function, clock, [&] { return Interval::from_seconds(seconds); });
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

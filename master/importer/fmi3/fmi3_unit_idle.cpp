@@ -6,7 +6,7 @@
 
 #include "master/importer/fmi3/fmi3_unit.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 std::vector<Fmi3Unit::TangentOutput> Fmi3Unit::tangent_outputs(
     const core::UnitDescription& description) {
@@ -21,16 +21,8 @@ std::vector<Fmi3Unit::TangentOutput> Fmi3Unit::tangent_outputs(
   return outputs;
 }
 
-/// Where a library was loaded by Fmu it has them all, if the manifest says so.
-void Fmi3Unit::require_idle_functions() const {
-  if (!parts_.description->promises_idle) {
-    fail("it has no manifest of " STRIDE_IDLE_NAME ", so it never promises to be idle");
-  }
-  library_->require_idle_functions(options_.where);
-}
-
 void Fmi3Unit::enable_idle_skipping(Duration max_skip) {
-  require_idle_functions();
+  library_->require_idle_functions(options_.where);
   const bool is_endless = max_skip == Duration::max();
   call("strideEnableIdleSkipping", library_->idle_functions().EnableIdleSkipping,
        is_endless ? std::numeric_limits<double>::infinity() : to_seconds(max_skip));
@@ -38,7 +30,7 @@ void Fmi3Unit::enable_idle_skipping(Duration max_skip) {
 }
 
 void Fmi3Unit::set_idle_tolerances(References outputs, std::span<const double> tolerances) {
-  require_idle_functions();
+  library_->require_idle_functions(options_.where);
   call("strideSetIdleTolerances", library_->idle_functions().SetIdleTolerances, outputs.data(),
        outputs.size(), tolerances.data(), tolerances.size());
 }
@@ -95,4 +87,4 @@ void Fmi3Unit::get_derivatives(References outputs, std::span<double> derivatives
   }
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

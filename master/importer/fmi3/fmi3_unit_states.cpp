@@ -1,7 +1,7 @@
 // Kept states, states as bytes, and the way back to the beginning.
 #include "master/importer/fmi3/fmi3_unit.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 constexpr const char* kFmi3Saving = "canGetAndSetFMUState";
@@ -53,4 +53,4 @@ void Fmi3Unit::reset() {
   may_skip_ = false;
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

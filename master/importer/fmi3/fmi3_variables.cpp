@@ -6,7 +6,7 @@
 #include "master/importer/clock_attributes.h"
 #include "master/importer/variable_attributes.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 namespace {
 
 using core::Causality;
@@ -187,4 +187,4 @@ VariableIndex read_variables(const xml::Element& root, std::vector<core::Variabl
   return Linker(variables, elements).run();
 }
 
-}  // namespace stride::fmi
+}  // namespace stride::importer

@@ -8,7 +8,7 @@
 #include "master/model/description.h"
 #include "master/util/xml/element.h"
 
-namespace stride::fmi {
+namespace stride::importer {
 
 /// Value reference -> place in the variables.
 using VariableIndex = std::map<core::ValueReference, std::size_t>;
@@ -17,6 +17,6 @@ using VariableIndex = std::map<core::ValueReference, std::size_t>;
 /// read_model_description() says.
 VariableIndex read_variables(const xml::Element& root, std::vector<core::Variable>& variables);
 
-}  // namespace stride::fmi
+}  // namespace stride::importer
 
 #endif

@@ -13,7 +13,7 @@
 #include "master/isolation/process/descriptor.h"
 #include "master/isolation/process/surroundings.h"
 
-namespace stride::process {
+namespace stride::isolation {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -150,4 +150,4 @@ std::string signal_name(int signal) {
   return name != nullptr ? std::string("SIG") + name : "an unknown signal";
 }
 
-}  // namespace stride::process
+}  // namespace stride::isolation

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace stride::process {
+namespace stride::isolation {
 
 /// How a child ended.
 struct ChildOutcome {
@@ -43,6 +43,6 @@ ChildOutcome run_in_child(const std::function<std::string()>& work,
 /// "SIGSEGV"
 std::string signal_name(int signal);
 
-}  // namespace stride::process
+}  // namespace stride::isolation
 
 #endif

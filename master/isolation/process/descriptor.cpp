@@ -7,7 +7,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-namespace stride::process {
+namespace stride::isolation {
 
 void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
@@ -54,4 +54,4 @@ void drain(Descriptor& file, std::string& text) {
   }
 }
 
-}  // namespace stride::process
+}  // namespace stride::isolation

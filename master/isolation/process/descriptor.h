@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace stride::process {
+namespace stride::isolation {
 
 /// Throws std::system_error of errno: "what: No such file or directory".
 [[noreturn]] void fail(const char* what);
@@ -45,6 +45,6 @@ bool read_some(Descriptor& file, std::string& text);
 /// Likewise without a limit; not for a writer that may never end.
 void drain(Descriptor& file, std::string& text);
 
-}  // namespace stride::process
+}  // namespace stride::isolation
 
 #endif

@@ -8,7 +8,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-namespace stride::process {
+namespace stride::isolation {
 namespace {
 
 constexpr std::chrono::nanoseconds kLeastSpin = std::chrono::microseconds(1);
@@ -63,4 +63,4 @@ void Waiter::note_vain() {
   spin_ = retries ? most_ : std::max(spin_ / 2, kLeastSpin);
 }
 
-}  // namespace stride::process
+}  // namespace stride::isolation

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cstdint>
 
-namespace stride::process {
+namespace stride::isolation {
 
 /// A hint to the processor that this is a waiting loop.
 inline void pause() {
@@ -95,6 +95,6 @@ class Waiter {
   std::uint32_t keeps_core_ = 0;  ///< for so many further times
 };
 
-}  // namespace stride::process
+}  // namespace stride::isolation
 
 #endif

@@ -10,7 +10,7 @@
 
 #include "master/isolation/process/descriptor.h"
 
-namespace stride::process {
+namespace stride::isolation {
 namespace {
 
 // newer than the header of Debian 12
@@ -90,4 +90,4 @@ void forbid_writing_outside(std::span<const Descriptor> writable, int version) {
   }
 }
 
-}  // namespace stride::process
+}  // namespace stride::isolation

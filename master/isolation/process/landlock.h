@@ -6,7 +6,7 @@
 
 #include "master/isolation/process/descriptor.h"
 
-namespace stride::process {
+namespace stride::isolation {
 
 /// The version of Landlock's interface (kernel documentation, userspace-api/landlock). Throws
 /// std::system_error if the kernel has none, if it is switched off, or not allowed here.
@@ -21,6 +21,6 @@ constexpr int kLandlockSignals = 6;    ///< signals stay within
 /// Throws std::system_error; then nothing has changed.
 void forbid_writing_outside(std::span<const Descriptor> writable, int version);
 
-}  // namespace stride::process
+}  // namespace stride::isolation
 
 #endif

@@ -16,7 +16,7 @@
 
 #include "master/isolation/process/descriptor.h"
 
-namespace stride::process {
+namespace stride::isolation {
 namespace {
 
 std::string path_of(int file) {
@@ -65,4 +65,4 @@ void OpenFiles::set_back() const {
   }
 }
 
-}  // namespace stride::process
+}  // namespace stride::isolation

@@ -5,7 +5,7 @@
 
 #include <sys/types.h>
 
-namespace stride::process {
+namespace stride::isolation {
 
 /// The positions of this process in its open regular files, and how long those are that it writes.
 /// A forked process has them in common with the other one: what either reads or writes moves both
@@ -36,6 +36,6 @@ class OpenFiles {
   std::vector<File> files_;
 };
 
-}  // namespace stride::process
+}  // namespace stride::isolation
 
 #endif

@@ -11,7 +11,7 @@
 
 #include "master/isolation/process/descriptor.h"
 
-namespace stride::process {
+namespace stride::isolation {
 namespace {
 
 /// The sum of these lines of a file, which are in KiB: "VmHWM:      1234 kB".
@@ -45,4 +45,4 @@ void limit_memory(std::uint64_t bytes) {
   if (::setrlimit(RLIMIT_DATA, &limit) != 0) fail("setrlimit(RLIMIT_DATA)");
 }
 
-}  // namespace stride::process
+}  // namespace stride::isolation

@@ -6,7 +6,7 @@
 
 #include <sys/types.h>
 
-namespace stride::process {
+namespace stride::isolation {
 
 /// The most that was resident so far [byte]; 0 if it is not said.
 std::uint64_t most_memory(pid_t process);
@@ -22,6 +22,6 @@ std::uint64_t data_memory(pid_t process);
 /// other private memory that can be written to (RLIMIT_DATA). Beyond that there is no memory.
 void limit_memory(std::uint64_t bytes);
 
-}  // namespace stride::process
+}  // namespace stride::isolation
 
 #endif

@@ -15,7 +15,7 @@
 #include "master/isolation/process/landlock.h"
 #include "master/isolation/process/system_calls.h"
 
-namespace stride::process {
+namespace stride::isolation {
 namespace {
 
 constexpr rlim_t kOpenFiles = 4096;
@@ -118,4 +118,4 @@ Protections enter_sandbox(std::span<const WritableFolder> writable) {
   return protections;
 }
 
-}  // namespace stride::process
+}  // namespace stride::isolation

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace stride::process {
+namespace stride::isolation {
 
 /// What is in force and what is not, each in words, for a person to read.
 struct Protections {
@@ -39,6 +39,6 @@ struct WritableFolder {
 /// process has one thread. Throws std::system_error if a folder cannot be opened.
 Protections enter_sandbox(std::span<const WritableFolder> writable);
 
-}  // namespace stride::process
+}  // namespace stride::isolation
 
 #endif

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace stride::process {
+namespace stride::isolation {
 namespace {
 
 void* map_shared(int file, std::size_t size) {
@@ -93,4 +93,4 @@ void GrowingMemory::hide_from_children() {
   ::madvise(data_, size_, MADV_DONTFORK);
 }
 
-}  // namespace stride::process
+}  // namespace stride::isolation

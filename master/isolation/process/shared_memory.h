@@ -8,7 +8,7 @@
 
 #include "master/isolation/process/descriptor.h"
 
-namespace stride::process {
+namespace stride::isolation {
 
 /// Of a fixed size, zeros at first. Throws std::system_error if there is none.
 class SharedMemory {
@@ -77,6 +77,6 @@ class GrowingMemory {
   bool is_hidden_ = false;
 };
 
-}  // namespace stride::process
+}  // namespace stride::isolation
 
 #endif

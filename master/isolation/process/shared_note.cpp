@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace stride::process {
+namespace stride::isolation {
 
 void SharedNote::write(const char* what, std::int64_t picoseconds) {
   memory_->picoseconds = picoseconds;
@@ -16,4 +16,4 @@ std::string SharedNote::what() const {
   return {memory_->what, ::strnlen(memory_->what, sizeof memory_->what)};
 }
 
-}  // namespace stride::process
+}  // namespace stride::isolation

@@ -6,7 +6,7 @@
 
 #include "master/isolation/process/shared_memory.h"
 
-namespace stride::process {
+namespace stride::isolation {
 
 /// Text in memory that a process shares with the children that it makes afterwards, so that it
 /// outlives them: what they were at. Throws std::system_error if there is no memory for it.
@@ -27,6 +27,6 @@ class SharedNote {
   Shared<Memory> memory_;
 };
 
-}  // namespace stride::process
+}  // namespace stride::isolation
 
 #endif

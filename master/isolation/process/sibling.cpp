@@ -13,7 +13,7 @@
 
 #include "master/isolation/process/descriptor.h"
 
-namespace stride::process {
+namespace stride::isolation {
 namespace {
 
 /// What the C library has told the kernel about the calling thread, and what a copy of it does not
@@ -66,4 +66,4 @@ bool has_children() {
   return ::waitid(P_ALL, 0, &ignored, WEXITED | WNOHANG | WNOWAIT | __WALL) == 0;
 }
 
-}  // namespace stride::process
+}  // namespace stride::isolation

@@ -6,7 +6,7 @@
 
 #include <sys/types.h>
 
-namespace stride::process {
+namespace stride::isolation {
 
 /// fork(), but for the parent: the copy is a child of this process's parent, which waits for it,
 /// and does not notice which of the two was there first. Functions registered with pthread_atfork()
@@ -20,6 +20,6 @@ std::size_t thread_count();
 /// Whether this process has started others that still run, or that it has not waited for.
 bool has_children();
 
-}  // namespace stride::process
+}  // namespace stride::isolation
 
 #endif

@@ -11,7 +11,7 @@
 
 #include "master/isolation/process/descriptor.h"
 
-namespace stride::process {
+namespace stride::isolation {
 
 void forget_signal_handlers() {
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS, SIGHUP,
@@ -49,4 +49,4 @@ void close_other_files(std::initializer_list<int> kept) {
   ::close_range(first, ~0U, 0);
 }
 
-}  // namespace stride::process
+}  // namespace stride::isolation

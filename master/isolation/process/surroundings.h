@@ -6,7 +6,7 @@
 
 #include <sys/types.h>
 
-namespace stride::process {
+namespace stride::isolation {
 
 /// Signals do what they do in a new program, whatever the parent has made of them, and none is
 /// blocked; there is no core dump.
@@ -22,6 +22,6 @@ void die_with(pid_t parent);
 /// Closes all files but the standard ones and these.
 void close_other_files(std::initializer_list<int> kept);
 
-}  // namespace stride::process
+}  // namespace stride::isolation
 
 #endif

@@ -9,7 +9,7 @@
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 
-namespace stride::process {
+namespace stride::isolation {
 namespace {
 
 /// What libseccomp returns: 0 or an errno, negated.
@@ -89,4 +89,4 @@ void forbid_truncation() {
   filter.load();
 }
 
-}  // namespace stride::process
+}  // namespace stride::isolation

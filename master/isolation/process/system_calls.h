@@ -2,7 +2,7 @@
 #ifndef STRIDE_MASTER_ISOLATION_PROCESS_SYSTEM_CALLS_H
 #define STRIDE_MASTER_ISOLATION_PROCESS_SYSTEM_CALLS_H
 
-namespace stride::process {
+namespace stride::isolation {
 
 /// Each holds for this thread and for all that it starts, and for each of the machine's interfaces
 /// that a call may come by (a 32-bit program's, too); EACCES is the answer to what is denied. Needs
@@ -15,6 +15,6 @@ void forbid_network();
 /// No cutting off of files by their names, or when they are opened for reading.
 void forbid_truncation();
 
-}  // namespace stride::process
+}  // namespace stride::isolation
 
 #endif

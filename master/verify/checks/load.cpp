@@ -58,7 +58,7 @@ void load_and_unload(const Trial& trial, const std::filesystem::path& folder) {
   trial.in_child([&] {
     {
       trial.note.write("the loading of its library", 0);
-      const auto fmu = fmi::Fmu::load(folder);
+      const auto fmu = importer::Fmu::load(folder);
       const auto unit = fmu->instantiate("unit");
       trial.note.write("the unloading of its library", 0);
     }

@@ -56,14 +56,15 @@ class Asker {
   }
 
   void ask(TestInstance& instance, const Variable& variable, const Binary& value) {
-    const std::string text = instance.unit().describe_message(variable.reference, value);
+    auto& unit = instance.capability<core::MessageText>();
+    const std::string text = unit.describe_message(variable.reference, value);
     const std::string what = fmt::format("what {} bytes say as '{}' at {} s", value.size(),
                                          variable.name, core::to_text(instance.now()));
     if (!core::is_readable(text)) {
       throw Failure(what + " is not one line of UTF-8 without control characters: \"" +
                     core::readable_text(text, 60) + '"');
     }
-    if (instance.unit().describe_message(variable.reference, value) != text) {
+    if (unit.describe_message(variable.reference, value) != text) {
       throw Failure(what + " is something else when it is asked again: \"" +
                     core::readable_text(text, 60) + '"');
     }

@@ -22,8 +22,8 @@ struct Fingerprint {
 Fingerprint fingerprint(const Trial& trial, TestInstance& instance) {
   Fingerprint print{{instance.now().time_since_epoch().count(), instance.observe(), false}, {}};
   if (!trial.tested.description().can_serialize_state) return print;
-  instance.unit().save_state();
-  print.bytes = instance.unit().serialize_state();
+  instance.capability<core::StateSaving>().save_state();
+  print.bytes = instance.capability<core::StateSerialization>().serialize_state();
   return print;
 }
 

@@ -25,8 +25,8 @@ Serialized serialize(const Trial& trial) {
   TestInstance instance = trial.make_instance();
   instance.start();
   instance.run_to(from, false);
-  instance.unit().save_state();
-  made.bytes = instance.unit().serialize_state();
+  instance.capability<core::StateSaving>().save_state();
+  made.bytes = instance.capability<core::StateSerialization>().serialize_state();
   made.position = instance.position();
   instance.forget_rows();
   instance.run_to(made.to);
@@ -72,8 +72,8 @@ Recording continue_from(const Trial& trial, const Serialized& made) {
     clocks.emplace(guide.clocks());
   }
   TestInstance instance = trial.make_instance();
-  instance.unit().deserialize_state(made.bytes);
-  instance.unit().restore_state();
+  instance.capability<core::StateSerialization>().deserialize_state(made.bytes);
+  instance.capability<core::StateSaving>().restore_state();
   instance.stand_at(made.position, clocks ? &*clocks : nullptr);
   instance.run_to(made.to);
   return instance.recording();
@@ -92,8 +92,8 @@ std::string reaction(const Trial& trial, const Bytes& bytes) {
     return trial.in_child([&] {
       TestInstance instance = trial.make_instance();
       try {
-        instance.unit().deserialize_state(bytes);
-        instance.unit().restore_state();
+        instance.capability<core::StateSerialization>().deserialize_state(bytes);
+        instance.capability<core::StateSaving>().restore_state();
         return std::string("accepted");
       } catch (const core::Error&) {
         return std::string("refused");

@@ -3,7 +3,7 @@
 
 namespace {
 
-class Pump : public stride::process::Program {
+class Pump : public stride::isolation::Program {
  public:
   Pump() {
     input("rate", rate_);

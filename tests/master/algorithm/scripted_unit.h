@@ -6,11 +6,19 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "master/algorithm/capabilities/clock_intervals.h"
+#include "master/algorithm/capabilities/configuration_mode.h"
+#include "master/algorithm/capabilities/directional_derivatives.h"
+#include "master/algorithm/capabilities/idle_promises.h"
+#include "master/algorithm/capabilities/message_text.h"
+#include "master/algorithm/capabilities/own_process.h"
+#include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/unit.h"
 
 namespace stride::core {
@@ -129,7 +137,15 @@ class Describe {
   }();
 };
 
-class ScriptedUnit : public Unit {
+/// With all capabilities that the scripts can fill; OwnProcess where `host` is set.
+class ScriptedUnit : public Unit,
+                     public ConfigurationMode,
+                     public StateSaving,
+                     public IdlePromises,
+                     public DirectionalDerivatives,
+                     public ClockIntervals,
+                     public MessageText,
+                     public OwnProcess {
  public:
   using Calls = std::vector<std::string>;
 
@@ -178,6 +194,8 @@ class ScriptedUnit : public Unit {
   Binary& binary(ValueReference reference) { return values_.at(reference).binaries()[0]; }
   ValueBlock& block(ValueReference reference) { return values_.at(reference); }
 
+  void enter_configuration_mode() override {}
+  void exit_configuration_mode() override {}
   void enter_initialization(Time, std::optional<Time>) override {
     calls.push_back("enter_initialization");
     initializing_ = true;
@@ -208,6 +226,9 @@ class ScriptedUnit : public Unit {
   void restore_state() override {
     values_ = saved_values_.value();
     on_state(false);
+  }
+  void select_state(std::size_t) override {
+    throw std::logic_error("this kind of unit keeps one state only");
   }
   void enter_event_mode() override {
     calls.push_back("enter_event_mode");
@@ -271,9 +292,15 @@ class ScriptedUnit : public Unit {
     return on_describe(*this, variable, value);
   }
   void terminate() override { calls.push_back("terminate"); }
-  std::optional<HostStatistics> host_statistics() const override { return host; }
+  HostStatistics host_statistics() const override { return host.value(); }
 
  private:
+  Capability* find_capability(CapabilityId id) override {
+    if (id == OwnProcess::kId && !host) return nullptr;
+    return select_capability<ConfigurationMode, StateSaving, IdlePromises, DirectionalDerivatives,
+                             ClockIntervals, MessageText, OwnProcess>(*this, id);
+  }
+
   template <class Block, class Move>
   void move_values(std::span<const ValueReference> references, Block& outside, Move&& move) {
     std::size_t at = 0;

@@ -4,12 +4,13 @@
 #include <catch2/catch.hpp>
 
 #include "tests/at.h"
+#include "tests/master/algorithm/forwarding.h"
 #include "tests/master/algorithm/scripted_unit.h"
 #include "tests/master/util/archive/support.h"
 
 using namespace stride;
 using namespace stride::capture;
-using stride::tests::Scratch;
+using namespace stride::tests;
 
 namespace {
 
@@ -94,7 +95,7 @@ class Bench {
 TEST_CASE("the head says whose stimuli they are, and what was set before the start") {
   Bench bench;
   bench.set(3, 2.5);
-  bench.captured->enable_idle_skipping(std::chrono::milliseconds(500));
+  idle(*bench.captured).enable_idle_skipping(std::chrono::milliseconds(500));
   bench.start();
   CHECK(bench.text() ==
         "stride stimuli,1\nunit,device\ncomponent,part\nsystem,whole\n"
@@ -191,7 +192,7 @@ TEST_CASE("a rejected step has not been, an undone one is taken back") {
   Bench bench;
   bench.start();
   bench.set(0, 1);
-  bench.captured->save_state();
+  state(*bench.captured).save_state();
   bench.unit->on_step = [](core::ScriptedUnit&, Time from, Time) {
     return core::StepResult{.rejected = true, .reached = from};
   };
@@ -200,13 +201,13 @@ TEST_CASE("a rejected step has not been, an undone one is taken back") {
     return core::StepResult{.reached = to};
   };
   bench.step(0, 0.2);
-  bench.captured->restore_state();
+  state(*bench.captured).restore_state();
   bench.step(0, 0.1);
   bench.point(0.1);
-  bench.captured->save_state();
+  state(*bench.captured).save_state();
   bench.set(0, 2);
   bench.step(0.1, 0.2);
-  bench.captured->restore_state();
+  state(*bench.captured).restore_state();
   bench.set(0, 2);
   bench.step(0.1, 0.15);
   bench.point(0.15);
@@ -233,18 +234,39 @@ TEST_CASE("the unit itself gets each call") {
   bench.captured->get({&u, 1}, block);
   CHECK(block.numbers<double>()[0] == 4);
   bench.unit->on_idle_until = [](core::ScriptedUnit&) { return at(3); };
-  CHECK(bench.captured->idle_until() == at(3));
+  CHECK(idle(*bench.captured).idle_until() == at(3));
   bench.unit->on_describe = [](core::ScriptedUnit&, core::ValueReference variable,
                                const core::Binary& value) {
     return fmt::format("{} of {}", core::to_hex(value), variable);
   };
-  CHECK(bench.captured->describe_message(2, {0x26}) == "26 of 2");
-  CHECK_FALSE(bench.captured->host_statistics());
-  bench.unit->host = core::HostStatistics{.snapshots = 5};
-  CHECK(bench.captured->host_statistics().value().snapshots == 5);
+  CHECK(texts(*bench.captured).describe_message(2, {0x26}) == "26 of 2");
   bench.captured->terminate();
   CHECK(bench.unit->calls == std::vector<std::string>{"enter_initialization", "exit_initialization",
                                                       "update_discrete_states", "enter_step_mode",
                                                       "describe_message", "terminate"});
-  CHECK_THROWS_AS(bench.captured->reset(), std::logic_error);
+}
+
+TEST_CASE("nothing of the unit is hidden but what cannot be taken back from the file") {
+  const Scratch scratch;
+  const auto description = core::Describe("device").event_mode().can_save_state().done();
+  StimuliFile file(scratch / "x.csv", Origin{"part", "whole", description.get()});
+  std::uint64_t iterations = 1;
+  SuperDenseIndex index;
+  index.follow(iterations);
+  CompleteUnit::Calls calls;
+  CapturedUnit captured(std::make_unique<CompleteUnit>(calls), *description, file, index);
+  check_capabilities(captured, {core::StateSerialization::kId, core::Resetting::kId});
+  check_idle_promises(captured, calls);
+  check_functions(captured, calls);
+  check_state_saving(captured, calls);
+  CHECK_THROWS_AS(state(captured).select_state(1), std::logic_error);
+}
+
+TEST_CASE("a captured unit has no capability that the unit lacks") {
+  const Scratch scratch;
+  const auto description = core::Describe("device").done();
+  StimuliFile file(scratch / "x.csv", Origin{"part", "whole", description.get()});
+  const SuperDenseIndex index;
+  CapturedUnit captured(std::make_unique<PlainUnit>(), *description, file, index);
+  CHECK(capability_numbers(captured).empty());
 }

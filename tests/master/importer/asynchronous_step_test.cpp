@@ -5,8 +5,8 @@
 #include <catch2/catch.hpp>
 
 using namespace std::chrono_literals;
-using stride::fmi::AsynchronousStep;
-using stride::fmi::Status;
+using stride::importer::AsynchronousStep;
+using stride::importer::Status;
 
 TEST_CASE("a step that does not finish is waited for as long as is said") {
   AsynchronousStep step;

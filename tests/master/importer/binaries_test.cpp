@@ -10,7 +10,7 @@ namespace {
 
 std::string find_error(const Scratch& scratch, const std::string& version) {
   return input_error([&] {
-    fmi::find_library(scratch.path(), version, "tank", {"system.ssd", 4});
+    importer::find_library(scratch.path(), version, "tank", {"system.ssd", 4});
   });
 }
 
@@ -18,15 +18,15 @@ std::string find_error(const Scratch& scratch, const std::string& version) {
 
 TEST_CASE("the library of an FMU stands in the folder of this platform, by its version's name") {
   const Scratch scratch;
-  const std::string fmi3 = std::string("binaries/") + fmi::platform() + "/tank.so";
-  const std::string fmi2 = std::string("binaries/") + fmi::fmi2_platform() + "/tank.so";
+  const std::string fmi3 = std::string("binaries/") + importer::platform() + "/tank.so";
+  const std::string fmi2 = std::string("binaries/") + importer::fmi2_platform() + "/tank.so";
   scratch.write(fmi3, "");
   CHECK_THAT(find_error(scratch, "2.0"),
-             Contains("no binaries for " + std::string(fmi::fmi2_platform())));
+             Contains("no binaries for " + std::string(importer::fmi2_platform())));
   scratch.write(fmi2, "");
-  CHECK(fmi::find_library(scratch.path(), "3.0", "tank") == scratch / fmi3);
-  CHECK(fmi::find_library(scratch.path(), "2.0", "tank") == scratch / fmi2);
-  CHECK_THAT(input_error([&] { fmi::find_library(scratch.path(), "3.0", "other"); }),
+  CHECK(importer::find_library(scratch.path(), "3.0", "tank") == scratch / fmi3);
+  CHECK(importer::find_library(scratch.path(), "2.0", "tank") == scratch / fmi2);
+  CHECK_THAT(input_error([&] { importer::find_library(scratch.path(), "3.0", "other"); }),
              Contains("other.so' is missing") && Contains("modelIdentifier"));
 }
 

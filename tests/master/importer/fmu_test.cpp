@@ -5,11 +5,11 @@
 using namespace stride;
 using namespace stride::tests;
 using Catch::Matchers::Contains;
-using fmi::Fmu;
+using importer::Fmu;
 
 TEST_CASE("an archive, its folder and the bare library are the same unit") {
   const Scratch scratch;
-  const fmi::UnpackedFmu unpacked(test_fmu("types"));
+  const importer::UnpackedFmu unpacked(test_fmu("types"));
   const auto archive = Fmu::load(test_fmu("types"));
   const auto folder = Fmu::load(unpacked.folder());
   const auto library = Fmu::load(STRIDE_TYPES_LIBRARY);
@@ -118,7 +118,7 @@ TEST_CASE("that a unit needs its tool is logged") {
   const auto fmu = Fmu::load(make_raw_fmu(scratch, "raw", "needsExecutionTool=\"true\""));
   std::string logged;
   fmu->instantiate("unit",
-                   {.log = [&](const std::string& unit, fmi::Status, const std::string&,
+                   {.log = [&](const std::string& unit, importer::Status, const std::string&,
                                const std::string& message) { logged += unit + ": " + message; }});
   CHECK_THAT(logged, Contains("unit: ") && Contains("needs the tool that made it"));
 }

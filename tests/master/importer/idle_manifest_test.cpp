@@ -42,7 +42,7 @@ std::string manifest(const std::string& elements, const std::string& version = "
 
 std::string mistake(const std::string& text, unsigned derivative_order = 1) {
   core::UnitDescription unit = tank(derivative_order);
-  return input_error([&] { fmi::parse_idle_manifest(text, "tank.fmu/manifest.xml", unit); });
+  return input_error([&] { importer::parse_idle_manifest(text, "tank.fmu/manifest.xml", unit); });
 }
 
 std::string mistake_in(const std::string& element) {
@@ -55,7 +55,7 @@ std::string mistake_in(const std::string& element) {
 
 TEST_CASE("a manifest gives deadbands and tolerances, and says that the unit promises") {
   core::UnitDescription unit = tank();
-  fmi::parse_idle_manifest(
+  importer::parse_idle_manifest(
       manifest("<Input name='inflow' valueReference='1' deadband='0.25'/>"
                "<Output name='level' valueReference='3' tolerance='1e-3' hasDerivative='true'/>"),
       "", unit);
@@ -68,18 +68,18 @@ TEST_CASE("a manifest gives deadbands and tolerances, and says that the unit pro
 
 TEST_CASE("an empty manifest promises, with no deadband and no tolerance") {
   core::UnitDescription unit = tank(0);
-  fmi::parse_idle_manifest(manifest(""), "", unit);
+  importer::parse_idle_manifest(manifest(""), "", unit);
   CHECK(unit.promises_idle);
   CHECK(unit.variables[0].deadband == 0);
   CHECK_FALSE(unit.variables[2].tolerance);
-  fmi::parse_idle_manifest(manifest("<Output name='level' valueReference='3' tolerance='2'/>"), "",
-                           unit);
+  importer::parse_idle_manifest(manifest("<Output name='level' valueReference='3' tolerance='2'/>"),
+                                "", unit);
   CHECK_FALSE(unit.variables[2].has_derivative);
 }
 
 TEST_CASE("what a later version adds is passed over, what this one does not have is a mistake") {
   core::UnitDescription unit = tank();
-  CHECK_NOTHROW(fmi::parse_idle_manifest(manifest("<Memory size='3'/>", "1.1.0"), "", unit));
+  CHECK_NOTHROW(importer::parse_idle_manifest(manifest("<Memory size='3'/>", "1.1.0"), "", unit));
   CHECK(unit.promises_idle);
   CHECK_THAT(mistake_in("<Ouput name='level' valueReference='3' tolerance='2'/>"),
              Contains("<Ouput> has no meaning here; expected <Input> or <Output>"));
@@ -147,24 +147,24 @@ TEST_CASE("an output has a derivative only where the unit has some") {
 }
 
 TEST_CASE("an FMU's manifest is read from where the layered standard has it") {
-  const auto idler = fmi::Fmu::load(test_fmu("idler"));
+  const auto idler = importer::Fmu::load(test_fmu("idler"));
   CHECK(idler->description()->promises_idle);
   const auto level = idler->description()->find("level");
   CHECK(idler->description()->variables[level.value()].tolerance == 1e-3);
-  CHECK_FALSE(fmi::Fmu::load(test_fmu("types"))->description()->promises_idle);
+  CHECK_FALSE(importer::Fmu::load(test_fmu("types"))->description()->promises_idle);
 }
 
 TEST_CASE("a library of the kit gives its manifest without an FMU") {
-  const auto idler = fmi::Fmu::load(STRIDE_IDLER_LIBRARY);
+  const auto idler = importer::Fmu::load(STRIDE_IDLER_LIBRARY);
   CHECK(idler->description()->promises_idle);
-  CHECK_FALSE(fmi::Fmu::load(STRIDE_TYPES_LIBRARY)->description()->promises_idle);
+  CHECK_FALSE(importer::Fmu::load(STRIDE_TYPES_LIBRARY)->description()->promises_idle);
 }
 
 TEST_CASE("a broken manifest is named with the FMU") {
   const Scratch scratch;
   const fs::path folder = make_raw_fmu(scratch, "raw");
   scratch.write(std::string("raw/") + STRIDE_IDLE_MANIFEST, "\n\n<x/>");
-  CHECK_THAT(input_error([&] { fmi::Fmu::load(folder); }),
+  CHECK_THAT(input_error([&] { importer::Fmu::load(folder); }),
              Contains("raw/extra/org.stride.idle/fmi-ls-manifest.xml:3"));
 }
 
@@ -172,7 +172,7 @@ TEST_CASE("a manifest without the functions that go with it is refused where the
   const Scratch scratch;
   const fs::path folder = make_raw_fmu(scratch, "raw");
   scratch.write(std::string("raw/") + STRIDE_IDLE_MANIFEST, manifest(""));
-  const auto fmu = fmi::Fmu::load(folder);
+  const auto fmu = importer::Fmu::load(folder);
   CHECK(fmu->description()->promises_idle);
   CHECK_THAT(input_error([&] { fmu->instantiate("unit"); }),
              Contains("does not export strideEnableIdleSkipping, strideSetIdleTolerances, "

@@ -69,7 +69,7 @@ core::UnitDescription parse_with(const std::string& from, const std::string& to)
   const std::size_t at = text.find(from);
   REQUIRE(at != std::string::npos);
   text.replace(at, from.size(), to);
-  return fmi::parse_model_description(text, "unit.xml");
+  return importer::parse_model_description(text, "unit.xml");
 }
 
 /// The complaint about it.
@@ -98,7 +98,7 @@ core::Variable clock_of(const std::string& attributes, const std::string& type_a
     text.insert(text.find("<ModelVariables>"), "<TypeDefinitions><ClockType name=\"Tick\" " +
                                                    type_attributes + "/></TypeDefinitions>\n");
   }
-  return fmi::parse_model_description(text, "unit.xml").variables[0];
+  return importer::parse_model_description(text, "unit.xml").variables[0];
 }
 std::string clock_error(const std::string& attributes) {
   CAPTURE(attributes);
@@ -109,7 +109,7 @@ std::string clock_error(const std::string& attributes) {
 Initial initial_of(const std::string& attributes, const std::string& type = "Float64") {
   const std::string variable =
       "<" + type + " name=\"x\" valueReference=\"1\" " + attributes + "/>\n";
-  return fmi::parse_model_description(description_text("x", "", variable), "unit.xml")
+  return importer::parse_model_description(description_text("x", "", variable), "unit.xml")
       .variables[0]
       .initial;
 }
@@ -117,7 +117,7 @@ Initial initial_of(const std::string& attributes, const std::string& type = "Flo
 }  // namespace
 
 TEST_CASE("the unit as a whole") {
-  const auto unit = fmi::parse_model_description(kComplete, "unit.xml");
+  const auto unit = importer::parse_model_description(kComplete, "unit.xml");
   CHECK(unit.fmi_version == "3.0");
   CHECK(unit.model_name == "Tank 2");
   CHECK(unit.model_identifier == "tank");
@@ -138,7 +138,7 @@ TEST_CASE("the unit as a whole") {
 }
 
 TEST_CASE("capabilities are absent unless they are declared") {
-  const auto unit = fmi::parse_model_description(description_text("x", ""), "unit.xml");
+  const auto unit = importer::parse_model_description(description_text("x", ""), "unit.xml");
   CHECK_FALSE(unit.has_event_mode);
   CHECK_FALSE(unit.can_save_state);
   CHECK_FALSE(unit.can_vary_step);
@@ -150,7 +150,7 @@ TEST_CASE("capabilities are absent unless they are declared") {
 }
 
 TEST_CASE("units of measurement whose meaning is given") {
-  const auto unit = fmi::parse_model_description(kComplete, "unit.xml");
+  const auto unit = importer::parse_model_description(kComplete, "unit.xml");
   REQUIRE(unit.units.size() == 2);
   CHECK(unit.units.at("degC").exponents == std::array<int, 8>{0, 0, 0, 0, 1, 0, 0, 0});
   CHECK(unit.units.at("degC").offset == 273.15);
@@ -159,7 +159,7 @@ TEST_CASE("units of measurement whose meaning is given") {
 }
 
 TEST_CASE("variables keep their order, and their defaults are those of the standard") {
-  const auto unit = fmi::parse_model_description(kComplete, "unit.xml");
+  const auto unit = importer::parse_model_description(kComplete, "unit.xml");
   REQUIRE(unit.variables.size() == 10);
   CHECK(unit.variables[0].name == "time");
   CHECK(unit.variables[0].causality == Causality::Independent);
@@ -175,7 +175,7 @@ TEST_CASE("variables keep their order, and their defaults are those of the stand
 }
 
 TEST_CASE("dimensions are fixed numbers or the start of a structural parameter") {
-  const auto unit = fmi::parse_model_description(kComplete, "unit.xml");
+  const auto unit = importer::parse_model_description(kComplete, "unit.xml");
   CHECK(variable(unit, "field").dimensions ==
         std::vector<core::Dimension>{{2, core::ValueReference{1}}, 3});
   CHECK(variable(unit, "field").size == 6);
@@ -183,7 +183,7 @@ TEST_CASE("dimensions are fixed numbers or the start of a structural parameter")
 }
 
 TEST_CASE("a declared type gives what the variable leaves open") {
-  const auto unit = fmi::parse_model_description(kComplete, "unit.xml");
+  const auto unit = importer::parse_model_description(kComplete, "unit.xml");
   CHECK(variable(unit, "temperature").unit == "degC");
   CHECK(variable(unit, "temperature").min == "-273.15");
   CHECK(variable(unit, "temperature").max == "100");
@@ -223,7 +223,7 @@ TEST_CASE("what `initial` is where it is not said depends on causality and varia
   CHECK(initial_of("") == Initial::Calculated);
   CHECK(initial_of("causality=\"input\" intervalVariability=\"triggered\"", "Clock") ==
         Initial::None);
-  const auto unit = fmi::parse_model_description(kComplete, "unit.xml");
+  const auto unit = importer::parse_model_description(kComplete, "unit.xml");
   CHECK(variable(unit, "time").initial == Initial::None);
 }
 
@@ -271,7 +271,7 @@ TEST_CASE("a default experiment that ends later than times can be counted has no
 
 TEST_CASE("whether the unit may reject a step") {
   const std::string unit = "<stride:Unit xmlns:stride=\"urn:org.stride:unit:1\" mayReject=";
-  CHECK(fmi::parse_model_description(kComplete, "unit.xml").may_reject);
+  CHECK(importer::parse_model_description(kComplete, "unit.xml").may_reject);
   CHECK_FALSE(annotated("org.stride.unit", unit + "\"false\"/>").may_reject);
   CHECK_FALSE(
       annotated("org.stride.unit", "<Unit xmlns=\"urn:org.stride:unit:1\" mayReject=\"0\"/>")
@@ -307,7 +307,7 @@ TEST_CASE("which outputs are the unit's verdict and its text") {
                 "<Annotations><Annotation type=\"org.stride.unit\">"
                 "<s:Unit xmlns:s=\"urn:org.stride:unit:1\" " +
                     attributes + "/></Annotation></Annotations>");
-    return fmi::parse_model_description(text, "unit.xml");
+    return importer::parse_model_description(text, "unit.xml");
   };
   const core::UnitDescription both = judge("verdictText=\"why\" verdict=\"good\"");
   CHECK(both.verdict == both.find("good"));
@@ -326,7 +326,7 @@ TEST_CASE("which outputs are the unit's verdict and its text") {
 }
 
 TEST_CASE("start values and clocks") {
-  const auto unit = fmi::parse_model_description(kComplete, "unit.xml");
+  const auto unit = importer::parse_model_description(kComplete, "unit.xml");
   CHECK(variable(unit, "temperature").start == "20");
   CHECK(variable(unit, "words").start == "one two");
   CHECK(variable(unit, "frame").start == "00ff");
@@ -395,7 +395,7 @@ TEST_CASE("a clock that cannot tick is an error with its line") {
       "<Clock name=\"out\" valueReference=\"1\" causality=\"output\" "
       "intervalVariability=\"countdown\"/>\n";
   CHECK_THAT(input_error([&] {
-               fmi::parse_model_description(description_text("x", "", output), "unit.xml");
+               importer::parse_model_description(description_text("x", "", output), "unit.xml");
              }),
              Contains("only an input can be a time-based clock"));
 }
@@ -405,7 +405,8 @@ TEST_CASE("what belongs to a clock is discrete") {
       "<Clock name=\"tick\" valueReference=\"1\" causality=\"input\" "
       "intervalVariability=\"countdown\"/>\n"
       "<Float64 name=\"u\" valueReference=\"2\" causality=\"input\" start=\"0\" clocks=\"1\"/>\n";
-  const auto unit = fmi::parse_model_description(description_text("x", "", variables), "unit.xml");
+  const auto unit =
+      importer::parse_model_description(description_text("x", "", variables), "unit.xml");
   CHECK(variable(unit, "u").variability == Variability::Discrete);
   CHECK(unit.is_sampled(variable(unit, "u")));
   CHECK_FALSE(unit.is_sampled(variable(unit, "tick")));
@@ -416,7 +417,7 @@ TEST_CASE("what may change within a step") {
   const std::string variables =
       "<Float64 name=\"u\" valueReference=\"2\" causality=\"input\" start=\"0\" "
       "intermediateUpdate=\"true\"/>\n";
-  const auto unit = fmi::parse_model_description(
+  const auto unit = importer::parse_model_description(
       description_text("x", "providesIntermediateUpdate=\"true\"", variables), "unit.xml");
   CHECK(unit.provides_intermediate_update);
   CHECK(variable(unit, "u").intermediate_update);
@@ -424,7 +425,7 @@ TEST_CASE("what may change within a step") {
 }
 
 TEST_CASE("no dependencies said and none at all are not the same") {
-  const auto unit = fmi::parse_model_description(kComplete, "unit.xml");
+  const auto unit = importer::parse_model_description(kComplete, "unit.xml");
   REQUIRE(unit.outputs.size() == 2);
   CHECK(unit.outputs[0].dependencies == std::vector<core::ValueReference>{3, 4});
   CHECK_FALSE(unit.outputs[1].dependencies);
@@ -439,18 +440,18 @@ TEST_CASE("other versions of FMI are named") {
              Contains("fmiVersion=\"1.0\" is not supported; expected 2.0 or 3.0") &&
                  Contains("hint: export the unit as FMI 3.0 or FMI 2.0 Co-Simulation"));
   CHECK_THAT(error_with("fmiVersion=\"3.0\"", ""), Contains("needs the attribute 'fmiVersion'"));
-  CHECK_THAT(input_error([] { fmi::parse_model_description("<html/>", "unit.xml"); }),
+  CHECK_THAT(input_error([] { importer::parse_model_description("<html/>", "unit.xml"); }),
              Contains("the document is a <html>"));
   std::string text = kComplete;
   text.replace(text.find("3.0"), 3, "3.1");
-  CHECK(fmi::parse_model_description(text, "unit.xml").fmi_version == "3.1");
+  CHECK(importer::parse_model_description(text, "unit.xml").fmi_version == "3.1");
 }
 
 TEST_CASE("a unit without Co-Simulation says what it has") {
   const std::string text = R"(<fmiModelDescription fmiVersion="3.0" modelName="x"
     instantiationToken="x"><ModelExchange modelIdentifier="x"/><ScheduledExecution
     modelIdentifier="x"/></fmiModelDescription>)";
-  CHECK_THAT(input_error([&] { fmi::parse_model_description(text, "unit.xml"); }),
+  CHECK_THAT(input_error([&] { importer::parse_model_description(text, "unit.xml"); }),
              Contains("no Co-Simulation interface") &&
                  Contains("it has ModelExchange, ScheduledExecution only"));
 }
@@ -459,10 +460,10 @@ TEST_CASE("broken documents") {
   CHECK_THAT(
       error_with("</ModelVariables>", "</ModelVariable>"),
       Contains("unit.xml:") && Contains("not well-formed XML: an element without its end tag"));
-  CHECK_THAT(input_error([] { fmi::parse_model_description("", "unit.xml"); }),
+  CHECK_THAT(input_error([] { importer::parse_model_description("", "unit.xml"); }),
              Contains("the file holds nothing"));
   CHECK_THAT(error_with("<ModelVariables>", "<Other>"), Contains("not well-formed"));
-  CHECK_THAT(input_error([] { fmi::read_model_description("/absent.xml", "shown.xml"); }),
+  CHECK_THAT(input_error([] { importer::read_model_description("/absent.xml", "shown.xml"); }),
              Contains("shown.xml: the file does not exist"));
 }
 

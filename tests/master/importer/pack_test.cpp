@@ -12,7 +12,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-fmi::PackRequest stateless(const Scratch& scratch, const std::string& output = "unit.fmu") {
+importer::PackRequest stateless(const Scratch& scratch, const std::string& output = "unit.fmu") {
   scratch.write("resources/note.txt", "a note");
   scratch.write("resources/deep/b.txt", "b");
   return {STRIDE_STATELESS_LIBRARY, scratch / "resources", {}, scratch / output};
@@ -37,21 +37,21 @@ TEST_CASE("a packed unit has the layout of FMI 3.0, in the order of the names") 
   const Scratch scratch;
   auto request = stateless(scratch);
   request.bundled = {raw_library("raw")};
-  fmi::pack(request);
-  const std::string binaries = std::string("binaries/") + fmi::platform() + "/";
+  importer::pack(request);
+  const std::string binaries = std::string("binaries/") + importer::platform() + "/";
   CHECK(names_in(request.output) ==
         std::vector<std::string>{binaries + "raw.so", binaries + "stateless.so",
                                  "modelDescription.xml", "resources/deep/b.txt",
                                  "resources/note.txt"});
-  const fmi::UnpackedFmu unpacked(request.output);
+  const importer::UnpackedFmu unpacked(request.output);
   CHECK(read(unpacked.folder() / binaries / "stateless.so") == read(STRIDE_STATELESS_LIBRARY));
   CHECK(read(unpacked.folder() / "resources/note.txt") == "a note");
 }
 
 TEST_CASE("a unit that can promise to be idle is packed with its manifest") {
   const Scratch scratch;
-  fmi::pack({STRIDE_IDLER_LIBRARY, {}, {}, scratch / "idler.fmu"});
-  const std::string binaries = std::string("binaries/") + fmi::platform() + "/";
+  importer::pack({STRIDE_IDLER_LIBRARY, {}, {}, scratch / "idler.fmu"});
+  const std::string binaries = std::string("binaries/") + importer::platform() + "/";
   CHECK(names_in(scratch / "idler.fmu") == std::vector<std::string>{binaries + "idler.so",
                                                                     STRIDE_IDLE_MANIFEST,
                                                                     "modelDescription.xml"});
@@ -60,8 +60,8 @@ TEST_CASE("a unit that can promise to be idle is packed with its manifest") {
 TEST_CASE("a packed unit runs with the resources that it was packed with") {
   const Scratch scratch;
   const auto request = stateless(scratch);
-  fmi::pack(request);
-  const auto fmu = fmi::Fmu::load(request.output);
+  importer::pack(request);
+  const auto fmu = importer::Fmu::load(request.output);
   CHECK(fmu->description()->model_identifier == "stateless");
   const auto unit = fmu->instantiate("unit");
   const auto& variable = fmu->description()->variables[*fmu->description()->find("note")];
@@ -72,7 +72,7 @@ TEST_CASE("a packed unit runs with the resources that it was packed with") {
 
 TEST_CASE("a unit finds the shared library that it is packed with") {
   const Scratch scratch;
-  const auto fmu = fmi::Fmu::load(test_fmu("bundling"));
+  const auto fmu = importer::Fmu::load(test_fmu("bundling"));
   const auto unit = fmu->instantiate("unit");
   unit->enter_initialization({}, std::nullopt);
   core::ValueBlock answer(core::ValueType::Int32, 1);
@@ -84,26 +84,26 @@ TEST_CASE("a .fmu is packed again with other resources") {
   const Scratch scratch;
   auto first = stateless(scratch, "first.fmu");
   first.bundled = {raw_library("raw")};
-  fmi::pack(first);
+  importer::pack(first);
   scratch.write("other/note.txt", "another note");
-  fmi::pack({scratch / "first.fmu", scratch / "other", {}, scratch / "second.fmu"});
+  importer::pack({scratch / "first.fmu", scratch / "other", {}, scratch / "second.fmu"});
 
-  const fmi::UnpackedFmu unpacked(scratch / "second.fmu");
-  const auto binaries = unpacked.folder() / "binaries" / fmi::platform();
+  const importer::UnpackedFmu unpacked(scratch / "second.fmu");
+  const auto binaries = unpacked.folder() / "binaries" / importer::platform();
   CHECK(read(binaries / "stateless.so") == read(STRIDE_STATELESS_LIBRARY));
   CHECK(read(binaries / "raw.so") == read(raw_library("raw")));
   CHECK(read(unpacked.folder() / "resources/note.txt") == "another note");
   CHECK_FALSE(fs::exists(unpacked.folder() / "resources/deep"));
 
   CHECK_THAT(input_error([&] {
-               fmi::pack({scratch / "first.fmu", {}, {}, scratch / "x.fmu"});
+               importer::pack({scratch / "first.fmu", {}, {}, scratch / "x.fmu"});
              }),
              Contains("is packed already") && Contains("--resources"));
 }
 
 TEST_CASE("the same input gives the same bytes, at any time and in any time zone") {
   const Scratch scratch;
-  fmi::pack(stateless(scratch, "a.fmu"));
+  importer::pack(stateless(scratch, "a.fmu"));
   fs::last_write_time(scratch / "resources/note.txt",
                       fs::file_time_type::clock::now() - std::chrono::hours(100));
   setenv("TZ", "Asia/Tokyo", 1);
@@ -111,7 +111,7 @@ TEST_CASE("the same input gives the same bytes, at any time and in any time zone
   auto again = stateless(scratch, "b.fmu");
   fs::last_write_time(scratch / "resources/note.txt",
                       fs::file_time_type::clock::now() - std::chrono::hours(100));
-  fmi::pack(again);
+  importer::pack(again);
   unsetenv("TZ");
   tzset();
   CHECK(read(scratch / "a.fmu") == read(scratch / "b.fmu"));
@@ -123,10 +123,10 @@ TEST_CASE("a failed packing leaves the old archive and nothing else") {
   auto request = stateless(scratch);
   scratch.write("unit.fmu", "old");
   fs::remove(scratch / "resources/note.txt");
-  CHECK_THAT(input_error([&] { fmi::pack(request); }), Contains("note.txt is missing"));
+  CHECK_THAT(input_error([&] { importer::pack(request); }), Contains("note.txt is missing"));
   scratch.write("resources/note.txt", "a note");
   request.bundled = {scratch / "absent.so"};
-  CHECK_THAT(input_error([&] { fmi::pack(request); }),
+  CHECK_THAT(input_error([&] { importer::pack(request); }),
              Contains("absent.so") && Contains("cannot be loaded"));
   CHECK(read(scratch / "unit.fmu") == "old");
   for (const auto& entry : fs::directory_iterator(scratch.path())) {
@@ -139,19 +139,20 @@ TEST_CASE("what cannot be packed is an error that says why") {
   auto request = stateless(scratch);
   SECTION("two files of one name") {
     request.bundled = {STRIDE_STATELESS_LIBRARY};
-    CHECK_THAT(input_error([&] { fmi::pack(request); }), Contains("two files would be"));
+    CHECK_THAT(input_error([&] { importer::pack(request); }), Contains("two files would be"));
   }
   SECTION("resources that are no folder") {
     request.library = STRIDE_TYPES_LIBRARY;
     request.resources = scratch / "resources/note.txt";
-    CHECK_THAT(input_error([&] { fmi::pack(request); }), Contains("note.txt' is no folder"));
+    CHECK_THAT(input_error([&] { importer::pack(request); }), Contains("note.txt' is no folder"));
   }
   SECTION("a library without the kit") {
     request.library = raw_library("raw");
-    CHECK_THAT(input_error([&] { fmi::pack(request); }), Contains("made with stride's unit kit"));
+    CHECK_THAT(input_error([&] { importer::pack(request); }),
+               Contains("made with stride's unit kit"));
   }
   SECTION("an output folder that does not exist") {
     request.output = scratch / "absent/unit.fmu";
-    CHECK_THAT(run_error([&] { fmi::pack(request); }), Contains("cannot write"));
+    CHECK_THAT(run_error([&] { importer::pack(request); }), Contains("cannot write"));
   }
 }

@@ -10,7 +10,7 @@ using Catch::Matchers::Contains;
 namespace {
 
 std::string error_of_loading(const fs::path& path) {
-  return input_error([&] { fmi::Fmi3Library(path, {"system.ssd", 3}); });
+  return input_error([&] { importer::Fmi3Library(path, {"system.ssd", 3}); });
 }
 
 }  // namespace
@@ -30,6 +30,6 @@ TEST_CASE("what is no library for this machine is an error") {
   const Scratch scratch;
   CHECK_THAT(
       error_of_loading(scratch.write("text.so", "this is no library, whatever its name says")),
-      Contains("text.so' cannot be loaded") && Contains(fmi::platform()));
+      Contains("text.so' cannot be loaded") && Contains(importer::platform()));
   CHECK_THAT(error_of_loading(scratch / "absent.so"), Contains("absent.so' cannot be loaded"));
 }

@@ -11,6 +11,7 @@
 #include "master/importer/binaries.h"
 #include "master/importer/fmu.h"
 #include "master/isolation/hosted_unit.h"
+#include "tests/master/algorithm/unit_capabilities.h"
 #include "tests/master/util/archive/support.h"
 
 namespace stride::tests {
@@ -26,10 +27,10 @@ inline fs::path raw_library(const std::string& name) {
 /// but for those that look into the memory of a unit's library, which have the tag [here].
 inline bool is_hosted() { return std::getenv("STRIDE_TEST_HOSTED") != nullptr; }
 
-inline std::unique_ptr<core::Unit> make_unit(const std::shared_ptr<fmi::Fmu>& fmu,
+inline std::unique_ptr<core::Unit> make_unit(const std::shared_ptr<importer::Fmu>& fmu,
                                              const std::string& name,
-                                             fmi::InstanceOptions options = {}) {
-  if (is_hosted()) return host::instantiate(fmu, name, std::move(options), {});
+                                             importer::InstanceOptions options = {}) {
+  if (is_hosted()) return isolation::instantiate(fmu, name, std::move(options), {});
   return fmu->instantiate(name, std::move(options));
 }
 
@@ -49,7 +50,7 @@ inline std::string description_text(const std::string& identifier,
 inline fs::path make_raw_fmu(const Scratch& scratch, const std::string& library,
                              const std::string& flags = "hasEventMode=\"true\"") {
   const fs::path folder = scratch / library;
-  const fs::path binaries = folder / "binaries" / fmi::platform();
+  const fs::path binaries = folder / "binaries" / importer::platform();
   fs::create_directories(binaries);
   fs::copy_file(raw_library(library), binaries / (library + ".so"));
   scratch.write(library + "/modelDescription.xml", description_text(library, flags));

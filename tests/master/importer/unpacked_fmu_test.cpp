@@ -9,7 +9,7 @@ using Catch::Matchers::Contains;
 namespace {
 
 std::string unpack_error(const fs::path& path) {
-  return input_error([&] { fmi::UnpackedFmu(path, {"system.ssd", 7}); });
+  return input_error([&] { importer::UnpackedFmu(path, {"system.ssd", 7}); });
 }
 
 }  // namespace
@@ -17,7 +17,7 @@ std::string unpack_error(const fs::path& path) {
 TEST_CASE("an FMU has a description at its top") {
   const Scratch scratch;
   const auto path = make_zip(scratch / "unit.fmu", {{"modelDescription.xml", "<x/>"}});
-  CHECK(read(fmi::UnpackedFmu(path).folder() / "modelDescription.xml") == "<x/>");
+  CHECK(read(importer::UnpackedFmu(path).folder() / "modelDescription.xml") == "<x/>");
   CHECK_THAT(unpack_error(make_zip(scratch / "other.fmu", {{"readme", "x"}})),
              Contains("no modelDescription.xml"));
   CHECK_THAT(unpack_error(make_zip(scratch / "nested.fmu", {{"top/modelDescription.xml", "x"}})),

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-using stride::host::ByteRing;
+using stride::isolation::ByteRing;
 
 TEST_CASE("a ring takes as much as it has room for") {
   const auto ring = std::make_unique<ByteRing>();

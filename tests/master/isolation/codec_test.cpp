@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 using namespace stride;
-using namespace stride::host;
+using namespace stride::isolation;
 using core::ValueBlock;
 using core::ValueType;
 
@@ -24,7 +24,7 @@ class There {
   }
 
  private:
-  process::GrowingMemory memory_{"test", 16};
+  isolation::GrowingMemory memory_{"test", 16};
   std::size_t size_ = 0;
 };
 

@@ -41,7 +41,7 @@ TEST_CASE("however the process of a unit ends, it is an error that tells how") {
                Catch::StartsWith(kHead + says) && Contains("\n  it printed: now comes: " + fault));
     CHECK_THAT(run_error([&] { unit.step(1, 2); }),
                Contains("it cannot be called, because " + says));
-    CHECK_THROWS_AS(unit->save_state(), core::Error);
+    CHECK_THROWS_AS(state(*unit).save_state(), core::Error);
     CHECK_NOTHROW(unit->terminate());
   }
   CHECK(Belongings() == before);
@@ -120,8 +120,8 @@ TEST_CASE("without its supervisor a unit's process ends, and the master notices"
 
 TEST_CASE("when the master is killed nothing of it is left") {
   const Scratch scratch;
-  process::SharedNote note;
-  process::run_in_child([&] {
+  isolation::SharedNote note;
+  isolation::run_in_child([&] {
     Fixture unit("faulty");
     const Fixture other("faulty");  // whose processes do not keep those of the first
     unit.start({{"fault", "daemon"}});
@@ -143,8 +143,8 @@ TEST_CASE("what a unit prints reaches the log, line by line") {
   unit.destroy();
   std::size_t lines = 0;
   for (const Fixture::Line& line : unit.log) {
-    lines +=
-        line.category == host::kPrinted && line.text.find("line ") == 0 && line.text.size() == 62;
+    lines += line.category == isolation::kPrinted && line.text.find("line ") == 0 &&
+             line.text.size() == 62;
   }
   CHECK(lines == 16384);
 }

@@ -19,12 +19,12 @@ class Hosted : public Fixture {
   explicit Hosted(const std::string& unit, const fs::path& writable = {})
       : Fixture(unit, true, options(writable)) {}
 
-  core::HostStatistics statistics() { return (*this)->host_statistics().value(); }
+  core::HostStatistics statistics() { return own_process(**this).host_statistics(); }
   std::uint64_t steps() { return get("steps").numbers<std::uint64_t>()[0]; }
 
  private:
-  static host::HostOptions options(const fs::path& writable) {
-    host::HostOptions options;
+  static isolation::HostOptions options(const fs::path& writable) {
+    isolation::HostOptions options;
     options.takes_snapshots = true;
     if (!writable.empty()) options.writable.push_back(writable);
     return options;
@@ -38,11 +38,11 @@ TEST_CASE("a unit without a state is what it was at its snapshot, any number of 
   unit.start();
   unit.set("u", "2");
   unit.step(0, 0.5);
-  unit->save_state();
+  state(*unit).save_state();
   for (int i = 1; i <= 100; ++i) {
     unit.step(0.5, 0.5 + 0.005 * i);
     CHECK(unit.number("y") == Approx(1 + 0.01 * i));
-    unit->restore_state();
+    state(*unit).restore_state();
     CHECK(unit.number("y") == 1);
     CHECK(unit.steps() == 1);
   }
@@ -56,15 +56,15 @@ TEST_CASE("each slot keeps a snapshot of its own, and a later one takes its plac
   Hosted unit("rejecter_without_state");
   unit.start();
   const auto steps_in = [&](std::size_t slot) {
-    unit->select_state(slot);
-    unit->restore_state();
+    state(*unit).select_state(slot);
+    state(*unit).restore_state();
     return unit.steps();
   };
   for (const std::size_t slot : {0, 5, 2}) {
     const auto steps = static_cast<double>(unit.steps());
     unit.step(steps, steps + 1);
-    unit->select_state(slot);
-    unit->save_state();
+    state(*unit).select_state(slot);
+    state(*unit).save_state();
   }
   CHECK(steps_in(0) == 1);
   CHECK(steps_in(2) == 3);
@@ -72,7 +72,7 @@ TEST_CASE("each slot keeps a snapshot of its own, and a later one takes its plac
   CHECK(steps_in(0) == 1);
   unit.step(1, 2);
   unit.step(2, 3);
-  unit->save_state();
+  state(*unit).save_state();
   CHECK(steps_in(2) == 3);
   CHECK(steps_in(0) == 3);
   CHECK(unit.statistics().most_snapshots == 3);
@@ -85,21 +85,21 @@ TEST_CASE("steps with values go on behind a snapshot as before it") {
   const core::BoundValues input({&unit.variable("u").reference, 1}, u),
       output({&unit.variable("y").reference, 1}, y);
   const core::StepValues values{{&input, 1}, {&output, 1}};
-  unit->save_state();
+  state(*unit).save_state();
   for (double value : {1.0, 2.0, 3.0}) {
     u.numbers<double>()[0] = value;
     unit->step({Time(), time_from_seconds(0.5)}, values);
     CHECK(y.numbers<double>()[0] == value / 2);
-    unit->restore_state();
+    state(*unit).restore_state();
   }
 }
 
 TEST_CASE("a unit that has a state needs no snapshot") {
   Hosted unit("rejecter");
   unit.start();
-  unit->save_state();
+  state(*unit).save_state();
   unit.step(0, 0.1);
-  unit->restore_state();
+  state(*unit).restore_state();
   CHECK(unit.steps() == 0);
   CHECK(unit.statistics().snapshots == 0);
 }
@@ -112,11 +112,11 @@ TEST_CASE("a trace has each step once, whatever was taken back") {
     Hosted unit("tracer", file.parent_path());
     unit.start({{"file", file.string()}, {"flushes", flushes ? "1" : "0"}});
     for (int i = 0; i < 20; ++i) {
-      unit->save_state();
+      state(*unit).save_state();
       unit.step(i, i + 0.75);
-      unit->restore_state();
+      state(*unit).restore_state();
       unit.step(i, i + 0.5);
-      unit->restore_state();
+      state(*unit).restore_state();
       unit.step(i, i + 1);
     }
     unit->terminate();
@@ -130,22 +130,23 @@ TEST_CASE("a unit with threads is refused, with its name, the time and what to d
   Hosted unit("threader");
   unit.start({{"has_thread", "1"}});
   unit.step(0, 0.25);
-  CHECK_THROWS_WITH(unit->save_state(),
+  CHECK_THROWS_WITH(state(*unit).save_state(),
                     Contains("unit 'u', at 0.25 s: the unit runs 2 threads, and a snapshot of its "
                              "process holds one only") &&
                         Contains("OMP_NUM_THREADS=1"));
   Hosted other("threader");
   other.start();
-  other->save_state();
+  state(*other).save_state();
   CHECK(other.statistics().snapshots == 1);
 }
 
 TEST_CASE("what was not saved cannot be restored, and more than a few are not kept") {
   Hosted unit("rejecter_without_state");
   unit.start();
-  CHECK_THROWS_WITH(unit->restore_state(), Contains("unit 'u'") && Contains("nothing was saved"));
-  unit->select_state(100);
-  CHECK_THROWS_WITH(unit->save_state(), Contains("101 states"));
+  CHECK_THROWS_WITH(state(*unit).restore_state(),
+                    Contains("unit 'u'") && Contains("nothing was saved"));
+  state(*unit).select_state(100);
+  CHECK_THROWS_WITH(state(*unit).save_state(), Contains("101 states"));
   unit.step(0, 0.1);
   CHECK(unit.steps() == 1);
 }
@@ -153,21 +154,21 @@ TEST_CASE("what was not saved cannot be restored, and more than a few are not ke
 TEST_CASE("functions are counted also where their effects were taken back") {
   Hosted unit("rejecter_without_state");
   unit.start();
-  unit->save_state();
-  std::uint64_t before = unit->calls();
+  state(*unit).save_state();
+  std::uint64_t before = diagnostics(*unit).calls();
   for (int i = 0; i < 10; ++i) {
     unit.step(0, 0.1);
-    unit->restore_state();
-    CHECK(unit->calls() > before);
-    before = unit->calls();
+    state(*unit).restore_state();
+    CHECK(diagnostics(*unit).calls() > before);
+    before = diagnostics(*unit).calls();
   }
 }
 
 TEST_CASE("a unit that was restored fails as any other") {
   Hosted unit("lying_exits_in_step");
   unit.start();
-  unit->save_state();
-  unit->restore_state();
+  state(*unit).save_state();
+  state(*unit).restore_state();
   CHECK_THROWS_WITH(
       [&] {
         for (int i = 0; i < 1000; ++i) unit.step(0.001 * i, 0.001 * (i + 1));
@@ -179,7 +180,7 @@ TEST_CASE("memory is told: the unit's, and what a snapshot keeps") {
   Hosted unit("rejecter_without_state");
   unit.start();
   for (int i = 0; i < 5; ++i) {
-    unit->save_state();
+    state(*unit).save_state();
     unit.step(i, i + 1);
   }
   CHECK(unit.statistics().most_memory > 1000000);
@@ -192,12 +193,12 @@ TEST_CASE("a unit of FMI 2.0 without a state is taken back, too") {
   unit.start();
   unit.set("u", "3");
   unit.step(0, 0.1);
-  unit->save_state();
+  state(*unit).save_state();
   const double before = unit.number("x");
   for (int i = 0; i < 3; ++i) {
     unit.step(0.1, 0.2);
     CHECK(unit.number("x") > before);
-    unit->restore_state();
+    state(*unit).restore_state();
     CHECK(unit.number("x") == before);
   }
   CHECK(unit.statistics().restores == 3);
@@ -209,11 +210,11 @@ TEST_CASE("snapshots end with the unit, and nothing of them stays") {
     Hosted unit("rejecter_without_state");
     unit.start();
     for (const std::size_t slot : {0, 1, 2}) {
-      unit->select_state(slot);
-      unit->save_state();
-      unit->save_state();
+      state(*unit).select_state(slot);
+      state(*unit).save_state();
+      state(*unit).save_state();
     }
-    unit->restore_state();
+    state(*unit).restore_state();
   }
   CHECK(before == Belongings());
 }
@@ -221,8 +222,8 @@ TEST_CASE("snapshots end with the unit, and nothing of them stays") {
 TEST_CASE("snapshots end with the supervisor") {
   Hosted unit("rejecter_without_state");
   unit.start();
-  unit->save_state();
-  unit->restore_state();
+  state(*unit).save_state();
+  state(*unit).restore_state();
   const std::vector<pid_t> processes = children(Hosted::supervisor());
   CHECK(processes.size() >= 2);
   ::kill(Hosted::supervisor(), SIGKILL);
@@ -233,8 +234,8 @@ TEST_CASE("snapshots end with the supervisor") {
 TEST_CASE("a unit that was restored and is killed is an error that tells how") {
   Hosted unit("rejecter_without_state");
   unit.start();
-  unit->save_state();
-  unit->restore_state();
+  state(*unit).save_state();
+  state(*unit).restore_state();
   // the snapshot is not in charge, so it is not missed before it is needed
   for (const pid_t process : children(Hosted::supervisor())) ::kill(process, SIGKILL);
   CHECK_THROWS_WITH(

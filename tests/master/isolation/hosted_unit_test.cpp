@@ -4,7 +4,9 @@
 
 #include <deque>
 #include <optional>
+#include <set>
 
+#include "tests/master/algorithm/forwarding.h"
 #include "tests/master/isolation/support.h"
 
 using namespace stride;
@@ -120,11 +122,11 @@ TEST_CASE("a unit that allows one instance per process has one in each") {
 
 TEST_CASE("what cannot be loaded is the same error as in this process") {
   const Scratch scratch;
-  const auto fmu = fmi::Fmu::load(make_raw_fmu(scratch, "raw_with_missing_library"));
+  const auto fmu = importer::Fmu::load(make_raw_fmu(scratch, "raw_with_missing_library"));
   const auto make = [&](auto&& how) { return input_error([&] { how(); }); };
-  const fmi::InstanceOptions options{.where = {"system.ssd", 3}};
+  const importer::InstanceOptions options{.where = {"system.ssd", 3}};
   const Belongings before;
-  CHECK(make([&] { host::instantiate(fmu, "u", options, {}); }) ==
+  CHECK(make([&] { isolation::instantiate(fmu, "u", options, {}); }) ==
         make([&] { fmu->instantiate("u", options); }));
   CHECK(Belongings() == before);
 }
@@ -154,14 +156,27 @@ TEST_CASE("what fails while a unit asks for its inputs is thrown as it is") {
   Fixture unit("oscillator_mass", true, {}, {.intermediate_update = true});
   unit.start();
   struct Own {};
-  unit->set_input_update([](double) { throw Own(); });
+  inputs_within_step(*unit).set_input_update([](double) { throw Own(); });
   CHECK_THROWS_AS(unit.step(0, 0.1), Own);
   int calls = 0;
-  unit->set_input_update([&](double) {
+  inputs_within_step(*unit).set_input_update([&](double) {
     ++calls;
     unit.set("x_other", "3");
   });
   unit.step(0.1, 0.2);
   CHECK(calls > 0);
   CHECK(unit.number("x_other") == 3);
+}
+
+TEST_CASE("a hosted unit has the capabilities that it has in this process, and its own process") {
+  std::set<std::size_t> seen;
+  for (const char* name : {"types", "idler", "resizable", "clocks", "oscillator_mass"}) {
+    CAPTURE(name);
+    Fixture hosted(name), here(name, false);
+    auto numbers = capability_numbers(*here);
+    numbers.insert(static_cast<std::size_t>(core::OwnProcess::kId));
+    CHECK(capability_numbers(*hosted) == numbers);
+    seen.merge(numbers);
+  }
+  CHECK(seen.size() == core::kCapabilities);
 }

@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 using namespace stride;
-using namespace stride::host;
+using namespace stride::isolation;
 
 namespace {
 
@@ -19,28 +19,29 @@ std::vector<LogMessage> read(LogReader& reader) {
 }  // namespace
 
 TEST_CASE("messages come over one by one") {
-  const process::Shared<ChannelMemory> channel;
+  const isolation::Shared<ChannelMemory> channel;
   LogWriter writer(*channel);
   LogReader reader(*channel);
   CHECK(reader.is_empty());
-  writer.write({fmi::Status::Warning, "category", "text"});
-  writer.write({fmi::Status::Pending, "", ""});
+  writer.write({importer::Status::Warning, "category", "text"});
+  writer.write({importer::Status::Pending, "", ""});
   CHECK_FALSE(reader.is_empty());
   const auto messages = read(reader);
   REQUIRE(messages.size() == 2);
-  CHECK(messages[0].status == fmi::Status::Warning);
+  CHECK(messages[0].status == importer::Status::Warning);
   CHECK(messages[0].category == "category");
   CHECK(messages[0].text == "text");
-  CHECK(messages[1].status == fmi::Status::Pending);
+  CHECK(messages[1].status == importer::Status::Pending);
   CHECK(messages[1].text.empty());
 }
 
 TEST_CASE("messages of several threads, longer than there is room for, come over whole") {
-  const process::Shared<ChannelMemory> channel;
+  const isolation::Shared<ChannelMemory> channel;
   LogWriter writer(*channel);
   LogReader reader(*channel);
   const auto write = [&](char letter) {
-    for (int i = 0; i < 5; ++i) writer.write({fmi::Status::Ok, "", std::string(200'000, letter)});
+    for (int i = 0; i < 5; ++i)
+      writer.write({importer::Status::Ok, "", std::string(200'000, letter)});
   };
   std::thread first(write, 'a');
   std::thread second(write, 'b');
@@ -56,7 +57,7 @@ TEST_CASE("messages of several threads, longer than there is room for, come over
 }
 
 TEST_CASE("nonsense is no status, and no message without end takes memory") {
-  const process::Shared<ChannelMemory> channel;
+  const isolation::Shared<ChannelMemory> channel;
   LogReader reader(*channel);
   channel->logged.write(std::string(16, '\xff'));
   channel->logged.write(std::string(1000, 'x'));

@@ -4,18 +4,18 @@
 
 #include <catch2/catch.hpp>
 
-using namespace stride::host;
+using namespace stride::isolation;
 
 namespace {
 
-MessageReader reader(const stride::process::GrowingMemory& memory, const MessageWriter& written) {
+MessageReader reader(const stride::isolation::GrowingMemory& memory, const MessageWriter& written) {
   return MessageReader({memory.data(), written.size()});
 }
 
 }  // namespace
 
 TEST_CASE("what is put comes out again, in the same order") {
-  stride::process::GrowingMemory memory("test", 16);
+  stride::isolation::GrowingMemory memory("test", 16);
   MessageWriter out(memory);
   const std::vector<double> numbers{1, -0.0, std::numeric_limits<double>::infinity()};
   out.put(std::uint8_t{7});
@@ -35,7 +35,7 @@ TEST_CASE("what is put comes out again, in the same order") {
 }
 
 TEST_CASE("a size that is none is an error, and takes no memory") {
-  stride::process::GrowingMemory memory("test", 16);
+  stride::isolation::GrowingMemory memory("test", 16);
   for (const std::size_t size : {std::size_t{9}, std::size_t{1} << 60, ~std::size_t{0}}) {
     MessageWriter out(memory);
     out.put(size);

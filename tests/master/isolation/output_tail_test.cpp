@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace stride::host;
+using namespace stride::isolation;
 
 TEST_CASE("the last lines are kept, as one said them") {
   OutputTail tail;

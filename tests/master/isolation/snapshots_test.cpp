@@ -22,9 +22,9 @@
 #include "master/util/error.h"
 #include "tests/scratch_folder.h"
 
-using namespace stride::host;
+using namespace stride::isolation;
 using Catch::Contains;
-namespace process = stride::process;
+namespace process = stride::isolation;
 
 namespace {
 
@@ -39,7 +39,7 @@ struct World {
   int most_processes = 0;  ///< that the supervisor had at a time, as far as it saw
 };
 
-using SharedWorld = process::Shared<World>;
+using SharedWorld = isolation::Shared<World>;
 using Serve = std::function<void(World&, Snapshots&)>;
 
 int count_children() {
@@ -61,7 +61,7 @@ int count_children() {
 /// Serves in a child of a supervisor, until who is in charge ends. Returns the error that left it.
 std::string run(SharedWorld& world, const Serve& serve, SnapshotOptions options = {}) {
   options.context.unit = "u";
-  const auto outcome = process::run_in_child([&] {
+  const auto outcome = isolation::run_in_child([&] {
     const pid_t server = ::fork();
     if (server == 0) begin(*world, serve, options);
     pid_t nobody = 0;
@@ -75,7 +75,7 @@ std::string run(SharedWorld& world, const Serve& serve, SnapshotOptions options 
     world->status = status;
     return std::string(world->error.data());
   });
-  REQUIRE(outcome.end == process::ChildOutcome::End::Answered);
+  REQUIRE(outcome.end == isolation::ChildOutcome::End::Answered);
   return outcome.text;
 }
 
@@ -174,7 +174,7 @@ TEST_CASE("threads and processes of the unit are refused, while there are any") 
     }
     is_over = true;
     thread.join();
-    while (process::thread_count() > 1) ::usleep(100);
+    while (isolation::thread_count() > 1) ::usleep(100);
     snapshots.save(0);
     w.seen[0] = 1;
   };
@@ -258,7 +258,7 @@ TEST_CASE("what a process taken back has written is not there twice") {
 
 TEST_CASE("nothing stays when the supervisor is killed") {
   SharedWorld world;
-  const auto outcome = process::run_in_child(
+  const auto outcome = isolation::run_in_child(
       [&] {
         ::prctl(PR_SET_CHILD_SUBREAPER, 1);
         const pid_t supervisor = ::fork();
@@ -270,7 +270,7 @@ TEST_CASE("nothing stays when the supervisor is killed") {
             for (;;) ::pause();
           };
           if (::fork() == 0) {
-            process::die_with(::getppid());
+            isolation::die_with(::getppid());
             begin(*world, serve, {});
           }
           for (;;) ::pause();
@@ -280,6 +280,6 @@ TEST_CASE("nothing stays when the supervisor is killed") {
         return std::to_string(count);
       },
       {.limit = std::chrono::seconds(60)});
-  CHECK(outcome.end == process::ChildOutcome::End::Answered);
+  CHECK(outcome.end == isolation::ChildOutcome::End::Answered);
   CHECK(std::stoi(outcome.text) >= 5);
 }

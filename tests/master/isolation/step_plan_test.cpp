@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 using namespace stride;
-using namespace stride::host;
+using namespace stride::isolation;
 using core::ValueBlock;
 using core::ValueType;
 
@@ -56,7 +56,7 @@ TEST_CASE("of many plans the oldest lose their numbers") {
 TEST_CASE("a served plan has memory for the values that it was told of") {
   Values values({4, 5});
   values.in.numbers<double>()[1] = 2.5;
-  process::GrowingMemory memory("test", 64);
+  isolation::GrowingMemory memory("test", 64);
   MessageWriter out(memory);
   put_shape(out, values.step());
   for (const core::BoundValues& input : values.inputs) {

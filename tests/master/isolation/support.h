@@ -64,19 +64,19 @@ inline std::vector<fs::path> left_folders(const Scratch& scratch) {
 class Fixture {
  public:
   struct Line {
-    fmi::Status status;
+    importer::Status status;
     std::string category, text;
   };
 
-  explicit Fixture(const std::string& unit, bool is_hosted = true, host::HostOptions host = {},
-                   fmi::InstanceOptions options = {}, const std::string& name = "u")
-      : fmu_(fmi::Fmu::load(test_fmu(unit))) {
+  explicit Fixture(const std::string& unit, bool is_hosted = true, isolation::HostOptions host = {},
+                   importer::InstanceOptions options = {}, const std::string& name = "u")
+      : fmu_(importer::Fmu::load(test_fmu(unit))) {
     options.where = {"system.ssd", 7};
-    options.log = [this](const std::string&, fmi::Status status, const std::string& category,
+    options.log = [this](const std::string&, importer::Status status, const std::string& category,
                          const std::string& text) {
       log.push_back({status, category, text});
     };
-    unit_ = is_hosted ? host::instantiate(fmu_, name, std::move(options), std::move(host))
+    unit_ = is_hosted ? isolation::instantiate(fmu_, name, std::move(options), std::move(host))
                       : fmu_->instantiate(name, std::move(options));
   }
 
@@ -120,7 +120,7 @@ class Fixture {
   std::vector<Line> log;
 
  private:
-  std::shared_ptr<fmi::Fmu> fmu_;
+  std::shared_ptr<importer::Fmu> fmu_;
   std::unique_ptr<core::Unit> unit_;
 };
 

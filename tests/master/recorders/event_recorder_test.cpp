@@ -5,7 +5,9 @@
 #include "tests/master/recorders/recorder_support.h"
 
 using namespace stride;
-using namespace stride::io;
+using namespace stride::core;
+using namespace stride::recorders;
+using namespace stride::tests;
 
 TEST_CASE("events.csv has a row for each message sent or received") {
   const TemporaryFolder folder;

@@ -8,7 +8,7 @@
 #include "master/algorithm/observer.h"
 #include "tests/master/ssp/support.h"
 
-namespace stride::io {
+namespace stride::tests {
 
 inline Time milliseconds(std::int64_t count) { return Time(std::chrono::milliseconds(count)); }
 
@@ -47,6 +47,6 @@ struct SampleRun {
   }
 };
 
-}  // namespace stride::io
+}  // namespace stride::tests
 
 #endif

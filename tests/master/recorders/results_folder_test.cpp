@@ -4,7 +4,9 @@
 
 #include "tests/master/ssp/support.h"
 
-using namespace stride::io;
+using namespace stride::core;
+using namespace stride::recorders;
+using namespace stride::tests;
 using Catch::Contains;
 
 TEST_CASE("The folder is made with those above it, and may exist") {

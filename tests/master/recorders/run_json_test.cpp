@@ -5,7 +5,9 @@
 #include "tests/master/ssp/support.h"
 
 using namespace stride;
-using namespace stride::io;
+using namespace stride::core;
+using namespace stride::recorders;
+using namespace stride::tests;
 using namespace std::chrono_literals;
 using Catch::Contains;
 

@@ -5,7 +5,9 @@
 #include "tests/master/ssp/support.h"
 
 using namespace stride;
-using namespace stride::io;
+using namespace stride::core;
+using namespace stride::recorders;
+using namespace stride::tests;
 
 TEST_CASE("Elements of arrays are counted from 1, the last index first") {
   core::Variable v = variable("a.b", 1, core::ValueType::Float64);

@@ -8,7 +8,9 @@
 #include "tests/master/recorders/recorder_support.h"
 
 using namespace stride;
-using namespace stride::io;
+using namespace stride::core;
+using namespace stride::recorders;
+using namespace stride::tests;
 using Catch::Contains;
 
 namespace {

@@ -84,7 +84,7 @@ TEST_CASE("what the recorders write comes back, across all borders of the buffer
       std::string field(random() % 40, ' ');
       for (char& c : field) c = alphabet[random() % alphabet.size()];
       row.push_back(field);
-      text += stride::io::csv_field(field) + (k < 2 ? "," : "\n");
+      text += stride::recorders::csv_field(field) + (k < 2 ? "," : "\n");
     }
   }
   CHECK(text.size() > 600'000);

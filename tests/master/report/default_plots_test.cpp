@@ -4,7 +4,7 @@
 
 using namespace stride::report;
 using stride::core::ValueType;
-using stride::io::Plot;
+using stride::recorders::Plot;
 
 namespace {
 

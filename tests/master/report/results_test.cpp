@@ -38,7 +38,7 @@ struct Folder {
     folder.write("signals.vcd", "");
   }
   Results read(const Limits& limits = {}) const {
-    return read_results(folder / "", io::ResultFiles(), limits);
+    return read_results(folder / "", recorders::ResultFiles(), limits);
   }
   void film(const std::string& list) const {
     std::filesystem::create_directories(folder / "film/world");
@@ -127,7 +127,7 @@ TEST_CASE("what a killed run left is shown, and what was cut off is told") {
 
 TEST_CASE("what the scenario has switched off is not missed") {
   const Folder f;
-  io::ResultFiles files;
+  recorders::ResultFiles files;
   files.events.clear();
   files.activity.clear();
   const Results results = read_results(f.folder / "", files);
@@ -170,7 +170,7 @@ TEST_CASE("mistakes are named with file, line and column") {
 TEST_CASE("the names of the files are those that run.json tells") {
   const Folder f;
   f.folder.write("run.json", R"({"files": {"signals": "s.csv", "statistics": "run.json"}})");
-  const io::ResultFiles files = result_files(f.folder / "");
+  const recorders::ResultFiles files = result_files(f.folder / "");
   CHECK(files.signals == "s.csv");
   CHECK(files.events.empty());
   CHECK(files.statistics == "run.json");

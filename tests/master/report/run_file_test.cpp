@@ -13,19 +13,19 @@ using Catch::Contains;
 
 TEST_CASE("run.json comes back as it was written") {
   const TemporaryFolder folder;
-  const core::System system = io::sample_system();
+  const core::System system = tests::sample_system();
   core::RunOptions options;
   options.recorded = {{0, 1}, {0, 2}, {0, 4}};
-  io::ResultFiles files;
+  recorders::ResultFiles files;
   files.trace.clear();
   files.events = "messages.csv";
-  const std::vector<io::Plot> plots = {{"Height", {"a.distance"}}};
-  io::write_run_json(folder / "run.json", {.scenario = "x.ssd",
-                                           .system = system,
-                                           .options = options,
-                                           .statistics = {},
-                                           .files = files,
-                                           .plots = plots});
+  const std::vector<recorders::Plot> plots = {{"Height", {"a.distance"}}};
+  recorders::write_run_json(folder / "run.json", {.scenario = "x.ssd",
+                                                  .system = system,
+                                                  .options = options,
+                                                  .statistics = {},
+                                                  .files = files,
+                                                  .plots = plots});
   const RunFile run = read_run_file(folder / "run.json");
   CHECK(run.json["outcome"] == "completed");
   CHECK(run.files.events == "messages.csv");

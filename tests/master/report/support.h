@@ -17,9 +17,9 @@
 
 namespace stride::report {
 
-using io::content;
-using io::error_of;
-using io::TemporaryFolder;
+using tests::content;
+using tests::error_of;
+using tests::TemporaryFolder;
 
 inline std::vector<std::uint8_t> from_base64(const std::string& text) {
   constexpr std::string_view kDigits =

@@ -2,7 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-using namespace stride::io;
+using namespace stride::core;
+using namespace stride::scenario;
 using Catch::Contains;
 
 namespace {

@@ -5,7 +5,8 @@
 
 #include <catch2/catch.hpp>
 
-using namespace stride::io;
+using namespace stride::core;
+using namespace stride::scenario;
 using Catch::Contains;
 using namespace std::chrono_literals;
 using namespace stride;

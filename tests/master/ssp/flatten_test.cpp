@@ -8,7 +8,10 @@
 #include "tests/master/ssp/support.h"
 
 using namespace stride;
-using namespace stride::io;
+using namespace stride::core;
+using namespace stride::scenario;
+using namespace stride::ssp;
+using namespace stride::tests;
 using Catch::Contains;
 
 namespace {

@@ -5,7 +5,10 @@
 #include "master/scenario/scenario.h"
 #include "tests/master/ssp/support.h"
 
-using namespace stride::io;
+using namespace stride::core;
+using namespace stride::scenario;
+using namespace stride::ssp;
+using namespace stride::tests;
 using Catch::Contains;
 using stride::core::StartDeclaration;
 

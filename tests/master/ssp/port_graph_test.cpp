@@ -5,7 +5,9 @@
 #include "tests/master/ssp/support.h"
 
 using namespace stride;
-using namespace stride::io;
+using namespace stride::core;
+using namespace stride::ssp;
+using namespace stride::tests;
 using Catch::Contains;
 
 namespace {

@@ -6,7 +6,9 @@
 #include "master/util/xml/document.h"
 #include "tests/master/ssp/support.h"
 
-using namespace stride::io;
+using namespace stride::core;
+using namespace stride::ssp;
+using namespace stride::tests;
 using Catch::Contains;
 
 namespace {

@@ -12,7 +12,7 @@
 
 #include "master/model/system.h"
 
-namespace stride::io {
+namespace stride::tests {
 
 /// A folder that goes when the test goes.
 class TemporaryFolder {
@@ -153,6 +153,6 @@ inline core::System sample_system() {
   return core::System(declaration);
 }
 
-}  // namespace stride::io
+}  // namespace stride::tests
 
 #endif

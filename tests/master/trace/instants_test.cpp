@@ -127,7 +127,7 @@ struct Seen {
 
 std::string text_of(const Instant& instant) {
   const TemporaryFolder folder;
-  stride::io::OutputFile file(folder / "x");
+  stride::core::OutputFile file(folder / "x");
   instant.text.copy_to(file);
   file.close();
   return content(folder / "x");

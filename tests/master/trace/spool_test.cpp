@@ -15,7 +15,7 @@ namespace {
 
 std::string text_of(const Spool& spool) {
   const TemporaryFolder folder;
-  io::OutputFile file(folder / "x");
+  core::OutputFile file(folder / "x");
   spool.copy_to(file);
   file.close();
   return content(folder / "x");

@@ -11,9 +11,9 @@
 
 namespace stride::trace {
 
-using io::content;
-using io::error_of;
-using io::TemporaryFolder;
+using tests::content;
+using tests::error_of;
+using tests::TemporaryFolder;
 
 /// A header with these declarations in a scope (from line 3 on), its end, and what comes then.
 inline std::string dump(const std::string& declarations, const std::string& changes) {

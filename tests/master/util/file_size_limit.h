@@ -5,7 +5,7 @@
 
 #include <sys/resource.h>
 
-namespace stride::io {
+namespace stride::tests {
 
 /// Files of this process may not grow beyond a size while an object of this class lives.
 class FileSizeLimit {
@@ -27,6 +27,6 @@ class FileSizeLimit {
   void (*handler_)(int) = nullptr;
 };
 
-}  // namespace stride::io
+}  // namespace stride::tests
 
 #endif

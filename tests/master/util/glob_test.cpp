@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-using stride::io::is_glob;
-using stride::io::matches_glob;
+using stride::core::is_glob;
+using stride::core::matches_glob;
 
 TEST_CASE("A glob matches the whole name, and its star crosses dots") {
   CHECK(matches_glob("sensor.*", "sensor.adc.value"));

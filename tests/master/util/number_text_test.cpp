@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace stride::io;
+using namespace stride::core;
 
 TEST_CASE("numbers of at least 0, and above it") {
   CHECK(parse_at_least_zero("0") == 0);

@@ -10,7 +10,8 @@
 #include "tests/master/util/file_size_limit.h"
 
 using namespace stride;
-using namespace stride::io;
+using namespace stride::core;
+using namespace stride::tests;
 using Catch::Contains;
 
 namespace {

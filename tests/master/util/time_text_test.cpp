@@ -8,8 +8,8 @@
 
 using stride::Duration;
 using stride::Time;
+using stride::core::parse_seconds;
 using stride::core::to_text;
-using stride::io::parse_seconds;
 
 TEST_CASE("A decimal text becomes the exact count of picoseconds") {
   const auto [text, ticks] = GENERATE(table<const char*, std::int64_t>({
@@ -74,8 +74,8 @@ TEST_CASE("What is no time is refused, and the text says what was expected") {
 }
 
 TEST_CASE("what a computation took is told to the millisecond") {
-  CHECK(stride::io::wall_seconds(std::chrono::nanoseconds(1'234'567'890)) == "1.235");
-  CHECK(stride::io::wall_seconds({}) == "0.000");
+  CHECK(stride::core::wall_seconds(std::chrono::nanoseconds(1'234'567'890)) == "1.235");
+  CHECK(stride::core::wall_seconds({}) == "0.000");
 }
 
 TEST_CASE("a time's text is exact") {

@@ -72,10 +72,11 @@ void add_reader(ScriptedSystem& system, const char* name) {
 
 /// A charged sensor. `may_stop` = false makes it one that answers at communication points only, so
 /// that there may be several.
-void add_sensor(ScriptedSystem& system, fmi::Fmu& fmu, const std::string& name, bool may_stop) {
+void add_sensor(ScriptedSystem& system, importer::Fmu& fmu, const std::string& name,
+                bool may_stop) {
   auto description = std::make_shared<UnitDescription>(*fmu.description());
   description->may_return_early = may_stop;
-  fmi::InstanceOptions options;
+  importer::InstanceOptions options;
   options.early_return_allowed = may_stop;
   system.declaration.components.push_back({name, description, {}, {}});
   system.declaration.start_values.push_back({name, "power.initial_voltage", "4", "", {}});
@@ -86,7 +87,7 @@ void add_sensor(ScriptedSystem& system, fmi::Fmu& fmu, const std::string& name, 
 }
 
 Trace run(std::size_t sensors, bool may_stop, ThreadOptions threads) {
-  const auto fmu = fmi::Fmu::load(STRIDE_FMU_DIR "/sensor.fmu");
+  const auto fmu = importer::Fmu::load(STRIDE_FMU_DIR "/sensor.fmu");
   ScriptedSystem system;
   add_reader(system, "reader");
   std::vector<VariableId> recorded;

@@ -63,7 +63,9 @@ constexpr const char* kTank = R"(<?xml version="1.0" encoding="UTF-8"?>
 </fmiModelDescription>
 )";
 
-fmi::ModelDescription fmi2_tank() { return fmi::parse_model_description(kTank, "unit.xml"); }
+importer::ModelDescription fmi2_tank() {
+  return importer::parse_model_description(kTank, "unit.xml");
+}
 
 core::Variable variable(const std::string& name) {
   const auto unit = fmi2_tank();
@@ -76,7 +78,7 @@ std::string fmi2_error_with(const std::string& part, const std::string& replacem
   const std::size_t at = text.find(part);
   REQUIRE(at != std::string::npos);
   text.replace(at, part.size(), replacement);
-  return input_error([&] { fmi::parse_model_description(text, "unit.xml"); });
+  return input_error([&] { importer::parse_model_description(text, "unit.xml"); });
 }
 
 }  // namespace
@@ -100,7 +102,7 @@ TEST_CASE("an FMI 2.0 unit's attributes and capabilities") {
   CHECK(unit.units.at("mm/s").exponents == std::array<int, 8>{0, 1, -1, 0, 0, 0, 0, 0});
   REQUIRE(unit.fmi2);
   CHECK(unit.fmi2->can_run_asynchronously);
-  const auto plain = fmi::parse_model_description(
+  const auto plain = importer::parse_model_description(
       R"(<fmiModelDescription fmiVersion="2.0" modelName="x" guid="x"><CoSimulation
       modelIdentifier="x"/><ModelVariables/><ModelStructure/></fmiModelDescription>)",
       "unit.xml");
@@ -170,7 +172,7 @@ TEST_CASE("only floating-point numbers are continuous, whatever the default") {
   std::string text = kTank;
   const std::string name = "name=\"count\"";
   text.replace(text.find(name), name.size(), name + " variability=\"continuous\"");
-  const auto unit = fmi::parse_model_description(text, "unit.xml");
+  const auto unit = importer::parse_model_description(text, "unit.xml");
   CHECK(unit.variables[*unit.find("count")].variability == Variability::Discrete);
 }
 
@@ -182,7 +184,7 @@ TEST_CASE("only continuous inputs of a unit that interpolates change within a st
   std::string text = kTank;
   const std::string can = "canInterpolateInputs=\"true\"";
   text.erase(text.find(can), can.size());
-  const auto unit = fmi::parse_model_description(text, "unit.xml");
+  const auto unit = importer::parse_model_description(text, "unit.xml");
   CHECK_FALSE(unit.provides_intermediate_update);
   CHECK_FALSE(unit.variables[*unit.find("inflow[1]")].intermediate_update);
 }
@@ -234,7 +236,7 @@ TEST_CASE("a unit for Model Exchange only says so") {
   const auto first = text.find("<CoSimulation");
   const std::string last = "</CoSimulation>";
   text.erase(first, text.find(last) + last.size() - first);
-  CHECK_THAT(input_error([&] { fmi::parse_model_description(text, "unit.xml"); }),
+  CHECK_THAT(input_error([&] { importer::parse_model_description(text, "unit.xml"); }),
              Contains("no Co-Simulation interface") && Contains("it has ModelExchange only") &&
                  Contains("hint: export the unit for Co-Simulation"));
 }

@@ -10,14 +10,14 @@ using Catch::Matchers::Contains;
 namespace {
 
 std::string load_error(const std::string& name) {
-  const auto fmu = fmi::Fmu::load(test_fmu(name), {"system.ssd", 3});
+  const auto fmu = importer::Fmu::load(test_fmu(name), {"system.ssd", 3});
   return input_error([&] { fmu->load_library(); });
 }
 
 }  // namespace
 
 TEST_CASE("a unit's functions are found") {
-  const auto fmu = fmi::Fmu::load(test_fmu("fmi2_relaxation"));
+  const auto fmu = importer::Fmu::load(test_fmu("fmi2_relaxation"));
   const auto library = fmu->load_fmi2_library();
   REQUIRE(library);
   CHECK(fmu->load_library() == library);
@@ -26,7 +26,7 @@ TEST_CASE("a unit's functions are found") {
   CHECK(library->functions().DoStep != nullptr);
   CHECK(library->functions().GetFMUstate != nullptr);
   CHECK(library->functions().SetContinuousStates == nullptr);
-  const auto fmi3 = fmi::Fmu::load(test_fmu("types"));
+  const auto fmi3 = importer::Fmu::load(test_fmu("types"));
   CHECK_FALSE(fmi3->load_fmi2_library());
 }
 
@@ -49,10 +49,10 @@ TEST_CASE("a library of other platform types is refused") {
 }
 
 TEST_CASE("a folder of resources is a URI with the scheme file, absolute and escaped") {
-  CHECK(fmi::resource_uri("/tmp/unit/resources") == "file:///tmp/unit/resources");
-  CHECK(fmi::resource_uri("/tmp/x/../unit/resources") == "file:///tmp/unit/resources");
-  CHECK(fmi::resource_uri("/a b/50%/ü#?/-._~") == "file:///a%20b/50%25/%C3%BC%23%3F/-._~");
+  CHECK(importer::resource_uri("/tmp/unit/resources") == "file:///tmp/unit/resources");
+  CHECK(importer::resource_uri("/tmp/x/../unit/resources") == "file:///tmp/unit/resources");
+  CHECK(importer::resource_uri("/a b/50%/ü#?/-._~") == "file:///a%20b/50%25/%C3%BC%23%3F/-._~");
   const std::string here = fs::current_path().string();
-  CHECK_THAT(fmi::resource_uri("resources"),
+  CHECK_THAT(importer::resource_uri("resources"),
              Catch::Matchers::StartsWith("file:///") && Catch::Matchers::EndsWith("/resources"));
 }

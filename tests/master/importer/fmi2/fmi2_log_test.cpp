@@ -9,18 +9,19 @@ namespace {
 std::string format(const char* message, ...) {
   std::va_list arguments;
   va_start(arguments, message);
-  const std::string text = fmi::format_message(message, arguments);
+  const std::string text = importer::format_message(message, arguments);
   va_end(arguments);
   return text;
 }
 
 std::string named(const std::string& message) {
-  return fmi::name_variables(message, [](char type, fmi2ValueReference reference) -> std::string {
-    if (type == 'r' && reference == 1365) return "body.m";
-    if (type == 'b' && reference == 0) return "is on";
-    if (type == 's' && reference == 4294967295u) return "#r1365#";
-    return "";
-  });
+  return importer::name_variables(message,
+                                  [](char type, fmi2ValueReference reference) -> std::string {
+                                    if (type == 'r' && reference == 1365) return "body.m";
+                                    if (type == 'b' && reference == 0) return "is on";
+                                    if (type == 's' && reference == 4294967295u) return "#r1365#";
+                                    return "";
+                                  });
 }
 
 }  // namespace

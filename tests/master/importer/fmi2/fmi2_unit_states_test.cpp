@@ -13,9 +13,15 @@ namespace {
 /// An instance of fmi2_relaxation: x goes from 1 to its input u.
 class Relaxation {
  public:
-  Relaxation()
-      : fmu_(fmi::Fmu::load(test_fmu("fmi2_relaxation"))), unit_(make_unit(fmu_, "unit")) {}
+  Relaxation() : Relaxation(false) {}
+  /// `serializes`: whether the description says that it can be serialised, which it cannot.
+  explicit Relaxation(bool serializes) : fmu_(importer::Fmu::load(test_fmu("fmi2_relaxation"))) {
+    auto description = std::make_shared<core::UnitDescription>(*fmu_->description());
+    description->can_serialize_state = serializes;
+    unit_ = make_unit(fmu_, "unit", {.description = std::move(description)});
+  }
 
+  core::Unit& operator*() { return *unit_; }
   core::Unit* operator->() { return unit_.get(); }
   void start() {
     now_ = {};
@@ -45,7 +51,7 @@ class Relaxation {
     return description.variables[description.find(name).value()].reference;
   }
 
-  std::shared_ptr<fmi::Fmu> fmu_;
+  std::shared_ptr<importer::Fmu> fmu_;
   std::unique_ptr<core::Unit> unit_;
   Time now_{};
 };
@@ -56,25 +62,26 @@ TEST_CASE("several states are kept at once, each in its slot, and steps leave th
   Relaxation unit;
   unit.start();
   const double first = unit.step();
-  unit->save_state();
+  state(*unit).save_state();
   const double second = unit.step();
-  unit->select_state(3);
-  unit->save_state();
+  state(*unit).select_state(3);
+  state(*unit).save_state();
   const double third = unit.step();
   CHECK(third < second);
   CHECK(second < first);
 
-  unit->select_state(0);
-  unit->restore_state();
+  state(*unit).select_state(0);
+  state(*unit).restore_state();
   unit.stand_at(Time(10ms));
   CHECK(unit.x() == first);
   CHECK(unit.step() == second);
-  unit->select_state(3);
-  unit->restore_state();
+  state(*unit).select_state(3);
+  state(*unit).restore_state();
   CHECK(unit.x() == second);
   CHECK(unit.step() == third);
-  unit->select_state(1);
-  CHECK_THAT(run_error([&] { unit->restore_state(); }), Contains("no state of it has been saved"));
+  state(*unit).select_state(1);
+  CHECK_THAT(run_error([&] { state(*unit).restore_state(); }),
+             Contains("no state of it has been saved"));
 }
 
 TEST_CASE("after a reset the unit is new: inputs wait for its initialization again") {
@@ -83,29 +90,30 @@ TEST_CASE("after a reset the unit is new: inputs wait for its initialization aga
   unit.start();
   const double rising = unit.step();
   CHECK(rising > 1);
-  unit->reset();
+  resetting(*unit).reset();
   unit.start();
   CHECK(unit.x() == 1);
   CHECK(unit.step() < 1);
-  unit->reset();
+  resetting(*unit).reset();
   unit.set_u(5);
   unit.start();
   CHECK(unit.step() == rising);
   unit->terminate();
-  unit->reset();
+  resetting(*unit).reset();
   unit.start();
   CHECK(unit.x() == 1);
 }
 
 TEST_CASE("a unit without the functions for it cannot be serialised") {
-  Relaxation unit;
+  CHECK(Relaxation()->capability<core::StateSerialization>() == nullptr);
+  Relaxation unit(true);
   unit.start();
-  CHECK_THAT(run_error([&] { unit->serialize_state(); }),
+  CHECK_THAT(run_error([&] { serialization(*unit).serialize_state(); }),
              Contains("no state of it has been saved"));
-  unit->save_state();
-  CHECK_THAT(run_error([&] { unit->serialize_state(); }),
+  state(*unit).save_state();
+  CHECK_THAT(run_error([&] { serialization(*unit).serialize_state(); }),
              Contains("its library does not export fmi2SerializedFMUstateSize") &&
                  Contains("canSerializeFMUstate"));
-  CHECK_THAT(run_error([&] { unit->deserialize_state({}); }),
+  CHECK_THAT(run_error([&] { serialization(*unit).deserialize_state({}); }),
              Contains("its library does not export fmi2DeSerializeFMUstate"));
 }

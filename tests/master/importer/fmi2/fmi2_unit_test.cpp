@@ -21,19 +21,19 @@ namespace {
 
 struct Line {
   std::string unit, category, message;
-  fmi::Status status;
+  importer::Status status;
 };
 
 /// An instance of one of the FMI 2.0 units, and what it logs.
 class Fmi2Fixture {
  public:
-  explicit Fmi2Fixture(const std::string& name, fmi::InstanceOptions options = {})
-      : Fmi2Fixture(fmi::Fmu::load(test_fmu(name)), std::move(options)) {}
-  explicit Fmi2Fixture(std::shared_ptr<fmi::Fmu> fmu, fmi::InstanceOptions options = {})
+  explicit Fmi2Fixture(const std::string& name, importer::InstanceOptions options = {})
+      : Fmi2Fixture(importer::Fmu::load(test_fmu(name)), std::move(options)) {}
+  explicit Fmi2Fixture(std::shared_ptr<importer::Fmu> fmu, importer::InstanceOptions options = {})
       : fmu_(std::move(fmu)) {
     if (!options.log) {
-      options.log = [this](const std::string& unit, fmi::Status status, const std::string& category,
-                           const std::string& message) {
+      options.log = [this](const std::string& unit, importer::Status status,
+                           const std::string& category, const std::string& message) {
         lines.push_back({unit, category, message, status});
       };
     }
@@ -94,7 +94,7 @@ class Fmi2Fixture {
   std::vector<Line> lines;
 
  private:
-  std::shared_ptr<fmi::Fmu> fmu_;
+  std::shared_ptr<importer::Fmu> fmu_;
   std::unique_ptr<core::Unit> unit_;
 };
 
@@ -118,18 +118,18 @@ TEST_CASE("an FMI 2.0 unit lives from its instantiation to its end", "[here]") {
   CHECK(unit.global<double>("fmi2_step_size") == 0.5);
   CHECK(unit.global<fmi2Boolean>("fmi2_no_restore") == fmi2True);
   CHECK(unit.get("x") == Approx(1 + 4 * std::exp(-1.5)).epsilon(1e-14));
-  CHECK(unit->calls() == 11);
+  CHECK(diagnostics(*unit).calls() == 11);
   CHECK_NOTHROW(unit->terminate());
 }
 
 TEST_CASE("instances and states are freed", "[here]") {
-  const auto fmu = fmi::Fmu::load(test_fmu("fmi2_relaxation"));
+  const auto fmu = importer::Fmu::load(test_fmu("fmi2_relaxation"));
   Fmi2Fixture keeper(fmu);
   {
     Fmi2Fixture unit(fmu);
     unit.start();
     unit.step({}, Time(1s));
-    unit->save_state();
+    state(*unit).save_state();
     CHECK(unit.global<int>("fmi2_living_units") == 2);
     CHECK(unit.global<int>("fmi2_living_states") == 2);
   }
@@ -151,13 +151,13 @@ TEST_CASE("start values of inputs wait for Initialization Mode") {
 
 TEST_CASE("an FMI 2.0 unit that cannot be instantiated says why") {
   const Scratch scratch;
-  const fmi::UnpackedFmu unpacked(test_fmu("fmi2_types"));
+  const importer::UnpackedFmu unpacked(test_fmu("fmi2_types"));
   fs::copy(unpacked.folder(), scratch / "unit", fs::copy_options::recursive);
   std::string text = read(scratch / "unit/modelDescription.xml");
   const std::string guid = "{fmi2_types}";
   text.replace(text.find(guid), guid.size(), "{another}");
   scratch.write("unit/modelDescription.xml", text);
-  const auto fmu = fmi::Fmu::load(scratch / "unit");
+  const auto fmu = importer::Fmu::load(scratch / "unit");
   CHECK_THAT(run_error([&] {
                make_unit(fmu, "u1", {.where = {"system.ssd", 7}});
              }),
@@ -221,7 +221,8 @@ TEST_CASE("directional derivatives of an FMI 2.0 unit") {
   const std::vector knowns{unit.reference("gain"), unit.reference("real")};
   const std::vector unknowns{unit.reference("real.echo")};
   double sensitivity = 0;
-  unit->get_directional_derivative(unknowns, knowns, std::vector{1.0, 0.5}, {&sensitivity, 1});
+  derivatives(*unit).get_directional_derivative(unknowns, knowns, std::vector{1.0, 0.5},
+                                                {&sensitivity, 1});
   CHECK(sensitivity == 3.5);
 }
 
@@ -274,7 +275,7 @@ TEST_CASE("a step that ends early is undone where the state was saved, and says 
   const core::StepResult result = unit.step({}, Time(1s));
   CHECK(result.rejected);
   CHECK(result.reached == at(0.25));
-  CHECK(unit->rejection_reason() == "there is a turn at 0.25 s");
+  CHECK(diagnostics(*unit).rejection_reason() == "there is a turn at 0.25 s");
   CHECK(unit.get("y") == 0);
   CHECK(unit.step({}, at(0.25)).went_through(at(0.25)));
   CHECK(unit.get("y") == 0.25);
@@ -285,9 +286,9 @@ TEST_CASE("a step that ends early is undone where the state was saved, and says 
 TEST_CASE("the inputs of a step that is undone stay set") {
   Fmi2Fixture unit("fmi2_turner");
   unit.start();
-  unit->save_state();
+  state(*unit).save_state();
   for (int i = 0; i < 3; ++i) CHECK(unit.step({}, Time(1s)).rejected);
-  unit->restore_state();
+  state(*unit).restore_state();
   CHECK(unit.step({}, Time(1s)).reached == at(0.25));
   CHECK(unit.get("y") == 0);
 }
@@ -296,14 +297,14 @@ TEST_CASE("a state that was just saved for core is not saved again", "[here]") {
   Fmi2Fixture unit("fmi2_turner");
   unit.start();
   const int before = unit.global<int>("fmi2_saved_states");
-  unit->save_state();
+  state(*unit).save_state();
   CHECK(unit.step({}, Time(1s)).rejected);
   CHECK(unit.get("y") == 0);
   CHECK(unit.step({}, at(0.125)).went_through(at(0.125)));
   CHECK(unit.global<int>("fmi2_saved_states") == before + 1);
   unit.step(at(0.125), at(0.2));
   CHECK(unit.global<int>("fmi2_saved_states") == before + 2);
-  unit->restore_state();
+  state(*unit).restore_state();
   CHECK(unit.step({}, Time(1s)).rejected);
   CHECK(unit.global<int>("fmi2_saved_states") == before + 2);
   CHECK(unit.get("y") == 0);
@@ -316,7 +317,7 @@ TEST_CASE("a unit that does not say how far it came is undone all the same") {
   const core::StepResult result = unit.step({}, Time(1s));
   CHECK(result.rejected);
   CHECK(result.reached == Time{});
-  CHECK(unit->rejection_reason() == "there is a turn at 0.25 s");
+  CHECK(diagnostics(*unit).rejection_reason() == "there is a turn at 0.25 s");
   CHECK(unit.step({}, at(0.125)).went_through(at(0.125)));
 }
 
@@ -329,7 +330,7 @@ TEST_CASE("a unit without a state stands where it came to, which the log says on
   CHECK(unit.get("y") == 0.25);
   std::vector<Line> warnings;
   for (const Line& line : unit.lines) {
-    if (line.status == fmi::Status::Warning) warnings.push_back(line);
+    if (line.status == importer::Status::Warning) warnings.push_back(line);
   }
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0].message, Contains("the step to 1 s ended at 0.25 s (fmi2Discard)") &&
@@ -403,7 +404,7 @@ TEST_CASE("the status of a pending step is that of the step") {
   const core::StepResult result = discards.step({}, Time(1s));
   CHECK(result.rejected);
   CHECK(result.reached == at(0.5));
-  CHECK(discards->rejection_reason() == "the night was short");
+  CHECK(diagnostics(*discards).rejection_reason() == "the night was short");
   CHECK(discards.get("y") == 0);
 
   Fmi2Fixture fails("fmi2_sleeper");
@@ -418,9 +419,9 @@ TEST_CASE("a step that takes long is told once, with what the unit says of it", 
   std::vector<std::string> told;
   std::function<void()> release;
   Fmi2Fixture unit("fmi2_sleeper", {.patience = 0ms,
-                                    .log = [&](const std::string&, fmi::Status status,
+                                    .log = [&](const std::string&, importer::Status status,
                                                const std::string&, const std::string& message) {
-                                      CHECK(status == fmi::Status::Warning);
+                                      CHECK(status == importer::Status::Warning);
                                       told.push_back(message);
                                       release();
                                     }});
@@ -442,7 +443,7 @@ TEST_CASE("a unit that interpolates is given the derivatives of its inputs") {
   const ValueReference u = unit.reference("u");
   Time begin{};
   const auto input = [](double t) { return 1 + 2 * t + 3 * t * t; };
-  unit->set_input_update([&](double seconds) {
+  inputs_within_step(*unit).set_input_update([&](double seconds) {
     ValueBlock block(ValueType::Float64, 1);
     block.numbers<double>()[0] = input(to_seconds(begin) + seconds);
     unit->set({&u, 1}, block);
@@ -458,9 +459,10 @@ TEST_CASE("a unit that interpolates is given the derivatives of its inputs") {
 TEST_CASE("what an input update throws, step() throws") {
   Fmi2Fixture unit("fmi2_integrator");
   unit.start();
-  unit->set_input_update([](double) { throw std::runtime_error("no inputs today"); });
+  inputs_within_step(*unit).set_input_update(
+      [](double) { throw std::runtime_error("no inputs today"); });
   CHECK_THROWS_WITH(unit.step({}, Time(1s)), "no inputs today");
-  unit->set_input_update({});
+  inputs_within_step(*unit).set_input_update({});
   unit.set("u", 2);
   unit.step({}, Time(1s));
   CHECK(unit.get("x") == 2);
@@ -496,7 +498,7 @@ TEST_CASE("a warning of an FMI 2.0 unit is logged and the step stands") {
   CHECK(unit.step({}, Time(1s)).went_through(Time(1s)));
   REQUIRE(unit.lines.size() == 1);
   CHECK(unit.lines[0].unit == "u1");
-  CHECK(unit.lines[0].status == fmi::Status::Warning);
+  CHECK(unit.lines[0].status == importer::Status::Warning);
   CHECK(unit.lines[0].category == "logStatus");
   CHECK(unit.lines[0].message == "tank.level is 0.5 m, 50 %");
 }
@@ -510,7 +512,7 @@ TEST_CASE("a call that the unit does not allow is a failure") {
 
 // Last, since nothing of this library can be called after it.
 TEST_CASE("after fmi2Fatal nothing of the library is called", "[here]") {
-  const auto fmu = fmi::Fmu::load(test_fmu("fmi2_grumbler"));
+  const auto fmu = importer::Fmu::load(test_fmu("fmi2_grumbler"));
   Fmi2Fixture unit(fmu);
   unit.set_number("mood", 4);
   unit.start();

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-using stride::fmi::InputDerivatives;
+using stride::importer::InputDerivatives;
 
 namespace {
 

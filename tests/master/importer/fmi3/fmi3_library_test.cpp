@@ -5,7 +5,7 @@
 using namespace stride;
 using namespace stride::tests;
 using Catch::Matchers::Contains;
-using fmi::Fmi3Library;
+using importer::Fmi3Library;
 
 namespace {
 
@@ -17,7 +17,7 @@ std::string load_error(const fs::path& path) {
 
 TEST_CASE("a unit of the kit has the whole table and describes itself") {
   const Fmi3Library library(STRIDE_TYPES_LIBRARY);
-  const fmi::Fmi3Functions& fmi = library.functions();
+  const importer::Fmi3Functions& fmi = library.functions();
 #define STRIDE_CHECK(name) CHECK(fmi.name != nullptr);
   FMI3_FUNCTIONS(STRIDE_CHECK)
 #undef STRIDE_CHECK
@@ -50,8 +50,8 @@ TEST_CASE("the resource path is absolute and ends with the separator") {
   const Scratch scratch;
   fs::create_directories(scratch / "resources");
   const std::string expected = (scratch / "resources").string() + "/";
-  CHECK(fmi::resource_path(scratch / "resources") == expected);
-  CHECK(fmi::resource_path(scratch / "x/../resources/") == expected);
-  CHECK(fmi::resource_path(scratch / "absent") == "");
-  CHECK(fmi::resource_path("") == "");
+  CHECK(importer::resource_path(scratch / "resources") == expected);
+  CHECK(importer::resource_path(scratch / "x/../resources/") == expected);
+  CHECK(importer::resource_path(scratch / "absent") == "");
+  CHECK(importer::resource_path("") == "");
 }

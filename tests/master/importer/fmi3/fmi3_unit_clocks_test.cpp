@@ -17,8 +17,9 @@ using core::ValueType;
 namespace {
 
 struct ClocksFixture {
-  explicit ClocksFixture(const std::string& name, fmi::InstanceOptions options = {})
-      : fmu(fmi::Fmu::load(test_fmu(name))), unit(make_unit(fmu, "unit", std::move(options))) {}
+  explicit ClocksFixture(const std::string& name, importer::InstanceOptions options = {})
+      : fmu(importer::Fmu::load(test_fmu(name))),
+        unit(make_unit(fmu, "unit", std::move(options))) {}
 
   const core::Variable& variable(const std::string& name) const {
     return fmu->description()->variables[fmu->description()->find(name).value()];
@@ -37,7 +38,9 @@ struct ClocksFixture {
     unit->get(std::span(&variable(name).reference, 1), block);
     return block.numbers<double>()[0];
   }
-  ClockInterval interval(const std::string& clock) { return unit->clock_interval(variable(clock)); }
+  ClockInterval interval(const std::string& clock) {
+    return clocks(*unit).clock_interval(variable(clock));
+  }
   void start() {
     unit->enter_initialization({}, std::nullopt);
     unit->exit_initialization();
@@ -45,7 +48,7 @@ struct ClocksFixture {
     unit->enter_step_mode();
   }
 
-  std::shared_ptr<fmi::Fmu> fmu;
+  std::shared_ptr<importer::Fmu> fmu;
   std::unique_ptr<core::Unit> unit;
 };
 
@@ -57,14 +60,14 @@ struct RawClock {
         "<Clock name=\"tick\" valueReference=\"1\" causality=\"input\" " + attributes + "/>\n";
     scratch.write("raw_extended/modelDescription.xml",
                   description_text("raw_extended", "hasEventMode=\"true\"", clock));
-    fmu = fmi::Fmu::load(folder);
+    fmu = importer::Fmu::load(folder);
     unit = make_unit(fmu, behaviour);
     unit->enter_initialization(Time(2s), std::nullopt);
   }
   const core::Variable& tick() const { return fmu->description()->variables[0]; }
 
   Scratch scratch;
-  std::shared_ptr<fmi::Fmu> fmu;
+  std::shared_ptr<importer::Fmu> fmu;
   std::unique_ptr<core::Unit> unit;
 };
 
@@ -79,8 +82,8 @@ struct Follower {
   std::shared_ptr<int> calls = std::make_shared<int>(0);
 };
 
-fmi::InstanceOptions intermediate() {
-  fmi::InstanceOptions options;
+importer::InstanceOptions intermediate() {
+  importer::InstanceOptions options;
   options.intermediate_update = true;
   return options;
 }
@@ -94,29 +97,30 @@ TEST_CASE("intervals are exact, with what the unit says of them") {
   CHECK(f.interval("fixed_by_unit").state == ClockInterval::State::Changed);
   CHECK(f.interval("fixed_by_unit").interval == Interval::from_fraction(1, 80));
   CHECK(f.interval("fixed_by_unit").state == ClockInterval::State::Unchanged);
-  CHECK(f.unit->clock_shift(f.variable("fixed_by_unit")) == Interval::from_fraction(1, 2000));
+  CHECK(clocks(*f.unit).clock_shift(f.variable("fixed_by_unit")) ==
+        Interval::from_fraction(1, 2000));
   CHECK(f.interval("countdown").state == ClockInterval::State::NotYetKnown);
 }
 
 TEST_CASE("a unit without fractions gives decimals") {
   RawClock raw("regular", "intervalVariability=\"fixed\"");
-  CHECK(raw.unit->clock_interval(raw.tick()).interval == Interval::from_fraction(1, 4));
-  CHECK(raw.unit->clock_shift(raw.tick()) == Interval::from_fraction(1, 8));
+  CHECK(clocks(*raw.unit).clock_interval(raw.tick()).interval == Interval::from_fraction(1, 4));
+  CHECK(clocks(*raw.unit).clock_shift(raw.tick()) == Interval::from_fraction(1, 8));
   RawClock wise("wise", "intervalVariability=\"countdown\"");
-  CHECK(wise.unit->clock_interval(wise.tick()).state == ClockInterval::State::NotYetKnown);
+  CHECK(clocks(*wise.unit).clock_interval(wise.tick()).state == ClockInterval::State::NotYetKnown);
 }
 
 TEST_CASE("what is no interval names the clock, the function and the time") {
   const std::string fixed = "intervalVariability=\"fixed\"";
   RawClock backwards("backwards", fixed);
-  CHECK_THAT(run_error([&] { backwards.unit->clock_interval(backwards.tick()); }),
+  CHECK_THAT(run_error([&] { clocks(*backwards.unit).clock_interval(backwards.tick()); }),
              Contains("unit 'backwards', variable 'tick', at 2 s: fmi3GetIntervalDecimal gave no "
                       "length of time: it is negative"));
   RawClock vague("vague", fixed);
-  CHECK_THAT(run_error([&] { vague.unit->clock_interval(vague.tick()); }),
+  CHECK_THAT(run_error([&] { clocks(*vague.unit).clock_interval(vague.tick()); }),
              Contains("variable 'tick'") && Contains("it is not a number"));
   RawClock promising("promising", fixed + " supportsFraction=\"true\"");
-  CHECK_THAT(run_error([&] { promising.unit->clock_interval(promising.tick()); }),
+  CHECK_THAT(run_error([&] { clocks(*promising.unit).clock_interval(promising.tick()); }),
              Contains("variable 'tick'") && Contains("does not export fmi3GetIntervalFraction"));
 }
 
@@ -124,7 +128,7 @@ TEST_CASE("a unit that can be asked for its inputs within a step sets them throu
   ClocksFixture held("oscillator_mass");
   ClocksFixture following("oscillator_mass", intermediate());
   const Follower follower(following);
-  following.unit->set_input_update(follower);
+  inputs_within_step(*following.unit).set_input_update(follower);
   for (ClocksFixture* f : {&held, &following}) {
     f->set("largest_step", "0.05");
     f->start();
@@ -134,25 +138,24 @@ TEST_CASE("a unit that can be asked for its inputs within a step sets them throu
   CHECK(following.real("x_other") == Approx(10));
   CHECK(held.real("x_other") == 0);
   CHECK(following.real("x") > held.real("x") + 0.05);
-  following.unit->set_input_update({});
+  inputs_within_step(*following.unit).set_input_update({});
   CHECK(following.unit->step({Time(100ms), Time(200ms)}).reached == Time(200ms));
   CHECK(*follower.calls == 7);
 }
 
 TEST_CASE("without the option, and of a unit without such inputs, nothing is asked") {
-  for (const char* name : {"oscillator_mass", "stepper"}) {
-    const bool is_offered = std::string(name) == "stepper";
-    ClocksFixture f(name, is_offered ? intermediate() : fmi::InstanceOptions{});
-    f.unit->set_input_update([](double) { FAIL("it asked"); });
-    f.start();
-    CHECK(f.unit->step({{}, Time(10ms)}).reached == Time(10ms));
-  }
+  ClocksFixture f("oscillator_mass");
+  inputs_within_step(*f.unit).set_input_update([](double) { FAIL("it asked"); });
+  f.start();
+  CHECK(f.unit->step({{}, Time(10ms)}).reached == Time(10ms));
+  CHECK(ClocksFixture("stepper", intermediate()).unit->capability<core::InputsWithinStep>() ==
+        nullptr);
 }
 
 TEST_CASE("what is thrown within a step is thrown after it, and the unit lives on") {
   ClocksFixture f("oscillator_mass", intermediate());
   int asked = 0;
-  f.unit->set_input_update([&](double) {
+  inputs_within_step(*f.unit).set_input_update([&](double) {
     ++asked;
     throw std::out_of_range("no such instant");
   });
@@ -164,7 +167,7 @@ TEST_CASE("what is thrown within a step is thrown after it, and the unit lives o
 
 TEST_CASE("an input that the unit refuses within a step is the step's error") {
   ClocksFixture f("oscillator_mass", intermediate());
-  f.unit->set_input_update([&](double) { f.set("mass", "2"); });
+  inputs_within_step(*f.unit).set_input_update([&](double) { f.set("mass", "2"); });
   f.start();
   CHECK_THAT(run_error([&] {
                f.unit->step({{}, Time(10ms)});
@@ -174,14 +177,14 @@ TEST_CASE("an input that the unit refuses within a step is the step's error") {
 
 TEST_CASE("the calls of a unit's functions are counted") {
   ClocksFixture f("clocks");
-  CHECK(f.unit->calls() == 1);  // the instantiation
-  f.start();                    // four more
-  CHECK(f.unit->calls() == 5);
+  CHECK(diagnostics(*f.unit).calls() == 1);  // the instantiation
+  f.start();                                 // four more
+  CHECK(diagnostics(*f.unit).calls() == 5);
   f.unit->step({{}, Time(1ms)});
   f.unit->enter_event_mode();
   f.set_clock("constant");
   f.unit->update_discrete_states();
   f.interval("countdown");
-  f.unit->save_state();
-  CHECK(f.unit->calls() == 11);
+  state(*f.unit).save_state();
+  CHECK(diagnostics(*f.unit).calls() == 11);
 }

@@ -18,7 +18,7 @@ using core::ValueType;
 namespace {
 
 struct Idler {
-  explicit Idler(const std::string& name = "idler") : fmu(fmi::Fmu::load(test_fmu(name))) {
+  explicit Idler(const std::string& name = "idler") : fmu(importer::Fmu::load(test_fmu(name))) {
     unit = make_unit(fmu, "tank", {.early_return_allowed = true});
   }
 
@@ -39,7 +39,7 @@ struct Idler {
   double slope(const std::string& name) {
     double value = std::numeric_limits<double>::quiet_NaN();
     const core::ValueReference r = reference(name);
-    unit->get_derivatives(std::span(&r, 1), std::span(&value, 1));
+    idle(*unit).get_derivatives(std::span(&r, 1), std::span(&value, 1));
     return value;
   }
   void start(Time at = {}) {
@@ -49,7 +49,7 @@ struct Idler {
     unit->enter_step_mode();
   }
 
-  std::shared_ptr<fmi::Fmu> fmu;
+  std::shared_ptr<importer::Fmu> fmu;
   std::unique_ptr<core::Unit> unit;
 };
 
@@ -57,26 +57,26 @@ struct Idler {
 
 TEST_CASE("a promise is exact, to the picosecond") {
   Idler idler;
-  idler.unit->enable_idle_skipping(10s);
+  idle(*idler.unit).enable_idle_skipping(10s);
   idler.set("rate", "0");
   idler.set("period", "0.123456789012");
   idler.start(Time(1s));
-  CHECK(idler.unit->idle_until() == Time(Duration(1'123'456'789'012)));
+  CHECK(idle(*idler.unit).idle_until() == Time(Duration(1'123'456'789'012)));
 }
 
 TEST_CASE("a promise is at most as long as skipping was enabled for") {
   Idler idler;
   SECTION("for a while") {
-    idler.unit->enable_idle_skipping(250ms);
+    idle(*idler.unit).enable_idle_skipping(250ms);
     idler.set("rate", "0");
     idler.start(Time(1s));
-    CHECK(idler.unit->idle_until() == Time(1250ms));
+    CHECK(idle(*idler.unit).idle_until() == Time(1250ms));
   }
   SECTION("for ever") {
-    idler.unit->enable_idle_skipping(Duration::max());
+    idle(*idler.unit).enable_idle_skipping(Duration::max());
     idler.set("rate", "0");
     idler.start(Time(1s));
-    CHECK(idler.unit->idle_until() == Time::max());
+    CHECK(idle(*idler.unit).idle_until() == Time::max());
   }
 }
 
@@ -84,19 +84,19 @@ TEST_CASE("nothing is promised unless it is enabled") {
   Idler idler;
   idler.set("rate", "0");
   idler.start();
-  const auto calls = idler.unit->calls();
-  CHECK(idler.unit->idle_until() == Time::min());
-  CHECK(idler.unit->calls() == calls);
+  const auto calls = diagnostics(*idler.unit).calls();
+  CHECK(idle(*idler.unit).idle_until() == Time::min());
+  CHECK(diagnostics(*idler.unit).calls() == calls);
 }
 
 TEST_CASE("a tighter tolerance is a shorter promise") {
   const auto promise = [](double tolerance) {
     Idler idler;
-    idler.unit->enable_idle_skipping(1000s);
+    idle(*idler.unit).enable_idle_skipping(1000s);
     const core::ValueReference level = idler.reference("level");
-    idler.unit->set_idle_tolerances(std::span(&level, 1), std::span(&tolerance, 1));
+    idle(*idler.unit).set_idle_tolerances(std::span(&level, 1), std::span(&tolerance, 1));
     idler.start();
-    return to_seconds(idler.unit->idle_until());
+    return to_seconds(idle(*idler.unit).idle_until());
   };
   CHECK(promise(1e-6) == Approx(promise(1e-4) / 10).epsilon(1e-2));
 }
@@ -118,66 +118,63 @@ TEST_CASE("an output without a tolerance has no tangent") {
 
 TEST_CASE("an output whose manifest gives it no derivative has the derivative 0") {
   const Scratch scratch;
-  const fmi::UnpackedFmu unpacked(test_fmu("idler"));
+  const importer::UnpackedFmu unpacked(test_fmu("idler"));
   const fs::path manifest = unpacked.folder() / STRIDE_IDLE_MANIFEST;
   std::string text = read(manifest);
   const std::string word = "hasDerivative=\"true\"";
   text.replace(text.find(word), word.size(), "hasDerivative=\"false\"");
   std::ofstream(manifest) << text;
-  const auto fmu = fmi::Fmu::load(unpacked.folder());
+  const auto fmu = importer::Fmu::load(unpacked.folder());
   const auto unit = make_unit(fmu, "tank");
   unit->enter_initialization({}, std::nullopt);
   unit->exit_initialization();
   unit->enter_step_mode();
   const auto level = fmu->description()->variables[fmu->description()->find("level").value()];
   double slope = 7;
-  unit->get_derivatives(std::span(&level.reference, 1), std::span(&slope, 1));
+  idle(*unit).get_derivatives(std::span(&level.reference, 1), std::span(&slope, 1));
   CHECK(slope == 0);
 }
 
 TEST_CASE("asking for a promise and its tangents takes no memory") {
   Idler idler;
-  idler.unit->enable_idle_skipping(10s);
+  idle(*idler.unit).enable_idle_skipping(10s);
   idler.start();
   const core::ValueReference level = idler.reference("level");
   double slope = 0;
-  idler.unit->get_derivatives(std::span(&level, 1), std::span(&slope, 1));
+  idle(*idler.unit).get_derivatives(std::span(&level, 1), std::span(&slope, 1));
   const long before = allocations;
   for (int i = 0; i < 100; ++i) {
-    static_cast<void>(idler.unit->idle_until());
-    idler.unit->get_derivatives(std::span(&level, 1), std::span(&slope, 1));
+    static_cast<void>(idle(*idler.unit).idle_until());
+    idle(*idler.unit).get_derivatives(std::span(&level, 1), std::span(&slope, 1));
   }
   CHECK(allocations == before);
 }
 
 TEST_CASE("the unit's own refusal is the reason of the error") {
   Idler idler;
-  CHECK_THAT(run_error([&] { idler.unit->enable_idle_skipping(Duration(0)); }),
+  CHECK_THAT(run_error([&] { idle(*idler.unit).enable_idle_skipping(Duration(0)); }),
              Contains("strideEnableIdleSkipping returned fmi3Error: maxSkip is 0 s"));
   Idler another;
   const core::ValueReference reports = another.reference("reports");
   const double tolerance = 1;
-  CHECK_THAT(run_error([&] {
-               another.unit->set_idle_tolerances(std::span(&reports, 1), std::span(&tolerance, 1));
-             }),
-             Contains("strideSetIdleTolerances") && Contains("'reports'"));
+  CHECK_THAT(
+      run_error([&] {
+        idle(*another.unit).set_idle_tolerances(std::span(&reports, 1), std::span(&tolerance, 1));
+      }),
+      Contains("strideSetIdleTolerances") && Contains("'reports'"));
 }
 
-TEST_CASE("a unit without a manifest cannot be asked to skip") {
-  Idler types("types");
-  CHECK_THAT(run_error([&] { types.unit->enable_idle_skipping(1s); }),
-             Contains("no manifest of org.stride.idle"));
-  types.start();
-  CHECK(types.unit->idle_until() == Time::min());
+TEST_CASE("a unit without a manifest makes no promises") {
+  CHECK(Idler("types").unit->capability<core::IdlePromises>() == nullptr);
 }
 
 TEST_CASE("idle units of every kind break their promises where they are stepped over them") {
   const auto step = [](const char* promise) {
     Idler idler;
-    idler.unit->enable_idle_skipping(10s);
+    idle(*idler.unit).enable_idle_skipping(10s);
     idler.set("promise", promise);
     idler.start();
-    REQUIRE(idler.unit->idle_until() > Time(1s));
+    REQUIRE(idle(*idler.unit).idle_until() > Time(1s));
     const double tangent = idler.real("level") + idler.slope("level") * 1;
     const core::StepResult result = idler.unit->step({Time(0s), Time(1s)});
     return std::pair(result, std::abs(idler.real("level") - tangent));
@@ -192,10 +189,10 @@ TEST_CASE("idle units of every kind break their promises where they are stepped 
 
 TEST_CASE("a unit that drifts from its tangent promises more than holds") {
   Idler idler;
-  idler.unit->enable_idle_skipping(1000s);
+  idle(*idler.unit).enable_idle_skipping(1000s);
   idler.set("promise", "drifts");
   idler.start();
-  const Time until = idler.unit->idle_until();
+  const Time until = idle(*idler.unit).idle_until();
   const double slope = idler.slope("level");
   idler.unit->step({Time(0s), until});
   CHECK(std::abs(idler.real("level") - slope * to_seconds(until)) > 1e-3);
@@ -213,11 +210,11 @@ TEST_CASE("what another tool's unit promises is checked") {
                 "ls:fmi-ls-name=\"org.stride.idle\" ls:fmi-ls-version=\"1.0.0\">"
                 "<Output name=\"y\" valueReference=\"1\" tolerance=\"1\" "
                 "hasDerivative=\"true\"/></fmiLayeredStandardManifest>");
-  const auto fmu = fmi::Fmu::load(folder);
+  const auto fmu = importer::Fmu::load(folder);
   const auto promise = [&](const char* behaviour) {
     const auto unit = make_unit(fmu, behaviour);
-    unit->enable_idle_skipping(1s);
-    return unit->idle_until();
+    idle(*unit).enable_idle_skipping(1s);
+    return idle(*unit).idle_until();
   };
   CHECK(promise("plain") == Time(500ms));
   CHECK(promise("sleeps") == Time::max());
@@ -229,6 +226,7 @@ TEST_CASE("what another tool's unit promises is checked") {
   const auto unit = make_unit(fmu, "plain");
   const core::ValueReference y = 1;
   double slope = 0;
-  CHECK_THAT(run_error([&] { unit->get_derivatives(std::span(&y, 1), std::span(&slope, 1)); }),
-             Contains("does not export fmi3GetOutputDerivatives"));
+  CHECK_THAT(
+      run_error([&] { idle(*unit).get_derivatives(std::span(&y, 1), std::span(&slope, 1)); }),
+      Contains("does not export fmi3GetOutputDerivatives"));
 }

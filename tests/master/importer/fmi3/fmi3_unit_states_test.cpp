@@ -14,8 +14,9 @@ namespace {
 class Stepper {
  public:
   explicit Stepper(const std::string& fmu = "stepper")
-      : fmu_(fmi::Fmu::load(test_fmu(fmu))), unit_(make_unit(fmu_, "unit")) {}
+      : fmu_(importer::Fmu::load(test_fmu(fmu))), unit_(make_unit(fmu_, "unit")) {}
 
+  core::Unit& operator*() { return *unit_; }
   core::Unit* operator->() { return unit_.get(); }
   void start() {
     unit_->enter_initialization({}, std::nullopt);
@@ -34,7 +35,7 @@ class Stepper {
   }
 
  private:
-  std::shared_ptr<fmi::Fmu> fmu_;
+  std::shared_ptr<importer::Fmu> fmu_;
   std::unique_ptr<core::Unit> unit_;
 };
 
@@ -45,43 +46,44 @@ TEST_CASE("several states are kept at once, each in its slot") {
   unit.start();
   for (std::size_t slot : {0, 5, 2}) {
     unit.step(1, Time(unit.steps() * 10ms));
-    unit->select_state(slot);
-    unit->save_state();
+    state(*unit).select_state(slot);
+    state(*unit).save_state();
   }
   const auto restored = [&](std::size_t slot) {
-    unit->select_state(slot);
-    unit->restore_state();
+    state(*unit).select_state(slot);
+    state(*unit).restore_state();
     return unit.steps();
   };
   CHECK(restored(0) == 1);
   CHECK(restored(2) == 3);
   CHECK(restored(5) == 2);
   CHECK(restored(0) == 1);
-  unit->select_state(7);
-  CHECK_THAT(run_error([&] { unit->restore_state(); }), Contains("no state of it has been saved"));
+  state(*unit).select_state(7);
+  CHECK_THAT(run_error([&] { state(*unit).restore_state(); }),
+             Contains("no state of it has been saved"));
 }
 
 TEST_CASE("bytes of a state continue in another instance that was never started") {
   Stepper unit;
   unit.start();
   unit.step(3);
-  unit->save_state();
-  const std::vector<std::uint8_t> bytes = unit->serialize_state();
+  state(*unit).save_state();
+  const std::vector<std::uint8_t> bytes = serialization(*unit).serialize_state();
   Stepper other;
-  other->deserialize_state(bytes);
-  other->restore_state();
+  serialization(*other).deserialize_state(bytes);
+  state(*other).restore_state();
   CHECK(other.steps() == 3);
   other.step(1, Time(30ms));
   CHECK(other.steps() == 4);
-  other->save_state();
-  CHECK(other->serialize_state().size() == bytes.size());
+  state(*other).save_state();
+  CHECK(serialization(*other).serialize_state().size() == bytes.size());
 }
 
 TEST_CASE("bytes that are no state, and a state that is not there, are errors") {
   Stepper unit;
-  CHECK_THAT(run_error([&] { unit->serialize_state(); }),
+  CHECK_THAT(run_error([&] { serialization(*unit).serialize_state(); }),
              Contains("no state of it has been saved"));
-  CHECK_THAT(run_error([&] { unit->deserialize_state({}); }),
+  CHECK_THAT(run_error([&] { serialization(*unit).deserialize_state({}); }),
              Contains("fmi3DeserializeFMUState returned fmi3Error"));
 }
 
@@ -89,13 +91,13 @@ TEST_CASE("after a reset the unit is new, and keeps its states") {
   Stepper unit;
   unit.start();
   unit.step(3);
-  unit->save_state();
-  unit->reset();
+  state(*unit).save_state();
+  resetting(*unit).reset();
   unit.start();
   CHECK(unit.steps() == 0);
   unit.step(1);
   CHECK(unit.steps() == 1);
-  unit->restore_state();
+  state(*unit).restore_state();
   CHECK(unit.steps() == 3);
 }
 
@@ -103,11 +105,11 @@ TEST_CASE("a failed unit can be reset, and a terminated one") {
   Stepper unit;
   CHECK_THROWS_AS(unit->exit_initialization(), core::Error);
   CHECK_THROWS_AS(unit->exit_initialization(), core::Error);
-  unit->reset();
+  resetting(*unit).reset();
   unit.start();
   unit.step(2);
   unit->terminate();
-  unit->reset();
+  resetting(*unit).reset();
   unit.start();
   CHECK(unit.steps() == 0);
 }

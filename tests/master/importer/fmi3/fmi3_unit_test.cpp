@@ -23,8 +23,9 @@ using stride::tests::at;
 /// An instance of a unit made for tests, with access by name.
 class Fmi3Fixture {
  public:
-  explicit Fmi3Fixture(const std::string& unit, fmi::InstanceOptions options = {})
-      : fmu_(fmi::Fmu::load(test_fmu(unit))), unit_(make_unit(fmu_, "unit", std::move(options))) {}
+  explicit Fmi3Fixture(const std::string& unit, importer::InstanceOptions options = {})
+      : fmu_(importer::Fmu::load(test_fmu(unit))),
+        unit_(make_unit(fmu_, "unit", std::move(options))) {}
 
   core::Unit& operator*() { return *unit_; }
   core::Unit* operator->() { return unit_.get(); }
@@ -60,16 +61,18 @@ class Fmi3Fixture {
   }
 
  private:
-  std::shared_ptr<fmi::Fmu> fmu_;
+  std::shared_ptr<importer::Fmu> fmu_;
   std::unique_ptr<core::Unit> unit_;
 };
 
+constexpr const char* kKeepsStates = "hasEventMode=\"true\" canGetAndSetFMUState=\"true\"";
+
 /// A raw unit, whose instance's name chooses what it does.
 struct Raw {
-  explicit Raw(const std::string& name, fmi::InstanceOptions options = {},
+  explicit Raw(const std::string& name, importer::InstanceOptions options = {},
                const std::string& library = "raw",
                const std::string& flags = "hasEventMode=\"true\"")
-      : fmu(fmi::Fmu::load(make_raw_fmu(scratch, library, flags))),
+      : fmu(importer::Fmu::load(make_raw_fmu(scratch, library, flags))),
         unit(make_unit(fmu, name, std::move(options))) {
     unit->enter_initialization({}, Time(1s));
     unit->exit_initialization();
@@ -84,7 +87,7 @@ struct Raw {
     return value;
   }
   Scratch scratch;
-  std::shared_ptr<fmi::Fmu> fmu;
+  std::shared_ptr<importer::Fmu> fmu;
   std::unique_ptr<core::Unit> unit;
 };
 
@@ -261,19 +264,19 @@ TEST_CASE("fmi3Discard is a rejected step") {
 }
 
 TEST_CASE("what a unit says when it rejects a step is kept until it rejects another") {
-  CHECK(Raw("unit").unit->rejection_reason().empty());
+  CHECK(diagnostics(*Raw("unit").unit).rejection_reason().empty());
   Raw silent("discard");
   silent.unit->step({{}, Time(1s)});
-  CHECK(silent.unit->rejection_reason().empty());
+  CHECK(diagnostics(*silent.unit).rejection_reason().empty());
   Raw coarse("coarse", {}, "raw_extended");
   CHECK(coarse.unit->step({{}, Time(1s)}).rejected);
-  CHECK(coarse.unit->rejection_reason() == "the mesh is too coarse");
+  CHECK(diagnostics(*coarse.unit).rejection_reason() == "the mesh is too coarse");
   CHECK_FALSE(coarse.unit->step({{}, Time(500ms)}).rejected);
-  CHECK(coarse.unit->rejection_reason() == "the mesh is too coarse");
+  CHECK(diagnostics(*coarse.unit).rejection_reason() == "the mesh is too coarse");
 }
 
 TEST_CASE("fmi3Discard is an error for every function but fmi3DoStep", "[here]") {
-  Raw raw("sets", {}, "raw_extended");
+  Raw raw("sets", {}, "raw_extended", kKeepsStates);
   const core::ValueReference any = 1;
   const ValueBlock value(ValueType::Float64, 1);
   CHECK_THAT(run_error([&] { raw.unit->set(std::span(&any, 1), value); }),
@@ -326,10 +329,10 @@ TEST_CASE("a small drift of a unit's own time is tolerated") {
 
 TEST_CASE("a unit's own time may differ from the end of the step, which the log says once") {
   std::vector<std::string> logged;
-  const fmi::LogSink log = [&](const std::string& unit, fmi::Status status, const std::string&,
-                               const std::string& message) {
+  const importer::LogSink log = [&](const std::string& unit, importer::Status status,
+                                    const std::string&, const std::string& message) {
     CHECK(unit == "lies");
-    CHECK(status == fmi::Status::Warning);
+    CHECK(status == importer::Status::Warning);
     logged.push_back(message);
   };
   Raw fixed("lies", {.log = log}, "raw", "hasEventMode=\"true\" fixedInternalStepSize=\"0.5\"");
@@ -417,9 +420,9 @@ TEST_CASE("after fmi3Error the instance is freed, after fmi3Fatal it is not touc
 TEST_CASE("after fmi3Fatal no other instance of the FMU is touched, and its library stays",
           "[here]") {
   Scratch scratch;
-  auto fmu = fmi::Fmu::load(make_raw_fmu(scratch, "raw"));
+  auto fmu = importer::Fmu::load(make_raw_fmu(scratch, "raw"));
   const std::string path = fmu->load_library()->path();
-  const auto again = fmi::Fmu::load(scratch / "raw");  // the same library by another object
+  const auto again = importer::Fmu::load(scratch / "raw");  // the same library by another object
   auto fatal = make_unit(fmu, "fatal");
   auto same = make_unit(fmu, "same");
   auto other = make_unit(again, "other");
@@ -447,7 +450,7 @@ TEST_CASE("after fmi3Fatal no other instance of the FMU is touched, and its libr
 
 TEST_CASE("a library whose instances do well is unloaded with the last of them", "[here]") {
   Scratch scratch;
-  auto fmu = fmi::Fmu::load(make_raw_fmu(scratch, "raw"));
+  auto fmu = importer::Fmu::load(make_raw_fmu(scratch, "raw"));
   const std::string path = fmu->load_library()->path();
   auto unit = make_unit(fmu, "unit");
   fmu.reset();
@@ -459,30 +462,30 @@ TEST_CASE("a saved state comes back any number of times, and is replaced by the 
   Fmi3Fixture unit("stepper");
   unit.initialize();
   unit->step({{}, Time(10ms)});
-  unit->save_state();
+  state(*unit).save_state();
   for (int i = 0; i < 3; ++i) {
     unit->step({Time(10ms), Time(30ms)});
     CHECK(unit.number<std::int32_t>("steps") == 2);
     CHECK(unit.number<double>("position") == Approx(0.06));
-    unit->restore_state();
+    state(*unit).restore_state();
     CHECK(unit.number<std::int32_t>("steps") == 1);
     CHECK(unit.number<double>("position") == Approx(0.02));
   }
   unit->step({Time(10ms), Time(20ms)});
-  unit->save_state();
+  state(*unit).save_state();
   unit->step({Time(20ms), Time(30ms)});
-  unit->restore_state();
+  state(*unit).restore_state();
   CHECK(unit.number<std::int32_t>("steps") == 2);
   unit->step({Time(20ms), Time(30ms)});
   unit->terminate();
 }
 
 TEST_CASE("after a restore errors speak of the restored time") {
-  Raw raw("sets", {}, "raw_extended");
+  Raw raw("sets", {}, "raw_extended", kKeepsStates);
   raw.unit->step({{}, Time(1s)});
-  raw.unit->save_state();
+  state(*raw.unit).save_state();
   raw.unit->step({Time(1s), Time(2s)});
-  raw.unit->restore_state();
+  state(*raw.unit).restore_state();
   const core::ValueReference any = 1;
   const ValueBlock value(ValueType::Float64, 1);
   CHECK_THAT(run_error([&] { raw.unit->set(std::span(&any, 1), value); }),
@@ -490,39 +493,39 @@ TEST_CASE("after a restore errors speak of the restored time") {
 }
 
 TEST_CASE("the memory of a state is used again, and freed with the instance", "[here]") {
-  Raw raw("unit", {}, "raw_extended");
-  for (int i = 0; i < 5; ++i) raw.unit->save_state();
+  Raw raw("unit", {}, "raw_extended", kKeepsStates);
+  for (int i = 0; i < 5; ++i) state(*raw.unit).save_state();
   CHECK(raw.global<int>("raw_states_made") == 1);
   CHECK(raw.global<int>("raw_states_living") == 1);
   raw.unit.reset();
   CHECK(raw.global<int>("raw_states_living") == 0);
 
-  Raw fatal("fatal", {}, "raw_extended");
-  fatal.unit->save_state();
+  Raw fatal("fatal", {}, "raw_extended", kKeepsStates);
+  state(*fatal.unit).save_state();
   CHECK_THROWS_AS(fatal.unit->step({{}, Time(1ms)}), core::Error);
   fatal.unit.reset();
   CHECK(fatal.global<int>("raw_states_living") == 1);
 }
 
 TEST_CASE("a state that cannot be saved or restored is an error") {
-  Raw without("unit");
+  Raw without("unit", {}, "raw", kKeepsStates);
   CHECK_THAT(
-      run_error([&] { without.unit->save_state(); }),
+      run_error([&] { state(*without.unit).save_state(); }),
       Contains("its library does not export fmi3GetFMUState") && Contains("canGetAndSetFMUState"));
   Fmi3Fixture stateless("stateless");
-  CHECK_THAT(run_error([&] { stateless->save_state(); }),
-             Contains("fmi3GetFMUState returned fmi3Error"));
-  Raw early("unit", {}, "raw_extended");
-  CHECK_THAT(run_error([&] { early.unit->restore_state(); }), Contains("no state of it has been"));
-  Raw forgetful("forgetful", {}, "raw_extended");
-  forgetful.unit->save_state();
-  CHECK_THAT(run_error([&] { forgetful.unit->restore_state(); }),
+  CHECK(stateless->capability<core::StateSaving>() == nullptr);
+  Raw early("unit", {}, "raw_extended", kKeepsStates);
+  CHECK_THAT(run_error([&] { state(*early.unit).restore_state(); }),
+             Contains("no state of it has been"));
+  Raw forgetful("forgetful", {}, "raw_extended", kKeepsStates);
+  state(*forgetful.unit).save_state();
+  CHECK_THAT(run_error([&] { state(*forgetful.unit).restore_state(); }),
              Contains("fmi3SetFMUState returned fmi3Discard"));
 }
 
 TEST_CASE("a warning is logged and the step stands") {
   std::vector<std::string> logged;
-  Raw raw("warning", {.log = [&](const std::string& unit, fmi::Status status,
+  Raw raw("warning", {.log = [&](const std::string& unit, importer::Status status,
                                  const std::string& category, const std::string& message) {
             logged.push_back(unit + "/" + std::to_string(static_cast<int>(status)) + "/" +
                              category + "/" + message);
@@ -566,7 +569,7 @@ TEST_CASE("a unit without resources gets none") {
   CHECK(path.strings()[0] == "NULL");
 
   fs::create_directory(raw.scratch / "raw/resources");
-  const auto unit = make_unit(fmi::Fmu::load(raw.scratch / "raw"), "unit");
+  const auto unit = make_unit(importer::Fmu::load(raw.scratch / "raw"), "unit");
   unit->get(std::span(&any, 1), path);
   CHECK(path.strings()[0] == (raw.scratch / "raw/resources").string() + "/");
 }
@@ -603,7 +606,7 @@ TEST_CASE("Event Mode is not wanted by who has none") {
 }
 
 TEST_CASE("structural parameters are set in Configuration Mode, before all others") {
-  const auto fmu = fmi::Fmu::load(test_fmu("resizable"));
+  const auto fmu = importer::Fmu::load(test_fmu("resizable"));
   const auto unit = make_unit(fmu, "unit");
   const auto reference = [&](const char* name) {
     return fmu->description()->variables[*fmu->description()->find(name)].reference;
@@ -614,9 +617,9 @@ TEST_CASE("structural parameters are set in Configuration Mode, before all other
   three.numbers<std::uint64_t>()[0] = 3;
   core::ValueBlock values(core::ValueType::Float64, 3);
   std::ranges::copy(std::vector{2.0, 3.0, 4.0}, values.numbers<double>().begin());
-  unit->enter_configuration_mode();
+  configuration(*unit).enter_configuration_mode();
   unit->set(n, three);
-  unit->exit_configuration_mode();
+  configuration(*unit).exit_configuration_mode();
   unit->set(gain, values);
   unit->enter_initialization({}, {});
   unit->set(u, values);
@@ -625,17 +628,22 @@ TEST_CASE("structural parameters are set in Configuration Mode, before all other
   CHECK(std::ranges::equal(result.numbers<double>(), std::vector{4.0, 9.0, 16.0}));
 
   std::vector<double> sensitivity(3);
-  unit->get_directional_derivative(y, u, std::vector{1.0, 0.5, -1.0}, sensitivity);
+  derivatives(*unit).get_directional_derivative(y, u, std::vector{1.0, 0.5, -1.0}, sensitivity);
   CHECK(sensitivity == std::vector{2.0, 1.5, -4.0});
 }
 
 TEST_CASE("what a library does not export for structure and derivatives is named") {
   const Scratch scratch;
-  const auto fmu = fmi::Fmu::load(make_raw_fmu(scratch, "raw"));
+  const fs::path folder = make_raw_fmu(scratch, "raw");
+  scratch.write("raw/modelDescription.xml",
+                description_text("raw", "providesDirectionalDerivatives=\"true\"",
+                                 "<UInt64 name=\"n\" valueReference=\"1\" start=\"1\" "
+                                 "causality=\"structuralParameter\" variability=\"fixed\"/>\n"));
+  const auto fmu = importer::Fmu::load(folder);
   const auto unit = make_unit(fmu, "unit");
-  CHECK_THAT(run_error([&] { unit->enter_configuration_mode(); }),
+  CHECK_THAT(run_error([&] { configuration(*unit).enter_configuration_mode(); }),
              Contains("does not export fmi3EnterConfigurationMode"));
-  CHECK_THAT(run_error([&] { unit->get_directional_derivative({}, {}, {}, {}); }),
+  CHECK_THAT(run_error([&] { derivatives(*unit).get_directional_derivative({}, {}, {}, {}); }),
              Contains("does not export fmi3GetDirectionalDerivative"));
 }
 
@@ -644,28 +652,27 @@ TEST_CASE("what a library does not export for structure and derivatives is named
 TEST_CASE("a unit says what a message says") {
   Fmi3Fixture unit("types");
   const core::ValueReference frame = unit.reference("receive.frame");
-  CHECK(unit->describe_message(frame, {0x26, 0x27}) == "2 bytes in receive.frame");
+  CHECK(texts(*unit).describe_message(frame, {0x26, 0x27}) == "2 bytes in receive.frame");
   unit.initialize();
-  CHECK(unit->describe_message(frame, core::Binary(1'000'000, 0x26)) ==
+  CHECK(texts(*unit).describe_message(frame, core::Binary(1'000'000, 0x26)) ==
         "1000000 bytes in receive.frame");
-  CHECK(unit->describe_message(frame, {}) == "");
-  CHECK(unit->describe_message(frame, {0}) == "");
-  const std::string longest = unit->describe_message(frame, {2});
-  CHECK(longest.size() == fmi::Fmi3Unit::kLongestDescription);
+  CHECK(texts(*unit).describe_message(frame, {}) == "");
+  CHECK(texts(*unit).describe_message(frame, {0}) == "");
+  const std::string longest = texts(*unit).describe_message(frame, {2});
+  CHECK(longest.size() == importer::Fmi3Unit::kLongestDescription);
   CHECK(longest.substr(longest.size() - 2) == "é");
-  CHECK_THAT(run_error([&] { unit->describe_message(unit.reference("float64"), {1}); }),
+  CHECK_THAT(run_error([&] { texts(*unit).describe_message(unit.reference("float64"), {1}); }),
              Contains("strideDescribeMessage returned fmi3Error: ") && Contains("not Binary"));
 }
 
 TEST_CASE("a unit of another tool says what a message says") {
-  const auto say = [](const char* behaviour, const core::Binary& value,
-                      const char* library = "raw_extended") {
-    return Raw(behaviour, {}, library).unit->describe_message(7, value);
+  const auto say = [](const char* behaviour, const core::Binary& value) {
+    return texts(*Raw(behaviour, {}, "raw_extended").unit).describe_message(7, value);
   };
   CHECK(say("plain", {1, 2}) == "7: 2 bytes, somewhere");
   CHECK(say("plain", {}) == "7: 0 bytes, somewhere");
   CHECK(say("mute", {1}) == "");
-  CHECK(say("plain", {1}, "raw") == "");  // it does not have the function
+  CHECK(Raw("plain").unit->capability<core::MessageText>() == nullptr);
   CHECK_THAT(run_error([&] { say("babbles", {1}); }),
              Contains("strideDescribeMessage says that it has written 1025 bytes where 1024 fit"));
   CHECK_THAT(run_error([&] { say("refuses_it", {1}); }),
@@ -674,6 +681,6 @@ TEST_CASE("a unit of another tool says what a message says") {
 
 TEST_CASE("why a unit has nothing to say is not the reason of a later failure") {
   Raw raw("mute", {}, "raw_extended");
-  CHECK(raw.unit->describe_message(7, {1}) == "");
+  CHECK(texts(*raw.unit).describe_message(7, {1}) == "");
   raw.unit->step({Time(0s), Time(500ms)});
 }

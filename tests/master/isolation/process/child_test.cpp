@@ -12,7 +12,7 @@
 
 #include "master/isolation/process/shared_note.h"
 
-using namespace stride::process;
+using namespace stride::isolation;
 using namespace std::chrono_literals;
 using End = ChildOutcome::End;
 

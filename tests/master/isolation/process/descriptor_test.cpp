@@ -10,7 +10,7 @@
 #include "master/isolation/process/child.h"
 #include "master/isolation/process/surroundings.h"
 
-using namespace stride::process;
+using namespace stride::isolation;
 
 namespace {
 

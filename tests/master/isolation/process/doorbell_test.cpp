@@ -8,7 +8,7 @@
 
 #include "master/isolation/process/shared_memory.h"
 
-using namespace stride::process;
+using namespace stride::isolation;
 using namespace std::chrono_literals;
 
 namespace {

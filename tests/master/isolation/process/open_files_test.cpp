@@ -12,7 +12,7 @@
 #include "master/isolation/process/descriptor.h"
 #include "tests/scratch_folder.h"
 
-using namespace stride::process;
+using namespace stride::isolation;
 
 namespace {
 

@@ -9,7 +9,7 @@
 
 #include "master/isolation/process/child.h"
 
-using namespace stride::process;
+using namespace stride::isolation;
 
 TEST_CASE("memory that was used counts, also when it is no longer there") {
   constexpr std::size_t kSize = std::size_t{64} << 20;

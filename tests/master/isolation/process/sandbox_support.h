@@ -46,9 +46,9 @@ inline std::filesystem::path write_file(const std::filesystem::path& path,
 
 /// What the work says in a fork of this process; throws what it throws.
 inline std::string in_child(const std::function<std::string()>& work) {
-  const process::ChildOutcome outcome = process::run_in_child(work);
+  const isolation::ChildOutcome outcome = isolation::run_in_child(work);
   INFO(outcome.text << outcome.printed);
-  REQUIRE(outcome.end == process::ChildOutcome::End::Answered);
+  REQUIRE(outcome.end == isolation::ChildOutcome::End::Answered);
   return outcome.text;
 }
 
@@ -65,7 +65,7 @@ inline bool is_missing(const char* what, const std::function<void()>& use) {
 }
 
 inline bool lacks_landlock() {
-  return is_missing("Landlock", [] { process::landlock_version(); });
+  return is_missing("Landlock", [] { isolation::landlock_version(); });
 }
 
 }  // namespace stride::tests

@@ -14,7 +14,7 @@
 #include "master/isolation/process/system_calls.h"
 #include "tests/master/isolation/process/sandbox_support.h"
 
-using namespace stride::process;
+using namespace stride::isolation;
 using namespace stride::tests;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;

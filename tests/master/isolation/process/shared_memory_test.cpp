@@ -7,7 +7,7 @@
 
 #include "master/isolation/process/child.h"
 
-using namespace stride::process;
+using namespace stride::isolation;
 
 TEST_CASE("shared memory is shared with children, unless it is hidden from them") {
   Shared<std::atomic<int>> number;

@@ -7,7 +7,7 @@
 
 #include "master/isolation/process/child.h"
 
-using namespace stride::process;
+using namespace stride::isolation;
 
 TEST_CASE("a note outlives who wrote it, and is cut off where it is too long") {
   SharedNote note;

@@ -10,7 +10,7 @@
 #include "master/isolation/process/child.h"
 #include "master/isolation/process/shared_memory.h"
 
-using namespace stride::process;
+using namespace stride::isolation;
 
 TEST_CASE("a sibling has the same parent and the same memory, and a number of its own") {
   struct Seen {

@@ -9,7 +9,7 @@
 
 #include "tests/master/isolation/process/sandbox_support.h"
 
-using namespace stride::process;
+using namespace stride::isolation;
 using namespace stride::tests;
 
 namespace {

@@ -1,0 +1,23 @@
+#ifndef STRIDE_MASTER_ALGORITHM_CAPABILITIES_MESSAGE_TEXT_H
+#define STRIDE_MASTER_ALGORITHM_CAPABILITIES_MESSAGE_TEXT_H
+
+#include <string>
+
+#include "master/algorithm/capability.h"
+#include "master/model/description.h"
+#include "master/model/values.h"
+
+namespace stride::core {
+
+class MessageText : public Capability {
+ public:
+  static constexpr CapabilityId kId = CapabilityId::MessageText;
+
+  /// What a value of a Binary variable means, in the unit's own words, which are to be made safe
+  /// (readable_text()); empty where the unit does not know. In any mode; changes nothing.
+  virtual std::string describe_message(ValueReference variable, const Binary& value) = 0;
+};
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,19 @@
+#ifndef STRIDE_MASTER_ALGORITHM_CAPABILITIES_RESETTING_H
+#define STRIDE_MASTER_ALGORITHM_CAPABILITIES_RESETTING_H
+
+#include "master/algorithm/capability.h"
+
+namespace stride::core {
+
+class Resetting : public Capability {
+ public:
+  static constexpr CapabilityId kId = CapabilityId::Resetting;
+
+  /// Makes the unit what it was when it was made: no start value is set. States kept by StateSaving
+  /// stay. Also after the unit has failed or was terminated.
+  virtual void reset() = 0;
+};
+
+}  // namespace stride::core
+
+#endif

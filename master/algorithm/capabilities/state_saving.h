@@ -1,0 +1,26 @@
+#ifndef STRIDE_MASTER_ALGORITHM_CAPABILITIES_STATE_SAVING_H
+#define STRIDE_MASTER_ALGORITHM_CAPABILITIES_STATE_SAVING_H
+
+#include <cstddef>
+
+#include "master/algorithm/capability.h"
+
+namespace stride::core {
+
+/// States of the unit that are kept in it, each in a slot. Inputs are a part of the state.
+class StateSaving : public Capability {
+ public:
+  static constexpr CapabilityId kId = CapabilityId::StateSaving;
+
+  /// Keeps the present state in the selected slot, in place of what it held. In any mode.
+  virtual void save_state() = 0;
+  /// Makes the unit what it was at save_state(), any number of times. Fails if the slot is empty.
+  virtual void restore_state() = 0;
+  /// Selects the slot that the functions above, and StateSerialization, use: slot 0 until another
+  /// is selected. The other slots keep their states. A unit with one slot throws std::logic_error.
+  virtual void select_state(std::size_t slot) = 0;
+};
+
+}  // namespace stride::core
+
+#endif

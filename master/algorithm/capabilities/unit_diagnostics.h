@@ -1,0 +1,24 @@
+#ifndef STRIDE_MASTER_ALGORITHM_CAPABILITIES_UNIT_DIAGNOSTICS_H
+#define STRIDE_MASTER_ALGORITHM_CAPABILITIES_UNIT_DIAGNOSTICS_H
+
+#include <cstdint>
+#include <string>
+
+#include "master/algorithm/capability.h"
+
+namespace stride::core {
+
+/// At any time, also after a failure. Throws nothing.
+class UnitDiagnostics : public Capability {
+ public:
+  static constexpr CapabilityId kId = CapabilityId::UnitDiagnostics;
+
+  /// The unit's own words on the last step that it rejected; empty if it gave none.
+  virtual std::string rejection_reason() const = 0;
+  /// How many functions of the unit's own interface were called so far.
+  virtual std::uint64_t calls() const = 0;
+};
+
+}  // namespace stride::core
+
+#endif
