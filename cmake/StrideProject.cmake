@@ -22,6 +22,10 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 add_compile_options(-Wall -Wextra -Wpedantic)
+if(CMAKE_UNITY_BUILD)
+  # GCC takes a source in a unity build for a header, where a class must not have members of unnamed namespaces
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
+endif()
 if(STRIDE_WARNINGS_AS_ERRORS)
   add_compile_options(-Werror)
 endif()

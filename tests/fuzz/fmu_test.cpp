@@ -1,9 +1,10 @@
 // Whatever an FMU holds, loading its description gives a description or a core::Error.
+#include "master/importer/fmu.h"
+
 #include <string>
 
 #include <catch2/catch.hpp>
 
-#include "master/importer/fmu.h"
 #include "master/importer/idle_manifest.h"
 #include "master/importer/model_description.h"
 #include "tests/fuzz/mutator.h"

@@ -1,12 +1,13 @@
 // Whatever a file holds, reading it gives a scenario or a core::Error, completing what was read
 // gives a text that reads back, and so does packing it.
+#include "master/scenario/scenario.h"
+
 #include <filesystem>
 #include <iterator>
 #include <string>
 
 #include <catch2/catch.hpp>
 
-#include "master/scenario/scenario.h"
 #include "master/ssp/complete.h"
 #include "master/ssp/package.h"
 #include "master/util/archive/zip.h"
