@@ -10,6 +10,7 @@
 #include <stride/nfc/iso14443a.h>
 
 #include "master/importer/fmu.h"
+#include "master/util/hex.h"
 #include "master/util/time_text.h"
 #include "tests/master/algorithm/scripted_system.h"
 
