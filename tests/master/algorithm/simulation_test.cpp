@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "master/util/hex.h"
 #include "master/util/time_text.h"
 #include "tests/at.h"
 #include "tests/master/algorithm/scripted_system.h"

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "master/util/hex.h"
 #include "tests/at.h"
 #include "tests/master/algorithm/forwarding.h"
 #include "tests/master/algorithm/scripted_unit.h"

@@ -91,7 +91,9 @@ TEST_CASE("What is wrong far behind in the trace leaves nothing") {
              Contains("in.vcd:10: advanceTime falls"));
 }
 
-TEST_CASE("Of a trace that was cut off, all but the last instant is there if that is accepted") {
+TEST_CASE(
+    "Of a compressed trace that was cut off, all but the last instant is there if that is "
+    "accepted") {
   const TemporaryFolder folder;
   folder.write("in.vcd", skipping("#0\nb0 t\n0!\n#10\n1!\n#20\n0!\nb110"));
   CHECK(expand(folder / "in.vcd", folder / "out.vcd", CutOff::Accept) == 14);
