@@ -181,7 +181,7 @@ void check_replay(const ScenarioRun& original, const std::string& scenario,
 /// What was in force where each step began, and each message.
 struct Course {
   std::map<stride::Time, std::vector<double>> values;
-  std::vector<std::pair<stride::Time, player::Bytes>> frames;
+  std::vector<std::pair<stride::Time, stride::Binary>> frames;
 };
 
 Course course_of(const player::Stimuli& stimuli) {
@@ -195,7 +195,7 @@ Course course_of(const player::Stimuli& stimuli) {
       now[entry.input] = (*numbers)[entry.first];
     } else {
       course.frames.emplace_back(entry.time,
-                                 std::get<std::vector<player::Bytes>>(values)[entry.first]);
+                                 std::get<std::vector<stride::Binary>>(values)[entry.first]);
     }
   }
   return course;
