@@ -61,7 +61,7 @@ enum class ReplyCode : std::uint32_t {
 };
 
 /// How a process ended, as its supervisor saw it.
-enum class End : std::uint32_t { None, NotStarted, Exited, Killed };
+enum class HostEnd : std::uint32_t { None, NotStarted, Exited, Killed };
 
 /// One direction. The writer sets what and size first, then the number, then rings.
 struct alignas(64) Turn {
@@ -84,8 +84,8 @@ struct ChannelMemory {
 
   /// The process in charge of the unit. The end of any other does not matter.
   std::atomic<pid_t> active = 0;
-  std::atomic<End> end = End::None;  ///< of that one; written by the supervisor
-  std::atomic<int> end_code = 0;     ///< the error of the start, the exit code, or the signal
+  std::atomic<HostEnd> end = HostEnd::None;  ///< of that one; written by the supervisor
+  std::atomic<int> end_code = 0;  ///< the error of the start, the exit code, or the signal
 
   std::atomic<std::uint64_t> most_memory = 0;  ///< resident, of those that have ended [byte]
   SnapshotBoard snapshots;

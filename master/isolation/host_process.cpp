@@ -68,7 +68,7 @@ bool HostProcess::look_for_end() {
   if (!is_supervisor_gone()) return false;
   ::kill(-supervisor_, SIGKILL);
   is_supervisor_lost_ = true;
-  channel_.end = End::Killed;
+  channel_.end = HostEnd::Killed;
   channel_.end_code = SIGKILL;
   return true;
 }
@@ -112,12 +112,12 @@ std::string HostProcess::how_it_ended() const {
   if (is_supervisor_lost_) return "its process was killed, since something has ended its keeper";
   const int code = channel_.end_code;
   switch (channel_.end.load()) {
-    case End::NotStarted:
+    case HostEnd::NotStarted:
       return fmt::format("its process cannot be started: {}", std::strerror(code));
-    case End::Exited:
+    case HostEnd::Exited:
       return fmt::format("it ended its process with exit code {}", code);
-    case End::Killed:
-    case End::None:
+    case HostEnd::Killed:
+    case HostEnd::None:
       break;
   }
   return fmt::format("its process was ended by signal {} ({})", code, signal_name(code));

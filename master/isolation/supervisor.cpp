@@ -128,10 +128,10 @@ class Supervisor {
   void note_end(pid_t child, int status, const rusage& usage) {
     raise_to(channel_.most_memory, static_cast<std::uint64_t>(usage.ru_maxrss) * 1024);
     channel_.snapshots.note_end(child);
-    if (child != channel_.active || channel_.end != End::None) return;
+    if (child != channel_.active || channel_.end != HostEnd::None) return;
     pass_on_all(100ms);  // what it has said comes first
     channel_.end_code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
-    channel_.end = WIFSIGNALED(status) ? End::Killed : End::Exited;
+    channel_.end = WIFSIGNALED(status) ? HostEnd::Killed : HostEnd::Exited;
     channel_.reply.doorbell.ring();
   }
 
@@ -174,7 +174,7 @@ void supervise(Channel& channel, Descriptor control, pid_t master,
   output.write.close();
   if (server < 0) {
     channel.memory->end_code = errno;
-    channel.memory->end = End::NotStarted;
+    channel.memory->end = HostEnd::NotStarted;
     channel.memory->reply.doorbell.ring();
   }
   Supervisor supervisor(*channel.memory, std::move(control), std::move(output.read));

@@ -61,7 +61,7 @@ class JunitWriter {
     xml_.attribute("failures", count(false));
     xml_.attribute("errors", report_.error ? "1" : "0");
     xml_.attribute("skipped", count(std::nullopt));
-    xml_.attribute("time", wall_seconds(report_.wall_time));
+    xml_.attribute("time", core::wall_seconds(report_.wall_time));
     xml_.attribute("timestamp",
                    fmt::format("{:%Y-%m-%dT%H:%M:%S}",
                                fmt::gmtime(std::chrono::system_clock::to_time_t(report_.began))));
@@ -83,7 +83,7 @@ class JunitWriter {
     xml_.open("testcase");
     xml_.attribute("name", first_line(name));
     xml_.attribute("classname", report_.suite + group);
-    xml_.attribute("time", wall_seconds(time));
+    xml_.attribute("time", core::wall_seconds(time));
   }
 
   void write_outcome(const char* element, const std::string& type, const std::string& message,

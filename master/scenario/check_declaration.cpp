@@ -16,7 +16,7 @@ std::optional<Duration> read_duration(const xml::Element& element, const char* a
   const auto text = element.attribute(attribute);
   if (!text) return std::nullopt;
   try {
-    return parse_seconds(*text);
+    return core::parse_seconds(*text);
   } catch (const std::invalid_argument& mistake) {
     element.fail(fmt::format("{}: {}", attribute, mistake.what()));
   }

@@ -28,7 +28,7 @@ typename Choices::value_type parse_word(std::string_view text, const Choices& ch
 }
 
 Duration parse_step(std::string_view text) {
-  const Duration step = parse_seconds(text);
+  const Duration step = core::parse_seconds(text);
   if (step <= Duration::zero()) throw std::invalid_argument("a step must be above 0 s");
   return step;
 }
@@ -122,7 +122,7 @@ std::vector<HostSettings> HostRules::settings(std::span<const std::string> compo
 }
 
 std::chrono::milliseconds parse_call_limit(std::string_view text) {
-  const Duration limit = parse_seconds(text);
+  const Duration limit = core::parse_seconds(text);
   if (limit <= Duration::zero()) throw std::invalid_argument("a time limit must be above 0 s");
   return std::chrono::ceil<std::chrono::milliseconds>(limit);
 }
@@ -172,7 +172,7 @@ core::IdleOptions IdleSettings::options(const core::System& system,
 }
 
 Duration parse_max_skip(std::string_view text) {
-  const Duration skip = parse_seconds(text);
+  const Duration skip = core::parse_seconds(text);
   if (skip <= Duration::zero()) throw std::invalid_argument("a skip must be above 0 s");
   return skip;
 }

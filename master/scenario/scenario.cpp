@@ -19,7 +19,7 @@ std::optional<Time> read_instant(const xml::Element& element, const char* attrib
   const auto text = element.attribute(attribute);
   if (!text) return std::nullopt;
   try {
-    return Time(parse_seconds(*text));
+    return Time(core::parse_seconds(*text));
   } catch (const std::invalid_argument& mistake) {
     element.fail(fmt::format("{}={}", attribute, mistake.what()));
   }

@@ -71,7 +71,7 @@ void OutputFile::write_seconds(Time time) {
 }
 
 void OutputFile::write_hex(std::span<const std::uint8_t> bytes) {
-  write_hex(bytes, [&](char digit) { write(digit); });
+  core::write_hex(bytes, [&](char digit) { write(digit); });
 }
 
 void OutputFile::flush() {
