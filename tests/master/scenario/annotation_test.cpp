@@ -18,7 +18,7 @@ std::string annotations(const std::string& inside) {
          "</ssc:Annotation></ssd:Annotations>";
 }
 
-std::string scenario(const std::string& inside) {
+std::string scenario_element(const std::string& inside) {
   return "<stride:Scenario xmlns:stride='urn:org.stride:scenario:1'>" + inside +
          "</stride:Scenario>";
 }
@@ -36,14 +36,14 @@ ScenarioAnnotation read_annotation(const std::string& text) {
 }
 
 std::string annotation_error(const std::string& inside) {
-  return error_of([&] { read_annotation(at_root(annotations(scenario(inside)))); });
+  return error_of([&] { read_annotation(at_root(annotations(scenario_element(inside)))); });
 }
 
 }  // namespace
 
 TEST_CASE("Everything that the annotation can say") {
-  const ScenarioAnnotation annotation = read_annotation(
-      at_root(annotations(scenario("<stride:Step size='0.001'/>"
+  const ScenarioAnnotation annotation = read_annotation(at_root(
+      annotations(scenario_element("<stride:Step size='0.001'/>"
                                    "<stride:Record signals=' sensor.*  channel.distance'/>\n"
                                    "<stride:Record signals='reader.*'/>"
                                    "<stride:Plot title='Both' signals='a.x  b.*'/>"
@@ -115,7 +115,7 @@ TEST_CASE("Everything that the annotation can say") {
 TEST_CASE("Everything about the stepping can be chosen") {
   const StepSettings step =
       read_annotation(
-          at_root(annotations(scenario(
+          at_root(annotations(scenario_element(
               "<stride:Step policy='error-controlled' size='0.01' maximum='0.1' minimum='1e-6' "
               "relativeTolerance='1e-4' absoluteTolerance='0'/>"
               "<stride:Exchange coupling='gauss-seidel' extrapolation='quadratic'/>"))))
@@ -135,9 +135,9 @@ TEST_CASE("Everything about the stepping can be chosen") {
 TEST_CASE("It may be left out, or stand at the system") {
   CHECK(read_annotation(at_root("")).step.size == std::nullopt);
   CHECK(read_annotation(at_root("")).results.signals == "signals.csv");
-  CHECK(read_annotation(at_root(annotations(scenario("")))).record.empty());
+  CHECK(read_annotation(at_root(annotations(scenario_element("")))).record.empty());
   CHECK(read_annotation(ssd_with("<ssd:Component name='a' source='a.fmu'/>",
-                                 annotations(scenario("<stride:Step size='1e-6'/>"))))
+                                 annotations(scenario_element("<stride:Step size='1e-6'/>"))))
             .step.size == Duration(1'000'000));
 }
 
@@ -206,12 +206,13 @@ TEST_CASE("An annotation without content, in another place, or twice is refused"
       Contains("<s:Scenario> is in the namespace 'urn:org.stride:scenario:2'"));
   CHECK_THROWS_WITH(
       read_annotation(ssd_with("<ssd:Component name='a' source='a.fmu'>" +
-                               annotations(scenario("")) + "</ssd:Component>")),
+                               annotations(scenario_element("")) + "</ssd:Component>")),
       Contains("x.ssd:6: an annotation of the type 'org.stride' does not belong here"));
   CHECK_THROWS_WITH(
       read_annotation(
           ssd("<ssd:System name='s'><ssd:Elements><ssd:Component name='a' source='a.fmu'/>"
               "</ssd:Elements>" +
-              annotations(scenario("")) + "</ssd:System>\n" + annotations(scenario("")))),
+              annotations(scenario_element("")) + "</ssd:System>\n" +
+              annotations(scenario_element("")))),
       Contains("x.ssd:6: a second annotation of the type 'org.stride'; the first is in line 4"));
 }
