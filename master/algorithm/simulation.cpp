@@ -37,9 +37,8 @@ class Simulation::Run {
         step_policy_(make_step_policy(system_, options_)),
         inputs_(make_input_extrapolator()),
         idle_(make_idle_scheduler()),
-        event_handler_(context_, pointer_to(idle_)),
-        stepper_(context_, sets_inputs_in_steps() ? pointer_to(inputs_) : nullptr,
-                 pointer_to(idle_)) {
+        event_handler_(context_, idle_.get()),
+        stepper_(context_, sets_inputs_in_steps() ? pointer_to(inputs_) : nullptr, idle_.get()) {
     if (sets_inputs_in_steps()) connect_input_updates();
   }
 
@@ -175,11 +174,10 @@ class Simulation::Run {
     return std::optional<InputExtrapolator>(std::in_place, context_);
   }
 
-  std::optional<IdleScheduler> make_idle_scheduler() {
-    if (!options_.may_skip_idle_time()) return std::nullopt;
-    std::optional<IdleScheduler> idle(std::in_place, context_);
-    if (idle->is_trivial()) idle.reset();
-    return idle;
+  std::unique_ptr<IdleScheduler> make_idle_scheduler() {
+    if (!options_.may_skip_idle_time()) return nullptr;
+    auto idle = std::make_unique<IdleScheduler>(context_);
+    return idle->is_trivial() ? nullptr : std::move(idle);
   }
 
   void connect_input_updates() {
@@ -273,7 +271,7 @@ class Simulation::Run {
 
   std::unique_ptr<StepPolicy> step_policy_;
   std::optional<InputExtrapolator> inputs_;  ///< nothing where inputs are held
-  std::optional<IdleScheduler> idle_;        ///< nothing where no unit may be suspended
+  std::unique_ptr<IdleScheduler> idle_;      ///< nothing where no unit may be suspended
   EventHandler event_handler_;
   Stepper stepper_;
 
