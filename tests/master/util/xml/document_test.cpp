@@ -9,18 +9,18 @@ using Catch::Contains;
 namespace {
 
 std::string error_in(const std::string& text) {
-  return error_of([&] { xml::Document::parse(text, "x.ssd"); });
+  return xml_error([&] { xml::Document::parse(text, "x.ssd"); });
 }
 
 }  // namespace
 
 TEST_CASE("A file that cannot be read is named, with the reason") {
   const std::filesystem::path missing = "/absent/missing.ssd";
-  CHECK_THAT(error_of([&] { xml::Document document(missing); }),
+  CHECK_THAT(xml_error([&] { xml::Document document(missing); }),
              Contains(missing.string() + ": the file does not exist"));
-  CHECK_THAT(error_of([&] { xml::Document document("/"); }),
+  CHECK_THAT(xml_error([&] { xml::Document document("/"); }),
              Contains("this is a folder, expected a file"));
-  CHECK_THAT(error_of([&] { xml::Document document("/proc/self/mem"); }),
+  CHECK_THAT(xml_error([&] { xml::Document document("/proc/self/mem"); }),
              Contains("/proc/self/mem: cannot read the file"));
 }
 

@@ -12,7 +12,7 @@ namespace stride::tests {
 
 /// The text of the error that the call throws; empty if it throws none.
 template <class Call>
-std::string error_of(Call&& call) {
+std::string xml_error(Call&& call) {
   try {
     call();
   } catch (const core::Error& error) {
