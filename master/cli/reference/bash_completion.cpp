@@ -8,7 +8,7 @@ namespace {
 
 /// The part that does not depend on the commands. Bash cuts words at '=', so they are joined again,
 /// and the candidates replace the text behind the last '='.
-constexpr const char* kHead = R"sh(# bash completion for stride, made by `stride reference bash`
+constexpr const char* kBashHead = R"sh(# bash completion for stride, made by `stride reference bash`
 
 _stride_words() { # WORD...
   COMPREPLY+=($(compgen -W "$*" -- "$value"))
@@ -52,7 +52,7 @@ _stride_component_files() { # EXTENSION...
 }
 )sh";
 
-constexpr const char* kTail = R"sh(
+constexpr const char* kBashTail = R"sh(
 _stride() {
   local words=() word last= command=stride option value i
   COMPREPLY=()
@@ -82,7 +82,7 @@ _stride() {
 complete -F _stride stride
 )sh";
 
-std::string completer(const Value& value) {
+std::string bash_completer(const Value& value) {
   using Kind = Value::Kind;
   switch (value.kind) {
     case Kind::Choice:
@@ -133,7 +133,7 @@ std::string values(const std::vector<const Command*>& commands) {
       if (!option.takes_value()) continue;
       const char* const condition = option.is_value_optional ? "[ -n \"$1\" ] && " : "";
       text += fmt::format("    {}) {}{} ;;\n", patterns(*command, option), condition,
-                          completer(option.value));
+                          bash_completer(option.value));
     }
   }
   return text + "    *) return 1 ;;\n  esac\n}\n";
@@ -158,7 +158,7 @@ std::string arguments(const std::vector<const Command*>& commands) {
     if (!work.empty()) {
       work = "_stride_words" + work;
     } else if (!command->arguments.empty()) {
-      work = completer(command->arguments.front().value);
+      work = bash_completer(command->arguments.front().value);
     } else {
       continue;
     }
@@ -171,8 +171,8 @@ std::string arguments(const std::vector<const Command*>& commands) {
 
 std::string bash_completion(const Command& program) {
   const auto commands = all_of(program);
-  return kHead + is_command(commands) + values(commands) + options(commands) + arguments(commands) +
-         kTail;
+  return kBashHead + is_command(commands) + values(commands) + options(commands) +
+         arguments(commands) + kBashTail;
 }
 
 }  // namespace stride::cli::reference

@@ -6,7 +6,7 @@
 namespace stride::cli::reference {
 namespace {
 
-constexpr const char* kHead = R"sh(# fish completion for stride, made by `stride reference fish`
+constexpr const char* kFishHead = R"sh(# fish completion for stride, made by `stride reference fish`
 
 function __stride_at # COMMAND...: whether the words of the line begin with these commands, and no further one
     set -l words (commandline -opc)[2..]
@@ -108,7 +108,7 @@ std::string option_line(const Command& command, const Option& option) {
 
 std::string fish_completion(const Command& program) {
   const auto commands = all_of(program);
-  std::string text = kHead;
+  std::string text = kFishHead;
   text += "set -g __stride_commands";
   for (const Command* command : commands) {
     if (command->words.size() > 1) text += " " + quoted(path(*command));

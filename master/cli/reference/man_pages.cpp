@@ -8,7 +8,7 @@
 namespace stride::cli::reference {
 namespace {
 
-constexpr std::size_t kWidth = 72;
+constexpr std::size_t kManWidth = 72;
 
 /// Text that roff(7) takes as it is.
 std::string escaped(const std::string& text) {
@@ -32,7 +32,7 @@ std::string bold(const std::string& text) { return "\\fB" + escaped(text) + "\\f
 std::string italic(const std::string& text) { return "\\fI" + escaped(text) + "\\fR"; }
 
 /// A sentence in lines of the length that man pages have.
-std::string sentence(const std::string& text) { return escaped(wrapped(text + ".", kWidth)); }
+std::string sentence(const std::string& text) { return escaped(wrapped(text + ".", kManWidth)); }
 
 /// "\fB-o\fR, \fB--out\fR \fIFOLDER\fR"
 std::string tag(const Option& option) {
@@ -62,7 +62,7 @@ std::string arguments(const Command& command) {
 /// Paragraphs; what is indented in a footer, a list, keeps its lines.
 std::string paragraphs(const std::string& text) {
   std::string result;
-  std::istringstream lines(wrapped(text, kWidth));
+  std::istringstream lines(wrapped(text, kManWidth));
   bool is_list = false;
   for (std::string line; std::getline(lines, line);) {
     const bool is_item = line.starts_with(" ");

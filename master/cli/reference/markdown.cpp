@@ -7,9 +7,9 @@
 namespace stride::cli::reference {
 namespace {
 
-constexpr std::size_t kWidth = 120;
+constexpr std::size_t kMarkdownWidth = 120;
 
-constexpr const char* kHead =
+constexpr const char* kMarkdownHead =
     "# Command line\n\n"
     "This page is what the program says of itself (`stride COMMAND --help`), written by\n"
     "`scripts/update_reference.sh`. [scenario.md](scenario.md#command-line) has examples, and what "
@@ -51,7 +51,7 @@ std::string table(const std::string& title, const std::vector<Option>& options, 
 std::string section(const Command& command, std::size_t depth) {
   std::string text =
       fmt::format("\n{} {}\n\n```sh\n{}\n```\n\n{}", std::string(depth, '#'), command.full_name(),
-                  synopsis(command), wrapped(command.description + ".", kWidth));
+                  synopsis(command), wrapped(command.description + ".", kMarkdownWidth));
   if (!command.arguments.empty()) text += table("argument", command.arguments, true);
   const std::vector<Option> options = told_options(command);
   if (!options.empty()) text += table("option", options, false);
@@ -62,7 +62,8 @@ std::string section(const Command& command, std::size_t depth) {
                           cell(below.description));
     }
   }
-  if (!command.footer.empty()) text += "\n```text\n" + wrapped(command.footer, kWidth) + "```\n";
+  if (!command.footer.empty())
+    text += "\n```text\n" + wrapped(command.footer, kMarkdownWidth) + "```\n";
   for (const Command& below : command.commands) text += section(below, depth + 1);
   return text;
 }
@@ -96,6 +97,6 @@ std::string wrapped(const std::string& text, std::size_t width) {
   return is_open ? result + "\n" : result;
 }
 
-std::string markdown(const Command& program) { return kHead + section(program, 2); }
+std::string markdown(const Command& program) { return kMarkdownHead + section(program, 2); }
 
 }  // namespace stride::cli::reference

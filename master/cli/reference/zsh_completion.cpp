@@ -6,7 +6,7 @@
 namespace stride::cli::reference {
 namespace {
 
-constexpr const char* kHead = R"sh(#compdef stride
+constexpr const char* kZshHead = R"sh(#compdef stride
 # zsh completion for stride, made by `stride reference zsh`
 
 _stride_components() { # what follows each name
@@ -21,7 +21,7 @@ _stride_component_files() { # pattern of the files
 }
 )sh";
 
-constexpr const char* kTail = R"sh(
+constexpr const char* kZshTail = R"sh(
 _stride() {
   local _stride_program=${words[1]}
   _stride_stride
@@ -47,7 +47,7 @@ std::string glob(const Value& value) {
 }
 
 /// An action of _arguments; with a blank before it, a function gets its own arguments alone.
-std::string completer(const Value& value) {
+std::string zsh_completer(const Value& value) {
   using Kind = Value::Kind;
   switch (value.kind) {
     case Kind::Choice:
@@ -87,7 +87,7 @@ std::string specification(const Option& option) {
   if (!option.takes_value()) return text + "'";
   const char* const colon = option.is_value_optional ? "::" : ":";
   return text + fmt::format("{}{}:{}'", colon, escaped(option.placeholder, ":\\"),
-                            escaped(completer(option.value), ":"));
+                            escaped(zsh_completer(option.value), ":"));
 }
 
 /// "_stride_stride", "_stride_stride_trace_info"
@@ -118,7 +118,7 @@ std::string function(const Command& command) {
   for (std::size_t i = 0; i < command.arguments.size(); ++i) {
     const Option& argument = command.arguments[i];
     text += fmt::format(" \\\n    '{}:{}:{}'", i + 1, escaped(argument.names[0], ":\\"),
-                        escaped(completer(argument.value), ":"));
+                        escaped(zsh_completer(argument.value), ":"));
   }
   if (has_commands) text += " \\\n    '1: :->command' \\\n    '*:: :->rest'";
   text += "\n";
@@ -129,9 +129,9 @@ std::string function(const Command& command) {
 }  // namespace
 
 std::string zsh_completion(const Command& program) {
-  std::string text = kHead;
+  std::string text = kZshHead;
   for (const Command* command : all_of(program)) text += function(*command);
-  return text + kTail;
+  return text + kZshTail;
 }
 
 }  // namespace stride::cli::reference
