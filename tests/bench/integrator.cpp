@@ -3,7 +3,7 @@
 
 namespace {
 
-class Integrator : public stride::isolation::Program {
+class Integrator : public stride::process::Program {
  public:
   Integrator() {
     input("u", u_);

@@ -3,7 +3,7 @@
 
 namespace {
 
-class Pump : public stride::isolation::Program {
+class Pump : public stride::process::Program {
  public:
   Pump() {
     input("rate", rate_);

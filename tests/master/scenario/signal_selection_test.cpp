@@ -6,6 +6,7 @@
 
 using namespace stride;
 using namespace stride::core;
+using namespace stride::recorders;
 using namespace stride::scenario;
 using namespace stride::tests;
 using Catch::Contains;

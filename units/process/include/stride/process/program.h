@@ -1,7 +1,7 @@
 // A program that is a unit: derive from Program, list your variables, write step(), and call run()
 // in main() or sc_main().
 //
-//   class Integrator : public stride::isolation::Program {
+//   class Integrator : public stride::process::Program {
 //    public:
 //     Integrator() {
 //       input("rate", rate_);
@@ -70,7 +70,7 @@ class Program {
 
  protected:
   /// Bind a member, or anything that lives as long, to a declared variable. T: double, float, any
-  /// integer type, bool, std::string, stride::isolation::Binary.
+  /// integer type, bool, std::string, stride::process::Binary.
   template <class T>
   void parameter(std::string name, T& member) {
     add_input(parameters_, std::move(name), member);
