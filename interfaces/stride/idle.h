@@ -13,9 +13,10 @@
  *    is its first derivative as fmi3GetOutputDerivatives gives it at t, or 0 if it has none; all
  *    other outputs stay exactly what they are.
  *
- * The importer need not call the instance meanwhile. What the instance then lags behind is its
- * debt, which one fmi3DoStep over all of it pays, with the inputs that it had: before other inputs
- * are set, before a clock ticks, and before the time passes `until` or the debt passes maxSkip.
+ * The importer need not call the instance meanwhile. The time since its last step is its lag. The
+ * importer makes it catch up by one fmi3DoStep over the whole lag, with the inputs that it had:
+ * before other inputs are set, before a clock ticks, and before the time passes `until` or the lag
+ * passes maxSkip.
  *
  * Clean as C11 and as C++17.
  */
@@ -33,7 +34,7 @@ extern "C" {
 /* The path of the manifest in the FMU. */
 #define STRIDE_IDLE_MANIFEST "extra/org.stride.idle/fmi-ls-manifest.xml"
 
-/* In the state Instantiated. Allows the instance to skip its own idle time, and to be left alone
+/* In the state Instantiated. Allows the instance to skip its own idle time, and not to be called
  * while it promises to be idle. maxSkip [s], positive, may be infinite: neither a skip nor a
  * promise is longer. Called again, the last call counts. fmi3Reset switches skipping off; it is
  * part of the FMU state, so fmi3SetFMUState makes it what it was. */

@@ -8,8 +8,9 @@
 //       output("volume", volume_).unit("m3").exact().depends_on({});
 //       state();
 //     }
-//     void step(stride::Step& step) override { volume_ += inflow_ *
-//     stride::to_seconds(step.size()); }
+//     void step(stride::Step& step) override {
+//       volume_ += inflow_ * stride::to_seconds(step.size());
+//     }
 //    private:
 //     double inflow_ = 0, volume_ = 1;
 //   };

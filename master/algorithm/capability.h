@@ -1,4 +1,4 @@
-// What a unit may offer beyond the interface that each unit has.
+// Optional capabilities of a unit, beyond the interface that each unit has.
 #ifndef STRIDE_MASTER_ALGORITHM_CAPABILITY_H
 #define STRIDE_MASTER_ALGORITHM_CAPABILITY_H
 

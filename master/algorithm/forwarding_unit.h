@@ -10,9 +10,8 @@
 
 namespace stride::core {
 
-/// The base of units that decorate another one: all calls reach that one, and its capabilities are
-/// this one's, also those that are added later. A decorator that has to see the calls of a
-/// capability implements its interface, and overrides one function:
+/// Base of decorators: forwards all calls and all capabilities to the decorated unit. A decorator
+/// that intercepts a capability implements its interface and overrides one function:
 ///
 ///   core::Capability* find_capability(core::CapabilityId id) override {
 ///     return find_decorated<core::StateSaving, core::Resetting>(*this, id);
@@ -42,7 +41,7 @@ class ForwardingUnit : public Unit {
   explicit ForwardingUnit(std::unique_ptr<Unit> unit) : unit_(std::move(unit)) {}
 
   Unit& inner() { return *unit_; }
-  /// For a decorator that has to see the end of the unit; nothing can be called after it.
+  /// For a decorator that has to act after the unit is destroyed; no call may follow.
   void destroy_inner() { unit_.reset(); }
 
   Capability* find_capability(CapabilityId id) override { return unit_->capability(id); }

@@ -30,15 +30,15 @@ struct Message {
   bool received = false;
   const ValueBlock* block = nullptr;  ///< null for a bare clock
   std::size_t first = 0;
-  /// The content of a Binary value as text, from its component (Unit::describe_message()) or else
-  /// from one that it is connected to, in one line of at most kLongestContent characters. Empty
-  /// where no component describes it, and where no observer needs it. Valid during the call.
+  /// The content of a Binary value as text, from its component (MessageText::describe_message()) or
+  /// else from one that it is connected to, in one line of at most kLongestContent characters.
+  /// Empty where no component describes it, and where no observer needs it. Valid during the call.
   std::string_view content{};
 };
 
 inline constexpr std::size_t kLongestContent = 200;
 
-/// Something that a component did besides ordinary steps.
+/// An activity of a component other than an ordinary step.
 struct Activity {
   enum class Kind : std::uint8_t {
     Idle,         ///< it was suspended, since it promised to be idle
@@ -71,7 +71,7 @@ class Observer {
   /// Called when the activity is over, in an order that does not depend on threads; at the end of
   /// the run, successful or not, for activities that last until then.
   virtual void on_activity(const Activity& /*activity*/) {}
-  /// The initial instant, and each communication point once all values and events are exchanged.
+  /// At the start time, and at each communication point, after its events.
   virtual void on_communication_point(Time /*time*/) {}
   /// The run is over, successful or not; records must be complete on disk when this returns.
   virtual void on_finish() {}

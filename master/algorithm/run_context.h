@@ -28,7 +28,8 @@ struct RunContext {
   const System& system;
   const std::vector<std::unique_ptr<Unit>> units;
   const RunOptions options;
-  const std::vector<VariableId> observed;  ///< what observers may see, sorted, each once
+  const std::vector<VariableId>
+      observed;  ///< recorded and watched variables, sorted, without duplicates
   SystemOutputs outputs;
   Exchange exchange;
   RunStatistics statistics;

@@ -17,20 +17,20 @@
 
 namespace stride::core {
 
-/// What a unit sees of the others during a step.
+/// Which output values the units use during a step.
 enum class Coupling : std::uint8_t {
-  Jacobi,       ///< all step from what was put out at the communication point
-  GaussSeidel,  ///< one after the other; each sees where those before it have arrived
+  Jacobi,       ///< all use those of the communication point
+  GaussSeidel,  ///< units step in sequence, with the new outputs of those before
 };
 
-/// How an input goes on from its last values during a step: as a polynomial of this degree.
+/// The degree of the polynomial that extrapolates an input during a step.
 enum class Extrapolation : std::uint8_t { Hold, Linear, Quadratic };
 
 inline constexpr std::array kCouplings{Coupling::Jacobi, Coupling::GaussSeidel};
 inline constexpr std::array kExtrapolations{Extrapolation::Hold, Extrapolation::Linear,
                                             Extrapolation::Quadratic};
 
-/// As scenarios and the command line have them: "event-driven".
+/// The name in scenarios and on the command line: "gauss-seidel".
 const char* name(Coupling coupling);
 const char* name(Extrapolation extrapolation);
 
@@ -50,10 +50,10 @@ struct StepOptions {
 /// On how many threads a run may step its units. Changes the speed of a run, never its results.
 struct ThreadOptions {
   std::size_t count = 1;  ///< the thread that runs the simulation included
-  /// Components, by their places in System::components(), that step on that thread only, as for
-  /// units that must not run beside each other.
+  /// Components, by index in System::components(), that step only on the thread that runs the
+  /// simulation, for units that must not run concurrently.
   std::vector<std::size_t> main_only{};
-  /// Threads are used from the first step on, whether they pay or not: for tests.
+  /// For tests: use threads from the first step on, without measuring.
   bool always = false;
 };
 
@@ -73,8 +73,8 @@ struct IdleOptions {
 };
 
 struct RunOptions {
-  /// Units may be suspended where only events and steps use their outputs. Inputs that are
-  /// extrapolated, or whose error is controlled, use them between communication points, too.
+  /// Idle skipping requires that outputs are used at communication points only, which excludes
+  /// extrapolated inputs and error control.
   bool may_skip_idle_time() const {
     return !sets_inputs_in_steps() && !step.policy->controls_error;
   }
@@ -91,8 +91,8 @@ struct RunOptions {
   Extrapolation extrapolation = Extrapolation::Hold;
   ThreadOptions threads{};  ///< not with Gauss-Seidel, where units step one after another
   IdleOptions idle{};       ///< as far as may_skip_idle_time()
-  std::vector<VariableId> recorded{};  ///< what observers see that ask for nothing else, in order
-  std::vector<VariableId> watched{};   ///< what observers may ask for beside that
+  std::vector<VariableId> recorded{};  ///< the default signals of observers, in order
+  std::vector<VariableId> watched{};   ///< further signals that observers may request
   bool measure_time = true;  ///< wall-clock time per unit; costs two clock readings a unit step
   /// The run ends at its next communication point after this is no longer 0.
   const volatile std::sig_atomic_t* interrupted = nullptr;

@@ -26,8 +26,8 @@ class Simulation {
   ~Simulation();
 
   void add_observer(Observer& observer);
-  /// It sees these signals, in this order, in place of the recorded ones. Each is one of
-  /// RunOptions::recorded or RunOptions::watched.
+  /// The observer receives these signals, in this order, instead of the recorded ones. Each is one
+  /// of RunOptions::recorded or RunOptions::watched.
   void add_observer(Observer& observer, std::vector<VariableId> signals);
 
   /// From initialisation to the stop time, or until a unit ends the simulation or it is

@@ -14,19 +14,19 @@ namespace stride::core {
 
 /// Statistics of a unit in a process of its own.
 struct HostStatistics {
-  std::uint64_t snapshots = 0;             ///< of its process that were made
-  std::uint64_t restores = 0;              ///< of one of them
-  std::size_t most_snapshots = 0;          ///< kept at the same time
-  std::uint64_t most_snapshot_memory = 0;  ///< that those kept had to themselves, at most [byte]
-  std::uint64_t most_memory = 0;           ///< resident, of the process that serves [byte]
-  std::vector<std::string> protections{};  ///< in force
+  std::uint64_t snapshots = 0;             ///< snapshots made
+  std::uint64_t restores = 0;              ///< restores from a snapshot
+  std::size_t most_snapshots = 0;          ///< maximum kept at once
+  std::uint64_t most_snapshot_memory = 0;  ///< their maximum private memory [byte]
+  std::uint64_t most_memory = 0;  ///< maximum resident memory of the serving process [byte]
+  std::vector<std::string> protections{};          ///< in force
   std::vector<std::string> missing_protections{};  ///< requested, but not available
 };
 
 struct UnitStatistics {
   std::uint64_t calls = 0;          ///< of its interface functions, where they are counted
   std::uint64_t steps = 0;          ///< including repeated ones
-  std::uint64_t early_returns = 0;  ///< steps that it ended before their end
+  std::uint64_t early_returns = 0;  ///< steps that returned before the target
   std::uint64_t rejections = 0;     ///< steps that it rejected
   std::uint64_t rollbacks = 0;      ///< steps of it that were undone, because another unit stopped
   std::uint64_t saves = 0;          ///< of its state
@@ -59,7 +59,7 @@ const char* name(RunEnd end);
 
 struct RunStatistics {
   Time start{};
-  Time reached{};  ///< the last accepted instant
+  Time reached{};  ///< the last communication point
   std::uint64_t communication_steps = 0;
   std::uint64_t undone_steps = 0;  ///< of all units, since an input's error was too large
   std::uint64_t event_iterations = 0;

@@ -1,4 +1,4 @@
-// The port behind which a unit lives, in this process or in another.
+// The unit port: an instance of an FMU as the algorithm uses it.
 #ifndef STRIDE_MASTER_ALGORITHM_UNIT_H
 #define STRIDE_MASTER_ALGORITHM_UNIT_H
 
@@ -16,11 +16,11 @@
 
 namespace stride::core {
 
-/// A communication step, with its ends as units take them, too.
+/// A communication step; its ends also in seconds, as they are passed to units.
 struct StepInterval {
   StepInterval(Time step_from, Time step_to)
       : StepInterval(step_from, to_seconds(step_from), step_to) {}
-  /// Where the beginning is known as both.
+  /// For a beginning whose value in seconds is known.
   StepInterval(Time step_from, double from_seconds, Time step_to)
       : from(step_from),
         to(step_to),
@@ -31,7 +31,7 @@ struct StepInterval {
   double begin_seconds, end_seconds;
 };
 
-/// Variables of one type that are read or written by one call, and where their values stand.
+/// Variables of one type, read or written by one call, and the block that holds their values.
 struct BoundValues {
   BoundValues(std::span<const ValueReference> variables, ValueBlock& values)
       : references(variables), block(&values) {
@@ -43,36 +43,36 @@ struct BoundValues {
   ValueBlock* block;
 };
 
-/// What goes into a unit before a step, and comes out of it behind.
+/// The inputs to set before a step and the outputs to get after it.
 struct StepValues {
   std::span<const BoundValues> inputs, outputs;
 };
 
 /// How a communication step ended.
 struct StepResult {
-  bool rejected = false;      ///< the unit is as it was before the step, and stands at its begin
-  bool early_return = false;  ///< it stopped before the end
-  bool event_needed = false;  ///< it wants Event Mode where it stands now
-  bool terminate = false;     ///< it wants the simulation to end
-  /// Where it stands now. Of a rejected step: how far the unit would have come; what is not within
-  /// the step means that it does not say.
+  bool rejected = false;      ///< the unit is in the state before the step
+  bool early_return = false;  ///< it returned before the end
+  bool event_needed = false;  ///< it requests Event Mode at `reached`
+  bool terminate = false;     ///< it requests the end of the simulation
+  /// The time that the unit has reached. Of a rejected step: the time that it could have reached; a
+  /// time outside of the step means unknown.
   Time reached{};
 
-  /// It stands where it was sent, and wants nothing.
+  /// Whether it reached `to` and requested nothing.
   bool went_through(Time to) const {
     return reached == to && !(rejected | early_return | event_needed | terminate);
   }
 };
 
-/// How a super-dense instant of Event Mode ended.
+/// The result of one event iteration.
 struct EventResult {
-  bool iterate = false;  ///< it wants another one
+  bool iterate = false;  ///< another iteration is required
   bool terminate = false;
   std::optional<Time> next_event;
 };
 
-/// One instance of a unit: what each unit has, and the way to ask for what only some have. Call
-/// order, as in FMI 3.0 Co-Simulation:
+/// An instance of a unit: the functions that all units have, and access to optional capabilities.
+/// Call order, as in FMI 3.0 Co-Simulation:
 ///
 ///   set (start values), enter_initialization, {get, set}, exit_initialization, then
 ///   {events: {get, set, update_discrete_states}, enter_step_mode, {get, set, step},
@@ -108,15 +108,15 @@ class Unit {
 
   virtual void terminate() = 0;
 
-  /// The unit's implementation of the capability; null if the unit does not have it. The answer
-  /// never changes, so it is asked for once, where a run begins, and kept.
+  /// The unit's implementation of the capability, or null. It never changes, so it is requested
+  /// once per run.
   Capability* capability(CapabilityId id) { return find_capability(id); }
   template <CapabilityInterface C>
   C* capability() {
     return static_cast<C*>(find_capability(C::kId));
   }
-  /// Likewise of a unit whose description promises it. Throws std::logic_error if the unit does not
-  /// have it.
+  /// The same for a capability that the description declares. Throws std::logic_error if it is
+  /// missing.
   template <CapabilityInterface C>
   C& require_capability() {
     if (C* const found = capability<C>()) return *found;

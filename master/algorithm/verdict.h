@@ -1,4 +1,4 @@
-// Whether a run was as it should be.
+// Verdicts on a run.
 #ifndef STRIDE_MASTER_ALGORITHM_VERDICT_H
 #define STRIDE_MASTER_ALGORITHM_VERDICT_H
 
@@ -17,7 +17,7 @@
 
 namespace stride::core {
 
-/// What an element of a signal was at some instant.
+/// The value of one element of a signal at some time.
 struct Witness {
   std::string signal;
   ValueBlock value;  ///< of one element
@@ -27,8 +27,8 @@ struct Witness {
 /// The verdict of a unit, or of a check of the scenario, on a run.
 struct Verdict {
   std::string name;               ///< of the component or of the check
-  std::optional<bool> passed;     ///< nothing: undecided, as for what the run did not come to
-  std::string text{};             ///< why, for people; empty if there are no words for it
+  std::optional<bool> passed;     ///< empty: undecided
+  std::string text{};             ///< the reason, for display; may be empty
   std::string kind{};             ///< of a check; empty: a unit's verdict
   Location where{};               ///< of a check
   std::optional<Time> time{};     ///< of the first failure, as far as it has an instant
@@ -38,8 +38,8 @@ struct Verdict {
 /// "at 12.3 s: 1.79 V, expected >= 1.8 V", as far as there is a time and a text.
 std::string reason(const Verdict& verdict);
 
-/// Those of the units that declare one, in the order of the components. The units, in that order,
-/// stand at the end of the run, which has ended well, not terminated yet. Throws Error.
+/// The verdicts of the units that declare one, in the order of the components. To be called after a
+/// successful run, before terminate(). Throws Error.
 std::vector<Verdict> read_verdicts(const System& system,
                                    std::span<const std::unique_ptr<Unit>> units);
 

@@ -229,7 +229,7 @@ std::string Server::origin() const {
   return function.empty() ? "" : function + " let an exception out: ";
 }
 
-// ---- Life and death ----
+// ---- Life cycle ----
 
 void Server::instantiate(MessageWriter& out) {
   put_protections(out, prepare());

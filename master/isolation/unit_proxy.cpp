@@ -7,7 +7,7 @@
 
 namespace stride::isolation {
 
-// ---- Life and death ----
+// ---- Life cycle ----
 
 UnitProxy::UnitProxy(HostedUnitSpec spec) : spec_(std::move(spec)) {
   if (spec_.host.is_sandboxed) {

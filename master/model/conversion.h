@@ -1,4 +1,4 @@
-// How the values of an output become those of an input: units, transformations, types.
+// The conversion of output values to input values: units of measure, SSP transformations, types.
 #ifndef STRIDE_MASTER_MODEL_CONVERSION_H
 #define STRIDE_MASTER_MODEL_CONVERSION_H
 
@@ -15,10 +15,10 @@
 
 namespace stride::core {
 
-/// Whole numbers that become others, sorted by source; what is not in it stays what it is.
+/// Integer mapping, sorted by source; unmapped numbers are unchanged.
 using NumberMap = std::vector<std::pair<std::int64_t, std::int64_t>>;
 
-/// What becomes of each element of a value.
+/// The conversion of each element.
 struct Conversion {
   LinearConversion linear;  ///< of Float32 and Float64 only
   NumberMap map;            ///< of integers, Enumeration and Boolean (0 and 1) only
@@ -28,16 +28,16 @@ struct Conversion {
   bool is_identity() const { return linear.is_identity() && map.empty(); }
 };
 
-/// The number that it becomes.
+/// The mapped number.
 std::int64_t mapped(const NumberMap& map, std::int64_t value);
 
-/// The unit, with what the description says of it, where the unit itself says nothing.
+/// The unit of measure; if it has no meaning of its own, with that of the description.
 UnitOfMeasure known_unit(UnitOfMeasure unit, const UnitDescription& description);
 
 using EnumerationItems = std::vector<std::pair<std::string, std::int64_t>>;
 
-/// A transformation of SSP (2.0, section "Transformation Choice"), applied behind the conversion of
-/// units.
+/// A transformation of SSP (2.0, section "Transformation Choice"), applied after the conversion of
+/// units of measure.
 struct Transformation {
   enum class Kind { None, Linear, BooleanMapping, IntegerMapping, EnumerationMapping };
   Kind kind = Kind::None;
@@ -58,15 +58,16 @@ struct PathSegment {
 
 /// A connector on the path of a value, as far as it is declared.
 struct PathConnector {
-  std::string name{};  ///< for people
+  std::string name{};  ///< for messages
   std::optional<ValueType> type{};
   UnitOfMeasure unit{};
   EnumerationItems items{};
-  /// What is not declared is that of the connector before it (an output of a system) or behind it.
+  /// Undeclared attributes are those of the next connector, else of the previous one.
   bool takes_after_next = false;
 };
 
-/// The path with what its connectors take after others. The type of the first or the last is known.
+/// The path with inherited attributes filled in. The type of the first or the last connector must
+/// be known.
 std::vector<PathConnector> completed(std::vector<PathConnector> path);
 
 /// Composes the segments between the connectors of a path, of which there is one more. Throws Error
@@ -85,8 +86,8 @@ struct TextConversion {
 TextConversion compose_text(const std::string& text, const std::vector<PathConnector>& path,
                             std::span<const PathSegment> segments, const Context& context);
 
-/// Whether each value of a type is one of the other. An Enumeration is seen as an Int64, and fits
-/// wherever all of its items do.
+/// Whether each value of `from` is representable in `to`. An Enumeration converts if all of its
+/// items do.
 bool converts_without_loss(ValueType from, ValueType to, const EnumerationItems& items);
 
 }  // namespace stride::core

@@ -53,14 +53,13 @@ enum class Causality : std::uint8_t {
 };
 enum class Variability : std::uint8_t { Constant, Fixed, Tunable, Discrete, Continuous };
 
-/// Where the value at the start comes from: the start value, the unit with the start value as its
-/// first guess, the unit alone. None: the question does not arise, as for the time.
+/// FMI's `initial`; None where it does not apply, as for the independent variable.
 enum class Initial : std::uint8_t { Exact, Approx, Calculated, None };
 
-/// When a clock ticks (FMI 3.0, 2.2.8). Triggered ones tick when something happens; the others, the
-/// time-based ones, by the time: periodically, the interval known from the description (Constant),
-/// from the start on (Fixed) or until it changes (Tunable); or once after each interval that the
-/// unit names, when it has just ticked (Changing) or at any event (Countdown).
+/// FMI's intervalVariability (FMI 3.0, 2.2.8). Triggered clocks have no interval; all others are
+/// time-based. Periodic: Constant (interval in the description), Fixed (set at initialization),
+/// Tunable (may change at events). Aperiodic: Changing (the unit gives the next interval at each
+/// tick), Countdown (at any event).
 enum class IntervalVariability : std::uint8_t {
   Constant,
   Fixed,
@@ -78,10 +77,10 @@ const char* name(Variability variability);
 const char* name(Initial initial);
 const char* name(IntervalVariability variability);
 
-/// What a description says of a Clock.
+/// The attributes of a <Clock>.
 struct ClockAttributes {
   IntervalVariability variability = IntervalVariability::Triggered;
-  std::optional<Interval> interval;  ///< of a periodic clock, if it is not the unit that says it
+  std::optional<Interval> interval;  ///< of a periodic clock; empty if the unit determines it
   Interval shift;                  ///< from the start to the first tick, where there is an interval
   bool supports_fraction = false;  ///< the unit can give intervals as fractions
   bool can_be_deactivated = false;
@@ -99,8 +98,7 @@ struct Dimension {
   bool operator==(const Dimension&) const = default;
 };
 
-/// What an array may have: enough for any model, and so few that a wrong number cannot take the
-/// memory.
+/// Upper limit of the elements of an array, against excessive allocation.
 inline constexpr std::size_t kMaxElements = std::size_t{1} << 28;
 
 /// The product of the sizes; nothing if it is above kMaxElements.
@@ -121,7 +119,7 @@ struct Variable {
   std::string start;  ///< as it stands in the description; elements separated by blanks
   std::string min;    ///< likewise, empty if there is none
   std::string max;
-  double nominal = 0;  ///< of a floating-point number, the magnitude to expect; 0 = not said
+  double nominal = 0;  ///< of a floating-point number, the magnitude to expect; 0 = unspecified
   std::vector<ValueReference> clocks;                       ///< the clocks that it belongs to
   std::optional<ClockAttributes> clock;                     ///< of a Clock
   std::vector<std::pair<std::string, std::int64_t>> items;  ///< of an Enumeration
@@ -129,10 +127,10 @@ struct Variable {
   /// Of a continuous input or an output: it may be accessed within a step.
   bool intermediate_update = false;
 
-  /// Of a Float64 input: how far it may go before a unit's promise to be idle ends.
+  /// Of a Float64 input: the change that ends an idle promise.
   double deadband = 0;
-  /// Of a Float64 output: how far it may be from its tangent while the unit promises to be idle;
-  /// without one it stays what it is meanwhile.
+  /// Of a Float64 output: the maximum distance from its tangent during an idle promise; without one
+  /// the output is constant meanwhile.
   std::optional<double> tolerance;
   bool has_derivative = false;  ///< of an output with a tolerance: get_derivatives() knows it
 
@@ -144,7 +142,7 @@ struct Variable {
   }
 };
 
-/// An output or initial unknown, and what it depends on. Nothing = not said, so all inputs.
+/// An output or initial unknown, and what it depends on. Empty = unspecified: all inputs.
 struct Unknown {
   ValueReference reference = 0;
   std::optional<std::vector<ValueReference>> dependencies;
@@ -180,7 +178,7 @@ struct UnitDescription {
   /// Steps of any sizes between two instants lead to the same values, but for rounding, while the
   /// inputs are held; false unless the unit says so.
   bool split_invariant = false;
-  /// The place of the Boolean output that is the unit's verdict on a run, if it gives one, and of
+  /// The index of the Boolean output that is the unit's verdict on a run, if it gives one, and of
   /// the String output that explains it.
   std::optional<std::size_t> verdict;
   std::optional<std::size_t> verdict_text;
@@ -189,9 +187,9 @@ struct UnitDescription {
   std::optional<Duration> default_step;  ///< DefaultExperiment
   std::optional<Time> default_stop;
 
-  /// The variable's place in `variables`, if there is one of that name or alias.
+  /// The variable's index in `variables`, if there is one of that name or alias.
   std::optional<std::size_t> find(const std::string& variable_name) const;
-  /// The place of the variable with this value reference.
+  /// The index of the variable with this value reference.
   std::optional<std::size_t> find(ValueReference reference) const;
 
   /// Gives a structural parameter its value: the arrays whose dimensions depend on it get their

@@ -13,12 +13,12 @@ namespace stride::core {
 /// reads back as that double, so 0.1 s is a tenth of a second, and its millionth multiple is exact.
 class Interval {
  public:
-  /// No time.
+  /// Zero.
   Interval() = default;
-  /// counter / resolution seconds. Throws std::invalid_argument for the resolution 0, and for one
-  /// that no clock has (a picosecond's fraction beyond 2^62).
+  /// counter / resolution seconds. Throws std::invalid_argument for the resolution 0, and for a
+  /// fraction that does not fit (denominator in ps above 2^62).
   static Interval from_fraction(std::uint64_t counter, std::uint64_t resolution);
-  /// More than kMaxSeconds, infinity included, is an interval that outlasts every simulation.
+  /// Above kMaxSeconds, or infinite: longer than any simulation.
   /// Throws std::invalid_argument for what is negative or not a number.
   static Interval from_seconds(double seconds);
   static Interval from_duration(Duration duration);
@@ -26,7 +26,7 @@ class Interval {
   bool operator==(const Interval&) const = default;
   bool is_zero() const { return numerator_ == 0; }
   bool is_below_picosecond() const { return numerator_ < denominator_; }
-  /// The nearest double, for people [s].
+  /// The nearest double, for display [s].
   double seconds() const;
 
  private:

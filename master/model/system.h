@@ -18,7 +18,7 @@
 
 namespace stride::core {
 
-/// What a person writes, by name, before it is checked.
+/// Declarations: a system as written, by name, unchecked.
 struct ConnectorDeclaration {
   std::string name;
   std::optional<ValueType> type;
@@ -35,7 +35,7 @@ struct ComponentDeclaration {
   bool early_return_allowed = true;
   bool has_snapshots = false;
 };
-/// A connector of a system that a value comes through, and what is done to it on the way there.
+/// A connector of an enclosing or nested system on a connection, and the conversion before it.
 struct ViaDeclaration {
   PathConnector connector;
   PathSegment segment;
@@ -48,7 +48,7 @@ struct ConnectionDeclaration {
   Transformation transformation{};    ///< on the way from the last of `via`, as is the above
   std::vector<ViaDeclaration> via{};  ///< connectors of systems in between
 };
-/// A value that leaves the system under a name of its own.
+/// An output connector of the system.
 struct OutputDeclaration {
   std::string component, variable;
   std::vector<ViaDeclaration> via;  ///< the last one is the system's connector itself, by its name
@@ -64,8 +64,8 @@ struct StartDeclaration {
   std::vector<ViaDeclaration> via{};
   /// Whether it is passed over, with a warning, if there is no such variable.
   bool is_optional = false;
-  /// One name may stand for several variables: those with the same number, if it is not 0, of which
-  /// one must be there.
+  /// Start values with the same non-zero group come from one declaration; at least one of them must
+  /// have a target.
   std::size_t group = 0;
 };
 struct SystemDeclaration {
@@ -92,7 +92,7 @@ struct Connection {
   VariableId to;
   Conversion conversion;
 };
-/// What a system puts out: a component's variable, converted, by another name.
+/// An output connector of the system: a component's variable, converted, with another name.
 struct SystemOutput {
   VariableId from;
   Conversion conversion;
@@ -103,7 +103,7 @@ struct StartValue {
   ValueBlock value;
 };
 
-/// An immutable, valid system. Components stand in the order of the file, connections are sorted by
+/// An immutable, valid system. Components are in the order of the file, connections are sorted by
 /// target.
 class System {
  public:
@@ -116,14 +116,14 @@ class System {
   const std::vector<Component>& components() const { return components_; }
   const std::vector<Connection>& connections() const { return connections_; }
   const std::vector<StartValue>& start_values() const { return start_values_; }
-  /// Their ids are those of a component behind the last one: see output_id(). None is a message.
+  /// Outputs of the system; see output_id() for their ids. No output is a message.
   const std::vector<SystemOutput>& outputs() const { return outputs_; }
   VariableId output_id(std::size_t output) const { return {components_.size(), output}; }
   bool is_output(VariableId id) const { return id.component == components_.size(); }
   /// Those of structural parameters, sorted by component; the sizes of the components' arrays, in
   /// their descriptions, follow from them.
   const std::vector<StartValue>& structural_values() const { return structural_values_; }
-  /// What was passed over, in words.
+  /// Start values that were ignored, as text.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   const Variable& variable(VariableId id) const {
@@ -140,7 +140,7 @@ class System {
   }
   /// "component.variable"; of an output of the system its name.
   std::string full_name(VariableId id) const { return prefix(id) + variable(id).name; }
-  /// What stands before the variable's name in that: "component.", or nothing.
+  /// "component.", or empty for an output of the system.
   std::string prefix(VariableId id) const;
 
  private:

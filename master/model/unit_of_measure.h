@@ -1,4 +1,4 @@
-// Units of measure, and how values in one become values in another.
+// Units of measure, and conversions between them.
 #ifndef STRIDE_MASTER_MODEL_UNIT_OF_MEASURE_H
 #define STRIDE_MASTER_MODEL_UNIT_OF_MEASURE_H
 
@@ -23,8 +23,7 @@ struct BaseUnitOfMeasure {
 inline constexpr std::array<const char*, 8> kBaseUnits{"kg", "m",   "s",  "A",
                                                        "K",  "mol", "cd", "rad"};
 
-/// Reads a <BaseUnit>. Its factor may be 0, which measures nothing. Throws Error (Input) for what
-/// is no number.
+/// Reads a <BaseUnit>. A factor of 0 is accepted. Throws Error (Input) for what is no number.
 BaseUnitOfMeasure read_base_unit(const xml::Element& element);
 
 /// A unit of measure by its name; an empty name: none is declared. Without a meaning it equals

@@ -5,10 +5,9 @@
 
 namespace stride::core {
 
-/// Throws Error (Input): the component in the context, which has this description, has no such
-/// variable. With the system it also says what is expected there, "an input Float64 in m, fed by
-/// 'world.height'": what the connector does not declare is taken from the other ends of its
-/// connections, as far as they are there.
+/// Throws Error (Input): the component in the context has no such variable. With `system` the
+/// message includes what its connections expect there: "an input Float64 in m, fed by
+/// 'world.height'".
 [[noreturn]] void fail_unknown_variable(const Context& context, const UnitDescription& description,
                                         const SystemDeclaration* system = nullptr);
 

@@ -6,7 +6,8 @@
 
 namespace stride::core {
 
-/// A variable of a component, by its places in System::components() and UnitDescription::variables.
+/// A variable of a component, by its indices in System::components() and
+/// UnitDescription::variables.
 struct VariableId {
   std::size_t component = 0;
   std::size_t variable = 0;

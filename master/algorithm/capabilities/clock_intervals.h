@@ -6,7 +6,7 @@
 
 namespace stride::core {
 
-/// What a unit says of the interval of one of its time-based clocks.
+/// The interval of a time-based clock, as the unit reports it.
 struct ClockInterval {
   enum class State { NotYetKnown, Unchanged, Changed };
   State state = State::NotYetKnown;

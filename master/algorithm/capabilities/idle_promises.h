@@ -10,7 +10,7 @@
 
 namespace stride::core {
 
-/// The unit skips its own idle time in one step, and says before how long it will be idle
+/// The unit can skip its own idle time in one step and announces how long it will be idle
 /// (docs/idle.md). Call order: {enable_idle_skipping(), set_idle_tolerances()} before
 /// Unit::enter_initialization(); the others in Step Mode, where a step or Event Mode has just ended
 /// and the unit has its inputs.
@@ -25,7 +25,7 @@ class IdlePromises : public Capability {
   virtual void set_idle_tolerances(std::span<const ValueReference> outputs,
                                    std::span<const double> tolerances) = 0;
   /// The instant before which the unit need not be called, while its inputs stay within their
-  /// deadbands and none of its clocks is set. Not after the present instant if it promises nothing,
+  /// deadbands and none of its clocks is set. A time not after the current one is no promise;
   /// Time::min() if skipping is not enabled.
   virtual Time idle_until() = 0;
   /// The first derivatives of Float64 outputs that have a tolerance, in their units of measure per

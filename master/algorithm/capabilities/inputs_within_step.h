@@ -12,13 +12,13 @@ namespace stride::core {
 /// that instant. The instants come in any order.
 using InputUpdate = std::function<void(double seconds_into_step)>;
 
-/// Without it a unit steps with the inputs that it was given before.
+/// Units without this capability use the inputs set before the step.
 class InputsWithinStep : public Capability {
  public:
   static constexpr CapabilityId kId = CapabilityId::InputsWithinStep;
 
-  /// The function that the unit calls from now on; an empty one ends it. What the function throws,
-  /// Unit::step() throws.
+  /// Sets the function that the unit calls from now on; an empty one removes it. Its exceptions
+  /// leave Unit::step().
   virtual void set_input_update(InputUpdate update) = 0;
 };
 

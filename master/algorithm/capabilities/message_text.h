@@ -13,8 +13,8 @@ class MessageText : public Capability {
  public:
   static constexpr CapabilityId kId = CapabilityId::MessageText;
 
-  /// What a value of a Binary variable means, in the unit's own words, which are to be made safe
-  /// (readable_text()); empty where the unit does not know. In any mode; changes nothing.
+  /// A readable description of a Binary value, made by the unit; untrusted, so pass it through
+  /// readable_text(). Empty if the unit has none. In any mode; changes nothing.
   virtual std::string describe_message(ValueReference variable, const Binary& value) = 0;
 };
 

@@ -9,8 +9,8 @@ class Resetting : public Capability {
  public:
   static constexpr CapabilityId kId = CapabilityId::Resetting;
 
-  /// Makes the unit what it was when it was made: no start value is set. States kept by StateSaving
-  /// stay. Also after the unit has failed or was terminated.
+  /// Restores the state after instantiation, without start values. Saved states are kept. Also
+  /// after the unit has failed or was terminated.
   virtual void reset() = 0;
 };
 

@@ -18,8 +18,8 @@ class StateSerialization : public Capability {
   /// The state in the slot, for any unit of the same FMU, also in another process. Fails if the
   /// slot is empty.
   virtual std::vector<std::uint8_t> serialize_state() = 0;
-  /// Puts the state that these bytes are into the slot, in place of what it held. Also in a unit
-  /// that was never initialized; StateSaving::restore_state() makes it the unit's state.
+  /// Replaces the state in the slot by the serialized one. Also for a unit that was never
+  /// initialized; StateSaving::restore_state() then applies it.
   virtual void deserialize_state(std::span<const std::uint8_t> bytes) = 0;
 };
 

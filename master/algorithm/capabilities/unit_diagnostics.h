@@ -13,7 +13,7 @@ class UnitDiagnostics : public Capability {
  public:
   static constexpr CapabilityId kId = CapabilityId::UnitDiagnostics;
 
-  /// The unit's own words on the last step that it rejected; empty if it gave none.
+  /// The unit's log message for the last step that it rejected; empty if there was none.
   virtual std::string rejection_reason() const = 0;
   /// How many functions of the unit's own interface were called so far.
   virtual std::uint64_t calls() const = 0;

@@ -52,8 +52,8 @@ class Clocks {
   std::span<const std::size_t> tick(Time time);
   /// The clocks of the component that were set and not updated since.
   std::span<const ValueReference> ticking(std::size_t component) const;
-  /// After update_discrete_states() of the component: reads the intervals that may have changed.
-  /// The tick of its clocks is over.
+  /// To be called after update_discrete_states() of the component: ends the ticks of its clocks and
+  /// reads the intervals that may have changed.
   void update(std::size_t component, Time time);
 
  private:

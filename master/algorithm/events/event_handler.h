@@ -31,17 +31,17 @@ class EventHandler : private OrderedEvaluation::Participants {
   /// After Initialization Mode, where units with Event Mode are in it: each handles at least one
   /// event in the next handle_events(). Fetches the outputs of all units.
   void begin();
-  /// Lets the unit handle an event in the next handle_events(), like the units whose announced
-  /// event is due.
+  /// Makes the unit enter Event Mode in the next handle_events(), like a unit whose announced event
+  /// is due.
   void request_event(std::size_t component) {
     if (description(component).has_event_mode) activate(component);
   }
   /// Exchanges the outputs that have been fetched and handles events until no unit needs another
   /// event iteration. Outputs of units in Event Mode that depend directly on inputs follow them at
-  /// once, and algebraic loops between such units are solved. Leaves the units in Step Mode; those
-  /// that had no event have yet to be given their inputs (Exchange::deliver_routed). Throws Error
-  /// (Run) where a connected output is NaN, a loop has no solution that could be found, or units
-  /// tick for ever.
+  /// once, and algebraic loops between such units are solved. Units are left in Step Mode; the
+  /// inputs of those without an event are still to be written (Exchange::deliver_routed). Throws
+  /// Error (Run) if a connected output is NaN, a loop has no solution, or events do not settle
+  /// after 1000 iterations.
   void handle_events(Time time);
 
   /// Whether the unit handled an event in the last handle_events(), by component.

@@ -13,8 +13,8 @@
 
 namespace stride::core {
 
-/// For each unit its triggered output clocks, the values that each carries, and the inputs that
-/// they are wired to.
+/// For each unit: its triggered output clocks, the clocked variables of each, and the connected
+/// inputs.
 class MessageExchange {
  public:
   MessageExchange(const System& system, std::span<const std::unique_ptr<Unit>> units);
@@ -37,13 +37,13 @@ class MessageExchange {
   }
 
  private:
-  /// An input that a value travels to, and what it becomes on the way.
+  /// A connected input, and the converted value.
   struct Receiver {
     VariableId id;
     const Connection* connection;
     ValueBlock block;
   };
-  /// A value that travels with a clock's tick.
+  /// A variable that belongs to an output clock.
   struct Payload {
     VariableId id;
     ValueReference reference;

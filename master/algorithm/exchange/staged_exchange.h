@@ -65,7 +65,7 @@ class StagedExchange {
   /// The connection that ends at the input.
   Link plan_link(VariableId input);
 
-  /// Nothing routed so far waits to be written.
+  /// Discards pending writes.
   void begin();
   /// Writes what was routed to the component, then reads the outputs of the stage.
   void evaluate(OutputRead& read);
@@ -75,7 +75,7 @@ class StagedExchange {
   bool route(Link& link);
   /// The input was changed in the exchange, see Link::target_value().
   void touch(Link& link) { make_due(link); }
-  /// Reads what the unit has for the input.
+  /// Reads the unit's current value of the input into the exchange.
   void read_input(Link& link);
   /// Whether an output of the stage is NaN.
   bool has_nan(const OutputRead& read) const;

@@ -15,10 +15,10 @@
 
 namespace stride::core {
 
-/// A unit that promises to be idle (org.stride.idle) is suspended: it is not called. Meanwhile its
-/// outputs follow their tangents, and its lag, the time since its last step, grows. It catches up
-/// by one step over the whole lag, with the inputs that it has had, before it receives other
-/// inputs, handles an event, or exceeds its promise or its max_skip.
+/// Suspends units that promise to be idle (org.stride.idle): they are not called, and their outputs
+/// follow their tangents. The lag of such a unit is the time since its last step. The unit catches
+/// up by one step over the lag, with the inputs of its suspension, before an input leaves its
+/// deadband, before an event, and before the lag exceeds the promise or max_skip.
 ///
 /// A function for one component touches the state of that component only, so different threads may
 /// call it for different components.

@@ -30,9 +30,9 @@ class StepLimits {
   Time limited(Time now, Time target) const {
     return maximum_ && target - now > *maximum_ ? now + *maximum_ : target;
   }
-  /// The end of a step of this size, the stop time at most, moved back to the last point of the
-  /// units' internal steps. Where that is no step at all, it is moved on to the next such point, or
-  /// if that is further than the maximum, not at all.
+  /// The end of a step of this size, at most the stop time, rounded down to a multiple of the
+  /// quantum. If that gives no progress it is rounded up, unless the step would exceed the maximum;
+  /// then it is not rounded.
   Time end_of_step(Time now, Duration size) const;
 
  private:

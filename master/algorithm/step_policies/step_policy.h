@@ -1,4 +1,4 @@
-// Where the communication points of a run are, as far as no event comes before them.
+// The choice of communication points.
 #ifndef STRIDE_MASTER_ALGORITHM_STEP_POLICIES_STEP_POLICY_H
 #define STRIDE_MASTER_ALGORITHM_STEP_POLICIES_STEP_POLICY_H
 

@@ -1,4 +1,4 @@
-// The step policies that there are.
+// The available step policies.
 #ifndef STRIDE_MASTER_ALGORITHM_STEP_POLICIES_STEP_POLICY_TYPE_H
 #define STRIDE_MASTER_ALGORITHM_STEP_POLICIES_STEP_POLICY_TYPE_H
 
@@ -13,7 +13,8 @@ class System;
 struct RunOptions;
 struct StepOptions;
 
-/// A step policy, before it is made for a run. Each is defined in the file of its class.
+/// The static properties of a step policy, and its factory. Each is defined in the file of its
+/// class.
 struct StepPolicyType {
   const char* name;  ///< in scenarios and on the command line
   /// Whether communication points are on a grid of StepOptions::size.

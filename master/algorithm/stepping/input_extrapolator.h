@@ -58,11 +58,11 @@ class InputExtrapolator {
     std::vector<VariableId> ids;
     SignalHistory history{0, 0};
     bool is_ahead = false;  ///< the newest sample belongs to a step that is not accepted yet
-    bool is_nan = false;    ///< a value of that sample is
+    bool is_nan = false;    ///< that sample contains NaN
   };
   struct FedInput {
     std::size_t signal;
-    bool within_step;  ///< whether the target may change there
+    bool within_step;  ///< whether it may be set within a step
     ValueSlice target;
     LinearConversion conversion;
   };

@@ -10,7 +10,7 @@
 
 namespace stride::importer {
 
-// ---- Life and death ----
+// ---- Life cycle ----
 
 Fmi2Unit::Fmi2Unit(std::string name, std::shared_ptr<const Fmi2Library> library,
                    std::shared_ptr<const Fmi2Attributes> attributes, UnitParts parts,

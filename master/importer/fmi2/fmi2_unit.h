@@ -30,19 +30,18 @@ namespace stride::importer {
 /// Types: Real is Float64, Integer Int32, Enumeration core's Enumeration. Start values of inputs
 /// are kept until Initialization Mode, since FMI 2.0 allows them no earlier.
 ///
-/// fmi2Discard means that the unit came a part of the way, where core wants a step that is made or
-/// one that is not. What becomes of it hangs on what the unit can do (docs/stepping.md):
+/// fmi2Discard means that the unit completed a part of the step (docs/stepping.md):
 ///
-/// - it wants the simulation to end (fmi2Terminated): it stands where it came to, and asks for
-/// that;
-/// - its state can be saved (canGetAndSetFMUstate): it was, right before the step, and is restored.
-///   The step is rejected, and StepResult::reached is how far it came;
-/// - otherwise it stands where it came to, as if it had returned early, and the log says so once.
-/// If
-///   it does not say where that is, or that it came nowhere, a core::Error of the kind Run.
+/// - if the unit requests the end of the simulation (fmi2Terminated), the partial step is accepted;
+/// - if its state can be saved (canGetAndSetFMUstate), the state before the step is restored and
+/// the
+///   step is rejected; StepResult::reached is the time that the unit had reached;
+/// - otherwise the partial step is accepted like an early return, with one warning. An unknown
+/// time,
+///   or one at the beginning of the step, is a core::Error of the kind Run.
 ///
-/// After fmi2Pending step() waits until the unit says that its step has finished, by a callback or
-/// when it is asked. There is no time-out; the log says once that a step takes long.
+/// After fmi2Pending step() waits until the unit reports its end, by stepFinished or
+/// fmi2GetStatus. There is no time-out; one message is logged if it takes long.
 ///
 /// With an input update, inputs that a unit interpolates (canInterpolateInputs) are given with
 /// their first and second derivatives at the beginning of each step.

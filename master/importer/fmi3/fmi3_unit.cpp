@@ -38,7 +38,7 @@ std::vector<core::ValueReference> intermediate_inputs(const core::UnitDescriptio
 
 }  // namespace
 
-// ---- Life and death ----
+// ---- Life cycle ----
 
 Fmi3Unit::Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library, UnitParts parts,
                    InstanceOptions options)
