@@ -11,10 +11,10 @@
 
 #include <stride/time.h>
 
-#include "master/algorithm/exchange/staged_exchange.h"
 #include "master/algorithm/loops/evaluation_order.h"
 #include "master/algorithm/loops/loop_solver.h"
 #include "master/algorithm/loops/loop_tangents.h"
+#include "master/algorithm/loops/staged_exchange.h"
 #include "master/algorithm/run_context.h"
 
 namespace stride::core {

@@ -13,9 +13,9 @@
 
 #include <stride/time.h>
 
-#include "master/algorithm/exchange/staged_exchange.h"
 #include "master/algorithm/loops/algebraic_loop.h"
 #include "master/algorithm/loops/evaluation_order.h"
+#include "master/algorithm/loops/staged_exchange.h"
 #include "master/algorithm/run_context.h"
 #include "master/algorithm/unit_timer.h"
 

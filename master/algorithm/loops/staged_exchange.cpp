@@ -1,4 +1,4 @@
-#include "master/algorithm/exchange/staged_exchange.h"
+#include "master/algorithm/loops/staged_exchange.h"
 
 #include <algorithm>
 #include <cmath>
