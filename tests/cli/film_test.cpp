@@ -141,7 +141,7 @@ TEST_CASE("a run that fails leaves its film until then") {
   CHECK(run_json(workspace)["outcome"] == "failed");
 }
 
-TEST_CASE("who asks for a film where nobody makes one is told so") {
+TEST_CASE("--film without a component that can film is an error") {
   const Workspace workspace(Parts{component("filter", "minimal.fmu")});
   CHECK(input_error_of(workspace.run({"--film"})) ==
         "stride: error: --film: no component makes pictures\n"

@@ -115,7 +115,7 @@ TEST_CASE("a jump goes through a chain at once, and each unit of it has an event
   CHECK(value(workspace, "0.2", "c.events") == 2);
 }
 
-TEST_CASE("a dependency that nobody declared, and that is none, needs no search") {
+TEST_CASE("an undeclared dependency that does not exist needs no search") {
   const Workspace workspace = ring("undeclared.fmu", "feedthrough.fmu", "constant");
   run_well(workspace, settings({"b.slope=3"}, {"--stop", "0"}));
   CHECK(value(workspace, "0", "b.y") == 15);

@@ -116,7 +116,7 @@ TEST_CASE("a package is completed as a package") {
   CHECK(read(workspace / "test.ssp") == once);
 }
 
-TEST_CASE("a value that SSP lets stand for nobody is told of") {
+TEST_CASE("a value without a variable is ignored with a warning") {
   Parts parts = two_filters();
   parts.components =
       component("first", "minimal.fmu",

@@ -45,7 +45,7 @@ const ScenarioRun& two_tags() {
 
 }  // namespace
 
-TEST_CASE("nfc_far: nobody is heard, as the program expects") {
+TEST_CASE("nfc_far: no message arrives, as the program expects") {
   const ScenarioRun run("nfc_far", {"--no-trace", "--no-idle-skip"});
   CHECK(golden_differences("nfc_far", run) == "");
   CHECK(run.at("10", "reader.messages.sent") == 3);

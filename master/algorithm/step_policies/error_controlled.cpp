@@ -7,6 +7,7 @@
 #include "master/algorithm/step_policies/step_limits.h"
 #include "master/algorithm/step_policies/step_policy.h"
 #include "master/algorithm/step_policies/step_size_controller.h"
+#include "master/algorithm/stepping/input_extrapolator.h"
 #include "master/util/time_text.h"
 
 namespace stride::core {

@@ -7,10 +7,11 @@
 #include <stride/time.h>
 
 #include "master/algorithm/run_options.h"
-#include "master/algorithm/stepping/input_extrapolator.h"
 #include "master/model/system.h"
 
 namespace stride::core {
+
+struct Excess;
 
 /// Chooses the communication points of one run. No step is longer than a unit allows
 /// (maximum_step). Steps that are not on a grid end on the units' fixed internal steps, as far as

@@ -50,17 +50,16 @@ std::string reason(const Component& component, StepRole role, bool saves_state) 
     return "never stops: follows the others, so nothing is saved";
   }
   if (component.has_snapshots) {
-    return fmt::format(
-        "{}; the one that needs no snapshot: it is asked when the others have agreed",
-        role == StepRole::MayStopEarly ? "may return early" : "might reject a step");
+    return fmt::format("{}; no snapshot needed: it steps after the others have agreed on a time",
+                       role == StepRole::MayStopEarly ? "may return early" : "might reject a step");
   }
   if (role == StepRole::MayStopEarly) {
     return "may return early and cannot be rolled back: what it reaches is final";
   }
   std::string text = "cannot be rolled back; ";
   if (unit.may_return_early) text += "is not allowed to return early; ";
-  return text + (unit.may_reject ? "does not return early, but might reject a step"
-                                 : "does as it is told");
+  return text +
+         (unit.may_reject ? "does not return early, but might reject a step" : "never stops");
 }
 
 void check_single(const System& system, const std::vector<StepPlace>& order) {

@@ -33,7 +33,7 @@ Describe early() { return Describe("early").never_rejects().may_return_early(); 
 
 }  // namespace
 
-TEST_CASE("first what can go back, then what stops on its own, then what does as it is told") {
+TEST_CASE("order: units with rollback, then the unit that may stop, then the followers") {
   CHECK(names(system_of({obedient(), early(), rollback(), unknown(), rollback()})) == "cebda");
 }
 
@@ -227,7 +227,7 @@ TEST_CASE("two units that stop early and cannot go back are refused by name") {
   }
 }
 
-TEST_CASE("who is not allowed to return early does as it is told") {
+TEST_CASE("a unit that is not allowed to return early follows") {
   SystemDeclaration declaration;
   for (const char* name : {"a", "b", "c"}) {
     declaration.components.push_back({name, early().done(), {}, {}});
