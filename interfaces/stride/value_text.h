@@ -2,6 +2,7 @@
 #ifndef STRIDE_VALUE_TEXT_H
 #define STRIDE_VALUE_TEXT_H
 
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
@@ -67,8 +68,11 @@ namespace detail {
 [[noreturn]] inline void refuse_value(std::string_view text, const char* type,
                                       const char* expected) {
   constexpr std::size_t kMost = 60;
-  const std::string shown(text.substr(0, kMost));
-  throw std::invalid_argument("'" + shown + (text.size() > kMost ? "…" : "") + "' is no " + type +
+  std::size_t length = std::min(text.size(), kMost);
+  // not within a character of UTF-8
+  while (length < text.size() && length > 0 && (text[length] & 0xC0) == 0x80) --length;
+  const std::string shown(text.substr(0, length));
+  throw std::invalid_argument("'" + shown + (length < text.size() ? "…" : "") + "' is no " + type +
                               "; expected " + expected);
 }
 

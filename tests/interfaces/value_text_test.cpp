@@ -31,6 +31,19 @@ TEST_CASE("an error names the type, as it is called where the value is") {
                     "'red' is no Int64; expected a whole number within its range");
 }
 
+TEST_CASE("an error cuts a long text at the start of a character") {
+  std::string text = "1";
+  for (int i = 0; i < 40; ++i) text += "ö";
+  std::string shown = "1";
+  for (int i = 0; i < 29; ++i) shown += "ö";
+  double number = 0;
+  CHECK_THROWS_WITH(parse_value(text, number),
+                    "'" + shown + "…' is no Float64; expected a number such as 1.5e-06");
+  const std::string longest(60, 'x');
+  CHECK_THROWS_WITH(parse_value(longest, number),
+                    "'" + longest + "' is no Float64; expected a number such as 1.5e-06");
+}
+
 TEST_CASE("every type has its name of FMI 3.0") {
   CHECK(type_name(Type::Float32) == std::string("Float32"));
   CHECK(type_name(Type::Enumeration) == std::string("Enumeration"));
