@@ -13,7 +13,7 @@ if(STRIDE_PRECOMPILED_HEADERS AND NOT CMAKE_UNITY_BUILD)
     add_executable(${headers} EXCLUDE_FROM_ALL "${CMAKE_CURRENT_BINARY_DIR}/empty_main.cpp")
     set_target_properties(${headers} PROPERTIES CXX_STANDARD ${standard})
     target_link_libraries(${headers} PRIVATE Catch2::Catch2)
-    target_compile_options(${headers} PRIVATE ${stride_test_flags})
+    stride_test_code(${headers})
     target_precompile_headers(${headers} PRIVATE
       <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map> <memory>
       <optional> <random> <set> <sstream> <stdexcept> <string> <utility> <vector> <catch2/catch.hpp>)

@@ -4,23 +4,39 @@
 # The Catch2 program of a folder, PREFIX_tests unless named. SOURCES are files, or patterns of their names such as
 # *_test.cpp. Each file X_test.cpp is one entry of ctest, PREFIX_X_test, which runs its test cases in a process of their
 # own; other files are what the tests share. FMUS are units that the tests load: they are built before the program, and
-# their folders are known to it as STRIDE_FMU_DIR (this repository's units) and STRIDE_TEST_FMU_DIR (units for tests).
-# DEPENDS are other targets that the tests use when they run.
+# found with tests/build.h. DEPENDS are other targets that the tests use when they run.
 #
 # stride_add_test(NAME SOURCES file... ...)
 #
 # The same for a test that needs a program of its own: one entry of ctest, which has the program's name.
 find_package(Catch2 2.13 REQUIRED)
 
-add_library(stride_catch_main STATIC ${CMAKE_CURRENT_SOURCE_DIR}/catch_main.cpp)
-target_link_libraries(stride_catch_main PUBLIC Catch2::Catch2)
-target_compile_options(stride_catch_main PRIVATE -w)  # GCC 12 warns of Catch2 itself under sanitizers
-
-set(stride_test_flags -O0)  # checks are long to optimise, and run once
-if(STRIDE_SANITIZE MATCHES undefined)
-  # in a test's own code, where these are a fifth of the compile time; the libraries under test keep them
-  list(APPEND stride_test_flags -fno-sanitize=null,alignment,vptr,object-size)
+# What tests share. Their own code is compiled alike in each build, with and without sanitizers, so that ccache has it
+# for the second one: it is the larger part of what there is to compile, and not what is under test. The thread sanitizer
+# has to see all code, or it takes what it does not see for a race.
+set(stride_test_flags -Og -UNDEBUG)
+set(stride_unsanitized ON)
+set(stride_is_sanitized false)
+if(STRIDE_SANITIZE)
+  set(stride_is_sanitized true)
 endif()
+if(STRIDE_SANITIZE MATCHES thread)
+  set(stride_unsanitized OFF)
+endif()
+
+# stride_test_code(TARGET): its sources are tests' own code
+function(stride_test_code target)
+  set_target_properties(${target} PROPERTIES STRIDE_UNSANITIZED ${stride_unsanitized})
+  target_compile_options(${target} PRIVATE ${stride_test_flags})
+endfunction()
+
+add_library(stride_test_build STATIC ${CMAKE_CURRENT_SOURCE_DIR}/build.cpp)
+target_compile_definitions(stride_test_build PRIVATE
+  STRIDE_BUILD_FOLDER="${CMAKE_BINARY_DIR}" STRIDE_IS_SANITIZED=${stride_is_sanitized})
+
+add_library(stride_catch_main STATIC ${CMAKE_CURRENT_SOURCE_DIR}/catch_main.cpp)
+target_link_libraries(stride_catch_main PUBLIC Catch2::Catch2 stride_test_build)
+stride_test_code(stride_catch_main)
 
 include(StrideTestHeaders)
 
@@ -69,12 +85,8 @@ function(stride_add_test_program name)
   endif()
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} stride_catch_main)
-  target_compile_definitions(${name} PRIVATE
-    STRIDE_FMU_DIR="${CMAKE_BINARY_DIR}/units"
-    STRIDE_TEST_FMU_DIR="${CMAKE_BINARY_DIR}/tests/units"
-    STRIDE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-    ${arg_DEFINITIONS})
-  target_compile_options(${name} PRIVATE ${stride_test_flags})
+  target_compile_definitions(${name} PRIVATE STRIDE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ${arg_DEFINITIONS})
+  stride_test_code(${name})
   stride_use_test_headers(${name})
   list(TRANSFORM arg_FMUS APPEND _fmu)
   if(arg_FMUS OR arg_DEPENDS)

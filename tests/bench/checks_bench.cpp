@@ -13,6 +13,7 @@
 #include "master/importer/fmu.h"
 #include "master/scenario/check_selection.h"
 #include "tests/bench/stopwatch.h"
+#include "tests/build.h"
 
 namespace {
 
@@ -24,7 +25,7 @@ constexpr int kSteps = 20'000;
 constexpr Duration kStep = std::chrono::milliseconds(1);
 
 std::shared_ptr<importer::Fmu> minimal() {
-  static const auto fmu = importer::Fmu::load(STRIDE_FMU_DIR "/minimal.fmu");
+  static const auto fmu = importer::Fmu::load(tests::unit_folder() / "minimal.fmu");
   return fmu;
 }
 

@@ -10,6 +10,7 @@
 
 #include "master/importer/fmu.h"
 #include "tests/bench/stopwatch.h"
+#include "tests/build.h"
 
 namespace {
 
@@ -20,7 +21,7 @@ constexpr Duration kStep = std::chrono::milliseconds(1);
 constexpr int kUnitSteps = 200'000;  // per measured run, whatever the size of the ring
 
 std::shared_ptr<importer::Fmu> minimal() {
-  static const auto fmu = importer::Fmu::load(STRIDE_FMU_DIR "/minimal.fmu");
+  static const auto fmu = importer::Fmu::load(tests::unit_folder() / "minimal.fmu");
   return fmu;
 }
 

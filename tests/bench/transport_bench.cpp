@@ -20,6 +20,7 @@
 #include "master/importer/fmu.h"
 #include "master/isolation/hosted_unit.h"
 #include "tests/bench/stopwatch.h"
+#include "tests/build.h"
 #include "tests/master/algorithm/unit_capabilities.h"
 
 namespace {
@@ -79,7 +80,8 @@ class Stepped {
 
 /// A unit that has no state of its own.
 std::shared_ptr<importer::Fmu> integrator() {
-  static const auto fmu = importer::Fmu::load(STRIDE_TEST_FMU_DIR "/early_without_state.fmu");
+  static const auto fmu =
+      importer::Fmu::load(tests::test_unit_folder() / "early_without_state.fmu");
   return fmu;
 }
 
@@ -88,7 +90,7 @@ Stepped in_process(const std::shared_ptr<importer::Fmu>& fmu) {
 }
 
 Stepped piped() {
-  static const auto fmu = importer::Fmu::load(STRIDE_TEST_FMU_DIR "/integrator.fmu");
+  static const auto fmu = importer::Fmu::load(tests::test_unit_folder() / "integrator.fmu");
   return in_process(fmu);
 }
 

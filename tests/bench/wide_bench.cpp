@@ -10,6 +10,7 @@
 
 #include "master/importer/fmu.h"
 #include "tests/bench/stopwatch.h"
+#include "tests/build.h"
 
 namespace {
 
@@ -21,7 +22,7 @@ constexpr std::size_t kWidth = 100;              // of the unit `wide`
 constexpr std::size_t kConnections = 2'000'000;  // per measured run, whatever the number of units
 
 std::shared_ptr<importer::Fmu> wide() {
-  static const auto fmu = importer::Fmu::load(STRIDE_TEST_FMU_DIR "/wide.fmu");
+  static const auto fmu = importer::Fmu::load(tests::test_unit_folder() / "wide.fmu");
   return fmu;
 }
 

@@ -1,4 +1,5 @@
 // FMUs that cannot be used: exit code 2, what is wrong with them, and nothing left on the disk.
+#include "tests/build.h"
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;
@@ -32,7 +33,7 @@ TEST_CASE("a .fmu that is no archive") {
 
 TEST_CASE("an archive that breaks off") {
   const Workspace workspace = using_unit("half.fmu");
-  const std::string whole = read(fs::path(STRIDE_FMU_DIR) / "minimal.fmu");
+  const std::string whole = read(unit_folder() / "minimal.fmu");
   workspace.scratch().write("half.fmu", whole.substr(0, whole.size() / 2));
   CHECK_THAT(mistake_of(workspace), Contains("half.fmu'") && Contains("damaged"));
 }

@@ -1,4 +1,5 @@
 // check, inspect, complete and pack.
+#include "tests/build.h"
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;
@@ -114,7 +115,7 @@ TEST_CASE("complete leaves a scenario that it cannot complete as it is") {
 TEST_CASE("pack makes a .fmu that can be inspected and run") {
   const Workspace workspace(Parts{component("filter", "packed.fmu")});
   const Outcome outcome =
-      workspace.stride({"pack", STRIDE_MINIMAL_LIBRARY, "--output", "packed.fmu"});
+      workspace.stride({"pack", unit_library("minimal").string(), "--output", "packed.fmu"});
   CHECK(outcome.err == "");
   CHECK(outcome.exit_code == 0);
   const Outcome inspected = workspace.stride({"inspect", "packed.fmu"});

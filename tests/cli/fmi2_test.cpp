@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "master/importer/unpacked_fmu.h"
+#include "tests/build.h"
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;
@@ -29,8 +30,8 @@ void write_other(const Workspace& workspace, const std::string& part,
 }  // namespace
 
 TEST_CASE("inspect shows an FMI 2.0 unit") {
-  const Outcome outcome = Workspace("").stride(
-      {"inspect", (fs::path(STRIDE_TEST_FMU_DIR) / "fmi2_types.fmu").string()});
+  const Outcome outcome =
+      Workspace("").stride({"inspect", (test_unit_folder() / "fmi2_types.fmu").string()});
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.out, Contains("fmi2_types: FMI 2.0 Co-Simulation\n"));
   CHECK_THAT(outcome.out, Contains("can be rolled back, variable step"));

@@ -9,6 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/build.h"
+
 namespace stride::tests {
 namespace {
 
@@ -81,8 +83,8 @@ Outcome Process::wait() {
 }
 
 Arguments stride_command(Arguments arguments) {
-  ::setenv("STRIDE_UNITS", STRIDE_TEST_FMU_DIR ":" STRIDE_FMU_DIR, 1);
-  arguments.insert(arguments.begin(), STRIDE_PROGRAM);
+  ::setenv("STRIDE_UNITS", (test_unit_folder().string() + ":" + unit_folder().string()).c_str(), 1);
+  arguments.insert(arguments.begin(), stride_program());
   return arguments;
 }
 

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/build.h"
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;
@@ -176,9 +177,9 @@ TEST_CASE("a unit may be an archive, its unpacked folder, or a bare library of t
     signals_of(workspace, options);
     return workspace.result("signals.csv");
   };
-  unpack(fs::path(STRIDE_FMU_DIR) / "minimal.fmu", workspace / "unpacked");
+  unpack(unit_folder() / "minimal.fmu", workspace / "unpacked");
   CHECK(with("unpacked") == expected);
-  CHECK(with(STRIDE_MINIMAL_LIBRARY) == expected);
+  CHECK(with(unit_library("minimal")) == expected);
 }
 
 TEST_CASE("a unit ends the run") {

@@ -1,4 +1,5 @@
 // Mistakes in a scenario: exit code 2, the place, and how to mend it.
+#include "tests/build.h"
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;
@@ -81,7 +82,7 @@ TEST_CASE("an unknown unit names the places searched and the nearest unit") {
   const Workspace workspace(Parts{component("filter", "minimla.fmu")});
   CHECK_THAT(mistake_in(workspace),
              Contains(workspace.at("<ssd:Component ") + "there is no unit 'minimla.fmu'") &&
-                 Contains(STRIDE_FMU_DIR) && Contains("did you mean 'minimal.fmu'?"));
+                 Contains(unit_folder().string()) && Contains("did you mean 'minimal.fmu'?"));
 }
 
 TEST_CASE("an unknown element in the annotation is answered with the nearest one") {

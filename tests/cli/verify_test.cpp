@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "master/importer/unpacked_fmu.h"
+#include "tests/build.h"
 #include "tests/cli/scenarios.h"
 #include "tests/fuzz/mutator.h"
 
@@ -14,12 +15,6 @@ using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;  // memory is not measured there
-#else
-constexpr bool kSanitized = false;
-#endif
 
 /// The line of the table for this check, or nothing.
 std::string row(const Outcome& outcome, const std::string& check) {
@@ -245,7 +240,7 @@ TEST_CASE("what is wrong with the input is said, with exit code 2") {
     return outcome.err;
   };
   CHECK_THAT(mistake({"verify", "minimla.fmu"}), Contains("did you mean 'minimal.fmu'?"));
-  CHECK_THAT(mistake({"verify", STRIDE_MINIMAL_LIBRARY}), Contains("stride pack"));
+  CHECK_THAT(mistake({"verify", unit_library("minimal").string()}), Contains("stride pack"));
   CHECK_THAT(mistake({"verify", "minimal.fmu", "--set", "tiem_constant=1"}),
              Contains("--set tiem_constant=1") && Contains("time_constant"));
   CHECK_THAT(mistake({"verify", "minimal.fmu", "--set", "u"}), Contains("expected variable=value"));
@@ -305,7 +300,7 @@ TEST_CASE("a damaged description is refused or judged") {
            fs::copy_options::recursive);
   const std::string whole = read(workspace / "unit/modelDescription.xml");
   Mutator mutator(20241122);
-  constexpr int kTrials = kSanitized ? 20 : 150;
+  const int kTrials = kSanitized ? 20 : 150;
   int refused = 0;
   int failed = 0;
   for (int i = 0; i < kTrials; ++i) {

@@ -7,6 +7,7 @@
 
 #include "master/importer/idle_manifest.h"
 #include "master/importer/model_description.h"
+#include "tests/build.h"
 #include "tests/fuzz/mutator.h"
 #include "tests/master/importer/support.h"
 
@@ -45,7 +46,7 @@ TEST_CASE("a mutated model description is read or refused, and never anything el
 }
 
 TEST_CASE("a mutated idle manifest is read or refused, and never anything else") {
-  const importer::UnpackedFmu unpacked(fs::path(STRIDE_TEST_FMU_DIR) / "idler.fmu");
+  const importer::UnpackedFmu unpacked(test_unit_folder() / "idler.fmu");
   const std::string xml = read(unpacked.folder() / STRIDE_IDLE_MANIFEST);
   const auto described =
       importer::read_model_description(unpacked.folder() / "modelDescription.xml");

@@ -2,6 +2,7 @@
 // and the run passes or fails by that.
 #include <nlohmann/json.hpp>
 
+#include "tests/build.h"
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;
@@ -67,7 +68,7 @@ struct Table : Workspace {
   explicit Table(const std::string& age_connections = ages()) : Workspace(table(age_connections)) {
     fs::create_directory(*this / "program");
     scratch().write("program/program.xml", kProgram);
-    pack(STRIDE_READER_LIBRARY, "program", "reader.fmu");
+    pack(unit_library("reader"), "program", "reader.fmu");
   }
   void pack(const std::string& library, const std::string& resources, const std::string& fmu) {
     REQUIRE(stride({"pack", library, "--resources", resources, "-o", fmu}).exit_code == 0);
@@ -151,7 +152,7 @@ TEST_CASE("the judge of another quantity is another file, and units are converte
   fs::create_directory(table / "kelvin");
   table.scratch().write("kelvin/quantity.xml",
                         "<quantity version=\"1\" unit=\"K\" difference=\"K\"/>");
-  table.pack(STRIDE_GROUND_TRUTH_LIBRARY, "kelvin", "ground_truth.fmu");
+  table.pack(unit_library("ground_truth"), "kelvin", "ground_truth.fmu");
   const Outcome outcome = table.run({"--quiet"});
   CHECK(outcome.err == "");
   CHECK(outcome.exit_code == 0);

@@ -15,15 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-const Arguments kCoarse{"--stop", "0.5"};
-const Arguments kShort{"--stop", "0.5"};
-const std::set<std::string> kFull{};
-#else
 const Arguments kCoarse{"--step", "0.01"};  // to the end
 const Arguments kShort{"--step", "0.01", "--stop", "4"};
 const std::set<std::string> kFull{"nfc_jitter", "nfc_two_tags", "replay_sensor"};
-#endif
 
 /// All in scenarios/ that have golden results, so that nothing is to be fetched for them.
 std::set<std::string> scenarios() {

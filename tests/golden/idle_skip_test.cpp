@@ -12,11 +12,7 @@ using namespace stride::tests;
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-const Arguments kIdleStop{"--stop", "2"};
-#else
 const Arguments kIdleStop{};  // the scenario's own
-#endif
 
 /// In SI units, by the ends of signals' names: what the units' tolerances (see their READMEs) and
 /// what follows from them may come to.

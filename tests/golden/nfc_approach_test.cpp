@@ -38,8 +38,6 @@ TEST_CASE("the results are the golden ones") {
   CHECK(golden_differences("nfc_approach", run()) == "");
 }
 
-// Under sanitizers one run of the scenario is dear enough.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_CASE("a second run writes the same bytes, on two threads too") {
   const ScenarioRun second = run_with("0.001", GENERATE("1", "2"));
   for (const char* file : {"signals.csv", "events.csv", "signals.vcd", "activity.csv"}) {
@@ -54,7 +52,6 @@ TEST_CASE("the messages do not depend on the communication step size") {
   const std::string step = GENERATE("0.005", "0.0007");
   CHECK(text_of(run_with(step).file("events.csv")) == text_of(run().file("events.csv")));
 }
-#endif
 
 TEST_CASE("six messages are sent, five are heard, one of them wrongly, three are answered") {
   CHECK(instants("reader", "transmit.frame", "sent") ==

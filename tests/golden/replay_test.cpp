@@ -20,13 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr const char* kStop = "1";
-constexpr std::size_t kLeastRows = 2;
-#else
 constexpr std::size_t kLeastRows = 11;
 constexpr const char* kStop = "";  // the scenario's
-#endif
 
 /// All in scenarios/ that have golden results, so that nothing is to be fetched for them, and a
 /// sensor; with the names of these.

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/build.h"
 #include "tests/golden/scenario_run.h"
 
 using namespace stride::tests;
@@ -14,7 +15,7 @@ namespace fs = std::filesystem;
 
 /// ur5e_world_test.sh packs it, where the arm can be fetched.
 bool has_world() {
-  if (fs::exists(fs::path(STRIDE_FMU_DIR) / "ur5e_world.fmu")) return true;
+  if (fs::exists(unit_folder() / "ur5e_world.fmu")) return true;
   std::cout << "SKIPPED: there is no ur5e_world.fmu\n";
   return false;
 }

@@ -15,6 +15,8 @@
 #include <stride/fmi3.h>
 #include <stride/idle.h>
 
+#include "tests/build.h"
+
 namespace {
 
 std::set<std::string> exported_symbols(const std::string& library) {
@@ -46,8 +48,8 @@ std::set<std::string> expected_symbols() {
 }  // namespace
 
 TEST_CASE("a unit's library exports the entry tables and its self-description alone") {
-  std::istringstream libraries(STRIDE_UNIT_LIBRARIES);
-  for (std::string library; std::getline(libraries, library, ':');) {
+  for (const char* unit : {"minimal", "types"}) {
+    const std::string library = stride::tests::unit_library(unit);
     CAPTURE(library);
     CHECK(exported_symbols(library) == expected_symbols());
     void* handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);

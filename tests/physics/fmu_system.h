@@ -11,6 +11,7 @@
 
 #include "master/algorithm/simulation.h"
 #include "master/importer/fmu.h"
+#include "tests/build.h"
 #include "tests/master/algorithm/scripted_unit.h"
 
 namespace stride::tests {
@@ -92,10 +93,10 @@ class FmuSystem {
 };
 
 inline std::filesystem::path fmu(const std::string& name) {
-  return std::filesystem::path(STRIDE_FMU_DIR) / (name + ".fmu");
+  return unit_folder() / (name + ".fmu");
 }
 inline std::filesystem::path test_fmu(const std::string& name) {
-  return std::filesystem::path(STRIDE_TEST_FMU_DIR) / (name + ".fmu");
+  return test_unit_folder() / (name + ".fmu");
 }
 
 }  // namespace stride::tests

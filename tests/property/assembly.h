@@ -13,14 +13,9 @@
 #include "master/capture/capture.h"
 #include "master/importer/fmu.h"
 #include "master/model/system.h"
+#include "tests/build.h"
 
 namespace stride::tests {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kSanitized = true;  ///< there, long tests are shorter
-#else
-inline constexpr bool kSanitized = false;
-#endif
 
 /// A unit made for tests, loaded once.
 std::shared_ptr<importer::Fmu> test_unit(const std::string& name);

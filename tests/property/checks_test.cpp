@@ -21,7 +21,7 @@ using scenario::CheckDeclaration;
 
 namespace {
 
-constexpr unsigned kChecksSystems = kSanitized ? 5 : 40;
+const unsigned kChecksSystems = kSanitized ? 5 : 40;
 constexpr int kChecksOfEachKind = 8;
 constexpr Duration kChecksStep = 1ms;
 constexpr Time kChecksStop{60ms};

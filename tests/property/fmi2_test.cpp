@@ -16,7 +16,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr int kTrials = kSanitized ? 20 : 200;
+const std::uint64_t kTrials = kSanitized ? 20 : 200;
 
 /// Drives an FMI 2.0 relaxation by hand.
 class Relaxation {

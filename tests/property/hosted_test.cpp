@@ -16,9 +16,9 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr unsigned kHostedSystems = kSanitized ? 4 : 20;
+const unsigned kHostedSystems = kSanitized ? 4 : 20;
 constexpr Duration kHostedStep = 1ms;
-constexpr Time kHostedStop{kSanitized ? 20ms : 50ms};
+const Time kHostedStop{kSanitized ? 20ms : 50ms};
 
 /// All that is counted, without the wall-clock times.
 std::array<std::uint64_t, 9> counts(const core::UnitStatistics& unit) {
@@ -147,7 +147,7 @@ TEST_CASE("nor where inputs change within steps, or an error controls these") {
 }
 
 TEST_CASE("snapshots are as good as states") {
-  constexpr unsigned kCompared = kSanitized ? 4 : kHostedSystems / 4;
+  const unsigned kCompared = kSanitized ? 4 : kHostedSystems / 4;
   std::uint64_t snapshots = 0, restores = 0;
   for (unsigned seed = 0, compared = 0; compared < kCompared; ++seed) {
     const Assembly system = random_system(seed, Wiring::Continuous);

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "tests/build.h"
 #include "tests/property/promise.h"
 
 using namespace stride;
@@ -22,10 +23,10 @@ std::string number(double value) { return fmt::format("{}", value); }
 Time after(double seconds) { return time_from_seconds(seconds); }
 
 std::shared_ptr<importer::Fmu> unit(const std::string& name) {
-  return importer::Fmu::load(std::string(STRIDE_FMU_DIR) + "/" + name + ".fmu");
+  return importer::Fmu::load(unit_folder() / (name + ".fmu"));
 }
 std::shared_ptr<importer::Fmu> test_unit(const std::string& name) {
-  return importer::Fmu::load(std::string(STRIDE_TEST_FMU_DIR) + "/" + name + ".fmu");
+  return importer::Fmu::load(test_unit_folder() / (name + ".fmu"));
 }
 
 PromiseCheck lives(const std::shared_ptr<importer::Fmu>& fmu, const Life::Settings& settings,

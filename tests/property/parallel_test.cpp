@@ -11,7 +11,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr unsigned kSystems = kSanitized ? 10 : 50;
+const unsigned kSystems = kSanitized ? 10 : 50;
 constexpr Duration kStep = 1ms;
 constexpr Time kStop{50ms};
 

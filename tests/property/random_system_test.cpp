@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr unsigned kRandomSystems = kSanitized ? 10 : 100;
+const unsigned kRandomSystems = kSanitized ? 10 : 100;
 constexpr Duration kRandomStep = 1ms;
 constexpr Time kRandomStop{100ms};
 

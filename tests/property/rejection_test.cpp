@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr unsigned kRejectionSystems = kSanitized ? 5 : 50;
+const unsigned kRejectionSystems = kSanitized ? 5 : 50;
 constexpr Time kRejectionStop{100ms};
 
 /// A random system, and two units that hear of it but feed nothing. They reject steps longer than a

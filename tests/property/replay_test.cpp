@@ -11,6 +11,7 @@
 #include "master/importer/binaries.h"
 #include "master/importer/fmi3/fmi3_library.h"
 #include "master/util/time_text.h"
+#include "tests/build.h"
 #include "tests/master/util/archive/support.h"
 #include "tests/property/random_system.h"
 
@@ -20,7 +21,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr unsigned kReplaySystems = kSanitized ? 10 : 100;
+const unsigned kReplaySystems = kSanitized ? 10 : 100;
 constexpr Duration kReplayStep = 1ms;
 constexpr Time kReplayStop{100ms};
 
@@ -31,8 +32,8 @@ std::shared_ptr<importer::Fmu> player_of(const Scratch& scratch, const fs::path&
   fs::create_directories(folder / "resources");
   fs::create_directories(binaries);
   fs::copy_file(stimuli, folder / "resources/stimuli.csv");
-  fs::create_symlink(STRIDE_PLAYER_LIBRARY, binaries / "player.so");
-  const importer::Fmi3Library library(STRIDE_PLAYER_LIBRARY);
+  fs::create_symlink(unit_library("player"), binaries / "player.so");
+  const importer::Fmi3Library library(unit_library("player"));
   scratch.write("player/modelDescription.xml", library.describe(folder / "resources"));
   return importer::Fmu::load(folder);
 }

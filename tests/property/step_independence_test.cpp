@@ -143,7 +143,7 @@ TEST_CASE("ticks that are found within the step are those that are announced") {
 }
 
 TEST_CASE("random systems that are coupled through events only have one result for all steps") {
-  constexpr unsigned kSystems = kSanitized ? 5 : 50;
+  const unsigned kSystems = kSanitized ? 5 : 50;
   const Time stop(100ms);
   for (unsigned seed = 0; seed < kSystems; ++seed) {
     const Assembly system = random_system(seed, Wiring::EventsOnly);

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/build.h"
 #include "tests/interfaces/unit/importer.h"
 
 using namespace stride::tests;
@@ -11,7 +12,7 @@ using Catch::Matchers::Contains;
 namespace {
 
 struct Fixture {
-  UnitLibrary library{STRIDE_CLOCKS_LIBRARY};
+  UnitLibrary library{unit_library("clocks")};
   UnitInstance unit{library};
 
   Fixture() { REQUIRE(unit.handle != nullptr); }
@@ -43,7 +44,7 @@ std::string why(const std::function<void()>& call) {
 }  // namespace
 
 TEST_CASE("the model description tells what each clock's kind may tell") {
-  const std::string xml = UnitLibrary(STRIDE_CLOCKS_LIBRARY).describe();
+  const std::string xml = UnitLibrary(unit_library("clocks")).describe();
   CHECK_THAT(xml, Contains(R"(<Clock name="constant" valueReference="3" causality="input" )"
                            R"(intervalVariability="constant" intervalDecimal="0.003" )"
                            R"(shiftDecimal="0.001" supportsFraction="true" )"

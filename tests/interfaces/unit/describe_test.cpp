@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/build.h"
 #include "tests/interfaces/unit/importer.h"
 
 using namespace stride::tests;
@@ -31,7 +32,7 @@ Said ask(UnitInstance& unit, const std::string& variable, const Bytes& value,
 }  // namespace
 
 TEST_CASE("a unit says what a message says") {
-  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary library(unit_library("types"));
   UnitInstance unit(library);
   const Said said = ask(unit, "receive.frame", {0x26, 0x27});
   CHECK(said.status == fmi3OK);
@@ -40,7 +41,7 @@ TEST_CASE("a unit says what a message says") {
 }
 
 TEST_CASE("a unit may have nothing to say") {
-  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary library(unit_library("types"));
   UnitInstance unit(library);
   const Said said = ask(unit, "receive.frame", {});
   CHECK(said.status == fmi3Discard);
@@ -49,7 +50,7 @@ TEST_CASE("a unit may have nothing to say") {
 }
 
 TEST_CASE("what is said is one line, and cut between characters") {
-  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary library(unit_library("types"));
   UnitInstance unit(library);
   CHECK(ask(unit, "receive.frame", {1}).text == "one, two");
   CHECK(ask(unit, "receive.frame", {2}, 7).text == "ééé");
@@ -59,7 +60,7 @@ TEST_CASE("what is said is one line, and cut between characters") {
 }
 
 TEST_CASE("what is thrown is a warning, and the unit lives on") {
-  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary library(unit_library("types"));
   InstanceChoices choices;
   choices.logging = true;
   UnitInstance unit(library, choices);
@@ -71,7 +72,7 @@ TEST_CASE("what is thrown is a warning, and the unit lives on") {
 }
 
 TEST_CASE("only Binary variables are asked for") {
-  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary library(unit_library("types"));
   UnitInstance unit(library);
   CHECK(ask(unit, "string", {1}).status == fmi3Error);
   CHECK_THAT(unit.last_message(), Contains("strideDescribeMessage: variable 'string' is of the "
@@ -84,6 +85,6 @@ TEST_CASE("only Binary variables are asked for") {
 }
 
 TEST_CASE("a unit that says nothing has the function, too") {
-  const UnitLibrary library(STRIDE_BOUNCING_BALL_LIBRARY);
+  const UnitLibrary library(unit_library("bouncing_ball"));
   CHECK(library.DescribeMessage != nullptr);
 }

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/build.h"
 #include "tests/interfaces/unit/importer.h"
 
 using namespace stride::tests;
@@ -30,7 +31,7 @@ struct Idler {
     REQUIRE(unit.set_boolean("announces", announces) == fmi3OK);
     REQUIRE(unit.start_steps() == fmi3OK);
   }
-  UnitLibrary library{STRIDE_IDLER_LIBRARY};
+  UnitLibrary library{unit_library("idler")};
   UnitInstance unit{library, choices()};
 };
 
@@ -81,7 +82,7 @@ TEST_CASE("a promise is cut off at the event that the unit has announced") {
 }
 
 TEST_CASE("a promise is cut off where one step cannot reach") {
-  const UnitLibrary library(STRIDE_IDLER_WITH_SHORT_STEPS_LIBRARY);
+  const UnitLibrary library(unit_library("idler_with_short_steps"));
   UnitInstance unit(library, choices());
   REQUIRE(unit.fmi.EnableIdleSkipping(unit.handle, kEver) == fmi3OK);
   REQUIRE(unit.set_real("rate", 0) == fmi3OK);
@@ -101,7 +102,7 @@ TEST_CASE("an output's own tolerance bounds how long its tangent holds") {
 }
 
 TEST_CASE("where skipping is not enabled nothing is promised") {
-  const UnitLibrary library(STRIDE_IDLER_LIBRARY);
+  const UnitLibrary library(unit_library("idler"));
   UnitInstance unit(library, choices());
   REQUIRE(unit.set_real("rate", 0) == fmi3OK);
   REQUIRE(unit.start_steps() == fmi3OK);
@@ -144,7 +145,7 @@ TEST_CASE("a reset switches skipping off and forgets the tolerances") {
 }
 
 TEST_CASE("what was enabled is part of the state") {
-  const UnitLibrary library(STRIDE_IDLER_LIBRARY);
+  const UnitLibrary library(unit_library("idler"));
   UnitInstance unit(library, choices());
   const State off(unit);
   REQUIRE(unit.fmi.EnableIdleSkipping(unit.handle, 10) == fmi3OK);
@@ -175,7 +176,7 @@ TEST_CASE("an event that is wanted is part of the state") {
 }
 
 TEST_CASE("a maxSkip that cannot be is refused, and nothing is enabled") {
-  const UnitLibrary library(STRIDE_IDLER_LIBRARY);
+  const UnitLibrary library(unit_library("idler"));
   UnitInstance unit(library, choices());
   for (const double max_skip : {0.0, -1.0, 1e-14}) {
     CAPTURE(max_skip);
@@ -190,7 +191,7 @@ TEST_CASE("a maxSkip that cannot be is refused, and nothing is enabled") {
 }
 
 TEST_CASE("a tolerance that cannot be is refused, and none of its call is set") {
-  const UnitLibrary library(STRIDE_IDLER_LIBRARY);
+  const UnitLibrary library(unit_library("idler"));
   UnitInstance unit(library, choices());
   REQUIRE(unit.fmi.EnableIdleSkipping(unit.handle, 10) == fmi3OK);
   for (const double tolerance : {0.0, -1.0, kNan, kEver}) {
@@ -212,7 +213,7 @@ TEST_CASE("a tolerance that cannot be is refused, and none of its call is set") 
 }
 
 TEST_CASE("a unit that never promises says so") {
-  const UnitLibrary library(STRIDE_MINIMAL_LIBRARY);
+  const UnitLibrary library(unit_library("minimal"));
   CHECK(library.idle_manifest().empty());
   UnitInstance unit(library);
   CHECK(unit.fmi.EnableIdleSkipping(unit.handle, 1) == fmi3Error);
@@ -226,14 +227,14 @@ TEST_CASE("a unit that never promises says so") {
 }
 
 TEST_CASE("a NULL instance promises nothing") {
-  const UnitLibrary library(STRIDE_IDLER_LIBRARY);
+  const UnitLibrary library(unit_library("idler"));
   double until = 0;
   CHECK(library.GetIdlePromise(nullptr, &until) == fmi3Error);
   CHECK(library.EnableIdleSkipping(nullptr, 1) == fmi3Error);
 }
 
 TEST_CASE("a library gives its manifest") {
-  const UnitLibrary library(STRIDE_IDLER_LIBRARY);
+  const UnitLibrary library(unit_library("idler"));
   const std::string manifest = library.idle_manifest();
   CHECK(attribute(manifest, "name=\"inflow\"", "deadband") == "1e-05");
   CHECK(attribute(manifest, "name=\"level\"", "tolerance") == "0.001");

@@ -1,6 +1,7 @@
 // A unit of the kit that is used without Event Mode.
 #include <catch2/catch.hpp>
 
+#include "tests/build.h"
 #include "tests/interfaces/unit/importer.h"
 
 using namespace stride::tests;
@@ -25,7 +26,7 @@ void check_whole(const UnitInstance::Step& last, double end) {
 }  // namespace
 
 TEST_CASE("events inside a step are handled at their instants") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   const bool early_return = GENERATE(false, true);
   UnitInstance unit(library, without_event_mode(early_return));
   SECTION("those that were announced, with their iterations") {
@@ -55,7 +56,7 @@ TEST_CASE("events inside a step are handled at their instants") {
 }
 
 TEST_CASE("a unit with events makes of one long step what it makes of short ones with Event Mode") {
-  const UnitLibrary library(STRIDE_BOUNCING_BALL_LIBRARY);
+  const UnitLibrary library(unit_library("bouncing_ball"));
   UnitInstance ours(library, without_event_mode());
   REQUIRE(ours.initialize() == fmi3OK);
   REQUIRE(ours.step(0, 2) == fmi3OK);
@@ -79,7 +80,7 @@ TEST_CASE("a unit with events makes of one long step what it makes of short ones
 }
 
 TEST_CASE("a discrete input that is set between steps is an event") {
-  const UnitLibrary library(STRIDE_CLOCKS_LIBRARY);
+  const UnitLibrary library(unit_library("clocks"));
   UnitInstance unit(library, without_event_mode());
   REQUIRE(unit.initialize() == fmi3OK);
   REQUIRE(unit.step(0, 0.1) == fmi3OK);
@@ -90,7 +91,7 @@ TEST_CASE("a discrete input that is set between steps is an event") {
 }
 
 TEST_CASE("a continuous input that is set between steps is no event") {
-  const UnitLibrary library(STRIDE_MINIMAL_LIBRARY);
+  const UnitLibrary library(unit_library("minimal"));
   UnitInstance unit(library, without_event_mode());
   REQUIRE(unit.set_real("time_constant", 1e-3) == fmi3OK);
   REQUIRE(unit.initialize() == fmi3OK);
@@ -100,7 +101,7 @@ TEST_CASE("a continuous input that is set between steps is no event") {
 }
 
 TEST_CASE("messages that nobody hears are reported once, whatever is logged") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library, without_event_mode());
   REQUIRE(unit.set_real("tick_at", 0.5) == fmi3OK);
   REQUIRE(unit.set_real("event_at", 0.5) == fmi3OK);
@@ -116,7 +117,7 @@ TEST_CASE("messages that nobody hears are reported once, whatever is logged") {
 }
 
 TEST_CASE("input clocks that never tick are reported once, at the start") {
-  const UnitLibrary library(STRIDE_CLOCKS_LIBRARY);
+  const UnitLibrary library(unit_library("clocks"));
   UnitInstance unit(library, without_event_mode());
   REQUIRE(unit.initialize() == fmi3OK);
   REQUIRE(unit.messages.size() == 1);
@@ -128,13 +129,13 @@ TEST_CASE("input clocks that never tick are reported once, at the start") {
 }
 
 TEST_CASE("nothing is reported of a unit without clocks, nor to an importer with Event Mode") {
-  const UnitLibrary minimal(STRIDE_MINIMAL_LIBRARY);
+  const UnitLibrary minimal(unit_library("minimal"));
   UnitInstance without_clocks(minimal, without_event_mode());
   REQUIRE(without_clocks.initialize() == fmi3OK);
   REQUIRE(without_clocks.step(0, 1) == fmi3OK);
   CHECK(without_clocks.messages.empty());
 
-  const UnitLibrary clocks(STRIDE_CLOCKS_LIBRARY);
+  const UnitLibrary clocks(unit_library("clocks"));
   UnitInstance with_event_mode(clocks);
   REQUIRE(with_event_mode.start_steps() == fmi3OK);
   REQUIRE(with_event_mode.step(0, 1) == fmi3OK);
@@ -142,7 +143,7 @@ TEST_CASE("nothing is reported of a unit without clocks, nor to an importer with
 }
 
 TEST_CASE("a step that is rejected behind an event leaves the unit as it was before") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library, without_event_mode());
   REQUIRE(unit.set_real("event_at", 0.25) == fmi3OK);
   REQUIRE(unit.set_real("largest_step", 0.5) == fmi3OK);
@@ -158,7 +159,7 @@ TEST_CASE("a step that is rejected behind an event leaves the unit as it was bef
 }
 
 TEST_CASE("a unit that ends the simulation says where") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library, without_event_mode());
   REQUIRE(unit.set_real("event_at", 0.25) == fmi3OK);
   REQUIRE(unit.set_real("end_at", 0.25) == fmi3OK);
@@ -171,7 +172,7 @@ TEST_CASE("a unit that ends the simulation says where") {
 }
 
 TEST_CASE("an early return without an event is one where the importer allows it") {
-  const UnitLibrary library(STRIDE_EARLY_LIBRARY);
+  const UnitLibrary library(unit_library("early"));
   const bool allowed = GENERATE(false, true);
   UnitInstance unit(library, without_event_mode(allowed));
   const fmi3ValueReference instants = unit.reference("instants");
@@ -188,7 +189,7 @@ TEST_CASE("an early return without an event is one where the importer allows it"
 }
 
 TEST_CASE("a restored state has its announced event") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library, without_event_mode());
   REQUIRE(unit.set_real("event_at", 0.5) == fmi3OK);
   REQUIRE(unit.initialize() == fmi3OK);

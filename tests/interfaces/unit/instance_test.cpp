@@ -8,6 +8,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/build.h"
 #include "tests/interfaces/unit/importer.h"
 
 using namespace stride::tests;
@@ -65,7 +66,7 @@ struct SavedState {
 // ---- Instantiation ----
 
 TEST_CASE("a wrong token is refused, with both tokens") {
-  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary library(unit_library("types"));
   InstanceChoices choices;
   choices.token = "somebody else's";
   const UnitInstance unit(library, choices);
@@ -75,7 +76,7 @@ TEST_CASE("a wrong token is refused, with both tokens") {
 }
 
 TEST_CASE("a constructor that throws makes no instance and no description") {
-  const UnitLibrary library(STRIDE_STATELESS_LIBRARY);
+  const UnitLibrary library(unit_library("stateless"));
   CHECK_THROWS_WITH(library.describe("/absent/"), Contains("note.txt is missing"));
   std::string message;
   const fmi3Instance handle = library.InstantiateCoSimulation(
@@ -89,7 +90,7 @@ TEST_CASE("a constructor that throws makes no instance and no description") {
 }
 
 TEST_CASE("the other interface types are refused with a reason") {
-  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary library(unit_library("types"));
   std::string message;
   const fmi3LogMessageCallback log = [](fmi3InstanceEnvironment to, fmi3Status, fmi3String,
                                         fmi3String text) { *static_cast<std::string*>(to) = text; };
@@ -102,7 +103,7 @@ TEST_CASE("the other interface types are refused with a reason") {
 }
 
 TEST_CASE("what a Co-Simulation unit does not have answers with an error and a message") {
-  const UnitLibrary fmi(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary fmi(unit_library("types"));
   UnitInstance unit(fmi);
   const fmi3ValueReference r = 1;
   double x = 0;
@@ -136,7 +137,7 @@ TEST_CASE("what a Co-Simulation unit does not have answers with an error and a m
 }
 
 TEST_CASE("a NULL instance is an error, not a crash") {
-  const UnitLibrary fmi(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary fmi(unit_library("types"));
   CHECK(fmi.Terminate(nullptr) == fmi3Error);
   CHECK(fmi.EnterContinuousTimeMode(nullptr) == fmi3Error);
   CHECK_NOTHROW(fmi.FreeInstance(nullptr));
@@ -145,7 +146,7 @@ TEST_CASE("a NULL instance is an error, not a crash") {
 // ---- Failures of the unit ----
 
 TEST_CASE("an exception becomes fmi3Error, and the instance can be reset") {
-  const UnitLibrary library(STRIDE_THROWER_LIBRARY);
+  const UnitLibrary library(unit_library("thrower"));
   UnitInstance unit(library);
   REQUIRE(unit.start_steps() == fmi3OK);
   CHECK(unit.step(0, 0.1) == fmi3Error);
@@ -161,7 +162,7 @@ TEST_CASE("an exception becomes fmi3Error, and the instance can be reset") {
 
 TEST_CASE("a reset whose constructor throws leaves an instance that can be asked and freed") {
   const Resources resources;
-  const UnitLibrary library(STRIDE_STATELESS_LIBRARY);
+  const UnitLibrary library(unit_library("stateless"));
   InstanceChoices choices;
   choices.resources = resources.path();
   UnitInstance unit(library, choices);
@@ -178,7 +179,7 @@ TEST_CASE("a reset whose constructor throws leaves an instance that can be asked
 
 TEST_CASE("what goes wrong while an error is reported does not cross") {
   SECTION("in a call that is not allowed") {
-    const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+    const UnitLibrary library(unit_library("types"));
     UnitInstance unit(library);
     unit.log_throws = true;
     fmi3Status status = fmi3OK;
@@ -188,7 +189,7 @@ TEST_CASE("what goes wrong while an error is reported does not cross") {
     CHECK(status == fmi3Error);
   }
   SECTION("where the unit has failed") {
-    const UnitLibrary library(STRIDE_THROWER_LIBRARY);
+    const UnitLibrary library(unit_library("thrower"));
     UnitInstance unit(library);
     REQUIRE(unit.start_steps() == fmi3OK);
     unit.log_throws = true;
@@ -200,7 +201,7 @@ TEST_CASE("what goes wrong while an error is reported does not cross") {
     CHECK_THAT(unit.last_message(), Contains("not allowed in Terminated"));
   }
   SECTION("where no instance is made") {
-    const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+    const UnitLibrary library(unit_library("types"));
     const fmi3LogMessageCallback log = [](fmi3InstanceEnvironment, fmi3Status, fmi3String,
                                           fmi3String) { throw std::runtime_error("full"); };
     const auto instantiate = [&] {
@@ -211,7 +212,7 @@ TEST_CASE("what goes wrong while an error is reported does not cross") {
 }
 
 TEST_CASE("a misuse does not end the unit's life") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   REQUIRE(unit.start_steps() == fmi3OK);
   CHECK(library.ExitInitializationMode(unit.handle) == fmi3Error);
@@ -222,7 +223,7 @@ TEST_CASE("a misuse does not end the unit's life") {
 // ---- Log ----
 
 TEST_CASE("without logging an importer hears of errors only") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   REQUIRE(unit.set_boolean("logs", true) == fmi3OK);
   REQUIRE(unit.start_steps() == fmi3OK);
@@ -233,7 +234,7 @@ TEST_CASE("without logging an importer hears of errors only") {
 }
 
 TEST_CASE("with logging it hears of everything, but for the categories that it turns off") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   InstanceChoices choices;
   choices.logging = true;
   UnitInstance unit(library, choices);
@@ -268,7 +269,7 @@ TEST_CASE("with logging it hears of everything, but for the categories that it t
 // ---- Values ----
 
 TEST_CASE("a parameter outside of its range is refused when the initialization ends") {
-  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary library(unit_library("types"));
   UnitInstance unit(library);
   REQUIRE(unit.set_real("gain", -0.5) == fmi3OK);
   CHECK(unit.initialize() == fmi3Error);
@@ -276,7 +277,7 @@ TEST_CASE("a parameter outside of its range is refused when the initialization e
 }
 
 TEST_CASE("an array is set and read as a whole, in row-major order") {
-  const UnitLibrary fmi(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary fmi(unit_library("types"));
   UnitInstance unit(fmi);
   const fmi3ValueReference in = unit.reference("matrix");
   const fmi3ValueReference out = unit.reference("matrix.echo");
@@ -297,7 +298,7 @@ TEST_CASE("an array is set and read as a whole, in row-major order") {
 }
 
 TEST_CASE("an enumeration travels as Int64, and no other type does") {
-  const UnitLibrary fmi(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary fmi(unit_library("types"));
   UnitInstance unit(fmi);
   const fmi3ValueReference in = unit.reference("colour");
   const fmi3ValueReference out = unit.reference("colour.echo");
@@ -314,7 +315,7 @@ TEST_CASE("an enumeration travels as Int64, and no other type does") {
 }
 
 TEST_CASE("references that lead nowhere and variables that cannot be set are named") {
-  const UnitLibrary fmi(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary fmi(unit_library("types"));
   UnitInstance unit(fmi);
   const fmi3ValueReference nowhere = 9999;
   double value = 0;
@@ -326,7 +327,7 @@ TEST_CASE("references that lead nowhere and variables that cannot be set are nam
 }
 
 TEST_CASE("a refused set changes nothing") {
-  const UnitLibrary fmi(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary fmi(unit_library("types"));
   UnitInstance unit(fmi);
   REQUIRE(fmi.EnterInitializationMode(unit.handle, false, 0, 0, false, 0) == fmi3OK);
   REQUIRE(unit.set_real("float64", 1) == fmi3OK);
@@ -340,7 +341,7 @@ TEST_CASE("a refused set changes nothing") {
 }
 
 TEST_CASE("the independent variable is the time") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   REQUIRE(unit.start_steps(0.5) == fmi3OK);
   CHECK(unit.real("time") == 0.5);
@@ -351,7 +352,7 @@ TEST_CASE("the independent variable is the time") {
 // ---- Steps ----
 
 TEST_CASE("a step must start where the unit stands, be positive, and end before the stop time") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   REQUIRE(unit.start_steps(0, 1) == fmi3OK);
   CHECK(unit.step(0.5, 0.1) == fmi3Error);
@@ -368,7 +369,7 @@ TEST_CASE("a step must start where the unit stands, be positive, and end before 
 }
 
 TEST_CASE("instants may be further apart than a duration can be") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   REQUIRE(unit.set_real("largest_step", 9.2e6) == fmi3OK);
   REQUIRE(unit.start_steps(-9.1e6) == fmi3OK);
@@ -380,7 +381,7 @@ TEST_CASE("instants may be further apart than a duration can be") {
 }
 
 TEST_CASE("a rejected step is fmi3Discard with its reason and leaves the unit as it was") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   REQUIRE(unit.set_real("largest_step", 0.1) == fmi3OK);
   REQUIRE(unit.start_steps() == fmi3OK);
@@ -393,7 +394,7 @@ TEST_CASE("a rejected step is fmi3Discard with its reason and leaves the unit as
 }
 
 TEST_CASE("a unit does in a step only what it has declared") {
-  const UnitLibrary library(STRIDE_LIAR_LIBRARY);
+  const UnitLibrary library(unit_library("liar"));
   UnitInstance unit(library, early_return());
   SECTION("it rejects") {
     REQUIRE(unit.set_boolean("rejects", true) == fmi3OK);
@@ -412,7 +413,7 @@ TEST_CASE("a unit does in a step only what it has declared") {
 }
 
 TEST_CASE("an early return stops at its instant and wants an event there") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library, early_return());
   REQUIRE(unit.set_real("early_at", 0.04) == fmi3OK);
   REQUIRE(unit.start_steps() == fmi3OK);
@@ -426,7 +427,7 @@ TEST_CASE("an early return stops at its instant and wants an event there") {
 }
 
 TEST_CASE("without leave to return early the step goes to its end") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   REQUIRE(unit.set_real("early_at", 0.04) == fmi3OK);
   REQUIRE(unit.start_steps() == fmi3OK);
@@ -436,7 +437,7 @@ TEST_CASE("without leave to return early the step goes to its end") {
 }
 
 TEST_CASE("late in a long simulation doubles are coarser than picoseconds, and steps still join") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library, early_return());
   const double start = 1e6;
   const double early = 1000000.0012345678;
@@ -457,7 +458,7 @@ TEST_CASE("late in a long simulation doubles are coarser than picoseconds, and s
 }
 
 TEST_CASE("a unit can end the simulation") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   REQUIRE(unit.set_real("end_at", 0.2) == fmi3OK);
   REQUIRE(unit.start_steps() == fmi3OK);
@@ -470,7 +471,7 @@ TEST_CASE("a unit can end the simulation") {
 // ---- Events and clocks ----
 
 TEST_CASE("a tick in a step is seen in the Event Mode that follows, and then withdrawn") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   REQUIRE(unit.set_real("tick_at", 0.1) == fmi3OK);
   REQUIRE(unit.start_steps() == fmi3OK);
@@ -484,7 +485,7 @@ TEST_CASE("a tick in a step is seen in the Event Mode that follows, and then wit
 }
 
 TEST_CASE("a tick in Event Mode asks for another iteration") {
-  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary library(unit_library("types"));
   UnitInstance unit(library);
   REQUIRE(unit.initialize() == fmi3OK);
   REQUIRE(unit.set_clock("receive.clock", true) == fmi3OK);
@@ -499,7 +500,7 @@ TEST_CASE("a tick in Event Mode asks for another iteration") {
 }
 
 TEST_CASE("clocks are set where they are inputs, clocked inputs in Event Mode only") {
-  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary library(unit_library("types"));
   UnitInstance unit(library);
   REQUIRE(unit.initialize() == fmi3OK);
   CHECK(unit.set_clock("send.clock", true) == fmi3Error);
@@ -514,7 +515,7 @@ TEST_CASE("clocks are set where they are inputs, clocked inputs in Event Mode on
 }
 
 TEST_CASE("outputs follow inputs within Event Mode") {
-  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary library(unit_library("types"));
   UnitInstance unit(library);
   REQUIRE(unit.initialize() == fmi3OK);
   REQUIRE(unit.set_real("float64", 3) == fmi3OK);
@@ -523,7 +524,7 @@ TEST_CASE("outputs follow inputs within Event Mode") {
 }
 
 TEST_CASE("the next event and another iteration are passed on") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   REQUIRE(unit.set_real("event_at", 0.1) == fmi3OK);
   REQUIRE(unit.initialize() == fmi3OK);
@@ -541,7 +542,7 @@ TEST_CASE("the next event and another iteration are passed on") {
 }
 
 TEST_CASE("an announced event stays announced until it has come") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   const auto event_after_step = [&](double from, double to) {
     REQUIRE(library.EnterStepMode(unit.handle) == fmi3OK);
@@ -587,7 +588,7 @@ TEST_CASE("an announced event stays announced until it has come") {
 // ---- Output derivatives ----
 
 TEST_CASE("the first derivative of an output that has one") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   CHECK(attribute(library.describe(), "<CoSimulation", "maxOutputDerivativeOrder") == "1");
   UnitInstance unit(library);
   REQUIRE(unit.start_steps() == fmi3OK);
@@ -603,7 +604,7 @@ TEST_CASE("the first derivative of an output that has one") {
 }
 
 TEST_CASE("a derivative that depends on inputs is right before the first step") {
-  const UnitLibrary library(STRIDE_MINIMAL_LIBRARY);
+  const UnitLibrary library(unit_library("minimal"));
   UnitInstance unit(library);
   REQUIRE(unit.set_real("u", 3) == fmi3OK);
   REQUIRE(unit.set_real("y", 1) == fmi3OK);
@@ -619,7 +620,7 @@ TEST_CASE("a derivative that depends on inputs is right before the first step") 
 // ---- State ----
 
 TEST_CASE("a restored state continues as if nothing had happened between") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   REQUIRE(unit.start_steps() == fmi3OK);
   REQUIRE(unit.step(0, 0.1) == fmi3OK);
@@ -635,7 +636,7 @@ TEST_CASE("a restored state continues as if nothing had happened between") {
 }
 
 TEST_CASE("a restored state brings back the mode and what state() does not list") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   REQUIRE(unit.set_real("event_at", 0.0) == fmi3OK);
   REQUIRE(unit.initialize() == fmi3OK);
@@ -649,7 +650,7 @@ TEST_CASE("a restored state brings back the mode and what state() does not list"
 }
 
 TEST_CASE("a saved state is reused where the importer passes it again") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   REQUIRE(unit.start_steps() == fmi3OK);
   SavedState saved(unit);
@@ -662,7 +663,7 @@ TEST_CASE("a saved state is reused where the importer passes it again") {
 }
 
 TEST_CASE("a serialised state continues in another instance") {
-  const UnitLibrary library(STRIDE_TYPES_LIBRARY);
+  const UnitLibrary library(unit_library("types"));
   UnitInstance first(library);
   REQUIRE(first.initialize() == fmi3OK);
   REQUIRE(first.set_real("float64", 2.5) == fmi3OK);
@@ -688,8 +689,8 @@ TEST_CASE("a serialised state continues in another instance") {
 }
 
 TEST_CASE("bytes that are no state of this unit are refused") {
-  const UnitLibrary types(STRIDE_TYPES_LIBRARY);
-  const UnitLibrary stepper(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary types(unit_library("types"));
+  const UnitLibrary stepper(unit_library("stepper"));
   UnitInstance source(types);
   UnitInstance unit(stepper);
   const SavedState saved(source);
@@ -713,7 +714,7 @@ TEST_CASE("bytes that are no state of this unit are refused") {
 
 TEST_CASE("a unit that lists no state says so") {
   const Resources resources;
-  const UnitLibrary library(STRIDE_STATELESS_LIBRARY);
+  const UnitLibrary library(unit_library("stateless"));
   InstanceChoices choices;
   choices.resources = resources.path();
   UnitInstance unit(library, choices);
@@ -725,7 +726,7 @@ TEST_CASE("a unit that lists no state says so") {
 }
 
 TEST_CASE("NULL in the place of a state or too small a buffer is a misuse, not a crash") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   CHECK(library.SetFMUState(unit.handle, nullptr) == fmi3Error);
   std::size_t size = 0;

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/build.h"
 #include "tests/interfaces/unit/importer.h"
 
 using namespace stride::tests;
@@ -19,16 +20,16 @@ InstanceChoices with(std::vector<std::string> variables) {
 }  // namespace
 
 TEST_CASE("the model description says which inputs may change within a step") {
-  const std::string xml = UnitLibrary(STRIDE_OSCILLATOR_MASS_LIBRARY).describe();
+  const std::string xml = UnitLibrary(unit_library("oscillator_mass")).describe();
   CHECK(attribute(xml, "<CoSimulation", "providesIntermediateUpdate") == "true");
   CHECK(attribute(xml, "name=\"x_other\"", "intermediateUpdate") == "true");
   CHECK(attribute(xml, "name=\"mass\"", "intermediateUpdate").empty());
-  const std::string other = UnitLibrary(STRIDE_TYPES_LIBRARY).describe();
+  const std::string other = UnitLibrary(unit_library("types")).describe();
   CHECK(attribute(other, "<CoSimulation", "providesIntermediateUpdate").empty());
 }
 
 TEST_CASE("a unit asks for its inputs within a step, and works with what it is given") {
-  const UnitLibrary library(STRIDE_OSCILLATOR_MASS_LIBRARY);
+  const UnitLibrary library(unit_library("oscillator_mass"));
   UnitInstance held(library);
   UnitInstance following(library, with({"x_other", "v_other"}));
   std::vector<double> times;
@@ -51,7 +52,7 @@ TEST_CASE("a unit asks for its inputs within a step, and works with what it is g
 }
 
 TEST_CASE("asked for the time, it tells its own, however late") {
-  const UnitLibrary library(STRIDE_OSCILLATOR_MASS_LIBRARY);
+  const UnitLibrary library(unit_library("oscillator_mass"));
   UnitInstance unit(library, with({"x_other"}));
   REQUIRE(unit.start_steps(1000) == fmi3OK);
   bool inside = true;
@@ -61,7 +62,7 @@ TEST_CASE("asked for the time, it tells its own, however late") {
 }
 
 TEST_CASE("in Intermediate Update Mode the listed inputs can be set, and nothing else be done") {
-  const UnitLibrary library(STRIDE_OSCILLATOR_MASS_LIBRARY);
+  const UnitLibrary library(unit_library("oscillator_mass"));
   UnitInstance unit(library, with({"x_other"}));
   REQUIRE(unit.start_steps() == fmi3OK);
   int asked = 0;
@@ -85,14 +86,14 @@ TEST_CASE("in Intermediate Update Mode the listed inputs can be set, and nothing
 }
 
 TEST_CASE("variables that are not intermediate cannot be required to be") {
-  const UnitLibrary library(STRIDE_OSCILLATOR_MASS_LIBRARY);
+  const UnitLibrary library(unit_library("oscillator_mass"));
   const UnitInstance unit(library, with({"x_other", "mass"}));
   CHECK(unit.handle == nullptr);
   CHECK_THAT(unit.last_message(), Contains("is not that of an intermediate variable"));
 }
 
 TEST_CASE("a callback that throws ends the step, not the process, and the unit can be reset") {
-  const UnitLibrary library(STRIDE_OSCILLATOR_MASS_LIBRARY);
+  const UnitLibrary library(unit_library("oscillator_mass"));
   UnitInstance unit(library, with({"x_other"}));
   REQUIRE(unit.start_steps() == fmi3OK);
   unit.on_intermediate_update = [](double) { throw std::runtime_error("the importer is C++"); };

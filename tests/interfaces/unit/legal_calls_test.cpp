@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/build.h"
 #include "tests/interfaces/unit/importer.h"
 
 using namespace stride::tests;
@@ -219,8 +220,8 @@ std::vector<Call> messages_in_words() {
 }
 
 /// Calls each function in each state, each time on a fresh instance.
-void check(const std::vector<Call>& calls, const char* unit_library = STRIDE_TYPES_LIBRARY) {
-  const UnitLibrary library(unit_library);
+void check(const std::vector<Call>& calls, const std::string& file = unit_library("types")) {
+  const UnitLibrary library(file);
   for (const Call& call : calls) {
     for (const char state : kStates) {
       CAPTURE(call.name, state);
@@ -243,14 +244,14 @@ void check(const std::vector<Call>& calls, const char* unit_library = STRIDE_TYP
 TEST_CASE("the life cycle in every state") { check(life_cycle()); }
 TEST_CASE("access to values in every state") { check(values()); }
 TEST_CASE("access to the unit's state in every state") { check(states()); }
-TEST_CASE("the intervals of clocks in every state") { check(clocks(), STRIDE_CLOCKS_LIBRARY); }
+TEST_CASE("the intervals of clocks in every state") { check(clocks(), unit_library("clocks")); }
 
-TEST_CASE("idle skipping in every state") { check(idle_skipping(), STRIDE_IDLER_LIBRARY); }
+TEST_CASE("idle skipping in every state") { check(idle_skipping(), unit_library("idler")); }
 
 TEST_CASE("messages in words in every state") { check(messages_in_words()); }
 
 TEST_CASE("a call out of order changes nothing") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   CHECK(unit.step(0, 0.1) == fmi3Error);
   CHECK(unit.start_steps() == fmi3OK);
@@ -260,7 +261,7 @@ TEST_CASE("a call out of order changes nothing") {
 }
 
 TEST_CASE("without Event Mode a unit steps right after the initialization") {
-  const UnitLibrary library(STRIDE_STEPPER_LIBRARY);
+  const UnitLibrary library(unit_library("stepper"));
   InstanceChoices choices;
   choices.event_mode = false;
   UnitInstance unit(library, choices);

@@ -1,5 +1,6 @@
 #include "master/importer/fmu.h"
 
+#include "tests/build.h"
 #include "tests/master/importer/support.h"
 
 using namespace stride;
@@ -12,7 +13,7 @@ TEST_CASE("an archive, its folder and the bare library are the same unit") {
   const importer::UnpackedFmu unpacked(test_fmu("types"));
   const auto archive = Fmu::load(test_fmu("types"));
   const auto folder = Fmu::load(unpacked.folder());
-  const auto library = Fmu::load(STRIDE_TYPES_LIBRARY);
+  const auto library = Fmu::load(unit_library("types"));
   for (const auto& fmu : {archive, folder, library}) {
     CHECK(fmu->description()->model_identifier == "types");
     CHECK(fmu->description()->instantiation_token == archive->description()->instantiation_token);
@@ -62,7 +63,7 @@ TEST_CASE("an instance keeps the FMU and its unpacked files alive") {
 
 TEST_CASE("a bare library uses the resources folder beside it") {
   const Scratch scratch;
-  fs::copy_file(STRIDE_STATELESS_LIBRARY, scratch / "stateless.so");
+  fs::copy_file(unit_library("stateless"), scratch / "stateless.so");
   CHECK_THAT(input_error([&] { Fmu::load(scratch / "stateless.so"); }),
              Contains("its resource note.txt is missing"));
   scratch.write("resources/note.txt", "beside it");

@@ -1,6 +1,7 @@
 #include "master/importer/idle_manifest.h"
 
 #include "master/importer/fmu.h"
+#include "tests/build.h"
 #include "tests/master/importer/support.h"
 
 using namespace stride;
@@ -155,9 +156,9 @@ TEST_CASE("an FMU's manifest is read from where the layered standard has it") {
 }
 
 TEST_CASE("a library of the kit gives its manifest without an FMU") {
-  const auto idler = importer::Fmu::load(STRIDE_IDLER_LIBRARY);
+  const auto idler = importer::Fmu::load(unit_library("idler"));
   CHECK(idler->description()->promises_idle);
-  CHECK_FALSE(importer::Fmu::load(STRIDE_TYPES_LIBRARY)->description()->promises_idle);
+  CHECK_FALSE(importer::Fmu::load(unit_library("types"))->description()->promises_idle);
 }
 
 TEST_CASE("a broken manifest is named with the FMU") {

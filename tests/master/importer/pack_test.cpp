@@ -4,6 +4,7 @@
 
 #include "master/importer/fmu.h"
 #include "master/importer/unpacked_fmu.h"
+#include "tests/build.h"
 #include "tests/master/importer/support.h"
 
 using namespace stride;
@@ -15,7 +16,7 @@ namespace {
 importer::PackRequest stateless(const Scratch& scratch, const std::string& output = "unit.fmu") {
   scratch.write("resources/note.txt", "a note");
   scratch.write("resources/deep/b.txt", "b");
-  return {STRIDE_STATELESS_LIBRARY, scratch / "resources", {}, scratch / output};
+  return {unit_library("stateless"), scratch / "resources", {}, scratch / output};
 }
 
 std::vector<std::string> names_in(const fs::path& path) {
@@ -44,13 +45,13 @@ TEST_CASE("a packed unit has the layout of FMI 3.0, in the order of the names") 
                                  "modelDescription.xml", "resources/deep/b.txt",
                                  "resources/note.txt"});
   const importer::UnpackedFmu unpacked(request.output);
-  CHECK(read(unpacked.folder() / binaries / "stateless.so") == read(STRIDE_STATELESS_LIBRARY));
+  CHECK(read(unpacked.folder() / binaries / "stateless.so") == read(unit_library("stateless")));
   CHECK(read(unpacked.folder() / "resources/note.txt") == "a note");
 }
 
 TEST_CASE("a unit that can promise to be idle is packed with its manifest") {
   const Scratch scratch;
-  importer::pack({STRIDE_IDLER_LIBRARY, {}, {}, scratch / "idler.fmu"});
+  importer::pack({unit_library("idler"), {}, {}, scratch / "idler.fmu"});
   const std::string binaries = std::string("binaries/") + importer::platform() + "/";
   CHECK(names_in(scratch / "idler.fmu") == std::vector<std::string>{binaries + "idler.so",
                                                                     STRIDE_IDLE_MANIFEST,
@@ -90,7 +91,7 @@ TEST_CASE("a .fmu is packed again with other resources") {
 
   const importer::UnpackedFmu unpacked(scratch / "second.fmu");
   const auto binaries = unpacked.folder() / "binaries" / importer::platform();
-  CHECK(read(binaries / "stateless.so") == read(STRIDE_STATELESS_LIBRARY));
+  CHECK(read(binaries / "stateless.so") == read(unit_library("stateless")));
   CHECK(read(binaries / "raw.so") == read(raw_library("raw")));
   CHECK(read(unpacked.folder() / "resources/note.txt") == "another note");
   CHECK_FALSE(fs::exists(unpacked.folder() / "resources/deep"));
@@ -138,11 +139,11 @@ TEST_CASE("what cannot be packed is an error that says why") {
   const Scratch scratch;
   auto request = stateless(scratch);
   SECTION("two files of one name") {
-    request.bundled = {STRIDE_STATELESS_LIBRARY};
+    request.bundled = {unit_library("stateless")};
     CHECK_THAT(input_error([&] { importer::pack(request); }), Contains("two files would be"));
   }
   SECTION("resources that are no folder") {
-    request.library = STRIDE_TYPES_LIBRARY;
+    request.library = unit_library("types");
     request.resources = scratch / "resources/note.txt";
     CHECK_THAT(input_error([&] { importer::pack(request); }), Contains("note.txt' is no folder"));
   }

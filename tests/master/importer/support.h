@@ -11,16 +11,15 @@
 #include "master/importer/binaries.h"
 #include "master/importer/fmu.h"
 #include "master/isolation/hosted_unit.h"
+#include "tests/build.h"
 #include "tests/master/algorithm/unit_capabilities.h"
 #include "tests/master/util/archive/support.h"
 
 namespace stride::tests {
 
-inline fs::path test_fmu(const std::string& name) {
-  return fs::path(STRIDE_TEST_FMU_DIR) / (name + ".fmu");
-}
+inline fs::path test_fmu(const std::string& name) { return test_unit_folder() / (name + ".fmu"); }
 inline fs::path raw_library(const std::string& name) {
-  return fs::path(STRIDE_TEST_FMU_DIR) / "raw" / (name + ".so");
+  return test_unit_folder() / "raw" / (name + ".so");
 }
 
 /// Whether units are to live in processes of their own: the tests of instances run in both ways,

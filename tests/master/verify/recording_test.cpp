@@ -1,5 +1,6 @@
 #include "master/verify/recording.h"
 
+#include "tests/build.h"
 #include "tests/master/importer/support.h"
 
 using namespace stride;
@@ -9,8 +10,7 @@ using Catch::Matchers::Contains;
 namespace {
 
 const TestedUnit& tested() {
-  static const TestedUnit tested(
-      VerifyRequest{.file = std::filesystem::path(STRIDE_FMU_DIR) / "minimal.fmu"});
+  static const TestedUnit tested(VerifyRequest{.file = tests::unit_folder() / "minimal.fmu"});
   return tested;
 }
 

@@ -1,5 +1,6 @@
 #include "master/verify/tested_unit.h"
 
+#include "tests/build.h"
 #include "tests/master/importer/support.h"
 
 using namespace stride;
@@ -10,7 +11,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-fs::path minimal() { return fs::path(STRIDE_FMU_DIR) / "minimal.fmu"; }
+fs::path minimal() { return unit_folder() / "minimal.fmu"; }
 
 /// A unit that declares these.
 TestedUnit declaring(const std::string& flags, const std::string& experiment,

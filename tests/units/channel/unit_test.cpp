@@ -7,14 +7,15 @@
 #include <catch2/catch.hpp>
 #include <tinyxml2.h>
 
+#include "tests/build.h"
 #include "tests/interfaces/unit/importer.h"
 
 using namespace stride::tests;
 
 namespace {
 
-const std::vector<std::string> kChannels = {STRIDE_NFC_CHANNEL_LIBRARY, STRIDE_RF_CHANNEL_LIBRARY,
-                                            STRIDE_IDEAL_CHANNEL_LIBRARY};
+const std::vector<std::string> kChannels = {unit_library("nfc_channel"), unit_library("rf_channel"),
+                                            unit_library("ideal_channel")};
 
 /// The elements of inputs and outputs, but for what may differ: their order, what they mean,
 /// and how they start.

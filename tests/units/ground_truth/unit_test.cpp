@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/build.h"
 #include "tests/interfaces/unit/importer.h"
 
 using namespace stride::tests;
@@ -15,13 +16,13 @@ using Catch::Matchers::Contains;
 namespace {
 
 const UnitLibrary& library() {
-  static const UnitLibrary only(STRIDE_GROUND_TRUTH_LIBRARY);
+  static const UnitLibrary only(unit_library("ground_truth"));
   return only;
 }
 
 InstanceChoices choices() {
   InstanceChoices choices;
-  choices.resources = STRIDE_GROUND_TRUTH_RESOURCES;
+  choices.resources = STRIDE_SOURCE_DIR "/units/ground_truth/resources/";
   choices.logging = true;
   return choices;
 }
@@ -90,7 +91,7 @@ class GroundTruth {
 }  // namespace
 
 TEST_CASE("the units of the variables come from the resources") {
-  const std::string xml = library().describe(STRIDE_GROUND_TRUTH_RESOURCES);
+  const std::string xml = library().describe(STRIDE_SOURCE_DIR "/units/ground_truth/resources/");
   CHECK(attribute(xml, "name=\"truth\"", "unit") == "degC");
   CHECK(attribute(xml, "name=\"measurement.value\"", "unit") == "degC");
   CHECK(attribute(xml, "name=\"tolerance\"", "unit") == "K");

@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/build.h"
 #include "tests/units/channel/unit_bench.h"
 
 using namespace stride::tests;
@@ -41,7 +42,7 @@ void send_near(UnitInstance& unit, const nfc::Frame& frame) {
 }  // namespace
 
 TEST_CASE("A frame is handed over at the event that the channel announces for its end") {
-  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  const UnitLibrary library(unit_library("nfc_channel"));
   UnitInstance unit(library);
   const nfc::Frame frame = request(1.0);
   send_near(unit, frame);
@@ -63,7 +64,7 @@ TEST_CASE("A frame is handed over at the event that the channel announces for it
 }
 
 TEST_CASE("An importer that steps beyond the end gets the frame at the end of its step") {
-  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  const UnitLibrary library(unit_library("nfc_channel"));
   UnitInstance unit(library);
   const nfc::Frame frame = request(1.0);
   send_near(unit, frame);
@@ -75,7 +76,7 @@ TEST_CASE("An importer that steps beyond the end gets the frame at the end of it
 }
 
 TEST_CASE("A carrier that goes off while a frame is on the air is an event that cuts it short") {
-  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  const UnitLibrary library(unit_library("nfc_channel"));
   UnitInstance unit(library);
   const nfc::Frame frame = request(1.0);
   send_near(unit, frame);
@@ -98,7 +99,7 @@ TEST_CASE("A carrier that goes off while a frame is on the air is an event that 
 }
 
 TEST_CASE("A tag that may not end its step early hands over what it has sent meanwhile") {
-  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  const UnitLibrary library(unit_library("nfc_channel"));
   UnitInstance unit(library);
   start_near(unit);
   REQUIRE(unit.step(0, 1) == fmi3OK);
@@ -125,7 +126,7 @@ TEST_CASE("A tag that may not end its step early hands over what it has sent mea
 }
 
 TEST_CASE("A state with a frame on the air is serialised, and another instance hands it over") {
-  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  const UnitLibrary library(unit_library("nfc_channel"));
   UnitInstance unit(library);
   const nfc::Frame frame = request(1.0);
   send_near(unit, frame);
@@ -151,7 +152,7 @@ TEST_CASE("A state with a frame on the air is serialised, and another instance h
 }
 
 TEST_CASE("With a frame on the air nothing is promised, without one everything stays") {
-  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  const UnitLibrary library(unit_library("nfc_channel"));
   UnitInstance unit(library);
   constexpr double kEver = std::numeric_limits<double>::infinity();
   REQUIRE(unit.fmi.EnableIdleSkipping(unit.handle, kEver) == fmi3OK);
@@ -177,7 +178,7 @@ TEST_CASE("With a frame on the air nothing is promised, without one everything s
 
 TEST_CASE("Tags that channel.xml lists have variables of their own") {
   const TagList resources(kTwoTags);
-  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  const UnitLibrary library(unit_library("nfc_channel"));
   UnitInstance unit(library, resources.choices());
   REQUIRE(unit.set_real("door.coil.position.z", 0.02) == fmi3OK);
   REQUIRE(unit.set_real("window.coil.position.z", 0.03) == fmi3OK);
@@ -213,7 +214,7 @@ TEST_CASE("Tags that channel.xml lists have variables of their own") {
 
 TEST_CASE("Resources without a channel.xml leave the one tag") {
   const TagList resources("");
-  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  const UnitLibrary library(unit_library("nfc_channel"));
   UnitInstance unit(library, resources.choices());
   REQUIRE(unit.start_steps() == fmi3OK);
   CHECK(unit.real("distance") == 0.0);
@@ -221,13 +222,13 @@ TEST_CASE("Resources without a channel.xml leave the one tag") {
 
 TEST_CASE("A bad channel.xml is an error with its line") {
   const TagList resources("<nfc-channel version=\"1\">\n<tag/></nfc-channel>");
-  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  const UnitLibrary library(unit_library("nfc_channel"));
   CHECK_THROWS_WITH(library.describe(resources.path()),
                     Catch::Contains("channel.xml:2") && Catch::Contains("'name'"));
 }
 
 TEST_CASE("What makes no sense is an error that names it") {
-  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  const UnitLibrary library(unit_library("nfc_channel"));
   const auto [name, value] = GENERATE(table<std::string, double>({
       {"tag_coil.radius", 0.0},
       {"tag_coil.wire_radius", 0.005},
@@ -239,7 +240,7 @@ TEST_CASE("What makes no sense is an error that names it") {
 }
 
 TEST_CASE("Bytes that are no frame are an error") {
-  const UnitLibrary library(STRIDE_NFC_CHANNEL_LIBRARY);
+  const UnitLibrary library(unit_library("nfc_channel"));
   InstanceChoices logging;
   logging.logging = true;
   UnitInstance unit(library, logging);

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/build.h"
 #include "tests/interfaces/unit/importer.h"
 #include "tests/units/player/example.h"
 #include "tests/units/resource_folder.h"
@@ -20,7 +21,7 @@ struct Resources : ResourceFolder {
 }  // namespace
 
 TEST_CASE("the table is that of the captured inputs") {
-  const UnitLibrary library(STRIDE_PLAYER_LIBRARY);
+  const UnitLibrary library(unit_library("player"));
   const Resources resources(example());
   const std::string xml = library.describe(resources.path());
   CHECK(attribute(xml, "name=\"level\"", "causality") == "output");
@@ -33,7 +34,7 @@ TEST_CASE("the table is that of the captured inputs") {
 }
 
 TEST_CASE("without stimuli, or with bad ones, it says what it wants") {
-  const UnitLibrary library(STRIDE_PLAYER_LIBRARY);
+  const UnitLibrary library(unit_library("player"));
   CHECK_THROWS_WITH(library.describe(),
                     Contains("expected one with stimuli.csv") && Contains("stride run --capture"));
   const Resources none("");

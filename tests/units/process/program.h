@@ -1,10 +1,18 @@
 #ifndef STRIDE_TESTS_UNITS_PROCESS_PROGRAM_H
 #define STRIDE_TESTS_UNITS_PROCESS_PROGRAM_H
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "tests/build.h"
+
 namespace stride::tests {
+
+/// The cistern in C++, beside the file that declares it.
+inline std::filesystem::path cistern_program() {
+  return build_folder() / "tests/test_units/cistern/cistern";
+}
 
 /// A program of the shell.
 inline std::vector<std::string> shell(const std::string& script) {

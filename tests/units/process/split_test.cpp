@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/units/process/program.h"
 #include "units/process/model.h"
 
 using namespace process;
@@ -19,7 +20,7 @@ constexpr std::int64_t kTick = 976'562'500;  // 2^-10 s
 constexpr std::int64_t kTicks = 1000;
 
 Declaration cistern() {
-  const std::filesystem::path folder = std::filesystem::path(STRIDE_CISTERN).parent_path();
+  const std::filesystem::path folder = stride::tests::cistern_program().parent_path();
   const std::filesystem::path copy = folder / "split";
   std::filesystem::create_directories(copy);
   std::filesystem::copy_file(folder / "cistern.xml", copy / "process.xml",
@@ -46,7 +47,8 @@ End run(const Declaration& declaration, const std::vector<std::int64_t>& ends, b
   values[place(declaration, "report_period")] = 0.0625;
   values[place(declaration, "inflow")] = 0.375;
   End end{};
-  Session session(declaration, values, {STRIDE_CISTERN}, {}, [](bool, const std::string&) {});
+  Session session(declaration, values, {stride::tests::cistern_program()}, {},
+                  [](bool, const std::string&) {});
   Sync sync = session.start({"it", "", "", ""}, Time{});
   for (const std::int64_t tick : ends) {
     const Time to{Duration(tick * kTick)};

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <sys/wait.h>
 
+#include "tests/build.h"
 #include "tests/interfaces/unit/importer.h"
 #include "tests/units/process/program.h"
 #include "tests/units/resource_folder.h"
@@ -19,14 +20,14 @@ namespace fs = std::filesystem;
 namespace {
 
 const UnitLibrary& library() {
-  static const UnitLibrary only(STRIDE_PROCESS_LIBRARY);
+  static const UnitLibrary only(unit_library("process"));
   return only;
 }
 
 /// The cistern in C++, in a folder of its own.
 struct Cistern {
   Cistern() {
-    const fs::path program = STRIDE_CISTERN;
+    const fs::path program = cistern_program();
     fs::copy_file(program, folder / "cistern");
     fs::copy_file(program.parent_path() / "cistern.xml", folder / "process.xml");
   }

@@ -8,6 +8,7 @@
 #include <stride/nfc/frame.h>
 #include <stride/nfc/iso14443a.h>
 
+#include "tests/build.h"
 #include "tests/interfaces/unit/importer.h"
 #include "tests/units/resource_folder.h"
 #include "units/reader/variation.h"
@@ -96,7 +97,7 @@ void set_seed(UnitInstance& reader, std::uint64_t seed) {
 
 TEST_CASE("A command is sent, although the answer before it arrives when it has ended already") {
   const Resources resources;
-  const UnitLibrary library(STRIDE_READER_LIBRARY);
+  const UnitLibrary library(unit_library("reader"));
   UnitInstance reader(library, choices(resources));
   REQUIRE(reader.start_steps() == fmi3OK);
   REQUIRE(reader.step(0, 2) == fmi3OK);
@@ -119,7 +120,7 @@ TEST_CASE("A command is sent, although the answer before it arrives when it has 
 
 TEST_CASE("A command that is due asks for an event until it is sent") {
   const Resources resources;
-  const UnitLibrary library(STRIDE_READER_LIBRARY);
+  const UnitLibrary library(unit_library("reader"));
   UnitInstance reader(library, choices(resources));
   REQUIRE(reader.start_steps() == fmi3OK);
   REQUIRE(reader.step(0, 2) == fmi3OK);
@@ -136,7 +137,7 @@ TEST_CASE("When everything is over the time limit of the last answer is announce
       <antenna on="1" off="2.0005" power="0.5"/>
       <command at="2" name="read_temperature"/>
     </reader-program>)");
-  const UnitLibrary library(STRIDE_READER_LIBRARY);
+  const UnitLibrary library(unit_library("reader"));
   UnitInstance reader(library, choices(resources));
   REQUIRE(reader.start_steps() == fmi3OK);
   REQUIRE(reader.step(0, 2) == fmi3OK);
@@ -153,7 +154,7 @@ TEST_CASE("When everything is over the time limit of the last answer is announce
 
 TEST_CASE("What became of a command is reported when it is settled") {
   const Resources resources;
-  const UnitLibrary library(STRIDE_READER_LIBRARY);
+  const UnitLibrary library(unit_library("reader"));
   UnitInstance reader(library, choices(resources));
   REQUIRE(reader.start_steps() == fmi3OK);
   CHECK(reports_at(reader, 2).empty());
@@ -174,7 +175,7 @@ TEST_CASE("Reports of one instant come one after the other") {
       <command at="2" name="read_temperature"/><command at="2" name="identify"/>
       <command at="2.0001" name="sleep"/>
     </reader-program>)");
-  const UnitLibrary library(STRIDE_READER_LIBRARY);
+  const UnitLibrary library(unit_library("reader"));
   UnitInstance reader(library, choices(resources));
   REQUIRE(reader.start_steps() == fmi3OK);
   CHECK(reports_at(reader, 2).empty());
@@ -190,7 +191,7 @@ TEST_CASE("Measurements are told one after the other, and are older where they a
   const Resources resources(R"(<reader-program version="1">
       <antenna on="1" off="9" power="0.5"/><command at="2" name="read_log"/>
     </reader-program>)");
-  const UnitLibrary library(STRIDE_READER_LIBRARY);
+  const UnitLibrary library(unit_library("reader"));
   UnitInstance reader(library, choices(resources));
   REQUIRE(reader.start_steps() == fmi3OK);
   CHECK(reports_at(reader, 2).empty());
@@ -220,7 +221,7 @@ TEST_CASE("A request is sent again, cut, at the instant at which the antenna goe
   const Resources resources(R"(<reader-program version="1">
       <antenna on="1" off="2.0001" power="0.5"/><command at="2" name="read_temperature"/>
     </reader-program>)");
-  const UnitLibrary library(STRIDE_READER_LIBRARY);
+  const UnitLibrary library(unit_library("reader"));
   UnitInstance reader(library, choices(resources));
   REQUIRE(reader.start_steps() == fmi3OK);
   CHECK(reports_at(reader, 2).empty());
@@ -240,7 +241,7 @@ TEST_CASE("A request is sent again, cut, at the instant at which the antenna goe
 
 TEST_CASE("Parameters replace what varies in the program") {
   const Resources resources(kTrembling);
-  const UnitLibrary library(STRIDE_READER_LIBRARY);
+  const UnitLibrary library(unit_library("reader"));
   reader::Variation expected;
   expected.seed = 7;
   expected.tremor = {0.002, 0.001};
@@ -275,7 +276,7 @@ TEST_CASE("Parameters replace what varies in the program") {
 
 TEST_CASE("A parameter out of its range is refused") {
   const Resources resources(kTrembling);
-  const UnitLibrary library(STRIDE_READER_LIBRARY);
+  const UnitLibrary library(unit_library("reader"));
   UnitInstance reader(library, choices(resources));
   REQUIRE(reader.set_real("tremor.amplitude", 0.6) == fmi3OK);
   CHECK(reader.initialize() == fmi3Error);
@@ -284,7 +285,7 @@ TEST_CASE("A parameter out of its range is refused") {
 TEST_CASE(
     "The way does not depend on the steps, and a state goes to an instance with another seed") {
   const Resources resources(kTrembling);
-  const UnitLibrary library(STRIDE_READER_LIBRARY);
+  const UnitLibrary library(unit_library("reader"));
   UnitInstance one(library, choices(resources));
   UnitInstance other(library, choices(resources));
   set_seed(other, 99);
@@ -312,7 +313,7 @@ TEST_CASE("A state that is saved before a retry repeats it") {
       <antenna on="1" off="9" power="0.5"/>
       <command at="2" name="read_temperature" timeout="0.05" retries="1" pause="0.1"/>
     </reader-program>)");
-  const UnitLibrary library(STRIDE_READER_LIBRARY);
+  const UnitLibrary library(unit_library("reader"));
   UnitInstance reader(library, choices(resources));
   REQUIRE(reader.start_steps() == fmi3OK);
   CHECK(reports_at(reader, 2).empty());

@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/build.h"
 #include "tests/units/channel/unit_bench.h"
 
 using namespace stride::tests;
@@ -47,7 +48,7 @@ void expect_at_its_end(UnitInstance& unit, double now, const nfc::Frame& frame) 
 }  // namespace
 
 TEST_CASE("A frame is handed over at the event that is announced for the end of its packet") {
-  const UnitLibrary library(STRIDE_RF_CHANNEL_LIBRARY);
+  const UnitLibrary library(unit_library("rf_channel"));
   UnitInstance unit(library);
   const nfc::Frame frame = request(1.0);
   send_at_one_second(unit, frame);
@@ -57,7 +58,7 @@ TEST_CASE("A frame is handed over at the event that is announced for the end of 
 }
 
 TEST_CASE("A packet on the air goes on in another instance, whether it was begun or not") {
-  const UnitLibrary library(STRIDE_RF_CHANNEL_LIBRARY);
+  const UnitLibrary library(unit_library("rf_channel"));
   UnitInstance unit(library);
   const nfc::Frame frame = request(1.0);
   send_at_one_second(unit, frame);
@@ -82,7 +83,7 @@ TEST_CASE("A packet on the air goes on in another instance, whether it was begun
 }
 
 TEST_CASE("Two dipoles in a row hear the ground's echo only") {
-  const UnitLibrary library(STRIDE_RF_CHANNEL_LIBRARY);
+  const UnitLibrary library(unit_library("rf_channel"));
   for (const char* antenna : {"upright", "in a row"}) {
     UnitInstance unit(library);
     const fmi3ValueReference r = unit.reference("antenna");
@@ -110,7 +111,7 @@ TEST_CASE("Two dipoles in a row hear the ground's echo only") {
 TEST_CASE("Tags that channel.xml lists have variables of their own") {
   const TagList resources(
       R"(<rf-channel version="1"><tag name="door"/><tag name="window"/></rf-channel>)");
-  const UnitLibrary library(STRIDE_RF_CHANNEL_LIBRARY);
+  const UnitLibrary library(unit_library("rf_channel"));
   UnitInstance unit(library, resources.choices());
   REQUIRE(unit.set_real("reader_coil.position.z", 1.0) == fmi3OK);
   for (const std::string tag : {"door", "window"}) {
@@ -127,13 +128,13 @@ TEST_CASE("Tags that channel.xml lists have variables of their own") {
 
 TEST_CASE("A list of another technology's tags is refused") {
   const TagList resources("<nfc-channel version=\"1\"><tag name=\"door\"/></nfc-channel>");
-  const UnitLibrary library(STRIDE_RF_CHANNEL_LIBRARY);
+  const UnitLibrary library(unit_library("rf_channel"));
   CHECK_THROWS_WITH(library.describe(resources.path()),
                     Catch::Contains("channel.xml:1") && Catch::Contains("expected <rf-channel>"));
 }
 
 TEST_CASE("What makes no sense is an error that names it") {
-  const UnitLibrary library(STRIDE_RF_CHANNEL_LIBRARY);
+  const UnitLibrary library(unit_library("rf_channel"));
   const auto [name, value] = GENERATE(table<std::string, double>({
       {"frequency", 2.45},
       {"reader.noise_figure", -1.0},

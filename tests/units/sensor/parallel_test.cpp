@@ -12,6 +12,7 @@
 #include "master/importer/fmu.h"
 #include "master/util/hex.h"
 #include "master/util/time_text.h"
+#include "tests/build.h"
 #include "tests/master/algorithm/scripted_system.h"
 
 using namespace stride;
@@ -88,7 +89,7 @@ void add_sensor(ScriptedSystem& system, importer::Fmu& fmu, const std::string& n
 }
 
 Trace run(std::size_t sensors, bool may_stop, ThreadOptions threads) {
-  const auto fmu = importer::Fmu::load(STRIDE_FMU_DIR "/sensor.fmu");
+  const auto fmu = importer::Fmu::load(tests::unit_folder() / "sensor.fmu");
   ScriptedSystem system;
   add_reader(system, "reader");
   std::vector<VariableId> recorded;

@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
+#include "tests/build.h"
 #include "tests/units/sensor/life.h"
 #include "tests/units/systemc/vcd.h"
 
@@ -27,7 +28,8 @@ struct TemporaryFolder {
 };
 
 void expand(const std::string& from, const std::string& to) {
-  const std::string command = STRIDE_PROGRAM " trace expand " + from + " " + to + " > /dev/null";
+  const std::string command = stride::tests::stride_program().string() + " trace expand " + from +
+                              " " + to + " > /dev/null";
   REQUIRE(std::system(command.c_str()) == 0);
 }
 

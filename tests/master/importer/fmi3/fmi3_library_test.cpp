@@ -1,5 +1,6 @@
 #include "master/importer/fmi3/fmi3_library.h"
 
+#include "tests/build.h"
 #include "tests/master/importer/support.h"
 
 using namespace stride;
@@ -16,7 +17,7 @@ std::string load_error(const fs::path& path) {
 }  // namespace
 
 TEST_CASE("a unit of the kit has the whole table and describes itself") {
-  const Fmi3Library library(STRIDE_TYPES_LIBRARY);
+  const Fmi3Library library(unit_library("types"));
   const importer::Fmi3Functions& fmi = library.functions();
 #define STRIDE_CHECK(name) CHECK(fmi.name != nullptr);
   FMI3_FUNCTIONS(STRIDE_CHECK)
@@ -42,7 +43,7 @@ TEST_CASE("a missing Co-Simulation function is named") {
 }
 
 TEST_CASE("a unit that cannot describe itself gives the reason") {
-  CHECK_THAT(input_error([&] { Fmi3Library(STRIDE_STATELESS_LIBRARY).describe({}); }),
+  CHECK_THAT(input_error([&] { Fmi3Library(unit_library("stateless")).describe({}); }),
              Contains("cannot describe itself: its resource note.txt is missing"));
 }
 
