@@ -228,9 +228,9 @@ class Simulation::Run {
     while (true) {
       const Time reached = stepper_.advance(time_, next_target());
       if (!options_.step.policy->controls_error) return reached;
-      const Excess excess = inputs_->excess(reached, options_.step.absolute_tolerance,
-                                            options_.step.relative_tolerance);
-      if (step_policy_->accept(time_, reached, excess)) return reached;
+      const ExtrapolationError error = inputs_->extrapolation_error(
+          reached, options_.step.absolute_tolerance, options_.step.relative_tolerance);
+      if (step_policy_->accept(time_, reached, error)) return reached;
       stepper_.undo(time_);
       ++statistics_.undone_steps;
     }
@@ -239,8 +239,8 @@ class Simulation::Run {
   /// The point that the step policy chooses, or the next event if that is earlier.
   Time next_target() {
     const std::optional<Time> quiet_until = idle_ ? idle_->all_suspended_until() : std::nullopt;
-    const Time target =
-        quiet_until ? step_policy_->stride(time_, *quiet_until) : step_policy_->next(time_);
+    const Time target = quiet_until ? step_policy_->next_while_idle(time_, *quiet_until)
+                                    : step_policy_->next(time_);
     return std::min(target, event_handler_.next_event().value_or(target));
   }
 
