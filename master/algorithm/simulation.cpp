@@ -217,8 +217,8 @@ class Simulation::Run {
   void handle_requests() {
     for (std::size_t i = 0; i < count(); ++i) {
       const StepResult& result = stepper_.result(i);
-      if (result.terminate) statistics_.end = RunEnd::EndedByUnit;
-      if (result.event_needed) event_handler_.request_event(i);
+      if (result.terminate_simulation) statistics_.end = RunEnd::EndedByUnit;
+      if (result.event_handling_needed) event_handler_.request_event(i);
     }
   }
 

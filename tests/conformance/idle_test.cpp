@@ -101,7 +101,7 @@ TEST_CASE("a step over the whole promise goes through, again and again") {
       CHECK_FALSE(result.rejected);
       CHECK_FALSE(result.early_return);
       CHECK(life.now() == until);
-      if (result.event_needed) life.handle_event();
+      if (result.event_handling_needed) life.handle_event();
     } else {
       life.advance(begin + 1ms, 1ms);
     }

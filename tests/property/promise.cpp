@@ -70,7 +70,7 @@ std::string checked_step(Life& life, Time begin, Time to, Time until,
   };
   if (result.rejected) return broken("it rejects a step");
   if (result.early_return) return broken("it returns early");
-  if (result.event_needed && life.now() < until) return broken("it wants an event");
+  if (result.event_handling_needed && life.now() < until) return broken("it wants an event");
   if (life.now() >= until) return {};  // at `until` itself something may happen
   for (const Course& course : promised) {
     const std::string violation = course.violation(life, life.now() - begin);
@@ -166,7 +166,7 @@ void Life::advance(Time to, Duration step) {
     const core::StepResult result = this->step(end);
     REQUIRE_FALSE(result.rejected);
     const bool is_due = next_event_ && *next_event_ <= now_;
-    if (!result.event_needed && !is_due) continue;
+    if (!result.event_handling_needed && !is_due) continue;
     handle_event();
   }
 }
@@ -177,12 +177,13 @@ void Life::handle_event() {
 }
 
 void Life::handle_events() {
-  core::EventResult result{.iterate = true, .terminate = false, .next_event = {}};
-  for (int i = 0; result.iterate; ++i) {
+  core::EventResult result{
+      .discrete_states_need_update = true, .terminate_simulation = false, .next_event_time = {}};
+  for (int i = 0; result.discrete_states_need_update; ++i) {
     REQUIRE(i < 100);
     result = unit_->update_discrete_states();
   }
-  next_event_ = result.next_event;
+  next_event_ = result.next_event_time;
   unit_->enter_step_mode();
 }
 

@@ -150,10 +150,10 @@ bool EventHandler::event_iteration() {
     const EventResult result = clock_.timed(statistics_.units[i].event_time,
                                             [&] { return units_[i]->update_discrete_states(); });
     ++statistics_.units[i].events;
-    terminates |= result.terminate;
-    next_event_[i] = result.next_event;
-    const bool is_due = result.next_event && *result.next_event <= time_;
-    active_[i] = result.iterate || is_due;
+    terminates |= result.terminate_simulation;
+    next_event_[i] = result.next_event_time;
+    const bool is_due = result.next_event_time && *result.next_event_time <= time_;
+    active_[i] = result.discrete_states_need_update || is_due;
     has_active_ |= static_cast<bool>(active_[i]);
     clocks_.update(i, time_);
   }

@@ -179,7 +179,7 @@ inline bool Stepper::step_plainly(UnitStep& unit_step, const StepInterval& inter
   unit_step.rejections = 0;
   unit_step.result = exchange_.step(unit_step.component, *unit_step.unit, interval);
   unit_step.steps += !unit_step.result.rejected;
-  if (unit_step.result.went_through(interval.to)) [[likely]]
+  if (unit_step.result.reached_without_request(interval.to)) [[likely]]
     return true;
   unit_step.outcome = unit_step.result.rejected ? Outcome::Rejected : Outcome::Stepped;
   if (unit_step.result.rejected) {
@@ -268,7 +268,8 @@ inline Time Stepper::record(UnitStep& unit_step, const StepInterval& interval) {
     case Outcome::Idle:
       return interval.to;
     case Outcome::Stepped:
-      has_requests_ |= unit_step.result.event_needed || unit_step.result.terminate;
+      has_requests_ |=
+          unit_step.result.event_handling_needed || unit_step.result.terminate_simulation;
       if (unit_step.result.reached != interval.to) {
         ++statistics_[unit_step.component].early_returns;
         report(unit_step, Activity::Kind::EarlyReturn, interval.from, unit_step.result.reached);

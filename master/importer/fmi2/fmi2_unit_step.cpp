@@ -89,7 +89,7 @@ core::StepResult Fmi2Unit::end_run(const core::StepInterval& interval, std::opti
     restore(is_as_saved_ ? states_.chosen() : before_step_);
     stands = interval.from;
   }
-  return {.early_return = *stands != interval.to, .terminate = true, .reached = *stands};
+  return {.early_return = *stands != interval.to, .terminate_simulation = true, .reached = *stands};
 }
 
 /// The unit cannot go back.

@@ -112,8 +112,8 @@ TEST_CASE("Event Mode is told once for each time that a unit is in it") {
   auto& a = f.add("a", Describe("ticker").output("y").event_mode().done());
   a.on_event = [times = 0](ScriptedUnit&) mutable {
     EventResult result;
-    result.iterate = ++times % 2 == 1;  // two iterations each time
-    if (times < 4) result.next_event = at(0.05);
+    result.discrete_states_need_update = ++times % 2 == 1;  // two iterations each time
+    if (times < 4) result.next_event_time = at(0.05);
     return result;
   };
   CHECK(run(f, 0.2) == std::vector<Activity>{{0, Kind::Event, at(0), at(0)},

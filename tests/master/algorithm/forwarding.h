@@ -50,7 +50,9 @@ class CompleteUnit final : public core::Unit,
   void enter_event_mode() override { note("enter_event_mode"); }
   core::EventResult update_discrete_states() override {
     note("update_discrete_states");
-    return {.iterate = true, .terminate = true, .next_event = Time::max()};
+    return {.discrete_states_need_update = true,
+            .terminate_simulation = true,
+            .next_event_time = Time::max()};
   }
   void enter_step_mode() override { note("enter_step_mode"); }
   void terminate() override { note("terminate"); }
@@ -152,7 +154,7 @@ inline void check_functions(core::Unit& decorator, CompleteUnit::Calls& calls) {
   decorator.set({}, none);
   decorator.enter_initialization(Time(Duration(1)), std::nullopt);
   decorator.exit_initialization();
-  CHECK(decorator.update_discrete_states().next_event == Time::max());
+  CHECK(decorator.update_discrete_states().next_event_time == Time::max());
   decorator.enter_step_mode();
   CHECK(decorator.step(interval).reached == interval.from);
   CHECK(decorator.step(interval, {}).reached == interval.from);

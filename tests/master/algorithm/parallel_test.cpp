@@ -81,7 +81,7 @@ struct Behaviour {
     const Time reached = stops_early ? *stop : to;
     advance(unit, reached - from);
     *has_event = stop != stops.end() && *stop <= to;
-    return {.early_return = stops_early, .event_needed = *has_event, .reached = reached};
+    return {.early_return = stops_early, .event_handling_needed = *has_event, .reached = reached};
   }
 };
 

@@ -170,7 +170,7 @@ TEST_CASE("messages are handed over at communication points until nothing ticks"
     if (to == time_from_seconds(0.002)) {
       unit.clock(2) = true;
       unit.binary(3) = {0xAB};
-      result.event_needed = true;
+      result.event_handling_needed = true;
     }
     return result;
   };
@@ -180,7 +180,7 @@ TEST_CASE("messages are handed over at communication points until nothing ticks"
   };
   b.on_event = [](ScriptedUnit& unit) {  // answers each message with its complement, at once
     EventResult result;
-    result.iterate = unit.clock(2) = unit.clock(0);
+    result.discrete_states_need_update = unit.clock(2) = unit.clock(0);
     if (unit.clock(0)) unit.binary(3) = {static_cast<std::uint8_t>(~unit.binary(1)[0])};
     return result;
   };
@@ -215,7 +215,7 @@ TEST_CASE("a value of two clocks travels to those whose clock ticks") {
     unit.clock(0) = to == Time(1ms);
     unit.clock(1) = to == Time(2ms);
     unit.binary(2) = {static_cast<std::uint8_t>(to.time_since_epoch() / 1ms)};
-    result.event_needed = true;
+    result.event_handling_needed = true;
     return result;
   };
   Seen seen;
@@ -248,7 +248,7 @@ TEST_CASE("a unit's next event time is a communication point") {
   a.on_event = [&](ScriptedUnit&) {
     events.push_back(now);
     EventResult result;
-    if (now == Time{}) result.next_event = time_from_seconds(0.0015);
+    if (now == Time{}) result.next_event_time = time_from_seconds(0.0015);
     return result;
   };
   Seen seen;
@@ -273,7 +273,7 @@ TEST_CASE("a clock that ticks because another one was set is heard in the same i
   bool sent = false;
   source.on_event = [&](ScriptedUnit& unit) {
     EventResult result;
-    unit.clock(2) = result.iterate = !sent;
+    unit.clock(2) = result.discrete_states_need_update = !sent;
     if (!sent) unit.binary(3) = {0x11};
     sent = true;
     return result;
@@ -347,7 +347,7 @@ TEST_CASE("units that tick for ever are named") {
   auto& a = f.add("restless", messenger());
   a.on_event = [](ScriptedUnit&) {
     EventResult result;
-    result.iterate = true;
+    result.discrete_states_need_update = true;
     return result;
   };
   CHECK_THAT(failure(f.build(1, 1ms)), Contains("'restless'") && !Contains("quiet"));
@@ -426,7 +426,7 @@ TEST_CASE("a unit can end the simulation") {
   a.on_step = [](ScriptedUnit&, Time, Time to) {
     StepResult result;
     result.reached = to;
-    result.terminate = to == time_from_seconds(0.003);
+    result.terminate_simulation = to == time_from_seconds(0.003);
     return result;
   };
   f.build(1, 1ms).run();
@@ -517,7 +517,7 @@ struct Announcer : ScriptedSystem {
     unit.on_event = [this, next](ScriptedUnit&) {
       events.push_back(now);
       EventResult result;
-      result.next_event = next(events.size());
+      result.next_event_time = next(events.size());
       return result;
     };
   }
@@ -550,7 +550,9 @@ TEST_CASE("who ends the simulation in an event has no further event iteration") 
   f.announce([](std::size_t) { return std::nullopt; });
   f.unit.on_event = [&](ScriptedUnit&) {
     f.events.push_back(f.now);
-    return EventResult{.iterate = true, .terminate = f.events.size() == 3, .next_event = {}};
+    return EventResult{.discrete_states_need_update = true,
+                       .terminate_simulation = f.events.size() == 3,
+                       .next_event_time = {}};
   };
   f.build(1, 1ms).run();
   CHECK(f.events.size() == 3);
@@ -596,7 +598,7 @@ struct OneMessage : Fixture {
     a.on_step = [](ScriptedUnit& unit, Time, Time to) {
       StepResult result;
       result.reached = to;
-      result.event_needed = unit.clock(2) = to == time_from_seconds(0.002);
+      result.event_handling_needed = unit.clock(2) = to == time_from_seconds(0.002);
       unit.binary(3) = {0xAB};
       return result;
     };

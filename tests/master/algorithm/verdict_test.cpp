@@ -107,7 +107,7 @@ TEST_CASE("a run that a unit ends is judged there") {
   make_good_at(fixture.add("judge", judge()), Time(5ms));
   fixture.add("ending", Describe("ending").done()).on_step = [](ScriptedUnit&, Time, Time to) {
     StepResult result = reached(to);
-    result.terminate = to == Time(4ms);
+    result.terminate_simulation = to == Time(4ms);
     return result;
   };
   Simulation& simulation = fixture.build(0.01, 1ms);

@@ -181,7 +181,7 @@ TEST_CASE("a tunable clock counts a new interval from the event in which it chan
   };
   a.on_event = [&](ScriptedUnit&) {
     EventResult result;
-    if (watch.now < Time(5ms)) result.next_event = Time(5ms);
+    if (watch.now < Time(5ms)) result.next_event_time = Time(5ms);
     return result;
   };
   f.build(0.013, kStep).run();
@@ -207,7 +207,7 @@ TEST_CASE("a countdown clock is asked at every event, and waits until its unit k
   a.on_event = [&](ScriptedUnit&) {
     EventResult result;
     for (const Time event : {Time(3ms), Time(5ms), Time(15ms)}) {
-      if (watch.now < event && !result.next_event) result.next_event = event;
+      if (watch.now < event && !result.next_event_time) result.next_event_time = event;
     }
     return result;
   };
@@ -271,7 +271,7 @@ TEST_CASE("ticks that fall on other events and on each other are all there") {
   a.on_event = [&](ScriptedUnit&) {
     ++events;
     EventResult result;
-    result.next_event = on_a.now + 1ms;
+    result.next_event_time = on_a.now + 1ms;
     return result;
   };
   f.build(0.006, 1500us).run();

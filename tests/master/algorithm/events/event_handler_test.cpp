@@ -76,7 +76,7 @@ struct EventSystem : ScriptedSystem {
       if (now > Time{}) ++events["source"];
       EventResult result;
       if (now < time_from_seconds(kJump)) {
-        result.next_event = time_from_seconds(kJump);
+        result.next_event_time = time_from_seconds(kJump);
       } else {
         self.number(0) = 2;
       }

@@ -176,7 +176,7 @@ TEST_CASE("where the promise ends the unit is called, and may have an event") {
     return EventResult{};
   };
   a.misbehave = [&](Time, Time to, StepResult& result) {
-    result.event_needed = to == at(0.4);
+    result.event_handling_needed = to == at(0.4);
     if (to >= at(0.4)) a.until = Time::min();
   };
   f.run(0.6, 100ms);
@@ -204,7 +204,7 @@ TEST_CASE("a unit that breaks its promise is named, with the promise and what it
   auto& a = f.integrator("liar");
   std::string deed;
   SECTION("event") {
-    a.misbehave = [](Time, Time, StepResult& result) { result.event_needed = true; };
+    a.misbehave = [](Time, Time, StepResult& result) { result.event_handling_needed = true; };
     deed = "has an event";
   }
   SECTION("early return") {
@@ -252,7 +252,7 @@ TEST_CASE("an event of another unit ends no suspension, a message does") {
   Time now{};
   sender.on_step = [&](ScriptedUnit& self, Time, Time to) {
     StepResult result = reached(to);
-    result.event_needed = to == at(0.2) || to == at(0.5);
+    result.event_handling_needed = to == at(0.2) || to == at(0.5);
     self.clock(0) = to == at(0.5);
     now = to;
     return result;

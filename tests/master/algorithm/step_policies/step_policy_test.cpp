@@ -35,7 +35,7 @@ void announce(ScriptedUnit& unit, std::vector<Time> instants) {
   unit.on_event = [time, instants](ScriptedUnit&) {
     EventResult result;
     for (const Time instant : instants) {
-      if (instant > *time && !result.next_event) result.next_event = instant;
+      if (instant > *time && !result.next_event_time) result.next_event_time = instant;
     }
     return result;
   };

@@ -36,7 +36,7 @@ auto stopping_at(std::set<Time> instants) {
     const bool stops = stop != instants.end() && *stop < to;
     StepResult result = integrate(unit, from, stops ? *stop : to);
     result.early_return = stops;
-    result.event_needed = stop != instants.end() && *stop <= to;
+    result.event_handling_needed = stop != instants.end() && *stop <= to;
     return result;
   };
 }
@@ -314,7 +314,7 @@ TEST_CASE("super-dense instants are counted on while time stands") {
     if (from != Time(2ms) || zero_steps-- == 0) return reached(to);
     unit.clock(0) = true;
     StepResult result = reached(from);
-    result.early_return = result.event_needed = true;
+    result.early_return = result.event_handling_needed = true;
     return result;
   };
   a.on_event = [](ScriptedUnit& unit) {

@@ -184,10 +184,10 @@ TEST_CASE("a message travels with its clock through Event Mode") {
   unit.set("receive.clock", active);
   unit.set("receive.frame", frame);
   CHECK_FALSE(unit.number<bool>("send.clock"));
-  CHECK(unit->update_discrete_states().iterate);
+  CHECK(unit->update_discrete_states().discrete_states_need_update);
   CHECK(unit.number<bool>("send.clock"));
   CHECK(unit.get("send.frame") == frame);
-  CHECK_FALSE(unit->update_discrete_states().iterate);
+  CHECK_FALSE(unit->update_discrete_states().discrete_states_need_update);
   CHECK_FALSE(unit.number<bool>("send.clock"));
   unit->enter_step_mode();
 }
@@ -298,28 +298,28 @@ TEST_CASE("events, next events and the end of the run are passed on") {
   unit->enter_initialization({}, Time(1s));
   unit->exit_initialization();
   const core::EventResult first = unit->update_discrete_states();
-  CHECK(first.next_event == Time(15ms));
-  CHECK_FALSE(first.iterate);
+  CHECK(first.next_event_time == Time(15ms));
+  CHECK_FALSE(first.discrete_states_need_update);
   unit->enter_step_mode();
   const core::StepResult early = unit->step({{}, Time(15ms)});
   CHECK(early.early_return);
-  CHECK(early.event_needed);
+  CHECK(early.event_handling_needed);
   CHECK(early.reached == at(0.0123));
   CHECK_FALSE(unit->step({early.reached, Time(15ms)}).early_return);
   unit->enter_event_mode();
   const core::EventResult second = unit->update_discrete_states();
-  CHECK(second.iterate);
-  CHECK_FALSE(second.next_event);
+  CHECK(second.discrete_states_need_update);
+  CHECK_FALSE(second.next_event_time);
   unit->enter_step_mode();
-  CHECK(unit->step({Time(15ms), Time(30ms)}).event_needed);
-  CHECK(unit->step({Time(30ms), Time(40ms)}).terminate);
+  CHECK(unit->step({Time(15ms), Time(30ms)}).event_handling_needed);
+  CHECK(unit->step({Time(30ms), Time(40ms)}).terminate_simulation);
   unit->terminate();
 }
 
 TEST_CASE("an instant that no simulation reaches is no next event") {
   Raw raw("unit");
   raw.unit->enter_event_mode();
-  CHECK_FALSE(raw.unit->update_discrete_states().next_event);
+  CHECK_FALSE(raw.unit->update_discrete_states().next_event_time);
 }
 
 TEST_CASE("a small drift of a unit's own time is tolerated") {
@@ -577,7 +577,7 @@ TEST_CASE("a unit without resources gets none") {
 TEST_CASE("the next event is not before the instant that the unit said") {
   Raw raw("thirds");
   raw.unit->enter_event_mode();
-  const auto next = raw.unit->update_discrete_states().next_event;
+  const auto next = raw.unit->update_discrete_states().next_event_time;
   REQUIRE(next);
   CHECK(to_seconds(*next) >= 1.0 / 3);
   CHECK(to_seconds(*next - Duration(1)) < 1.0 / 3);
