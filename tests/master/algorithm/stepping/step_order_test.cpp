@@ -20,8 +20,8 @@ System system_of(std::vector<Describe> units) {
 
 std::string names(const System& system) {
   std::string text;
-  for (const StepPlace& place : step_order(system, kFixedSteps, Coupling::Jacobi))
-    text += system.components()[place.component].name;
+  for (const StepOrderEntry& entry : step_order(system, kFixedSteps, Coupling::Jacobi))
+    text += system.components()[entry.component].name;
   return text;
 }
 
@@ -55,8 +55,8 @@ TEST_CASE("who cannot go back begins a new stage where one before it may stop") 
   const auto stages = [](std::vector<Describe> units) {
     std::string text;
     const System system = system_of(std::move(units));
-    for (const StepPlace& place : step_order(system, kFixedSteps, Coupling::Jacobi)) {
-      text += std::to_string(place.stage);
+    for (const StepOrderEntry& entry : step_order(system, kFixedSteps, Coupling::Jacobi)) {
+      text += std::to_string(entry.stage);
     }
     return text;
   };
@@ -73,9 +73,9 @@ TEST_CASE("who cannot go back begins a new stage where one before it may stop") 
 TEST_CASE("a state is saved only where another unit may stop") {
   const auto saves = [](std::vector<Describe> units) {
     std::string text;
-    for (const StepPlace& place :
+    for (const StepOrderEntry& entry :
          step_order(system_of(std::move(units)), kFixedSteps, Coupling::Jacobi)) {
-      text += place.saves_state ? 's' : '-';
+      text += entry.saves_state ? 's' : '-';
     }
     return text;
   };
@@ -118,17 +118,18 @@ std::string order_of(const std::vector<Hosted>& units, const StepPolicyType& pol
   const System system(declare(units));
   std::string text;
   std::size_t stage = 0;
-  for (const StepPlace& place : step_order(system, policy, Coupling::Jacobi)) {
-    if (place.stage != stage) text += '|';
-    stage = place.stage;
-    text += system.components()[place.component].name + (place.saves_state ? "*" : "");
+  for (const StepOrderEntry& entry : step_order(system, policy, Coupling::Jacobi)) {
+    if (entry.stage != stage) text += '|';
+    stage = entry.stage;
+    text += system.components()[entry.component].name + (entry.saves_state ? "*" : "");
   }
   return text;
 }
 
 std::string reason_of(const std::vector<Hosted>& units, std::size_t component) {
-  for (const StepPlace& place : step_order(System(declare(units)), kFixedSteps, Coupling::Jacobi)) {
-    if (place.component == component) return place.reason;
+  for (const StepOrderEntry& entry :
+       step_order(System(declare(units)), kFixedSteps, Coupling::Jacobi)) {
+    if (entry.component == component) return entry.reason;
   }
   return "";
 }
@@ -237,7 +238,7 @@ TEST_CASE("a unit that is not allowed to return early follows") {
   const auto order = step_order(System(declaration), kFixedSteps, Coupling::Jacobi);
   REQUIRE(order.size() == 3);
   CHECK(order[0].component == 1);
-  CHECK(order[0].role == StepRole::MayStopEarly);
+  CHECK(order[0].role == StepRole::MayReturnEarly);
   CHECK(order[1].role == StepRole::Follows);
   CHECK(order[1].stage == 1);
   CHECK_THAT(order[1].reason, Contains("is not allowed to return early"));
