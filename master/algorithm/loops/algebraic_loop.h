@@ -12,8 +12,8 @@
 #include <stride/time.h>
 
 #include "master/algorithm/loops/evaluation_order.h"
+#include "master/algorithm/loops/loop_derivatives.h"
 #include "master/algorithm/loops/loop_solver.h"
-#include "master/algorithm/loops/loop_tangents.h"
 #include "master/algorithm/loops/staged_exchange.h"
 #include "master/algorithm/run_context.h"
 

@@ -1,4 +1,4 @@
-#include "master/algorithm/loops/loop_tangents.h"
+#include "master/algorithm/loops/loop_derivatives.h"
 
 #include <algorithm>
 #include <set>

@@ -1,6 +1,6 @@
 // The derivatives of an algebraic loop in the inputs at which it is cut.
-#ifndef STRIDE_MASTER_ALGORITHM_LOOPS_LOOP_TANGENTS_H
-#define STRIDE_MASTER_ALGORITHM_LOOPS_LOOP_TANGENTS_H
+#ifndef STRIDE_MASTER_ALGORITHM_LOOPS_LOOP_DERIVATIVES_H
+#define STRIDE_MASTER_ALGORITHM_LOOPS_LOOP_DERIVATIVES_H
 
 #include <cstddef>
 #include <map>
