@@ -31,7 +31,7 @@ struct ScenarioRequest {
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
   bool no_checks = false;
   HostRequest hosts;
-  std::string film;  ///< seconds between its pictures, or kFilmAsItIs; empty = none
+  std::string film;  ///< seconds between its pictures, or kUnspecifiedFilmInterval; empty = none
 };
 
 /// The scenario with each component's FMU, and the system built from them. Throws core::Error
