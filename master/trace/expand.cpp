@@ -41,7 +41,7 @@ void write_header(Writer& writer, const Header& header) {
 std::optional<std::int64_t> expand(const std::filesystem::path& from,
                                    const std::filesystem::path& to, CutOff cut_off) {
   Reader reader(from, cut_off);
-  Instants instants(reader, Instants::Text::Keep);
+  InstantReader instants(reader, InstantReader::Text::Keep);
   if (!instants.advance_time()) {
     reader.fail(
         0, fmt::format("the trace has no variable {}, so nothing in it was skipped", kAdvanceTime),

@@ -56,12 +56,12 @@ struct Instant {
 
 /// Reads a trace instant by instant, and takes advanceTime out of it. Of a file that is cut off the
 /// last instant is left out: its advanceTime may be what is missing.
-class Instants {
+class InstantReader {
  public:
   enum class Text { Keep, Drop };
 
   /// The reader outlives this.
-  Instants(Reader& reader, Text text);
+  InstantReader(Reader& reader, Text text);
 
   /// Empty where the trace has no advanceTime.
   const std::optional<AdvanceTime>& advance_time() const { return advance_; }

@@ -134,10 +134,10 @@ std::string text_of(const Instant& instant) {
 }
 
 std::vector<Seen> read_instants(const std::string& text, CutOff cut_off = CutOff::Refuse,
-                                Instants::Text keep = Instants::Text::Keep) {
+                                InstantReader::Text keep = InstantReader::Text::Keep) {
   const TemporaryFolder folder;
   Reader reader(folder.write("x.vcd", text), cut_off);
-  Instants instants(reader, keep);
+  InstantReader instants(reader, keep);
   Instant instant;
   std::vector<Seen> seen;
   while (instants.next(instant)) {
@@ -201,7 +201,8 @@ TEST_CASE("Of a trace that is cut off the last instant is left out") {
 }
 
 TEST_CASE("Texts are kept only where somebody wants them") {
-  const auto seen = read_instants(two_variables("#10\n1!\n"), CutOff::Refuse, Instants::Text::Drop);
+  const auto seen =
+      read_instants(two_variables("#10\n1!\n"), CutOff::Refuse, InstantReader::Text::Drop);
   CHECK(seen.back() == Seen{true, 10, 10, 1, false, ""});
 }
 
