@@ -155,8 +155,8 @@ struct UnitDescription {
   std::string instantiation_token;
   std::string description;
   std::string generation_tool;
-  std::vector<Variable> variables;                 ///< in the order of the description
-  std::map<std::string, BaseUnitOfMeasure> units;  ///< those whose meaning is given
+  std::vector<Variable> variables;                            ///< in the order of the description
+  std::map<std::string, BaseUnitOfMeasure> units_of_measure;  ///< those whose meaning is given
   std::vector<Unknown> outputs;
   std::vector<Unknown> initial_unknowns;
 

@@ -103,7 +103,7 @@ class Describe {
     return *this;
   }
   Describe& unit(const std::string& symbol, BaseUnitOfMeasure base) {
-    description_->units[symbol] = base;
+    description_->units_of_measure[symbol] = base;
     return *this;
   }
   Describe& event_mode() { return description_->has_event_mode = true, *this; }

@@ -151,11 +151,11 @@ TEST_CASE("capabilities are absent unless they are declared") {
 
 TEST_CASE("units of measurement whose meaning is given") {
   const auto unit = importer::parse_model_description(kComplete, "unit.xml");
-  REQUIRE(unit.units.size() == 2);
-  CHECK(unit.units.at("degC").exponents == std::array<int, 8>{0, 0, 0, 0, 1, 0, 0, 0});
-  CHECK(unit.units.at("degC").offset == 273.15);
-  CHECK(unit.units.at("mm/s").exponents == std::array<int, 8>{0, 1, -1, 0, 0, 0, 0, 0});
-  CHECK(unit.units.at("mm/s").factor == 0.001);
+  REQUIRE(unit.units_of_measure.size() == 2);
+  CHECK(unit.units_of_measure.at("degC").exponents == std::array<int, 8>{0, 0, 0, 0, 1, 0, 0, 0});
+  CHECK(unit.units_of_measure.at("degC").offset == 273.15);
+  CHECK(unit.units_of_measure.at("mm/s").exponents == std::array<int, 8>{0, 1, -1, 0, 0, 0, 0, 0});
+  CHECK(unit.units_of_measure.at("mm/s").factor == 0.001);
 }
 
 TEST_CASE("variables keep their order, and their defaults are those of the standard") {

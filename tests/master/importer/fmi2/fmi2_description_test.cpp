@@ -98,8 +98,8 @@ TEST_CASE("an FMI 2.0 unit's attributes and capabilities") {
   CHECK(unit.max_output_derivative_order == 3);
   CHECK(unit.default_step == 10ms);
   CHECK(unit.default_stop == Time(12'500ms));
-  CHECK(unit.units.at("degC").offset == 273.15);
-  CHECK(unit.units.at("mm/s").exponents == std::array<int, 8>{0, 1, -1, 0, 0, 0, 0, 0});
+  CHECK(unit.units_of_measure.at("degC").offset == 273.15);
+  CHECK(unit.units_of_measure.at("mm/s").exponents == std::array<int, 8>{0, 1, -1, 0, 0, 0, 0, 0});
   REQUIRE(unit.fmi2);
   CHECK(unit.fmi2->can_run_asynchronously);
   const auto plain = importer::parse_model_description(
