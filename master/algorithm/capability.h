@@ -19,7 +19,7 @@ enum class CapabilityId : unsigned {
   InputsWithinStep,
   MessageText,
   UnitDiagnostics,
-  OwnProcess,
+  HostDiagnostics,
   End,  ///< no capability
 };
 

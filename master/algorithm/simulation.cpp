@@ -74,7 +74,7 @@ class Simulation::Run {
     statistics_.wall_time = WallClock::Source::now() - began;
     for (std::size_t i = 0; i < count(); ++i) {
       auto* const diagnostics = units_[i]->capability<UnitDiagnostics>();
-      auto* const process = units_[i]->capability<OwnProcess>();
+      auto* const process = units_[i]->capability<HostDiagnostics>();
       if (diagnostics != nullptr) statistics_.units[i].calls = diagnostics->calls();
       if (process != nullptr) statistics_.units[i].host = process->host_statistics();
       statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].suspensions;

@@ -75,7 +75,7 @@ bool HostProcess::look_for_end() {
 
 void HostProcess::kill() {
   tell(Command::Kill);
-  for (auto patience = 2000ms; !look_for_end() && patience > 0ms; patience -= 1ms) {
+  for (auto time_left = 2000ms; !look_for_end() && time_left > 0ms; time_left -= 1ms) {
     std::this_thread::sleep_for(1ms);
   }
 }

@@ -73,11 +73,11 @@ class Supervisor {
   }
 
   /// What has been printed so far, if the master makes room for it in time.
-  void pass_on_all(std::chrono::milliseconds patience) {
-    while (pass_on() && patience > 0ms) {
+  void pass_on_all(std::chrono::milliseconds time_limit) {
+    while (pass_on() && time_limit > 0ms) {
       if (pending_.empty()) continue;
       std::this_thread::sleep_for(1ms);
-      patience -= 1ms;
+      time_limit -= 1ms;
     }
   }
 

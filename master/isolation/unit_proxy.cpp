@@ -25,7 +25,7 @@ UnitProxy::UnitProxy(HostedUnitSpec spec) : spec_(std::move(spec)) {
         protections_ = take_protections(from);
         capabilities_ = take_capabilities(from);
       });
-  capabilities_.set(static_cast<std::size_t>(core::OwnProcess::kId));
+  capabilities_.set(static_cast<std::size_t>(core::HostDiagnostics::kId));
   if (spec_.has_snapshots()) {
     capabilities_.set(static_cast<std::size_t>(core::StateSaving::kId));
   }
@@ -36,8 +36,8 @@ core::Capability* UnitProxy::find_capability(core::CapabilityId id) {
   return core::select_capability<
       core::ConfigurationMode, core::StateSaving, core::StateSerialization, core::Resetting,
       core::IdlePromises, core::DirectionalDerivatives, core::ClockIntervals,
-      core::InputsWithinStep, core::MessageText, core::UnitDiagnostics, core::OwnProcess>(*this,
-                                                                                          id);
+      core::InputsWithinStep, core::MessageText, core::UnitDiagnostics, core::HostDiagnostics>(
+      *this, id);
 }
 
 UnitProxy::~UnitProxy() {
@@ -76,7 +76,7 @@ void UnitProxy::call(RequestCode request, Put&& put, Take&& take) {
     MessageReader answer = client_->read();
     take(answer);
   } catch (const BadMessage&) {
-    client_->fail_nonsense(time_);
+    client_->fail_bad_message(time_);
   } catch (const std::system_error& failure) {
     core::fail_run({.where = spec_.options.where, .unit = spec_.name, .time = time_},
                    failure.what());

@@ -27,8 +27,8 @@
 namespace stride::isolation {
 
 /// Stands for a unit in another process: each function is a request, and what the unit answers or
-/// throws is answered and thrown here. Its capabilities are those of the unit, besides OwnProcess,
-/// and StateSaving where states are snapshots of the process.
+/// throws is answered and thrown here. Its capabilities are those of the unit, besides
+/// HostDiagnostics, and StateSaving where states are snapshots of the process.
 class UnitProxy final : public core::Unit,
                         public core::ConfigurationMode,
                         public core::StateSaving,
@@ -40,7 +40,7 @@ class UnitProxy final : public core::Unit,
                         public core::InputsWithinStep,
                         public core::MessageText,
                         public core::UnitDiagnostics,
-                        public core::OwnProcess {
+                        public core::HostDiagnostics {
  public:
   using References = std::span<const core::ValueReference>;
 

@@ -7,9 +7,9 @@
 namespace stride::core {
 
 /// The unit has a process to itself.
-class OwnProcess : public Capability {
+class HostDiagnostics : public Capability {
  public:
-  static constexpr CapabilityId kId = CapabilityId::OwnProcess;
+  static constexpr CapabilityId kId = CapabilityId::HostDiagnostics;
 
   /// Of that process. At any time, also after a failure.
   virtual HostStatistics host_statistics() const = 0;

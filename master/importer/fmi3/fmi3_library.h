@@ -62,8 +62,8 @@ class Fmi3Library : public SharedLibrary {
 
  private:
   /// `function`: one of <stride/self_description.h>.
-  std::string ask(strideModelDescriptionTYPE* function, const std::filesystem::path& resources,
-                  const core::Location& where) const;
+  std::string text_from(strideModelDescriptionTYPE* function,
+                        const std::filesystem::path& resources, const core::Location& where) const;
 
   Fmi3Functions functions_;
   IdleFunctions idle_functions_;

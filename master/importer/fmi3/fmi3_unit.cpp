@@ -64,10 +64,10 @@ Fmi3Unit::Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library,
 }
 
 Fmi3Unit::~Fmi3Unit() {
-  if (instance_ == nullptr || is_condemned_) return;
+  if (instance_ == nullptr || is_unusable_) return;
   for (SavedState& saved : states_) free_state(saved);
   note_call("fmi3FreeInstance");
-  if (!is_condemned_) fmi_.FreeInstance(instance_);
+  if (!is_unusable_) fmi_.FreeInstance(instance_);
 }
 
 core::Capability* Fmi3Unit::find_capability(core::CapabilityId id) {

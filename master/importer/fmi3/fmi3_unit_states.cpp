@@ -25,8 +25,8 @@ void Fmi3Unit::restore_state() {
 }
 
 void Fmi3Unit::free_state(SavedState& saved) {
-  if (saved.state == nullptr || is_condemned_ || fmi_.FreeFMUState == nullptr) return;
-  if (fmi_.FreeFMUState(instance_, &saved.state) == fmi3Fatal) condemn();
+  if (saved.state == nullptr || is_unusable_ || fmi_.FreeFMUState == nullptr) return;
+  if (fmi_.FreeFMUState(instance_, &saved.state) == fmi3Fatal) mark_unusable();
   saved = {};
 }
 

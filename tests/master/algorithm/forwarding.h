@@ -30,7 +30,7 @@ class CompleteUnit final : public core::Unit,
                            public core::InputsWithinStep,
                            public core::MessageText,
                            public core::UnitDiagnostics,
-                           public core::OwnProcess {
+                           public core::HostDiagnostics {
  public:
   using Calls = std::vector<std::string>;
   explicit CompleteUnit(Calls& calls) : called_(calls) {}
@@ -103,8 +103,8 @@ class CompleteUnit final : public core::Unit,
     core::Capability* const known = core::select_capability<
         core::ConfigurationMode, core::StateSaving, core::StateSerialization, core::Resetting,
         core::IdlePromises, core::DirectionalDerivatives, core::ClockIntervals,
-        core::InputsWithinStep, core::MessageText, core::UnitDiagnostics, core::OwnProcess>(*this,
-                                                                                            id);
+        core::InputsWithinStep, core::MessageText, core::UnitDiagnostics, core::HostDiagnostics>(
+        *this, id);
     return known != nullptr ? known : &unknown_;
   }
   void note(const char* function) const { called_.emplace_back(function); }

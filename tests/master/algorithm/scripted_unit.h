@@ -137,7 +137,7 @@ class Describe {
   }();
 };
 
-/// With all capabilities that the scripts can fill; OwnProcess where `host` is set.
+/// With all capabilities that the scripts can fill; HostDiagnostics where `host` is set.
 class ScriptedUnit : public Unit,
                      public ConfigurationMode,
                      public StateSaving,
@@ -145,7 +145,7 @@ class ScriptedUnit : public Unit,
                      public DirectionalDerivatives,
                      public ClockIntervals,
                      public MessageText,
-                     public OwnProcess {
+                     public HostDiagnostics {
  public:
   using Calls = std::vector<std::string>;
 
@@ -296,9 +296,9 @@ class ScriptedUnit : public Unit,
 
  private:
   Capability* find_capability(CapabilityId id) override {
-    if (id == OwnProcess::kId && !host) return nullptr;
+    if (id == HostDiagnostics::kId && !host) return nullptr;
     return select_capability<ConfigurationMode, StateSaving, IdlePromises, DirectionalDerivatives,
-                             ClockIntervals, MessageText, OwnProcess>(*this, id);
+                             ClockIntervals, MessageText, HostDiagnostics>(*this, id);
   }
 
   template <class Block, class Move>

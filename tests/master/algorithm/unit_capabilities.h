@@ -47,8 +47,8 @@ inline core::MessageText& texts(core::Unit& unit) {
 inline core::UnitDiagnostics& diagnostics(core::Unit& unit) {
   return unit.require_capability<core::UnitDiagnostics>();
 }
-inline core::OwnProcess& own_process(core::Unit& unit) {
-  return unit.require_capability<core::OwnProcess>();
+inline core::HostDiagnostics& host_diagnostics(core::Unit& unit) {
+  return unit.require_capability<core::HostDiagnostics>();
 }
 
 }  // namespace stride::tests

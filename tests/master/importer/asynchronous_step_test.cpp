@@ -37,13 +37,13 @@ TEST_CASE("a step finishes on another thread") {
 TEST_CASE("a callback that comes late is not that of the next step") {
   AsynchronousStep step;
   step.begin();
-  step.note_asked();  // the unit has said how it ended, before its callback came
+  step.note_polled();  // the unit has said how it ended, before its callback came
   step.begin();
   step.finish(Status::Ok);
   CHECK_FALSE(step.wait(1us));
   step.finish(Status::Error);
   CHECK(step.wait(1us) == Status::Error);
-  step.note_asked();  // but that one has come
+  step.note_polled();  // but that one has come
   step.begin();
   step.finish(Status::Ok);
   CHECK(step.wait(1us) == Status::Ok);

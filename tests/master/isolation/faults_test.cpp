@@ -78,10 +78,10 @@ TEST_CASE("a call that takes longer than its limit ends") {
 }
 
 TEST_CASE("without a limit the log tells that a call takes long") {
-  Fixture unit("faulty", true, {}, {.patience = 20ms});
+  Fixture unit("faulty", true, {}, {.warn_after = 20ms});
   unit.start({{"fault", "loop"}});
   const pid_t server = Fixture::server();
-  std::thread user([&] {  // who loses patience, too
+  std::thread user([&] {  // who ends the process
     std::this_thread::sleep_for(500ms);
     ::kill(server, SIGKILL);
   });

@@ -19,7 +19,7 @@ class Hosted : public Fixture {
   explicit Hosted(const std::string& unit, const fs::path& writable = {})
       : Fixture(unit, true, options(writable)) {}
 
-  core::HostStatistics statistics() { return own_process(**this).host_statistics(); }
+  core::HostStatistics statistics() { return host_diagnostics(**this).host_statistics(); }
   std::uint64_t steps() { return get("steps").numbers<std::uint64_t>()[0]; }
 
  private:

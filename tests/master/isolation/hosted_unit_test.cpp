@@ -174,7 +174,7 @@ TEST_CASE("a hosted unit has the capabilities that it has in this process, and i
     CAPTURE(name);
     Fixture hosted(name), here(name, false);
     auto numbers = capability_numbers(*here);
-    numbers.insert(static_cast<std::size_t>(core::OwnProcess::kId));
+    numbers.insert(static_cast<std::size_t>(core::HostDiagnostics::kId));
     CHECK(capability_numbers(*hosted) == numbers);
     seen.merge(numbers);
   }

@@ -418,7 +418,7 @@ TEST_CASE("the status of a pending step is that of the step") {
 TEST_CASE("a step that takes long is told once, with what the unit says of it", "[here]") {
   std::vector<std::string> told;
   std::function<void()> release;
-  Fmi2Fixture unit("fmi2_sleeper", {.patience = 0ms,
+  Fmi2Fixture unit("fmi2_sleeper", {.warn_after = 0ms,
                                     .log = [&](const std::string&, importer::Status status,
                                                const std::string&, const std::string& message) {
                                       CHECK(status == importer::Status::Warning);
