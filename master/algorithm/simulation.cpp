@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "master/algorithm/capabilities/configuration_mode.h"
+#include "master/algorithm/capabilities/host_diagnostics.h"
 #include "master/algorithm/capabilities/inputs_within_step.h"
-#include "master/algorithm/capabilities/own_process.h"
 #include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/events/event_handler.h"
 #include "master/algorithm/idle/idle_scheduler.h"

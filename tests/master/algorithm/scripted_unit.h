@@ -15,9 +15,9 @@
 #include "master/algorithm/capabilities/clock_intervals.h"
 #include "master/algorithm/capabilities/configuration_mode.h"
 #include "master/algorithm/capabilities/directional_derivatives.h"
+#include "master/algorithm/capabilities/host_diagnostics.h"
 #include "master/algorithm/capabilities/idle_promises.h"
 #include "master/algorithm/capabilities/message_text.h"
-#include "master/algorithm/capabilities/own_process.h"
 #include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/unit.h"
 
