@@ -11,7 +11,7 @@ using Shares = std::vector<ThreadShare>;
 
 namespace {
 
-std::vector<std::size_t> places(std::size_t count) {
+std::vector<std::size_t> positions(std::size_t count) {
   std::vector<std::size_t> all(count);
   std::iota(all.begin(), all.end(), 0);
   return all;
@@ -20,7 +20,7 @@ std::vector<std::size_t> places(std::size_t count) {
 Shares share(std::vector<Nanoseconds> costs, std::size_t threads,
              std::vector<char> main_only = {}) {
   main_only.resize(costs.size());
-  return balance_load(places(costs.size()), costs, main_only, threads);
+  return balance_load(positions(costs.size()), costs, main_only, threads);
 }
 
 /// A split whose units cost what the test says, on threads that are as good as it says.
@@ -34,7 +34,7 @@ struct Bench {
   explicit Bench(std::vector<Nanoseconds> costs_, std::size_t threads = 2, bool always = false)
       : costs(std::move(costs_)), split([&] {
           LoadBalancer::Plan plan;
-          plan.stages = {places(costs.size())};
+          plan.stages = {positions(costs.size())};
           plan.main_only.resize(costs.size());
           plan.threads = threads;
           plan.always = always;
