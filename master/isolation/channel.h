@@ -48,7 +48,7 @@ enum class RequestCode : std::uint32_t {
   DescribeMessage,
   Terminate,
   Free,              ///< destroys the unit; the process ends afterwards
-  InputsUpdated,     ///< in answer to AskInputs: the inputs are set
+  InputsUpdated,     ///< in answer to RequestInputs: the inputs are set
   InputsNotUpdated,  ///< likewise: that has failed
 };
 
@@ -57,7 +57,7 @@ enum class ReplyCode : std::uint32_t {
   Done,
   Failed,          ///< a core::Error
   CallbackFailed,  ///< what failed is what the master did within the call
-  AskInputs,       ///< a question within a step; the reply to the step's request comes later
+  RequestInputs,   ///< a question within a step; the reply to the step's request comes later
 };
 
 /// How a process ended, as its supervisor saw it.

@@ -66,7 +66,7 @@ class Server {
   void select_state(std::size_t slot);
   void get_directional_derivative(MessageReader& in, MessageWriter& out);
   void set_input_update(bool is_set);
-  void ask_inputs(double seconds_into_step);
+  void request_inputs(double seconds_into_step);
   void set_idle_tolerances(MessageReader& in);
   void get_derivatives(MessageReader& in, MessageWriter& out);
   void describe_message(MessageReader& in, MessageWriter& out);

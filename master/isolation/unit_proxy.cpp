@@ -70,7 +70,7 @@ void UnitProxy::call(RequestCode request, Put&& put, Take&& take) {
     put(message);
     ReplyCode reply = client_->send(request, message, time_);
     if (reply != ReplyCode::Done) [[unlikely]] {
-      reply = answer_questions(reply);
+      reply = serve_input_requests(reply);
       if (reply != ReplyCode::Done) throw_reply(reply);
     }
     MessageReader answer = client_->read();
@@ -92,8 +92,8 @@ void UnitProxy::call(RequestCode request) {
   call(request, [](MessageWriter&) {});
 }
 
-ReplyCode UnitProxy::answer_questions(ReplyCode reply) {
-  while (reply == ReplyCode::AskInputs) {
+ReplyCode UnitProxy::serve_input_requests(ReplyCode reply) {
+  while (reply == ReplyCode::RequestInputs) {
     const RequestCode answer = update_inputs(client_->read().take<double>());
     if (client_->has_failed()) return ReplyCode::CallbackFailed;
     reply = client_->send(answer, client_->write(), time_);

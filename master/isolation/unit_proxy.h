@@ -92,7 +92,7 @@ class UnitProxy final : public core::Unit,
   void call(RequestCode request, Put&& put);
   void call(RequestCode request);
   /// Serves what the unit asks for until it has replied.
-  ReplyCode answer_questions(ReplyCode reply);
+  ReplyCode serve_input_requests(ReplyCode reply);
   void throw_reply(ReplyCode reply);
   RequestCode update_inputs(double seconds_into_step) noexcept;
   std::uint32_t plan_number(const core::StepValues& values);

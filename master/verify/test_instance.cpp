@@ -345,10 +345,10 @@ void TestInstance::restore(std::size_t slot) {
   auto& state = capability<core::StateSaving>();
   state.select_state(slot);
   state.restore_state();
-  stand_at(saved_[slot].position, &*saved_[slot].clocks);
+  set_position(saved_[slot].position, &*saved_[slot].clocks);
 }
 
-void TestInstance::stand_at(const Position& position, const core::Clocks* clocks) {
+void TestInstance::set_position(const Position& position, const core::Clocks* clocks) {
   position_ = position;
   if (clocks != nullptr) clocks_->resume(*clocks);
   recording_.has_ended = false;

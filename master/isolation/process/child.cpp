@@ -30,7 +30,7 @@ constexpr char kException = 'E';
 /// The child's surroundings: a library may have the habits of a program of its own.
 void settle(pid_t parent, int output) {
   ::setpgid(0, 0);
-  die_with(parent);
+  end_with(parent);
   forget_signal_handlers();
   redirect_standard_files(output);
 }

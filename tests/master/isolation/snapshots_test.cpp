@@ -270,7 +270,7 @@ TEST_CASE("nothing stays when the supervisor is killed") {
             for (;;) ::pause();
           };
           if (::fork() == 0) {
-            isolation::die_with(::getppid());
+            isolation::end_with(::getppid());
             begin(*world, serve, {});
           }
           for (;;) ::pause();

@@ -89,7 +89,7 @@ TEST_CASE("help is told of the program alone, and offered everywhere") {
   CLI::App app("An example", "example");
   app.add_subcommand("run", "Run");
   const Command command = describe(app);
-  CHECK(told_options(command).size() == 1);
-  CHECK(told_options(command.commands[0]).empty());
+  CHECK(documented_options(command).size() == 1);
+  CHECK(documented_options(command.commands[0]).empty());
   CHECK(command.commands[0].options.at(0).names == Words{"-h", "--help"});
 }
