@@ -172,11 +172,13 @@ std::vector<std::string> values_after(int steps) {
 
 }  // namespace
 
-TEST_CASE("it speaks FMI 3.0") { CHECK(std::string(subject().call().GetVersion()) == "3.0"); }
+TEST_CASE("the version of the interface is FMI 3.0") {
+  CHECK(std::string(subject().call().GetVersion()) == "3.0");
+}
 
 TEST_CASE("a wrong token is refused") { CHECK(Instance("wrong").handle() == nullptr); }
 
-TEST_CASE("twenty lives in a row are alike") {
+TEST_CASE("twenty instances, one after the other, give the same results") {
   const auto first = values_after(5);
   for (int life = 1; life < 20; ++life) CHECK(values_after(5) == first);
 }
@@ -196,7 +198,7 @@ TEST_CASE("two instances side by side do not disturb each other") {
   CHECK(one.values() == alone);
 }
 
-TEST_CASE("a reset is a new life") {
+TEST_CASE("after a reset an instance gives the same results as a new one") {
   Instance unit;
   unit.start();
   unit.step(17);

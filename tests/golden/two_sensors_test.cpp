@@ -104,7 +104,9 @@ TEST_CASE("each frame of both sensors is handed over at the picosecond at which 
   CHECK(snapshots.at("most_kept") == 1);
 }
 
-TEST_CASE("the frames, and the instants of whom they were exact for, are those of the scenario") {
+TEST_CASE(
+    "the frames, and the instants of the units for which they are exact, are those of the "
+    "scenario") {
   const ScenarioRun& both = exact_run();
   const std::string allowed = GENERATE("sensor_left", "sensor_right");
   const std::string other = allowed == "sensor_left" ? "sensor_right" : "sensor_left";

@@ -42,7 +42,7 @@ void each(PromiseCheck& check, Action&& action) {
 
 }  // namespace
 
-TEST_CASE("an honest idler is believed") {
+TEST_CASE("an idler that keeps its promise passes") {
   const auto fmu = test_unit("idler");
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     CAPTURE(seed);

@@ -58,7 +58,7 @@ struct Seen : Observer {
 
 }  // namespace
 
-TEST_CASE("a million steps of 1/3 ms end exactly, and every unit is asked for exact times") {
+TEST_CASE("a million steps of 1/3 ms end exactly, and every unit gets exact times") {
   Fixture f;
   Time expected{};
   std::uint64_t wrong = 0;
@@ -260,7 +260,7 @@ TEST_CASE("a unit's next event time is a communication point") {
   CHECK(seen.points == points);
 }
 
-TEST_CASE("a clock that ticks because another one was set is heard in the same instant") {
+TEST_CASE("a clock that ticks because another one was set is transmitted in the same instant") {
   Fixture f;
   auto& source = f.add("z_source", messenger());
   auto& echo = f.add("echo", messenger());
@@ -353,7 +353,7 @@ TEST_CASE("units that tick for ever are named") {
   CHECK_THAT(failure(f.build(1, 1ms)), Contains("'restless'") && !Contains("quiet"));
 }
 
-TEST_CASE("an output that is NaN and connected ends the run, and tells who") {
+TEST_CASE("a connected output that is NaN ends the run with the name of its unit") {
   Fixture f;
   auto& a = f.add("a", one_in_one_out());
   f.add("b", one_in_one_out());
@@ -435,7 +435,7 @@ TEST_CASE("a unit can end the simulation") {
   CHECK(a.calls.back() == "terminate");
 }
 
-TEST_CASE("what a unit says of its process is in the statistics, also where the run fails") {
+TEST_CASE("the diagnostics of a host are in the statistics, also if the run fails") {
   const bool fails = GENERATE(false, true);
   Fixture f;
   f.add("in_process", one_in_one_out());
@@ -545,7 +545,7 @@ TEST_CASE("a unit whose next event is always past is named") {
                     Contains("0.0005 s") && Contains("'a'") && Contains("not later than now"));
 }
 
-TEST_CASE("who ends the simulation in an event has no further event iteration") {
+TEST_CASE("a unit that ends the simulation in an event has no further event iteration") {
   Announcer f;
   f.announce([](std::size_t) { return std::nullopt; });
   f.unit.on_event = [&](ScriptedUnit&) {
@@ -623,7 +623,7 @@ struct Listener : Observer {
 
 }  // namespace
 
-TEST_CASE("a message comes with its content where an observer wants it") {
+TEST_CASE("a message has its content where an observer requires it") {
   OneMessage f;
   f.b.on_describe = [](ScriptedUnit&, ValueReference, const Binary&) {
     return std::string("heard\n\xFF") + std::string(1000, '!');
@@ -638,7 +638,7 @@ TEST_CASE("a message comes with its content where an observer wants it") {
   CHECK(listener.contents[1] == "heard \uFFFD" + std::string(kLongestContent - 8, '!') + "…");
 }
 
-TEST_CASE("who has no words for a message takes those of the other end") {
+TEST_CASE("a unit without text for a message takes that of the other end") {
   OneMessage f;
   const auto words = f.a.on_describe;
   const auto none = f.b.on_describe;

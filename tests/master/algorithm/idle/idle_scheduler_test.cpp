@@ -156,7 +156,7 @@ TEST_CASE("an input within its deadband ends no suspension; a drift does in the 
   CHECK(a.steps.size() == calls);
 }
 
-TEST_CASE("a deadband that the user chose goes before that of the unit") {
+TEST_CASE("a deadband of the user takes precedence over that of the unit") {
   IdleSystem f;
   auto& a = f.integrator("a", 10);
   follow_time(f, "s", [](double t) { return t; });
@@ -185,7 +185,7 @@ TEST_CASE("where the promise ends the unit is called, and may have an event") {
   CHECK(events == 2);  // one at the start
 }
 
-TEST_CASE("a promise that ends between two points is worth the steps before it") {
+TEST_CASE("a promise that ends between two points saves the steps before it") {
   IdleSystem f;
   auto& a = f.integrator("a");
   Reader b(f, "b");
@@ -227,7 +227,7 @@ TEST_CASE("a unit that breaks its promise is named, with the promise and what it
                         Contains("promised at 0 s to be idle until 100 s") && Contains(deed));
 }
 
-TEST_CASE("when all units are suspended the run takes one stride, to a point of the grid") {
+TEST_CASE("when all units are suspended the run makes one step, to a point of the grid") {
   IdleSystem f;
   f.integrator("a");
   auto& b = f.integrator("b");

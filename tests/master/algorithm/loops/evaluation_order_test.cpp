@@ -184,7 +184,7 @@ TEST_CASE("an output that feeds its own unit is a loop") {
   CHECK(net.loops()[0].paths == std::vector<std::string>{"a.u -> a.y -> a.u"});
 }
 
-TEST_CASE("loops stand in the order of what they need") {
+TEST_CASE("loops are in the order of their dependencies") {
   const auto two = Describe("two").input("u").input("v").output("y");
   Net net;
   net.add("d", two).add("e", direct()).wire("d.y", "e.u").wire("e.y", "d.u");

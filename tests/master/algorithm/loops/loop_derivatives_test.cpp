@@ -84,7 +84,7 @@ TEST_CASE("the chain rule runs through arrays and units of measurement") {
   }
 }
 
-TEST_CASE("a loop is solved with the derivatives of its units, where all know them") {
+TEST_CASE("a loop is solved with the derivatives of its units, if all provide them") {
   Cosine with(true);
   Cosine without(false);
   for (Cosine* system : {&with, &without}) {

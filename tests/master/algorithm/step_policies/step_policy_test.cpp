@@ -74,7 +74,7 @@ TEST_CASE("event-driven steps go from event to event, and no further than the ma
   }
 }
 
-TEST_CASE("no step is longer than a unit says it can be") {
+TEST_CASE("no step is longer than a unit's maximum step") {
   ScriptedSystem f;
   f.add("a", Describe("a").maximum_step(40ms).done());
   f.add("b", Describe("b").maximum_step(60ms).done());

@@ -104,7 +104,7 @@ using stride::tests::at;
 
 // ---- Life ----
 
-TEST_CASE("an FMI 2.0 unit lives from its instantiation to its end", "[here]") {
+TEST_CASE("an FMI 2.0 unit goes through its life cycle", "[here]") {
   Fmi2Fixture unit("fmi2_relaxation");
   CHECK(unit.global<int>("fmi2_living_units") == 1);
   unit.set("k", 3);
@@ -149,7 +149,7 @@ TEST_CASE("start values of inputs wait for Initialization Mode") {
   CHECK(unit.get(ValueType::String, "string.echo").strings()[0] == "hello");
 }
 
-TEST_CASE("an FMI 2.0 unit that cannot be instantiated says why") {
+TEST_CASE("the error of a failed instantiation has the message of an FMI 2.0 unit") {
   const Scratch scratch;
   const importer::UnpackedFmu unpacked(test_fmu("fmi2_types"));
   fs::copy(unpacked.folder(), scratch / "unit", fs::copy_options::recursive);
@@ -269,7 +269,8 @@ TEST_CASE("instants that are one double are one to the unit") {
   CHECK(unit.global<double>("fmi2_step_size") == 0);
 }
 
-TEST_CASE("a step that ends early is undone where the state was saved, and says how far it came") {
+TEST_CASE(
+    "a step that ends early is undone where the state was saved, with the time that was reached") {
   Fmi2Fixture unit("fmi2_turner");
   unit.start();
   const core::StepResult result = unit.step({}, Time(1s));
@@ -310,7 +311,7 @@ TEST_CASE("a state that was just saved for core is not saved again", "[here]") {
   CHECK(unit.get("y") == 0);
 }
 
-TEST_CASE("a unit that does not say how far it came is undone all the same") {
+TEST_CASE("a step is undone although the time that was reached is unknown") {
   Fmi2Fixture unit("fmi2_turner");
   unit.set_flag("mute");
   unit.start();
@@ -321,7 +322,7 @@ TEST_CASE("a unit that does not say how far it came is undone all the same") {
   CHECK(unit.step({}, at(0.125)).reached_without_request(at(0.125)));
 }
 
-TEST_CASE("a unit without a state stands where it came to, which the log says once") {
+TEST_CASE("a unit without a state stays at the time that it reached, with one warning") {
   Fmi2Fixture unit("fmi2_turner_without_state");
   unit.start();
   const core::StepResult result = unit.step({}, Time(1s));
@@ -337,7 +338,7 @@ TEST_CASE("a unit without a state stands where it came to, which the log says on
                                       Contains("canGetAndSetFMUstate"));
 }
 
-TEST_CASE("a unit without a state must say where it stands") {
+TEST_CASE("a unit without a state must report the time that it reached") {
   const bool is_mute = GENERATE(true, false);
   Fmi2Fixture unit("fmi2_turner_without_state");
   unit.set_flag(is_mute ? "mute" : "stays");
@@ -361,7 +362,7 @@ TEST_CASE("a unit may end the simulation within a step") {
   CHECK_NOTHROW(unit->terminate());
 }
 
-TEST_CASE("a unit that ends the simulation and does not say when") {
+TEST_CASE("a unit that ends the simulation at an unknown time") {
   const bool has_state = GENERATE(true, false);
   Fmi2Fixture unit(has_state ? "fmi2_turner" : "fmi2_turner_without_state");
   unit.set_flag("ends");
@@ -379,7 +380,7 @@ TEST_CASE("a unit that ends the simulation and does not say when") {
 
 // ---- Steps that are pending ----
 
-TEST_CASE("a pending step ends by a callback, or when the unit is asked") {
+TEST_CASE("a pending step ends by a callback, or by a poll") {
   const int how = GENERATE(0, 1, 3);
   const bool has_state = GENERATE(true, false);
   CAPTURE(how, has_state);
@@ -415,7 +416,7 @@ TEST_CASE("the status of a pending step is that of the step") {
              Contains("fmi2DoStep returned fmi2Error: the night was short"));
 }
 
-TEST_CASE("a step that takes long is told once, with what the unit says of it", "[here]") {
+TEST_CASE("a step that takes long is logged once, with the unit's own text", "[here]") {
   std::vector<std::string> told;
   std::function<void()> release;
   Fmi2Fixture unit("fmi2_sleeper", {.warn_after = 0ms,
@@ -491,7 +492,7 @@ TEST_CASE("a failure without a word, with a long one and with one that must not 
   CHECK_THAT(run_error([&] { unit.step({}, Time(1s)); }), Contains("fmi2Error: " + expected));
 }
 
-TEST_CASE("a warning of an FMI 2.0 unit is logged and the step stands") {
+TEST_CASE("a warning of an FMI 2.0 unit is logged and the step is accepted") {
   Fmi2Fixture unit("fmi2_grumbler");
   unit.set_number("mood", 1);
   unit.start();
