@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/units/sensor/life.h"
+#include "tests/units/sensor/simulated_sensor.h"
 
 using sensor::kCommands;
 using sensor::kFields;

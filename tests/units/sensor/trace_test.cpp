@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
-#include "tests/units/sensor/life.h"
+#include "tests/units/sensor/simulated_sensor.h"
 #include "tests/units/systemc/vcd.h"
 
 using stride::Duration;

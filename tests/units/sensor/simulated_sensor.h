@@ -1,6 +1,6 @@
 // A simulation of a sensor, and the settings that must not change its results.
-#ifndef STRIDE_TESTS_UNITS_SENSOR_LIFE_H
-#define STRIDE_TESTS_UNITS_SENSOR_LIFE_H
+#ifndef STRIDE_TESTS_UNITS_SENSOR_SIMULATED_SENSOR_H
+#define STRIDE_TESTS_UNITS_SENSOR_SIMULATED_SENSOR_H
 
 #include <cstdint>
 #include <cstring>
