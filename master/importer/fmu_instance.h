@@ -35,7 +35,7 @@ struct InstanceOptions {
   /// A warning is logged when an asynchronous step (FMI 2.0, fmi2Pending) takes longer.
   std::chrono::milliseconds warn_after = std::chrono::seconds(10);
   LogSink log{};
-  core::Location where{};  ///< the component's place in the scenario, for errors
+  core::Location where{};  ///< the component's position in the scenario, for errors
   /// With the array sizes that its structural parameters give; nothing = as the FMU says.
   std::shared_ptr<const core::UnitDescription> description{};
   /// Where the name of each function is noted before it is called; null = nowhere.

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What stands between two texts, or nothing.
+/// What is between two texts, or nothing.
 std::string_view between(std::string_view text, std::string_view before, std::string_view after) {
   const std::size_t first = text.find(before);
   if (first == std::string_view::npos) return {};

@@ -71,8 +71,8 @@ struct alignas(64) Turn {
   Doorbell doorbell;                    ///< for the process that waits
 };
 
-/// In shared memory. The messages themselves stand in a GrowingMemory beside it, where each takes
-/// the place of the one before. Replies have the number of their request, so neither
+/// In shared memory. The messages themselves are in a GrowingMemory beside it, where each replaces
+/// the one before. Replies have the number of their request, so neither
 /// side keeps a state, and any process that is in charge of the unit may go on with it.
 ///
 /// The unit's process may write anything here: sizes are checked, and what is no such value is an

@@ -24,7 +24,7 @@ class HostClient {
   /// Starts the process. Throws std::system_error if there can be none.
   explicit HostClient(const HostedUnitSpec& spec);
 
-  /// A message to be written and sent; it takes the place of whatever came before.
+  /// A message to be written and sent; it replaces the message before.
   MessageWriter write() { return MessageWriter(channel_.messages); }
   /// Sends a request and waits for what is said to it. Throws core::Error of the kind Run, at
   /// `time`, if the process ends before, or is ended because its time is over.

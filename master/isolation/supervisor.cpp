@@ -57,7 +57,7 @@ class Supervisor {
         output_(std::move(output)),
         ends_(watch_children()) {}
 
-  /// Returns true when the master wants it to finish, false when the master is gone.
+  /// Returns true when the master requests the end, false when the master has ended.
   bool run() {
     for (;;) {
       wait();
@@ -129,7 +129,7 @@ class Supervisor {
     raise_to(channel_.most_memory, static_cast<std::uint64_t>(usage.ru_maxrss) * 1024);
     channel_.snapshots.note_end(child);
     if (child != channel_.active || channel_.end != HostEnd::None) return;
-    forward_all_output(100ms);  // what it has said comes first
+    forward_all_output(100ms);  // its output comes first
     channel_.end_code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
     channel_.end = WIFSIGNALED(status) ? HostEnd::Killed : HostEnd::Exited;
     channel_.reply.doorbell.ring();

@@ -26,7 +26,7 @@
 
 namespace stride::isolation {
 
-/// Stands for a unit in another process: each function is a request, and what the unit answers or
+/// Represents a unit in another process: each function is a request, and what the unit answers or
 /// throws is answered and thrown here. Its capabilities are those of the unit, besides
 /// HostDiagnostics, and StateSaving where states are snapshots of the process.
 class UnitProxy final : public core::Unit,

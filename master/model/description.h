@@ -116,7 +116,7 @@ struct Variable {
   std::size_t size = 1;               ///< the number of elements
   std::string unit;
   std::string description;
-  std::string start;  ///< as it stands in the description; elements separated by blanks
+  std::string start;  ///< as in the description; elements separated by blanks
   std::string min;    ///< likewise, empty if there is none
   std::string max;
   double nominal = 0;  ///< of a floating-point number, the magnitude to expect; 0 = unspecified

@@ -181,7 +181,7 @@ core::VariableId Selection::find_message(const CheckDeclaration& check,
                    fmt::format("'{}' stands for {} messages; expected one", name, found.size()));
 }
 
-/// The name that was given, with what it is about where it stands for several.
+/// The name that was given, with the signal where it matches several.
 std::string name_of(const CheckDeclaration& check, const std::string& subject,
                     const std::string& demand, bool is_alone) {
   if (check.name.empty()) return demand;

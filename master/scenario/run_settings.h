@@ -41,7 +41,7 @@ struct StepSettings {
   void set_coupling(std::string_view text);
   void set_extrapolation(std::string_view text);
 
-  /// What is said here replaces what stands in the options.
+  /// What is set here replaces the value in the options.
   void apply(core::RunOptions& options) const;
 };
 

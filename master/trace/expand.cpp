@@ -11,7 +11,7 @@
 namespace stride::trace {
 namespace {
 
-/// The section, and its whole line where nothing else stands on it.
+/// The section, and its whole line where nothing else is on it.
 Span with_line(const std::string& text, Span section) {
   const auto is_inner_blank = [&](std::size_t at) {
     return at < text.size() && (text[at] == ' ' || text[at] == '\t' || text[at] == '\r');

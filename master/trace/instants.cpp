@@ -31,7 +31,7 @@ std::string_view digits_of(std::string_view value) {
   return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
 }
 
-/// The letter of its type tells that its code stands behind a blank.
+/// By the letter of its type: whether its code is behind a blank.
 bool is_vector(std::string_view value) {
   return std::string_view("bBrRsS").find(value.front()) != std::string_view::npos;
 }

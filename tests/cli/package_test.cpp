@@ -9,7 +9,7 @@ using Catch::Contains;
 
 namespace {
 
-/// The second low-pass stands in a system of its own, behind a gain.
+/// The second low-pass is in a system of its own, behind a gain.
 Parts nested_filters() {
   Parts parts;
   parts.components =

@@ -83,7 +83,7 @@ class Instance {
     }
   }
 
-  /// Where it stands, for an instance whose state was restored.
+  /// Its time, for an instance whose state was restored.
   void continue_at(int time) { time_ = time; }
 
   /// The texts of all variables that can be read in Step Mode.

@@ -212,7 +212,7 @@ TEST_CASE("every scenario with a sensor is known, so that none is left out") {
 TEST_CASE("each sensor of each scenario gives the same results when it is replayed alone") {
   const bool skips = GENERATE(false, true);
   for (const auto& [scenario, sensors] : scenarios_with_sensors()) {
-    if (scenario == "replay_sensor") continue;  // where nobody is idle, by its annotation
+    if (scenario == "replay_sensor") continue;  // where no unit is idle, by its annotation
     const ScratchFolder folder;
     Arguments arguments = without_judge(scenario);
     arguments.push_back("--no-trace");

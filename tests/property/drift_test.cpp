@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t kSteps = kSanitized ? 20'000 : 1'000'000;
 
-/// Tells the library which step size its instance insists on.
+/// Sets the only step size that the instance of the library accepts.
 void set_raw_step(importer::Fmu& fmu, Duration step) {
   void* const handle = dlopen(fmu.load_library()->path().c_str(), RTLD_NOW | RTLD_NOLOAD);
   REQUIRE(handle != nullptr);

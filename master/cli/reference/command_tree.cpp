@@ -23,7 +23,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// Of "FILE.fmu", "IN.vcd", or else those that stand in the description by themselves: ".ssd".
+/// Of "FILE.fmu", "IN.vcd", or else those that are words of the description: ".ssd".
 std::vector<std::string> extensions(const std::string& placeholder, const std::string& text) {
   static const std::regex in_text(R"((^|[^\w])\.([a-z][a-z0-9]+)\b)");
   const std::size_t dot = placeholder.rfind('.');

@@ -51,7 +51,7 @@ std::vector<std::uint8_t> Fmi2Unit::serialize_state() {
                     kFmi2Serializing);
 }
 
-/// The bytes do not tell the time.
+/// The bytes do not contain the time.
 void Fmi2Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
   require("fmi2DeSerializeFMUstate", fmi_.DeSerializeFMUstate, kFmi2Serializing);
   SavedState& saved = states_.chosen();

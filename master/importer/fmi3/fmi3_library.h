@@ -30,7 +30,7 @@ struct IdleFunctions {
 #undef STRIDE_POINTER
 };
 
-/// Likewise those by which a unit tells what its messages say.
+/// Likewise those for the text of messages.
 struct DescribeFunctions {
 #define STRIDE_POINTER(name) stride##name##TYPE* name = nullptr;
   STRIDE_DESCRIBE_FUNCTIONS(STRIDE_POINTER)

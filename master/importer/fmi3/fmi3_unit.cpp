@@ -292,7 +292,7 @@ void Fmi3Unit::update_inputs(double time) noexcept {
   }
 }
 
-/// FMI 3.0, 4.2: a unit with a fixed internal step may stand elsewhere than where it was sent.
+/// FMI 3.0, 4.2: a unit with a fixed internal step may end at another time than that of the step.
 void Fmi3Unit::compare_times(const core::StepInterval& interval, double last_successful) {
   if (is_end(interval, last_successful)) return;
   checked_time(last_successful, "lastSuccessfulTime");
@@ -311,7 +311,7 @@ void Fmi3Unit::compare_times(const core::StepInterval& interval, double last_suc
 
 Time Fmi3Unit::reached_early(const core::StepInterval& interval, double last_successful) const {
   if (last_successful == interval.end_seconds)
-    return interval.to;  // which a double cannot always tell
+    return interval.to;  // a double cannot always distinguish it
   if (!options_.early_return_allowed) {
     fail("fmi3DoStep returned early, which was not allowed at its instantiation");
   }

@@ -38,7 +38,7 @@ std::vector<std::uint8_t> Fmi3Unit::serialize_state() {
                     kFmi3Serializing);
 }
 
-/// The bytes do not tell the time.
+/// The bytes do not contain the time.
 void Fmi3Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
   require("fmi3DeserializeFMUState", fmi_.DeserializeFMUState, kFmi3Serializing);
   SavedState& saved = states_.chosen();

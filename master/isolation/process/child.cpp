@@ -23,7 +23,7 @@ constexpr std::size_t kPrintedKept = 4096;
 /// How often a child is looked at whose pipes another process may hold open.
 constexpr std::chrono::milliseconds kGlance{20};
 
-/// What stands before the child's text.
+/// What precedes the child's text.
 constexpr char kAnswer = 'A';
 constexpr char kException = 'E';
 

@@ -1,4 +1,4 @@
-// What a unit may do to its process is an error that tells it, and nothing is left of it.
+// Every way in which a unit may end its process is an error that names it, and nothing is left.
 #include <csignal>
 
 #include "master/isolation/process/child.h"

@@ -83,7 +83,7 @@ std::vector<std::string> values(const Scenario& scenario) {
 
 using Strings = std::vector<std::string>;
 
-/// A system with an input u and an output y, with what stands for it in between.
+/// A system with an input u and an output y, with the elements in between.
 std::string filter(const std::string& name, const std::string& element = component("core"),
                    const std::string& inner = "core") {
   return system(name, connector("u", "input") + connector("y", "output"), element,

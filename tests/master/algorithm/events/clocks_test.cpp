@@ -350,7 +350,7 @@ TEST_CASE("a sampled and held value is an event for its receiver") {
 
 TEST_CASE("values from clock to clock: of this instant where both tick, else the last") {
   ScriptedSystem f;
-  auto& b = f.add("b", sampler("b", 3ms));  // stands before its source
+  auto& b = f.add("b", sampler("b", 3ms));  // is before its source
   auto& a = f.add("a", sampler("a", 2ms));
   f.wire("a", "out", "b", "in");
   a.on_set_clock = [count = 0](ScriptedUnit& unit) mutable { unit.number(kOut) = ++count; };

@@ -9,7 +9,7 @@ using Words = std::vector<std::string>;
 
 namespace {
 
-/// An option as it is told of.
+/// An option as it is documented.
 Option told(const std::string& name, const std::string& placeholder,
             const std::string& description = "") {
   CLI::App app("An example", "example");
