@@ -1,5 +1,5 @@
 /* What the values of Binary variables say, in words, for people: an optional function beside the
- * FMI 3.0 table. A library that exports it tells what its messages say; to an importer that does
+ * FMI 3.0 table. A library that exports it gives the text of its messages; to an importer that does
  * not know it, the unit is a plain FMU.
  *
  * Clean as C11 and as C++17.

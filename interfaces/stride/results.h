@@ -7,11 +7,11 @@
 
 namespace stride {
 
-/// The folder of the run's other results, if the importer has told it in the environment variable
+/// The folder of the run's other results, if the importer has set the environment variable
 /// STRIDE_RESULTS, as `stride run` does; else where the program was started.
 inline std::filesystem::path results_folder() {
-  const char* const told = std::getenv("STRIDE_RESULTS");
-  return told != nullptr ? told : std::filesystem::current_path();
+  const char* const folder = std::getenv("STRIDE_RESULTS");
+  return folder != nullptr ? folder : std::filesystem::current_path();
 }
 
 }  // namespace stride

@@ -10,10 +10,10 @@ namespace stride {
 class ClockAccess {
  public:
   /// What fmi3GetInterval returns where the unit sets the interval, which counts as read then.
-  static fmi3IntervalQualifier tell(Clock& clock) {
+  static fmi3IntervalQualifier report(Clock& clock) {
     if (clock.knowledge_ == Clock::Knowledge::None) return fmi3IntervalNotYetKnown;
     const bool is_new = clock.knowledge_ == Clock::Knowledge::New;
-    clock.knowledge_ = Clock::Knowledge::Told;
+    clock.knowledge_ = Clock::Knowledge::Reported;
     return is_new ? fmi3IntervalChanged : fmi3IntervalUnchanged;
   }
   static bool has_news(const Clock& clock) { return clock.knowledge_ == Clock::Knowledge::New; }

@@ -63,7 +63,7 @@ Instance::ClockInterval Instance::clock_interval(fmi3ValueReference reference) {
     throw std::logic_error("clock '" + row.name +
                            "' is fixed, but its interval changed after the start");
   }
-  const fmi3IntervalQualifier qualifier = ClockAccess::tell(clock);
+  const fmi3IntervalQualifier qualifier = ClockAccess::report(clock);
   const bool may_be_unknown = row.interval_variability == IntervalVariability::Countdown;
   if (qualifier == fmi3IntervalNotYetKnown && !may_be_unknown) {
     throw std::logic_error("the unit has not said the interval of its " +

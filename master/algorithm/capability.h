@@ -19,14 +19,14 @@ enum class CapabilityId : unsigned {
   InputsWithinStep,
   MessageText,
   UnitDiagnostics,
-  OwnProcess,
+  HostDiagnostics,
   End,  ///< no capability
 };
 
 inline constexpr std::size_t kCapabilities = static_cast<std::size_t>(CapabilityId::End);
 
 /// The base of these interfaces. Each has its identifier as a constant kId. An implementation
-/// belongs to its unit and lives as long; it is used by the thread that uses the unit, and its
+/// belongs to its unit and exists as long; it is used by the thread that uses the unit, and its
 /// functions throw core::Error that names the unit, unless its header says otherwise.
 class Capability {
  public:

@@ -67,7 +67,7 @@ struct IdleSetting {
 struct IdleOptions {
   /// For how long at most, by component; nothing, or no entry: never.
   std::vector<std::optional<Duration>> max_skip{};
-  std::vector<IdleSetting> deadbands{};   ///< of inputs, in place of those that the units name
+  std::vector<IdleSetting> deadbands{};   ///< of inputs, instead of those of the units
   std::vector<IdleSetting> tolerances{};  ///< of outputs, likewise
   Duration least{};                       ///< a unit is not suspended for less
 };

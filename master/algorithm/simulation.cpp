@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "master/algorithm/capabilities/configuration_mode.h"
+#include "master/algorithm/capabilities/host_diagnostics.h"
 #include "master/algorithm/capabilities/inputs_within_step.h"
-#include "master/algorithm/capabilities/own_process.h"
 #include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/events/event_handler.h"
 #include "master/algorithm/idle/idle_scheduler.h"
@@ -74,7 +74,7 @@ class Simulation::Run {
     statistics_.wall_time = WallClock::Source::now() - began;
     for (std::size_t i = 0; i < count(); ++i) {
       auto* const diagnostics = units_[i]->capability<UnitDiagnostics>();
-      auto* const process = units_[i]->capability<OwnProcess>();
+      auto* const process = units_[i]->capability<HostDiagnostics>();
       if (diagnostics != nullptr) statistics_.units[i].calls = diagnostics->calls();
       if (process != nullptr) statistics_.units[i].host = process->host_statistics();
       statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].suspensions;
@@ -217,8 +217,8 @@ class Simulation::Run {
   void handle_requests() {
     for (std::size_t i = 0; i < count(); ++i) {
       const StepResult& result = stepper_.result(i);
-      if (result.terminate) statistics_.end = RunEnd::EndedByUnit;
-      if (result.event_needed) event_handler_.request_event(i);
+      if (result.terminate_simulation) statistics_.end = RunEnd::EndedByUnit;
+      if (result.event_handling_needed) event_handler_.request_event(i);
     }
   }
 
@@ -228,9 +228,9 @@ class Simulation::Run {
     while (true) {
       const Time reached = stepper_.advance(time_, next_target());
       if (!options_.step.policy->controls_error) return reached;
-      const Excess excess = inputs_->excess(reached, options_.step.absolute_tolerance,
-                                            options_.step.relative_tolerance);
-      if (step_policy_->accept(time_, reached, excess)) return reached;
+      const ExtrapolationError error = inputs_->extrapolation_error(
+          reached, options_.step.absolute_tolerance, options_.step.relative_tolerance);
+      if (step_policy_->accept(time_, reached, error)) return reached;
       stepper_.undo(time_);
       ++statistics_.undone_steps;
     }
@@ -239,8 +239,8 @@ class Simulation::Run {
   /// The point that the step policy chooses, or the next event if that is earlier.
   Time next_target() {
     const std::optional<Time> quiet_until = idle_ ? idle_->all_suspended_until() : std::nullopt;
-    const Time target =
-        quiet_until ? step_policy_->stride(time_, *quiet_until) : step_policy_->next(time_);
+    const Time target = quiet_until ? step_policy_->next_while_idle(time_, *quiet_until)
+                                    : step_policy_->next(time_);
     return std::min(target, event_handler_.next_event().value_or(target));
   }
 

@@ -12,7 +12,7 @@
 
 namespace stride::core {
 
-/// Statistics of a unit in a process of its own.
+/// Statistics of a unit's host, the separate process that it runs in.
 struct HostStatistics {
   std::uint64_t snapshots = 0;             ///< snapshots made
   std::uint64_t restores = 0;              ///< restores from a snapshot
@@ -40,7 +40,7 @@ struct UnitStatistics {
       initialization_time{};             ///< wall-clock time within the unit's own functions
   std::chrono::nanoseconds step_time{};  ///< likewise, its state saved and restored included
   std::chrono::nanoseconds event_time{};
-  std::optional<HostStatistics> host{};  ///< of a unit in a process of its own
+  std::optional<HostStatistics> host{};  ///< of a hosted unit
 };
 
 /// Wall-clock time of a whole run.

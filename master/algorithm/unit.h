@@ -50,25 +50,26 @@ struct StepValues {
 
 /// How a communication step ended.
 struct StepResult {
-  bool rejected = false;      ///< the unit is in the state before the step
-  bool early_return = false;  ///< it returned before the end
-  bool event_needed = false;  ///< it requests Event Mode at `reached`
-  bool terminate = false;     ///< it requests the end of the simulation
+  bool rejected = false;               ///< the unit is in the state before the step
+  bool early_return = false;           ///< it returned before the end
+  bool event_handling_needed = false;  ///< it requests Event Mode at `reached`
+  bool terminate_simulation = false;   ///< it requests the end of the simulation
   /// The time that the unit has reached. Of a rejected step: the time that it could have reached; a
   /// time outside of the step means unknown.
   Time reached{};
 
   /// Whether it reached `to` and requested nothing.
-  bool went_through(Time to) const {
-    return reached == to && !(rejected | early_return | event_needed | terminate);
+  bool reached_without_request(Time to) const {
+    return reached == to &&
+           !(rejected | early_return | event_handling_needed | terminate_simulation);
   }
 };
 
 /// The result of one event iteration.
 struct EventResult {
-  bool iterate = false;  ///< another iteration is required
-  bool terminate = false;
-  std::optional<Time> next_event;
+  bool discrete_states_need_update = false;  ///< another iteration is required
+  bool terminate_simulation = false;
+  std::optional<Time> next_event_time;
 };
 
 /// An instance of a unit: the functions that all units have, and access to optional capabilities.

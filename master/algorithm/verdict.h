@@ -18,7 +18,7 @@
 namespace stride::core {
 
 /// The value of one element of a signal at some time.
-struct Witness {
+struct SignalValue {
   std::string signal;
   ValueBlock value;  ///< of one element
   std::string unit;  ///< of measure
@@ -26,13 +26,13 @@ struct Witness {
 
 /// The verdict of a unit, or of a check of the scenario, on a run.
 struct Verdict {
-  std::string name;               ///< of the component or of the check
-  std::optional<bool> passed;     ///< empty: undecided
-  std::string text{};             ///< the reason, for display; may be empty
-  std::string kind{};             ///< of a check; empty: a unit's verdict
-  Location where{};               ///< of a check
-  std::optional<Time> time{};     ///< of the first failure, as far as it has an instant
-  std::vector<Witness> values{};  ///< at that time
+  std::string name;                   ///< of the component or of the check
+  std::optional<bool> passed;         ///< empty: undecided
+  std::string text{};                 ///< the reason, for display; may be empty
+  std::string kind{};                 ///< of a check; empty: a unit's verdict
+  Location where{};                   ///< of a check
+  std::optional<Time> time{};         ///< of the first failure, as far as it has an instant
+  std::vector<SignalValue> values{};  ///< at that time
 };
 
 /// "at 12.3 s: 1.79 V, expected >= 1.8 V", as far as there is a time and a text.

@@ -113,7 +113,7 @@ void CapturedUnit::write_waiting(std::uint64_t index) {
   waiting_.clear();
 }
 
-// ---- What it is told to do ----
+// ---- Recorded calls ----
 
 void CapturedUnit::enter_initialization(Time start, std::optional<Time> stop) {
   ForwardingUnit::enter_initialization(start, stop);

@@ -53,7 +53,7 @@ class StimuliFile {
   void drop(std::size_t mark) {
     if (mark < pending_.size()) pending_.resize(mark);
   }
-  /// What waits is final. `time`: where the unit stands.
+  /// What waits is final. `time`: the unit's present time.
   void commit(Time time);
   /// Hands all that is committed to the system.
   void flush() { file_.flush(); }

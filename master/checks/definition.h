@@ -1,4 +1,4 @@
-// The checks of a scenario, resolved to the places of its system.
+// The checks of a scenario, resolved to the variables of its system.
 #ifndef STRIDE_MASTER_CHECKS_DEFINITION_H
 #define STRIDE_MASTER_CHECKS_DEFINITION_H
 

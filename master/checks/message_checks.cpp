@@ -21,10 +21,10 @@ AnswerCheck::AnswerCheck(const Definition& definition)
 void AnswerCheck::on_message(const core::Message& message) {
   if (message.id == demand_.reply) {
     expire_before(message.time);
-    answer(message.time);
+    add_reply(message.time);
   } else if (message.id == demand_.request && window().contains(message.time)) {
     expire_before(message.time);
-    ask(message.time);
+    add_request(message.time);
   }
 }
 
@@ -40,13 +40,13 @@ void AnswerCheck::expire_before(Time time) {
   }
 }
 
-void AnswerCheck::ask(Time time) {
+void AnswerCheck::add_request(Time time) {
   if (demand_.repeats && !open_.empty()) return;
   ++requests_;
   open_.push_back(time);
 }
 
-void AnswerCheck::answer(Time time) {
+void AnswerCheck::add_reply(Time time) {
   if (open_.empty()) return;
   ++answered_;
   slowest_ = std::max(slowest_, time - open_.front());

@@ -25,8 +25,8 @@ class AnswerCheck final : public Check {
   Time deadline(Time request) const { return later(request, demand_.within); }
   /// Gives up the requests whose time was out before this time.
   void expire_before(Time time);
-  void answer(Time time);
-  void ask(Time time);
+  void add_reply(Time time);
+  void add_request(Time time);
   core::Verdict unanswered_verdict() const;
 
   const AnswerDemand& demand_;

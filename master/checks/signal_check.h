@@ -19,7 +19,7 @@ class SignalCheck final : public Check {
   explicit SignalCheck(const Definition& definition);
 
   core::VariableId id() const { return demand_.id; }
-  /// Before the first communication point: where its value will stand.
+  /// Before the first communication point: where its value will be.
   void attach(const core::Signal& signal);
 
   void on_point(Time time) override;

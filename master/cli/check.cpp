@@ -85,11 +85,11 @@ std::string order_table(const scenario::LoadedScenario& loaded) {
   const core::System& system = loaded.system();
   Table table(
       {{"", Table::Align::Right}, {"stage", Table::Align::Right}, {"component"}, {"why here"}});
-  for (const core::StepPlace& place : core::step_order(
+  for (const core::StepOrderEntry& entry : core::step_order(
            loaded.system(), *loaded.options().step.policy, loaded.options().coupling)) {
     const std::string number = std::to_string(table.size() + 1);
-    table.add({number, std::to_string(place.stage + 1), system.components()[place.component].name,
-               place.reason});
+    table.add({number, std::to_string(entry.stage + 1), system.components()[entry.component].name,
+               entry.reason});
   }
   return table.text();
 }

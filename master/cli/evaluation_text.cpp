@@ -25,8 +25,8 @@ std::string shortened(const std::vector<std::string>& names) {
 
 std::string solved_for(const core::System& system, const core::EvaluationBlock& loop) {
   std::vector<std::string> names;
-  for (const core::Tear& tear : loop.tears) {
-    for (const core::VariableId id : tear.inputs) names.push_back(system.full_name(id));
+  for (const core::TearingVariable& variable : loop.tearing_variables) {
+    for (const core::VariableId id : variable.inputs) names.push_back(system.full_name(id));
   }
   return shortened(names);
 }

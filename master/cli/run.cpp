@@ -18,7 +18,6 @@
 #include "master/cli/scenario_options.h"
 #include "master/cli/test_report.h"
 #include "master/recorders/results_folder.h"
-#include "master/scenario/film.h"
 #include "master/scenario/loaded_scenario.h"
 
 namespace stride::cli {
@@ -133,13 +132,12 @@ void add_run(CLI::App& app) {
           "be given several times")
       ->type_name("COMPONENT=FILE")
       ->allow_extra_args(false);
-  // a flag, so that what follows a blank is the scenario; without a value it is "true"
-  command
-      ->add_flag("--film", arguments->scenario.film,
-                 "Pictures of the MuJoCo worlds in film/, every 0.1 s of simulated time, or as in "
-                 "--film=SECONDS")
-      ->transform(
-          [](const std::string& value) { return value == "true" ? scenario::kFilmAsItIs : value; });
+  // a flag, so that what follows a blank is the scenario; the value of a flag without one is
+  // "true", kUnspecifiedFilmInterval
+  command->add_flag(
+      "--film", arguments->scenario.film,
+      "Pictures of the MuJoCo worlds in film/, every 0.1 s of simulated time, or as in "
+      "--film=SECONDS");
   command
       ->add_option("--junit", arguments->junit,
                    "Write a test report in the XML of JUnit, with a test case for the run, each "

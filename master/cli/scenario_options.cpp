@@ -71,7 +71,7 @@ void add_step_options(CLI::App& command, scenario::StepSettings& settings) {
 void add_host_options(CLI::App& command, scenario::HostRequest& request) {
   // a flag, so that what follows a blank is the scenario; without a value it is "true"
   command
-      .add_flag("--isolate", request.isolated,
+      .add_flag("--isolate", request.hosted,
                 "Run each unit in a process of its own, or with --isolate=COMPONENT, a glob, some "
                 "units; may be given several times")
       ->transform([](const std::string& value) { return value == "true" ? "*" : value; });

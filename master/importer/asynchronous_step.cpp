@@ -7,7 +7,7 @@ void AsynchronousStep::begin() {
   status_.reset();
 }
 
-void AsynchronousStep::note_asked() {
+void AsynchronousStep::note_polled() {
   const std::lock_guard lock(mutex_);
   late_ += !status_;
 }

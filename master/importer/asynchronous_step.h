@@ -12,14 +12,14 @@
 namespace stride::importer {
 
 /// Where a unit's callback stepFinished says how a step ended, on whatever thread, before
-/// fmi2DoStep returns or after it, and even after the unit has said the same when it was asked.
+/// fmi2DoStep returns or after it, and even after a poll has found the same.
 class AsynchronousStep {
  public:
   /// Before fmi2DoStep is called.
   void begin();
-  /// The unit has said how the step ended, so a callback that has not come yet is not the next
+  /// A poll has found how the step ended, so a callback that has not come yet is not the next
   /// step's.
-  void note_asked();
+  void note_polled();
   void finish(Status status) noexcept;
   /// The step's status, as soon as it is known; nothing if that takes longer.
   std::optional<Status> wait(std::chrono::microseconds time);

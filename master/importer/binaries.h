@@ -14,7 +14,7 @@ const char* platform();
 /// Likewise that of FMI 2.0 ("linux64"), which knows the tuple where it has no name of its own.
 const char* fmi2_platform();
 
-/// Where the library of this name stands in an unpacked FMU of this version, "2.0" or "3.0". Throws
+/// The path of the library of this name in an unpacked FMU of this version, "2.0" or "3.0". Throws
 /// core::Error of the kind Input that lists the platforms that there are, if it is not built for
 /// this one, and says how to come by such a library.
 std::filesystem::path find_library(const std::filesystem::path& fmu_folder,

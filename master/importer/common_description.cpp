@@ -76,7 +76,7 @@ void read_units(const xml::Element& root, core::UnitDescription& unit) {
     if (!element) continue;
     const core::BaseUnitOfMeasure base = core::read_base_unit(*element);
     if (base.factor == 0) element->fail("factor=\"0\" of <BaseUnit>: a unit cannot be zero");
-    unit.units[name] = base;
+    unit.units_of_measure[name] = base;
   }
 }
 

@@ -12,7 +12,7 @@
 
 namespace stride::importer {
 
-// Each throws core::Error of the kind Input that names the place of what is wrong.
+// Each throws core::Error of the kind Input with the position of what is wrong.
 
 /// <CoSimulation>, which the unit must have.
 xml::Element find_co_simulation(const xml::Element& root);

@@ -34,7 +34,7 @@ bool has_variable(const core::UnitDescription& unit, Predicate&& predicate) {
 FmuInstance::FmuInstance(const char* prefix, std::shared_ptr<const SharedLibrary> library,
                          std::string name, UnitParts parts, InstanceOptions options)
     : call_note_(options.call_note),
-      is_condemned_(library->is_condemned()),
+      is_unusable_(library->is_unusable()),
       name_(std::move(name)),
       parts_(std::move(parts)),
       options_(std::move(options)),
@@ -65,7 +65,7 @@ bool FmuInstance::declares(core::CapabilityId id) const {
     case CapabilityId::InputsWithinStep:
       return unit.provides_intermediate_update;
     case CapabilityId::MessageText:
-    case CapabilityId::OwnProcess:
+    case CapabilityId::HostDiagnostics:
     case CapabilityId::End:
       return false;
   }
@@ -74,7 +74,7 @@ bool FmuInstance::declares(core::CapabilityId id) const {
 
 // ---- Calls and failures ----
 
-Status FmuInstance::look_into(const char* name, Status status) {
+Status FmuInstance::check_status(const char* name, Status status) {
   if (status == Status::Discard || status == Status::Pending) return status;
   if (status != Status::Ok && status != Status::Warning) fail_call(name, status);
   if (has_messages_.load(std::memory_order_relaxed)) take_messages(name);
@@ -96,7 +96,7 @@ void FmuInstance::fail_call(const char* function, Status status) {
   failed_in_ = function;
   const bool is_fatal =
       status != Status::Error && status != Status::Discard && status != Status::Pending;
-  if (is_fatal) condemn();
+  if (is_fatal) mark_unusable();
   rethrow_callback_failure();  // it is the cause of what the unit answered
   fail(fmt::format("{} returned {}: {}", function, status_name(status), take_messages(function)),
        is_fatal ? "the unit may have damaged this process; save what you need and end it" : "");

@@ -32,10 +32,10 @@ struct InstanceOptions {
   /// forget what it would need for that.
   bool may_go_back = false;
   bool debug_logging = false;  ///< everything that the unit can log, not only warnings and errors
-  /// The log says it when an asynchronous step takes longer (FMI 2.0, fmi2Pending).
-  std::chrono::milliseconds patience = std::chrono::seconds(10);
+  /// A warning is logged when an asynchronous step (FMI 2.0, fmi2Pending) takes longer.
+  std::chrono::milliseconds warn_after = std::chrono::seconds(10);
   LogSink log{};
-  core::Location where{};  ///< the component's place in the scenario, for errors
+  core::Location where{};  ///< the component's position in the scenario, for errors
   /// With the array sizes that its structural parameters give; nothing = as the FMU says.
   std::shared_ptr<const core::UnitDescription> description{};
   /// Where the name of each function is noted before it is called; null = nowhere.
@@ -84,21 +84,21 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   template <class Function, class... Arguments>
   Status call_discardable(const char* name, Function* function, Arguments... arguments);
 
-  /// To be said before each call.
+  /// To be called before each call.
   void note_call(const char* name) {
     ++calls_;
     if (call_note_ != nullptr) [[unlikely]]
       call_note_->write(name);
   }
   void check_callable(const char* name) const {
-    if (failed_in_ != nullptr || is_condemned_.load(std::memory_order_relaxed)) [[unlikely]]
+    if (failed_in_ != nullptr || is_unusable_.load(std::memory_order_relaxed)) [[unlikely]]
       fail_not_callable(name);
   }
-  /// Whether there is nothing left that could be called.
-  bool has_failed() const { return failed_in_ != nullptr || is_condemned_; }
+  /// Whether no function can be called any longer.
+  bool has_failed() const { return failed_in_ != nullptr || is_unusable_; }
   /// What a status other than OK, or a message of a failure, means for the call that has just
   /// ended.
-  Status look_into(const char* name, Status status);
+  Status check_status(const char* name, Status status);
   [[noreturn]] void fail_call(const char* function, Status status);
   [[noreturn]] void fail(const std::string& message, const std::string& hint = "") const;
   /// Throws what a callback could not throw across the unit's C code.
@@ -106,7 +106,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
     if (callback_failure_) [[unlikely]]
       std::rethrow_exception(std::exchange(callback_failure_, nullptr));
   }
-  void condemn() const { library_->condemn(); }
+  void mark_unusable() const { library_->mark_unusable(); }
 
   /// For functions that a library exports only if the unit has the capability.
   template <class Function>
@@ -115,7 +115,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
       fail_missing(name, capability);
   }
 
-  /// Calls the unit's function for it, also after a failure, and forgets the life that it had.
+  /// Calls the unit's function for it, also after a failure, and discards what is known of the run
+  /// before it.
   template <class Function>
   void reset_by(const char* name, Function* function);
   /// The bytes of a kept state. `size_of` and `write` are the unit's functions for them.
@@ -131,7 +132,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   std::string take_messages(const std::string& function);
   /// The same of a rejected step; empty if the unit said nothing.
   void take_rejection_reason(const char* function);
-  /// Tells the log something of our own.
+  /// Logs a warning of the importer itself.
   void warn(const std::string& message) const;
 
   Time checked_time(double seconds, const char* what) const;
@@ -146,7 +147,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   std::uint64_t calls_ = 0;
   CallNote* const call_note_;
   std::optional<Time> time_;
-  const std::atomic<bool>& is_condemned_;  ///< the library
+  const std::atomic<bool>& is_unusable_;  ///< the library
   std::atomic<bool> has_messages_ = false;
   std::exception_ptr callback_failure_;
 
@@ -176,7 +177,7 @@ template <class Function, class... Arguments>
   const bool is_quiet = !has_messages_.load(std::memory_order_relaxed);
   if (status == Status::Ok && is_quiet) [[likely]]
     return status;
-  return look_into(name, status);
+  return check_status(name, status);
 }
 
 template <class Function, class... Arguments>

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What stands between two texts, or nothing.
+/// What is between two texts, or nothing.
 std::string_view between(std::string_view text, std::string_view before, std::string_view after) {
   const std::size_t first = text.find(before);
   if (first == std::string_view::npos) return {};
@@ -65,8 +65,8 @@ bool is_of_python(std::string_view symbol) {
 }
 
 /// One flag per library in the process: dlopen gives the same handle however often it is opened.
-/// Lives as long as the process, since a condemned library does.
-std::atomic<bool>& condemned_flag(void* handle) {
+/// Kept as long as the process exists, as an unusable library is.
+std::atomic<bool>& unusable_flag(void* handle) {
   static std::mutex mutex;
   static auto& flags = *new std::map<void*, std::atomic<bool>>;
   const std::lock_guard lock(mutex);
@@ -81,11 +81,11 @@ SharedLibrary::SharedLibrary(const fs::path& path, const core::Location& where)
     : path_(fs::absolute(path)) {
   handle_.reset(::dlopen(path_.c_str(), RTLD_NOW | RTLD_LOCAL));
   if (!handle_) fail_to_load(path_, ::dlerror(), where);
-  is_condemned_ = &condemned_flag(handle_.get());
+  is_unusable_ = &unusable_flag(handle_.get());
 }
 
 SharedLibrary::~SharedLibrary() {
-  if (is_condemned()) static_cast<void>(handle_.release());
+  if (is_unusable()) static_cast<void>(handle_.release());
 }
 
 void* SharedLibrary::address(const std::string& symbol) const {

@@ -15,7 +15,7 @@
 
 namespace stride::importer {
 
-/// A loaded library; unloaded with the object, unless it is condemned.
+/// A loaded library; unloaded with the object, unless it is unusable.
 class SharedLibrary {
  public:
   /// Loads it with all its symbols resolved and kept to itself (RTLD_NOW, RTLD_LOCAL). Throws
@@ -26,11 +26,11 @@ class SharedLibrary {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// To be said when an instance has returned the status Fatal: after it no function of any
+  /// To be called when an instance has returned the status Fatal: after it no function of any
   /// instance may be called (FMI 3.0, 2.2.3; FMI 2.0, 2.1.3). Holds for all objects of the same
   /// library, until the process ends.
-  void condemn() const { *is_condemned_ = true; }
-  const std::atomic<bool>& is_condemned() const { return *is_condemned_; }
+  void mark_unusable() const { *is_unusable_ = true; }
+  const std::atomic<bool>& is_unusable() const { return *is_unusable_; }
 
  protected:
   ~SharedLibrary();
@@ -50,7 +50,7 @@ class SharedLibrary {
 
   std::filesystem::path path_;
   std::unique_ptr<void, Closer> handle_;
-  std::atomic<bool>* is_condemned_ = nullptr;
+  std::atomic<bool>* is_unusable_ = nullptr;
 };
 
 /// A list of function names, for compile time.

@@ -48,7 +48,7 @@ enum class RequestCode : std::uint32_t {
   DescribeMessage,
   Terminate,
   Free,              ///< destroys the unit; the process ends afterwards
-  InputsUpdated,     ///< in answer to AskInputs: the inputs are set
+  InputsUpdated,     ///< in answer to RequestInputs: the inputs are set
   InputsNotUpdated,  ///< likewise: that has failed
 };
 
@@ -57,7 +57,7 @@ enum class ReplyCode : std::uint32_t {
   Done,
   Failed,          ///< a core::Error
   CallbackFailed,  ///< what failed is what the master did within the call
-  AskInputs,       ///< a question within a step; the reply to the step's request comes later
+  RequestInputs,   ///< a question within a step; the reply to the step's request comes later
 };
 
 /// How a process ended, as its supervisor saw it.
@@ -71,8 +71,8 @@ struct alignas(64) Turn {
   Doorbell doorbell;                    ///< for the process that waits
 };
 
-/// In shared memory. The messages themselves stand in a GrowingMemory beside it, where each takes
-/// the place of the one before. Replies have the number of their request, so neither
+/// In shared memory. The messages themselves are in a GrowingMemory beside it, where each replaces
+/// the one before. Replies have the number of their request, so neither
 /// side keeps a state, and any process that is in charge of the unit may go on with it.
 ///
 /// The unit's process may write anything here: sizes are checked, and what is no such value is an

@@ -74,9 +74,10 @@ enum Flag : std::uint8_t { kRejected = 1, kEarlyReturn = 2, kEventNeeded = 4, kT
 }  // namespace
 
 void put_step(MessageWriter& to, const core::StepResult& result) {
-  to.put(static_cast<std::uint8_t>(
-      (result.rejected ? kRejected : 0) | (result.early_return ? kEarlyReturn : 0) |
-      (result.event_needed ? kEventNeeded : 0) | (result.terminate ? kTerminate : 0)));
+  to.put(static_cast<std::uint8_t>((result.rejected ? kRejected : 0) |
+                                   (result.early_return ? kEarlyReturn : 0) |
+                                   (result.event_handling_needed ? kEventNeeded : 0) |
+                                   (result.terminate_simulation ? kTerminate : 0)));
   to.put(result.reached.time_since_epoch().count());
 }
 
@@ -84,22 +85,22 @@ core::StepResult take_step(MessageReader& from) {
   const auto flags = from.take<std::uint8_t>();
   return {.rejected = (flags & kRejected) != 0,
           .early_return = (flags & kEarlyReturn) != 0,
-          .event_needed = (flags & kEventNeeded) != 0,
-          .terminate = (flags & kTerminate) != 0,
+          .event_handling_needed = (flags & kEventNeeded) != 0,
+          .terminate_simulation = (flags & kTerminate) != 0,
           .reached = Time(Duration(from.take<Duration::rep>()))};
 }
 
 void put_events(MessageWriter& to, const core::EventResult& result) {
-  to.put(result.iterate);
-  to.put(result.terminate);
-  put_time(to, result.next_event);
+  to.put(result.discrete_states_need_update);
+  to.put(result.terminate_simulation);
+  put_time(to, result.next_event_time);
 }
 
 core::EventResult take_events(MessageReader& from) {
   core::EventResult result;
-  result.iterate = from.take<bool>();
-  result.terminate = from.take<bool>();
-  result.next_event = take_time(from);
+  result.discrete_states_need_update = from.take<bool>();
+  result.terminate_simulation = from.take<bool>();
+  result.next_event_time = take_time(from);
   return result;
 }
 

@@ -73,18 +73,18 @@ void HostClient::await_reply(std::optional<Time> time) {
                        call),
            time);
     }
-    if (!limit && waited > spec_.options.patience) complain_of_waiting();
+    if (!limit && waited > spec_.options.warn_after) warn_of_slow_call();
     doorbell.sleep(
         rings, limit ? std::min<std::chrono::nanoseconds>(kProcessCheckInterval, *limit - waited)
                      : kProcessCheckInterval);
   }
 }
 
-void HostClient::complain_of_waiting() {
-  if (std::exchange(has_complained_, true)) return;
+void HostClient::warn_of_slow_call() {
+  if (std::exchange(has_slow_call_warning_, true)) return;
   log(importer::Status::Warning, "stride",
       fmt::format("it has taken more than {} s{}, and there is no limit (--unit-timeout)",
-                  seconds(spec_.options.patience), present_call()));
+                  seconds(spec_.options.warn_after), present_call()));
 }
 
 core::HostStatistics HostClient::statistics() const {
@@ -115,17 +115,17 @@ void HostClient::take_lines() {
     log(message.status, message.category, message.text);
   });
   channel_.memory->printed.read(printed_.bytes());
-  printed_.take([&](std::string_view line) { tell_printed(line); });
+  printed_.take([&](std::string_view line) { log_printed(line); });
 }
 
-void HostClient::tell_printed(std::string_view line) {
+void HostClient::log_printed(std::string_view line) {
   output_tail_.add_printed(line);
   log(importer::Status::Ok, kPrinted, std::string(line));
 }
 
 /// A line without an end, when nothing comes behind it.
 void HostClient::take_last_line() {
-  printed_.take_rest([&](std::string_view line) { tell_printed(line); });
+  printed_.take_rest([&](std::string_view line) { log_printed(line); });
 }
 
 void HostClient::log(importer::Status status, const std::string& category,
@@ -149,7 +149,7 @@ void HostClient::fail(const std::string& what, std::optional<Time> time) {
   core::fail_run(context(time), failure_ + output_tail_.text(), hint);
 }
 
-void HostClient::fail_nonsense(std::optional<Time> time) {
+void HostClient::fail_bad_message(std::optional<Time> time) {
   process_.kill();
   take_lines();
   fail(BadMessage().what() + present_call(), time);

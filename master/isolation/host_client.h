@@ -24,7 +24,7 @@ class HostClient {
   /// Starts the process. Throws std::system_error if there can be none.
   explicit HostClient(const HostedUnitSpec& spec);
 
-  /// A message to be written and sent; it takes the place of whatever came before.
+  /// A message to be written and sent; it replaces the message before.
   MessageWriter write() { return MessageWriter(channel_.messages); }
   /// Sends a request and waits for what is said to it. Throws core::Error of the kind Run, at
   /// `time`, if the process ends before, or is ended because its time is over.
@@ -40,7 +40,7 @@ class HostClient {
 
   /// The process has ended, or sends what cannot be read: nothing can be sent any longer.
   bool has_failed() const { return !failure_.empty(); }
-  [[noreturn]] void fail_nonsense(std::optional<Time> time);
+  [[noreturn]] void fail_bad_message(std::optional<Time> time);
   /// Of snapshots and memory; also after a failure.
   core::HostStatistics statistics() const;
   std::uint64_t calls() const { return channel_.memory->calls.load(std::memory_order_relaxed); }
@@ -52,8 +52,8 @@ class HostClient {
   void await_reply(std::optional<Time> time);
   void take_lines();
   void take_last_line();
-  void tell_printed(std::string_view line);
-  void complain_of_waiting();
+  void log_printed(std::string_view line);
+  void warn_of_slow_call();
   [[noreturn]] void fail(const std::string& what, std::optional<Time> time);
   std::string present_call() const;
   core::Context context(std::optional<Time> time) const;
@@ -66,7 +66,7 @@ class HostClient {
   LogReader log_;
   PrintedLines printed_;
   OutputTail output_tail_;
-  bool has_complained_ = false;
+  bool has_slow_call_warning_ = false;
   std::string failure_;  ///< why nothing can be sent any longer
 };
 

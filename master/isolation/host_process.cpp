@@ -74,15 +74,15 @@ bool HostProcess::look_for_end() {
 }
 
 void HostProcess::kill() {
-  tell(Command::Kill);
-  for (auto patience = 2000ms; !look_for_end() && patience > 0ms; patience -= 1ms) {
+  send(Command::Kill);
+  for (auto time_left = 2000ms; !look_for_end() && time_left > 0ms; time_left -= 1ms) {
     std::this_thread::sleep_for(1ms);
   }
 }
 
 void HostProcess::finish(const std::function<void()>& meanwhile) {
   if (supervisor_ <= 0) return;
-  tell(Command::Finish);
+  send(Command::Finish);
   control_.close();
   while (!is_supervisor_gone()) {
     const std::uint32_t rings = channel_.reply.doorbell.rings();
@@ -104,7 +104,7 @@ bool HostProcess::is_supervisor_gone() const {
          info.si_pid == supervisor_;
 }
 
-void HostProcess::tell(Command command) const {
+void HostProcess::send(Command command) const {
   ::send(control_.number(), &command, sizeof command, MSG_NOSIGNAL);
 }
 

@@ -39,7 +39,7 @@ class HostProcess {
   std::string how_it_ended() const;
 
  private:
-  void tell(Command command) const;
+  void send(Command command) const;
   bool is_supervisor_gone() const;
 
   ChannelMemory& channel_;

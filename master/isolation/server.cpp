@@ -313,16 +313,16 @@ void Server::step(MessageReader& in, MessageWriter& out) {
 
 void Server::set_input_update(bool is_set) {
   core::InputUpdate update;
-  if (is_set) update = [this](double seconds) { ask_inputs(seconds); };
+  if (is_set) update = [this](double seconds) { request_inputs(seconds); };
   capability<core::InputsWithinStep>().set_input_update(std::move(update));
 }
 
 /// The master may get and set before it answers.
-void Server::ask_inputs(double seconds_into_step) {
+void Server::request_inputs(double seconds_into_step) {
   const importer::CallNote asking = memory_.call_note;
   MessageWriter question(channel_.messages);
   question.put(seconds_into_step);
-  reply(ReplyCode::AskInputs, question);
+  reply(ReplyCode::RequestInputs, question);
   for (await_request(); requested() != RequestCode::InputsUpdated; await_request()) {
     if (requested() == RequestCode::InputsNotUpdated) throw CallbackFailure();
     serve();

@@ -37,7 +37,7 @@ struct HostedUnitSpec {
   bool has_snapshots() const { return host.takes_snapshots && !fmu->description()->can_save_state; }
 };
 
-/// The process in which a unit lives: does what the master asks for, one request after the other.
+/// The host of a unit: it serves the master's requests one after the other.
 class Server {
  public:
   Server(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor);
@@ -66,7 +66,7 @@ class Server {
   void select_state(std::size_t slot);
   void get_directional_derivative(MessageReader& in, MessageWriter& out);
   void set_input_update(bool is_set);
-  void ask_inputs(double seconds_into_step);
+  void request_inputs(double seconds_into_step);
   void set_idle_tolerances(MessageReader& in);
   void get_derivatives(MessageReader& in, MessageWriter& out);
   void describe_message(MessageReader& in, MessageWriter& out);
@@ -91,7 +91,7 @@ class Server {
   std::array<core::Capability*, core::kCapabilities> capabilities_{};  ///< of the unit
   core::UnitDiagnostics* diagnostics_ = nullptr;  ///< likewise, while there is a unit
   std::array<StepBuffers, KnownStepShapes::kMost> plans_;
-  std::optional<Time> time_;  ///< where the unit stands
+  std::optional<Time> time_;  ///< the unit's present time
   bool is_over_ = false;
 };
 

@@ -92,7 +92,7 @@ void Snapshots::restore(std::size_t slot, std::optional<Time> time) {
 
 /// In the snapshot: sleeps until its state changes.
 bool Snapshots::freeze(Entry& entry) {
-  die_with(supervisor_);
+  end_with(supervisor_);
   entry.process = ::getpid();
   for (;;) {
     if (wait_while_frozen(entry) == State::Ends) ::_exit(0);
@@ -109,7 +109,7 @@ bool Snapshots::freeze(Entry& entry) {
 }
 
 bool Snapshots::take_over() {
-  die_with(supervisor_);
+  end_with(supervisor_);
   active_ = ::getpid();
   ++board_.restores;
   try {

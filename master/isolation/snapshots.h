@@ -38,8 +38,8 @@ class Snapshots {
   Snapshots(SnapshotBoard& board, std::atomic<pid_t>& active, pid_t supervisor,
             SnapshotOptions options);
 
-  /// Keeps the process in the slot, in place of what was kept there. Returns false; and once more
-  /// true, in another process, for each restore of what was kept. What stands on this process's
+  /// Keeps the process in the slot, instead of what was kept there. Returns false; and once more
+  /// true, in another process, for each restore of what was kept. The content of this process's
   /// stack and heap is then as it was; what it shares with others is not. Throws core::Error (Run)
   /// at `time` if there can be no snapshot, or no other process in charge when one is restored.
   bool save(std::size_t slot, std::optional<Time> time = std::nullopt);

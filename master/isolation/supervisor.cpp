@@ -57,12 +57,12 @@ class Supervisor {
         output_(std::move(output)),
         ends_(watch_children()) {}
 
-  /// Returns true when the master wants it to finish, false when the master is gone.
+  /// Returns true when the master requests the end, false when the master has ended.
   bool run() {
     for (;;) {
       wait();
-      pass_on();
-      bury();
+      forward_output();
+      reap();
       char command = 0;
       const ssize_t size = ::recv(control_.number(), &command, 1, MSG_DONTWAIT);
       if (size < 0 && (errno == EAGAIN || errno == EINTR)) continue;
@@ -73,11 +73,11 @@ class Supervisor {
   }
 
   /// What has been printed so far, if the master makes room for it in time.
-  void pass_on_all(std::chrono::milliseconds patience) {
-    while (pass_on() && patience > 0ms) {
+  void forward_all_output(std::chrono::milliseconds time_limit) {
+    while (forward_output() && time_limit > 0ms) {
       if (pending_.empty()) continue;
       std::this_thread::sleep_for(1ms);
-      patience -= 1ms;
+      time_limit -= 1ms;
     }
   }
 
@@ -107,14 +107,14 @@ class Supervisor {
   }
 
   /// What the unit has printed, a piece of it; returns whether there was something.
-  bool pass_on() {
+  bool forward_output() {
     if (pending_.empty() && !read_some(output_, pending_)) return false;
     pending_.erase(0, channel_.printed.write(pending_));
     channel_.reply.doorbell.ring();
     return true;
   }
 
-  void bury() {
+  void reap() {
     signalfd_siginfo ignored;
     while (::read(ends_.number(), &ignored, sizeof ignored) > 0) {
     }
@@ -129,7 +129,7 @@ class Supervisor {
     raise_to(channel_.most_memory, static_cast<std::uint64_t>(usage.ru_maxrss) * 1024);
     channel_.snapshots.note_end(child);
     if (child != channel_.active || channel_.end != HostEnd::None) return;
-    pass_on_all(100ms);  // what it has said comes first
+    forward_all_output(100ms);  // its output comes first
     channel_.end_code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
     channel_.end = WIFSIGNALED(status) ? HostEnd::Killed : HostEnd::Exited;
     channel_.reply.doorbell.ring();
@@ -162,7 +162,7 @@ void supervise(Channel& channel, Descriptor control, pid_t master,
   const pid_t self = ::getpid();
   const pid_t server = ::fork();
   if (server == 0) {
-    die_with(self);
+    end_with(self);
     channel.memory->active = ::getpid();  // which may be another one when this is seen below
     redirect_standard_files(output.write.number());
     close_other_files({messages});
@@ -181,7 +181,7 @@ void supervise(Channel& channel, Descriptor control, pid_t master,
   const bool is_wanted = supervisor.run();
   supervisor.kill_children();
   if (is_wanted) {
-    supervisor.pass_on_all(1000ms);
+    supervisor.forward_all_output(1000ms);
   } else {
     clean_up_after(master);
   }

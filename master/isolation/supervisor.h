@@ -13,7 +13,7 @@ namespace stride::isolation {
 /// What the master sends to a supervisor through the control socket; its end is the end of the
 /// master.
 enum class Command : char {
-  Kill = 'K',    ///< end the unit's process, and tell how it ended
+  Kill = 'K',    ///< end the unit's process, and report how it ended
   Finish = 'F',  ///< end, and leave nothing
 };
 

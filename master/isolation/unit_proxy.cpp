@@ -25,7 +25,7 @@ UnitProxy::UnitProxy(HostedUnitSpec spec) : spec_(std::move(spec)) {
         protections_ = take_protections(from);
         capabilities_ = take_capabilities(from);
       });
-  capabilities_.set(static_cast<std::size_t>(core::OwnProcess::kId));
+  capabilities_.set(static_cast<std::size_t>(core::HostDiagnostics::kId));
   if (spec_.has_snapshots()) {
     capabilities_.set(static_cast<std::size_t>(core::StateSaving::kId));
   }
@@ -36,8 +36,8 @@ core::Capability* UnitProxy::find_capability(core::CapabilityId id) {
   return core::select_capability<
       core::ConfigurationMode, core::StateSaving, core::StateSerialization, core::Resetting,
       core::IdlePromises, core::DirectionalDerivatives, core::ClockIntervals,
-      core::InputsWithinStep, core::MessageText, core::UnitDiagnostics, core::OwnProcess>(*this,
-                                                                                          id);
+      core::InputsWithinStep, core::MessageText, core::UnitDiagnostics, core::HostDiagnostics>(
+      *this, id);
 }
 
 UnitProxy::~UnitProxy() {
@@ -70,13 +70,13 @@ void UnitProxy::call(RequestCode request, Put&& put, Take&& take) {
     put(message);
     ReplyCode reply = client_->send(request, message, time_);
     if (reply != ReplyCode::Done) [[unlikely]] {
-      reply = answer_questions(reply);
+      reply = serve_input_requests(reply);
       if (reply != ReplyCode::Done) throw_reply(reply);
     }
     MessageReader answer = client_->read();
     take(answer);
   } catch (const BadMessage&) {
-    client_->fail_nonsense(time_);
+    client_->fail_bad_message(time_);
   } catch (const std::system_error& failure) {
     core::fail_run({.where = spec_.options.where, .unit = spec_.name, .time = time_},
                    failure.what());
@@ -92,8 +92,8 @@ void UnitProxy::call(RequestCode request) {
   call(request, [](MessageWriter&) {});
 }
 
-ReplyCode UnitProxy::answer_questions(ReplyCode reply) {
-  while (reply == ReplyCode::AskInputs) {
+ReplyCode UnitProxy::serve_input_requests(ReplyCode reply) {
+  while (reply == ReplyCode::RequestInputs) {
     const RequestCode answer = update_inputs(client_->read().take<double>());
     if (client_->has_failed()) return ReplyCode::CallbackFailed;
     reply = client_->send(answer, client_->write(), time_);

@@ -10,10 +10,10 @@
 #include "master/algorithm/capabilities/clock_intervals.h"
 #include "master/algorithm/capabilities/configuration_mode.h"
 #include "master/algorithm/capabilities/directional_derivatives.h"
+#include "master/algorithm/capabilities/host_diagnostics.h"
 #include "master/algorithm/capabilities/idle_promises.h"
 #include "master/algorithm/capabilities/inputs_within_step.h"
 #include "master/algorithm/capabilities/message_text.h"
-#include "master/algorithm/capabilities/own_process.h"
 #include "master/algorithm/capabilities/resetting.h"
 #include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/capabilities/state_serialization.h"
@@ -26,9 +26,9 @@
 
 namespace stride::isolation {
 
-/// Stands for a unit in another process: each function is a request, and what the unit answers or
-/// throws is answered and thrown here. Its capabilities are those of the unit, besides OwnProcess,
-/// and StateSaving where states are snapshots of the process.
+/// Represents a unit in another process: each function is a request, and what the unit answers or
+/// throws is answered and thrown here. Its capabilities are those of the unit, besides
+/// HostDiagnostics, and StateSaving where states are snapshots of the process.
 class UnitProxy final : public core::Unit,
                         public core::ConfigurationMode,
                         public core::StateSaving,
@@ -40,7 +40,7 @@ class UnitProxy final : public core::Unit,
                         public core::InputsWithinStep,
                         public core::MessageText,
                         public core::UnitDiagnostics,
-                        public core::OwnProcess {
+                        public core::HostDiagnostics {
  public:
   using References = std::span<const core::ValueReference>;
 
@@ -92,7 +92,7 @@ class UnitProxy final : public core::Unit,
   void call(RequestCode request, Put&& put);
   void call(RequestCode request);
   /// Serves what the unit asks for until it has replied.
-  ReplyCode answer_questions(ReplyCode reply);
+  ReplyCode serve_input_requests(ReplyCode reply);
   void throw_reply(ReplyCode reply);
   RequestCode update_inputs(double seconds_into_step) noexcept;
   std::uint32_t plan_number(const core::StepValues& values);

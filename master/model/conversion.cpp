@@ -357,8 +357,8 @@ std::int64_t mapped(const NumberMap& map, std::int64_t value) {
 
 UnitOfMeasure known_unit(UnitOfMeasure unit, const UnitDescription& description) {
   if (unit.meaning) return unit;
-  const auto found = description.units.find(unit.name);
-  if (found != description.units.end()) unit.meaning = found->second;
+  const auto found = description.units_of_measure.find(unit.name);
+  if (found != description.units_of_measure.end()) unit.meaning = found->second;
   return unit;
 }
 

@@ -116,7 +116,7 @@ struct Variable {
   std::size_t size = 1;               ///< the number of elements
   std::string unit;
   std::string description;
-  std::string start;  ///< as it stands in the description; elements separated by blanks
+  std::string start;  ///< as in the description; elements separated by blanks
   std::string min;    ///< likewise, empty if there is none
   std::string max;
   double nominal = 0;  ///< of a floating-point number, the magnitude to expect; 0 = unspecified
@@ -155,8 +155,8 @@ struct UnitDescription {
   std::string instantiation_token;
   std::string description;
   std::string generation_tool;
-  std::vector<Variable> variables;                 ///< in the order of the description
-  std::map<std::string, BaseUnitOfMeasure> units;  ///< those whose meaning is given
+  std::vector<Variable> variables;                            ///< in the order of the description
+  std::map<std::string, BaseUnitOfMeasure> units_of_measure;  ///< those whose meaning is given
   std::vector<Unknown> outputs;
   std::vector<Unknown> initial_unknowns;
 

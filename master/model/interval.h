@@ -9,7 +9,7 @@
 
 namespace stride::core {
 
-/// A length of time as a fraction of picoseconds. A double stands for the shortest decimal that
+/// A length of time as a fraction of picoseconds. A double represents the shortest decimal that
 /// reads back as that double, so 0.1 s is a tenth of a second, and its millionth multiple is exact.
 class Interval {
  public:

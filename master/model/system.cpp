@@ -28,7 +28,7 @@ void check_settable(const Variable& variable, const Context& context) {
              "parameters, inputs and what the unit declares as initial = exact can");
 }
 
-/// Whether the element lies within min and max, which stand as texts in the description.
+/// Whether the element lies within min and max, which are texts in the description.
 void check_range(const Variable& variable, const ValueBlock& value, const Context& context) {
   visit(value, [&](auto elements) {
     using T = typename decltype(elements)::value_type;

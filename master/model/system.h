@@ -81,7 +81,7 @@ struct Component {
   std::shared_ptr<const UnitDescription> description;
   /// Whether its unit is instantiated with earlyReturnAllowed.
   bool early_return_allowed = true;
-  /// Whether its process can be saved, in place of a state that the unit does not have.
+  /// Whether its process can be saved, instead of a state that the unit does not have.
   bool has_snapshots = false;
 
   bool may_return_early() const { return early_return_allowed && description->may_return_early; }

@@ -29,7 +29,7 @@ class ActivityRecorder : public core::Observer {
  private:
   const core::System& system_;
   core::OutputFile file_;
-  std::vector<std::string> fields_;  ///< ",component," by place
+  std::vector<std::string> fields_;  ///< ",component," by component
 };
 
 }  // namespace stride::recorders

@@ -30,7 +30,8 @@ class EventRecorder : public core::Observer {
 
   const core::System& system_;
   core::OutputFile file_;
-  std::vector<std::vector<std::string>> fields_;  ///< ",component,variable," by place
+  std::vector<std::vector<std::string>>
+      fields_;  ///< ",component,variable," by component and variable
 };
 
 }  // namespace stride::recorders

@@ -21,9 +21,9 @@ std::string details(const core::Verdict& verdict) {
   std::string text = core::to_text({verdict.where, {}, {}, {}}) + verdict.name + "\n";
   if (verdict.time) text += fmt::format("first failure: {} s\n", core::to_text(*verdict.time));
   if (!verdict.text.empty()) text += verdict.text + "\n";
-  for (const core::Witness& witness : verdict.values) {
-    text += fmt::format("{} = {}{}{}\n", witness.signal, core::element_text(witness.value, 0),
-                        witness.unit.empty() ? "" : " ", witness.unit);
+  for (const core::SignalValue& value : verdict.values) {
+    text += fmt::format("{} = {}{}{}\n", value.signal, core::element_text(value.value, 0),
+                        value.unit.empty() ? "" : " ", value.unit);
   }
   return text;
 }

@@ -161,10 +161,9 @@ Json check_entry(const core::Verdict& check) {
                 {"time", check.time ? Json(to_seconds(*check.time)) : Json()},
                 {"line", check.where.line},
                 {"values", Json::array()}};
-  for (const core::Witness& witness : check.values) {
-    entry["values"].push_back({{"signal", witness.signal},
-                               {"value", value_entry(witness.value)},
-                               {"unit", witness.unit}});
+  for (const core::SignalValue& value : check.values) {
+    entry["values"].push_back(
+        {{"signal", value.signal}, {"value", value_entry(value.value)}, {"unit", value.unit}});
   }
   return entry;
 }

@@ -18,8 +18,8 @@ std::string element_name(const core::Variable& variable, std::size_t element);
 /// That of the column which the element has in signals.csv, without its unit: "component.name[1]".
 std::string column_name(const core::System& system, core::VariableId id, std::size_t element);
 
-/// Calls write(char) for each character of the text as a field of a CSV file (RFC 4180) that stands
-/// in quotation marks, which it has twice.
+/// Calls write(char) for each character of the text as a field of a CSV file (RFC 4180) in
+/// quotation marks; quotation marks of the text are doubled.
 template <class Write>
 void quote_csv(std::string_view text, Write&& write) {
   write('"');

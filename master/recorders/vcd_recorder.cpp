@@ -38,7 +38,7 @@ std::string word(std::string_view name) {
 template <class T>
 constexpr bool is_text = std::is_same_v<T, std::string> || std::is_same_v<T, core::Binary>;
 
-/// The bits by which two values are told apart: NaN is equal to itself, -0 is not 0.
+/// The bits that distinguish two values: NaN is equal to itself, -0 is not 0.
 template <class T>
 std::uint64_t bits_of(T value) {
   if constexpr (std::is_same_v<T, double>) {
@@ -50,7 +50,7 @@ std::uint64_t bits_of(T value) {
   }
 }
 
-/// A negative number stands in two's complement of its type's width.
+/// A negative number is in two's complement of its type's width.
 template <class Integer>
 void write_binary_digits(core::OutputFile& file, Integer value) {
   auto rest = static_cast<std::make_unsigned_t<Integer>>(value);

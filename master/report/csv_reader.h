@@ -16,7 +16,7 @@ namespace stride::report {
 class CsvReader {
  public:
   struct Field {
-    std::string_view text;  ///< as it stands there, without the quotation marks around it
+    std::string_view text;  ///< as in the file, without the quotation marks around it
     bool is_quoted = false;
     /// The text without doubled quotation marks.
     std::string value() const;

@@ -6,7 +6,7 @@
 
 namespace stride::report {
 
-/// What stands in the page once, on a line of its own, and is replaced by the run's data.
+/// It is in the page once, on a line of its own, and is replaced by the run's data.
 inline constexpr std::string_view kDataMark = "<!-- stride:data -->";
 
 /// The page, UTF-8, made from master/report/page. Empty in a build with STRIDE_REPORT=OFF.

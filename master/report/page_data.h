@@ -16,7 +16,7 @@ namespace stride::report {
 using Json = nlohmann::ordered_json;
 
 /// Without blanks. What is no UTF-8 becomes U+FFFD, and `<` an escape sequence, so that no text of
-/// it ends the element that it stands in.
+/// it ends the element that contains it.
 std::string json_text(const Json& json);
 
 /// Base64 (RFC 4648) with padding.

@@ -18,7 +18,7 @@ class Table {
   explicit Table(const std::filesystem::path& file);
 
   const std::vector<std::string>& columns() const { return columns_; }
-  /// Where a column stands; nothing, or an error, where there is none of this name.
+  /// The index of a column; nothing, or an error, where there is none of this name.
   std::optional<std::size_t> find(const std::string& column) const;
   std::size_t place(const std::string& column) const;
 

@@ -47,9 +47,9 @@ struct ScenarioAnnotation {
   IdleSettings idle;
 };
 
-/// Reads the <stride:Scenario> of a <ssd:SystemStructureDescription>, which stands in the root's
+/// Reads the <stride:Scenario> of a <ssd:SystemStructureDescription>, which is in the root's
 /// annotations or in those of its system. Throws core::Error (Input) for what is unknown, doubled
-/// or in another place.
+/// or elsewhere.
 ScenarioAnnotation read_annotation(const xml::Element& root);
 
 }  // namespace stride::scenario

@@ -54,9 +54,9 @@ class Selection {
   std::vector<core::VariableId> find_messages(const CheckDeclaration& check,
                                               const std::string& pattern) const;
   core::VariableId find_message(const CheckDeclaration& check, const std::string& name) const;
-  /// Whether it is a message, and its ticks are told of: not where they carry values, which are
-  /// told of instead.
-  bool is_told(const NamedVariable& variable) const;
+  /// Whether it is a message whose ticks are reported: where they carry values, these are reported
+  /// instead.
+  bool is_reported(const NamedVariable& variable) const;
   bool is_triggered(const NamedVariable& clock) const;
   /// The first one; null if it is a bare clock.
   const NamedVariable* carried_by(const NamedVariable& clock) const;
@@ -115,7 +115,7 @@ void Selection::check_window(const CheckDeclaration& check) const {
     if (!core::is_glob(pattern) && is_meant(system_, variable.id, pattern)) {
       fail_unsuitable(check, variable, wants_message);
     }
-    const bool fits = wants_message ? is_told(variable) : !variable.is_message;
+    const bool fits = wants_message ? is_reported(variable) : !variable.is_message;
     if (fits) names.push_back(variable.name);
   }
   core::fail_input(
@@ -139,7 +139,7 @@ const NamedVariable* Selection::carried_by(const NamedVariable& clock) const {
   return carried == variables_.end() ? nullptr : &*carried;
 }
 
-bool Selection::is_told(const NamedVariable& variable) const {
+bool Selection::is_reported(const NamedVariable& variable) const {
   if (!variable.is_message) return false;
   const bool is_clock = system_.variable(variable.id).clock.has_value();
   return !is_clock || (is_triggered(variable) && carried_by(variable) == nullptr);
@@ -166,7 +166,7 @@ std::vector<core::VariableId> Selection::find_messages(const CheckDeclaration& c
                                                        const std::string& pattern) const {
   std::vector<core::VariableId> found;
   for (const NamedVariable& variable : variables_) {
-    if (!variable.is_message || !is_told(variable)) continue;
+    if (!variable.is_message || !is_reported(variable)) continue;
     if (is_meant(system_, variable.id, pattern)) found.push_back(variable.id);
   }
   if (found.empty()) fail_unknown(check, pattern, true);
@@ -181,7 +181,7 @@ core::VariableId Selection::find_message(const CheckDeclaration& check,
                    fmt::format("'{}' stands for {} messages; expected one", name, found.size()));
 }
 
-/// The name that was given, with what it is about where it stands for several.
+/// The name that was given, with the signal where it matches several.
 std::string name_of(const CheckDeclaration& check, const std::string& subject,
                     const std::string& demand, bool is_alone) {
   if (check.name.empty()) return demand;

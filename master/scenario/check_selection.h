@@ -20,10 +20,10 @@ struct ScenarioTimes {
   std::optional<Time> stop{};
 };
 
-/// The declared checks with their places in the system; a glob, and an array that is named as a
-/// whole, become a check for each signal and element. Throws core::Error (Input), which tells of
-/// all mistakes at once: a name that stands for nothing, with the nearest one; a signal where a
-/// message is wanted, and the other way round; a condition that does not fit its signal; an
+/// The declared checks with the variables of the system; a glob, and an array that is named as a
+/// whole, become a check for each signal and element. Throws core::Error (Input), which reports
+/// all mistakes at once: a name that matches nothing, with the nearest one; a signal where a
+/// message is required, and the other way round; a condition that does not fit its signal; an
 /// interval that is not in the run; two checks of one name.
 std::vector<checks::Definition> select_checks(const core::System& system,
                                               std::span<const CheckDeclaration> declarations,

@@ -16,7 +16,7 @@ struct ComponentPattern {
   core::Location where{};
 };
 
-/// The components, by their places in `names` and in that order, whose names match a pattern.
+/// The components, by their indices in `names` and in that order, whose names match a pattern.
 /// Throws core::Error (Input) for a pattern that matches none, naming what is near.
 std::vector<std::size_t> select_components(std::span<const std::string> names,
                                            std::span<const ComponentPattern> patterns);

@@ -72,7 +72,7 @@ void add_file(ProgramFiles& files, const xml::Element& element, const fs::path& 
 }
 
 /// Reads as much of the declaration (docs/process-protocol.md) as is needed to pack it: all
-/// attributes `file`, which are relative to it; each stands under its last name in the resources.
+/// attributes `file`, which are relative to it; each is in the resources under its last name.
 /// Throws core::Error (Input) with the line for a file that is not there, and for two of one name.
 ProgramFiles program_files(const fs::path& declaration) {
   const xml::Document document(declaration);

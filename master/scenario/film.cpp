@@ -31,7 +31,7 @@ bool makes_films(const core::UnitDescription& unit) {
 }  // namespace
 
 void switch_film_on(core::SystemDeclaration& system, const std::string& interval) {
-  const bool is_default = interval == kFilmAsItIs;
+  const bool is_default = interval == kUnspecifiedFilmInterval;
   if (!is_default) check_interval(interval);
   std::vector<core::StartDeclaration> values;
   for (const core::ComponentDeclaration& component : system.components) {

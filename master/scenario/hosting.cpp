@@ -15,7 +15,7 @@ namespace {
 
 /// Rules behind those of the scenario.
 void add_rules(const HostRequest& request, std::vector<HostRule>& rules) {
-  for (const std::string& glob : request.isolated) {
+  for (const std::string& glob : request.hosted) {
     const core::Location where{glob == "*" ? "--isolate" : "--isolate=" + glob, 0};
     rules.push_back({{glob, where}, {.process = true, .where = where}});
   }

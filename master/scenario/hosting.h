@@ -1,4 +1,4 @@
-// Which components of a scenario have processes of their own, why, and with which options.
+// Which components of a scenario have hosts, processes of their own, why, and with which options.
 #ifndef STRIDE_MASTER_SCENARIO_HOSTING_H
 #define STRIDE_MASTER_SCENARIO_HOSTING_H
 
@@ -14,14 +14,14 @@
 
 namespace stride::scenario {
 
-/// What the command line says.
+/// The options of the command line.
 struct HostRequest {
-  std::vector<std::string> isolated;  ///< globs over components
-  std::string unit_timeout;           ///< seconds, for all that have processes of their own
+  std::vector<std::string> hosted;  ///< globs over components
+  std::string unit_timeout;         ///< seconds, for all hosted units
   bool no_sandbox = false;
 };
 
-/// The process of a component.
+/// The host of a component.
 struct Hosting {
   std::string reason;  ///< for people
   isolation::HostOptions options;
@@ -32,13 +32,13 @@ struct Hosting {
 std::vector<HostSettings> host_settings(std::span<const std::string> components, HostRules rules,
                                         const HostRequest& request);
 
-/// The processes that the settings ask for and, where they leave it open, those whose snapshots a
-/// run with this policy needs; the latter are logged.
+/// The hosts that the settings require and, where they leave it open, those whose snapshots a run
+/// with this policy needs; the latter are logged.
 std::vector<std::optional<Hosting>> choose_hostings(
     std::span<const core::ComponentDeclaration> components, const core::StepPolicyType& policy,
     std::span<const HostSettings> settings);
 
-/// Throws core::Error (Input) if there is a time limit but no process to which it applies.
+/// Throws core::Error (Input) if there is a time limit but no host to which it applies.
 void check_unit_timeout(const HostRequest& request,
                         std::span<const std::optional<Hosting>> hostings);
 

@@ -83,7 +83,7 @@ std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario) 
     const core::Location& where = scenario.system.components[i].where;
     const std::filesystem::path& source = scenario.sources[i];
     const std::filesystem::path path =
-        find_shown_unit(source, scenario.files->shown(source), where);
+        find_unit_shown_as(source, scenario.files->shown(source), where);
     auto& fmu = loaded[path];
     if (!fmu) fmu = importer::Fmu::load(path, where);
     fmus.push_back(fmu);

@@ -31,7 +31,7 @@ struct ScenarioRequest {
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
   bool no_checks = false;
   HostRequest hosts;
-  std::string film;  ///< seconds between its pictures, or kFilmAsItIs; empty = none
+  std::string film;  ///< seconds between its pictures, or kUnspecifiedFilmInterval; empty = none
 };
 
 /// The scenario with each component's FMU, and the system built from them. Throws core::Error
@@ -44,7 +44,7 @@ class LoadedScenario {
   const core::System& system() const { return *system_; }
   /// In the order of system().components().
   const std::vector<std::shared_ptr<importer::Fmu>>& fmus() const { return fmus_; }
-  /// Likewise; empty for a component without a process of its own.
+  /// Likewise; empty for a component without a host.
   const std::vector<std::optional<Hosting>>& hostings() const { return hostings_; }
   const core::RunOptions& options() const { return options_; }
   /// The plots of the scenario, of recorded signals.
@@ -52,8 +52,8 @@ class LoadedScenario {
   /// The checks of the scenario; options() watch their signals.
   const std::vector<checks::Definition>& checks() const { return checks_; }
 
-  /// Fresh instances in the order of system().components(). Their messages go to the log. Those
-  /// with processes of their own may write to the folder `results`, if it is not empty.
+  /// Fresh instances in the order of system().components(). Their messages go to the log. Hosted
+  /// ones may write to the folder `results`, if it is not empty.
   std::vector<std::unique_ptr<core::Unit>> instantiate(
       const std::filesystem::path& results = {}) const;
 

@@ -41,20 +41,20 @@ struct StepSettings {
   void set_coupling(std::string_view text);
   void set_extrapolation(std::string_view text);
 
-  /// What is said here replaces what stands in the options.
+  /// What is set here replaces the value in the options.
   void apply(core::RunOptions& options) const;
 };
 
-/// What is said of one component; nothing where nothing is said.
+/// The settings of the host of one component; each may be missing.
 struct HostSettings {
-  std::optional<bool> process{};  ///< whether it has a process of its own
-  core::Location where{};         ///< what says so
+  std::optional<bool> process{};  ///< whether the component has a host
+  core::Location where{};         ///< of that setting
   std::optional<std::chrono::milliseconds> call_limit{};
   std::optional<std::uint64_t> memory_limit{};  ///< [byte]
   std::optional<bool> sandbox{};
   std::optional<bool> snapshots{};  ///< whether these may roll it back, if it has no state
 
-  /// What the other one says goes before what is said here.
+  /// The settings of the other one take precedence.
   void override_with(const HostSettings& other);
 };
 
@@ -64,7 +64,7 @@ struct HostRule {
 };
 
 struct HostRules {
-  std::vector<HostRule> rules;  ///< a later one goes before an earlier one
+  std::vector<HostRule> rules;  ///< a later one takes precedence
 
   /// For each of the components. Throws core::Error (Input) for a pattern that matches none.
   std::vector<HostSettings> settings(std::span<const std::string> components) const;
@@ -94,7 +94,7 @@ struct IdleNumber {
 struct IdleSettings {
   static constexpr Duration kDefaultMaxSkip = std::chrono::seconds(1);
 
-  std::vector<IdleRule> rules;  ///< a later one goes before an earlier one; without one: enabled
+  std::vector<IdleRule> rules;  ///< a later one takes precedence; without one: enabled
   std::vector<IdleNumber> deadbands;
   std::vector<IdleNumber> tolerances;
 

@@ -23,7 +23,7 @@ struct NamedVariable {
 /// All but the time, in the order of the system.
 std::vector<NamedVariable> named_variables(const core::System& system);
 
-/// Whether the pattern, a name or a glob, stands for the variable, by its name or an alias of it.
+/// Whether the pattern, a name or a glob, matches the variable, by its name or an alias of it.
 bool is_meant(const core::System& system, core::VariableId id, const std::string& pattern);
 
 /// The variables whose "component.variable" matches a pattern: in the order of the patterns, for

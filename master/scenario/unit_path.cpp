@@ -46,11 +46,11 @@ std::vector<fs::path> unit_folders() {
 }
 
 fs::path find_unit(const fs::path& path, const core::Location& where) {
-  return find_shown_unit(path, path.string(), where);
+  return find_unit_shown_as(path, path.string(), where);
 }
 
-fs::path find_shown_unit(const fs::path& path, const std::string& shown_as,
-                         const core::Location& where) {
+fs::path find_unit_shown_as(const fs::path& path, const std::string& shown_as,
+                            const core::Location& where) {
   std::error_code unreadable;
   if (fs::exists(path, unreadable)) return path;
   if (path.filename().empty()) {

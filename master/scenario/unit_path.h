@@ -18,8 +18,8 @@ std::vector<std::filesystem::path> unit_folders();
 /// Throws core::Error (Input) that lists the searched folders.
 std::filesystem::path find_unit(const std::filesystem::path& path, const core::Location& where);
 /// Likewise; errors name the path `shown_as`.
-std::filesystem::path find_shown_unit(const std::filesystem::path& path,
-                                      const std::string& shown_as, const core::Location& where);
+std::filesystem::path find_unit_shown_as(const std::filesystem::path& path,
+                                         const std::string& shown_as, const core::Location& where);
 
 }  // namespace stride::scenario
 

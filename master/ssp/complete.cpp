@@ -35,7 +35,7 @@ class Completion {
         editor_(document.text()) {
     find_common_prefix();
     const Definitions definitions = read_definitions(root_, kSsd);
-    units_ = definitions.units;
+    units_ = definitions.units_of_measure;
     for (const auto& [name, items] : definitions.enumerations) enumerations_.insert(name);
   }
 
@@ -161,8 +161,8 @@ class Completion {
 
   /// The unit's name if the file can define it; otherwise nothing, and the FMU's own unit holds.
   std::string declared_unit(const core::UnitDescription& description, const std::string& unit) {
-    const auto meaning = description.units.find(unit);
-    if (meaning == description.units.end()) return "";
+    const auto meaning = description.units_of_measure.find(unit);
+    if (meaning == description.units_of_measure.end()) return "";
     const auto [known, is_new] = units_.emplace(unit, meaning->second);
     if (is_new) new_units_.push_back(unit_definition(unit, meaning->second));
     return is_same(known->second, meaning->second) ? unit : "";

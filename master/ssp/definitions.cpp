@@ -26,12 +26,12 @@ core::EnumerationItems read_items(const xml::Element& enumeration) {
 }  // namespace
 
 core::UnitOfMeasure Definitions::unit(const std::string& name) const {
-  const auto found = units.find(name);
-  return {name, found == units.end() ? std::nullopt : std::optional(found->second)};
+  const auto found = units_of_measure.find(name);
+  return {name, found == units_of_measure.end() ? std::nullopt : std::optional(found->second)};
 }
 
 core::UnitOfMeasure Definitions::unit(const std::string& name, const Definitions& otherwise) const {
-  return units.contains(name) ? unit(name) : otherwise.unit(name);
+  return units_of_measure.contains(name) ? unit(name) : otherwise.unit(name);
 }
 
 Definitions read_definitions(const xml::Element& root, const char* name_space) {
@@ -39,7 +39,7 @@ Definitions read_definitions(const xml::Element& root, const char* name_space) {
   if (const auto units = root.child({name_space, "Units"})) {
     for (const xml::Element& unit : units->children({kSsc, "Unit"})) {
       const auto base = unit.child({kSsc, "BaseUnit"});
-      if (base) definitions.units.emplace(unit.required("name"), read_meaning(*base));
+      if (base) definitions.units_of_measure.emplace(unit.required("name"), read_meaning(*base));
     }
   }
   if (const auto enumerations = root.child({name_space, "Enumerations"})) {

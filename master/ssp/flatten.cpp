@@ -101,7 +101,7 @@ class Flattener {
     }
     for (const ParameterValue& value : node.parameters) {
       const std::size_t first = flat_.declaration.start_values.size();
-      if (!apply(value, node, value.name)) tell_of_nobody(value, node);
+      if (!apply(value, node, value.name)) report_unmatched(value, node);
       group(first);
     }
   }
@@ -223,7 +223,7 @@ class Flattener {
     }
   }
 
-  void tell_of_nobody(const ParameterValue& value, const SystemNode& node) {
+  void report_unmatched(const ParameterValue& value, const SystemNode& node) {
     const auto [at, rest] = descend(node, value.name);
     std::vector<std::string> names;
     for (const auto& [name, port] : graph_.connectors(*at)) names.push_back(name);

@@ -17,9 +17,9 @@ using FmuMaker =
     std::function<std::filesystem::path(const std::filesystem::path&, const core::Location&)>;
 
 /// The contents of a package with this .ssd as its SystemStructure.ssd, which must be one that
-/// read_scenario() reads. The files that it names, and those that they name, stand in resources/,
-/// each once, under their own names as far as they differ; the sources say so, and nothing else
-/// changes in the .ssd. Throws core::Error (Input).
+/// read_scenario() reads. The files that it names, and those that they name, are in resources/,
+/// each once, under their own names as far as they differ; the sources are adapted, and nothing
+/// else changes in the .ssd. Throws core::Error (Input).
 archive::Contents package_contents(const std::filesystem::path& system, Files& files,
                                    const FmuMaker& make_fmu);
 

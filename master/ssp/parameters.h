@@ -13,7 +13,7 @@
 
 namespace stride::ssp {
 
-/// Where the bindings of a component or system stand.
+/// The position of the bindings of a component or system.
 struct BindingContext {
   Files& files;
   std::filesystem::path folder;       ///< of the .ssd

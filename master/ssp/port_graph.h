@@ -35,7 +35,8 @@ struct PortConnection {
   core::Location where;
 };
 
-/// Components and ports are known by their places in lists. The tree must outlive this object.
+/// Components and ports are identified by their indices in lists. The tree must outlive this
+/// object.
 class PortGraph {
  public:
   struct Component {
@@ -47,11 +48,11 @@ class PortGraph {
   /// be meant.
   explicit PortGraph(const SystemNode& root);
 
-  /// In the order of the files, those of a nested system where it stands.
+  /// In the order of the files, those of a nested system at its position.
   const std::vector<Component>& components() const { return components_; }
   const std::vector<Port>& ports() const { return ports_; }
   const std::vector<PortConnection>& connections() const { return connections_; }
-  /// The place of an FMU of the tree.
+  /// The index of an FMU of the tree.
   std::size_t component(const ElementNode& node) const { return places_.at(&node); }
   /// The ports of a system's own connectors, by name.
   const std::map<std::string, std::size_t>& connectors(const SystemNode& system) const {

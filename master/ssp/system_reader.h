@@ -18,7 +18,7 @@ namespace stride::ssp {
 void check_system_description(const xml::Element& root);
 
 /// Reads the system below a root element that was checked, and the .ssd and .ssp files that are
-/// components of it. `path` is where it stands; what is odd, but no mistake, is listed in
+/// components of it. `path` is its file; what is odd, but no mistake, is listed in
 /// `warnings`. Throws core::Error (Input).
 SystemNode read_system(const xml::Element& root, const std::filesystem::path& path, Files& files,
                        std::vector<std::string>& warnings);

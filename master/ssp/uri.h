@@ -12,7 +12,7 @@ namespace stride::ssp {
 /// What the attribute `source` of an element names.
 struct Source {
   std::filesystem::path path;
-  std::string fragment;  ///< what stands behind a '#', a part of the file
+  std::string fragment;  ///< what is behind a '#', a part of the file
 };
 
 /// A URI (RFC 3986) relative to `folder`, or with the scheme file. Throws core::Error (Input) for

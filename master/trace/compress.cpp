@@ -87,7 +87,7 @@ std::optional<std::int64_t> compress(const std::filesystem::path& from,
                                      const std::filesystem::path& to,
                                      std::optional<Duration> min_gap, CutOff cut_off) {
   Reader reader(from, cut_off);
-  Instants instants(reader, Instants::Text::Keep);
+  InstantReader instants(reader, InstantReader::Text::Keep);
   if (instants.advance_time()) {
     reader.fail(0,
                 fmt::format("the trace has a variable {}, so idle time was taken out of it already",

@@ -11,7 +11,7 @@
 namespace stride::trace {
 namespace {
 
-/// The section, and its whole line where nothing else stands on it.
+/// The section, and its whole line where nothing else is on it.
 Span with_line(const std::string& text, Span section) {
   const auto is_inner_blank = [&](std::size_t at) {
     return at < text.size() && (text[at] == ' ' || text[at] == '\t' || text[at] == '\r');
@@ -41,7 +41,7 @@ void write_header(Writer& writer, const Header& header) {
 std::optional<std::int64_t> expand(const std::filesystem::path& from,
                                    const std::filesystem::path& to, CutOff cut_off) {
   Reader reader(from, cut_off);
-  Instants instants(reader, Instants::Text::Keep);
+  InstantReader instants(reader, InstantReader::Text::Keep);
   if (!instants.advance_time()) {
     reader.fail(
         0, fmt::format("the trace has no variable {}, so nothing in it was skipped", kAdvanceTime),

@@ -47,7 +47,7 @@ class HeaderReader {
     words_.fail(words_.line(), message, hint);
   }
 
-  /// Where the last word stands in the text.
+  /// The position of the last word in the text.
   Span span_of(std::string_view word) const {
     return {header_.text.size() - word.size(), header_.text.size()};
   }
@@ -141,7 +141,7 @@ class HeaderReader {
     made.section = {begin_, header_.text.size()};
     made.type = parts_[0];
     made.name = parts_[3];
-    // a range may stand at the name, or behind a blank
+    // a range may be at the name, or behind a blank
     const std::string_view name = header_.at(made.name);
     const std::size_t range = name.find('[', 1);
     if (range != std::string_view::npos) made.name.end = made.name.begin + range;

@@ -56,7 +56,7 @@ struct Declaration {
 
 /// All up to $enddefinitions. It grows with the number of variables, not with the trace.
 struct Header {
-  std::string text;  ///< as it stands in the file
+  std::string text;  ///< as in the file
   Timescale timescale;
   std::vector<Declaration> declarations;
   CodeTable codes;

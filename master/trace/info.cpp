@@ -78,7 +78,7 @@ class Survey {
 
 Info info(const std::filesystem::path& file, std::optional<Duration> min_gap, CutOff cut_off) {
   Reader reader(file, cut_off);
-  Instants instants(reader, Instants::Text::Drop);
+  InstantReader instants(reader, InstantReader::Text::Drop);
   Info info;
   info.timescale = reader.header().timescale;
   info.variables = variables(reader.header());

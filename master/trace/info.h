@@ -40,7 +40,7 @@ struct Info {
   std::optional<std::int64_t> cut;  ///< the line in which the file was cut off
 };
 
-/// Reads the whole trace. Throws core::Error (Input) as Reader, AdvanceTime, Instants and
+/// Reads the whole trace. Throws core::Error (Input) as Reader, AdvanceTime, InstantReader and
 /// min_gap_ticks().
 Info info(const std::filesystem::path& file, std::optional<Duration> min_gap, CutOff cut_off);
 

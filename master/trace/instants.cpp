@@ -31,7 +31,7 @@ std::string_view digits_of(std::string_view value) {
   return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
 }
 
-/// The letter of its type tells that its code stands behind a blank.
+/// By the letter of its type: whether its code is behind a blank.
 bool is_vector(std::string_view value) {
   return std::string_view("bBrRsS").find(value.front()) != std::string_view::npos;
 }
@@ -98,10 +98,10 @@ void AdvanceTime::update(const Reader& reader, const Entry& change) {
   line_ = change.line;
 }
 
-Instants::Instants(Reader& reader, Text text)
+InstantReader::InstantReader(Reader& reader, Text text)
     : reader_(reader), keeps_text_(text == Text::Keep), advance_(AdvanceTime::of(reader)) {}
 
-bool Instants::next(Instant& instant) {
+bool InstantReader::next(Instant& instant) {
   if (!is_first_ && ahead_ == nullptr) return false;
   instant.has_stamp = ahead_ != nullptr;
   instant.stamp = ahead_ != nullptr ? ahead_->stamp : 0;
@@ -120,7 +120,7 @@ bool Instants::next(Instant& instant) {
   return true;
 }
 
-void Instants::take(Instant& instant, const Entry& entry) {
+void InstantReader::take(Instant& instant, const Entry& entry) {
   switch (entry.kind) {
     case Entry::Kind::Stamp:
       return;
@@ -139,7 +139,7 @@ void Instants::take(Instant& instant, const Entry& entry) {
   if (keeps_text_) write_line(instant.text, entry.section);
 }
 
-void Instants::take_change(Instant& instant, const Entry& entry) {
+void InstantReader::take_change(Instant& instant, const Entry& entry) {
   if (advance_ && advance_->is(entry)) {
     advance_->update(reader_, entry);
     if (advance_->is_alone()) return;
@@ -152,11 +152,11 @@ void Instants::take_change(Instant& instant, const Entry& entry) {
   write_line(instant.text, entry.code_text);
 }
 
-void Instants::end_dump(Instant& instant) {
+void InstantReader::end_dump(Instant& instant) {
   if (std::exchange(is_in_dump_, false) && keeps_text_) write_line(instant.text, "$end");
 }
 
-void Instants::finish(Instant& instant) {
+void InstantReader::finish(Instant& instant) {
   end_dump(instant);
   instant.skipped = advance_ ? advance_->total() : 0;
   if (instant.stamp > std::numeric_limits<std::int64_t>::max() - instant.skipped) {

@@ -44,7 +44,7 @@ bool is_advance_time(const Header& header, const Declaration& declaration);
 /// All entries from one stamp to the next one, equal stamps taken together. What
 /// $dumpvars and its kin open ends with it, if not before.
 struct Instant {
-  bool has_stamp = false;  ///< false for what stands before the first one
+  bool has_stamp = false;  ///< false for what is before the first one
   std::int64_t stamp = 0;  ///< kernel time [ticks]
   std::int64_t time = 0;  ///< true time [ticks]: the stamp plus what advanceTime says behind it all
   std::int64_t skipped = 0;   ///< advanceTime
@@ -56,12 +56,12 @@ struct Instant {
 
 /// Reads a trace instant by instant, and takes advanceTime out of it. Of a file that is cut off the
 /// last instant is left out: its advanceTime may be what is missing.
-class Instants {
+class InstantReader {
  public:
   enum class Text { Keep, Drop };
 
   /// The reader outlives this.
-  Instants(Reader& reader, Text text);
+  InstantReader(Reader& reader, Text text);
 
   /// Empty where the trace has no advanceTime.
   const std::optional<AdvanceTime>& advance_time() const { return advance_; }

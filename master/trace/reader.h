@@ -13,7 +13,7 @@
 
 namespace stride::trace {
 
-/// What stands behind the header; the views are valid until the next one is read.
+/// What is behind the header; the views are valid until the next one is read.
 struct Entry {
   enum class Kind {
     Stamp,    ///< "#1000"
@@ -35,7 +35,7 @@ struct Entry {
 /// What to do where a file ends in the middle of something.
 enum class CutOff {
   Refuse,  ///< it is an error
-  Accept,  ///< the entries end there, and cut() tells where
+  Accept,  ///< the entries end there, and cut() is where
 };
 
 /// Reads a dump of any length (IEEE 1364, four states; and what GTKWave takes beyond it: strings,

@@ -13,7 +13,7 @@
 
 namespace stride::trace {
 
-/// Reads what stands between blanks (space, tab, line ends), in memory that does not grow with the
+/// Reads what is between blanks (space, tab, line ends), in memory that does not grow with the
 /// file. Errors are core::Error (Input).
 class Words {
  public:
@@ -34,7 +34,7 @@ class Words {
   void record_into(std::string* text) { record_ = text; }
 
   const std::filesystem::path& path() const { return path_; }
-  /// Where the word of the last call stands, counted from 1; at the end of the file its last line.
+  /// The line of the word of the last call, counted from 1; at the end of the file its last line.
   std::int64_t line() const { return line_; }
   std::uint64_t bytes_read() const { return bytes_read_; }
 

@@ -25,7 +25,7 @@ std::vector<std::size_t> order_with_few_back_edges(const Digraph& graph);
 /// only node to itself.
 bool is_cyclic(const Digraph& graph, const std::vector<std::size_t>& component);
 
-/// The owner of a node that is to stand alone.
+/// The owner of a node that is not grouped with others.
 inline constexpr std::size_t kOnItsOwn = static_cast<std::size_t>(-1);
 
 /// The nodes of a graph without cycles, each behind its predecessors, in groups of nodes that have

@@ -11,7 +11,7 @@
 
 namespace stride::core {
 
-/// A place in a file that a person wrote. line 0 = the file as a whole.
+/// A position in a file that a person wrote. line 0 = the file as a whole.
 struct Location {
   std::string file;
   int line = 0;

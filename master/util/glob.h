@@ -5,7 +5,7 @@
 
 namespace stride::core {
 
-/// Whether the whole text matches the pattern: `*` stands for any characters (dots, too), `?` for
+/// Whether the whole text matches the pattern: `*` matches any characters (dots, too), `?` for
 /// one, `[a-c]` and `[!a-c]` for one within or outside the set, `\` takes away a special meaning.
 bool matches_glob(const std::string& pattern, const std::string& text);
 

@@ -8,7 +8,7 @@
 
 namespace stride::core {
 
-/// Stands for what is no character.
+/// Replaces what is no character.
 inline constexpr std::string_view kReplacement = "\uFFFD";
 
 /// Takes the first character of UTF-8 off a text that is not empty. A byte that is not of one

@@ -11,7 +11,7 @@ namespace stride::core {
 
 /// Writes "FILE.new" beside a file and puts it in its place at the end, so that no reader ever sees
 /// a half of it, and a failure leaves the old file as it was. What is no regular file, such as a
-/// pipe, and whatever stands for an open one, such as /dev/stdout, is written at once. A symbolic
+/// pipe, and a path of an open one, such as /dev/stdout, is written at once. A symbolic
 /// link stays; the file that it leads to is replaced.
 class Replacement {
  public:

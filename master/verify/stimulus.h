@@ -21,7 +21,7 @@ class Stimulus {
   Stimulus(const TestedUnit& tested, std::uint64_t seed);
 
   struct Input {
-    std::size_t variable;  ///< its place in the description
+    std::size_t variable;  ///< its index in the description
     core::ValueReference reference;
     bool is_continuous;
     bool is_clocked;
@@ -45,7 +45,7 @@ class Stimulus {
 core::ValueBlock other_value(const core::Variable& variable, const core::ValueBlock& start);
 
 /// Whether start_value() knows the value: of an array of texts or bytes a description has no text
-/// that tells the elements apart.
+/// in which the elements are distinguished.
 bool has_start_value(const core::Variable& variable);
 
 /// A value that a description gives as text, or zeros where it gives none.

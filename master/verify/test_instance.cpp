@@ -229,14 +229,14 @@ bool TestInstance::try_step(Time to) {
   if (result.early_return && ++recording_.early_returns == 1) {
     recording_.first_early_return = result.reached.time_since_epoch().count();
   }
-  const bool stands_still = result.reached == position_.now && !result.event_needed;
+  const bool stands_still = result.reached == position_.now && !result.event_handling_needed;
   if (stands_still) {
     throw Failure(fmt::format("at {} s a step returns early where it began, and wants no event",
                               core::to_text(position_.now)));
   }
   position_.now = result.reached;
-  recording_.has_ended = recording_.has_ended || result.terminate;
-  if (result.event_needed && !recording_.has_ended) handle_events();
+  recording_.has_ended = recording_.has_ended || result.terminate_simulation;
+  if (result.event_handling_needed && !recording_.has_ended) handle_events();
   return true;
 }
 
@@ -291,13 +291,14 @@ void TestInstance::finish_events() {
     const core::EventResult result = unit().update_discrete_states();
     ticking_.clear();
     clocks_->update(0, position_.now);
-    position_.next_event = result.next_event;
-    recording_.has_ended = recording_.has_ended || result.terminate;
-    if (result.next_event && *result.next_event < position_.now) {
+    position_.next_event = result.next_event_time;
+    recording_.has_ended = recording_.has_ended || result.terminate_simulation;
+    if (result.next_event_time && *result.next_event_time < position_.now) {
       throw Failure(fmt::format("at {} s it announces its next event for {} s, which is over",
-                                core::to_text(position_.now), core::to_text(*result.next_event)));
+                                core::to_text(position_.now),
+                                core::to_text(*result.next_event_time)));
     }
-    const bool is_over = !result.iterate && clocks_->due(position_.now).empty();
+    const bool is_over = !result.discrete_states_need_update && clocks_->due(position_.now).empty();
     if (is_over || recording_.has_ended) break;
   }
   ++recording_.events;
@@ -344,10 +345,10 @@ void TestInstance::restore(std::size_t slot) {
   auto& state = capability<core::StateSaving>();
   state.select_state(slot);
   state.restore_state();
-  stand_at(saved_[slot].position, &*saved_[slot].clocks);
+  set_position(saved_[slot].position, &*saved_[slot].clocks);
 }
 
-void TestInstance::stand_at(const Position& position, const core::Clocks* clocks) {
+void TestInstance::set_position(const Position& position, const core::Clocks* clocks) {
   position_ = position;
   if (clocks != nullptr) clocks_->resume(*clocks);
   recording_.has_ended = false;

@@ -43,7 +43,7 @@ class TestInstance {
   std::size_t at() const { return position_.point; }
   /// What happened since the last start; its rows are those of run_to(… , true).
   const Recording& recording() const { return recording_; }
-  void forget_rows() { recording_.rows.clear(); }
+  void clear_rows() { recording_.rows.clear(); }
 
   /// Sets the start values and goes through initialization and the first events.
   void start();
@@ -83,7 +83,7 @@ class TestInstance {
   void restore(std::size_t slot);
   /// After the unit itself got a state of another instance at this position. `clocks` may be null
   /// for a unit without time-based clocks.
-  void stand_at(const Position& position, const core::Clocks* clocks);
+  void set_position(const Position& position, const core::Clocks* clocks);
   const core::Clocks& clocks() const { return *clocks_; }
 
  private:

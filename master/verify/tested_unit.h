@@ -57,8 +57,8 @@ class TestedUnit {
   std::size_t steps() const { return steps_; }
   Time point(std::size_t k) const { return Time(step_ * static_cast<std::int64_t>(k)); }
 
-  /// What can be read at each communication point, and tells how the unit is: outputs, locals and
-  /// calculated parameters that have no clock.
+  /// What can be read at each communication point and shows the state of the unit: outputs, locals
+  /// and calculated parameters that have no clock.
   const std::vector<Group>& observed() const { return observed_; }
   std::size_t observed_count() const { return observed_count_; }
 

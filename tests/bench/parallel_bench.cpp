@@ -36,7 +36,7 @@ double rounds_per_nanosecond() {
   return kRounds / std::chrono::duration<double, std::nano>(best).count();
 }
 
-/// A unit without variables whose steps take as long as they are told to.
+/// A unit without variables whose steps take a given time.
 class BusyUnit : public core::Unit {
  public:
   explicit BusyUnit(std::int64_t rounds) : rounds_(rounds) {}

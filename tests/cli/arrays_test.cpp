@@ -6,7 +6,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// `first` amplifies what it is told, `second` amplifies that.
+/// `first` amplifies its input, `second` amplifies that.
 Workspace two_amplifiers() {
   return Workspace(Parts{component("first", "resizable.fmu") + component("second", "resizable.fmu"),
                          connection("first.y", "second.u")});

@@ -68,7 +68,7 @@ TEST_CASE("a model description that is no XML names its line") {
   CHECK_THAT(outcome.err, Contains("unit/modelDescription.xml:"));
 }
 
-TEST_CASE("a unit without a binary for this platform tells which it has") {
+TEST_CASE("a unit without a binary for this platform: the error lists those that it has") {
   const Workspace workspace = using_unit("windows");
   workspace.scratch().write("windows/modelDescription.xml", description_text("windows"));
   workspace.scratch().write("windows/binaries/x86_64-windows/windows.dll", "MZ");
@@ -104,7 +104,7 @@ TEST_CASE("a library that needs a shared library which is not there") {
                  Contains("LD_LIBRARY_PATH"));
 }
 
-TEST_CASE("a unit that cannot be instantiated tells why") {
+TEST_CASE("the error of a failed instantiation gives the reason") {
   const Workspace workspace(Parts{component("refuses", "raw")});
   make_raw_fmu(workspace.scratch(), "raw");
   const Outcome outcome = workspace.run();

@@ -205,7 +205,7 @@ TEST_CASE("stimuli are packed with nothing else, and played to what they fit onl
   CHECK_THAT(inspected.out, Contains("Plays to 'minimal' what 'second' received in 'test'"));
 }
 
-TEST_CASE("points that the original did not have are told, once") {
+TEST_CASE("points that the original did not have are reported once") {
   const Workspace workspace(two_filters());
   REQUIRE(workspace.run({"--quiet", "--capture", "second=stimuli.csv"}).exit_code == 0);
   const Outcome outcome =
@@ -236,7 +236,7 @@ TEST_CASE("where another unit does not stop, stimuli are late or make it stop") 
   CHECK_THAT(read(workspace / "replayed/signals.csv"), Contains("\n0.3,"));
 }
 
-TEST_CASE("a run that begins behind the stimuli's beginning says so") {
+TEST_CASE("a run that begins after the start of the stimuli prints a warning") {
   const Workspace workspace(two_filters());
   REQUIRE(workspace.run({"--quiet", "--capture", "second=stimuli.csv"}).exit_code == 0);
   REQUIRE(workspace.stride({"pack", "stimuli.csv", "-o", "player.fmu"}).exit_code == 0);

@@ -139,7 +139,7 @@ TEST_CASE("a run that --stop cuts short leaves open what it did not come to") {
   CHECK(checks[5]["time"] == 0.07);
 }
 
-TEST_CASE("in a run that fails, checks that have failed stay failed, and are told of") {
+TEST_CASE("in a run that fails, checks that have failed stay failed and are reported") {
   const Workspace workspace = watched(kBad + kGood, component("fuse", "thrower.fmu"));
   const Outcome outcome =
       run(workspace, {"--set", "fuse.throw_at=0.5", "--quiet", "--junit", "report.xml"});
@@ -196,14 +196,14 @@ TEST_CASE("--junit: where there was no run, the report says why") {
              Contains("tests=\"1\" failures=\"0\" errors=\"1\"") && Contains("nowhere.fmu"));
 }
 
-TEST_CASE("--junit: a file that cannot be written is told before the run") {
+TEST_CASE("--junit: a file that cannot be written is reported before the run") {
   const Workspace workspace = watched(kGood);
   CHECK_THAT(input_error_of(run(workspace, {"--junit", "test.ssd/report.xml"})),
              Contains("test.ssd/report.xml") && Contains("in which you may write"));
   CHECK_FALSE(fs::exists(workspace / "out"));
 }
 
-TEST_CASE("mistakes in checks are told with file and line, all at once") {
+TEST_CASE("mistakes in checks are reported with file and line, all at once") {
   const Workspace workspace = watched(
       "<stride:Always signal='filter.z' min='0'/>\n"
       "<stride:Always signal='ticker.tick.number' min='0'/>\n"

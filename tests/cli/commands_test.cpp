@@ -94,7 +94,7 @@ TEST_CASE("complete writes the connectors, once") {
   CHECK(workspace.left_behind().empty());
 }
 
-TEST_CASE("complete can write another file, and leaves its input alone") {
+TEST_CASE("complete can write another file without a change of its input") {
   const Workspace workspace(two_filters());
   CHECK(workspace.stride({"complete", "test.ssd", "--output", "full.ssd"}).exit_code == 0);
   CHECK(read(workspace / "test.ssd") == scenario_text(two_filters()));

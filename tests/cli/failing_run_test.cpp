@@ -21,7 +21,7 @@ Workspace beside_a_filter(const std::string& name, const std::string& source,
 
 }  // namespace
 
-TEST_CASE("a unit that throws is named, with the time and what it said") {
+TEST_CASE("a unit that throws is named, with the time and its message") {
   const Workspace workspace = beside_a_filter("fuse", "thrower.fmu");
   CHECK_THAT(failure_of(workspace, {"--set", "fuse.throw_at=0.5"}, "0.499"),
              Contains(workspace.at("thrower.fmu") + "unit 'fuse', at 0.499 s: ") &&
@@ -72,7 +72,7 @@ TEST_CASE("a full disk is an error, whichever file it hits") {
   if (full != "run.json") CHECK_THAT(run_json(workspace)["error"], Contains(full));
 }
 
-TEST_CASE("where all files fail, the first failure is the one that is told") {
+TEST_CASE("where all files fail, the first failure is reported") {
   const Workspace workspace(two_filters());
   fs::create_directory(workspace / "out");
   for (const std::string& file : kFiles) {

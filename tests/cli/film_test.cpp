@@ -157,7 +157,7 @@ TEST_CASE("the time between pictures is above 0") {
              Contains("film.width") && Contains("expected at most 4096"));
 }
 
-TEST_CASE("what a film lacks is told before the first step") {
+TEST_CASE("a requirement of films that is missing is reported before the first step") {
   const Workspace workspace = pendulum();
   const Outcome camera = workspace.run({"--film", "--set", "world.film.camera=side"});
   CHECK(camera.exit_code == 1);

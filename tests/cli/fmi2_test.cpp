@@ -106,7 +106,9 @@ TEST_CASE("units that cannot be loaded say what to do") {
              Contains("it has win64") && Contains("a Windows library cannot be loaded on Linux"));
 }
 
-TEST_CASE("a unit of FMI 2.0 that fails is told with its message, and what was recorded is kept") {
+TEST_CASE(
+    "the failure of a unit of FMI 2.0 is reported with its message, and what was recorded is "
+    "kept") {
   const Workspace workspace(Parts{component("g", "fmi2_grumbler.fmu")});
   const Outcome outcome = workspace.run({"--set", "g.mood=3", "--quiet"});
   CHECK(outcome.exit_code == 1);

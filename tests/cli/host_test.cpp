@@ -95,7 +95,7 @@ TEST_CASE("without a sandbox nothing protects the others") {
   CHECK(host["missing_protections"].empty());
 }
 
-TEST_CASE("the scenario says who has a process, the command line goes before it") {
+TEST_CASE("the scenario chooses the units with a host; the command line takes precedence") {
   const Workspace workspace(
       with(two_filters(),
            "<stride:Host components=\"*\" timeout=\"20\" memoryLimit=\"4096\"/>\n"
@@ -104,7 +104,7 @@ TEST_CASE("the scenario says who has a process, the command line goes before it"
   CHECK(hosted(workspace, {"--stop", "0.01", "--isolate"}) == Names{"first", "second"});
 }
 
-TEST_CASE("check shows who has a process, on which terms, and why") {
+TEST_CASE("check shows the units with a host, their settings and the reason") {
   const Workspace workspace(
       with(two_filters(),
            "<stride:Host components=\"second\" timeout=\"0.5\" memoryLimit=\"512\" "
@@ -161,7 +161,7 @@ TEST_CASE("a unit that has to be rolled back, and has no state, has a process") 
                  Contains("a snapshot of its process is taken before each step"));
 }
 
-TEST_CASE("likewise where an error controls the steps") {
+TEST_CASE("error-controlled steps give hosts to units without a state") {
   const Workspace workspace(two_that_stop());
   const Arguments options = kInstants + Arguments{"--policy", "error-controlled"};
   CHECK(hosted(workspace, options) == Names{"a", "b"});
@@ -169,7 +169,7 @@ TEST_CASE("likewise where an error controls the steps") {
              Contains("steps that were too long are undone, and it cannot save its state"));
 }
 
-TEST_CASE("who is said to have none has none") {
+TEST_CASE("a unit that is to have no host has none") {
   const std::string step = "<stride:Step size=\"0.01\"/>\n";
   const Workspace first(
       with(two_that_stop(), step + "<stride:Host components=\"b\" process=\"false\"/>\n"));
@@ -193,7 +193,7 @@ TEST_CASE("what a unit logs looks the same from there") {
   CHECK(hosted.err == near.err);
 }
 
-TEST_CASE("a unit that fails says the same from there") {
+TEST_CASE("a hosted unit that fails gives the same error") {
   const Workspace workspace(
       Parts{component("filter", "minimal.fmu") + component("fuse", "thrower.fmu")});
   const Arguments options{"--quiet", "--set", "fuse.throw_at=0.5"};

@@ -100,7 +100,7 @@ TEST_CASE("a unit that ends its process is an error with the call, the time and 
                  Contains("it printed: now comes: " + fault) && Contains(words));
 }
 
-TEST_CASE("likewise in whichever call it ends") {
+TEST_CASE("the end of a host is an error in every call") {
   const Workspace workspace = hosted_beside_a_filter();
   const auto [call, function, last] = GENERATE(table<std::string, std::string, std::string>({
       {"initialize", "fmi3ExitInitializationMode", ""},
@@ -145,7 +145,7 @@ TEST_CASE("a unit that takes too long is ended") {
                  Contains("it printed: now comes: " + fault));
 }
 
-TEST_CASE("a unit that wants all the memory gets what it may have") {
+TEST_CASE("a unit that allocates without end gets the memory that it is allowed") {
   if (kSanitized) return;  // AddressSanitizer needs memory of its own without end
   const Workspace workspace = hosted_beside_a_filter(
       "faulty", "faulty.fmu", "<stride:Host components=\"*\" memoryLimit=\"64\"/>\n");
@@ -238,7 +238,7 @@ TEST_CASE("nothing stays of a run that is killed") {
   CHECK(run.workspace.left_behind().empty());
 }
 
-TEST_CASE("nor of one with snapshots") {
+TEST_CASE("nothing is left of a killed run with snapshots") {
   const Leftovers leftovers;
   // two that may stop early and have no state: one of them is saved before each step
   const Workspace workspace(

@@ -52,7 +52,7 @@ bool lacks_landlock() {
 
 }  // namespace
 
-TEST_CASE("run.json says what protects others from a unit") {
+TEST_CASE("run.json has the protections of a host") {
   if (lacks_landlock()) return;
   const Workspace workspace = with_a_filter();
   REQUIRE(workspace.run(isolated({"--quiet"})).exit_code == 0);
@@ -63,7 +63,7 @@ TEST_CASE("run.json says what protects others from a unit") {
   CHECK(protections_of(workspace, "filter") == text);
 }
 
-TEST_CASE("it says so of a run that has failed, too") {
+TEST_CASE("run.json has the protections of a host of a failed run, too") {
   const Workspace workspace = with_a_filter();
   const Outcome outcome = workspace.run(isolated({"--quiet", "--set", "faulty.fault=abort"}));
   REQUIRE(outcome.exit_code == 1);
@@ -88,7 +88,7 @@ TEST_CASE("a unit has a temporary folder, which goes with it") {
   CHECK(workspace.left_behind().empty());
 }
 
-TEST_CASE("elsewhere it cannot write, and the error says how to find out") {
+TEST_CASE("a hosted unit cannot write elsewhere, and the error names the cause") {
   if (lacks_landlock()) return;
   const Workspace workspace = with_a_filter();
   const bool is_absolute = GENERATE(true, false);
@@ -101,13 +101,13 @@ TEST_CASE("elsewhere it cannot write, and the error says how to find out") {
   CHECK_FALSE(fs::exists(workspace / "notes.txt"));
 }
 
-TEST_CASE("there is no network, and the error says how to find out") {
+TEST_CASE("a hosted unit has no network, and the error names the cause") {
   const Workspace workspace = with_a_filter();
   CHECK_THAT(failure_of(workspace, isolated({"--set", "faulty.fault=connect"}), "0.499"),
              Contains("cannot make a socket: Permission denied") && Contains("--no-sandbox"));
 }
 
-TEST_CASE("an error that has nothing to do with the sandbox does not speak of it") {
+TEST_CASE("an error unrelated to the sandbox does not mention it") {
   const Workspace workspace = with_a_filter();
   CHECK_THAT(failure_of(workspace, isolated({"--set", "faulty.fault=abort"}), "0.499"),
              !Contains("sandbox"));

@@ -9,7 +9,7 @@ using Catch::Contains;
 
 namespace {
 
-/// The second low-pass stands in a system of its own, behind a gain.
+/// The second low-pass is in a system of its own, behind a gain.
 Parts nested_filters() {
   Parts parts;
   parts.components =
@@ -92,7 +92,7 @@ TEST_CASE("nothing is left of a package that was run, well or not") {
   CHECK(workspace.left_behind().empty());
 }
 
-TEST_CASE("a package without a system says what it holds") {
+TEST_CASE("the error of a package without a system lists its content") {
   const Workspace workspace(nested_filters());
   stride::archive::write_zip(workspace / "odd.ssp", {{"resources/notes.txt", {"x", {}, false}}});
   CHECK_THAT(input_error_of(workspace.stride({"run", "odd.ssp"})),

@@ -131,7 +131,7 @@ TEST_CASE("a file outside is not packed, and found where it is") {
                            Contains("pack the declaration again"));
 }
 
-TEST_CASE("what cannot be packed is told with the line of the declaration") {
+TEST_CASE("a program that cannot be packed is reported with the line of its declaration") {
   const Workspace workspace(cistern("none.fmu"));
   const auto [program, expected] = GENERATE(table<std::string, std::string>({
       {"<program file=\"absent\"/>", "other.xml:4: file=\"absent\": there is no file "},

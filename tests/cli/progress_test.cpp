@@ -30,7 +30,7 @@ Workspace resting() {
 
 }  // namespace
 
-TEST_CASE("a program is told how far a run is") {
+TEST_CASE("the progress of a run is printed for programs") {
   const Workspace workspace = resting();
   const Outcome outcome =
       workspace.run({"--quiet", "--progress=json", "--stop", "300", "--no-trace"});

@@ -166,7 +166,7 @@ TEST_CASE("results and report under other names are found again") {
   CHECK(workspace.result("page.html") == before);
 }
 
-TEST_CASE("a report that cannot be written is an error, and all else is kept and told") {
+TEST_CASE("a report that cannot be written is an error; all else is kept and printed") {
   const std::string limit = GENERATE("1e9", "-1");
   const Workspace workspace(Parts{component("judge", "judge.fmu")});
   fs::create_directories(workspace / "out/report.html/x");
@@ -212,7 +212,7 @@ TEST_CASE("the browser is given the page") {
   }
 }
 
-TEST_CASE("without a browser it is said what to open") {
+TEST_CASE("without a browser the file to open is printed") {
   const Workspace workspace(two_filters());
   const Environment browser("BROWSER", "/no/such/program");
   const std::string hint =
@@ -231,7 +231,7 @@ TEST_CASE("what is not written cannot be opened") {
              Contains("--open: this run writes no report"));
 }
 
-TEST_CASE("a report is written where its user says, and nowhere else") {
+TEST_CASE("a report is written to the given file only") {
   const Workspace workspace(two_filters());
   REQUIRE(workspace.run({"--quiet"}).exit_code == 0);
   workspace.scratch().write("target.html", "");

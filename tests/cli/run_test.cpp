@@ -68,7 +68,7 @@ TEST_CASE("without --out, the results lie in results/ under the scenario's name"
   CHECK(files_in(workspace / "results/test").size() == 6);
 }
 
-TEST_CASE("run.json tells what was run and how far it came") {
+TEST_CASE("run.json has what was run and how far the run came") {
   const Workspace workspace(two_filters());
   signals_of(workspace, {"--stop", "0.25"});
   const auto json = nlohmann::json::parse(workspace.result("run.json"));

@@ -15,7 +15,7 @@ namespace stride::tests {
 struct Parts {
   std::string components;
   std::string connections = "";
-  std::string annotation = "";  ///< what stands in <stride:Scenario>
+  std::string annotation = "";  ///< the content of <stride:Scenario>
   std::string experiment = "<ssd:DefaultExperiment stopTime=\"1\"/>\n";
 };
 
@@ -25,7 +25,7 @@ inline std::string component(const std::string& name, const std::string& source,
          "</ssd:Component>\n";
 }
 
-/// For what stands inside a component.
+/// For the content of a component.
 inline std::string connector(const std::string& name, const std::string& kind,
                              const std::string& type) {
   return "<ssd:Connectors><ssd:Connector name=\"" + name + "\" kind=\"" + kind + "\">" + type +

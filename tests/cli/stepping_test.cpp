@@ -124,7 +124,7 @@ TEST_CASE("check prints how it would step") {
                  Contains("its state is saved before each step"));
 }
 
-TEST_CASE("what a policy cannot do is said before the run") {
+TEST_CASE("what a policy cannot do is an error before the run") {
   Parts parts{component("filter", "minimal.fmu") + component("s", "stateless.fmu")};
   parts.annotation = "<stride:Host components='s' process='false'/>";
   const Workspace workspace(parts);

@@ -53,7 +53,7 @@ void check_quiet(const Outcome& outcome) {
 
 }  // namespace
 
-TEST_CASE("trace compress and trace expand are each other's reverse, and say nothing") {
+TEST_CASE("trace compress and trace expand are each other's reverse, and print nothing") {
   const Folder folder;
   check_quiet(folder.trace({"compress", "in.vcd", "short.vcd"}));
   CHECK(read(folder / "short.vcd") == kShort);
@@ -63,7 +63,7 @@ TEST_CASE("trace compress and trace expand are each other's reverse, and say not
   CHECK_THAT(read(folder / "short.vcd"), Contains("#30000000010\n0!\n"));
 }
 
-TEST_CASE("trace info tells what a trace holds, and its gaps") {
+TEST_CASE("trace info prints the content of a trace and its gaps") {
   const Folder folder(kShort);
   const Outcome outcome = folder.trace({"info", "in.vcd"});
   CHECK(outcome.exit_code == 0);
@@ -97,7 +97,8 @@ TEST_CASE("trace info of a trace without idle time") {
                               Catch::EndsWith("  gaps          0 longer than 0.000001 s\n"));
 }
 
-TEST_CASE("A trace that was cut off is refused, and taken up to its last whole instant if wanted") {
+TEST_CASE(
+    "A trace that was cut off is refused, or read up to its last whole instant with --cut-off") {
   const Folder folder(kShort.substr(0, kShort.size() - 2));
   for (const Arguments& command : {Arguments{"expand", "in.vcd", "out.vcd"}, {"info", "in.vcd"}}) {
     CHECK_THAT(

@@ -58,7 +58,7 @@ TEST_CASE("a bad verdict is the exit code 1, and the results are complete") {
   CHECK(workspace.signals().number(1000, workspace.signals().column("low.below")) == 0);
 }
 
-TEST_CASE("--quiet leaves of it what is bad") {
+TEST_CASE("with --quiet only bad verdicts are printed") {
   const Workspace workspace = two_judges();
   const Outcome good = judged(workspace, {"--quiet"});
   CHECK((good.exit_code == 0 && good.out.empty() && good.err.empty()));
@@ -68,7 +68,7 @@ TEST_CASE("--quiet leaves of it what is bad") {
   CHECK_THAT(bad.err, Contains("failed by 2 of 2 verdicts\n  low: ") && Contains("\n  high: "));
 }
 
-TEST_CASE("the verdict does not depend on what is recorded, nor on who is idle") {
+TEST_CASE("the verdict depends neither on the recorded signals nor on idle units") {
   const Workspace workspace = two_judges();
   const Outcome outcome =
       judged(workspace, {"--signals", "filter.y", "--no-idle-skip", "--set", "high.limit=0.5"});
@@ -95,7 +95,7 @@ TEST_CASE("a run without a judge prints nothing of verdicts") {
   CHECK(nlohmann::json::parse(workspace.result("run.json"))["verdicts"].empty());
 }
 
-TEST_CASE("inspect says which output is the verdict") {
+TEST_CASE("inspect shows which output is the verdict") {
   CHECK_THAT(run_program({"inspect", "judge.fmu"}).out,
              Contains("\nverdict on the run: below, explained by why\n"));
   CHECK_THAT(run_program({"inspect", "minimal.fmu"}).out, !Contains("verdict"));

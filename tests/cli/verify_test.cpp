@@ -137,7 +137,7 @@ TEST_CASE("a unit that crashes, hangs or ends the process fails a check and no m
   check_fails("thrower.fmu", "events", "fmi3DoStep returned fmi3Error: the fuse has blown");
 }
 
-TEST_CASE("a unit that sets out to do better is believed where it does") {
+TEST_CASE("rounding, rejections and early returns that the standard allows pass") {
   CHECK_THAT(row(verify_one("linear.fmu", "splitting"), "splitting"),
              Contains("passed") && Contains("the same but for rounding"));
   CHECK_THAT(row(verify_one("wide.fmu", "splitting"), "splitting"),
@@ -151,12 +151,12 @@ TEST_CASE("a unit that sets out to do better is believed where it does") {
              Contains("passed") && Contains(" 0 where they are not allowed"));
 }
 
-TEST_CASE("whatever the bytes of a message are, a unit may be asked what they say") {
+TEST_CASE("the text of a message can be requested for any bytes") {
   CHECK_THAT(row(verify_one("types.fmu", "messages"), "messages"),
              Contains("passed") && Contains("values of 6 Binary variables have words"));
 }
 
-TEST_CASE("what a unit does not declare is not asked of it") {
+TEST_CASE("capabilities that a unit does not declare are not checked") {
   CHECK_THAT(row(verify_one("stateless.fmu", "restore"), "restore"),
              Contains("skipped") && Contains("it has no canGetAndSetFMUState"));
   CHECK_THAT(row(verify_one("stateless.fmu", "serialization"), "serialization"),
@@ -223,7 +223,7 @@ TEST_CASE("the results are also there for machines") {
   CHECK(json["checks"][1]["verdict"] == "passed");
 }
 
-TEST_CASE("start values, step, stop and seed are what the user says") {
+TEST_CASE("start values, step, stop and seed can be set") {
   const Outcome outcome =
       verify_one("linear.fmu", "values", {"--step", "0.25", "--stop", "5", "--seed", "7"});
   CHECK_THAT(outcome.out, StartsWith("linear: FMI 3.0, steps of 0.25 s to 5 s, seed 7\n"));
@@ -232,7 +232,7 @@ TEST_CASE("start values, step, stop and seed are what the user says") {
               {"--set", "throw_at=0.051"});
 }
 
-TEST_CASE("what is wrong with the input is said, with exit code 2") {
+TEST_CASE("mistakes in the input are reported, with exit code 2") {
   const auto mistake = [](const Arguments& arguments) {
     const Outcome outcome = run_program(arguments);
     CHECK(outcome.exit_code == 2);

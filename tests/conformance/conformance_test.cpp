@@ -21,12 +21,12 @@ using core::ValueType;
 constexpr double kStep = 1e-3;
 
 /// The unit under test, unpacked and loaded once.
-struct Subject {
+struct TestedFmu {
   std::shared_ptr<importer::Fmu> fmu;
   std::shared_ptr<const importer::Fmi3Library> library;
   std::string resources;
 
-  Subject() {
+  TestedFmu() {
     const char* const path = std::getenv("STRIDE_FMU");
     if (path == nullptr) throw std::runtime_error("name the unit in STRIDE_FMU");
     fmu = importer::Fmu::load(path);
@@ -38,21 +38,21 @@ struct Subject {
   const core::UnitDescription& description() const { return *fmu->description(); }
 };
 
-const Subject& subject() {
-  static const Subject subject;
-  return subject;
+const TestedFmu& tested_fmu() {
+  static const TestedFmu tested_fmu;
+  return tested_fmu;
 }
 
-/// An instance that goes through its life by plain FMI calls.
+/// An instance that goes through its life cycle by plain FMI calls.
 class Instance {
  public:
-  explicit Instance(const std::string& token = subject().description().instantiation_token)
-      : handle_(subject().call().InstantiateCoSimulation(
+  explicit Instance(const std::string& token = tested_fmu().description().instantiation_token)
+      : handle_(tested_fmu().call().InstantiateCoSimulation(
             "unit", token.c_str(),
-            subject().resources.empty() ? nullptr : subject().resources.c_str(), false, false,
-            subject().description().has_event_mode, false, nullptr, 0, nullptr, nullptr, nullptr)) {
-  }
-  ~Instance() { subject().call().FreeInstance(handle_); }
+            tested_fmu().resources.empty() ? nullptr : tested_fmu().resources.c_str(), false, false,
+            tested_fmu().description().has_event_mode, false, nullptr, 0, nullptr, nullptr,
+            nullptr)) {}
+  ~Instance() { tested_fmu().call().FreeInstance(handle_); }
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
 
@@ -62,7 +62,7 @@ class Instance {
     REQUIRE(call().EnterInitializationMode(handle_, false, 0, 0, false, 0) == fmi3OK);
     REQUIRE(call().ExitInitializationMode(handle_) == fmi3OK);
     time_ = 0;
-    if (subject().description().has_event_mode) handle_events();
+    if (tested_fmu().description().has_event_mode) handle_events();
   }
 
   void step(int count) {
@@ -83,13 +83,13 @@ class Instance {
     }
   }
 
-  /// Where it stands, for an instance whose state was restored.
+  /// Its time, for an instance whose state was restored.
   void continue_at(int time) { time_ = time; }
 
   /// The texts of all variables that can be read in Step Mode.
   std::vector<std::string> values() const {
     std::vector<std::string> texts;
-    for (const core::Variable& variable : subject().description().variables) {
+    for (const core::Variable& variable : tested_fmu().description().variables) {
       if (variable.type == ValueType::Clock || variable.is_clocked()) continue;
       texts.push_back(variable.name + "=" + value(variable));
     }
@@ -97,7 +97,7 @@ class Instance {
   }
 
  private:
-  static const importer::Fmi3Functions& call() { return subject().call(); }
+  static const importer::Fmi3Functions& call() { return tested_fmu().call(); }
 
   void handle_events() {
     bool again = true;
@@ -172,17 +172,19 @@ std::vector<std::string> values_after(int steps) {
 
 }  // namespace
 
-TEST_CASE("it speaks FMI 3.0") { CHECK(std::string(subject().call().GetVersion()) == "3.0"); }
+TEST_CASE("the version of the interface is FMI 3.0") {
+  CHECK(std::string(tested_fmu().call().GetVersion()) == "3.0");
+}
 
 TEST_CASE("a wrong token is refused") { CHECK(Instance("wrong").handle() == nullptr); }
 
-TEST_CASE("twenty lives in a row are alike") {
+TEST_CASE("twenty instances, one after the other, give the same results") {
   const auto first = values_after(5);
-  for (int life = 1; life < 20; ++life) CHECK(values_after(5) == first);
+  for (int i = 1; i < 20; ++i) CHECK(values_after(5) == first);
 }
 
 TEST_CASE("two instances side by side do not disturb each other") {
-  if (subject().description().single_instance) return;
+  if (tested_fmu().description().single_instance) return;
   const auto alone = values_after(20);
   Instance one;
   Instance other;
@@ -196,18 +198,18 @@ TEST_CASE("two instances side by side do not disturb each other") {
   CHECK(one.values() == alone);
 }
 
-TEST_CASE("a reset is a new life") {
+TEST_CASE("after a reset an instance gives the same results as a new one") {
   Instance unit;
   unit.start();
   unit.step(17);
-  REQUIRE(subject().call().Reset(unit.handle()) == fmi3OK);
+  REQUIRE(tested_fmu().call().Reset(unit.handle()) == fmi3OK);
   unit.start();
   unit.step(20);
   CHECK(unit.values() == values_after(20));
 }
 
 TEST_CASE("calls out of order are refused and change nothing") {
-  const auto& fmi = subject().call();
+  const auto& fmi = tested_fmu().call();
   Instance unit;
   bool flag = false;
   double reached = 0;
@@ -224,8 +226,8 @@ TEST_CASE("calls out of order are refused and change nothing") {
 }
 
 TEST_CASE("Model Exchange and Scheduled Execution are refused") {
-  const auto& fmi = subject().call();
-  const char* const token = subject().description().instantiation_token.c_str();
+  const auto& fmi = tested_fmu().call();
+  const char* const token = tested_fmu().description().instantiation_token.c_str();
   if (fmi.InstantiateModelExchange != nullptr) {
     CHECK(fmi.InstantiateModelExchange("unit", token, nullptr, false, false, nullptr, nullptr) ==
           nullptr);
@@ -237,12 +239,12 @@ TEST_CASE("Model Exchange and Scheduled Execution are refused") {
 }
 
 TEST_CASE("a restored state is really restored") {
-  const auto& fmi = subject().call();
+  const auto& fmi = tested_fmu().call();
   Instance unit;
   unit.start();
   unit.step(10);
   fmi3FMUState state = nullptr;
-  if (!subject().description().can_save_state) {
+  if (!tested_fmu().description().can_save_state) {
     CHECK(fmi.GetFMUState(unit.handle(), &state) == fmi3Error);
     return;
   }
@@ -260,8 +262,8 @@ TEST_CASE("a restored state is really restored") {
 }
 
 TEST_CASE("a serialised state continues in another instance") {
-  if (!subject().description().can_serialize_state) return;
-  const auto& fmi = subject().call();
+  if (!tested_fmu().description().can_serialize_state) return;
+  const auto& fmi = tested_fmu().call();
   Instance unit;
   unit.start();
   unit.step(10);

@@ -30,10 +30,10 @@ bool promises() { return fmu()->description()->promises_idle; }
 /// Instants at which a unit is asked: at once, soon, and later.
 constexpr Duration kInstants[] = {0ms, 1ms, 7ms, 30ms, 200ms};
 
-Life life_at(Duration instant, std::optional<Duration> max_skip) {
-  Life life(fmu(), {}, max_skip);
-  life.advance(Time(instant), 1ms);
-  return life;
+SteppedUnit stepped_to(Duration instant, std::optional<Duration> max_skip) {
+  SteppedUnit stepped(fmu(), {}, max_skip);
+  stepped.advance(Time(instant), 1ms);
+  return stepped;
 }
 
 }  // namespace
@@ -71,8 +71,8 @@ TEST_CASE("what is promised is kept, in one step or in many") {
   std::uint64_t seed = 0;
   for (const Duration instant : kInstants) {
     CAPTURE(instant.count());
-    PromiseCheck check{life_at(instant, Duration::max()), life_at(instant, Duration::max()),
-                       life_at(instant, std::nullopt), ++seed};
+    PromiseCheck check{stepped_to(instant, Duration::max()), stepped_to(instant, Duration::max()),
+                       stepped_to(instant, std::nullopt), ++seed};
     check.until = Time(instant + 1s);
     Time promised{};
     CHECK(check.run(promised) == "");
@@ -84,26 +84,26 @@ TEST_CASE("no promise is longer than maxSkip") {
   for (const Duration max_skip : {Duration(1), Duration(3us), Duration(20ms)}) {
     for (const Duration instant : kInstants) {
       CAPTURE(max_skip.count(), instant.count());
-      Life life = life_at(instant, max_skip);
-      CHECK(life.promise() <= Time(instant + max_skip));
+      SteppedUnit stepped = stepped_to(instant, max_skip);
+      CHECK(stepped.promise() <= Time(instant + max_skip));
     }
   }
 }
 
 TEST_CASE("a step over the whole promise goes through, again and again") {
   if (!promises()) return;
-  Life life(fmu(), {}, 50ms);
+  SteppedUnit stepped(fmu(), {}, 50ms);
   for (int i = 0; i < 20; ++i) {
-    const Time begin = life.now();
-    const Time until = life.promise();
+    const Time begin = stepped.now();
+    const Time until = stepped.promise();
     if (until > begin) {
-      const core::StepResult result = life.step(until);
+      const core::StepResult result = stepped.step(until);
       CHECK_FALSE(result.rejected);
       CHECK_FALSE(result.early_return);
-      CHECK(life.now() == until);
-      if (result.event_needed) life.handle_event();
+      CHECK(stepped.now() == until);
+      if (result.event_handling_needed) stepped.handle_event();
     } else {
-      life.advance(begin + 1ms, 1ms);
+      stepped.advance(begin + 1ms, 1ms);
     }
   }
 }
@@ -112,11 +112,11 @@ TEST_CASE("a restored state promises what the saved one did") {
   if (!promises() || !fmu()->description()->can_save_state) return;
   for (const Duration instant : kInstants) {
     CAPTURE(instant.count());
-    Life life = life_at(instant, 10s);
-    const Time promised = life.promise();
-    state(life.unit()).save_state();
-    life.advance(life.now() + 20ms, 3ms);
-    state(life.unit()).restore_state();
-    CHECK(std::max(Time(instant), idle(life.unit()).idle_until()) == promised);
+    SteppedUnit stepped = stepped_to(instant, 10s);
+    const Time promised = stepped.promise();
+    state(stepped.unit()).save_state();
+    stepped.advance(stepped.now() + 20ms, 3ms);
+    state(stepped.unit()).restore_state();
+    CHECK(std::max(Time(instant), idle(stepped.unit()).idle_until()) == promised);
   }
 }

@@ -46,16 +46,16 @@ void attempt(const std::filesystem::path& file, Outcomes& outcomes, Work&& work)
   }
 }
 
-class Subject {
+class TraceCommands {
  public:
-  explicit Subject(const tests::TemporaryFolder& folder)
+  explicit TraceCommands(const tests::TemporaryFolder& folder)
       : folder_(folder), short_(folder / "short.vcd"), long_(folder / "long.vcd") {}
 
   void try_all(const std::string& text, CutOff cut_off) {
     // replacing a file makes some file systems wait for the disk
     for (const auto& old : {folder_ / "x.vcd", short_, long_}) std::filesystem::remove(old);
     const auto file = folder_.write("x.vcd", text);
-    attempt(file, told, [&] { info(file, kMinGap, cut_off); });
+    attempt(file, inspected, [&] { info(file, kMinGap, cut_off); });
     attempt(file, expanded, [&] {
       expand(file, long_, cut_off);
       check_same(info(file, kMinGap, cut_off), info(long_, kMinGap, CutOff::Refuse));
@@ -71,7 +71,7 @@ class Subject {
     CHECK_FALSE(std::filesystem::exists(folder_ / "long.vcd.new"));
   }
 
-  Outcomes told, expanded, compressed;
+  Outcomes inspected, expanded, compressed;
 
  private:
   static void check_same(const Info& found, const Info& expected) {
@@ -91,32 +91,32 @@ constexpr const char* kAlphabet = "#$01xzbrs!\"\n 9-";
 
 TEST_CASE("A mutated trace of a device that skips is read or refused, and never anything else") {
   const tests::TemporaryFolder folder;
-  Subject subject(folder);
-  subject.try_all(kSkipping, CutOff::Refuse);
-  REQUIRE(subject.expanded.good == 1);
+  TraceCommands commands(folder);
+  commands.try_all(kSkipping, CutOff::Refuse);
+  REQUIRE(commands.expanded.good == 1);
   tests::Mutator mutator(20240201, kAlphabet);
   for (int i = 0; i < 4000; ++i) {
     const std::string text = mutator.mutate(kSkipping);
     INFO(text);
-    subject.try_all(text, i % 2 == 0 ? CutOff::Refuse : CutOff::Accept);
+    commands.try_all(text, i % 2 == 0 ? CutOff::Refuse : CutOff::Accept);
   }
-  CHECK(subject.told.good > 300);
-  CHECK(subject.told.refused > 1000);
-  CHECK(subject.expanded.good > 300);
-  CHECK(subject.expanded.refused > 1000);
-  CHECK(subject.compressed.good > 5);  // those whose advanceTime has another name now
+  CHECK(commands.inspected.good > 300);
+  CHECK(commands.inspected.refused > 1000);
+  CHECK(commands.expanded.good > 300);
+  CHECK(commands.expanded.refused > 1000);
+  CHECK(commands.compressed.good > 5);  // those whose advanceTime has another name now
 }
 
 TEST_CASE("A mutated trace of any simulator is read or refused, and never anything else") {
   const tests::TemporaryFolder folder;
-  Subject subject(folder);
+  TraceCommands commands(folder);
   tests::Mutator mutator(20240202, kAlphabet);
   for (unsigned i = 0; i < 1000; ++i) {
     const RandomTrace trace(i % 100);
     const std::string text = mutator.mutate(i % 2 == 0 ? trace.text() : trace.untidy_text());
-    subject.try_all(text, i % 3 == 0 ? CutOff::Accept : CutOff::Refuse);
+    commands.try_all(text, i % 3 == 0 ? CutOff::Accept : CutOff::Refuse);
   }
-  CHECK(subject.compressed.good > 50);
-  CHECK(subject.compressed.refused > 100);
-  CHECK(subject.expanded.good == 0);
+  CHECK(commands.compressed.good > 50);
+  CHECK(commands.compressed.refused > 100);
+  CHECK(commands.expanded.good == 0);
 }

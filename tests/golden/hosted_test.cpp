@@ -66,11 +66,11 @@ TEST_CASE("processes for all units change no byte of any scenario's results") {
   }
 }
 
-TEST_CASE("nor where idle units are skipped") {
+TEST_CASE("hosts change no result where idle units are skipped") {
   for (const std::string& scenario : scenarios()) check_same(scenario, kShort);
 }
 
-TEST_CASE("nor on two threads, nor where some of the units are in one process") {
+TEST_CASE("hosts change no result on two threads, nor if only some units are hosted") {
   const Arguments stop{"--stop", "0.5"};
   check_same("nfc_two_tags", stop + Arguments{"--threads", "2"});
   check_same("nfc_two_tags", stop, {"--isolate=sensor*", "--isolate=channel"});

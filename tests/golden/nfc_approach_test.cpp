@@ -53,7 +53,7 @@ TEST_CASE("the messages do not depend on the communication step size") {
   CHECK(text_of(run_with(step).file("events.csv")) == text_of(run().file("events.csv")));
 }
 
-TEST_CASE("six messages are sent, five are heard, one of them wrongly, three are answered") {
+TEST_CASE("six messages are sent, five are received, one of them wrongly, three are answered") {
   CHECK(instants("reader", "transmit.frame", "sent") ==
         Instants{"6.5", "8", "14.2", "15.05", "24", "24.1"});
   const double heard[] = {8, 14.2, 15.05, 24, 24.1};
@@ -168,7 +168,7 @@ TEST_CASE("the reader learns the temperature that the environment has") {
   CHECK(at("30", "ground_truth.measurements.wrong") == 0);
 }
 
-TEST_CASE("at the end the antenna is on, and the field gets too weak to live on") {
+TEST_CASE("at the end the antenna is on, and the field is too weak to supply the sensor") {
   CHECK(between("25", "30", "reader.carrier_power [W]").least > 0);
   CHECK(at("25", "sensor.energy.intake [W]") > at("25", "sensor.energy.load [W]"));
   CHECK(at("30", "sensor.energy.intake [W]") < at("30", "sensor.energy.load [W]"));

@@ -68,7 +68,7 @@ TEST_CASE("nfc_brownout: the sensor goes off with its LED on, and comes back") {
   CHECK(run.at("8", "reader.messages.unexpected") == 0);
 }
 
-TEST_CASE("nfc_jitter: somewhere on its way the reader begins to hear the sensor") {
+TEST_CASE("nfc_jitter: the reader begins to receive the sensor during its approach") {
   const ScenarioRun run("nfc_jitter", {"--no-trace", "--no-idle-skip"});
   CHECK(golden_differences("nfc_jitter", run) == "");
   CHECK(run.at("2.5", "reader.messages.sent") == 20);
@@ -94,7 +94,9 @@ TEST_CASE("nfc_jitter: the seed decides, and nothing else does") {
   CHECK(finer.second == Approx(first.second).margin(1e-3));
 }
 
-TEST_CASE("nfc_two_tags: the reader finds out who is there, and talks to whom it has selected") {
+TEST_CASE(
+    "nfc_two_tags: the reader finds the tags, and exchanges frames with the one that it has "
+    "selected") {
   const ScenarioRun& run = two_tags();
   CHECK(golden_differences("nfc_two_tags", run) == "");
   CHECK(run.at("6", "reader.messages.sent") == 11);
@@ -134,7 +136,7 @@ TEST_CASE("nfc_two_tags: the answers that collide begin at one instant") {
   }
 }
 
-TEST_CASE("nfc_two_tags: who may return early changes when frames are handed over, not which") {
+TEST_CASE("nfc_two_tags: early returns change when frames are handed over, not which") {
   const OtherEarlyReturn other(
       GENERATE("<stride:EarlyReturn components=\"*\" allowed=\"false\"/>",
                "<stride:EarlyReturn components=\"sensor_*\" allowed=\"false\"/>\n"

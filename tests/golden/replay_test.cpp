@@ -204,10 +204,10 @@ TEST_CASE("every scenario with a sensor is known, so that none is left out") {
   CHECK(scenarios.at("nfc_two_tags") == std::vector<std::string>{"sensor_left", "sensor_right"});
 }
 
-TEST_CASE("each sensor of each scenario does the same when it is alone with its stimuli") {
+TEST_CASE("each sensor of each scenario gives the same results when it is replayed alone") {
   const bool skips = GENERATE(false, true);
   for (const auto& [scenario, sensors] : scenarios_with_sensors()) {
-    if (scenario == "replay_sensor") continue;  // where nobody is idle, by its annotation
+    if (scenario == "replay_sensor") continue;  // where no unit is idle, by its annotation
     const ScratchFolder folder;
     Arguments arguments = without_judge(scenario);
     arguments.push_back("--no-trace");

@@ -71,7 +71,7 @@ TEST_CASE("over an ideal channel the reader that is too far away is answered at 
 }
 
 TEST_CASE(
-    "over a packet radio an NFC sensor hears every request, and has no carrier to answer with") {
+    "over a packet radio an NFC sensor receives every request, and has no carrier for an answer") {
   const ScenarioRun run("nfc_far",
                         {"--no-trace", "--no-checks", "--swap", "channel=rf_channel.fmu"});
   CHECK(run.at("10", "sensor.frames.received") == 11);

@@ -65,7 +65,7 @@ nlohmann::json unit_entry(const ScenarioRun& run, const std::string& component) 
   throw std::out_of_range(component);
 }
 
-/// The instant at which a frame begins, which stands in its first eight bytes, as events.csv writes
+/// The instant at which a frame begins, which is in its first eight bytes, as events.csv writes
 /// instants.
 std::string beginning(const std::string& frame) {
   std::uint64_t picoseconds = 0;
@@ -80,7 +80,7 @@ std::string beginning(const std::string& frame) {
   return text;
 }
 
-/// Without the lines that tell when the file was written.
+/// Without the lines that have the date of the file.
 std::string signals_of(const fs::path& vcd) {
   const std::string text = text_of(vcd);
   return text.substr(text.find("$version"));
@@ -104,7 +104,9 @@ TEST_CASE("each frame of both sensors is handed over at the picosecond at which 
   CHECK(snapshots.at("most_kept") == 1);
 }
 
-TEST_CASE("the frames, and the instants of whom they were exact for, are those of the scenario") {
+TEST_CASE(
+    "the frames, and the instants of the units for which they are exact, are those of the "
+    "scenario") {
   const ScenarioRun& both = exact_run();
   const std::string allowed = GENERATE("sensor_left", "sensor_right");
   const std::string other = allowed == "sensor_left" ? "sensor_right" : "sensor_left";

@@ -18,7 +18,7 @@ TEST_CASE("a parabola leaves its tangent when the tolerance is used up") {
   CHECK(tangent_holds_for(0.5e-6, 1) == Duration(1ms));
 }
 
-TEST_CASE("a sine stays within the tolerance for as long as it is said, and not for much longer") {
+TEST_CASE("a sine stays within the tolerance for the computed time, and not for much longer") {
   const double tolerance = 1e-4;
   const double frequency = 3;  // sin(3 t) has a second derivative of at most 9
   const double holds = stride::to_seconds(tangent_holds_for(tolerance, frequency * frequency));

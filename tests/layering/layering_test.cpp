@@ -129,7 +129,7 @@ TEST_CASE("every folder with sources has a rule") {
   }
 }
 
-TEST_CASE("a unit's model knows no FMI") {
+TEST_CASE("a unit's model does not include FMI") {
   const std::set<std::string> kWithoutFmi = {"stride/time.h", "stride/tangent.h",
                                              "stride/value_type.h", "stride/value_text.h"};
   const fs::path root = STRIDE_SOURCE_DIR;

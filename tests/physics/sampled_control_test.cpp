@@ -67,7 +67,7 @@ TEST_CASE("proportional control on a constant clock follows the closed form") {
   check_proportional(record, 0.002, 0.01, 50);
 }
 
-TEST_CASE("so it does on a countdown clock with a period that no decimal hits") {
+TEST_CASE("a controller on a countdown clock follows a period that is no decimal") {
   // as picoseconds: what the unit counts down
   const double period = to_seconds(duration_from_seconds(std::sqrt(2.0) * 3e-3));
   const Duration step = GENERATE(Duration(1ms), Duration(1s));
@@ -127,7 +127,7 @@ TEST_CASE("a period that changes while it runs counts from its change") {
   CHECK(ticks == std::vector<double>{-1, 0.001, 0.005, 0.009, 0.0125, 0.015, 0.026});
 }
 
-TEST_CASE("each kind of clock ticks as it says") {
+TEST_CASE("each kind of clock ticks at its declared times") {
   FmuSystem system;
   auto& button =
       system.add("button", core::Describe("button")

@@ -66,7 +66,8 @@ TEST_CASE("a ring of ten in fixed steps does not allocate") {
   CHECK(counter.at_start > 100);  // the counting works
 }
 
-TEST_CASE("nor does it beside units that return early, announce events and send messages") {
+TEST_CASE(
+    "a ring does not allocate beside units that return early, announce events and send messages") {
   Assembly system = ring();
   system.add("finds", "ticker", {{"period", "0.0047"}, {"announces", "0"}})
       .add("announces", "ticker", {{"period", "0.0033"}})
@@ -88,7 +89,7 @@ TEST_CASE("nor does it beside units that return early, announce events and send 
   CHECK(rollbacks > 100);
 }
 
-TEST_CASE("nor does it where checks watch signals and messages") {
+TEST_CASE("a system does not allocate where checks watch signals and messages") {
   using scenario::CheckDeclaration;
   Assembly assembly = ring();
   assembly.add("ticker", "ticker", {{"period", "0.0047"}}).add("listener", "listener");
@@ -115,7 +116,7 @@ TEST_CASE("nor does it where checks watch signals and messages") {
   CHECK(counter.last - counter.at_warm == 0);
 }
 
-TEST_CASE("nor does it where units are left alone") {
+TEST_CASE("a system does not allocate where units are suspended") {
   Assembly system = ring();
   system.add("idler", "idler", {{"rate", "0.1"}, {"period", "0.05"}, {"announces", "1"}});
   AllocationCounter counter;
@@ -126,7 +127,7 @@ TEST_CASE("nor does it where units are left alone") {
   CHECK(counter.last - counter.at_warm == 0);
 }
 
-TEST_CASE("nor does it with units of FMI 2.0, saved before each step, with derivatives of inputs") {
+TEST_CASE("units of FMI 2.0 do not allocate, saved before each step, with derivatives of inputs") {
   Assembly system = ring();
   system.add("turns", "fmi2_turner", {{"turn", "0.0505"}})
       .add("relaxation", "fmi2_relaxation")

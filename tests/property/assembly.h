@@ -33,7 +33,7 @@ class Assembly {
   Assembly& wire_message(const std::string& from, const std::string& to);
   Assembly& set(const std::string& variable, const std::string& value);
   /// The same system, of which these components have processes of their own. With `snapshots`
-  /// these stand in for states that units do not have.
+  /// these replace states that units do not have.
   Assembly hosted(std::set<std::string> components, bool snapshots = false) const;
   /// Likewise, all of its components.
   Assembly hosted() const;

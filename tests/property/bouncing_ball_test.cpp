@@ -77,7 +77,7 @@ TEST_CASE("a bouncing ball's impacts are those of the closed form") {
   if (has_neighbours) CHECK(results.units.at("linear").saves == 0);  // it follows
 }
 
-TEST_CASE("after the last bounce the ball asks for no more steps") {
+TEST_CASE("after the last bounce the ball requests no more communication points") {
   const Results results = run(ball(), 1s, Time(20s));
   const auto impacts = static_cast<std::uint64_t>(impacts_to_rest());
   CHECK(results.statistics.communication_steps == impacts + 20);

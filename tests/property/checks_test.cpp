@@ -303,7 +303,7 @@ TEST_CASE("checks judge as the recorded files do, read by their definitions") {
   CHECK(open > static_cast<int>(kChecksSystems) / 5);
 }
 
-TEST_CASE("threads and processes change no verdict, nor its words") {
+TEST_CASE("threads and hosts change neither a verdict nor its text") {
   for (unsigned seed = 0; seed < kChecksSystems / 10 + 1; ++seed) {
     const Assembly system = random_system(seed, Wiring::Continuous);
     const auto declared = draw(Records(run(system, kChecksStep, kChecksStop)), seed).checks;

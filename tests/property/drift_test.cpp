@@ -15,7 +15,7 @@ namespace {
 
 const std::int64_t kSteps = kSanitized ? 20'000 : 1'000'000;
 
-/// Tells the library which step size its instance insists on.
+/// Sets the only step size that the instance of the library accepts.
 void set_raw_step(importer::Fmu& fmu, Duration step) {
   void* const handle = dlopen(fmu.load_library()->path().c_str(), RTLD_NOW | RTLD_NOLOAD);
   REQUIRE(handle != nullptr);
@@ -42,7 +42,7 @@ core::RunStatistics run_beside(const Assembly& system, Duration step, Time stop,
 
 }  // namespace
 
-TEST_CASE("a million steps lead exactly to the end, to a unit that insists on each of them") {
+TEST_CASE("a million steps lead exactly to the end, for a unit that accepts one step size only") {
   const Duration step = GENERATE(Duration(1ms), Duration(333'333'333));
   const Scratch scratch;
   const auto raw = importer::Fmu::load(make_raw_fmu(scratch, "raw"));
@@ -63,7 +63,7 @@ TEST_CASE("a million steps lead exactly to the end, to a unit that insists on ea
   }
 }
 
-TEST_CASE("the unit that insists does reject a step that is no whole one") {
+TEST_CASE("the unit that accepts one step size only does reject another") {
   const Scratch scratch;
   const auto raw = importer::Fmu::load(
       make_raw_fmu(scratch, "raw", "canHandleVariableCommunicationStepSize=\"true\""));

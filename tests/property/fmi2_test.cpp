@@ -28,7 +28,7 @@ class Relaxation {
     unit_->exit_initialization();
   }
   void step_to(Time to) {
-    REQUIRE(unit_->step({now_, to}).went_through(to));
+    REQUIRE(unit_->step({now_, to}).reached_without_request(to));
     now_ = to;
   }
   double x() {
@@ -53,7 +53,7 @@ class Relaxation {
   Time now_{};
 };
 
-/// Where a turner stands that turns at this instant [s].
+/// The time of a turner that turns at this instant [s].
 double turned(Time time, double turn) {
   const double seconds = to_seconds(time);
   return seconds <= turn ? seconds : 2 * turn - seconds;

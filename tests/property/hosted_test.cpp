@@ -114,7 +114,7 @@ core::RunOptions extrapolated(const core::StepPolicyType* policy) {
 
 }  // namespace
 
-TEST_CASE("processes for all units, or for some, change nothing") {
+TEST_CASE("hosts for all units, or for some, change no result") {
   for (unsigned seed = 0; seed < kHostedSystems; ++seed) {
     const Assembly system = random_system(seed, Wiring::Continuous);
     const Results expected = run(system, kHostedStep, kHostedStop);
@@ -125,7 +125,7 @@ TEST_CASE("processes for all units, or for some, change nothing") {
   }
 }
 
-TEST_CASE("nor do they on several threads") {
+TEST_CASE("hosts change no result on several threads") {
   for (unsigned seed = 0; seed < kHostedSystems / 4; ++seed) {
     const Assembly system = random_system(seed, Wiring::Continuous);
     INFO("seed " << seed << "\n" << system.text());
@@ -134,7 +134,7 @@ TEST_CASE("nor do they on several threads") {
   }
 }
 
-TEST_CASE("nor where inputs change within steps, or an error controls these") {
+TEST_CASE("hosts change no result where inputs change within steps, or an error controls these") {
   const auto policy = GENERATE(&core::kFixedSteps, &core::kErrorControlledSteps);
   for (unsigned seed = 0, compared = 0; compared < kHostedSystems / 4; ++seed) {
     const Assembly system = random_system(seed, Wiring::Continuous);
@@ -191,7 +191,7 @@ TEST_CASE("an error controls the steps of units that have no state") {
   CHECK(undone > 0);
 }
 
-TEST_CASE("nor do processes where units are left alone while they are idle") {
+TEST_CASE("hosts change no result where idle units are suspended") {
   Assembly system;
   system.add("pump", "ticker", {{"period", "0.006"}});
   system.add("clock", "ticker", {{"period", "0.0031"}, {"announces", "1"}});
@@ -208,7 +208,7 @@ TEST_CASE("nor do processes where units are left alone while they are idle") {
   CHECK(results.units.at("tank").suspensions == expected.units.at("tank").suspensions);
 }
 
-TEST_CASE("nor do they for what clocks of the time sample, and for units of FMI 2.0") {
+TEST_CASE("hosts change no result of sampled values and of units of FMI 2.0") {
   Assembly system;
   system.add("wheel", "ticker", {{"period", "0.004"}, {"announces", "1"}});
   system.add("plant", "linear", {{"damping", "20"}, {"frequency", "30"}});

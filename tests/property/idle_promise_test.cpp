@@ -29,32 +29,35 @@ std::shared_ptr<importer::Fmu> test_unit(const std::string& name) {
   return importer::Fmu::load(test_unit_folder() / (name + ".fmu"));
 }
 
-PromiseCheck lives(const std::shared_ptr<importer::Fmu>& fmu, const Life::Settings& settings,
-                   std::uint64_t seed, Duration max_skip = Duration::max()) {
-  return {Life(fmu, settings, max_skip), Life(fmu, settings, max_skip),
-          Life(fmu, settings, std::nullopt), seed};
+PromiseCheck promise_check(const std::shared_ptr<importer::Fmu>& fmu,
+                           const SteppedUnit::Settings& settings, std::uint64_t seed,
+                           Duration max_skip = Duration::max()) {
+  return {SteppedUnit(fmu, settings, max_skip), SteppedUnit(fmu, settings, max_skip),
+          SteppedUnit(fmu, settings, std::nullopt), seed};
 }
 
 /// The same to all three.
 template <class Action>
 void each(PromiseCheck& check, Action&& action) {
-  for (Life* life : {&check.payer, &check.fine, &check.plain}) action(*life);
+  for (SteppedUnit* stepped : {&check.single_step, &check.small_steps, &check.no_skipping})
+    action(*stepped);
 }
 
 }  // namespace
 
-TEST_CASE("an honest idler is believed") {
+TEST_CASE("an idler that keeps its promise passes") {
   const auto fmu = test_unit("idler");
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     CAPTURE(seed);
     Random random(seed);
-    auto check = lives(fmu,
-                       {{"rate", number(between(random, 0, 2))},
-                        {"period", seed % 3 == 0 ? "0" : number(between(random, 0.01, 1))},
-                        {"announces", seed % 2 == 0 ? "true" : "false"}},
-                       seed);
-    each(check, [to = after(between(random, 0, 3))](Life& life) { life.advance(to, 100ms); });
-    const Time start = check.payer.now();
+    auto check = promise_check(fmu,
+                               {{"rate", number(between(random, 0, 2))},
+                                {"period", seed % 3 == 0 ? "0" : number(between(random, 0.01, 1))},
+                                {"announces", seed % 2 == 0 ? "true" : "false"}},
+                               seed);
+    each(check,
+         [to = after(between(random, 0, 3))](SteppedUnit& stepped) { stepped.advance(to, 100ms); });
+    const Time start = check.single_step.now();
     Time promised{};
     CHECK(check.run(promised) == "");
     CHECK(promised > start);
@@ -63,7 +66,7 @@ TEST_CASE("an honest idler is believed") {
 
 TEST_CASE("an idler that breaks its promise is caught") {
   const auto broken = [fmu = test_unit("idler")](const std::string& promise) {
-    auto check = lives(fmu, {{"promise", promise}}, 1);
+    auto check = promise_check(fmu, {{"promise", promise}}, 1);
     Time promised{};
     return check.run(promised);
   };
@@ -79,20 +82,20 @@ TEST_CASE("the environment keeps what it promises") {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     CAPTURE(seed);
     Random random(seed);
-    const Life::Settings settings = {
+    const SteppedUnit::Settings settings = {
         {"ambient.drift.amplitude", seed % 4 == 0 ? "0" : number(between(random, 0, 5))},
         {"ambient.drift.period", number(std::exp(between(random, 0, 9)))},
         {"case.heat_capacity", number(std::exp(between(random, -2, 4)))},
         {"case.thermal_resistance", number(std::exp(between(random, -2, 6)))},
         {"case.initial_temperature", number(between(random, 15, 30))}};
-    auto check = lives(fmu, settings, seed);
+    auto check = promise_check(fmu, settings, seed);
     const std::string power = number(between(random, 0, 0.5));
     const Time start = after(between(random, 0, 100));
     const bool is_new = seed % 5 == 0;
-    each(check, [&](Life& life) {
-      life.advance(start, 10s);
-      life.set("absorbed_power", power);
-      if (!is_new) life.advance(start + 1ms, 1ms);
+    each(check, [&](SteppedUnit& stepped) {
+      stepped.advance(start, 10s);
+      stepped.set("absorbed_power", power);
+      if (!is_new) stepped.advance(start + 1ms, 1ms);
     });
     check.until = start + 10'000s;
     Time promised{};
@@ -102,7 +105,7 @@ TEST_CASE("the environment keeps what it promises") {
 }
 
 TEST_CASE("an environment in the steady state promises without an end") {
-  auto check = lives(unit("environment"), {}, 1);
+  auto check = promise_check(unit("environment"), {}, 1);
   Time promised{};
   check.until = after(1e6);
   CHECK(check.run(promised) == "");
@@ -115,12 +118,13 @@ TEST_CASE("the reader keeps what it promises") {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     CAPTURE(seed);
     Random random(seed);
-    auto check = lives(fmu,
-                       {{"seed", number(static_cast<double>(seed + 1))},
-                        {"tremor.amplitude", seed % 10 == 0 ? "0.01" : "0"}},
-                       seed);
-    each(check, [to = after(between(random, 0, 30))](Life& life) { life.advance(to, 5s); });
-    const Time start = check.payer.now();
+    auto check = promise_check(fmu,
+                               {{"seed", number(static_cast<double>(seed + 1))},
+                                {"tremor.amplitude", seed % 10 == 0 ? "0.01" : "0"}},
+                               seed);
+    each(check,
+         [to = after(between(random, 0, 30))](SteppedUnit& stepped) { stepped.advance(to, 5s); });
+    const Time start = check.single_step.now();
     check.until = start + 100s;
     Time promised{};
     CHECK(check.run(promised) == "");
@@ -136,16 +140,16 @@ TEST_CASE("an arm that has settled keeps what it promises") {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     CAPTURE(seed);
     Random random(seed);
-    auto check = lives(fmu, {}, seed);
+    auto check = promise_check(fmu, {}, seed);
     const std::string shoulder = number(between(random, 0.2, 0.45));
     const std::string wrist = number(between(random, -1, 1));
     const Time moved = after(between(random, 0.1, 1.5));
     const Time asked = moved + duration_from_seconds(between(random, 0.001, 1.5));
-    each(check, [&](Life& life) {
-      life.advance(moved, 50ms);
-      life.set("actuator.shoulder", shoulder);
-      life.set("actuator.wrist_3", wrist);
-      life.advance(asked, 50ms);
+    each(check, [&](SteppedUnit& stepped) {
+      stepped.advance(moved, 50ms);
+      stepped.set("actuator.shoulder", shoulder);
+      stepped.set("actuator.wrist_3", wrist);
+      stepped.advance(asked, 50ms);
     });
     check.until = asked + 5s;
     Time promised{};
@@ -163,12 +167,12 @@ TEST_CASE("the channel keeps what it promises") {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     CAPTURE(seed);
     Random random(seed);
-    auto check = lives(fmu, {{"carrier_power", seed % 2 == 0 ? "0" : "0.2"}}, seed);
+    auto check = promise_check(fmu, {{"carrier_power", seed % 2 == 0 ? "0" : "0.2"}}, seed);
     const std::string height = number(between(random, 0.005, 0.1));
     const bool is_new = seed % 5 == 0;
-    each(check, [&](Life& life) {
-      life.set("tag_coil.position.z", height);
-      if (!is_new) life.advance(Time(10ms), 3ms);
+    each(check, [&](SteppedUnit& stepped) {
+      stepped.set("tag_coil.position.z", height);
+      if (!is_new) stepped.advance(Time(10ms), 3ms);
     });
     check.until = Time(100s);
     Time promised{};

@@ -48,7 +48,7 @@ double deviation(Coupling coupling, Extrapolation extrapolation, Duration step) 
 
 }  // namespace
 
-TEST_CASE("units that ask for inputs within a step gain an order for each degree") {
+TEST_CASE("units that request inputs within a step gain an order for each degree") {
   struct Case {
     Coupling coupling;
     Extrapolation extrapolation;
@@ -66,7 +66,7 @@ TEST_CASE("units that ask for inputs within a step gain an order for each degree
   CHECK(std::log(coarse / fine) / std::log(4) == Approx(c.order).margin(0.15));
 }
 
-TEST_CASE("the error-controlled oscillator gets as accurate as it is asked to be") {
+TEST_CASE("the error-controlled oscillator gets as accurate as required") {
   double last = 1;
   for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5}) {
     core::RunOptions options = fixed_steps(10ms, Time(2s));

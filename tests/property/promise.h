@@ -14,14 +14,14 @@
 
 namespace stride::tests {
 
-/// A unit alone: it is stepped, and handles its events; nobody listens to its messages.
-class Life {
+/// A single unit that is stepped and handles its events; its messages are not received.
+class SteppedUnit {
  public:
   using Settings = std::vector<std::pair<std::string, std::string>>;
 
-  /// Stands in Step Mode at 0 s, with its first event handled. Without max_skip skipping stays off.
-  Life(std::shared_ptr<importer::Fmu> fmu, const Settings& settings,
-       std::optional<Duration> max_skip);
+  /// In Step Mode at 0 s, with its first event handled. Without max_skip skipping stays off.
+  SteppedUnit(std::shared_ptr<importer::Fmu> fmu, const Settings& settings,
+              std::optional<Duration> max_skip);
 
   Time now() const { return now_; }
   core::Unit& unit() { return *unit_; }
@@ -51,13 +51,13 @@ class Life {
   std::optional<Time> next_event_;
 };
 
-/// Three lives that were alike so far: of one the promise is checked, by one step over all of it;
-/// the second makes the same way by small steps, and the third likewise with skipping off. The
-/// inputs of these two go astray within their deadbands.
+/// Three equal units at the same time. The promise is checked by one step over all of it, by small
+/// steps, and by small steps with skipping off. In small steps the inputs vary within their
+/// deadbands.
 struct PromiseCheck {
-  Life payer, fine, plain;
+  SteppedUnit single_step, small_steps, no_skipping;
   std::uint64_t seed;        ///< of the steps and the inputs
-  Time until = Time::max();  ///< looks no further than this
+  Time until = Time::max();  ///< the promise is checked up to here at most
 
   /// What was broken: the output or the step, and when; empty if nothing was. `promised` is until
   /// when there was a promise.

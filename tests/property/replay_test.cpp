@@ -141,7 +141,7 @@ TEST_CASE("a replay is what the component saw and did, captured again it is the 
   if (!kSanitized) CHECK(models.size() >= 6);
 }
 
-TEST_CASE("so it is where steps follow events only, or an error, and are undone") {
+TEST_CASE("a replay gives the same where steps follow events only, or an error, and are undone") {
   const auto policy = GENERATE(&core::kEventDrivenSteps, &core::kErrorControlledSteps);
   core::RunOptions options = fixed_steps(kReplayStep, kReplayStop);
   options.step.policy = policy;
@@ -166,7 +166,7 @@ TEST_CASE("so it is where steps follow events only, or an error, and are undone"
   if (policy == &core::kErrorControlledSteps) CHECK(undone > 0);
 }
 
-TEST_CASE("so it is where the component was left alone while it was idle") {
+TEST_CASE("a replay gives the same where the component was suspended while it was idle") {
   const auto max_skip = GENERATE(Duration(2ms), Duration(7ms), Duration(1s));
   const std::string announces = GENERATE("0", "1");
   Assembly system;
@@ -185,7 +185,7 @@ TEST_CASE("so it is where the component was left alone while it was idle") {
   check_same_replay(result, "tank", true);
 }
 
-TEST_CASE("so it is for what is sampled by clocks of the time, and for units of FMI 2.0") {
+TEST_CASE("a replay gives the same for values of time-based clocks, and for units of FMI 2.0") {
   const std::string component = GENERATE("controller", "periodic", "relaxation");
   Assembly system;
   system.add("wheel", "ticker", {{"period", "0.004"}, {"announces", "1"}});

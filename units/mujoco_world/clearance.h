@@ -1,4 +1,4 @@
-// Whether anything in a world can touch at all, told from bounding volumes.
+// Whether anything in a world can touch at all, by bounding volumes.
 #ifndef STRIDE_UNITS_MUJOCO_WORLD_CLEARANCE_H
 #define STRIDE_UNITS_MUJOCO_WORLD_CLEARANCE_H
 

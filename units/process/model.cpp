@@ -173,7 +173,7 @@ void Session::read_tag(std::string_view name) {
                               "<error> or <sync>");
 }
 
-/// The variables are probably told in the order in which they are declared.
+/// The values of variables probably come in the order of their declaration.
 std::size_t Session::find(std::string_view name, Role role) {
   if (guess_ >= values_.size() || declaration_.variables[guess_].name != name) {
     const auto found = places_.find(name);

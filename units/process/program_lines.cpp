@@ -135,7 +135,7 @@ void ProgramLines::exchange() {
   pollfd waiting[3] = {{child_->output().number(), POLLIN, 0},
                        {child_->error().number(), POLLIN, 0},
                        {is_writing ? child_->input().number() : -1, POLLOUT, 0}};
-  const int ready = ::poll(waiting, 3, patience());
+  const int ready = ::poll(waiting, 3, poll_timeout());
   if (ready < 0 && errno != EINTR) {
     fail(std::string("its pipes cannot be waited for: ") + std::strerror(errno));
   }
@@ -150,7 +150,7 @@ void ProgramLines::exchange() {
   if (waiting[0].revents != 0) read_output();
 }
 
-int ProgramLines::patience() const {
+int ProgramLines::poll_timeout() const {
   if (limits_.silence.count() == 0) return -1;
   const auto left = heard_ + limits_.silence - Clock::now();
   const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(left).count();

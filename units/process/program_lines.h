@@ -61,7 +61,7 @@ class ProgramLines {
   void hear(std::string_view text);
   void note_error(std::string line);
   void count(std::size_t bytes);
-  int patience() const;
+  int poll_timeout() const;
   [[noreturn]] void fail_at_end();
 
   std::string name_;

@@ -7,7 +7,7 @@ namespace stride::systemc {
 namespace {
 
 constexpr Duration kTick{1};
-constexpr Duration kPatience{10'000'000};
+constexpr Duration kCheckInterval{10'000'000};
 constexpr Duration kWorthwhile{1'000'000};
 
 }  // namespace
@@ -21,7 +21,7 @@ Time IdleSkipper::advance(Time to, bool may_stop_early, Duration max_skip) {
       if (!kernel_.at_rest()) {
         ahead = kTick;  // what is due here has not happened yet
       } else {
-        ahead = skip(to, max_skip) ? lead() : patience();
+        ahead = skip(to, max_skip) ? lead() : until_next_check();
       }
     }
     return kernel_.advance(to);
@@ -30,9 +30,9 @@ Time IdleSkipper::advance(Time to, bool may_stop_early, Duration max_skip) {
 
 Duration IdleSkipper::lead() const { return std::max(rules_.clock_period(), kTick); }
 
-Duration IdleSkipper::patience() {
+Duration IdleSkipper::until_next_check() {
   const std::optional<Time> next = kernel_.next_event();
-  return next ? std::max(kPatience, *next - kernel_.now()) : Duration::max();
+  return next ? std::max(kCheckInterval, *next - kernel_.now()) : Duration::max();
 }
 
 bool IdleSkipper::skip(Time to, Duration max_skip) {

@@ -3,7 +3,7 @@
 
 namespace stride::systemc {
 
-/// Tells AddressSanitizer that this thread is back on its own stack. SystemC announces the switch
+/// Informs AddressSanitizer that this thread is back on its own stack. SystemC announces the switch
 /// to a device's thread, but returns from it without saying where to. Does nothing in other builds.
 void restore_stack_bounds();
 

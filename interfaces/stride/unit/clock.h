@@ -66,7 +66,7 @@ class Clock {
  private:
   friend class ClockAccess;
   /// What the importer has read of the interval: nothing yet, not the present one, all.
-  enum class Knowledge : std::uint32_t { None, New, Told };
+  enum class Knowledge : std::uint32_t { None, New, Reported };
 
   Duration interval_{};
   Duration shift_{};

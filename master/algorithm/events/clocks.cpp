@@ -58,27 +58,27 @@ void Clocks::start(Schedule& clock, Time start_time) {
     clock.interval = *clock.attributes->interval;
     clock.shift = clock.attributes->shift;
   } else {
-    const ClockInterval said = ask(clock, start_time);
-    if (said.state == ClockInterval::State::NotYetKnown) return;
-    clock.interval = said.interval;
+    const ClockInterval reported = query_interval(clock, start_time);
+    if (reported.state == ClockInterval::State::NotYetKnown) return;
+    clock.interval = reported.interval;
     const bool periodic = clock.attributes->is_periodic();
     clock.shift = periodic ? intervals_[clock.id.component]->clock_shift(system_.variable(clock.id))
-                           : said.interval;
+                           : reported.interval;
   }
   check_interval(clock, start_time);
   clock.next = tick_time(start_time, clock.shift, {}, 0);
 }
 
-ClockInterval Clocks::ask(const Schedule& clock, Time time) {
+ClockInterval Clocks::query_interval(const Schedule& clock, Time time) {
   ClockIntervals* const intervals = intervals_[clock.id.component];
-  const ClockInterval said = intervals == nullptr
-                                 ? ClockInterval{}
-                                 : intervals->clock_interval(system_.variable(clock.id));
+  const ClockInterval reported = intervals == nullptr
+                                     ? ClockInterval{}
+                                     : intervals->clock_interval(system_.variable(clock.id));
   const bool may_be_unknown = clock.attributes->variability == IntervalVariability::Countdown;
-  if (said.state == ClockInterval::State::NotYetKnown && !may_be_unknown) {
+  if (reported.state == ClockInterval::State::NotYetKnown && !may_be_unknown) {
     fail(clock, time, "the unit does not know the clock's interval yet");
   }
-  return said;
+  return reported;
 }
 
 void Clocks::check_interval(const Schedule& clock, Time time) const {
@@ -159,14 +159,14 @@ void Clocks::update(Schedule& clock, Time time, bool ticked) {
       variability == IntervalVariability::Tunable && !clock.attributes->interval;
   const bool is_next = variability == IntervalVariability::Changing && ticked;
   if (!is_tunable && !is_next && variability != IntervalVariability::Countdown) return;
-  const ClockInterval said = ask(clock, time);
-  if (said.state != ClockInterval::State::Changed && !is_next) return;
-  clock.interval = said.interval;
+  const ClockInterval reported = query_interval(clock, time);
+  if (reported.state != ClockInterval::State::Changed && !is_next) return;
+  clock.interval = reported.interval;
   check_interval(clock, time);
   clock.base = time;
   clock.shift = {};
   clock.count = 1;
-  clock.next = tick_time(time, {}, said.interval, 1);
+  clock.next = tick_time(time, {}, reported.interval, 1);
   is_stale_ = true;
 }
 

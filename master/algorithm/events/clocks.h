@@ -79,7 +79,7 @@ class Clocks {
   void start(Schedule& clock, Time start);
   void update(Schedule& clock, Time time, bool ticked);
   /// The interval that the unit gives, checked.
-  ClockInterval ask(const Schedule& clock, Time time);
+  ClockInterval query_interval(const Schedule& clock, Time time);
   void check_interval(const Schedule& clock, Time time) const;
   [[noreturn]] void fail(const Schedule& clock, Time time, const std::string& message) const;
 

@@ -150,10 +150,10 @@ bool EventHandler::event_iteration() {
     const EventResult result = clock_.timed(statistics_.units[i].event_time,
                                             [&] { return units_[i]->update_discrete_states(); });
     ++statistics_.units[i].events;
-    terminates |= result.terminate;
-    next_event_[i] = result.next_event;
-    const bool is_due = result.next_event && *result.next_event <= time_;
-    active_[i] = result.iterate || is_due;
+    terminates |= result.terminate_simulation;
+    next_event_[i] = result.next_event_time;
+    const bool is_due = result.next_event_time && *result.next_event_time <= time_;
+    active_[i] = result.discrete_states_need_update || is_due;
     has_active_ |= static_cast<bool>(active_[i]);
     clocks_.update(i, time_);
   }
@@ -186,41 +186,41 @@ bool EventHandler::exchange_samples(std::span<const std::size_t> ticking) {
   });
 }
 
-/// A unit that joins may update outputs that are earlier in the order.
+/// A unit that is included may update outputs that are earlier in the order.
 void EventHandler::exchange_after_events() {
-  for (bool again = evaluation_.has_value(); again; again = has_joined_) {
-    has_joined_ = false;
+  for (bool again = evaluation_.has_value(); again; again = has_new_participant_) {
+    has_new_participant_ = false;
     evaluation_->run(time_, *this);
   }
   for (const std::size_t i : event_units_) {
     if (in_event_mode_[i]) exchange_.fetch(i, *units_[i]);
   }
   if (evaluation_) return exchange_.check_nan(time_);
-  find_jumps();
+  find_discontinuities();
   route();
 }
 
 /// A change of a continuous output by an event is an event of the units that receive it.
-void EventHandler::find_jumps() {
+void EventHandler::find_discontinuities() {
   for (const auto& [from, to, source, target, conversion] : links_) {
     if (!in_event_mode_[from.component]) continue;
     const double value = conversion.factor * real(source) + conversion.offset;
-    if (would_change(target, value)) on_jump(to, false);
+    if (would_change(target, value)) on_discontinuity(to, false);
   }
 }
 
 /// FMI requires Event Mode where a continuous input is discontinuous; at once if an output depends
 /// on the input.
-void EventHandler::on_jump(VariableId input, bool is_followed) {
-  if (is_followed) join(input.component);
+void EventHandler::on_discontinuity(VariableId input, bool is_followed) {
+  if (is_followed) include(input.component);
   activate(input.component);
 }
 
-bool EventHandler::join(std::size_t i) {
+bool EventHandler::include(std::size_t i) {
   if (in_event_mode_[i]) return false;
   enter_event_mode(i);
   activate(i);
-  has_joined_ = true;
+  has_new_participant_ = true;
   return true;
 }
 

@@ -71,15 +71,15 @@ class EventHandler : private OrderedEvaluation::Participants {
   void notify_observers(VariableId id, bool received, const ValueBlock* block);
   std::string content_of(VariableId id, const ValueBlock& block) const;
   std::string described_by(VariableId id, const ValueBlock& block) const;
-  void find_jumps();
+  void find_discontinuities();
   void route();
   [[noreturn]] void fail_nan(VariableId id) const;
   [[noreturn]] void fail_ticking() const;
   [[noreturn]] void fail_sample_loop(std::span<const std::size_t> ticking) const;
 
   bool takes_part(std::size_t i) const override { return in_event_mode_[i]; }
-  void on_jump(VariableId input, bool is_followed) override;
-  bool join(std::size_t i) override;
+  void on_discontinuity(VariableId input, bool is_followed) override;
+  bool include(std::size_t i) override;
 
   const System& system_;
   std::span<const std::unique_ptr<Unit>> units_;
@@ -105,8 +105,8 @@ class EventHandler : private OrderedEvaluation::Participants {
   std::vector<char> in_event_mode_;
   std::vector<char> had_event_;
   bool had_any_event_ = false;
-  bool has_joined_ = false;   ///< a unit has entered Event Mode during an evaluation
-  std::vector<char> polled_;  ///< its output clocks are to be read
+  bool has_new_participant_ = false;  ///< a unit has entered Event Mode during an evaluation
+  std::vector<char> polled_;          ///< its output clocks are to be read
   std::vector<std::optional<Time>> next_event_;
   std::optional<Time> announced_;  ///< the earliest of these
 };

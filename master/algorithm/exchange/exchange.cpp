@@ -19,12 +19,13 @@ bool exchanged(const System& system, VariableId id) {
 }
 
 /// One transfer for the variables of a component that have this type, are written at these
-/// occasions, and belong to these clocks.
+/// times, and belong to these clocks.
 template <class Transfer>
-Transfer make_transfer(const System& system, ValueType type, Occasion occasion,
+Transfer make_transfer(const System& system, ValueType type, WriteTime write_time,
                        const std::vector<ValueReference>& clocks,
                        const std::vector<VariableId>& ids) {
-  Transfer transfer{ValueBlock(type, 0), occasion, ValueBlock(type, 0), true, clocks, {}, ids, {}};
+  Transfer transfer{
+      ValueBlock(type, 0), write_time, ValueBlock(type, 0), true, clocks, {}, ids, {}};
   std::size_t size = 0;
   for (const VariableId id : ids) {
     transfer.references.push_back(system.variable(id).reference);
@@ -35,31 +36,31 @@ Transfer make_transfer(const System& system, ValueType type, Occasion occasion,
   return transfer;
 }
 
-Occasion occasion_of(const Variable& variable, bool jumps) {
-  if (jumps || variable.variability != Variability::Continuous) return Occasion::Change;
-  return variable.intermediate_update ? Occasion::PointAndWithin : Occasion::Point;
+WriteTime write_time_of(const Variable& variable, bool jumps) {
+  if (jumps || variable.variability != Variability::Continuous) return WriteTime::Change;
+  return variable.intermediate_update ? WriteTime::PointAndWithin : WriteTime::Point;
 }
 
-/// At most three transfers for each type that occurs, one for each occasion, and further ones for
+/// At most three transfers for each type that occurs, one for each write time, and further ones for
 /// each set of time-based clocks. `jumps`: variables that change by events whatever their
 /// variability.
 template <class Transfers>
 void plan(Transfers& transfers, Transfers& sampled, const System& system,
           const std::set<VariableId>& ids, const std::set<VariableId>& jumps) {
   using Transfer = typename Transfers::value_type::value_type;
-  using Key = std::tuple<std::size_t, ValueType, Occasion, std::vector<ValueReference>>;
+  using Key = std::tuple<std::size_t, ValueType, WriteTime, std::vector<ValueReference>>;
   std::map<Key, std::vector<VariableId>> groups;
   for (const VariableId id : ids) {
     const Variable& variable = system.variable(id);
-    const Occasion occasion = occasion_of(variable, jumps.contains(id));
-    groups[{id.component, variable.type, occasion, variable.clocks}].push_back(id);
+    const WriteTime write_time = write_time_of(variable, jumps.contains(id));
+    groups[{id.component, variable.type, write_time, variable.clocks}].push_back(id);
   }
   transfers.resize(system.components().size());
   sampled.resize(system.components().size());
   for (const auto& [key, members] : groups) {
-    const auto& [component, type, occasion, clocks] = key;
+    const auto& [component, type, write_time, clocks] = key;
     auto& list = clocks.empty() ? transfers : sampled;
-    list[component].push_back(make_transfer<Transfer>(system, type, occasion, clocks, members));
+    list[component].push_back(make_transfer<Transfer>(system, type, write_time, clocks, members));
   }
 }
 
@@ -303,7 +304,7 @@ std::vector<VariableId> Exchange::sampled_changes(std::size_t component,
 
 void Exchange::deliver_within_step(std::size_t component, Unit& unit) {
   for (const Transfer& transfer : inputs_[component]) {
-    if (transfer.occasion != Occasion::PointAndWithin) continue;
+    if (transfer.write_time != WriteTime::PointAndWithin) continue;
     unit.set(transfer.references, transfer.block);
   }
 }

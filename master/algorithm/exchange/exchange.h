@@ -17,7 +17,7 @@
 namespace stride::core {
 
 /// When variables are written.
-enum class Occasion {
+enum class WriteTime {
   Point,           ///< at each communication point
   PointAndWithin,  ///< and at times within a step, if the unit requests it
   Change,          ///< where they changed: discrete variables
@@ -108,7 +108,7 @@ class Exchange {
   /// Variables of one type of one unit, read or written by one call.
   struct Transfer {
     ValueBlock block;
-    Occasion occasion;
+    WriteTime write_time;
     ValueBlock delivered;                ///< of a discrete one: what was written last
     bool is_new = true;                  ///< nothing was written yet
     std::vector<ValueReference> clocks;  ///< at whose ticks it is exchanged; empty: always
@@ -116,7 +116,7 @@ class Exchange {
     std::vector<VariableId> ids;      ///< sorted
     std::vector<std::size_t> firsts;  ///< where each variable begins in the block
 
-    bool is_discrete() const { return occasion == Occasion::Change; }
+    bool is_discrete() const { return write_time == WriteTime::Change; }
   };
   using Transfers = std::vector<std::vector<Transfer>>;  // by component; final once it is planned
 

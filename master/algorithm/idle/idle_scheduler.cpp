@@ -92,7 +92,7 @@ bool IdleScheduler::catch_up(std::size_t component, Time time) {
   ++statistics.suspensions;
   statistics.suspended_time += lag;
   statistics.longest_suspension = std::max(statistics.longest_suspension, lag);
-  return result.event_needed;
+  return result.event_handling_needed;
 }
 
 void IdleScheduler::report_suspension(std::size_t component) {
@@ -118,7 +118,7 @@ void IdleScheduler::report_unfinished(Time time) {
 void IdleScheduler::check_promise(std::size_t component, Time time,
                                   const StepResult& result) const {
   const IdleState& state = states_[component];
-  const bool is_early_event = result.event_needed && time < state.until;
+  const bool is_early_event = result.event_handling_needed && time < state.until;
   if (!result.rejected && result.reached == time && !is_early_event) return;
   const std::string deed = result.rejected ? "rejects the step to there"
                            : result.reached != time

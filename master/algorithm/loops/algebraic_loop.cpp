@@ -48,16 +48,16 @@ double epsilon(const System& system, const EvaluationBlock& plan) {
 AlgebraicLoop::AlgebraicLoop(RunContext& context, const EvaluationBlock& plan,
                              StagedExchange& staged)
     : system_(context.system), plan_(plan), staged_(staged) {
-  if (LoopTangents::exist(system_, plan)) tangents_.emplace(system_, context.units, plan);
+  if (LoopDerivatives::exist(system_, plan)) derivatives_.emplace(system_, context.units, plan);
   scale_.epsilon = epsilon(system_, plan);
-  for (const Tear& tear : plan.tears) {
-    const Variable& input = system_.variable(tear.inputs.front());
-    Cut cut{&tear,
-            context.exchange.slice(tear.source),
+  for (const TearingVariable& variable : plan.tearing_variables) {
+    const Variable& input = system_.variable(variable.inputs.front());
+    Cut cut{&variable,
+            context.exchange.slice(variable.source),
             {},
             ValueBlock(input.type, input.size),
             is_real(input.type)};
-    for (const VariableId id : tear.inputs) cut.links.push_back(staged.plan_link(id));
+    for (const VariableId id : variable.inputs) cut.links.push_back(staged.plan_link(id));
     for (std::size_t i = 0; i < input.size; ++i) {
       unknowns_.push_back({cuts_.size(), i});
       if (!cut.is_real) continue;
@@ -79,26 +79,26 @@ void AlgebraicLoop::guess() {
   }
 }
 
-bool AlgebraicLoop::is_settled() {
+bool AlgebraicLoop::has_converged() {
   collect();
   return std::all_of(unknowns_.begin(), unknowns_.end(),
-                     [&](const Unknown& unknown) { return is_settled(unknown); });
+                     [&](const Unknown& unknown) { return has_converged(unknown); });
 }
 
 void AlgebraicLoop::collect() {
   for (Cut& cut : cuts_) {
-    copy_elements({&cut.result, 0, cut.result.size()}, cut.source, cut.tear->conversion);
+    copy_elements({&cut.result, 0, cut.result.size()}, cut.source, cut.variable->conversion);
   }
 }
 
-bool AlgebraicLoop::is_settled(const Unknown& unknown) const {
+bool AlgebraicLoop::has_converged(const Unknown& unknown) const {
   const Cut& cut = cuts_[unknown.cut];
   const ValueSlice input = cut.links.front().target_value();
   const std::size_t at = input.first + unknown.element;
   if (!cut.is_real) return is_same(*input.block, at, cut.result, unknown.element);
   const double nominal = system_.variable(cut.links.front().target()).nominal;
-  return core::is_settled(real(input, unknown.element), real(cut.result, unknown.element), nominal,
-                          scale_.epsilon);
+  return core::has_converged(real(input, unknown.element), real(cut.result, unknown.element),
+                             nominal, scale_.epsilon);
 }
 
 void AlgebraicLoop::sweep() {
@@ -119,7 +119,7 @@ void AlgebraicLoop::solve(const Sweep& sweep, Time time) {
     } else if (!solve_reals()) {
       break;
     }
-    if (is_held_settled()) return;
+    if (have_held_values_converged()) return;
     if (round == kMostRounds) break;
     for (Cut& cut : cuts_) {
       if (!cut.is_real) put(cut, cut.result);
@@ -137,7 +137,7 @@ bool AlgebraicLoop::iterate() {
     std::size_t count = 0;
     bool is_any_new = false;
     for (std::size_t i = 0; i < unknowns_.size(); ++i) {
-      if (is_settled(unknowns_[i])) continue;
+      if (has_converged(unknowns_[i])) continue;
       ++count;
       is_any_new |= std::exchange(met[i], true) == 0;
     }
@@ -165,20 +165,20 @@ bool AlgebraicLoop::solve_reals() {
     }
   };
   LoopJacobian jacobian;
-  if (tangents_) {
+  if (derivatives_) {
     jacobian = [&](std::span<const double> x, std::span<double> columns) {
       for (std::size_t i = 0; i < reals_.size(); ++i) {
-        tangents_->derive(reals_[i].cut, reals_[i].element,
-                          columns.subspan(i * x.size(), x.size()));
+        derivatives_->derive(reals_[i].cut, reals_[i].element,
+                             columns.subspan(i * x.size(), x.size()));
       }
     };
   }
   return solve_loop(function, std::move(guess), scale_, jacobian).found;
 }
 
-bool AlgebraicLoop::is_held_settled() const {
+bool AlgebraicLoop::have_held_values_converged() const {
   return std::all_of(unknowns_.begin(), unknowns_.end(), [&](const Unknown& unknown) {
-    return cuts_[unknown.cut].is_real || is_settled(unknown);
+    return cuts_[unknown.cut].is_real || has_converged(unknown);
   });
 }
 
@@ -223,7 +223,7 @@ std::string AlgebraicLoop::values_text() const {
   std::vector<std::string> texts;
   std::size_t count = 0;
   for (const Unknown& unknown : unknowns_) {
-    if (is_settled(unknown) || ++count > kMostValues) continue;
+    if (has_converged(unknown) || ++count > kMostValues) continue;
     const Cut& cut = cuts_[unknown.cut];
     const ValueSlice input = cut.links.front().target_value();
     std::string text = fmt::format(

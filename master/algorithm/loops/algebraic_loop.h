@@ -12,8 +12,8 @@
 #include <stride/time.h>
 
 #include "master/algorithm/loops/evaluation_order.h"
+#include "master/algorithm/loops/loop_derivatives.h"
 #include "master/algorithm/loops/loop_solver.h"
-#include "master/algorithm/loops/loop_tangents.h"
 #include "master/algorithm/loops/staged_exchange.h"
 #include "master/algorithm/run_context.h"
 
@@ -38,15 +38,15 @@ class AlgebraicLoop {
   void guess();
   /// Whether the last sweep gave back the inputs at which the loop is cut: numbers to within
   /// rounding, others exactly.
-  bool is_settled();
-  /// After a sweep that is not settled: changes the inputs until one is. Throws Error (Run) with
-  /// the path and the last values if no solution is found.
+  bool has_converged();
+  /// After a sweep that has not converged: changes the inputs until one has. Throws Error (Run)
+  /// with the path and the last values if no solution is found.
   void solve(const Sweep& sweep, Time time);
 
  private:
   /// Inputs that get the same value, and the output that it comes from.
   struct Cut {
-    const Tear* tear;
+    const TearingVariable* variable;
     ValueSlice source;
     std::vector<StagedExchange::Link> links;
     ValueBlock result;  ///< the value of the source, converted for the inputs
@@ -61,8 +61,8 @@ class AlgebraicLoop {
 
   void sweep();
   void collect();
-  bool is_settled(const Unknown& unknown) const;
-  bool is_held_settled() const;
+  bool has_converged(const Unknown& unknown) const;
+  bool have_held_values_converged() const;
   bool iterate();
   bool solve_reals();
   Values inputs() const;
@@ -78,9 +78,9 @@ class AlgebraicLoop {
   StagedExchange& staged_;
   std::vector<Cut> cuts_;
   std::vector<Unknown> unknowns_;
-  std::vector<Unknown> reals_;            ///< those of the unknowns that Newton's method is for
-  LoopScale scale_;                       ///< of the reals
-  std::optional<LoopTangents> tangents_;  ///< where the units provide their derivatives
+  std::vector<Unknown> reals_;  ///< those of the unknowns that Newton's method is for
+  LoopScale scale_;             ///< of the reals
+  std::optional<LoopDerivatives> derivatives_;  ///< where the units provide their derivatives
 
   const Sweep* sweep_ = nullptr;
   std::size_t sweeps_ = 0;

@@ -25,7 +25,7 @@ class Dependencies {
 
   struct Inputs {
     bool declared = true;                ///< if not, the output depends on all_inputs()
-    std::vector<std::size_t> variables;  ///< places in UnitDescription::variables, sorted
+    std::vector<std::size_t> variables;  ///< indices in UnitDescription::variables, sorted
   };
   /// Of any output, connected or not.
   Inputs inputs_of(VariableId output) const;

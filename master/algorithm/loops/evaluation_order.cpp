@@ -145,7 +145,7 @@ class LoopPlanner {
     std::vector<std::size_t> position(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) position[order[i]] = i;
     using Key = std::tuple<VariableId, double, double, NumberMap, ValueType>;
-    std::map<Key, Tear> tears;
+    std::map<Key, TearingVariable> tearing_variables;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       for (const VariableId input : network_.inputs_of(nodes_[i])) {
         const Connection& connection = network_.source(input);
@@ -154,16 +154,17 @@ class LoopPlanner {
         inner_.insert(input);
         if (position[from->second] < position[i] || !cut_.insert(input).second) continue;
         const Conversion& conversion = connection.conversion;
-        Tear& tear = tears[{connection.from, conversion.linear.factor, conversion.linear.offset,
-                            conversion.map, network_.system().variable(input).type}];
-        tear.source = connection.from;
-        tear.conversion = conversion;
-        tear.inputs.push_back(input);
+        TearingVariable& variable =
+            tearing_variables[{connection.from, conversion.linear.factor, conversion.linear.offset,
+                               conversion.map, network_.system().variable(input).type}];
+        variable.source = connection.from;
+        variable.conversion = conversion;
+        variable.inputs.push_back(input);
       }
     }
-    for (auto& [key, tear] : tears) {
-      std::sort(tear.inputs.begin(), tear.inputs.end());
-      block_.tears.push_back(std::move(tear));
+    for (auto& [key, variable] : tearing_variables) {
+      std::sort(variable.inputs.begin(), variable.inputs.end());
+      block_.tearing_variables.push_back(std::move(variable));
     }
     block_.inputs.assign(inner_.begin(), inner_.end());
   }
@@ -180,8 +181,8 @@ class LoopPlanner {
 
   void find_paths() {
     std::set<VariableId> seen;
-    for (const Tear& tear : block_.tears) {
-      const VariableId input = tear.inputs.front();
+    for (const TearingVariable& variable : block_.tearing_variables) {
+      const VariableId input = variable.inputs.front();
       if (seen.count(input) != 0) continue;
       if (block_.paths.size() == kMostPaths) {
         ++block_.unnamed_paths;
@@ -243,7 +244,7 @@ class LoopPlanner {
   const std::vector<std::size_t>& nodes_;
   std::map<std::size_t, std::size_t> local_;  // node -> its place in nodes_
   std::set<VariableId> inner_;                // inputs
-  std::set<VariableId> cut_;                  // those of the tears
+  std::set<VariableId> cut_;                  // those of the tearing_variables
   EvaluationBlock block_;
 };
 

@@ -18,7 +18,7 @@ struct EvaluationStep {
 };
 
 /// Where a loop is cut: these inputs get the same value from one output, and it is solved for.
-struct Tear {
+struct TearingVariable {
   VariableId source;
   Conversion conversion;
   std::vector<VariableId> inputs;  ///< sorted
@@ -27,15 +27,15 @@ struct Tear {
 /// What is evaluated at once: outputs of one component, or an algebraic loop.
 struct EvaluationBlock {
   std::vector<EvaluationStep>
-      steps;                       ///< one; of a loop, the order in which they follow from `tears`
-  std::vector<Tear> tears;         ///< of a loop only, as what follows
-  std::vector<VariableId> inputs;  ///< all that the loop runs through, sorted
-  std::vector<std::string> paths;  ///< "a.u -> a.y -> b.u -> b.y -> a.u"
-  std::size_t unnamed_paths = 0;   ///< those that `paths` leaves out, where there are many
+      steps;  ///< one; of a loop, the order in which they follow from `tearing_variables`
+  std::vector<TearingVariable> tearing_variables;  ///< of a loop only, as what follows
+  std::vector<VariableId> inputs;                  ///< all that the loop runs through, sorted
+  std::vector<std::string> paths;                  ///< "a.u -> a.y -> b.u -> b.y -> a.u"
+  std::size_t unnamed_paths = 0;  ///< those that `paths` leaves out, where there are many
   /// Components that declare no dependencies, if there would be no loop without them.
   std::vector<std::size_t> undeclared;
 
-  bool is_loop() const { return !tears.empty(); }
+  bool is_loop() const { return !tearing_variables.empty(); }
 };
 
 /// All connected outputs that are not clocked, each behind those that it depends on. Components

@@ -8,8 +8,8 @@ namespace {
 class AllUnits : public OrderedEvaluation::Participants {
  public:
   bool takes_part(std::size_t) const override { return true; }
-  void on_jump(VariableId, bool) override {}
-  bool join(std::size_t) override { return false; }
+  void on_discontinuity(VariableId, bool) override {}
+  bool include(std::size_t) override { return false; }
 };
 
 }  // namespace

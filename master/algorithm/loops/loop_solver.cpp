@@ -73,9 +73,9 @@ class Solver {
     }
   }
 
-  bool is_settled() const {
+  bool has_converged() const {
     for (Eigen::Index i = 0; i < now_.x.size(); ++i) {
-      if (!core::is_settled(now_.x[i], now_.g[i], nominals_[i], epsilon_)) return false;
+      if (!core::has_converged(now_.x[i], now_.g[i], nominals_[i], epsilon_)) return false;
     }
     return true;
   }
@@ -98,7 +98,7 @@ class Solver {
   /// A small step means that x is near the solution only if the Jacobian is accurate.
   bool newton(std::optional<Matrix> (Solver::*jacobian)(), bool is_believed) {
     for (int i = 0; i < kMostNewtonSteps; ++i) {
-      if (is_settled()) return true;
+      if (has_converged()) return true;
       scale_ = scale();
       const auto step = newton_step((this->*jacobian)());
       if (!step) return false;
@@ -172,7 +172,7 @@ class Solver {
   bool damped() {
     double share = 0.5;
     for (int i = 0; i < kMostDampedSteps; ++i) {
-      if (is_settled()) return true;
+      if (has_converged()) return true;
       scale_ = scale();
       const double before = norm(now_);
       Point next = evaluate(now_.x + share * (now_.g - now_.x));
@@ -180,7 +180,7 @@ class Solver {
       if (after != before) share = after < before ? std::min(1.0, 1.5 * share) : share / 2;
       if (next.is_finite()) now_ = std::move(next);
     }
-    return is_settled();
+    return has_converged();
   }
 
   LoopSolution result(bool found) {
@@ -201,7 +201,7 @@ class Solver {
 
 }  // namespace
 
-bool is_settled(double x, double g, double nominal, double epsilon) {
+bool has_converged(double x, double g, double nominal, double epsilon) {
   if (x == g) return true;
   constexpr double kNegligible = 1e-100;
   const double tolerance =

@@ -31,7 +31,7 @@ struct LoopSolution {
 
 /// Whether x is g(x) to within rounding: |g - x| ≤ 8 ε max(|x|, |g|) + 1e-100 nominal, with 1 for
 /// a nominal value that is not known.
-bool is_settled(double x, double g, double nominal, double epsilon);
+bool has_converged(double x, double g, double nominal, double epsilon);
 
 /// Newton's method on F(x) = g(x) - x, as in C. T. Kelley, "Solving Nonlinear Equations with
 /// Newton's Method" (SIAM 2003), chapters 1 and 2:
@@ -43,7 +43,7 @@ bool is_settled(double x, double g, double nominal, double epsilon);
 ///   makes up for the error of the simpler ones.
 /// - The step is halved until the residual decreases sufficiently (Armijo). A g that is not finite
 ///   counts as an infinite residual.
-/// - It ends where x is settled, or where the Newton step, an estimate of the error of x, is as
+/// - It ends where x has converged, or where the Newton step, an estimate of the error of x, is as
 ///   small as rounding allows. Where rounding stops it earlier, as behind a steep g or one that is
 ///   itself the result of an iteration, a Newton step of 1e-9 of x is enough.
 ///

@@ -29,7 +29,8 @@ void OrderedEvaluation::plan(const EvaluationBlock& planned, const Targets& targ
   std::set<VariableId> inner(planned.inputs.begin(), planned.inputs.end());
   std::set<VariableId> cut;
   if (planned.is_loop()) block.loop.emplace(context, planned, staged_);
-  for (const Tear& tear : planned.tears) cut.insert(tear.inputs.begin(), tear.inputs.end());
+  for (const TearingVariable& variable : planned.tearing_variables)
+    cut.insert(variable.inputs.begin(), variable.inputs.end());
   std::vector<VariableId> onward;
   for (const EvaluationStep& step : planned.steps) {
     EvaluationStage& stage =
@@ -99,10 +100,11 @@ void OrderedEvaluation::route(StagedExchange::Link& link) {
 }
 
 void OrderedEvaluation::report(VariableId input) {
-  const bool may_jump = phase_ == Phase::Events &&
-                        system_.variable(input).variability == Variability::Continuous &&
-                        system_.components()[input.component].description->has_event_mode;
-  if (!is_trying_ && may_jump) participants_->on_jump(input, followed_.count(input) != 0);
+  const bool may_be_discontinuous =
+      phase_ == Phase::Events && system_.variable(input).variability == Variability::Continuous &&
+      system_.components()[input.component].description->has_event_mode;
+  if (!is_trying_ && may_be_discontinuous)
+    participants_->on_discontinuity(input, followed_.count(input) != 0);
 }
 
 void OrderedEvaluation::sweep(Block& block) {
@@ -119,20 +121,20 @@ void OrderedEvaluation::evaluate_loop(Block& block) {
   if (!takes_part(block)) return;
   if (phase_ == Phase::Initialization) block.loop->guess();
   sweep(block);
-  if (!block.loop->is_settled()) solve(block);
+  if (!block.loop->has_converged()) solve(block);
   check_nan(block);
   for (StagedExchange::Link& link : block.onward) route(link);
 }
 
 void OrderedEvaluation::solve(Block& block) {
-  bool has_joined = false;
+  bool has_new_participant = false;
   for (EvaluationStage& stage : block.stages)
-    has_joined |= participants_->join(stage.read.component());
+    has_new_participant |= participants_->include(stage.read.component());
   std::vector<ValueBlock> before;
   for (const VariableId input : block.plan->inputs) before.push_back(value(input));
   is_trying_ = true;
-  if (has_joined) sweep(block);
-  if (!block.loop->is_settled()) block.loop->solve([&] { sweep(block); }, time_);
+  if (has_new_participant) sweep(block);
+  if (!block.loop->has_converged()) block.loop->solve([&] { sweep(block); }, time_);
   is_trying_ = false;
   for (std::size_t i = 0; i < before.size(); ++i) {
     const VariableId input = block.plan->inputs[i];

@@ -33,10 +33,10 @@ class OrderedEvaluation {
     virtual bool takes_part(std::size_t component) const = 0;
     /// In the phase Events: a continuous input of a component with Event Mode has changed.
     /// `is_followed`: an output of the component depends on it directly.
-    virtual void on_jump(VariableId input, bool is_followed) = 0;
+    virtual void on_discontinuity(VariableId input, bool is_followed) = 0;
     /// Makes the component take part, because a loop that it belongs to has to be solved. Returns
     /// whether it did not take part before.
-    virtual bool join(std::size_t component) = 0;
+    virtual bool include(std::size_t component) = 0;
   };
 
   /// The context must outlive this object. `time`: where the wall-clock time of the units'

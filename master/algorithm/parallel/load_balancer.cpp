@@ -30,7 +30,7 @@ Nanoseconds gain(std::span<const ThreadShare> shares, std::span<const Nanosecond
   Nanoseconds longest{};
   for (const ThreadShare& share : shares) {
     Nanoseconds cost{};
-    for (const std::size_t place : share) cost += costs[place];
+    for (const std::size_t position : share) cost += costs[position];
     sum += cost;
     longest = std::max(longest, cost);
   }
@@ -39,22 +39,22 @@ Nanoseconds gain(std::span<const ThreadShare> shares, std::span<const Nanosecond
 
 }  // namespace
 
-std::vector<ThreadShare> balance_load(std::span<const std::size_t> places,
+std::vector<ThreadShare> balance_load(std::span<const std::size_t> positions,
                                       std::span<const Nanoseconds> costs,
                                       std::span<const char> main_only, std::size_t threads) {
-  std::vector<ThreadShare> shares(std::min(threads, places.size()));
+  std::vector<ThreadShare> shares(std::min(threads, positions.size()));
   std::vector<Nanoseconds> loads(shares.size());
-  std::vector<std::size_t> order(places.begin(), places.end());
+  std::vector<std::size_t> order(positions.begin(), positions.end());
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     if (main_only[a] != main_only[b]) return main_only[a] > main_only[b];
     return costs[a] > costs[b];
   });
-  for (const std::size_t place : order) {
+  for (const std::size_t position : order) {
     const auto least = std::min_element(loads.begin(), loads.end());
     const std::size_t thread =
-        main_only[place] ? 0 : static_cast<std::size_t>(least - loads.begin());
-    shares[thread].push_back(place);
-    loads[thread] += costs[place];
+        main_only[position] ? 0 : static_cast<std::size_t>(least - loads.begin());
+    shares[thread].push_back(position);
+    loads[thread] += costs[position];
   }
   for (ThreadShare& share : shares) std::sort(share.begin(), share.end());
   while (!shares.empty() && shares.back().empty()) shares.pop_back();
@@ -111,15 +111,15 @@ void LoadBalancer::record_step(Nanoseconds elapsed) {
 }
 
 void LoadBalancer::measure() {
-  for (std::size_t place = 0; place < costs_.size(); ++place) {
-    samples_[place].push_back(std::exchange(costs_[place], Nanoseconds{}));
+  for (std::size_t position = 0; position < costs_.size(); ++position) {
+    samples_[position].push_back(std::exchange(costs_[position], Nanoseconds{}));
   }
   const bool is_long = turn_pace_.time >= kLongMeasurement && turn_pace_.steps >= kFewestMeasured;
   if (turn_pace_.steps < kMeasured && !is_long) return;
-  for (std::size_t place = 0; place < costs_.size(); ++place) {
-    costs_[place] = median(samples_[place]);
+  for (std::size_t position = 0; position < costs_.size(); ++position) {
+    costs_[position] = median(samples_[position]);
   }
-  if (!promises_gain()) return decide(false);
+  if (!share_stages()) return decide(false);
   paces_[0] = paces_[1] = {};
   begin_turn(0);
 }
@@ -141,8 +141,8 @@ bool LoadBalancer::is_parallel_faster() const {
 }
 
 /// Shares the stages out by the units' costs. Stages where threads are not worthwhile get no
-/// shares.
-bool LoadBalancer::promises_gain() {
+/// shares. Returns whether any stage has some.
+bool LoadBalancer::share_stages() {
   Nanoseconds needed = kMargin * kLeastHandOver;
   bool is_measured = false;
   bool any = false;

@@ -11,14 +11,14 @@
 
 namespace stride::core {
 
-/// The units of one thread, by their places in the step order, in that order.
+/// The units of one thread, by their positions in the step order, in that order.
 using ThreadShare = std::vector<std::size_t>;
 
-/// Shares out `places` among at most `threads` threads, so that the longest share is short: units
-/// that are bound to the first thread, then the others, the most expensive first, each to the
+/// Shares out `positions` among at most `threads` threads, so that the longest share is short:
+/// units that are bound to the first thread, then the others, the most expensive first, each to the
 /// thread with the least load (Graham, "Bounds on Multiprocessing Timing Anomalies", 1969). Equal
-/// costs are taken in the order of the places. `costs` and `main_only` are indexed by place.
-std::vector<ThreadShare> balance_load(std::span<const std::size_t> places,
+/// costs are taken in the order of the positions. `costs` and `main_only` are indexed by position.
+std::vector<ThreadShare> balance_load(std::span<const std::size_t> positions,
                                       std::span<const std::chrono::nanoseconds> costs,
                                       std::span<const char> main_only, std::size_t threads);
 
@@ -37,8 +37,9 @@ class LoadBalancer {
   using Nanoseconds = std::chrono::nanoseconds;
 
   struct Plan {
-    std::vector<std::vector<std::size_t>> stages;  ///< places in the step order that step together
-    std::vector<char> main_only;                   ///< by place
+    std::vector<std::vector<std::size_t>>
+        stages;                   ///< positions in the step order that step together
+    std::vector<char> main_only;  ///< by position
     std::size_t threads = 1;
     bool always = false;
     /// Measures a hand-over; called only where the shares promise a gain that could pay for it.
@@ -71,7 +72,7 @@ class LoadBalancer {
                      : std::span<const ThreadShare>();
   }
 
-  void record_cost(std::size_t place, Nanoseconds cost) { costs_[place] += cost; }
+  void record_cost(std::size_t position, Nanoseconds cost) { costs_[position] += cost; }
   /// Ends the communication step. `elapsed`: the time of its unit steps, while is_deciding().
   void end_step(Nanoseconds elapsed = {}) {
     if (is_deciding()) return record_step(elapsed);
@@ -92,7 +93,7 @@ class LoadBalancer {
   void decide(bool parallel);
   void measure();
   void race();
-  bool promises_gain();
+  bool share_stages();
   bool is_parallel_faster() const;
 
   Plan plan_;
@@ -100,8 +101,8 @@ class LoadBalancer {
   bool parallel_ = false;
   std::vector<std::vector<ThreadShare>>
       shares_;                      ///< by stage; empty where threads are not worthwhile
-  std::vector<Nanoseconds> costs_;  ///< by place, of the present communication step
-  std::vector<std::vector<Nanoseconds>> samples_;  ///< by place
+  std::vector<Nanoseconds> costs_;  ///< by position, of the present communication step
+  std::vector<std::vector<Nanoseconds>> samples_;  ///< by position
   std::size_t turn_ = 0;
   Pace turn_pace_;           ///< of the present turn, or while measuring
   Pace paces_[2]{};          ///< of all turns: one after another, on threads

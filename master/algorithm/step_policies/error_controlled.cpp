@@ -25,30 +25,31 @@ class ErrorControlledSteps : public StepPolicy {
     return limits_.end_of_step(now, std::min(controller_.size(), *limits_.maximum()));
   }
 
-  bool accept(Time from, Time reached, const Excess& excess) override {
+  bool accept(Time from, Time reached, const ExtrapolationError& error) override {
     const Duration used = reached - from;
     if (used == Duration{}) return true;
-    if (excess.ratio <= 1) {
-      controller_.accept(used, excess.ratio, {minimum_, *limits_.maximum()});
+    if (error.ratio <= 1) {
+      controller_.accept(used, error.ratio, {minimum_, *limits_.maximum()});
       return true;
     }
     const Duration least = std::max(minimum_, limits_.quantum());
-    if (used <= least) fail_tolerance(from, used, excess);
-    controller_.reject(used, excess.ratio, least);
+    if (used <= least) fail_tolerance(from, used, error);
+    controller_.reject(used, error.ratio, least);
     return false;
   }
 
  private:
-  [[noreturn]] void fail_tolerance(Time from, Duration used, const Excess& excess) const {
+  [[noreturn]] void fail_tolerance(Time from, Duration used,
+                                   const ExtrapolationError& error) const {
     const bool is_grid = limits_.quantum() > minimum_;
     fail_run(
         {{},
-         system_.components()[excess.output.component].name,
-         system_.variable(excess.output).name,
+         system_.components()[error.output.component].name,
+         system_.variable(error.output).name,
          from},
         fmt::format("over a step of {} s the output changes by {:.3g} times what the inputs that "
                     "it feeds may be off by, and no shorter step is {}",
-                    to_text(used), excess.ratio,
+                    to_text(used), error.ratio,
                     is_grid ? fmt::format("possible, since steps end on the units' fixed internal "
                                           "steps (fixedInternalStepSize) of {} s",
                                           to_text(limits_.quantum()))

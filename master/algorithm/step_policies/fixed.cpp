@@ -23,7 +23,7 @@ class FixedSteps : public StepPolicy {
     return limits_.limited(now, target);
   }
 
-  Time stride(Time now, Time quiet_until) override {
+  Time next_while_idle(Time now, Time quiet_until) override {
     const Time regular = next(now);
     const Time farthest = limits_.limited(now, std::min(quiet_until, limits_.stop()));
     if (farthest <= regular) return regular;

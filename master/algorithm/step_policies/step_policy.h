@@ -11,7 +11,7 @@
 
 namespace stride::core {
 
-struct Excess;
+struct ExtrapolationError;
 
 /// Chooses the communication points of one run. No step is longer than a unit allows
 /// (maximum_step). Steps that are not on a grid end on the units' fixed internal steps, as far as
@@ -25,12 +25,14 @@ class StepPolicy {
 
   /// Likewise, where no unit has to be called before `quiet_until`. A policy with a grid goes on to
   /// the last point of the grid that is not later than that.
-  virtual Time stride(Time now, Time /*quiet_until*/) { return next(now); }
+  virtual Time next_while_idle(Time now, Time /*quiet_until*/) { return next(now); }
 
   /// Whether the step is accepted. If not, it is undone, and next() chooses a nearer point. Called
   /// where StepPolicyType::controls_error only. Throws Error (Run) where no shorter step is
   /// allowed.
-  virtual bool accept(Time /*from*/, Time /*reached*/, const Excess& /*excess*/) { return true; }
+  virtual bool accept(Time /*from*/, Time /*reached*/, const ExtrapolationError& /*error*/) {
+    return true;
+  }
 };
 
 /// Throws Error (Input) where a unit does not fulfil what the policy of the options requires: steps

@@ -102,8 +102,9 @@ void InputExtrapolator::undo_step(std::size_t component) {
   source.is_ahead = false;
 }
 
-Excess InputExtrapolator::excess(Time time, double absolute, double relative) {
-  Excess worst;
+ExtrapolationError InputExtrapolator::extrapolation_error(Time time, double absolute,
+                                                          double relative) {
+  ExtrapolationError worst;
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const Source& source = sources_[i];
     if (source.signals.empty()) continue;

@@ -15,7 +15,7 @@
 namespace stride::core {
 
 /// The largest error of an input's extrapolation.
-struct Excess {
+struct ExtrapolationError {
   double ratio = 0;  ///< of the error and what is tolerated
   VariableId output{};
 };
@@ -49,7 +49,7 @@ class InputExtrapolator {
 
   /// After a step of all units to `time`, with their outputs fetched: the largest difference
   /// between an output and its polynomial, as a multiple of absolute + relative * |value|.
-  Excess excess(Time time, double absolute, double relative);
+  ExtrapolationError extrapolation_error(Time time, double absolute, double relative);
 
  private:
   /// The continuous outputs of one component that others are connected to.

@@ -33,7 +33,7 @@ std::optional<std::size_t> first_final(const std::vector<Component>& components)
 StepRole role_of(const Component& component, bool is_first_final, const StepPolicyType& policy) {
   const bool may_go_back = policy.controls_error || (may_stop(component) && !is_first_final);
   if (component.can_save_state() && may_go_back) return StepRole::CanRollBack;
-  return component.may_return_early() ? StepRole::MayStopEarly : StepRole::Follows;
+  return component.may_return_early() ? StepRole::MayReturnEarly : StepRole::Follows;
 }
 
 std::string reason_to_go_back(const Component& component, bool saves_state) {
@@ -50,10 +50,11 @@ std::string reason(const Component& component, StepRole role, bool saves_state) 
     return "never stops: follows the others, so nothing is saved";
   }
   if (component.has_snapshots) {
-    return fmt::format("{}; no snapshot needed: it steps after the others have agreed on a time",
-                       role == StepRole::MayStopEarly ? "may return early" : "might reject a step");
+    return fmt::format(
+        "{}; no snapshot needed: it steps after the others have agreed on a time",
+        role == StepRole::MayReturnEarly ? "may return early" : "might reject a step");
   }
-  if (role == StepRole::MayStopEarly) {
+  if (role == StepRole::MayReturnEarly) {
     return "may return early and cannot be rolled back: what it reaches is final";
   }
   std::string text = "cannot be rolled back; ";
@@ -62,11 +63,11 @@ std::string reason(const Component& component, StepRole role, bool saves_state) 
          (unit.may_reject ? "does not return early, but might reject a step" : "never stops");
 }
 
-void check_single(const System& system, const std::vector<StepPlace>& order) {
+void check_single(const System& system, const std::vector<StepOrderEntry>& order) {
   std::vector<std::string> names;
-  for (const StepPlace& place : order) {
-    if (place.role == StepRole::MayStopEarly) {
-      names.push_back(system.components()[place.component].name);
+  for (const StepOrderEntry& entry : order) {
+    if (entry.role == StepRole::MayReturnEarly) {
+      names.push_back(system.components()[entry.component].name);
     }
   }
   if (names.size() < 2) return;
@@ -93,23 +94,23 @@ std::vector<std::set<std::size_t>> fed_components(const System& system) {
   return fed;
 }
 
-/// Kahn's topological sort of the places of one role; where all that are left wait for each other,
+/// Kahn's topological sort of the entries of one role; where all that are left wait for each other,
 /// the first of them goes on.
 void sort_along_connections(const std::vector<std::set<std::size_t>>& fed,
-                            std::span<StepPlace> places) {
+                            std::span<StepOrderEntry> entries) {
   std::map<std::size_t, std::size_t> position;  // by component
-  for (std::size_t i = 0; i < places.size(); ++i) position[places[i].component] = i;
+  for (std::size_t i = 0; i < entries.size(); ++i) position[entries[i].component] = i;
   const auto for_each_fed = [&](std::size_t i, auto&& action) {
-    for (const std::size_t target : fed[places[i].component]) {
+    for (const std::size_t target : fed[entries[i].component]) {
       if (const auto found = position.find(target); found != position.end()) action(found->second);
     }
   };
-  std::vector<std::size_t> sources(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  std::vector<std::size_t> sources(entries.size());
+  for (std::size_t i = 0; i < entries.size(); ++i) {
     for_each_fed(i, [&](std::size_t target) { ++sources[target]; });
   }
   std::set<std::pair<bool, std::size_t>> left;  // those without open sources first
-  for (std::size_t i = 0; i < places.size(); ++i) left.insert({sources[i] > 0, i});
+  for (std::size_t i = 0; i < entries.size(); ++i) left.insert({sources[i] > 0, i});
   std::vector<std::size_t> order;
   while (!left.empty()) {
     const std::size_t next = left.extract(left.begin()).value().second;
@@ -120,41 +121,41 @@ void sort_along_connections(const std::vector<std::set<std::size_t>>& fed,
       left.insert({sources[target] > 0, target});
     });
   }
-  std::vector<StepPlace> sorted;
-  for (const std::size_t i : order) sorted.push_back(places[i]);
-  std::move(sorted.begin(), sorted.end(), places.begin());
+  std::vector<StepOrderEntry> sorted;
+  for (const std::size_t i : order) sorted.push_back(entries[i]);
+  std::move(sorted.begin(), sorted.end(), entries.begin());
 }
 
-void sort_along_connections(const System& system, std::vector<StepPlace>& order) {
+void sort_along_connections(const System& system, std::vector<StepOrderEntry>& order) {
   const auto fed = fed_components(system);
   for (auto first = order.begin(); first != order.end();) {
     const auto end = std::find_if(
-        first, order.end(), [&](const StepPlace& place) { return place.role != first->role; });
+        first, order.end(), [&](const StepOrderEntry& entry) { return entry.role != first->role; });
     sort_along_connections(fed, {first, end});
     first = end;
   }
 }
 
-void form_stages(const System& system, std::vector<StepPlace>& order) {
+void form_stages(const System& system, std::vector<StepOrderEntry>& order) {
   std::size_t stage = 0;
   bool stage_may_stop = false;
-  for (StepPlace& place : order) {
-    if (place.role != StepRole::CanRollBack && stage_may_stop) {
+  for (StepOrderEntry& entry : order) {
+    if (entry.role != StepRole::CanRollBack && stage_may_stop) {
       ++stage;
       stage_may_stop = false;
     }
-    place.stage = stage;
-    stage_may_stop |= may_stop(system.components()[place.component]);
+    entry.stage = stage;
+    stage_may_stop |= may_stop(system.components()[entry.component]);
   }
 }
 
 }  // namespace
 
-std::vector<StepPlace> step_order(const System& system, const StepPolicyType& policy,
-                                  Coupling coupling) {
+std::vector<StepOrderEntry> step_order(const System& system, const StepPolicyType& policy,
+                                       Coupling coupling) {
   const auto& components = system.components();
   const std::optional<std::size_t> final = first_final(components);
-  std::vector<StepPlace> order;
+  std::vector<StepOrderEntry> order;
   for (std::size_t i = 0; i < components.size(); ++i) {
     const UnitDescription& unit = *components[i].description;
     const StepRole role = role_of(components[i], i == final, policy);
@@ -166,13 +167,15 @@ std::vector<StepPlace> step_order(const System& system, const StepPolicyType& po
     order.push_back(
         {i, role, unit.can_vary_step, saves_state, reason(components[i], role, saves_state), 0});
   }
-  std::stable_sort(order.begin(), order.end(), [&](const StepPlace& a, const StepPlace& b) {
-    if (a.role != b.role) return a.role < b.role;
-    if (a.role != StepRole::Follows) return false;
-    // the first of them can still reject, since nothing final has happened before it
-    return components[a.component].description->may_reject &&
-           !components[b.component].description->may_reject;
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](const StepOrderEntry& a, const StepOrderEntry& b) {
+                     if (a.role != b.role) return a.role < b.role;
+                     if (a.role != StepRole::Follows) return false;
+                     // the first of them can still reject, since nothing final has happened before
+                     // it
+                     return components[a.component].description->may_reject &&
+                            !components[b.component].description->may_reject;
+                   });
   check_single(system, order);
   if (coupling == Coupling::GaussSeidel) sort_along_connections(system, order);
   form_stages(system, order);

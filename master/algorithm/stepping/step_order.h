@@ -15,13 +15,13 @@ namespace stride::core {
 
 /// What a unit can do when a step turns out to be too long.
 enum class StepRole {
-  CanRollBack,   ///< it may stop, or have to go back, and its state can be saved and restored
-  MayStopEarly,  ///< it may return early, and is not rolled back: what it reaches is final
-  Follows,       ///< it does not stop on its own, or, without rollback, only by rejecting a step
+  CanRollBack,     ///< it may stop, or have to go back, and its state can be saved and restored
+  MayReturnEarly,  ///< it may return early, and is not rolled back: what it reaches is final
+  Follows,         ///< it does not stop on its own, or, without rollback, only by rejecting a step
 };
 
 /// The position of one unit in the step order.
-struct StepPlace {
+struct StepOrderEntry {
   std::size_t component;
   StepRole role;
   bool can_vary_step;
@@ -49,8 +49,8 @@ struct StepPlace {
 ///
 /// A unit that cannot be rolled back begins a new stage where the stage before it has a unit that
 /// may stop: it must not go further than that one does.
-std::vector<StepPlace> step_order(const System& system, const StepPolicyType& policy,
-                                  Coupling coupling);
+std::vector<StepOrderEntry> step_order(const System& system, const StepPolicyType& policy,
+                                       Coupling coupling);
 
 /// The units that need snapshots, in the order of the file: of the units that may return early and
 /// have neither a state nor snapshots all but one; with error-controlled steps all that have

@@ -17,12 +17,12 @@ std::string times(std::uint64_t count) {
 
 }  // namespace
 
-Stepper::UnitStep::UnitStep(Unit& stepped, const StepPlace& its_place)
+Stepper::UnitStep::UnitStep(Unit& stepped, const StepOrderEntry& its_entry)
     : unit(&stepped),
-      place(&its_place),
-      component(static_cast<std::uint32_t>(its_place.component)),
-      saves_state(its_place.saves_state),
-      can_vary_step(its_place.can_vary_step),
+      entry(&its_entry),
+      component(static_cast<std::uint32_t>(its_entry.component)),
+      saves_state(its_entry.saves_state),
+      can_vary_step(its_entry.can_vary_step),
       state(saves_state ? &stepped.require_capability<StateSaving>() : nullptr) {}
 
 Stepper::Stepper(RunContext& context, InputExtrapolator* inputs, IdleScheduler* idle)
@@ -42,12 +42,12 @@ Stepper::Stepper(RunContext& context, InputExtrapolator* inputs, IdleScheduler* 
       times_(unit_count_),
       failures_(unit_count_),
       balancer_(plan(context.options)) {
-  for (const StepPlace& place : order_) {
-    index_of_[place.component] = unit_steps_.size();
-    UnitStep& unit_step = unit_steps_.emplace_back(*context.units[place.component], place);
-    unit_step.may_suspend = idle != nullptr && idle->may_suspend(place.component);
+  for (const StepOrderEntry& entry : order_) {
+    index_of_[entry.component] = unit_steps_.size();
+    UnitStep& unit_step = unit_steps_.emplace_back(*context.units[entry.component], entry);
+    unit_step.may_suspend = idle != nullptr && idle->may_suspend(entry.component);
     unit_step.is_plain =
-        inputs == nullptr && !place.saves_state && place.can_vary_step && !unit_step.may_suspend;
+        inputs == nullptr && !entry.saves_state && entry.can_vary_step && !unit_step.may_suspend;
   }
   for (std::size_t first = 0, i = 0; i < order_.size(); ++i) {
     if (i + 1 < order_.size() && order_[i + 1].stage == order_[i].stage) continue;
@@ -179,7 +179,7 @@ inline bool Stepper::step_plainly(UnitStep& unit_step, const StepInterval& inter
   unit_step.rejections = 0;
   unit_step.result = exchange_.step(unit_step.component, *unit_step.unit, interval);
   unit_step.steps += !unit_step.result.rejected;
-  if (unit_step.result.went_through(interval.to)) [[likely]]
+  if (unit_step.result.reached_without_request(interval.to)) [[likely]]
     return true;
   unit_step.outcome = unit_step.result.rejected ? Outcome::Rejected : Outcome::Stepped;
   if (unit_step.result.rejected) {
@@ -268,7 +268,8 @@ inline Time Stepper::record(UnitStep& unit_step, const StepInterval& interval) {
     case Outcome::Idle:
       return interval.to;
     case Outcome::Stepped:
-      has_requests_ |= unit_step.result.event_needed || unit_step.result.terminate;
+      has_requests_ |=
+          unit_step.result.event_handling_needed || unit_step.result.terminate_simulation;
       if (unit_step.result.reached != interval.to) {
         ++statistics_[unit_step.component].early_returns;
         report(unit_step, Activity::Kind::EarlyReturn, interval.from, unit_step.result.reached);
@@ -301,7 +302,7 @@ void Stepper::record_time(const UnitStep& unit_step) {
 
 /// The first failure in the step order that is not a consequence of another one.
 void Stepper::rethrow_failure(const UnitStep& first) const {
-  for (const UnitStep& unit_step : stages_[first.place->stage]) {
+  for (const UnitStep& unit_step : stages_[first.entry->stage]) {
     const Failure& failure = failures_[index(unit_step)];
     if (unit_step.outcome == Outcome::Failed && !failure.is_consequence) {
       std::rethrow_exception(failure.cause);
@@ -357,7 +358,7 @@ void Stepper::fail_size(const UnitStep& unit_step, const StepInterval& interval)
 std::string Stepper::hint_for_final(const UnitStep& stopped) const {
   const std::string others =
       "use a unit that can save its state in place of one of the two, or a smaller step";
-  if (stopped.place->role == StepRole::CanRollBack) return others;
+  if (stopped.entry->role == StepRole::CanRollBack) return others;
   return fmt::format(
       "let '{0}' have a process of its own, whose snapshots take it back, <stride:Host "
       "components=\"{0}\" process=\"true\"/>, or {1}",

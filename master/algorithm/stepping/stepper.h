@@ -37,7 +37,7 @@ class Stepper {
   explicit Stepper(RunContext& context, InputExtrapolator* inputs = nullptr,
                    IdleScheduler* idle = nullptr);
 
-  const std::vector<StepPlace>& order() const { return order_; }
+  const std::vector<StepOrderEntry>& order() const { return order_; }
 
   /// Takes all units from `from` to `target`, or to the earlier instant, returned, at which one of
   /// them stopped, and fetches their outputs. Throws Error (Run) naming the unit: a step shorter
@@ -69,11 +69,11 @@ class Stepper {
   /// unit, and read after that has finished; it has a cache line of its own, so that threads do not
   /// share one.
   struct alignas(64) UnitStep {
-    UnitStep(Unit& stepped, const StepPlace& its_place);
+    UnitStep(Unit& stepped, const StepOrderEntry& its_entry);
 
     Unit* unit;
-    const StepPlace* place;
-    std::uint32_t component;  ///< these three are the place's
+    const StepOrderEntry* entry;
+    std::uint32_t component;  ///< these three are the entry's
     bool saves_state;
     bool can_vary_step;
     bool may_suspend = false;
@@ -143,7 +143,7 @@ class Stepper {
   IdleScheduler* idle_;
   Duration regular_;  ///< the step size of units that cannot vary theirs
   Duration minimum_;  ///< no shorter step is tried after a rejection
-  std::vector<StepPlace> order_;
+  std::vector<StepOrderEntry> order_;
   std::vector<UnitStep> unit_steps_;             ///< in that order
   std::vector<std::span<UnitStep>> stages_;      ///< of them
   std::vector<std::size_t> index_of_;            ///< by component

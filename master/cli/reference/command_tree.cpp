@@ -23,7 +23,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// Of "FILE.fmu", "IN.vcd", or else those that stand in the description by themselves: ".ssd".
+/// Of "FILE.fmu", "IN.vcd", or else those that are words of the description: ".ssd".
 std::vector<std::string> extensions(const std::string& placeholder, const std::string& text) {
   static const std::regex in_text(R"((^|[^\w])\.([a-z][a-z0-9]+)\b)");
   const std::size_t dot = placeholder.rfind('.');
@@ -149,7 +149,7 @@ std::vector<const Command*> all_of(const Command& command) {
   return all;
 }
 
-std::vector<Option> told_options(const Command& command) {
+std::vector<Option> documented_options(const Command& command) {
   std::vector<Option> told = command.options;
   if (command.words.size() > 1) std::erase_if(told, &Option::is_help);
   return told;
@@ -162,7 +162,7 @@ std::string value_text(const Option& option) {
 
 std::string synopsis(const Command& command) {
   std::string text = command.full_name();
-  if (!told_options(command).empty()) text += " [OPTION]...";
+  if (!documented_options(command).empty()) text += " [OPTION]...";
   for (const Option& argument : command.arguments) {
     text += argument.is_required ? " " + argument.names[0] : " [" + argument.names[0] + "]";
   }

@@ -63,7 +63,7 @@ Command describe(const CLI::App& app);
 std::vector<const Command*> all_of(const Command& command);
 
 /// The options on the page of a command: --help is on the page of the program only.
-std::vector<Option> told_options(const Command& command);
+std::vector<Option> documented_options(const Command& command);
 
 /// "SECONDS", "[=COMPONENT]": what follows the names of an option in a synopsis.
 std::string value_text(const Option& option);

@@ -87,7 +87,7 @@ std::string head(const std::string& name, const std::string& version) {
 
 std::string synopsis_line(const Command& command) {
   std::string text = bold(command.full_name());
-  if (!told_options(command).empty()) text += " [" + italic("OPTION") + "]...";
+  if (!documented_options(command).empty()) text += " [" + italic("OPTION") + "]...";
   for (const Option& argument : command.arguments) text += " " + italic(argument.names[0]);
   if (!command.commands.empty()) text += " " + italic("COMMAND");
   return text + "\n";
@@ -108,7 +108,7 @@ std::string subcommands(const Command& command) {
   for (const Command& below : command.commands) {
     text += fmt::format(".SS \"{}\"\n{}.PP\n{}{}{}", escaped(below.full_name()),
                         sentence(below.description), synopsis_line(below), arguments(below),
-                        list(told_options(below)));
+                        list(documented_options(below)));
   }
   return text;
 }
@@ -130,7 +130,7 @@ std::string page(const Command& program, const Command& command, const std::stri
   text += fmt::format(".SH NAME\n{} \\- {}\n", escaped(name), escaped(brief(command.description)));
   text += ".SH SYNOPSIS\n" + synopsis_line(command);
   text += ".SH DESCRIPTION\n" + sentence(command.description) + arguments(command);
-  const std::vector<Option> options = told_options(command);
+  const std::vector<Option> options = documented_options(command);
   if (!options.empty()) text += ".SH OPTIONS\n" + list(options);
   const bool is_program = &command == &program;
   if (is_program) {

@@ -53,7 +53,7 @@ std::string section(const Command& command, std::size_t depth) {
       fmt::format("\n{} {}\n\n```sh\n{}\n```\n\n{}", std::string(depth, '#'), command.full_name(),
                   synopsis(command), wrapped(command.description + ".", kMarkdownWidth));
   if (!command.arguments.empty()) text += table("argument", command.arguments, true);
-  const std::vector<Option> options = told_options(command);
+  const std::vector<Option> options = documented_options(command);
   if (!options.empty()) text += table("option", options, false);
   if (!command.commands.empty()) {
     text += "\n| command | what it does |\n|---|---|\n";

@@ -30,7 +30,7 @@ _stride() {
 _stride "$@"
 )sh";
 
-/// Of a text in a specification for _arguments, which stands in single quotation marks.
+/// Of a text in a specification for _arguments, which is in single quotation marks.
 std::string escaped(const std::string& text, const std::string& special) {
   std::string result;
   for (const char c : text) {

@@ -8,7 +8,7 @@
 namespace stride::importer {
 
 /// Each <ScalarVariable> becomes a variable, aliases as well: they may differ in causality, and so
-/// in what can be connected, and in their dependencies. Its reference is its place, see
+/// in what can be connected, and in their dependencies. Its reference is its index, see
 /// Fmi2Attributes. Throws as read_model_description() does, and where two inputs are aliases of
 /// each other, which FMI 2.0 forbids (2.2.7).
 void read_fmi2_description(const xml::Element& root, ModelDescription& unit);

@@ -40,7 +40,7 @@ Fmi2Unit::~Fmi2Unit() {
   free_state(before_step_);
   for (SavedState& saved : states_) free_state(saved);
   note_call("fmi2FreeInstance");
-  if (!is_condemned_) fmi_.FreeInstance(instance_);
+  if (!is_unusable_) fmi_.FreeInstance(instance_);
 }
 
 core::Capability* Fmi2Unit::find_capability(core::CapabilityId id) {
@@ -270,7 +270,7 @@ core::StepResult Fmi2Unit::step(const core::StepInterval& interval,
   if (saves_each_step_ && !is_as_saved_) save(before_step_);
   core::StepResult result{.reached = interval.to};
   if (do_step(interval, size) == Status::Discard) [[unlikely]] {
-    result = settle_discard(interval);
+    result = handle_discard(interval);
     if (result.rejected) return result;
   }
   is_as_saved_ = false;

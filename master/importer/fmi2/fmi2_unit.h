@@ -120,20 +120,22 @@ class Fmi2Unit final : public FmuInstance,
   Status wait_for_step();
   Status poll_step();
   std::string pending_text();
-  core::StepResult settle_discard(const core::StepInterval& interval);
-  core::StepResult end_run(const core::StepInterval& interval, std::optional<Time> stands);
-  core::StepResult stand(const core::StepInterval& interval, std::optional<Time> stands);
+  core::StepResult handle_discard(const core::StepInterval& interval);
+  core::StepResult accept_termination(const core::StepInterval& interval,
+                                      std::optional<Time> reached);
+  core::StepResult accept_partial_step(const core::StepInterval& interval,
+                                       std::optional<Time> reached);
   template <class Function, class Value>
-  bool ask(const char* name, Function* function, fmi2StatusKind kind, Value* value);
+  bool query_status(const char* name, Function* function, fmi2StatusKind kind, Value* value);
   std::optional<Time> last_successful_time(const core::StepInterval& interval);
-  bool wants_end();
+  bool requests_termination();
 
   const Fmi2Functions& fmi_;
   const fmi2ValueReference* unit_references_;  ///< by core's reference
   bool saves_each_step_;
   bool is_as_saved_ = false;  ///< the unit is what the chosen state holds
   core::InputUpdate input_update_;
-  InputDerivatives* sampled_inputs_ = nullptr;  ///< who is given inputs in place of the unit
+  InputDerivatives* sampled_inputs_ = nullptr;  ///< receives the inputs instead of the unit
   SavedState before_step_;
   SavedStates<SavedState> states_;
   bool has_discard_warning_ = false;
@@ -142,7 +144,7 @@ class Fmi2Unit final : public FmuInstance,
 
   fmi2CallbackFunctions callbacks_{};  ///< units keep the pointer
   AsynchronousStep asynchronous_;
-  bool has_patience_ = true;  ///< no pending step has been told to take long
+  bool has_slow_step_warning_ = false;
   InputDerivatives input_derivatives_;
 
   bool is_instantiated_only_ = true;

@@ -35,8 +35,8 @@ void Fmi2Unit::restore(const SavedState& saved) {
 }
 
 void Fmi2Unit::free_state(SavedState& saved) {
-  if (saved.state == nullptr || is_condemned_ || fmi_.FreeFMUstate == nullptr) return;
-  if (fmi_.FreeFMUstate(instance_, &saved.state) == fmi2Fatal) condemn();
+  if (saved.state == nullptr || is_unusable_ || fmi_.FreeFMUstate == nullptr) return;
+  if (fmi_.FreeFMUstate(instance_, &saved.state) == fmi2Fatal) mark_unusable();
   saved = {};
 }
 
@@ -51,7 +51,7 @@ std::vector<std::uint8_t> Fmi2Unit::serialize_state() {
                     kFmi2Serializing);
 }
 
-/// The bytes do not tell the time.
+/// The bytes do not contain the time.
 void Fmi2Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
   require("fmi2DeSerializeFMUstate", fmi_.DeSerializeFMUstate, kFmi2Serializing);
   SavedState& saved = states_.chosen();
@@ -63,8 +63,8 @@ void Fmi2Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
 
 void Fmi2Unit::reset() {
   reset_by("fmi2Reset", fmi_.Reset);
-  is_as_saved_ = has_discard_warning_ = false;
-  has_patience_ = is_instantiated_only_ = true;
+  is_as_saved_ = has_discard_warning_ = has_slow_step_warning_ = false;
+  is_instantiated_only_ = true;
   kept_inputs_.clear();
 }
 

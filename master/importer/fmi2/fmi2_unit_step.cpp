@@ -1,4 +1,4 @@
-// How a step of an FMI 2.0 unit ends, and what is to be done when it did not come to its end.
+// The end of a step of an FMI 2.0 unit: asynchronous steps, and steps that were completed in part.
 #include <algorithm>
 #include <chrono>
 
@@ -17,13 +17,13 @@ Status Fmi2Unit::do_step(const core::StepInterval& interval, double size) {
   return status == Status::Pending ? wait_for_step() : status;
 }
 
-// ---- Steps that take their time ----
+// ---- Asynchronous steps ----
 
 void Fmi2Unit::on_step_finished(fmi2ComponentEnvironment environment, fmi2Status status) {
   static_cast<Fmi2Unit*>(environment)->asynchronous_.finish(static_cast<Status>(status));
 }
 
-/// Asks now and then, since not every unit calls back, and less and less often.
+/// Polls with growing pauses, since not every unit calls back.
 Status Fmi2Unit::wait_for_step() {
   using namespace std::chrono_literals;
   using Clock = std::chrono::steady_clock;
@@ -33,18 +33,18 @@ Status Fmi2Unit::wait_for_step() {
   for (auto pause = 20us; status == Status::Pending; pause = std::min(pause * 2, kLongestPause)) {
     status = asynchronous_.wait(pause).value_or(Status::Pending);
     if (status == Status::Pending) status = poll_step();
-    const bool is_long = has_patience_ && Clock::now() - began > options_.patience;
+    const bool is_long = !has_slow_step_warning_ && Clock::now() - began > options_.warn_after;
     if (status != Status::Pending || !is_long) continue;
-    has_patience_ = false;
+    has_slow_step_warning_ = true;
     warn(
         fmt::format("the unit has not finished its step from {} s yet (fmi2Pending){}; stride "
                     "waits for it",
                     core::to_text(*time_), pending_text()));
   }
-  return look_into("fmi2DoStep", status);
+  return check_status("fmi2DoStep", status);
 }
 
-/// The unit's messages are those of the step, so the call is not looked into.
+/// The unit's messages are those of the step, so this call's own status is not checked.
 Status Fmi2Unit::poll_step() {
   if (fmi_.GetStatus == nullptr) return Status::Pending;
   note_call("fmi2GetStatus");
@@ -53,7 +53,7 @@ Status Fmi2Unit::poll_step() {
   if (answer == Status::Error || answer == Status::Fatal) fail_call("fmi2GetStatus", answer);
   const bool is_known = answer == Status::Ok || answer == Status::Warning;
   if (!is_known || of_step == fmi2Pending) return Status::Pending;
-  asynchronous_.note_asked();
+  asynchronous_.note_polled();
   return static_cast<Status>(of_step);
 }
 
@@ -66,40 +66,43 @@ std::string Fmi2Unit::pending_text() {
   return answer == fmi2OK && text != nullptr ? fmt::format("; it says: {}", text) : "";
 }
 
-// ---- Steps that end before their end (FMI 2.0, 4.2.2 and 4.2.3) ----
+// ---- Partial steps (FMI 2.0, 4.2.2 and 4.2.3) ----
 
-core::StepResult Fmi2Unit::settle_discard(const core::StepInterval& interval) {
+core::StepResult Fmi2Unit::handle_discard(const core::StepInterval& interval) {
   take_rejection_reason("fmi2DoStep");
-  const std::optional<Time> stands = last_successful_time(interval);
-  if (wants_end()) return end_run(interval, stands);
-  if (!saves_each_step_) return stand(interval, stands);
+  const std::optional<Time> reached = last_successful_time(interval);
+  if (requests_termination()) return accept_termination(interval, reached);
+  if (!saves_each_step_) return accept_partial_step(interval, reached);
   restore(is_as_saved_ ? states_.chosen() : before_step_);
-  return {.rejected = true, .reached = stands.value_or(interval.from)};
+  return {.rejected = true, .reached = reached.value_or(interval.from)};
 }
 
-/// The unit stands where it wants the simulation to end; if it does not say where that is, the step
-/// is undone.
-core::StepResult Fmi2Unit::end_run(const core::StepInterval& interval, std::optional<Time> stands) {
-  if (!stands) {
+/// The step ends where the unit requested the end of the simulation; if that time is unknown, the
+/// step is undone.
+core::StepResult Fmi2Unit::accept_termination(const core::StepInterval& interval,
+                                              std::optional<Time> reached) {
+  if (!reached) {
     if (!saves_each_step_) {
       fail(
           "the unit ended the simulation within its step (fmi2Terminated), and does not say when "
           "(fmi2LastSuccessfulTime)");
     }
     restore(is_as_saved_ ? states_.chosen() : before_step_);
-    stands = interval.from;
+    reached = interval.from;
   }
-  return {.early_return = *stands != interval.to, .terminate = true, .reached = *stands};
+  return {
+      .early_return = *reached != interval.to, .terminate_simulation = true, .reached = *reached};
 }
 
-/// The unit cannot go back.
-core::StepResult Fmi2Unit::stand(const core::StepInterval& interval, std::optional<Time> stands) {
-  if (!stands || *stands == interval.from) {
+/// For a unit whose state before the step was not saved.
+core::StepResult Fmi2Unit::accept_partial_step(const core::StepInterval& interval,
+                                               std::optional<Time> reached) {
+  if (!reached || *reached == interval.from) {
     fail(fmt::format("fmi2DoStep returned fmi2Discard in the step to {} s, the unit {}, and its "
                      "state was not saved, since it cannot be (canGetAndSetFMUstate){}{}",
                      core::to_text(interval.to),
-                     stands ? "says that it came no further than where the step began"
-                            : "does not say how far it came (fmi2LastSuccessfulTime)",
+                     reached ? "says that it came no further than where the step began"
+                             : "does not say how far it came (fmi2LastSuccessfulTime)",
                      rejection_reason_.empty() ? "" : "; it says: ", rejection_reason_),
          "try a smaller step, or use a unit that can save its state");
   }
@@ -108,14 +111,15 @@ core::StepResult Fmi2Unit::stand(const core::StepInterval& interval, std::option
         fmt::format("the step to {} s ended at {} s (fmi2Discard), and the unit's state cannot be "
                     "restored (canGetAndSetFMUstate), so all go on from there, here and in later "
                     "steps; FMI 2.0 allows such a unit to be ended only, so look at its results",
-                    core::to_text(interval.to), core::to_text(*stands)));
+                    core::to_text(interval.to), core::to_text(*reached)));
   }
-  return {.early_return = *stands != interval.to, .reached = *stands};
+  return {.early_return = *reached != interval.to, .reached = *reached};
 }
 
-/// Tells whether the unit has an answer.
+/// Returns whether the unit has an answer.
 template <class Function, class Value>
-bool Fmi2Unit::ask(const char* name, Function* function, fmi2StatusKind kind, Value* value) {
+bool Fmi2Unit::query_status(const char* name, Function* function, fmi2StatusKind kind,
+                            Value* value) {
   if (function == nullptr) return false;
   const Status status = call_discardable(name, function, kind, value);
   if (has_messages_) take_messages(name);  // of why it has none
@@ -126,15 +130,15 @@ bool Fmi2Unit::ask(const char* name, Function* function, fmi2StatusKind kind, Va
 std::optional<Time> Fmi2Unit::last_successful_time(const core::StepInterval& interval) {
   double seconds = 0;
   const bool is_known =
-      ask("fmi2GetRealStatus", fmi_.GetRealStatus, fmi2LastSuccessfulTime, &seconds);
+      query_status("fmi2GetRealStatus", fmi_.GetRealStatus, fmi2LastSuccessfulTime, &seconds);
   if (!is_known || !is_within(interval, seconds)) return std::nullopt;
   if (is_end(interval, seconds)) return interval.to;
   return std::clamp(checked_time(seconds, "fmi2LastSuccessfulTime"), interval.from, interval.to);
 }
 
-bool Fmi2Unit::wants_end() {
+bool Fmi2Unit::requests_termination() {
   fmi2Boolean wants = fmi2False;
-  return ask("fmi2GetBooleanStatus", fmi_.GetBooleanStatus, fmi2Terminated, &wants) &&
+  return query_status("fmi2GetBooleanStatus", fmi_.GetBooleanStatus, fmi2Terminated, &wants) &&
          wants != fmi2False;
 }
 

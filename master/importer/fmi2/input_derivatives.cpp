@@ -18,7 +18,7 @@ void InputDerivatives::add(const fmi2ValueReference* inputs, std::span<const dou
   if (present_ == 0) references_.insert(references_.end(), inputs, inputs + values.size());
 }
 
-/// 0 where it cannot be told from rounding.
+/// 0 where it is within rounding.
 double InputDerivatives::second_difference(std::size_t i) const {
   constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
   const double begin = samples_[0][i];

@@ -79,16 +79,16 @@ std::string Fmi3Library::describe(const fs::path& resources, const core::Locatio
         "only libraries made with stride's unit kit do; give an FMU that has a "
         "modelDescription.xml instead");
   }
-  return ask(self_description_, resources, where);
+  return text_from(self_description_, resources, where);
 }
 
 std::string Fmi3Library::idle_manifest(const fs::path& resources,
                                        const core::Location& where) const {
-  return idle_manifest_ != nullptr ? ask(idle_manifest_, resources, where) : std::string();
+  return idle_manifest_ != nullptr ? text_from(idle_manifest_, resources, where) : std::string();
 }
 
-std::string Fmi3Library::ask(strideModelDescriptionTYPE* function, const fs::path& resources,
-                             const core::Location& where) const {
+std::string Fmi3Library::text_from(strideModelDescriptionTYPE* function, const fs::path& resources,
+                                   const core::Location& where) const {
   const std::string folder = resource_path(resources);
   const char* error = nullptr;
   const char* text = function(folder.empty() ? nullptr : folder.c_str(), &error);

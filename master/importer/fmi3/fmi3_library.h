@@ -30,7 +30,7 @@ struct IdleFunctions {
 #undef STRIDE_POINTER
 };
 
-/// Likewise those by which a unit tells what its messages say.
+/// Likewise those for the text of messages.
 struct DescribeFunctions {
 #define STRIDE_POINTER(name) stride##name##TYPE* name = nullptr;
   STRIDE_DESCRIBE_FUNCTIONS(STRIDE_POINTER)
@@ -62,8 +62,8 @@ class Fmi3Library : public SharedLibrary {
 
  private:
   /// `function`: one of <stride/self_description.h>.
-  std::string ask(strideModelDescriptionTYPE* function, const std::filesystem::path& resources,
-                  const core::Location& where) const;
+  std::string text_from(strideModelDescriptionTYPE* function,
+                        const std::filesystem::path& resources, const core::Location& where) const;
 
   Fmi3Functions functions_;
   IdleFunctions idle_functions_;

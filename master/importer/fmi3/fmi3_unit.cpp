@@ -64,10 +64,10 @@ Fmi3Unit::Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library,
 }
 
 Fmi3Unit::~Fmi3Unit() {
-  if (instance_ == nullptr || is_condemned_) return;
+  if (instance_ == nullptr || is_unusable_) return;
   for (SavedState& saved : states_) free_state(saved);
   note_call("fmi3FreeInstance");
-  if (!is_condemned_) fmi_.FreeInstance(instance_);
+  if (!is_unusable_) fmi_.FreeInstance(instance_);
 }
 
 core::Capability* Fmi3Unit::find_capability(core::CapabilityId id) {
@@ -247,7 +247,7 @@ core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
     time_ = interval.to;
     return {.reached = interval.to};
   }
-  bool event_needed = false;
+  bool event_handling_needed = false;
   bool terminate = false;
   bool early = false;
   double last_successful = interval.end_seconds;
@@ -255,20 +255,20 @@ core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
   const fmi3Boolean never_goes_back = !options_.may_go_back;  // noSetFMUStatePriorToCurrentPoint
   const Status status =
       call_discardable("fmi3DoStep", fmi_.DoStep, interval.begin_seconds, size, never_goes_back,
-                       &event_needed, &terminate, &early, &last_successful);
+                       &event_handling_needed, &terminate, &early, &last_successful);
   rethrow_callback_failure();
   if (status == Status::Discard) {
     take_rejection_reason("fmi3DoStep");
     return {.rejected = true, .reached = interval.from};
   }
-  if (event_needed && !parts_.description->has_event_mode) [[unlikely]]
+  if (event_handling_needed && !parts_.description->has_event_mode) [[unlikely]]
     fail("fmi3DoStep returned eventHandlingNeeded, and the unit has no Event Mode (hasEventMode)");
   if (!early && last_successful != interval.end_seconds) compare_times(interval, last_successful);
   time_ = early ? reached_early(interval, last_successful) : interval.to;
   for (const core::BoundValues& output : values.outputs) get(output);
   return {.early_return = early,
-          .event_needed = event_needed,
-          .terminate = terminate,
+          .event_handling_needed = event_handling_needed,
+          .terminate_simulation = terminate,
           .reached = *time_};
 }
 
@@ -292,7 +292,7 @@ void Fmi3Unit::update_inputs(double time) noexcept {
   }
 }
 
-/// FMI 3.0, 4.2: a unit with a fixed internal step may stand elsewhere than where it was sent.
+/// FMI 3.0, 4.2: a unit with a fixed internal step may end at another time than that of the step.
 void Fmi3Unit::compare_times(const core::StepInterval& interval, double last_successful) {
   if (is_end(interval, last_successful)) return;
   checked_time(last_successful, "lastSuccessfulTime");
@@ -311,7 +311,7 @@ void Fmi3Unit::compare_times(const core::StepInterval& interval, double last_suc
 
 Time Fmi3Unit::reached_early(const core::StepInterval& interval, double last_successful) const {
   if (last_successful == interval.end_seconds)
-    return interval.to;  // which a double cannot always tell
+    return interval.to;  // a double cannot always distinguish it
   if (!options_.early_return_allowed) {
     fail("fmi3DoStep returned early, which was not allowed at its instantiation");
   }
@@ -336,12 +336,14 @@ core::EventResult Fmi3Unit::update_discrete_states() {
   double next = 0;
   call("fmi3UpdateDiscreteStates", fmi_.UpdateDiscreteStates, &iterate, &terminate,
        &nominals_changed, &values_changed, &has_next, &next);
-  core::EventResult result{.iterate = iterate, .terminate = terminate, .next_event = {}};
+  core::EventResult result{.discrete_states_need_update = iterate,
+                           .terminate_simulation = terminate,
+                           .next_event_time = {}};
   // Some units say "never" by a time that no simulation reaches.
   if (has_next && !(next > kMaxSeconds)) {
-    result.next_event = checked_time(next, "nextEventTime");
+    result.next_event_time = checked_time(next, "nextEventTime");
     // a unit may compare: it is not entered a rounding error before the instant that it said
-    while (to_seconds(*result.next_event) < next) *result.next_event += Duration(1);
+    while (to_seconds(*result.next_event_time) < next) *result.next_event_time += Duration(1);
   }
   return result;
 }

@@ -37,7 +37,7 @@ Interval Fmi3Unit::checked_interval(const char* function, const Variable& clock,
 
 ClockInterval Fmi3Unit::clock_interval(const Variable& clock) {
   fmi3IntervalQualifier qualifier = fmi3IntervalNotYetKnown;
-  const auto said = [&](const char* function, auto&& make) -> ClockInterval {
+  const auto checked = [&](const char* function, auto&& make) -> ClockInterval {
     if (qualifier == fmi3IntervalNotYetKnown) return {};
     const bool changed = qualifier == fmi3IntervalChanged;
     return {changed ? ClockInterval::State::Changed : ClockInterval::State::Unchanged,
@@ -48,12 +48,12 @@ ClockInterval Fmi3Unit::clock_interval(const Variable& clock) {
     std::uint64_t resolution = 0;
     const char* const function = "fmi3GetIntervalFraction";
     call_clock(function, fmi_.GetIntervalFraction, clock, &counter, &resolution, &qualifier);
-    return said(function, [&] { return Interval::from_fraction(counter, resolution); });
+    return checked(function, [&] { return Interval::from_fraction(counter, resolution); });
   }
   double seconds = 0;
   const char* const function = "fmi3GetIntervalDecimal";
   call_clock(function, fmi_.GetIntervalDecimal, clock, &seconds, &qualifier);
-  return said(function, [&] { return Interval::from_seconds(seconds); });
+  return checked(function, [&] { return Interval::from_seconds(seconds); });
 }
 
 Interval Fmi3Unit::clock_shift(const Variable& clock) {

@@ -25,8 +25,8 @@ void Fmi3Unit::restore_state() {
 }
 
 void Fmi3Unit::free_state(SavedState& saved) {
-  if (saved.state == nullptr || is_condemned_ || fmi_.FreeFMUState == nullptr) return;
-  if (fmi_.FreeFMUState(instance_, &saved.state) == fmi3Fatal) condemn();
+  if (saved.state == nullptr || is_unusable_ || fmi_.FreeFMUState == nullptr) return;
+  if (fmi_.FreeFMUState(instance_, &saved.state) == fmi3Fatal) mark_unusable();
   saved = {};
 }
 
@@ -38,7 +38,7 @@ std::vector<std::uint8_t> Fmi3Unit::serialize_state() {
                     kFmi3Serializing);
 }
 
-/// The bytes do not tell the time.
+/// The bytes do not contain the time.
 void Fmi3Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
   require("fmi3DeserializeFMUState", fmi_.DeserializeFMUState, kFmi3Serializing);
   SavedState& saved = states_.chosen();

@@ -76,7 +76,7 @@ core::Variable read_variable(const xml::Element& element, ValueType type,
   return variable;
 }
 
-/// Finds what stands between single variables: names, references, clocks, dimensions.
+/// Resolves the relations of variables: names, references, clocks, dimensions.
 class Linker {
  public:
   Linker(std::vector<core::Variable>& variables, const std::vector<xml::Element>& elements)

@@ -10,7 +10,7 @@
 
 namespace stride::importer {
 
-/// Value reference -> place in the variables.
+/// Value reference -> index of the variable.
 using VariableIndex = std::map<core::ValueReference, std::size_t>;
 
 /// Appends the variables of <ModelVariables> in order. Throws core::Error as

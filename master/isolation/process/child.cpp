@@ -23,14 +23,14 @@ constexpr std::size_t kPrintedKept = 4096;
 /// How often a child is looked at whose pipes another process may hold open.
 constexpr std::chrono::milliseconds kGlance{20};
 
-/// What stands before the child's text.
+/// What precedes the child's text.
 constexpr char kAnswer = 'A';
 constexpr char kException = 'E';
 
 /// The child's surroundings: a library may have the habits of a program of its own.
 void settle(pid_t parent, int output) {
   ::setpgid(0, 0);
-  die_with(parent);
+  end_with(parent);
   forget_signal_handlers();
   redirect_standard_files(output);
 }

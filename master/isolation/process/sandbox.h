@@ -29,7 +29,7 @@ struct WritableFolder {
 /// - no core dump, and as many open files as a program uses, so that one which leaks them fails
 ///   before the machine does. The number of processes is not limited: the kernel counts those of
 ///   the user, not those of a unit;
-/// - files are only read and executed, but for what stands in the folders `writable` and below, and
+/// - files are only read and executed, but for what is in the folders `writable` and below, and
 ///   /dev/null and its like. Nothing is made, removed, renamed, truncated or mounted elsewhere. Not
 ///   covered are the owners, modes and times of files, and what is open already (Landlock);
 /// - signals reach, and debuggers attach to, processes in the same sandbox only;

@@ -16,8 +16,8 @@
 namespace stride::isolation {
 namespace {
 
-/// What the C library has told the kernel about the calling thread, and what a copy of it does not
-/// inherit.
+/// What the C library has registered in the kernel for the calling thread, and what a copy of it
+/// does not inherit.
 struct ThreadRecord {
   int* id = nullptr;  ///< where the library keeps the thread's number
   robust_list_head* locks = nullptr;

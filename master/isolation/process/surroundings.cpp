@@ -32,7 +32,7 @@ void redirect_standard_files(int output) {
   ::dup2(output, STDERR_FILENO);
 }
 
-void die_with(pid_t parent) {
+void end_with(pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);
 }

@@ -8,8 +8,7 @@
 
 namespace stride::isolation {
 
-/// Signals do what they do in a new program, whatever the parent has made of them, and none is
-/// blocked; there is no core dump.
+/// Restores the default action of all signals and unblocks them; disables core dumps.
 void forget_signal_handlers();
 
 /// Standard input is empty; standard output and error go to this file.
@@ -17,7 +16,7 @@ void redirect_standard_files(int output);
 
 /// This process is killed when the thread that has forked it ends; it ends at once if that has
 /// happened already.
-void die_with(pid_t parent);
+void end_with(pid_t parent);
 
 /// Closes all files but the standard ones and these.
 void close_other_files(std::initializer_list<int> kept);

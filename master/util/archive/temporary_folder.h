@@ -9,7 +9,7 @@ namespace stride::archive {
 
 /// A fresh, empty folder that goes when the object goes.
 ///
-/// It stands in `<TMPDIR or /tmp>/stride-<uid>/`, beside a file of the same name with `.lock` that
+/// It is in `<TMPDIR or /tmp>/stride-<uid>/`, beside a file of the same name with `.lock` that
 /// this process keeps locked (flock), so the kernel frees the lock however the process ends. Each
 /// new folder first sweeps away those whose lock is free: what a crashed run left behind.
 class TemporaryFolder {
@@ -22,7 +22,7 @@ class TemporaryFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// Where the folders of this user stand now; it need not exist.
+  /// The folder of the folders of this user; it need not exist.
   static std::filesystem::path parent();
 
   /// Removes what crashed runs of this user have left; what cannot be removed stays.

@@ -10,7 +10,7 @@ namespace stride::archive {
 
 struct Content {
   std::string text;
-  std::filesystem::path file;  ///< to be copied, in place of a text
+  std::filesystem::path file;  ///< to be copied, instead of a text
   bool executable = false;
 };
 

@@ -8,7 +8,7 @@
 
 namespace stride::xml {
 
-/// Where an element stands in the text, as offsets.
+/// The position of an element in the text, as offsets.
 struct ElementPlace {
   std::size_t begin = 0;          ///< of the start tag
   std::size_t start_tag_end = 0;  ///< behind its '>'

@@ -58,7 +58,7 @@ class Element {
   core::Location where() const;
   /// The prefix by which this namespace is known here, the empty text if it is the default one.
   std::optional<std::string> prefix_of(std::string_view name_space) const;
-  /// Its place among all elements of the document, in document order; the root is 0.
+  /// Its index among all elements of the document, in document order; the root is 0.
   std::size_t index() const;
 
   std::optional<std::string> attribute(const char* name) const;

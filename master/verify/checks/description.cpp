@@ -46,7 +46,7 @@ class Examination {
     if (is_known && variable.start.empty() && has_start(variable)) {
       mistake("'{}' is {} and has no start value", variable.name, name(variable.causality));
     }
-    if (!variable.unit.empty() && !unit_.units.contains(variable.unit) &&
+    if (!variable.unit.empty() && !unit_.units_of_measure.contains(variable.unit) &&
         said_units_.insert(variable.unit).second) {
       notes_.push_back(fmt::format(
           "the unit '{}' of '{}' is not defined by a BaseUnit, so it cannot be converted",

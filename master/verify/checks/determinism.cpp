@@ -30,7 +30,7 @@ void use_up_heap() {
 }
 
 /// Makes this process unlike its sisters: fresh memory is not zero, and libraries and heap blocks
-/// stand at other addresses.
+/// are at other addresses.
 void disturb() {
   constexpr int kPattern = 0x5A;
   constexpr std::size_t kShift = 97 << 12;

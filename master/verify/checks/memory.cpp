@@ -53,15 +53,17 @@ struct Growth {
   double heap = 0;        ///< [byte per repetition], in the quarter of the run with the least
   double resident = 0;
 
-  bool heap_leaks() const { return heap > kMostHeap && is_heard(heap); }
-  bool is_leak() const { return heap_leaks() || (resident > kMostResident && is_heard(resident)); }
+  bool heap_leaks() const { return heap > kMostHeap && exceeds_noise(heap); }
+  bool is_leak() const {
+    return heap_leaks() || (resident > kMostResident && exceeds_noise(resident));
+  }
   std::string text(const char* one) const {
     return fmt::format("{:.0f} bytes of heap and {:.0f} of resident memory per {}",
                        std::max(0.0, heap), std::max(0.0, resident), one);
   }
 
  private:
-  bool is_heard(double bytes) const { return bytes * static_cast<double>(count) >= kNoise; }
+  bool exceeds_noise(double bytes) const { return bytes * static_cast<double>(count) >= kNoise; }
 };
 
 /// What grows in each quarter of the repetitions grows for ever: caches and pools fill up once.

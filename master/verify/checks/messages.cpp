@@ -27,24 +27,24 @@ std::vector<const Variable*> binaries(const core::UnitDescription& unit) {
   return found;
 }
 
-/// Asks a unit what values mean, those that it has and any other.
-class Asker {
+/// Requests the text of values from a unit, of those that it has and of any others.
+class TextQueries {
  public:
-  explicit Asker(const Trial& trial)
+  explicit TextQueries(const Trial& trial)
       : variables_(binaries(trial.tested.description())), random_(trial.tested.request().seed) {}
 
-  void ask(TestInstance& instance) {
+  void query(TestInstance& instance) {
     for (const Variable* variable : variables_) {
       for (std::size_t i = 0; i < kValues; ++i)
-        ask(instance, *variable, value(random_() % kLongest));
-      ask(instance, *variable, {});
-      ask(instance, *variable, value(kHuge));
+        query(instance, *variable, value(random_() % kLongest));
+      query(instance, *variable, {});
+      query(instance, *variable, value(kHuge));
     }
   }
 
   std::size_t variables() const { return variables_.size(); }
-  std::size_t asked() const { return asked_; }
-  std::size_t told() const { return told_; }
+  std::size_t values() const { return values_; }
+  std::size_t texts() const { return texts_; }
 
  private:
   /// Random bytes, of all kinds or small ones, which numbers and letters are more often.
@@ -55,7 +55,7 @@ class Asker {
     return bytes;
   }
 
-  void ask(TestInstance& instance, const Variable& variable, const Binary& value) {
+  void query(TestInstance& instance, const Variable& variable, const Binary& value) {
     auto& unit = instance.capability<core::MessageText>();
     const std::string text = unit.describe_message(variable.reference, value);
     const std::string what = fmt::format("what {} bytes say as '{}' at {} s", value.size(),
@@ -68,32 +68,32 @@ class Asker {
       throw Failure(what + " is something else when it is asked again: \"" +
                     core::readable_text(text, 60) + '"');
     }
-    ++asked_;
-    if (!text.empty()) ++told_;
+    ++values_;
+    if (!text.empty()) ++texts_;
   }
 
   std::vector<const Variable*> variables_;
   std::mt19937_64 random_;
-  std::size_t asked_ = 0;
-  std::size_t told_ = 0;
+  std::size_t values_ = 0;
+  std::size_t texts_ = 0;
 };
 
 }  // namespace
 
 Finding check_messages(const Trial& trial) {
-  Asker asker(trial);
-  if (asker.variables() == 0) return skipped("it has no Binary variable");
+  TextQueries queries(trial);
+  if (queries.variables() == 0) return skipped("it has no Binary variable");
   const Recording expected = trial.record();
   const auto library = trial.tested.fmu().load_fmi3_library();
   if (library == nullptr || library->describe_functions().DescribeMessage == nullptr) {
     return skipped("its library does not export strideDescribeMessage");
   }
   TestInstance instance = trial.make_instance();
-  asker.ask(instance);
+  queries.query(instance);
   instance.start();
   for (const double share : {0.0, 0.3, 0.7, 1.0}) {
     instance.run_to(trial.point_at(share));
-    asker.ask(instance);
+    queries.query(instance);
   }
   if (const auto differs =
           difference(trial.tested, expected.rows, instance.recording().rows,
@@ -101,11 +101,11 @@ Finding check_messages(const Trial& trial) {
     throw Failure(*differs);
   }
   instance.terminate();
-  asker.ask(instance);
+  queries.query(instance);
   return passed(fmt::format(
       "{} of {} values of {} Binary variable{} have words; asking for them "
       "changes nothing",
-      asker.told(), asker.asked(), asker.variables(), asker.variables() == 1 ? "" : "s"));
+      queries.texts(), queries.values(), queries.variables(), queries.variables() == 1 ? "" : "s"));
 }
 
 }  // namespace stride::verify

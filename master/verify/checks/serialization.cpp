@@ -28,7 +28,7 @@ Serialized serialize(const Trial& trial) {
   instance.capability<core::StateSaving>().save_state();
   made.bytes = instance.capability<core::StateSerialization>().serialize_state();
   made.position = instance.position();
-  instance.forget_rows();
+  instance.clear_rows();
   instance.run_to(made.to);
   made.rows = instance.recording().rows;
   return made;
@@ -74,7 +74,7 @@ Recording continue_from(const Trial& trial, const Serialized& made) {
   TestInstance instance = trial.make_instance();
   instance.capability<core::StateSerialization>().deserialize_state(made.bytes);
   instance.capability<core::StateSaving>().restore_state();
-  instance.stand_at(made.position, clocks ? &*clocks : nullptr);
+  instance.set_position(made.position, clocks ? &*clocks : nullptr);
   instance.run_to(made.to);
   return instance.recording();
 }

@@ -94,7 +94,7 @@ Comparison compare(const TestedUnit& tested, const std::vector<Row>& whole,
 bool is_multiple(Duration size, Duration of) { return size % of == Duration{}; }
 
 /// Why halves of a step have to give what the whole gives; empty if nothing says so.
-std::string promise_of_halves(const TestedUnit& tested) {
+std::string reason_for_equality(const TestedUnit& tested) {
   const core::UnitDescription& unit = tested.description();
   if (unit.split_invariant) return "though it declares that steps may be split (splitInvariant)";
   const bool is_on_grid = unit.fixed_internal_step && tested.step() % 2 == Duration{} &&
@@ -114,11 +114,11 @@ Finding check_splitting(const Trial& trial) {
   };
   const std::vector<Row> whole = run(Split::None);
   std::string text;
-  const auto examine = [&](Split split, const std::string& what, const std::string& promise) {
+  const auto examine = [&](Split split, const std::string& what, const std::string& reason) {
     const Comparison seen = compare(tested, whole, run(split));
-    if (!promise.empty() && seen.worst > kRounding) {
+    if (!reason.empty() && seen.worst > kRounding) {
       throw Failure(fmt::format("{} where steps of {} s are split {}, {}", seen.text,
-                                core::to_text(tested.step()), what, promise));
+                                core::to_text(tested.step()), what, reason));
     }
     if (!text.empty()) text += "; ";
     if (seen.is_equal) {
@@ -129,9 +129,9 @@ Finding check_splitting(const Trial& trial) {
       text += fmt::format("{}: other values, which nothing excludes ({})", what, seen.text);
     }
   };
-  examine(Split::Halves, "into halves", promise_of_halves(tested));
+  examine(Split::Halves, "into halves", reason_for_equality(tested));
   if (unit.can_vary_step) {
-    examine(Split::Uneven, "unevenly", unit.split_invariant ? promise_of_halves(tested) : "");
+    examine(Split::Uneven, "unevenly", unit.split_invariant ? reason_for_equality(tested) : "");
   } else {
     text += "; it has no canHandleVariableCommunicationStepSize";
   }

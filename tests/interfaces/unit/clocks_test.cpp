@@ -43,7 +43,7 @@ std::string why(const std::function<void()>& call) {
 
 }  // namespace
 
-TEST_CASE("the model description tells what each clock's kind may tell") {
+TEST_CASE("the model description has the attributes that each kind of clock may have") {
   const std::string xml = UnitLibrary(unit_library("clocks")).describe();
   CHECK_THAT(xml, Contains(R"(<Clock name="constant" valueReference="3" causality="input" )"
                            R"(intervalVariability="constant" intervalDecimal="0.003" )"

@@ -31,7 +31,7 @@ Said ask(UnitInstance& unit, const std::string& variable, const Bytes& value,
 
 }  // namespace
 
-TEST_CASE("a unit says what a message says") {
+TEST_CASE("a unit gives the text of a message") {
   const UnitLibrary library(unit_library("types"));
   UnitInstance unit(library);
   const Said said = ask(unit, "receive.frame", {0x26, 0x27});
@@ -40,7 +40,7 @@ TEST_CASE("a unit says what a message says") {
   CHECK(ask(unit, "blobs.echo", Bytes(1000, 0x30)).text == "1000 bytes in blobs.echo");
 }
 
-TEST_CASE("a unit may have nothing to say") {
+TEST_CASE("a unit may have no text for a message") {
   const UnitLibrary library(unit_library("types"));
   UnitInstance unit(library);
   const Said said = ask(unit, "receive.frame", {});
@@ -49,7 +49,7 @@ TEST_CASE("a unit may have nothing to say") {
   CHECK(unit.messages.empty());
 }
 
-TEST_CASE("what is said is one line, and cut between characters") {
+TEST_CASE("the text of a message is one line, and cut between characters") {
   const UnitLibrary library(unit_library("types"));
   UnitInstance unit(library);
   CHECK(ask(unit, "receive.frame", {1}).text == "one, two");
@@ -59,7 +59,7 @@ TEST_CASE("what is said is one line, and cut between characters") {
   CHECK(ask(unit, "receive.frame", {2}, 0).status == fmi3Discard);
 }
 
-TEST_CASE("what is thrown is a warning, and the unit lives on") {
+TEST_CASE("an exception becomes a warning, and the unit goes on") {
   const UnitLibrary library(unit_library("types"));
   InstanceChoices choices;
   choices.logging = true;
@@ -71,7 +71,7 @@ TEST_CASE("what is thrown is a warning, and the unit lives on") {
   CHECK(unit.step(0, 0.125) == fmi3OK);
 }
 
-TEST_CASE("only Binary variables are asked for") {
+TEST_CASE("only Binary variables have message texts") {
   const UnitLibrary library(unit_library("types"));
   UnitInstance unit(library);
   CHECK(ask(unit, "string", {1}).status == fmi3Error);
@@ -84,7 +84,7 @@ TEST_CASE("only Binary variables are asked for") {
   CHECK_THAT(unit.last_message(), Contains("no variable with the value reference 12345"));
 }
 
-TEST_CASE("a unit that says nothing has the function, too") {
+TEST_CASE("a unit without message texts has the function, too") {
   const UnitLibrary library(unit_library("bouncing_ball"));
   CHECK(library.DescribeMessage != nullptr);
 }

@@ -111,7 +111,7 @@ TEST_CASE("where skipping is not enabled nothing is promised") {
   CHECK(unit.idle_until() == 1);
 }
 
-TEST_CASE("while an event is wanted nothing is promised") {
+TEST_CASE("while an event is requested nothing is promised") {
   Idler idler(10, 0, 0.125);
   REQUIRE(idler.unit.step(0, 1) == fmi3OK);
   REQUIRE(idler.unit.last.early);
@@ -162,7 +162,7 @@ TEST_CASE("what was enabled is part of the state") {
   CHECK(unit.idle_until() == promise);
 }
 
-TEST_CASE("an event that is wanted is part of the state") {
+TEST_CASE("a requested event is part of the state") {
   Idler idler(10, 0, 0.125);
   REQUIRE(idler.unit.step(0, 1) == fmi3OK);
   const State wanted(idler.unit);
@@ -212,7 +212,7 @@ TEST_CASE("a tolerance that cannot be is refused, and none of its call is set") 
   CHECK(unit.idle_until() == Approx(std::sqrt(2 * 1e-3 / (0.01 * 0.01))).epsilon(1e-3));
 }
 
-TEST_CASE("a unit that never promises says so") {
+TEST_CASE("the error of a unit without promises names the missing capability") {
   const UnitLibrary library(unit_library("minimal"));
   CHECK(library.idle_manifest().empty());
   UnitInstance unit(library);

@@ -100,7 +100,7 @@ TEST_CASE("a continuous input that is set between steps is no event") {
   CHECK(unit.real("y") == Approx(3));
 }
 
-TEST_CASE("messages that nobody hears are reported once, whatever is logged") {
+TEST_CASE("messages that are not received are reported once, whatever is logged") {
   const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library, without_event_mode());
   REQUIRE(unit.set_real("tick_at", 0.5) == fmi3OK);
@@ -158,7 +158,7 @@ TEST_CASE("a step that is rejected behind an event leaves the unit as it was bef
   CHECK(unit.real("position") == 1.5);
 }
 
-TEST_CASE("a unit that ends the simulation says where") {
+TEST_CASE("a unit that ends the simulation reports the time") {
   const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library, without_event_mode());
   REQUIRE(unit.set_real("event_at", 0.25) == fmi3OK);

@@ -160,7 +160,7 @@ TEST_CASE("an exception becomes fmi3Error, and the instance can be reset") {
   CHECK(unit.integer("steps") == 1);
 }
 
-TEST_CASE("a reset whose constructor throws leaves an instance that can be asked and freed") {
+TEST_CASE("a reset whose constructor throws leaves an instance that can be read and freed") {
   const Resources resources;
   const UnitLibrary library(unit_library("stateless"));
   InstanceChoices choices;
@@ -211,7 +211,7 @@ TEST_CASE("what goes wrong while an error is reported does not cross") {
   }
 }
 
-TEST_CASE("a misuse does not end the unit's life") {
+TEST_CASE("a misuse does not end the unit") {
   const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   REQUIRE(unit.start_steps() == fmi3OK);
@@ -222,7 +222,7 @@ TEST_CASE("a misuse does not end the unit's life") {
 
 // ---- Log ----
 
-TEST_CASE("without logging an importer hears of errors only") {
+TEST_CASE("without logging only errors are logged") {
   const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   REQUIRE(unit.set_boolean("logs", true) == fmi3OK);
@@ -233,7 +233,7 @@ TEST_CASE("without logging an importer hears of errors only") {
   CHECK(unit.message_categories == std::vector<std::string>{"logStatusError"});
 }
 
-TEST_CASE("with logging it hears of everything, but for the categories that it turns off") {
+TEST_CASE("with logging all categories are logged but those that are switched off") {
   const UnitLibrary library(unit_library("stepper"));
   InstanceChoices choices;
   choices.logging = true;
@@ -351,7 +351,7 @@ TEST_CASE("the independent variable is the time") {
 
 // ---- Steps ----
 
-TEST_CASE("a step must start where the unit stands, be positive, and end before the stop time") {
+TEST_CASE("a step must start at the unit's time, be positive, and end before the stop time") {
   const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
   REQUIRE(unit.start_steps(0, 1) == fmi3OK);
@@ -412,7 +412,7 @@ TEST_CASE("a unit does in a step only what it has declared") {
   }
 }
 
-TEST_CASE("an early return stops at its instant and wants an event there") {
+TEST_CASE("an early return stops at its instant and requests an event there") {
   const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library, early_return());
   REQUIRE(unit.set_real("early_at", 0.04) == fmi3OK);
@@ -484,7 +484,7 @@ TEST_CASE("a tick in a step is seen in the Event Mode that follows, and then wit
   CHECK_FALSE(unit.clock("clock"));
 }
 
-TEST_CASE("a tick in Event Mode asks for another iteration") {
+TEST_CASE("a tick in Event Mode requests another iteration") {
   const UnitLibrary library(unit_library("types"));
   UnitInstance unit(library);
   REQUIRE(unit.initialize() == fmi3OK);
@@ -712,7 +712,7 @@ TEST_CASE("bytes that are no state of this unit are refused") {
   CHECK(unit.initialize() == fmi3OK);
 }
 
-TEST_CASE("a unit that lists no state says so") {
+TEST_CASE("the error of a unit without a state names the missing capability") {
   const Resources resources;
   const UnitLibrary library(unit_library("stateless"));
   InstanceChoices choices;

@@ -19,7 +19,7 @@ InstanceChoices with(std::vector<std::string> variables) {
 
 }  // namespace
 
-TEST_CASE("the model description says which inputs may change within a step") {
+TEST_CASE("the model description has which inputs may change within a step") {
   const std::string xml = UnitLibrary(unit_library("oscillator_mass")).describe();
   CHECK(attribute(xml, "<CoSimulation", "providesIntermediateUpdate") == "true");
   CHECK(attribute(xml, "name=\"x_other\"", "intermediateUpdate") == "true");
@@ -28,7 +28,7 @@ TEST_CASE("the model description says which inputs may change within a step") {
   CHECK(attribute(other, "<CoSimulation", "providesIntermediateUpdate").empty());
 }
 
-TEST_CASE("a unit asks for its inputs within a step, and works with what it is given") {
+TEST_CASE("a unit requests its inputs within a step, and uses their values") {
   const UnitLibrary library(unit_library("oscillator_mass"));
   UnitInstance held(library);
   UnitInstance following(library, with({"x_other", "v_other"}));
@@ -51,7 +51,7 @@ TEST_CASE("a unit asks for its inputs within a step, and works with what it is g
   CHECK(following.real("x") > held.real("x") + 0.05);
 }
 
-TEST_CASE("asked for the time, it tells its own, however late") {
+TEST_CASE("the time of an intermediate update is the unit's own, however late") {
   const UnitLibrary library(unit_library("oscillator_mass"));
   UnitInstance unit(library, with({"x_other"}));
   REQUIRE(unit.start_steps(1000) == fmi3OK);

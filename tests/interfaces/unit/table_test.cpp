@@ -84,7 +84,7 @@ TEST_CASE("types without an order have no bounds") {
   CHECK_THROWS(check([](Rows& unit) { unit.output("clock", unit.clock).min(0); }));
 }
 
-TEST_CASE("a clock depends on nothing of its own instant, so it cannot say on what") {
+TEST_CASE("a clock depends on nothing of its own instant, so it declares no dependencies") {
   CHECK_NOTHROW(check([](Rows& unit) { unit.output("clock", unit.clock); }));
   CHECK_THROWS_WITH(check([](Rows& unit) { unit.output("clock", unit.clock).depends_on({}); }),
                     Contains("variable 'clock': a clock has no depends_on()"));

@@ -66,7 +66,7 @@ std::vector<Activity> run(ScriptedSystem& system, double stop, bool fails = fals
 
 }  // namespace
 
-TEST_CASE("an early return is told, and the steps that were undone for it") {
+TEST_CASE("an early return is reported, and the steps that were undone for it") {
   ScriptedSystem f;
   f.add("a", saving_integrator().done());
   f.add("b", saving_integrator().may_return_early().done()).on_step =
@@ -76,7 +76,7 @@ TEST_CASE("an early return is told, and the steps that were undone for it") {
                                              {0, Kind::Undone, at(0.1), at(0.2)}});
 }
 
-TEST_CASE("a rejection is told with the end that was asked for") {
+TEST_CASE("a rejection is reported with the end of the requested step") {
   ScriptedSystem f;
   f.add("a", saving_integrator().done()).on_step = [](ScriptedUnit&, Time from, Time to) {
     StepResult result = reached(to);
@@ -87,7 +87,7 @@ TEST_CASE("a rejection is told with the end that was asked for") {
   CHECK(run(f, 0.2) == std::vector<Activity>{{0, Kind::Rejection, at(0.1), at(0.2)}});
 }
 
-TEST_CASE("steps that an input's error undoes are told for each unit") {
+TEST_CASE("steps that are undone because of an input's error are reported for each unit") {
   ScriptedSystem f;
   f.add("a", saving_integrator().done()).on_step = [](ScriptedUnit& unit, Time, Time to) {
     unit.number(1) = to_seconds(to) * to_seconds(to) * 1e3;
@@ -107,20 +107,20 @@ TEST_CASE("steps that an input's error undoes are told for each unit") {
   }
 }
 
-TEST_CASE("Event Mode is told once for each time that a unit is in it") {
+TEST_CASE("Event Mode is reported once each time that a unit is in it") {
   ScriptedSystem f;
   auto& a = f.add("a", Describe("ticker").output("y").event_mode().done());
   a.on_event = [times = 0](ScriptedUnit&) mutable {
     EventResult result;
-    result.iterate = ++times % 2 == 1;  // two iterations each time
-    if (times < 4) result.next_event = at(0.05);
+    result.discrete_states_need_update = ++times % 2 == 1;  // two iterations each time
+    if (times < 4) result.next_event_time = at(0.05);
     return result;
   };
   CHECK(run(f, 0.2) == std::vector<Activity>{{0, Kind::Event, at(0), at(0)},
                                              {0, Kind::Event, at(0.05), at(0.05)}});
 }
 
-TEST_CASE("a rest is told where it ends, whoever ends it and on whatever thread") {
+TEST_CASE("a suspension is reported where it ends, whatever ends it and on whatever thread") {
   ScriptedSystem f;
   add_idler(f, "a");
   f.add("b", saving_integrator().done());
@@ -135,7 +135,7 @@ TEST_CASE("a rest is told where it ends, whoever ends it and on whatever thread"
                                            {2, Kind::Idle, at(0.8), at(1)}});
 }
 
-TEST_CASE("a rest that a step ends is told by the thread of the simulation, once") {
+TEST_CASE("a suspension that a step ends is reported once, by the thread of the simulation") {
   ScriptedSystem f;
   add_idler(f, "a");
   add_idler(f, "b");
@@ -163,7 +163,7 @@ TEST_CASE("suspensions that a failure ends are reported, too") {
         std::vector<Activity>{{0, Kind::Idle, at(0), at(0.4)}, {0, Kind::Idle, at(0.4), at(0.6)}});
 }
 
-TEST_CASE("who does not watch activities is not told") {
+TEST_CASE("activities are not reported to observers that do not watch them") {
   ScriptedSystem f;
   f.add("a", Describe("ticker").output("y").event_mode().done());
   struct Uninterested : Watcher {

@@ -30,7 +30,7 @@ class CompleteUnit final : public core::Unit,
                            public core::InputsWithinStep,
                            public core::MessageText,
                            public core::UnitDiagnostics,
-                           public core::OwnProcess {
+                           public core::HostDiagnostics {
  public:
   using Calls = std::vector<std::string>;
   explicit CompleteUnit(Calls& calls) : called_(calls) {}
@@ -50,7 +50,9 @@ class CompleteUnit final : public core::Unit,
   void enter_event_mode() override { note("enter_event_mode"); }
   core::EventResult update_discrete_states() override {
     note("update_discrete_states");
-    return {.iterate = true, .terminate = true, .next_event = Time::max()};
+    return {.discrete_states_need_update = true,
+            .terminate_simulation = true,
+            .next_event_time = Time::max()};
   }
   void enter_step_mode() override { note("enter_step_mode"); }
   void terminate() override { note("terminate"); }
@@ -101,8 +103,8 @@ class CompleteUnit final : public core::Unit,
     core::Capability* const known = core::select_capability<
         core::ConfigurationMode, core::StateSaving, core::StateSerialization, core::Resetting,
         core::IdlePromises, core::DirectionalDerivatives, core::ClockIntervals,
-        core::InputsWithinStep, core::MessageText, core::UnitDiagnostics, core::OwnProcess>(*this,
-                                                                                            id);
+        core::InputsWithinStep, core::MessageText, core::UnitDiagnostics, core::HostDiagnostics>(
+        *this, id);
     return known != nullptr ? known : &unknown_;
   }
   void note(const char* function) const { called_.emplace_back(function); }
@@ -152,7 +154,7 @@ inline void check_functions(core::Unit& decorator, CompleteUnit::Calls& calls) {
   decorator.set({}, none);
   decorator.enter_initialization(Time(Duration(1)), std::nullopt);
   decorator.exit_initialization();
-  CHECK(decorator.update_discrete_states().next_event == Time::max());
+  CHECK(decorator.update_discrete_states().next_event_time == Time::max());
   decorator.enter_step_mode();
   CHECK(decorator.step(interval).reached == interval.from);
   CHECK(decorator.step(interval, {}).reached == interval.from);

@@ -57,7 +57,7 @@ TEST_CASE("a forwarding unit has all capabilities of its unit, as they are") {
     CHECK(unit.capability(id) == inner.capability(id));
   }
   CHECK(texts(unit).describe_message(0, {}) == "a message");
-  CHECK(own_process(unit).host_statistics().snapshots == 3);
+  CHECK(host_diagnostics(unit).host_statistics().snapshots == 3);
   CHECK(calls == CompleteUnit::Calls{"describe_message", "host_statistics"});
 }
 

@@ -81,7 +81,7 @@ struct Behaviour {
     const Time reached = stops_early ? *stop : to;
     advance(unit, reached - from);
     *has_event = stop != stops.end() && *stop <= to;
-    return {.early_return = stops_early, .event_needed = *has_event, .reached = reached};
+    return {.early_return = stops_early, .event_handling_needed = *has_event, .reached = reached};
   }
 };
 
@@ -249,7 +249,8 @@ TEST_CASE("observers and all but the steps stay on the thread that runs the simu
   CHECK(stepped[0] != stepped[2]);
 }
 
-TEST_CASE("of several failures the first in the step order is told, when all threads rest") {
+TEST_CASE(
+    "of several failures the first in the step order is thrown, after all threads have finished") {
   const std::size_t threads = GENERATE(1, 2, 4);
   ScriptedSystem system;
   std::atomic<int> running = 0;
@@ -270,7 +271,7 @@ TEST_CASE("of several failures the first in the step order is told, when all thr
   for (std::size_t i : {1, 2, 3}) CHECK(statistics.units[i].steps == 5);
 }
 
-TEST_CASE("a unit that fails because another one did is not the one to tell of") {
+TEST_CASE("a failure that another unit's failure has caused is not the reported one") {
   ScriptedSystem system;
   std::atomic<bool> condemned = false;
   system.add("victim", plain().done()).on_step = [&](ScriptedUnit&, Time, Time) -> StepResult {
@@ -286,7 +287,7 @@ TEST_CASE("a unit that fails because another one did is not the one to tell of")
   CHECK_THAT(failure(system.build(1, 1ms)), Contains("unit 'culprit', at 0 s: it broke"));
 }
 
-TEST_CASE("a stop in a stage is followed by all, and those behind it were not asked before") {
+TEST_CASE("all units follow a stop in a stage, and later stages step to it only") {
   const std::size_t threads = GENERATE(1, 2);
   ScriptedSystem system;
   std::vector<Time> asked;

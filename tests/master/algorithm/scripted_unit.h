@@ -15,9 +15,9 @@
 #include "master/algorithm/capabilities/clock_intervals.h"
 #include "master/algorithm/capabilities/configuration_mode.h"
 #include "master/algorithm/capabilities/directional_derivatives.h"
+#include "master/algorithm/capabilities/host_diagnostics.h"
 #include "master/algorithm/capabilities/idle_promises.h"
 #include "master/algorithm/capabilities/message_text.h"
-#include "master/algorithm/capabilities/own_process.h"
 #include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/unit.h"
 
@@ -103,7 +103,7 @@ class Describe {
     return *this;
   }
   Describe& unit(const std::string& symbol, BaseUnitOfMeasure base) {
-    description_->units[symbol] = base;
+    description_->units_of_measure[symbol] = base;
     return *this;
   }
   Describe& event_mode() { return description_->has_event_mode = true, *this; }
@@ -137,7 +137,7 @@ class Describe {
   }();
 };
 
-/// With all capabilities that the scripts can fill; OwnProcess where `host` is set.
+/// With all capabilities that the scripts can fill; HostDiagnostics where `host` is set.
 class ScriptedUnit : public Unit,
                      public ConfigurationMode,
                      public StateSaving,
@@ -145,7 +145,7 @@ class ScriptedUnit : public Unit,
                      public DirectionalDerivatives,
                      public ClockIntervals,
                      public MessageText,
-                     public OwnProcess {
+                     public HostDiagnostics {
  public:
   using Calls = std::vector<std::string>;
 
@@ -296,9 +296,9 @@ class ScriptedUnit : public Unit,
 
  private:
   Capability* find_capability(CapabilityId id) override {
-    if (id == OwnProcess::kId && !host) return nullptr;
+    if (id == HostDiagnostics::kId && !host) return nullptr;
     return select_capability<ConfigurationMode, StateSaving, IdlePromises, DirectionalDerivatives,
-                             ClockIntervals, MessageText, OwnProcess>(*this, id);
+                             ClockIntervals, MessageText, HostDiagnostics>(*this, id);
   }
 
   template <class Block, class Move>

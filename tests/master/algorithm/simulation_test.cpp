@@ -58,7 +58,7 @@ struct Seen : Observer {
 
 }  // namespace
 
-TEST_CASE("a million steps of 1/3 ms end exactly, and every unit is asked for exact times") {
+TEST_CASE("a million steps of 1/3 ms end exactly, and every unit gets exact times") {
   Fixture f;
   Time expected{};
   std::uint64_t wrong = 0;
@@ -170,7 +170,7 @@ TEST_CASE("messages are handed over at communication points until nothing ticks"
     if (to == time_from_seconds(0.002)) {
       unit.clock(2) = true;
       unit.binary(3) = {0xAB};
-      result.event_needed = true;
+      result.event_handling_needed = true;
     }
     return result;
   };
@@ -180,7 +180,7 @@ TEST_CASE("messages are handed over at communication points until nothing ticks"
   };
   b.on_event = [](ScriptedUnit& unit) {  // answers each message with its complement, at once
     EventResult result;
-    result.iterate = unit.clock(2) = unit.clock(0);
+    result.discrete_states_need_update = unit.clock(2) = unit.clock(0);
     if (unit.clock(0)) unit.binary(3) = {static_cast<std::uint8_t>(~unit.binary(1)[0])};
     return result;
   };
@@ -215,7 +215,7 @@ TEST_CASE("a value of two clocks travels to those whose clock ticks") {
     unit.clock(0) = to == Time(1ms);
     unit.clock(1) = to == Time(2ms);
     unit.binary(2) = {static_cast<std::uint8_t>(to.time_since_epoch() / 1ms)};
-    result.event_needed = true;
+    result.event_handling_needed = true;
     return result;
   };
   Seen seen;
@@ -248,7 +248,7 @@ TEST_CASE("a unit's next event time is a communication point") {
   a.on_event = [&](ScriptedUnit&) {
     events.push_back(now);
     EventResult result;
-    if (now == Time{}) result.next_event = time_from_seconds(0.0015);
+    if (now == Time{}) result.next_event_time = time_from_seconds(0.0015);
     return result;
   };
   Seen seen;
@@ -260,7 +260,7 @@ TEST_CASE("a unit's next event time is a communication point") {
   CHECK(seen.points == points);
 }
 
-TEST_CASE("a clock that ticks because another one was set is heard in the same instant") {
+TEST_CASE("a clock that ticks because another one was set is transmitted in the same instant") {
   Fixture f;
   auto& source = f.add("z_source", messenger());
   auto& echo = f.add("echo", messenger());
@@ -273,7 +273,7 @@ TEST_CASE("a clock that ticks because another one was set is heard in the same i
   bool sent = false;
   source.on_event = [&](ScriptedUnit& unit) {
     EventResult result;
-    unit.clock(2) = result.iterate = !sent;
+    unit.clock(2) = result.discrete_states_need_update = !sent;
     if (!sent) unit.binary(3) = {0x11};
     sent = true;
     return result;
@@ -347,13 +347,13 @@ TEST_CASE("units that tick for ever are named") {
   auto& a = f.add("restless", messenger());
   a.on_event = [](ScriptedUnit&) {
     EventResult result;
-    result.iterate = true;
+    result.discrete_states_need_update = true;
     return result;
   };
   CHECK_THAT(failure(f.build(1, 1ms)), Contains("'restless'") && !Contains("quiet"));
 }
 
-TEST_CASE("an output that is NaN and connected ends the run, and tells who") {
+TEST_CASE("a connected output that is NaN ends the run with the name of its unit") {
   Fixture f;
   auto& a = f.add("a", one_in_one_out());
   f.add("b", one_in_one_out());
@@ -426,7 +426,7 @@ TEST_CASE("a unit can end the simulation") {
   a.on_step = [](ScriptedUnit&, Time, Time to) {
     StepResult result;
     result.reached = to;
-    result.terminate = to == time_from_seconds(0.003);
+    result.terminate_simulation = to == time_from_seconds(0.003);
     return result;
   };
   f.build(1, 1ms).run();
@@ -435,7 +435,7 @@ TEST_CASE("a unit can end the simulation") {
   CHECK(a.calls.back() == "terminate");
 }
 
-TEST_CASE("what a unit says of its process is in the statistics, also where the run fails") {
+TEST_CASE("the diagnostics of a host are in the statistics, also if the run fails") {
   const bool fails = GENERATE(false, true);
   Fixture f;
   f.add("in_process", one_in_one_out());
@@ -517,7 +517,7 @@ struct Announcer : ScriptedSystem {
     unit.on_event = [this, next](ScriptedUnit&) {
       events.push_back(now);
       EventResult result;
-      result.next_event = next(events.size());
+      result.next_event_time = next(events.size());
       return result;
     };
   }
@@ -545,12 +545,14 @@ TEST_CASE("a unit whose next event is always past is named") {
                     Contains("0.0005 s") && Contains("'a'") && Contains("not later than now"));
 }
 
-TEST_CASE("who ends the simulation in an event has no further event iteration") {
+TEST_CASE("a unit that ends the simulation in an event has no further event iteration") {
   Announcer f;
   f.announce([](std::size_t) { return std::nullopt; });
   f.unit.on_event = [&](ScriptedUnit&) {
     f.events.push_back(f.now);
-    return EventResult{.iterate = true, .terminate = f.events.size() == 3, .next_event = {}};
+    return EventResult{.discrete_states_need_update = true,
+                       .terminate_simulation = f.events.size() == 3,
+                       .next_event_time = {}};
   };
   f.build(1, 1ms).run();
   CHECK(f.events.size() == 3);
@@ -596,7 +598,7 @@ struct OneMessage : Fixture {
     a.on_step = [](ScriptedUnit& unit, Time, Time to) {
       StepResult result;
       result.reached = to;
-      result.event_needed = unit.clock(2) = to == time_from_seconds(0.002);
+      result.event_handling_needed = unit.clock(2) = to == time_from_seconds(0.002);
       unit.binary(3) = {0xAB};
       return result;
     };
@@ -621,7 +623,7 @@ struct Listener : Observer {
 
 }  // namespace
 
-TEST_CASE("a message comes with its content where an observer wants it") {
+TEST_CASE("a message has its content where an observer requires it") {
   OneMessage f;
   f.b.on_describe = [](ScriptedUnit&, ValueReference, const Binary&) {
     return std::string("heard\n\xFF") + std::string(1000, '!');
@@ -636,7 +638,7 @@ TEST_CASE("a message comes with its content where an observer wants it") {
   CHECK(listener.contents[1] == "heard \uFFFD" + std::string(kLongestContent - 8, '!') + "…");
 }
 
-TEST_CASE("who has no words for a message takes those of the other end") {
+TEST_CASE("a unit without text for a message takes that of the other end") {
   OneMessage f;
   const auto words = f.a.on_describe;
   const auto none = f.b.on_describe;

@@ -5,10 +5,10 @@
 #include "master/algorithm/capabilities/clock_intervals.h"
 #include "master/algorithm/capabilities/configuration_mode.h"
 #include "master/algorithm/capabilities/directional_derivatives.h"
+#include "master/algorithm/capabilities/host_diagnostics.h"
 #include "master/algorithm/capabilities/idle_promises.h"
 #include "master/algorithm/capabilities/inputs_within_step.h"
 #include "master/algorithm/capabilities/message_text.h"
-#include "master/algorithm/capabilities/own_process.h"
 #include "master/algorithm/capabilities/resetting.h"
 #include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/capabilities/state_serialization.h"
@@ -47,8 +47,8 @@ inline core::MessageText& texts(core::Unit& unit) {
 inline core::UnitDiagnostics& diagnostics(core::Unit& unit) {
   return unit.require_capability<core::UnitDiagnostics>();
 }
-inline core::OwnProcess& own_process(core::Unit& unit) {
-  return unit.require_capability<core::OwnProcess>();
+inline core::HostDiagnostics& host_diagnostics(core::Unit& unit) {
+  return unit.require_capability<core::HostDiagnostics>();
 }
 
 }  // namespace stride::tests

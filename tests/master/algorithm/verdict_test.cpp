@@ -35,7 +35,7 @@ void make_good_at(ScriptedUnit& unit, Time time) {
 
 }  // namespace
 
-TEST_CASE("verdicts are what the units say at the end of the run, in their order") {
+TEST_CASE("verdicts are the units' outputs at the end of the run, in their order") {
   ScriptedSystem fixture;
   make_good_at(fixture.add("late", judge()), Time(20ms));
   fixture.add("silent", Describe("silent").output("y").done());
@@ -62,7 +62,7 @@ TEST_CASE("the reason names the first failure") {
   CHECK(reason(verdict) == "at 1.5 s");
 }
 
-TEST_CASE("they are asked for before the units are terminated, and only once") {
+TEST_CASE("verdicts are read before the units are terminated, and only once") {
   ScriptedSystem fixture;
   ScriptedUnit& unit = fixture.add("judge", judge());
   make_good_at(unit, Time(1ms));
@@ -107,7 +107,7 @@ TEST_CASE("a run that a unit ends is judged there") {
   make_good_at(fixture.add("judge", judge()), Time(5ms));
   fixture.add("ending", Describe("ending").done()).on_step = [](ScriptedUnit&, Time, Time to) {
     StepResult result = reached(to);
-    result.terminate = to == Time(4ms);
+    result.terminate_simulation = to == Time(4ms);
     return result;
   };
   Simulation& simulation = fixture.build(0.01, 1ms);

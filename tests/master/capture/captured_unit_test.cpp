@@ -93,7 +93,7 @@ class Bench {
 
 }  // namespace
 
-TEST_CASE("the head says whose stimuli they are, and what was set before the start") {
+TEST_CASE("the head has the component of the stimuli, and the values before the start") {
   Bench bench;
   bench.set(3, 2.5);
   idle(*bench.captured).enable_idle_skipping(std::chrono::milliseconds(500));
@@ -108,7 +108,7 @@ TEST_CASE("the head says whose stimuli they are, and what was set before the sta
         "0,end,,\"completed\"\n");
 }
 
-TEST_CASE("initial values stand there once, as they were in the end") {
+TEST_CASE("initial values are recorded once, as they were at the end of the initialization") {
   Bench bench;
   bench.captured->enter_initialization({}, std::nullopt);
   bench.set(0, 1);
@@ -119,7 +119,7 @@ TEST_CASE("initial values stand there once, as they were in the end") {
   CHECK(bench.rows() == "0,,u,2\n0,end,,\"completed\"\n");
 }
 
-TEST_CASE("values stand where they were given, and only where their bits change") {
+TEST_CASE("values are recorded where they were set, and only where their bits change") {
   Bench bench;
   bench.start();
   bench.set(0, 1);

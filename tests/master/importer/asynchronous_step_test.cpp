@@ -8,7 +8,7 @@ using namespace std::chrono_literals;
 using stride::importer::AsynchronousStep;
 using stride::importer::Status;
 
-TEST_CASE("a step that does not finish is waited for as long as is said") {
+TEST_CASE("a wait for a step that does not finish ends after the given time") {
   AsynchronousStep step;
   step.begin();
   CHECK_FALSE(step.wait(1us));
@@ -37,19 +37,19 @@ TEST_CASE("a step finishes on another thread") {
 TEST_CASE("a callback that comes late is not that of the next step") {
   AsynchronousStep step;
   step.begin();
-  step.note_asked();  // the unit has said how it ended, before its callback came
+  step.note_polled();  // the unit has said how it ended, before its callback came
   step.begin();
   step.finish(Status::Ok);
   CHECK_FALSE(step.wait(1us));
   step.finish(Status::Error);
   CHECK(step.wait(1us) == Status::Error);
-  step.note_asked();  // but that one has come
+  step.note_polled();  // but that one has come
   step.begin();
   step.finish(Status::Ok);
   CHECK(step.wait(1us) == Status::Ok);
 }
 
-TEST_CASE("who says that a step is pending says nothing") {
+TEST_CASE("a callback with the status pending has no effect") {
   AsynchronousStep step;
   step.begin();
   step.finish(Status::Pending);

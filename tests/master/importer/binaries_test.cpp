@@ -16,7 +16,7 @@ std::string find_error(const Scratch& scratch, const std::string& version) {
 
 }  // namespace
 
-TEST_CASE("the library of an FMU stands in the folder of this platform, by its version's name") {
+TEST_CASE("the library of an FMU is in the folder of this platform, by its version's name") {
   const Scratch scratch;
   const std::string fmi3 = std::string("binaries/") + importer::platform() + "/tank.so";
   const std::string fmi2 = std::string("binaries/") + importer::fmi2_platform() + "/tank.so";
@@ -30,7 +30,7 @@ TEST_CASE("the library of an FMU stands in the folder of this platform, by its v
              Contains("other.so' is missing") && Contains("modelIdentifier"));
 }
 
-TEST_CASE("an FMU for other platforms says which") {
+TEST_CASE("the error of an FMU for other platforms lists them") {
   const Scratch scratch;
   CHECK_THAT(find_error(scratch, "3.0"), Contains("system.ssd:4: unit 'tank': ") &&
                                              Contains("it has none at all") &&
@@ -41,7 +41,7 @@ TEST_CASE("an FMU for other platforms says which") {
                                              Contains("hint: export the unit for this platform"));
 }
 
-TEST_CASE("an FMU for Windows, or for 32 bits, says that this cannot be loaded") {
+TEST_CASE("an FMU for Windows, or for 32 bits, cannot be loaded") {
   const Scratch windows;
   windows.write("binaries/win32/tank.dll", "");
   windows.write("binaries/win64/tank.dll", "");
@@ -53,7 +53,7 @@ TEST_CASE("an FMU for Windows, or for 32 bits, says that this cannot be loaded")
   CHECK_THAT(find_error(narrow, "2.0"), Contains("it has linux32") && Contains("64-bit Linux"));
 }
 
-TEST_CASE("a source-code FMU says how to compile it") {
+TEST_CASE("the error of a source-code FMU has the way to compile it") {
   const Scratch scratch;
   scratch.write("sources/tank.c", "");
   CHECK_THAT(find_error(scratch, "2.0"),

@@ -54,7 +54,7 @@ std::string mistake_in(const std::string& element) {
 
 }  // namespace
 
-TEST_CASE("a manifest gives deadbands and tolerances, and says that the unit promises") {
+TEST_CASE("a manifest gives deadbands and tolerances, and declares the capability") {
   core::UnitDescription unit = tank();
   importer::parse_idle_manifest(
       manifest("<Input name='inflow' valueReference='1' deadband='0.25'/>"
@@ -78,7 +78,7 @@ TEST_CASE("an empty manifest promises, with no deadband and no tolerance") {
   CHECK_FALSE(unit.variables[2].has_derivative);
 }
 
-TEST_CASE("what a later version adds is passed over, what this one does not have is a mistake") {
+TEST_CASE("elements of later versions are ignored, unknown ones of this version are a mistake") {
   core::UnitDescription unit = tank();
   CHECK_NOTHROW(importer::parse_idle_manifest(manifest("<Memory size='3'/>", "1.1.0"), "", unit));
   CHECK(unit.promises_idle);

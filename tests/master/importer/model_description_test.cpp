@@ -151,11 +151,11 @@ TEST_CASE("capabilities are absent unless they are declared") {
 
 TEST_CASE("units of measurement whose meaning is given") {
   const auto unit = importer::parse_model_description(kComplete, "unit.xml");
-  REQUIRE(unit.units.size() == 2);
-  CHECK(unit.units.at("degC").exponents == std::array<int, 8>{0, 0, 0, 0, 1, 0, 0, 0});
-  CHECK(unit.units.at("degC").offset == 273.15);
-  CHECK(unit.units.at("mm/s").exponents == std::array<int, 8>{0, 1, -1, 0, 0, 0, 0, 0});
-  CHECK(unit.units.at("mm/s").factor == 0.001);
+  REQUIRE(unit.units_of_measure.size() == 2);
+  CHECK(unit.units_of_measure.at("degC").exponents == std::array<int, 8>{0, 0, 0, 0, 1, 0, 0, 0});
+  CHECK(unit.units_of_measure.at("degC").offset == 273.15);
+  CHECK(unit.units_of_measure.at("mm/s").exponents == std::array<int, 8>{0, 1, -1, 0, 0, 0, 0, 0});
+  CHECK(unit.units_of_measure.at("mm/s").factor == 0.001);
 }
 
 TEST_CASE("variables keep their order, and their defaults are those of the standard") {
@@ -203,7 +203,7 @@ TEST_CASE("an alias is another name of its variable") {
   CHECK(variable(unit, "on").aliases.empty());
 }
 
-TEST_CASE("what `initial` is where it is not said depends on causality and variability") {
+TEST_CASE("the default of `initial` depends on causality and variability") {
   const std::string fixed = "variability=\"fixed\" ";
   const std::string tunable = "variability=\"tunable\" ";
   const std::string discrete = "variability=\"discrete\" ";
@@ -227,7 +227,7 @@ TEST_CASE("what `initial` is where it is not said depends on causality and varia
   CHECK(variable(unit, "time").initial == Initial::None);
 }
 
-TEST_CASE("what `initial` is where it is said must be possible") {
+TEST_CASE("a given `initial` must be allowed") {
   CHECK(initial_of("causality=\"output\" initial=\"exact\" start=\"1\"") == Initial::Exact);
   CHECK(initial_of("causality=\"output\" initial=\"approx\" start=\"1\"") == Initial::Approx);
   CHECK(initial_of("causality=\"calculatedParameter\" initial=\"approx\" start=\"1\"") ==
@@ -333,7 +333,7 @@ TEST_CASE("start values and clocks") {
   CHECK(variable(unit, "frame").clocks == std::vector<core::ValueReference>{5});
 }
 
-TEST_CASE("a clock's interval is the fraction, else the decimal, else for the unit to say") {
+TEST_CASE("a clock's interval is the fraction, else the decimal, else the unit's") {
   using core::Interval;
   const auto exact = clock_of(R"(intervalVariability="constant" intervalDecimal="0.3333333"
       supportsFraction="true" resolution="3000" intervalCounter="1000" shiftCounter="500"
@@ -424,7 +424,7 @@ TEST_CASE("what may change within a step") {
   CHECK_FALSE(variable(unit, "time").intermediate_update);
 }
 
-TEST_CASE("no dependencies said and none at all are not the same") {
+TEST_CASE("undeclared dependencies and an empty list are not the same") {
   const auto unit = importer::parse_model_description(kComplete, "unit.xml");
   REQUIRE(unit.outputs.size() == 2);
   CHECK(unit.outputs[0].dependencies == std::vector<core::ValueReference>{3, 4});
@@ -447,7 +447,7 @@ TEST_CASE("other versions of FMI are named") {
   CHECK(importer::parse_model_description(text, "unit.xml").fmi_version == "3.1");
 }
 
-TEST_CASE("a unit without Co-Simulation says what it has") {
+TEST_CASE("the error of a unit without Co-Simulation lists its interface types") {
   const std::string text = R"(<fmiModelDescription fmiVersion="3.0" modelName="x"
     instantiationToken="x"><ModelExchange modelIdentifier="x"/><ScheduledExecution
     modelIdentifier="x"/></fmiModelDescription>)";
@@ -520,7 +520,7 @@ TEST_CASE("references lead somewhere") {
   CHECK_THAT(error_with("declaredType=\"Tick\"", ""), Contains("'intervalVariability'"));
 }
 
-TEST_CASE("a description cannot ask for more elements than memory holds") {
+TEST_CASE("a description with more elements than memory holds is refused") {
   CHECK_THAT(error_with("<Dimension start=\"3\"/>", "<Dimension start=\"4294967296\"/>"),
              Contains("variable 'field' has more than"));
   CHECK_THAT(error_with("<Dimension start=\"3\"/>",

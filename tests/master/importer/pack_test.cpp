@@ -135,7 +135,7 @@ TEST_CASE("a failed packing leaves the old archive and nothing else") {
   }
 }
 
-TEST_CASE("what cannot be packed is an error that says why") {
+TEST_CASE("what cannot be packed is an error with its cause") {
   const Scratch scratch;
   auto request = stateless(scratch);
   SECTION("two files of one name") {

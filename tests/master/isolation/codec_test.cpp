@@ -64,25 +64,25 @@ TEST_CASE("results of steps and events come over") {
   for (int flags = 0; flags < 16; ++flags) {
     const core::StepResult result{.rejected = (flags & 1) != 0,
                                   .early_return = (flags & 2) != 0,
-                                  .event_needed = (flags & 4) != 0,
-                                  .terminate = (flags & 8) != 0,
+                                  .event_handling_needed = (flags & 4) != 0,
+                                  .terminate_simulation = (flags & 8) != 0,
                                   .reached = Time(Duration(flags - 5))};
     const There there([&](MessageWriter& to) { put_step(to, result); });
     MessageReader from = there.read();
     const core::StepResult copy = take_step(from);
     CHECK(copy.rejected == result.rejected);
     CHECK(copy.early_return == result.early_return);
-    CHECK(copy.event_needed == result.event_needed);
-    CHECK(copy.terminate == result.terminate);
+    CHECK(copy.event_handling_needed == result.event_handling_needed);
+    CHECK(copy.terminate_simulation == result.terminate_simulation);
     CHECK(copy.reached == result.reached);
   }
   for (const auto next : {std::optional<Time>(), std::optional(Time(Duration(12)))}) {
     const There there([&](MessageWriter& to) { put_events(to, {true, false, next}); });
     MessageReader from = there.read();
     const core::EventResult copy = take_events(from);
-    CHECK(copy.iterate);
-    CHECK_FALSE(copy.terminate);
-    CHECK(copy.next_event == next);
+    CHECK(copy.discrete_states_need_update);
+    CHECK_FALSE(copy.terminate_simulation);
+    CHECK(copy.next_event_time == next);
   }
 }
 

@@ -1,4 +1,4 @@
-// What a unit may do to its process is an error that tells it, and nothing is left of it.
+// Every way in which a unit may end its process is an error that names it, and nothing is left.
 #include <csignal>
 
 #include "master/isolation/process/child.h"
@@ -24,7 +24,7 @@ constexpr const char* kHead = "system.ssd:7: unit 'u', at 1 s: ";
 
 }  // namespace
 
-TEST_CASE("however the process of a unit ends, it is an error that tells how") {
+TEST_CASE("every kind of end of a unit's process is an error with its cause") {
   const auto [fault, says] = GENERATE(table<std::string, std::string>({
       {"segfault", "its process was ended by signal 11 (SIGSEGV) in fmi3DoStep"},
       {"abort", "its process was ended by signal 6 (SIGABRT) in fmi3DoStep"},
@@ -48,14 +48,14 @@ TEST_CASE("however the process of a unit ends, it is an error that tells how") {
   CHECK(Belongings() == before);
 }
 
-TEST_CASE("what a unit said last stands in the error") {
+TEST_CASE("the error has the last output of the unit") {
   Fixture unit("faulty");
   const std::string error = error_of_fault(unit, "abort");
   CHECK_THAT(error, Contains("\n  it printed: now comes: abort\n"
                              "  it printed: the model is inconsistent"));
 }
 
-TEST_CASE("a unit that dies at birth is an error") {
+TEST_CASE("the end of the process during the instantiation is an error") {
   const Belongings before;
   CHECK_THAT(run_error([] { Fixture("faulty", true, {}, {}, "dies_at_birth"); }),
              Contains("unit 'dies_at_birth': its process was ended by signal 6 (SIGABRT) in "
@@ -78,11 +78,11 @@ TEST_CASE("a call that takes longer than its limit ends") {
   CHECK(Belongings() == before);
 }
 
-TEST_CASE("without a limit the log tells that a call takes long") {
-  Fixture unit("faulty", true, {}, {.patience = 20ms});
+TEST_CASE("without a limit a long call is logged") {
+  Fixture unit("faulty", true, {}, {.warn_after = 20ms});
   unit.start({{"fault", "loop"}});
   const pid_t server = Fixture::server();
-  std::thread user([&] {  // who loses patience, too
+  std::thread user([&] {  // who ends the process
     std::this_thread::sleep_for(500ms);
     ::kill(server, SIGKILL);
   });

@@ -19,7 +19,7 @@ class Hosted : public Fixture {
   explicit Hosted(const std::string& unit, const fs::path& writable = {})
       : Fixture(unit, true, options(writable)) {}
 
-  core::HostStatistics statistics() { return own_process(**this).host_statistics(); }
+  core::HostStatistics statistics() { return host_diagnostics(**this).host_statistics(); }
   std::uint64_t steps() { return get("steps").numbers<std::uint64_t>()[0]; }
 
  private:
@@ -176,7 +176,7 @@ TEST_CASE("a unit that was restored fails as any other") {
       Contains("unit 'u'") && Contains("ended its process with exit code"));
 }
 
-TEST_CASE("memory is told: the unit's, and what a snapshot keeps") {
+TEST_CASE("the statistics have the memory of the unit and of a snapshot") {
   Hosted unit("rejecter_without_state");
   unit.start();
   for (int i = 0; i < 5; ++i) {
@@ -231,7 +231,7 @@ TEST_CASE("snapshots end with the supervisor") {
   CHECK_THROWS_WITH(unit.step(0, 0.1), Contains("unit 'u'") && Contains("ended its keeper"));
 }
 
-TEST_CASE("a unit that was restored and is killed is an error that tells how") {
+TEST_CASE("the end of a restored unit's process is an error with its cause") {
   Hosted unit("rejecter_without_state");
   unit.start();
   state(*unit).save_state();

@@ -91,7 +91,7 @@ TEST_CASE("binary values of many MiB go in and out") {
   }
 }
 
-TEST_CASE("steps with other values than before are told apart") {
+TEST_CASE("steps at the same addresses with other references set and get the right values") {
   Fixture unit("types");
   unit.start();
   Time time{};
@@ -152,7 +152,7 @@ TEST_CASE("what a unit logs has reached the log when the call ends") {
   }
 }
 
-TEST_CASE("what fails while a unit asks for its inputs is thrown as it is") {
+TEST_CASE("a failure while inputs are set within a step is thrown as it is") {
   Fixture unit("oscillator_mass", true, {}, {.intermediate_update = true});
   unit.start();
   struct Own {};
@@ -168,13 +168,13 @@ TEST_CASE("what fails while a unit asks for its inputs is thrown as it is") {
   CHECK(unit.number("x_other") == 3);
 }
 
-TEST_CASE("a hosted unit has the capabilities that it has in this process, and its own process") {
+TEST_CASE("a hosted unit has the capabilities that it has in this process, and host diagnostics") {
   std::set<std::size_t> seen;
   for (const char* name : {"types", "idler", "resizable", "clocks", "oscillator_mass"}) {
     CAPTURE(name);
     Fixture hosted(name), here(name, false);
     auto numbers = capability_numbers(*here);
-    numbers.insert(static_cast<std::size_t>(core::OwnProcess::kId));
+    numbers.insert(static_cast<std::size_t>(core::HostDiagnostics::kId));
     CHECK(capability_numbers(*hosted) == numbers);
     seen.merge(numbers);
   }

@@ -56,7 +56,7 @@ TEST_CASE("messages of several threads, longer than there is room for, come over
   second.join();
 }
 
-TEST_CASE("nonsense is no status, and no message without end takes memory") {
+TEST_CASE("an invalid status is refused, and a message without an end takes no memory") {
   const isolation::Shared<ChannelMemory> channel;
   LogReader reader(*channel);
   channel->logged.write(std::string(16, '\xff'));

@@ -6,7 +6,7 @@
 
 using namespace stride::isolation;
 
-TEST_CASE("the last lines are kept, as one said them") {
+TEST_CASE("the last lines are kept, in their order") {
   OutputTail tail;
   CHECK(tail.text().empty());
   tail.add_logged("first\tthing");

@@ -105,7 +105,7 @@ TEST_CASE("a process goes on where it was saved, any number of times") {
   CHECK(world->board.restores == 499);
 }
 
-TEST_CASE("a slot holds what was saved in it last, whoever is in charge") {
+TEST_CASE("a slot holds what was saved in it last, whichever process is in charge") {
   SharedWorld world;
   const auto error = run(world, [](World& w, Snapshots& snapshots) {
     int value = 1;
@@ -210,7 +210,7 @@ TEST_CASE("a snapshot that was killed is missed where it is needed") {
   CHECK(world->passes == 2);
 }
 
-TEST_CASE("who was restored and crashes is seen by the supervisor") {
+TEST_CASE("the supervisor sees the crash of a restored process") {
   SharedWorld world;
   run(world, [](World&, Snapshots& snapshots) {
     if (snapshots.save(0)) std::raise(SIGILL);
@@ -270,7 +270,7 @@ TEST_CASE("nothing stays when the supervisor is killed") {
             for (;;) ::pause();
           };
           if (::fork() == 0) {
-            isolation::die_with(::getppid());
+            isolation::end_with(::getppid());
             begin(*world, serve, {});
           }
           for (;;) ::pause();

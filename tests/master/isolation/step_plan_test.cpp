@@ -27,7 +27,7 @@ struct Values {
 
 }  // namespace
 
-TEST_CASE("a plan is known again by what it is about, not by where that stands") {
+TEST_CASE("a plan is found by its references and types, not by their addresses") {
   KnownStepShapes plans;
   CHECK_FALSE(plans.find(Values({1, 2}).step()));
   CHECK(plans.add(Values({1, 2}).step()) == 0);
@@ -53,7 +53,7 @@ TEST_CASE("of many plans the oldest lose their numbers") {
   CHECK(plans.find(Values({KnownStepShapes::kMost}).step()) == 0U);
 }
 
-TEST_CASE("a served plan has memory for the values that it was told of") {
+TEST_CASE("a served plan has memory for the values of its request") {
   Values values({4, 5});
   values.in.numbers<double>()[1] = 2.5;
   isolation::GrowingMemory memory("test", 64);

@@ -308,7 +308,7 @@ TEST_CASE("messages are converted, too") {
     self.clock(0) = true;
     self.block(1).numbers<float>()[0] = 1.5F;
     StepResult result = reached(to);
-    result.event_needed = true;
+    result.event_handling_needed = true;
     return result;
   };
   a.on_event = [](ScriptedUnit& self) {

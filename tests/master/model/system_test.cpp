@@ -250,7 +250,7 @@ TEST_CASE("a unit that does not fit is explained connector by connector, each of
           "types"));
 }
 
-TEST_CASE("wrong start values are told of together") {
+TEST_CASE("wrong start values are reported together") {
   auto system = declaration();
   system.start_values = {{"alpha", "gain", "high", {}, {"s.ssd", 5}},
                          {"alpha", "ranged", "3", {}, {"s.ssd", 6}},

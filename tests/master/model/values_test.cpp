@@ -60,7 +60,7 @@ TEST_CASE("an enumeration takes names and numbers") {
   CHECK_THAT(reason(row, "maybe"), Contains("expected one of off, on"));
 }
 
-TEST_CASE("what is no value says what was expected") {
+TEST_CASE("the error of an invalid value has what was expected") {
   CHECK_THAT(reason(variable(ValueType::Float64), "fast"), Contains("expected a Float64 number"));
   CHECK_THAT(reason(variable(ValueType::Float64), "1 2"), Contains("expected one Float64 value"));
   CHECK_THAT(reason(variable(ValueType::Float64), ""), Contains("expected one Float64 value"));

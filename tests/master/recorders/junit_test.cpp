@@ -86,7 +86,7 @@ TEST_CASE("a run that did not come to its end is an error, whose first line is t
                             "'a' crashed\n  hint: look at &lt;its&gt; log</error>"));
 }
 
-TEST_CASE("a file that cannot be written is an error of who asked for it") {
+TEST_CASE("a file that cannot be written is an error of the option that names it") {
   CHECK_THAT(error_of([] { write_junit("/nowhere/junit.xml", report()); }),
              Contains("/nowhere/junit.xml") && Contains("in which you may write"));
 }

@@ -39,7 +39,7 @@ std::string written(const core::RunStatistics& statistics, std::optional<std::st
 
 }  // namespace
 
-TEST_CASE("run.json tells what was run and how far it came") {
+TEST_CASE("run.json has what was run and how far the run came") {
   const TemporaryFolder folder;
   core::RunOptions options;
   options.stop = Time(14'200ms);
@@ -215,14 +215,14 @@ TEST_CASE("run.json tells what was run and how far it came") {
 )");
 }
 
-TEST_CASE("An error is told, also when the run never began") {
+TEST_CASE("An error is recorded, also when the run never began") {
   const std::string text = written({}, "unit 'a': it said \"no\"\xff");
   CHECK_THAT(text,
              Contains("\"outcome\": \"failed\",\n  \"error\": \"unit 'a': it said \\\"no\\\""));
   CHECK_THAT(text, Contains("\"name\": \"b, c\"") && !Contains("messages_sent"));
 }
 
-TEST_CASE("The snapshots of a process are told where there were some") {
+TEST_CASE("The snapshots of a process are recorded where there were some") {
   core::RunStatistics statistics;
   statistics.units.resize(2);
   core::HostStatistics& host = statistics.units[0].host.emplace();

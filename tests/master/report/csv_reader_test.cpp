@@ -50,7 +50,7 @@ TEST_CASE("quoted fields hold what would end others") {
   CHECK_FALSE(found.is_cut);
 }
 
-TEST_CASE("a last line that was cut off is passed over, and told") {
+TEST_CASE("a last line that was cut off is skipped and reported") {
   for (const char* rest : {"0.2,1", "0.2,", "0", "0.2,\"te", "0.2,\"text\"", "\"", "0.2,1\r"}) {
     INFO(rest);
     const ReadRows found = read_rows(std::string("time,a\n0.1,2\n") + rest);

@@ -79,7 +79,7 @@ TEST_CASE("texts are an array of indices and the distinct ones") {
         std::vector<std::string>{"on", "off", "on", "</script>", "\xEF\xBF\xBD"});
 }
 
-TEST_CASE("no text ends the element that the JSON stands in") {
+TEST_CASE("no text ends the element that contains the JSON") {
   const std::string text = json_text({{"a", "</script><!-- \\ \" \n"}, {"<b>", 1}});
   CHECK(text == R"({"a":"\u003c/script>\u003c!-- \\ \" \n","\u003cb>":1})");
   CHECK(Json::parse(text)["a"] == "</script><!-- \\ \" \n");

@@ -83,7 +83,7 @@ TEST_CASE("messages without the column content have none") {
   CHECK(f.read().messages.at(0).content.empty());
 }
 
-TEST_CASE("pictures are found in film/, with their instants; a missing one is told") {
+TEST_CASE("pictures are found in film/, with their instants; a missing one is reported") {
   const Folder f;
   f.film("time,file\n0,0.jpg\n0.001,gone.jpg\n0.002,1.jpg\n");
   const Results results = f.read();
@@ -110,7 +110,7 @@ TEST_CASE("a folder without run.json has results, too") {
   CHECK_THAT(results.notes.at(0), Equals("run.json: this file is missing"));
 }
 
-TEST_CASE("what a killed run left is shown, and what was cut off is told") {
+TEST_CASE("the results of a killed run are shown, and what was cut off is reported") {
   const Folder f;
   std::filesystem::remove(f.folder / "run.json");
   f.folder.write("signals.csv", "time,a.x [m]\n0,1\n0.0");
@@ -167,7 +167,7 @@ TEST_CASE("mistakes are named with file, line and column") {
   }
 }
 
-TEST_CASE("the names of the files are those that run.json tells") {
+TEST_CASE("the names of the files are those in run.json") {
   const Folder f;
   f.folder.write("run.json", R"({"files": {"signals": "s.csv", "statistics": "run.json"}})");
   const recorders::ResultFiles files = result_files(f.folder / "");

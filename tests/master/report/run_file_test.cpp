@@ -43,7 +43,7 @@ TEST_CASE("run.json comes back as it was written") {
   CHECK(run.plots == plots);
 }
 
-TEST_CASE("one of an older program says less") {
+TEST_CASE("a file of an older program has less") {
   const TemporaryFolder folder;
   const RunFile run = read_run_file(folder.write("run.json", R"({"outcome": "completed"})"));
   CHECK(run.signals.empty());
@@ -65,7 +65,7 @@ TEST_CASE("what is no run.json is refused") {
   CHECK_THAT(error_of([&] { read_run_file(folder / "none.json"); }), Contains("none.json: cannot"));
 }
 
-TEST_CASE("it is found under another name, by what it says of itself") {
+TEST_CASE("a run file is found under another name, by its content") {
   const TemporaryFolder folder;
   CHECK(find_run_file(folder / "").empty());
   folder.write("a.json", R"({"files": {"statistics": "other.json"}})");

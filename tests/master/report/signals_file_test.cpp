@@ -44,7 +44,7 @@ const std::vector<double>& doubles(const Column& column) {
 
 }  // namespace
 
-TEST_CASE("times are exact, and columns have the types that run.json tells") {
+TEST_CASE("times are exact, and columns have the types in run.json") {
   const Signals signals =
       read(kHeader + "0,1.5,true,\"a\"\n0.000000000001,2,false,\"b, c\"\n30,3,false,\"\"\n")
           .signals;
@@ -58,7 +58,7 @@ TEST_CASE("times are exact, and columns have the types that run.json tells") {
   CHECK_FALSE(signals.thinned);
 }
 
-TEST_CASE("columns that nobody has told of show their types themselves") {
+TEST_CASE("columns without a type in run.json get it from their values") {
   const Signals signals = read("time,a.x [m],new [m/s],b[1],on\n0,1,2,3,true\n").signals;
   REQUIRE(signals.columns.size() == 4);
   CHECK(signals.columns[1].name() == "new");
@@ -74,7 +74,7 @@ TEST_CASE("of several rows at one instant the last one counts") {
   CHECK(doubles(signals.columns[0]) == std::vector<double>{2, 3});
 }
 
-TEST_CASE("a cut line is told, and the rest is there") {
+TEST_CASE("a line that was cut off is reported, and the others are read") {
   const Read found = read(kHeader + "0,1,true,\"\"\n0.5,2,tr");
   CHECK(found.signals.times.size() == 1);
   REQUIRE(found.notes.size() == 1);

@@ -41,7 +41,7 @@ std::string annotation_error(const std::string& inside) {
 
 }  // namespace
 
-TEST_CASE("Everything that the annotation can say") {
+TEST_CASE("All elements and attributes of the annotation") {
   const ScenarioAnnotation annotation = read_annotation(at_root(
       annotations(scenario_element("<stride:Step size='0.001'/>"
                                    "<stride:Record signals=' sensor.*  channel.distance'/>\n"
@@ -132,7 +132,7 @@ TEST_CASE("Everything about the stepping can be chosen") {
   CHECK(options.extrapolation == core::Extrapolation::Quadratic);
 }
 
-TEST_CASE("It may be left out, or stand at the system") {
+TEST_CASE("It may be left out, or be at the system") {
   CHECK(read_annotation(at_root("")).step.size == std::nullopt);
   CHECK(read_annotation(at_root("")).results.signals == "signals.csv");
   CHECK(read_annotation(at_root(annotations(scenario_element("")))).record.empty());

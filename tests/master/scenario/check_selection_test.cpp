@@ -101,7 +101,7 @@ TEST_CASE("a glob is a check for each signal or message, an array one for each e
   CHECK(names({always("a.range", "0")}) == Names{"a.distance always = 0 m"});
 }
 
-TEST_CASE("names that stand for nothing, or for something else") {
+TEST_CASE("names that match nothing, or something of another kind") {
   CHECK_THAT(selection_error(always("a.lde", "true")),
              Contains("x.ssd:12: there is no signal 'a.lde'") && Contains("did you mean 'a.led'?"));
   CHECK_THAT(selection_error(always("z.*", "true")), Contains("there is no signal 'z.*'"));
@@ -132,7 +132,7 @@ TEST_CASE("a condition that does not fit its signal") {
              Contains("'a.distance': it compares with nothing"));
 }
 
-TEST_CASE("an interval lies in the run") {
+TEST_CASE("an interval must be within the run") {
   CHECK(selected_checks({during(1, 10)}).size() == 1);
   CHECK(selected_checks({during(0, {})}).size() == 1);
   CHECK_THAT(selection_error(during(11, {})),

@@ -24,7 +24,7 @@ HostSettings hosted() { return {.process = true}; }
 
 }  // namespace
 
-TEST_CASE("without a word nothing is said of any component") {
+TEST_CASE("by default no component has settings") {
   for (const HostSettings& settings : HostRules().settings(kNames)) {
     CHECK_FALSE(settings.process);
     CHECK_FALSE(settings.call_limit);
@@ -34,7 +34,7 @@ TEST_CASE("without a word nothing is said of any component") {
   }
 }
 
-TEST_CASE("what a later rule says goes before, what it does not say stays") {
+TEST_CASE("a later rule overrides what it sets, and keeps the rest") {
   HostRules hosts;
   hosts.rules = {rule("*", {true, {"x.ssd", 7}, 5s, 1024, true}),
                  rule("arm.*", {.process = false, .where = {"x.ssd", 8}, .snapshots = false}),
@@ -127,14 +127,14 @@ std::string refusal(Change&& change) {
 
 }  // namespace
 
-TEST_CASE("without a word every unit may be left alone for a second") {
+TEST_CASE("by default every unit may be suspended for a second") {
   const core::System system = make_system();
   const core::IdleOptions options = IdleSettings().options(system, step(1ms));
   CHECK(options.max_skip == std::vector<std::optional<Duration>>{Duration(1s), Duration(1s)});
   CHECK(options.least == Duration(1ms));
 }
 
-TEST_CASE("a later rule goes before an earlier one") {
+TEST_CASE("a later rule takes precedence over an earlier one") {
   const core::System system = make_system();
   IdleSettings settings;
   settings.rules = {rule("*", true, Duration(3s)), rule("busy", false, std::nullopt)};
@@ -157,7 +157,7 @@ TEST_CASE("deadbands and tolerances find their variables") {
   CHECK(options.tolerances[0].id == core::VariableId{0, 1});
 }
 
-TEST_CASE("what does not fit is refused where it stands") {
+TEST_CASE("a setting that does not fit is refused at its line") {
   CHECK_THAT(
       refusal([](IdleSettings& c) {
         c.deadbands = {{"idler.v", 1, {"x.ssd", 3}}};

@@ -96,7 +96,7 @@ TEST_CASE("A scenario is read as it is written") {
   CHECK(scenario.system.start_values.empty());
 }
 
-TEST_CASE("In SSP 1.0, Real and Integer say nothing of the width") {
+TEST_CASE("In SSP 1.0, Real and Integer have no width") {
   const Scenario scenario =
       read(ssd_with("<ssd:Component name='a' source='a.fmu'><ssd:Connectors>"
                     "<ssd:Connector name='x' kind='output'><ssc:Real unit='m'/></ssd:Connector>"
@@ -122,7 +122,7 @@ TEST_CASE("The prefixes of namespaces are free") {
   CHECK(scenario.system.components[0].connectors[0].type == ValueType::Boolean);
 }
 
-TEST_CASE("The kinds of the connectors say which way a value flows") {
+TEST_CASE("The kinds of the connectors determine the direction of a value") {
   const auto connectors = [](const std::string& name, const std::string& kind) {
     return "<ssd:Component name='" + name + "' source='x.fmu'><ssd:Connectors><ssd:Connector " +
            "name='p' kind='" + kind + "'/></ssd:Connectors></ssd:Component>";
@@ -155,7 +155,7 @@ TEST_CASE("An unknown version is refused") {
                         Contains("stride reads 1.0 and 2.0"));
 }
 
-TEST_CASE("What is missing is said") {
+TEST_CASE("What is missing is reported") {
   const auto [text, message] = GENERATE(table<std::string, std::string>({
       {ssd(""), "x.ssd:2: <ssd:SystemStructureDescription> holds no <System>"},
       {ssd("<ssd:System name='s'/>"), "x.ssd:3: the system has no component"},

@@ -23,7 +23,7 @@ NamedVariable named(const core::System& system, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("all variables have names, but for the time; messages are told apart") {
+TEST_CASE("all variables but the time have names; messages are distinguished") {
   const core::System system = sample_system();
   CHECK(named_variables(system).size() == 24);
   CHECK_THROWS(named(system, "a.time"));
@@ -78,7 +78,7 @@ TEST_CASE("Inputs and parameters can be recorded, too") {
   CHECK(selected({"a.gain", "a.temperature"}) == Names{"a.gain", "a.temperature"});
 }
 
-TEST_CASE("A glob passes over messages; a message alone is refused") {
+TEST_CASE("A glob skips messages; a message by name is refused") {
   CHECK(selected({"a.t*"}) == Names{"a.temperature"});
   CHECK_THROWS_WITH(selected({"a.transmit.frame"}),
                     Contains("x.ssd:12: 'a.transmit.frame' cannot be recorded as a signal") &&
@@ -131,7 +131,7 @@ TEST_CASE("A plot has what its patterns match, in their order and once") {
                           {"Light", {"a.led"}}});
 }
 
-TEST_CASE("A signal may stand in several plots, and be named by an alias") {
+TEST_CASE("A signal may be in several plots, and be named by an alias") {
   CHECK(selected({plot("One", {"a.range"}), plot("Two", {"a.distance"})}) ==
         std::vector<Plot>{{"One", {"a.distance"}}, {"Two", {"a.distance"}}});
 }
@@ -141,7 +141,7 @@ TEST_CASE("Of an array each element is drawn") {
         std::vector<Plot>{{"Place", {"a.position[1]", "a.position[2]", "a.position[3]"}}});
 }
 
-TEST_CASE("A pattern that matches nothing recorded is refused where it stands") {
+TEST_CASE("A pattern that matches no recorded signal is refused at its line") {
   CHECK_THROWS_WITH(
       selected({plot("Height", {"a.distance", "a.distnace"})}),
       Contains("x.ssd:9: the plot 'Height' wants 'a.distnace', which matches no signal that is "

@@ -120,7 +120,7 @@ TEST_CASE("Completing twice changes nothing") {
   CHECK(completed(once) == once);
 }
 
-TEST_CASE("What was completed is read back as the units say it") {
+TEST_CASE("What was completed is read back as the units declare it") {
   const TemporaryFolder folder;
   Scenario scenario = read_scenario(folder.write("x.ssd", completed(kText)));
   for (auto& component : scenario.system.components) {

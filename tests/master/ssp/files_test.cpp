@@ -53,7 +53,7 @@ TEST_CASE("the folder that a package unpacks to is read like it") {
   CHECK(first_component(folder / "") == "one");
 }
 
-TEST_CASE("an archive or folder without a system says what it holds") {
+TEST_CASE("the error of an archive or folder without a system lists its content") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(read_scenario(package(folder, {{"resources/a.fmu", {"x", {}, false}}})),
                     Contains("p.ssp' has no SystemStructure.ssd; it holds resources/a.fmu"));

@@ -83,7 +83,7 @@ std::vector<std::string> values(const Scenario& scenario) {
 
 using Strings = std::vector<std::string>;
 
-/// A system with an input u and an output y, with what stands for it in between.
+/// A system with an input u and an output y, with the elements in between.
 std::string filter(const std::string& name, const std::string& element = component("core"),
                    const std::string& inner = "core") {
   return system(name, connector("u", "input") + connector("y", "output"), element,
@@ -173,7 +173,7 @@ TEST_CASE("a value for a connector of a system goes where the connector leads") 
   CHECK_THAT(open.warnings.at(0), Contains("'open', which leads to no component"));
 }
 
-TEST_CASE("the start value of an output behind a transformation cannot be said") {
+TEST_CASE("the start value of an output behind a transformation cannot be set") {
   const std::string s = system("s", connector("y", "output"), component("c"),
                                wire("c.y", "y", "<ssc:LinearTransformation factor='2'/>"));
   CHECK_THROWS_WITH(
@@ -236,7 +236,7 @@ TEST_CASE("references to a signal dictionary share its signals, across systems")
                     Contains("there is no signal dictionary 'bus'"));
 }
 
-TEST_CASE("wiring that leads nowhere says where") {
+TEST_CASE("the error of a connection without an end has its place") {
   const std::string s = filter("s");
   const auto with = [&](const std::string& connections) {
     return ssd(system("root", connector("x", "input") + connector("y", "output"),

@@ -80,7 +80,7 @@ TEST_CASE("Inline values of a component are read as text, with their unit and li
   CHECK(values[7].value == "p q");
 }
 
-TEST_CASE("A binding's prefix stands before each of its names") {
+TEST_CASE("A binding's prefix is put before each of its names") {
   const auto values = read_values(
       component_with(inline_binding(parameter("x", "<ssv:Real value='1'/>"), "prefix='adc.'")));
   REQUIRE(values.size() == 1);
@@ -109,7 +109,7 @@ TEST_CASE("Names at the system are those of a component and its variable") {
   CHECK(values[4].group == 0);
 }
 
-TEST_CASE("A value for nobody is passed over, as SSP wants it, and told") {
+TEST_CASE("A value that belongs to no component is skipped with a warning, as SSP requires") {
   const TemporaryFolder folder;
   const Scenario scenario = read_scenario(folder.write(
       "x.ssd", system_with(inline_binding(parameter("channle.x", "<ssv:Real value='1'/>")))));
@@ -195,7 +195,7 @@ TEST_CASE("A mapping renames, transforms and repeats; what it does not name is n
   CHECK(values[2].transformation.kind == stride::core::Transformation::Kind::None);
 }
 
-TEST_CASE("What a mapping cannot mean is refused, what it maps in vain is told") {
+TEST_CASE("A mapping without a meaning is refused, one without an effect is a warning") {
   const std::string parameters = parameter("x", "<ssv:Real value='1'/>");
   const auto with = [&](const std::string& inside) {
     return component_with(mapped_binding(

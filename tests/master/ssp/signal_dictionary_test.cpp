@@ -36,7 +36,7 @@ const std::string kSpeed =
 
 }  // namespace
 
-TEST_CASE("a dictionary stands inline or in a file, with units of its own") {
+TEST_CASE("a dictionary is inline or in a file, with units of measure of its own") {
   const TemporaryFolder folder;
   folder.write("bus.ssb", dictionary(kSpeed, "1.0"));
   const bool is_inline = GENERATE(true, false);

@@ -101,8 +101,8 @@ inline std::shared_ptr<core::UnitDescription> sample_description() {
   auto description = std::make_shared<core::UnitDescription>();
   description->fmi_version = "3.0";
   description->model_name = "Sample";
-  description->units["m"] = {{0, 1, 0, 0, 0, 0, 0, 0}, 1, 0};
-  description->units["degC"] = {{0, 0, 0, 0, 1, 0, 0, 0}, 1, 273.15};
+  description->units_of_measure["m"] = {{0, 1, 0, 0, 0, 0, 0, 0}, 1, 0};
+  description->units_of_measure["degC"] = {{0, 0, 0, 0, 1, 0, 0, 0}, 1, 273.15};
   auto& variables = description->variables;
   variables.push_back(variable("time", 0, ValueType::Float64, Causality::Independent));
   variables.push_back(variable("distance", 1, ValueType::Float64, Causality::Output, "m"));

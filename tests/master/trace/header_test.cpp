@@ -90,7 +90,7 @@ TEST_CASE("A header is kept as it is, and its declarations are found in it") {
   CHECK(text.substr(header.end_definitions) == "$enddefinitions\n  $end");
 }
 
-TEST_CASE("What is no header is told with its line") {
+TEST_CASE("What is no header is reported with its line") {
   CHECK_THAT(header_error(""), Contains("x.vcd:1: the file ends before $enddefinitions"));
   CHECK_THAT(header_error("$timescale 1 ps $end\n"), Contains("x.vcd:2: the file ends before"));
   CHECK_THAT(header_error("\x1f\x8b\x08 gzip"),
@@ -111,7 +111,7 @@ TEST_CASE("What is no header is told with its line") {
              Contains("x.vcd:2: $upscope closes no scope"));
 }
 
-TEST_CASE("A section that does not end is told with the line where it begins") {
+TEST_CASE("A section that does not end is reported with the line where it begins") {
   const std::string begin = "$timescale 1 ps $end\n";
   CHECK_THAT(header_error(begin + "$var wire 1"),
              Contains("x.vcd:2: the file ends within the $var of line 2; it was cut off"));

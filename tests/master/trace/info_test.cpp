@@ -60,7 +60,7 @@ TEST_CASE("A trace with advanceTime has skips, which are in its gaps") {
   check_gap(info.longest[1], 10, 112, 100);
 }
 
-TEST_CASE("Ten gaps are told, the longest, of equal ones the first") {
+TEST_CASE("The ten longest gaps are listed, of equal ones the first") {
   std::string changes = "#0\n0!\n";
   std::int64_t time = 0;
   for (int i = 0; i < 20; ++i) {
@@ -84,7 +84,7 @@ TEST_CASE("A trace of nothing has no time") {
   CHECK(info_of(two_variables("$comment c $end\n#100\n#200\n")).true_time == 100);
 }
 
-TEST_CASE("A trace that is cut off is told of up to its last whole instant") {
+TEST_CASE("Of a trace that is cut off, all up to its last whole instant is counted") {
   const Info info = info_of(two_variables("#0\n0!\n#10\n1!\n#20\n1"), CutOff::Accept);
   CHECK(info.cut == 12);
   CHECK(info.changes == 2);

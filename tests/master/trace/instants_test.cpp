@@ -60,7 +60,7 @@ TEST_CASE("Totals grow up to 2^63 - 1") {
   CHECK(total(skipping("#1\nb" + std::string(100, '0') + "11 t\n")) == 3);
 }
 
-TEST_CASE("A variable of another type is told") {
+TEST_CASE("A variable of another type is an error") {
   CHECK_THAT(
       declaration_error("$var real 64 t advanceTime $end\n"),
       Contains("x.vcd:3: advanceTime is declared as real 64; expected integer 64 or wire 64"));
@@ -81,7 +81,7 @@ TEST_CASE("Two of them are one too many, unless they are the same") {
   CHECK(total(dump(first + "$scope module a $end\n" + first, "#1\nb1 t\n")) == 1);
 }
 
-TEST_CASE("What is no number, or falls, is told with its line") {
+TEST_CASE("What is no number, or falls, is reported with its line") {
   CHECK_THAT(value_error("#1\nbx t\n"),
              Contains("x.vcd:8: advanceTime is 'bx'; expected a whole number, such as b1001"));
   CHECK_THAT(value_error("#1\nb1z0 t\n"), Contains("advanceTime is 'b1z0'"));
@@ -96,7 +96,7 @@ TEST_CASE("What is no number, or falls, is told with its line") {
              Contains("x.vcd:10: advanceTime falls to 2 from 3 in line 8"));
 }
 
-TEST_CASE("It is not alone where another name has the same code") {
+TEST_CASE("A code that another name shares is recognised") {
   const TemporaryFolder folder;
   const auto is_alone = [&](const std::string& further) {
     Reader reader(folder.write("x.vcd", dump("$var wire 64 t advanceTime $end\n" + further, "")));
@@ -134,10 +134,10 @@ std::string text_of(const Instant& instant) {
 }
 
 std::vector<Seen> read_instants(const std::string& text, CutOff cut_off = CutOff::Refuse,
-                                Instants::Text keep = Instants::Text::Keep) {
+                                InstantReader::Text keep = InstantReader::Text::Keep) {
   const TemporaryFolder folder;
   Reader reader(folder.write("x.vcd", text), cut_off);
-  Instants instants(reader, keep);
+  InstantReader instants(reader, keep);
   Instant instant;
   std::vector<Seen> seen;
   while (instants.next(instant)) {
@@ -159,7 +159,7 @@ TEST_CASE("All between two stamps is one instant, each entry on a line") {
                         {true, 20, 20, 0, true, ""}});
 }
 
-TEST_CASE("Equal stamps are one instant; what stands before the first stamp is one of its own") {
+TEST_CASE("Equal stamps are one instant; what is before the first stamp is one of its own") {
   CHECK(read_instants(two_variables("0!\n#0\n1!\n#0\n0!\n#1\n1!\n")) ==
         std::vector<Seen>{{false, 0, 0, 1, false, "0!\n"},
                           {true, 0, 0, 2, false, "1!\n0!\n"},
@@ -200,12 +200,13 @@ TEST_CASE("Of a trace that is cut off the last instant is left out") {
   CHECK(read_instants(skipping("$dumpvars\n1!\n"), CutOff::Accept).empty());
 }
 
-TEST_CASE("Texts are kept only where somebody wants them") {
-  const auto seen = read_instants(two_variables("#10\n1!\n"), CutOff::Refuse, Instants::Text::Drop);
+TEST_CASE("Texts are kept only if they are required") {
+  const auto seen =
+      read_instants(two_variables("#10\n1!\n"), CutOff::Refuse, InstantReader::Text::Drop);
   CHECK(seen.back() == Seen{true, 10, 10, 1, false, ""});
 }
 
-TEST_CASE("True time beyond 2^63 - 1 is told with the line of the stamp") {
+TEST_CASE("True time beyond 2^63 - 1 is reported with the line of the stamp") {
   const std::string most = "b" + std::string(63, '1') + " t\n";
   CHECK(read_instants(skipping("#0\n" + most)).back().time == 9223372036854775807);
   CHECK_THROWS_WITH(read_instants(skipping("#0\n1!\n#1\n0!\n" + most + "#2\n")),

@@ -84,7 +84,7 @@ TEST_CASE("Lines may end as on other systems") {
       Texts{"#1", "1|!"});
 }
 
-TEST_CASE("What is no entry is told with its line") {
+TEST_CASE("What is no entry is reported with its line") {
   CHECK_THAT(reader_error("#0\nq!\n"),
              Contains("x.vcd:8: 'q!' is no time stamp, no change and no section") &&
                  Contains("hint: expected #TIME"));
@@ -113,7 +113,7 @@ TEST_CASE("A change is of a variable") {
   CHECK_THAT(reader_error("#5\nb1\n%\n"), Contains("no variable has the identifier code '%'"));
 }
 
-TEST_CASE("A file that is cut off is told with the line and what it ends in") {
+TEST_CASE("A file that is cut off is reported with the line and what it ends in") {
   CHECK_THAT(reader_error("#5\n1!\n#15"),
              Contains("x.vcd:9: the file is cut off: it ends within '#15' (no line end follows)") &&
                  Contains("--cut-off"));

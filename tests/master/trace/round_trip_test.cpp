@@ -69,7 +69,7 @@ TEST_CASE("A trace that is compressed and expanded is the same, byte for byte") 
   CHECK(shortened > static_cast<int>(kSeeds / 2));
 }
 
-TEST_CASE("Blanks, and stamps that say nothing, make no difference") {
+TEST_CASE("Blanks, and stamps without changes, make no difference") {
   const TemporaryFolder folder;
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
     INFO("seed " << seed);
@@ -78,7 +78,7 @@ TEST_CASE("Blanks, and stamps that say nothing, make no difference") {
   }
 }
 
-TEST_CASE("No gap is left that is longer than the shortest one, and kernel time never stands") {
+TEST_CASE("No gap is left that is longer than the shortest one, and kernel time always advances") {
   const TemporaryFolder folder;
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
     INFO("seed " << seed);

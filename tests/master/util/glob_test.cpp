@@ -16,7 +16,7 @@ TEST_CASE("A glob matches the whole name, and its star crosses dots") {
   CHECK_FALSE(matches_glob("", "a"));
 }
 
-TEST_CASE("Question marks and sets stand for one character") {
+TEST_CASE("Question marks and sets match one character") {
   CHECK(matches_glob("joint?", "joint1"));
   CHECK_FALSE(matches_glob("joint?", "joint12"));
   CHECK(matches_glob("axis.[xy]", "axis.y"));

@@ -77,7 +77,7 @@ TEST_CASE("A full disk is an error that names the file and the simulated time") 
   CHECK_THROWS_WITH(file.close(), Contains("/dev/full: at 14.2 s: cannot write the file: "
                                            "No space left on device") &&
                                       Contains("make room on the disk"));
-  CHECK_NOTHROW(file.close());  // it was told once
+  CHECK_NOTHROW(file.close());  // it was reported once
 }
 
 TEST_CASE("A full disk is noticed as soon as the buffer is full, and only once") {

@@ -81,7 +81,7 @@ TEST_CASE("What is no regular file is written, not replaced") {
   CHECK(files_in(folder / "") == 1);
 }
 
-TEST_CASE("What stands for an open file is written, not replaced") {
+TEST_CASE("A path of an open file is written, not replaced") {
   const TemporaryFolder folder;
   const int open = ::open((folder / "x").c_str(), O_RDWR | O_CREAT, 0600);
   REQUIRE(open >= 0);

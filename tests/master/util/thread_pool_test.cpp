@@ -51,7 +51,7 @@ TEST_CASE("a task has the same thread in every batch, the first one the caller's
   CHECK(seen[1] != seen[0]);
 }
 
-TEST_CASE("workers that have gone to sleep wake up, and so does the caller") {
+TEST_CASE("sleeping workers wake up, and so does the caller") {
   ThreadPool pool(3);
   std::vector<int> numbers(3);
   for (int batch = 0; batch < 20; ++batch) {

@@ -73,7 +73,7 @@ TEST_CASE("What is no time is refused, and the text says what was expected") {
                                              Catch::Contains("a number of seconds such as 0.001"));
 }
 
-TEST_CASE("what a computation took is told to the millisecond") {
+TEST_CASE("the time of a computation is printed to the millisecond") {
   CHECK(stride::core::wall_seconds(std::chrono::nanoseconds(1'234'567'890)) == "1.235");
   CHECK(stride::core::wall_seconds({}) == "0.000");
 }

@@ -1,7 +1,7 @@
 /* A Co-Simulation unit of FMI 2.0 in C99 against the ABI alone, as another tool's is. Who includes
  * it once defines the model: unit_start, unit_outputs and unit_step.
  *
- * Values stand in one array for each base type, at their value references, so that a Real and an
+ * Values are in one array for each base type, at their value references, so that a Real and an
  * Integer may have the same one. A unit is strict where the standard is: a call that the state
  * machine of 4.2.4 does not allow returns fmi2Error with a message, and so do inputs that are set
  * before Initialization Mode and values that are read between setting and stepping.

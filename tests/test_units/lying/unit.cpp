@@ -49,7 +49,7 @@ double shared_input = 0;
 bool was_initialized = false;
 void* volatile lost = nullptr;
 
-/// Those who only pack the unit are not to be told of it.
+/// Not for a process that only packs the unit.
 void leak() {
   lost = std::malloc(100);
 #ifdef __SANITIZE_ADDRESS__

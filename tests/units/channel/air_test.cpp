@@ -141,7 +141,7 @@ TEST_CASE("A header that is wrong loses its packet, and leaves the receiver to t
   CHECK(heard(0.99) == std::vector<nfc::Bits>{frame({5, 6, 7}).bits});
 }
 
-TEST_CASE("Packets of one sender follow each other, those of two are told apart") {
+TEST_CASE("Packets of one sender follow each other, those of two are distinguished") {
   Plain air(rules(Overlap::kInterfere));
   air.header = 100 * kAirBit;
   air.observe(kAirStart);

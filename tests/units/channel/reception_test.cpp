@@ -88,7 +88,7 @@ TEST_CASE("A packet's bits are decided at the ends of its symbols, its header be
   CHECK(reception.next_instant() == reception.end);
 }
 
-TEST_CASE("A receiver is told of a packet as if it came with a delay") {
+TEST_CASE("A receiver gets a packet as if it came with a delay") {
   Reception reception = packet(answer({1, 2}));
   reception.heard = reception.sent.bits;
   const Frame heard = reception.heard_frame();

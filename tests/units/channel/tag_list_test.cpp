@@ -20,7 +20,7 @@ TEST_CASE("The tags are listed in the order of the file") {
              "</nfc-channel>") == Names{"window", "_door2"});
 }
 
-TEST_CASE("What is wrong is told with file and line") {
+TEST_CASE("Mistakes are reported with file and line") {
   const auto [text, line, message] = GENERATE(table<std::string, std::string, std::string>({
       {"<nfc-channel version=\"1\">\n<tag name=\"a\">", "channel.xml:", "expected well-formed XML"},
       {"", "channel.xml:", "expected well-formed XML"},

@@ -114,7 +114,7 @@ TEST_CASE("A slow case follows the drift damped and late") {
   CHECK(highest - 21.5 == Approx(2.0 / std::sqrt(1.0 + lag * lag)).epsilon(1e-4));
 }
 
-TEST_CASE("The case leaves its tangent not before it is said, and not much later") {
+TEST_CASE("The case leaves its tangent not before the promised time, and not much later") {
   const SensorCase body(drifting());
   const double tolerance = 0.01;
   int sharp = 0;

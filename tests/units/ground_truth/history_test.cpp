@@ -110,7 +110,7 @@ TEST_CASE("a fast course takes as much memory as its time in grains") {
   CHECK(history.state().pieces.size() >= 99);
 }
 
-TEST_CASE("bounds hold what was told, and are too wide by the grain at most") {
+TEST_CASE("bounds hold what was recorded, and are too wide by the grain at most") {
   for (unsigned seed = 0; seed < 100; ++seed) {
     CAPTURE(seed);
     std::mt19937_64 random(seed);

@@ -50,7 +50,7 @@ TEST_CASE("it may be as old as it is allowed to be, and no older") {
   CHECK(finding(judge, {at(10), 30.3, {}, {}}) == Finding::kWrong);  // not in the future
 }
 
-TEST_CASE("a measurement that says its age is compared with the truth of then") {
+TEST_CASE("a measurement with an age is compared with the truth at that time") {
   const Judge judge = rising(parameters(0.25));
   CHECK(finding(judge, {at(10), 25.0, 5s, {}}) == Finding::kRight);
   CHECK(finding(judge, {at(10), 30.0, 5s, {}}) == Finding::kWrong);
@@ -138,7 +138,7 @@ TEST_CASE("the verdict in words") {
         "degC");
 }
 
-TEST_CASE("a measurement that is not right is told with all that one has to know") {
+TEST_CASE("a wrong measurement is reported with all that is needed to find it") {
   Judge judge({0.25, 500ms, 3600s, 1}, kTemperature);
   judge.note(at(0), 21.5);
   judge.note(at(3), 21.5);

@@ -15,7 +15,7 @@ TEST_CASE("a quantity has a unit, and its differences have one") {
             .unit.empty());
 }
 
-TEST_CASE("mistakes are told with file and line") {
+TEST_CASE("mistakes are reported with file and line") {
   const auto check = [](const std::string& text, const std::string& message) {
     CAPTURE(text);
     CHECK_THROWS_WITH(parse_quantity(text, "q.xml"), StartsWith("q.xml:") && Contains(message));

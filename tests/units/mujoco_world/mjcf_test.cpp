@@ -53,7 +53,7 @@ TEST_CASE("a file that is missing is named", "[mujoco_world]") {
          "meshes/arm.stl");
 }
 
-TEST_CASE("a world without a site that it requires says so, and which it has", "[mujoco_world]") {
+TEST_CASE("a required site that a world lacks is an error that lists its sites", "[mujoco_world]") {
   const auto with = [](const std::string& required) {
     return "<mujoco><custom><text name='required_sites' data='" + required +
            "'/></custom><worldbody><site name='tip'/><site/><site "

@@ -161,7 +161,7 @@ TEST_CASE("reset repeats the run, from any start time", "[mujoco_world]") {
   CHECK(same_bits(seen, outputs(world)));
 }
 
-TEST_CASE("two worlds in two threads do as they do alone", "[mujoco_world]") {
+TEST_CASE("two worlds in two threads give the results that each gives alone", "[mujoco_world]") {
   const worlds::Folder folder(worlds::kTumble);
   World alone(folder.path());
   alone.advance(at(0.5));

@@ -14,7 +14,7 @@ TEST_CASE("a name that is no identifier is quoted", "[mujoco_world]") {
   CHECK(name_part(R"(a\b)") == R"('a\\b')");
 }
 
-TEST_CASE("a name that FMI cannot have says so", "[mujoco_world]") {
+TEST_CASE("a name that FMI cannot have is an error", "[mujoco_world]") {
   for (const char* name : {"Gelenk_\xC3\xBC", "two\nlines"}) {
     CHECK_THROWS_WITH(name_part(name), Catch::Contains(name) && Catch::Contains("printable ASCII"));
   }

@@ -40,7 +40,7 @@ TEST_CASE("a request is its command and arguments") {
   CHECK(request({0x07}) == "sleep");
 }
 
-TEST_CASE("a request that no sensor understands is told, too") {
+TEST_CASE("a request that no sensor understands has a text, too") {
   CHECK(request({0x7F}) == "raw 0x7F");
   CHECK(request({0x7F, 0x0A, 0xB0}) == "raw 0x7F 0ab0");
   CHECK(request({0x03}) == "set_led, arguments missing");
@@ -63,7 +63,7 @@ TEST_CASE("an answer is its status and what its data can only be") {
   CHECK(answer(Bytes(1 + 9 * 4)) == "ok " + std::string(2 * 9 * 4, '0'));
 }
 
-TEST_CASE("of a damaged frame it says what is wrong") {
+TEST_CASE("the text of a damaged frame has what is wrong") {
   const nfc::Bits led = whole({0x03, 1});
   CHECK(nfc::in_words(payload(cut(led, 17)), Sender::kReader) ==
         "set_led, cut after 17 of 36 bits");
@@ -80,12 +80,12 @@ TEST_CASE("of a damaged frame it says what is wrong") {
   CHECK(nfc::in_words(payload(flipped), Sender::kReader) == "CRC wrong");
 }
 
-TEST_CASE("another bit rate than that of the sensor is told") {
+TEST_CASE("another bit rate than that of the sensor is in the text") {
   CHECK(nfc::in_words(payload(whole({0x02}), 212), Sender::kReader) ==
         "read_temperature at 212 kbit/s");
 }
 
-TEST_CASE("what is no frame is told with the reason") {
+TEST_CASE("what is no frame is described with the reason") {
   CHECK(nfc::in_words({}, Sender::kReader) ==
         "no frame: a frame has at least 16 bytes, this one has 0");
   Bytes slow = payload(whole({0x01}));

@@ -102,7 +102,7 @@ TEST_CASE("No load gets more than the best efficiency of two coupled resonators,
   CHECK(best == Approx(limit).epsilon(1e-3));
 }
 
-TEST_CASE("The limiter holds the voltage at its limit, and lets less alone") {
+TEST_CASE("The limiter holds the voltage at its limit, and does not change a lower one") {
   const Circuit c = circuit();
   const Operation weak = c.operate(mutual(0.01), 0.5);
   CHECK(std::abs(weak.tag_voltage) < 5.5);

@@ -48,7 +48,7 @@ TEST_CASE("The higher the quality factors, the less the envelope falls in a paus
         Approx(down_signal(848, 20.0, 20.001).seconds).epsilon(1e-3));
 }
 
-TEST_CASE("With the default antennas a pause of 848 kbit/s is as deep as the standard wants it") {
+TEST_CASE("With the default antennas a pause of 848 kbit/s is as deep as the standard requires") {
   // amplitude left: 0.22 to 0.58 (ISO/IEC 14443-2, 8.1.2.3); the default's loaded Qs are 7.5
   // and 2.5
   const double share = down_signal(848, 7.5, 2.53).seconds / (kBitSeconds / 32.0);

@@ -153,7 +153,7 @@ TEST_CASE("Each of the four bit rates has its own air time") {
   }
 }
 
-TEST_CASE("A tag without enough power hears nothing, and without a carrier nobody does") {
+TEST_CASE("A tag without enough power receives nothing, and without a carrier no tag does") {
   Channel channel;
   approach(channel, 0.2);
   CHECK_FALSE(pass_down(channel, request()).has_value());
@@ -329,7 +329,7 @@ TEST_CASE("A sender that stops sends its frame again, with the bits that got out
   CHECK_FALSE(channel.to_tag(0).has_value());
 }
 
-TEST_CASE("Half duplex: nobody hears what overlaps an own transmission") {
+TEST_CASE("Half duplex: what overlaps an own transmission is not received") {
   Channel channel(two_tags());
   approach_at(channel, kStart, 0.02);
   channel.from_reader(request());

@@ -49,7 +49,7 @@ TEST_CASE("lines are counted, also within quotation marks") {
   }
 }
 
-TEST_CASE("a row without its end, and misplaced quotation marks, are told with their line") {
+TEST_CASE("a row without its end, and misplaced quotation marks, are reported with their line") {
   CHECK(csv_mistake_in("a,b\nc") == "x.csv:2: the line is cut off");
   CHECK(csv_mistake_in("a,b\nc,") == "x.csv:2: the line is cut off");
   CHECK(csv_mistake_in("a\n\"b\nc") == "x.csv:2: the line is cut off within a quoted text");

@@ -75,7 +75,7 @@ TEST_CASE("a file of something else, or of another version, is refused") {
              Catch::Contains("x.csv:1: the version is '2', expected 1; capture again"));
 }
 
-TEST_CASE("an edited head is told with its line") {
+TEST_CASE("an edited head is reported with its line") {
   CHECK_THAT(mistake_with("input,mode", "inpt,mode"), Catch::Contains("'inpt' is not known here"));
   CHECK_THAT(mistake_with("input,mode", "input,level"),
              Catch::Contains("x.csv:6: the input 'level' is described twice"));
@@ -92,7 +92,7 @@ TEST_CASE("an edited head is told with its line") {
              Catch::Contains("the line has 3 fields, expected time,event,variable,value"));
 }
 
-TEST_CASE("rows that are out of order are told with their line") {
+TEST_CASE("rows that are out of order are reported with their line") {
   CHECK_THAT(mistake_with("0.25,,level", "0.2,,level"),
              Catch::Contains("out of order") && Catch::Contains("x.csv:"));
   CHECK_THAT(
@@ -110,7 +110,7 @@ TEST_CASE("rows that are out of order are told with their line") {
              Catch::Contains("the file goes on behind its end mark"));
 }
 
-TEST_CASE("a bad row is told with its line, and what was expected") {
+TEST_CASE("a bad row is reported with its line, and what was expected") {
   CHECK_THAT(mistake_with("0.25,,level,0.75", "0.25,,level,much"),
              Catch::Contains("'much' is no Float64; expected a number"));
   CHECK_THAT(mistake_with("0.25,,level", "0.25,,lever"),

@@ -33,7 +33,7 @@ TEST_CASE("the table is that of the captured inputs") {
   CHECK_THAT(xml, Contains("<Item name=\"on\" value=\"2\""));
 }
 
-TEST_CASE("without stimuli, or with bad ones, it says what it wants") {
+TEST_CASE("without stimuli, or with bad ones, the error has what is expected") {
   const UnitLibrary library(unit_library("player"));
   CHECK_THROWS_WITH(library.describe(),
                     Contains("expected one with stimuli.csv") && Contains("stride run --capture"));

@@ -60,7 +60,7 @@ bool has_children() {
 
 }  // namespace
 
-TEST_CASE("a program is told and heard") {
+TEST_CASE("lines go to the program and come from it") {
   Child child(shell("read -r line; echo \"<$line>\"; echo wrong >&2; exit 3"));
   REQUIRE(::write(child.input().number(), "hello\n", 6) == 6);
   CHECK(line_of(child.output().number()) == "<hello>\n");
@@ -70,13 +70,13 @@ TEST_CASE("a program is told and heard") {
   CHECK_FALSE(child.has_succeeded());
 }
 
-TEST_CASE("it says how it was killed") {
+TEST_CASE("the error has the signal that ended the program") {
   Child child(shell("kill -SEGV $$"));
   REQUIRE(child.wait(kLong));
   CHECK(child.ending() == "was killed by signal 11 (SIGSEGV)");
 }
 
-TEST_CASE("a program that cannot be started says why") {
+TEST_CASE("a program that cannot be started is an error with the reason") {
   const ScratchFolder folder;
   const std::string plain = (folder / "plain").string();
   std::ofstream(plain) << "no program";
@@ -126,7 +126,7 @@ TEST_CASE("it is not in the group that a terminal interrupts") {
   CHECK(std::stoi(line_of(child.output().number())) != ::getpgrp());
 }
 
-TEST_CASE("it does not outlive the one who has started it, however that ends") {
+TEST_CASE("the program does not outlive the process that has started it, however that ends") {
   int ends_of_pipe[2];
   REQUIRE(::pipe(ends_of_pipe) == 0);
   const pid_t starter = ::fork();

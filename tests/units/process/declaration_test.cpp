@@ -53,7 +53,7 @@ TEST_CASE("a declaration with a bit of everything") {
   CHECK(d.variables[4].clock == "tick");
 }
 
-TEST_CASE("mistakes in a declaration are told with file and line") {
+TEST_CASE("mistakes in a declaration are reported with file and line") {
   const auto [line, expected] = GENERATE(table<std::string, std::string>({
       {"<knob/>", "process.xml:3: <knob>: not known here: expected <program>"},
       {"<program name=\"true\"/>", "expected one <program>"},

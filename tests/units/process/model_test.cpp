@@ -92,7 +92,7 @@ std::string told(const std::function<void(Play&)>& play, const Declaration& decl
 
 }  // namespace
 
-TEST_CASE("what a program is told, to the letter") {
+TEST_CASE("the lines that a program receives, to the letter") {
   const std::string lines = told(
       [](Play& p) {
         p.start(at(5));
@@ -120,7 +120,7 @@ TEST_CASE("what a program is told, to the letter") {
         "<end/>\n");
 }
 
-TEST_CASE("a step that is no multiple of the unit of time is told in picoseconds") {
+TEST_CASE("a step that is no multiple of the unit of time is sent in picoseconds") {
   Declaration declaration = example();
   declaration.time_unit = Duration(1000);
   const std::string lines = told(
@@ -171,7 +171,7 @@ TEST_CASE("what a program answers") {
   CHECK(p.session->sent()[1].time == at(30));
 }
 
-TEST_CASE("wrong answers are named, quoted, and told what was expected") {
+TEST_CASE("wrong answers are named and quoted, with what was expected") {
   const auto [line, expected] = GENERATE(table<std::string, std::string>({
       {"hello", "wrote as line 4 'hello': column 1: expected '<'"},
       {"<output name=\"y\" value=\"1\"", "column 27: expected a blank or '/>'"},
@@ -217,7 +217,7 @@ TEST_CASE("a program that must not stop") {
                     Contains("expected 1e-11 s, where the command said that it must end"));
 }
 
-TEST_CASE("all outputs are told at the start") {
+TEST_CASE("all outputs are sent at the start") {
   Play p(shell(answer("start", "<output name=\"n\" value=\"1\"/>\n<sync time=\"0\"/>") +
                "read -r last"));
   CHECK_THROWS_WITH(p.start(),

@@ -48,7 +48,7 @@ TEST_CASE("neither side waits for the other while both write much") {
   CHECK(echo.next_line() == line);
 }
 
-TEST_CASE("what it says on standard error is heard, and quoted where it fails") {
+TEST_CASE("standard error is read, and quoted where the program fails") {
   Heard heard;
   ProgramLines program(shell("for i in 1 2 3 4 5 6 7 8 9 10 11 12; do echo \"note $i\" >&2; done; "
                              "printf cut >&2; exit 7"),
@@ -115,7 +115,7 @@ TEST_CASE("a line with a mistake is named and quoted") {
                     Contains("the program 'sh -c' wrote as line 3 '<three>': expected four"));
 }
 
-TEST_CASE("what is no text is told as far as it is") {
+TEST_CASE("what is no text is quoted as far as it is") {
   Heard heard;
   ProgramLines program(
       shell("printf 'a\\377\\033[1mb\\n' >&2; sleep 0.05; printf '\\342\\202<\\n'"), {},

@@ -91,7 +91,7 @@ constexpr const char* kOpen = "<open protocol=\"1\" instance=\"it\" resources=\"
 
 }  // namespace
 
-TEST_CASE("a life: the outputs are all told at the start, then where they change") {
+TEST_CASE("a whole run: all outputs are sent at the start, then where they change") {
   const Outcome outcome =
       run(std::string(kOpen) +
               "<parameter name=\"gain\" value=\"2\"/>\n"
@@ -163,7 +163,7 @@ TEST_CASE("an instant that is no multiple of the unit of time makes that a picos
         "<sync time=\"3004\" next=\"5500\"/>\n");
 }
 
-TEST_CASE("what goes wrong is told, and the exit code is 1") {
+TEST_CASE("a failure is reported, and the exit code is 1") {
   const auto [commands, expected] = GENERATE(table<std::string, std::string>({
       {"<open protocol=\"2\" instance=\"\" resources=\"\"/>",
        "the program speaks protocol 1, not 2"},

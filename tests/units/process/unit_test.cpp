@@ -157,8 +157,7 @@ TEST_CASE("a message is handed over at its instant") {
   CHECK(unit.message_statuses.back() == fmi3Warning);
 }
 
-TEST_CASE(
-    "messages that could not stop the step come one after another, and the log says so once") {
+TEST_CASE("messages that could not stop the step come one after another, with one warning") {
   const Cistern cistern;
   InstanceChoices choices = choices_with(cistern.path());
   choices.early_return = false;
@@ -239,7 +238,7 @@ TEST_CASE("an end that is no good one is an error") {
   CHECK_THAT(scripted.unit.last_message(), Contains("the exit code 5 at the end of the run"));
 }
 
-TEST_CASE("a program may want the end of the simulation") {
+TEST_CASE("a program may request the end of the simulation") {
   Scripted scripted(start_answer() + answer("step", "<sync time=\"1000000000000\" end=\"true\"/>") +
                     "cat > /dev/null");
   REQUIRE(scripted.unit.start_steps() == fmi3OK);
@@ -266,7 +265,7 @@ TEST_CASE("no program outlives its unit") {
   CHECK_FALSE(has_child_left());
 }
 
-TEST_CASE("it has no state, and says so") {
+TEST_CASE("the unit has no state, and declares none") {
   const Cistern cistern;
   const std::string xml = library().describe(cistern.path());
   CHECK(attribute(xml, "<CoSimulation", "canGetAndSetFMUState") != "true");

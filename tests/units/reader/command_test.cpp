@@ -102,7 +102,7 @@ TEST_CASE("Expectations are read") {
         nfc::Status::kUnknownCommand);
 }
 
-TEST_CASE("A mistake in a command stands with its line") {
+TEST_CASE("A mistake in a command is reported with its line") {
   const auto check = [](const std::string& attributes, const std::string& expected) {
     check_error(error_of(attributes), "command", expected);
   };
@@ -129,7 +129,7 @@ TEST_CASE("A mistake in a command stands with its line") {
   check("name='identify' pause='0.1'", "expected retries with it");
 }
 
-TEST_CASE("A mistake in an expectation stands with its line") {
+TEST_CASE("A mistake in an expectation is reported with its line") {
   const auto check = [](const std::string& name, const std::string& expectation,
                         const std::string& expected) {
     check_error(error_of("name='" + name + "'", expectation), "expect", expected);

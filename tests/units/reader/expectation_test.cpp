@@ -98,7 +98,7 @@ TEST_CASE("A log needs its samples, and each in its range") {
   CHECK(text_of(expectation) == "ok 2 samples or more of 25 degC or less");
 }
 
-TEST_CASE("Answers are told as their command makes sense of them") {
+TEST_CASE("Answers are described by what their command means") {
   CHECK(text_of(Command::kReadTemperature, warm(21.49)) == "ok 21.49 degC");
   CHECK(text_of(Command::kReadLog, log_of({22, 21.5, 23})) == "ok 3 samples of 21.5 to 23 degC");
   CHECK(text_of(Command::kReadLog, log_of({22})) == "ok 1 sample of 22 to 22 degC");

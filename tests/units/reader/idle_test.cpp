@@ -57,7 +57,7 @@ TEST_CASE("A robot without axes rests for ever") {
   CHECK(axes_rest_until(program_with(""), at(0)) == Time::max());
 }
 
-TEST_CASE("A reader is idle until its antenna, a command or the end of one wants it") {
+TEST_CASE("A reader is idle until its antenna, a command or the end of one is due") {
   Reader reader(program_with(R"(<command at="2" name="read_temperature" timeout="0.05"/>)"));
   CHECK(idle_until(reader, at(0)) == at(1));
   CHECK(idle_until(reader, at(1)) == at(2));

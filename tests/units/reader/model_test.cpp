@@ -95,7 +95,7 @@ TEST_CASE("A temperature is a new measurement, also if it is the same as before"
   }
 }
 
-TEST_CASE("Each sample of a log is a measurement, with the age that the log says") {
+TEST_CASE("Each sample of a log is a measurement, with its age in the log") {
   Reader reader = reader_with(R"(<command at="2" name="read_log"/>)");
   reader.transmit(at(2));
   reader.receive(answer(at(2.001), {0x00, 0xFF, 0xFF, 0x08, 0x66,  // 65535 s or more: 21.5 degC
@@ -248,7 +248,7 @@ TEST_CASE("A refusal is an answer but measures nothing") {
   CHECK(reader.state().temperature == 0.0);
 }
 
-TEST_CASE("A frame that nobody asked for changes nothing") {
+TEST_CASE("An unrequested frame changes nothing") {
   Reader reader = one_command();
   reader.receive(answer(at(1), kWarm));
   reader.advance(at(1.5));
@@ -399,7 +399,7 @@ TEST_CASE("A carrier that only changes its power cuts nothing") {
   CHECK(last_outcome(reader) == Outcome::kWaiting);
 }
 
-TEST_CASE("A command whose turn comes when the antenna is off is not sent, and said to be so") {
+TEST_CASE("A command that is due while the antenna is off is not sent, and reported") {
   Reader reader = Reader(parse_program(R"(<reader-program version="1">
       <antenna on="1" off="2.02" power="0.5"/>
       <command at="2" name="identify" timeout="0.05"/><command at="2.01" name="identify"/>

@@ -43,7 +43,7 @@ TEST_CASE("Its greatest speed is 15/8 of the mean speed") {
   CHECK((minimum_jerk(0.5 + h) - minimum_jerk(0.5 - h)) / (2 * h) == Approx(1.875).epsilon(1e-6));
 }
 
-TEST_CASE("An axis passes its waypoints at their times and stands before and after") {
+TEST_CASE("An axis passes its waypoints at their times and does not move before and after") {
   CHECK(position(kPath, 0, at(0.0)) == 0.0);
   CHECK(position(kPath, 0, at(1.0)) == 0.0);
   CHECK(position(kPath, 0, at(2.0)) == Approx(1.0));

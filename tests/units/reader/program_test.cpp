@@ -67,7 +67,7 @@ TEST_CASE("A program is read as it is written") {
   CHECK(program.commands[0].bit_rate == 106);
 }
 
-TEST_CASE("A program needs no axes, and a command may stand before its antenna interval") {
+TEST_CASE("A program needs no axes, and a command may be before its antenna interval") {
   const Program program = parse_program(
       R"(<reader-program version="1"><command at="1" name="identify"/>
          <antenna on="0" off="2" power="1"/></reader-program>)",
@@ -97,7 +97,7 @@ TEST_CASE("A file is read, and one that is missing is named") {
                     contains(path.string()) && contains("cannot be read"));
 }
 
-TEST_CASE("Every error stands with the file and the line") {
+TEST_CASE("Every error has the file and the line") {
   const auto check = [](auto change, const std::string& place, const std::string& expected) {
     const std::string error = error_of(change);
     CHECK_THAT(error, starts_with("p.xml:" + place) && contains(expected));
@@ -201,7 +201,7 @@ TEST_CASE("Every error stands with the file and the line") {
   }
 }
 
-TEST_CASE("What varies from run to run is read, and nothing varies where nothing is said") {
+TEST_CASE("What varies from run to run is read, and by default nothing varies") {
   Lines lines;
   const Program plain = parse(lines);
   CHECK(plain.variation.tremor == std::vector<double>{0, 0});

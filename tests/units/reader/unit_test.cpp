@@ -118,7 +118,7 @@ TEST_CASE("A command is sent, although the answer before it arrives when it has 
   CHECK(sent(reader) == 2);
 }
 
-TEST_CASE("A command that is due asks for an event until it is sent") {
+TEST_CASE("A command that is due requests an event until it is sent") {
   const Resources resources;
   const UnitLibrary library(unit_library("reader"));
   UnitInstance reader(library, choices(resources));
@@ -187,7 +187,7 @@ TEST_CASE("Reports of one instant come one after the other") {
   CHECK(count(reader, "unexpected") == 3);
 }
 
-TEST_CASE("Measurements are told one after the other, and are older where they are told late") {
+TEST_CASE("Measurements are output one after the other, and are older where they are output late") {
   const Resources resources(R"(<reader-program version="1">
       <antenna on="1" off="9" power="0.5"/><command at="2" name="read_log"/>
     </reader-program>)");

@@ -50,7 +50,7 @@ TEST_CASE("A tremor is a function of seed, axis and time") {
   CHECK(tremor.at(0, at(2.5)) == Approx(-0.0003183267217266225).epsilon(1e-9));
 }
 
-TEST_CASE("An axis without amplitude, or that is not there, stands still") {
+TEST_CASE("An axis without amplitude, or that is not there, does not move") {
   const Tremor tremor(trembling(1, {0.0, 0.001}));
   CHECK(tremor.at(0, at(1)) == 0.0);
   CHECK(tremor.at(1, at(1)) != 0.0);

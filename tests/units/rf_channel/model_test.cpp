@@ -141,7 +141,7 @@ TEST_CASE("A frame that no packet holds is refused") {
                     Catch::Contains("1017 bits") && Catch::Contains("1016 bits at most"));
 }
 
-TEST_CASE("A frame that is cut short on its wire is not sent, and disturbs nobody") {
+TEST_CASE("A frame that is cut short on its wire is not sent, and disturbs no other") {
   Channel channel(two_tags());
   place(channel, kStart, {1.0, 1.0});
   const nfc::Frame sent = frame(5);
@@ -177,7 +177,7 @@ TEST_CASE("A radio that is switched off ends what is on the air") {
   CHECK_FALSE(channel.to_reader());
 }
 
-TEST_CASE("Who sends does not hear") {
+TEST_CASE("A sender does not receive") {
   Channel channel(free_space());
   place(channel, kStart, {1.0});
   channel.from_reader(frame(5));
@@ -217,7 +217,7 @@ TEST_CASE("Of two tags that send at once, equally strong, none is understood") {
   CHECK_FALSE(gfsk.to_reader());
 }
 
-TEST_CASE("A reader listens to the packet whose header it hears first") {
+TEST_CASE("A reader receives the packet whose header it receives first") {
   Channel channel(two_tags());
   place(channel, kStart, {1.0, 1.0});
   const nfc::Frame first = frame(20);
@@ -278,7 +278,7 @@ TEST_CASE("The same seed makes the same errors, another one others") {
   CHECK(errors(1) != errors(2));
 }
 
-TEST_CASE("Which instants are observed decides nothing while the antennas rest") {
+TEST_CASE("The observed instants change nothing while the antennas do not move") {
   Parameters parameters = two_tags();
   parameters.reader.interference = 2.7e-7;
   std::mt19937 generator(11);

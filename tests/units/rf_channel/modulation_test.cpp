@@ -54,7 +54,7 @@ TEST_CASE("O-QPSK: the published values of IEEE 802.15.4's formula") {
   CHECK(oqpsk(-7) == Approx(0.175).margin(0.001));
 }
 
-TEST_CASE("O-QPSK: it is 16 orthogonal signals told apart by their envelopes") {
+TEST_CASE("O-QPSK: it is 16 orthogonal signals distinguished by their envelopes") {
   // Proakis and Salehi, section 4.5-2: the error of a symbol by simulation, 8 of 15 for a bit
   std::mt19937 generator(5);
   std::normal_distribution<double> normal(0.0, std::sqrt(0.5));

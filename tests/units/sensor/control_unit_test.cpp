@@ -188,7 +188,7 @@ TEST_CASE("the log is read oldest first, with the samples' ages") {
   CHECK(ask(kReadLog) == answer);
 }
 
-TEST_CASE("only the last samples are kept, and an age that is too large for its field says so") {
+TEST_CASE("only the last samples are kept, and an age that is too large for its field is marked") {
   SensorParameters parameters = enduring();
   parameters.power.capacitance = 10;
   Dialogue ask(parameters);

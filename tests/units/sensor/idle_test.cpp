@@ -6,18 +6,18 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/units/sensor/life.h"
+#include "tests/units/sensor/simulated_sensor.h"
 
 using sensor::kCommands;
 using sensor::kFields;
 using sensor::kMillisecond;
 using sensor::kSecond;
-using sensor::live;
 using sensor::outputs;
 using sensor::prepare;
 using sensor::Record;
+using sensor::SensorSettings;
+using sensor::simulate;
 using sensor::UnitBench;
-using sensor::Way;
 using stride::Duration;
 using stride::Time;
 
@@ -35,16 +35,16 @@ TEST_CASE("skipping changes no frame, no instant and no bit of an output") {
   const double frequency = 1e6;
   std::size_t answers = 0;
   for (unsigned seed = 1; seed <= 100; ++seed) {
-    const Record plain = live(Way{true, {}, "", frequency}, seed);
+    const Record plain = simulate(SensorSettings{true, {}, "", frequency}, seed);
     answers += plain.answers.size();
     CAPTURE(seed);
     for (const bool gating : {true, false}) {
       CAPTURE(gating);
-      check_same(live(Way{gating, Duration::max(), "", frequency}, seed), plain);
+      check_same(simulate(SensorSettings{gating, Duration::max(), "", frequency}, seed), plain);
       if (seed > 10) continue;
-      check_same(live(Way{gating, 3 * kMillisecond, "", frequency}, seed), plain);
+      check_same(simulate(SensorSettings{gating, 3 * kMillisecond, "", frequency}, seed), plain);
     }
-    if (seed <= 3) check_same(live(Way{false, {}, "", frequency}, seed), plain);
+    if (seed <= 3) check_same(simulate(SensorSettings{false, {}, "", frequency}, seed), plain);
   }
   CHECK(answers > 1000);
 }
@@ -135,7 +135,7 @@ TEST_CASE("what one step over a promise gives is what many give") {
   UnitBench many;
   UnitBench one;
   for (UnitBench* bench : {&many, &one}) {
-    prepare(*bench, Way{false, Duration::max(), ""});
+    prepare(*bench, SensorSettings{false, Duration::max(), ""});
     bench->run(bench->now() + 40 * kMillisecond, true);
     bench->send(sensor::request({0x06, 0x00, 0x02}, bench->now()));  // a sample every 2 s
     bench->run(bench->now() + 10 * kMillisecond, true);
@@ -150,7 +150,7 @@ TEST_CASE("what one step over a promise gives is what many give") {
 
 TEST_CASE("a promise ends where the timer goes off, and there is none while something happens") {
   UnitBench bench;
-  prepare(bench, Way{true, Duration::max(), ""});
+  prepare(bench, SensorSettings{true, Duration::max(), ""});
   CHECK(bench.idle_until() == bench.now());  // it boots
   bench.run(bench.now() + 40 * kMillisecond, true);
   CHECK(bench.idle_until() > bench.now() + kSecond);

@@ -62,7 +62,7 @@ void add_reader(ScriptedSystem& system, const char* name) {
           nfc::to_bits(nfc::with_crc({static_cast<std::uint8_t>(nfc::Command::kIdentify)}));
       unit.binary(2) = nfc::encode(frame);
       unit.clock(1) = true;
-      result.event_needed = true;
+      result.event_handling_needed = true;
     }
     return result;
   };

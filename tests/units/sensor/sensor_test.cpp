@@ -172,7 +172,7 @@ TEST_CASE("any split of a run into steps gives the same bits") {
         }) == whole);
 }
 
-TEST_CASE("two sensors, run in turn, do what each does alone") {
+TEST_CASE("two sensors, run in turn, give the results that each gives alone") {
   const auto drive = [](Bench& bench, int i, double temperature) {
     bench.temperature(temperature);
     if (i % 5 == 0) bench.send({0x02}, ms(i + 0.25));

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "tests/build.h"
-#include "tests/units/sensor/life.h"
+#include "tests/units/sensor/simulated_sensor.h"
 #include "tests/units/systemc/vcd.h"
 
 using stride::Duration;
@@ -39,8 +39,10 @@ TEST_CASE("an expanded trace is the one without skipping, but for the edges of a
   const TemporaryFolder folder;
   const auto trace = [&](bool gating, bool skips) {
     const std::string file = folder / "sensor.vcd";
-    sensor::live(
-        sensor::Way{gating, skips ? std::optional(Duration::max()) : std::nullopt, file, 2e5}, 3);
+    sensor::simulate(
+        sensor::SensorSettings{gating, skips ? std::optional(Duration::max()) : std::nullopt, file,
+                               2e5},
+        3);
     return read_vcd(file);
   };
   for (const bool gating : {true, false}) {

@@ -122,7 +122,7 @@ TEST_CASE("an answer that a step's inputs cut off is handed over where the step 
   }
 }
 
-TEST_CASE("two instances, stepped in turn, do what each does alone") {
+TEST_CASE("two instances, stepped in turn, give the results that each gives alone") {
   struct Side {
     double temperature;
     std::int32_t identifier;

@@ -87,7 +87,7 @@ TEST_CASE("a device whose processes have a reset port can be destroyed") {
   }
 }
 
-TEST_CASE("what lives on a thread's stack is destroyed with the device") {
+TEST_CASE("objects on a thread's stack are destroyed with the device") {
   auto object = std::make_shared<int>(1);
   const std::weak_ptr<int> watch = object;
   {
@@ -113,7 +113,7 @@ TEST_CASE("devices may be advanced from several threads at once") {
   for (auto& device : devices) CHECK(edges(*device) == 10'001);
 }
 
-TEST_CASE("the kernel of the surrounding program is left alone") {
+TEST_CASE("the kernel of the surrounding program is not touched") {
   sc_core::sc_simcontext* const global = sc_core::sc_default_global_context;
   REQUIRE(sc_core::sc_curr_simcontext == global);
   const auto handler = sc_core::sc_report_handler::get_handler();

@@ -93,7 +93,7 @@ TEST_CASE("an input that is written at an instant is seen at that instant") {
   });
 }
 
-TEST_CASE("kernels of different time resolution live side by side") {
+TEST_CASE("kernels of different time resolution exist side by side") {
   Kernel fine;
   fine.within([] { sc_core::sc_set_time_resolution(1, sc_core::SC_FS); });
   fine.initialize();
@@ -118,7 +118,7 @@ TEST_CASE("a call out of order is an error") {
   CHECK_THROWS_WITH(kernel.advance(at(kNanosecond)), Contains("1000000 ps to 1000 ps"));
 }
 
-TEST_CASE("a device that fails gives an error that says what, where and when") {
+TEST_CASE("the failure of a device is an error with what, where and when") {
   const bool in_thread = GENERATE(false, true);
   CAPTURE(in_thread);
   CHECK_THAT(error_of([] { SC_REPORT_ERROR("motor", "overheated"); }, in_thread),
@@ -171,7 +171,7 @@ TEST_CASE("a constructor that throws leaves the kernel usable for others") {
   CHECK(device.advance(at(kMicrosecond)) == at(kMicrosecond));
 }
 
-TEST_CASE("warnings go to the log of the device that says them, and nothing is printed") {
+TEST_CASE("warnings go to the log of their device, and nothing is printed") {
   std::vector<std::string> first_log;
   std::vector<std::string> second_log;
   const auto log_to = [](std::vector<std::string>& lines) {
@@ -258,7 +258,7 @@ TEST_CASE("what is due at the end of an approach happens in the next call") {
   CHECK(kernel.approach(at(5 * kMicrosecond), true) == at(5 * kMicrosecond));
 }
 
-TEST_CASE("errors are told in true time") {
+TEST_CASE("errors have true times") {
   const auto overheat = static_cast<void (*)()>([] { SC_REPORT_ERROR("motor", "overheated"); });
   Device<Actor> device({}, "actor", overheat, false);
   device.advance(at(kNanosecond));

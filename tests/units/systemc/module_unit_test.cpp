@@ -176,7 +176,7 @@ TEST_CASE("messages go through FIFOs at their instant") {
   CHECK(unit.value<Binary>("tx.data") == Binary{8});
 }
 
-TEST_CASE("what finds a FIFO full is lost, and the log says so") {
+TEST_CASE("a value for a full FIFO is lost, with a warning") {
   GadgetDriver unit;
   unit.initialize();
   unit.send({1, 2, 3});

@@ -143,7 +143,7 @@ TEST_CASE("timers of one instant go off in the order of their construction, howe
     Marks marks = bench.marks();
     REQUIRE(marks.size() == 4);
     CAPTURE(step.count());
-    // where the usual notification stands among them is SystemC's choice
+    // the usual notification's position among them is SystemC's choice
     std::stable_partition(marks.begin(), marks.end(), [](const auto& m) { return m.which == 0; });
     CHECK(marks == expected);
     bench.with([](Alarms& a) { CHECK(a.deltas == std::vector<sc_dt::uint64>(4, a.deltas[0])); });

@@ -112,7 +112,7 @@ TEST_CASE("a unit with skipping gives the values of one without") {
   CHECK(full.measurements() > 5);
 }
 
-TEST_CASE("a promise holds while the device sleeps, and one step pays for it") {
+TEST_CASE("a promise holds while the device sleeps, and is paid by one step") {
   MeterDriver promising(Duration::max());
   MeterDriver finely;
   promising.initialize();
@@ -167,7 +167,7 @@ TEST_CASE("what a clock's edge has to sample is neither skipped nor promised awa
   CHECK(unit.idle_until() == unit.now());
 }
 
-TEST_CASE("the log says at the end how much was skipped") {
+TEST_CASE("the skipped time is logged at the end") {
   MeterDriver unit(2 * kMillisecond);
   unit.initialize();
   unit.step(at(10 * kMillisecond));
@@ -220,7 +220,7 @@ TEST_CASE("a trace that cannot be made is an error at initialization") {
   CHECK_NOTHROW(unit.initialize());
 }
 
-TEST_CASE("a trace is among the run's results, where the importer says which folder that is") {
+TEST_CASE("a trace is among the run's results, if the importer gives their folder") {
   const UnitFolder folder;
   ::setenv("STRIDE_RESULTS", folder.path.c_str(), 1);
   MeterDriver unit;

@@ -35,7 +35,7 @@ TEST_CASE("Attributes have types") {
   CHECK_FALSE(item.has("none"));
 }
 
-TEST_CASE("What an attribute is not is told with file, line and element") {
+TEST_CASE("A wrong attribute is reported with file, line and element") {
   const Document document = with("number=\"2,5\" time=\"-1\" whole=\"3.5\" large=\"256\"");
   const Element item = document.root().children().front();
   const std::string where = "x.xml:2: <item>: ";

@@ -9,7 +9,7 @@ TEST_CASE("Numbers are as short as they can be, and whole where they are") {
   CHECK(xml::shortest(0.1 + 0.2) == "0.30000000000000004");
 }
 
-TEST_CASE("Words stand in quotation marks") {
+TEST_CASE("Words are in quotation marks") {
   CHECK(xml::quoted_list({"on", "off"}) == "'on', 'off'");
   CHECK(xml::quoted_list({}).empty());
 }

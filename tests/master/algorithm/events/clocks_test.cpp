@@ -159,7 +159,7 @@ TEST_CASE("the interval and the shift of a fixed clock come from the unit, once"
   CHECK(asked == 1);
 }
 
-TEST_CASE("an interval that the description gives is not asked for") {
+TEST_CASE("an interval in the description is not queried") {
   ScriptedSystem f;
   const auto kind = GENERATE(IntervalVariability::Fixed, IntervalVariability::Tunable);
   auto& a = f.add("a", Describe("a").clock("tick", kind, every(8ms), every(2ms)).done());
@@ -181,14 +181,14 @@ TEST_CASE("a tunable clock counts a new interval from the event in which it chan
   };
   a.on_event = [&](ScriptedUnit&) {
     EventResult result;
-    if (watch.now < Time(5ms)) result.next_event = Time(5ms);
+    if (watch.now < Time(5ms)) result.next_event_time = Time(5ms);
     return result;
   };
   f.build(0.013, kStep).run();
   CHECK(watch.ticks == times({0ms, 4ms, 8ms, 11ms}));
 }
 
-TEST_CASE("a changing clock says at each tick when the next one is") {
+TEST_CASE("a changing clock gives the next interval at each tick") {
   ScriptedSystem f;
   auto& a = f.add("a", Describe("a").clock("tick", IntervalVariability::Changing).done());
   Watch watch(a);
@@ -199,7 +199,7 @@ TEST_CASE("a changing clock says at each tick when the next one is") {
   CHECK(watch.ticks == times({1ms, 3ms, 6ms, 10ms, 15ms}));
 }
 
-TEST_CASE("a countdown clock is asked at every event, and waits until its unit knows") {
+TEST_CASE("the interval of a countdown clock is queried at every event, until it is known") {
   ScriptedSystem f;
   auto& a = f.add("a", Describe("a").clock("tick", IntervalVariability::Countdown).done());
   Watch watch(a);
@@ -207,7 +207,7 @@ TEST_CASE("a countdown clock is asked at every event, and waits until its unit k
   a.on_event = [&](ScriptedUnit&) {
     EventResult result;
     for (const Time event : {Time(3ms), Time(5ms), Time(15ms)}) {
-      if (watch.now < event && !result.next_event) result.next_event = event;
+      if (watch.now < event && !result.next_event_time) result.next_event_time = event;
     }
     return result;
   };
@@ -271,7 +271,7 @@ TEST_CASE("ticks that fall on other events and on each other are all there") {
   a.on_event = [&](ScriptedUnit&) {
     ++events;
     EventResult result;
-    result.next_event = on_a.now + 1ms;
+    result.next_event_time = on_a.now + 1ms;
     return result;
   };
   f.build(0.006, 1500us).run();
@@ -328,7 +328,7 @@ TEST_CASE("the clocked inputs are set and the clocked outputs read while the clo
   CHECK(sink.number(0) == 10);
 }
 
-TEST_CASE("what is sampled and held is an event for who receives it") {
+TEST_CASE("a sampled and held value is an event for its receiver") {
   ScriptedSystem f;
   auto& a = f.add("a", sampler("a", 4ms));
   auto& sink = f.add("sink", Describe("sink").input("u").event_mode().done());
@@ -350,7 +350,7 @@ TEST_CASE("what is sampled and held is an event for who receives it") {
 
 TEST_CASE("values from clock to clock: of this instant where both tick, else the last") {
   ScriptedSystem f;
-  auto& b = f.add("b", sampler("b", 3ms));  // stands before its source
+  auto& b = f.add("b", sampler("b", 3ms));  // is before its source
   auto& a = f.add("a", sampler("a", 2ms));
   f.wire("a", "out", "b", "in");
   a.on_set_clock = [count = 0](ScriptedUnit& unit) mutable { unit.number(kOut) = ++count; };

@@ -76,7 +76,7 @@ struct EventSystem : ScriptedSystem {
       if (now > Time{}) ++events["source"];
       EventResult result;
       if (now < time_from_seconds(kJump)) {
-        result.next_event = time_from_seconds(kJump);
+        result.next_event_time = time_from_seconds(kJump);
       } else {
         self.number(0) = 2;
       }
@@ -217,7 +217,7 @@ TEST_CASE("a Boolean that goes through a chain at the instant of an event is an 
   CHECK(seen_in_events.size() <= 3);
 }
 
-TEST_CASE("instants without an event ask no unit for more than its outputs") {
+TEST_CASE("at instants without an event only outputs are read") {
   EventSystem f;
   auto& a = f.follower("a", one_more);
   f.follower("b", one_more);

@@ -52,7 +52,7 @@ TEST_CASE("an output of the system follows its variable, converted, at each comm
   CHECK(values.seen == std::vector<double>{0, 1, 1, 11, 2, 21});
 }
 
-TEST_CASE("a name that a variable has is left to the variable") {
+TEST_CASE("a name that a variable has belongs to the variable") {
   ScriptedSystem system = counting_system();
   system.build(1, std::chrono::seconds(1));
   REQUIRE(system.system->outputs().size() == 1);

@@ -156,7 +156,7 @@ TEST_CASE("an input within its deadband ends no suspension; a drift does in the 
   CHECK(a.steps.size() == calls);
 }
 
-TEST_CASE("a deadband that the user chose goes before that of the unit") {
+TEST_CASE("a deadband of the user takes precedence over that of the unit") {
   IdleSystem f;
   auto& a = f.integrator("a", 10);
   follow_time(f, "s", [](double t) { return t; });
@@ -176,7 +176,7 @@ TEST_CASE("where the promise ends the unit is called, and may have an event") {
     return EventResult{};
   };
   a.misbehave = [&](Time, Time to, StepResult& result) {
-    result.event_needed = to == at(0.4);
+    result.event_handling_needed = to == at(0.4);
     if (to >= at(0.4)) a.until = Time::min();
   };
   f.run(0.6, 100ms);
@@ -185,7 +185,7 @@ TEST_CASE("where the promise ends the unit is called, and may have an event") {
   CHECK(events == 2);  // one at the start
 }
 
-TEST_CASE("a promise that ends between two points is worth the steps before it") {
+TEST_CASE("a promise that ends between two points saves the steps before it") {
   IdleSystem f;
   auto& a = f.integrator("a");
   Reader b(f, "b");
@@ -204,7 +204,7 @@ TEST_CASE("a unit that breaks its promise is named, with the promise and what it
   auto& a = f.integrator("liar");
   std::string deed;
   SECTION("event") {
-    a.misbehave = [](Time, Time, StepResult& result) { result.event_needed = true; };
+    a.misbehave = [](Time, Time, StepResult& result) { result.event_handling_needed = true; };
     deed = "has an event";
   }
   SECTION("early return") {
@@ -227,7 +227,7 @@ TEST_CASE("a unit that breaks its promise is named, with the promise and what it
                         Contains("promised at 0 s to be idle until 100 s") && Contains(deed));
 }
 
-TEST_CASE("when all units are suspended the run takes one stride, to a point of the grid") {
+TEST_CASE("when all units are suspended the run makes one step, to a point of the grid") {
   IdleSystem f;
   f.integrator("a");
   auto& b = f.integrator("b");
@@ -252,7 +252,7 @@ TEST_CASE("an event of another unit ends no suspension, a message does") {
   Time now{};
   sender.on_step = [&](ScriptedUnit& self, Time, Time to) {
     StepResult result = reached(to);
-    result.event_needed = to == at(0.2) || to == at(0.5);
+    result.event_handling_needed = to == at(0.2) || to == at(0.5);
     self.clock(0) = to == at(0.5);
     now = to;
     return result;

@@ -53,12 +53,12 @@ struct Net {
     }
     return loops;
   }
-  std::string tears(const EvaluationBlock& loop) const {
+  std::string tearing_variables(const EvaluationBlock& loop) const {
     const System system(declaration);
     std::string text;
-    for (const Tear& tear : loop.tears) {
+    for (const TearingVariable& variable : loop.tearing_variables) {
       std::string inputs;
-      for (const VariableId id : tear.inputs) {
+      for (const VariableId id : variable.inputs) {
         inputs += (inputs.empty() ? "" : "=") + system.full_name(id);
       }
       text += (text.empty() ? "" : ",") + inputs;
@@ -95,7 +95,7 @@ TEST_CASE("without a declaration an output depends on all inputs") {
   const auto loops = net.loops();
   REQUIRE(loops.size() == 1);
   CHECK(loops[0].paths == std::vector<std::string>{"a.u -> a.y -> b.u -> b.y -> a.u"});
-  CHECK(net.tears(loops[0]) == "a.u");
+  CHECK(net.tearing_variables(loops[0]) == "a.u");
   CHECK(loops[0].undeclared == std::vector<std::size_t>{0});
   CHECK(undeclared_text(System(net.declaration), loops[0]) == "unit 'a' declares no dependencies");
 }
@@ -155,7 +155,7 @@ TEST_CASE("a loop is cut at few inputs; those of one source count once") {
   net.wire("a.y", "b.u").wire("a.y", "c.u").wire("b.y", "a.u").wire("c.y", "a.v");
   const auto loops = net.loops();
   REQUIRE(loops.size() == 1);
-  CHECK(net.tears(loops[0]).size() <= std::string("a.u,a.v").size());
+  CHECK(net.tearing_variables(loops[0]).size() <= std::string("a.u,a.v").size());
   CHECK(loops[0].paths.size() == 2);
   CHECK(path_text(loops[0]).find(", and ") != std::string::npos);
 }
@@ -172,7 +172,7 @@ TEST_CASE("many paths are not all printed") {
   }
   const auto loops = net.loops();
   REQUIRE(loops.size() == 1);
-  CHECK(loops[0].tears.size() == 20);
+  CHECK(loops[0].tearing_variables.size() == 20);
   CHECK(loops[0].paths.size() + loops[0].unnamed_paths == 20);
   CHECK(loops[0].paths.size() == 8);
 }
@@ -184,7 +184,7 @@ TEST_CASE("an output that feeds its own unit is a loop") {
   CHECK(net.loops()[0].paths == std::vector<std::string>{"a.u -> a.y -> a.u"});
 }
 
-TEST_CASE("loops stand in the order of what they need") {
+TEST_CASE("loops are in the order of their dependencies") {
   const auto two = Describe("two").input("u").input("v").output("y");
   Net net;
   net.add("d", two).add("e", direct()).wire("d.y", "e.u").wire("e.y", "d.u");

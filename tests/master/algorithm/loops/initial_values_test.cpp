@@ -197,7 +197,7 @@ TEST_CASE("a dependency that is not declared and does not exist costs no search"
   CHECK(a.gets + b.gets <= 5);  // one of them for the value that the search would begin with
 }
 
-TEST_CASE("a long way that only looks like a loop is settled step by step") {
+TEST_CASE("a long path that only looks like a loop converges step by step") {
   InitialSystem f;
   constexpr ValueReference kPorts = 6;
   Describe ports("ports");
@@ -218,7 +218,7 @@ TEST_CASE("a long way that only looks like a loop is settled step by step") {
   CHECK(a.gets < 20);
 }
 
-TEST_CASE("a Boolean loop settles, or is an error with its path and values") {
+TEST_CASE("a Boolean loop converges, or is an error with its path and values") {
   const bool inverts = GENERATE(false, true);
   InitialSystem f;
   const auto description = Describe("switch")
@@ -294,7 +294,7 @@ TEST_CASE("numbers and a switch in one loop") {
   CHECK_FALSE(a.clock(1));
 }
 
-TEST_CASE("the error tells the whole path, the values, and how to break the loop") {
+TEST_CASE("the error has the whole path, the values, and how to break the loop") {
   InitialSystem f;
   f.follower("a", plus_one);
   f.follower("b", [](double u) { return u; });

@@ -61,7 +61,7 @@ TEST_CASE("the step is shortened where it would lead too far") {
   CHECK(solution.x[0] == Approx(2).epsilon(1e-12));
 }
 
-TEST_CASE("what is not finite is kept away from") {
+TEST_CASE("values that are not finite are avoided") {
   const auto root = [](double x) { return std::sqrt(x - 1) + 1.5; };
   // sqrt(x - 1) = x - 1.5
   const double expected = 1 + std::pow((1 + std::sqrt(3.0)) / 2, 2);
@@ -72,19 +72,19 @@ TEST_CASE("what is not finite is kept away from") {
   CHECK(from_outside.x[0] == Approx(expected).epsilon(1e-12));
 }
 
-TEST_CASE("a kink is no obstacle") {
+TEST_CASE("a function with a kink is solved") {
   const LoopSolution solution = solve([](double x) { return std::abs(x - 3) - 1.5 * x; }, -5);
   REQUIRE(solution.found);
   CHECK(solution.x[0] == Approx(3 / 3.5).epsilon(1e-12));
 }
 
-TEST_CASE("a step is no obstacle") {
+TEST_CASE("a function with a step is solved") {
   const LoopSolution solution = solve([](double x) { return x < 3 ? 2.5 : 0.5 * x; }, 100);
   REQUIRE(solution.found);
   CHECK(solution.x[0] == 2.5);
 }
 
-TEST_CASE("where differences say nothing, the damped iteration goes on") {
+TEST_CASE("where finite differences are zero, the damped iteration goes on") {
   // of slope one but for its small steps, which the differences do not see
   const auto g = [](double x) { return x + 0.25 * (std::floor(8 * (4 - x)) / 8); };
   const LoopSolution solution = solve(g, 0);
@@ -92,7 +92,7 @@ TEST_CASE("where differences say nothing, the damped iteration goes on") {
   CHECK(std::abs(solution.x[0] - 4) <= 0.125);
 }
 
-TEST_CASE("no solution is no solution, and no large number") {
+TEST_CASE("a system without a solution has no result, instead of a large number") {
   const double offset = GENERATE(1.0, -1e-3, 1e9);
   const LoopSolution solution = solve([&](double x) { return x + offset; }, 0);
   CHECK_FALSE(solution.found);
@@ -167,7 +167,7 @@ TEST_CASE("with a Jacobian, no evaluation is spent on differences") {
   CHECK(2 * exact.evaluations <= differences.evaluations);
 }
 
-TEST_CASE("a Jacobian that is not finite, or wrong, does no harm") {
+TEST_CASE("a Jacobian that is not finite, or wrong, does not prevent the solution") {
   const double derivative = GENERATE(std::nan(""), 1.0, 1e300, -7.0);
   const auto g = [](std::span<const double> x, std::span<double> result) {
     result[0] = std::cos(x[0]);
@@ -201,7 +201,7 @@ TEST_CASE("the last evaluation is the one of the solution") {
   CHECK(solution.g[0] == 1 - 2 * last);
 }
 
-TEST_CASE("noise below the precision asked for is lived with") {
+TEST_CASE("noise below the required precision is tolerated") {
   std::mt19937 generator(11);  // as of a unit whose output is itself the result of an iteration
   std::uniform_real_distribution<double> noise(-1e-11, 1e-11);
   const LoopSolution solution =

@@ -11,7 +11,7 @@ using Shares = std::vector<ThreadShare>;
 
 namespace {
 
-std::vector<std::size_t> places(std::size_t count) {
+std::vector<std::size_t> positions(std::size_t count) {
   std::vector<std::size_t> all(count);
   std::iota(all.begin(), all.end(), 0);
   return all;
@@ -20,7 +20,7 @@ std::vector<std::size_t> places(std::size_t count) {
 Shares share(std::vector<Nanoseconds> costs, std::size_t threads,
              std::vector<char> main_only = {}) {
   main_only.resize(costs.size());
-  return balance_load(places(costs.size()), costs, main_only, threads);
+  return balance_load(positions(costs.size()), costs, main_only, threads);
 }
 
 /// A split whose units cost what the test says, on threads that are as good as it says.
@@ -34,7 +34,7 @@ struct Bench {
   explicit Bench(std::vector<Nanoseconds> costs_, std::size_t threads = 2, bool always = false)
       : costs(std::move(costs_)), split([&] {
           LoadBalancer::Plan plan;
-          plan.stages = {places(costs.size())};
+          plan.stages = {positions(costs.size())};
           plan.main_only.resize(costs.size());
           plan.threads = threads;
           plan.always = always;
@@ -64,25 +64,25 @@ constexpr std::size_t kMeasured = LoadBalancer::kMeasured;
 
 }  // namespace
 
-TEST_CASE("the dearest units come first, each to the thread that has least to do") {
+TEST_CASE("the most expensive units come first, each on the thread with the smallest load") {
   CHECK(share({7us, 6us, 5us, 4us}, 2) == Shares{{0, 3}, {1, 2}});
   CHECK(share({1us, 1us, 1us, 1us, 4us}, 2) == Shares{{4}, {0, 1, 2, 3}});
   CHECK(share({3us, 2us, 2us}, 3) == Shares{{0}, {1}, {2}});
 }
 
-TEST_CASE("equal costs are dealt out in turn; there are no more shares than units") {
+TEST_CASE("equal costs are distributed in turn; there are no more shares than units") {
   CHECK(share({1us, 1us, 1us, 1us, 1us}, 2) == Shares{{0, 2, 4}, {1, 3}});
   CHECK(share({1us, 1us}, 8) == Shares{{0}, {1}});
   CHECK(share({1us}, 2) == Shares{{0}});
   CHECK(share({}, 2).empty());
 }
 
-TEST_CASE("who is bound to the first thread goes there, and the others around it") {
+TEST_CASE("units that are bound to the first thread go there, the others to the rest") {
   CHECK(share({2us, 9us, 2us, 9us}, 2, {1, 0, 1, 0}) == Shares{{0, 2, 3}, {1}});
   CHECK(share({2us, 9us}, 2, {1, 1}) == Shares{{0, 1}});
 }
 
-TEST_CASE("dear units go on threads once they have been measured and have won the race") {
+TEST_CASE("expensive units go on threads once they have been measured and threads are faster") {
   Bench bench({50us, 50us});
   CHECK(bench.steps(kMeasured) == 0);
   CHECK(bench.hand_overs == 1);
@@ -94,7 +94,7 @@ TEST_CASE("dear units go on threads once they have been measured and have won th
   CHECK(bench.split.shares(0)[1] == ThreadShare{1});
 }
 
-TEST_CASE("the race is repeated, and lost where other programs have taken the cores") {
+TEST_CASE("the comparison is repeated, and threads lose it where other programs use the cores") {
   Bench bench({50us, 50us});
   bench.steps(1000);
   CHECK(bench.split.is_parallel());
@@ -111,19 +111,19 @@ TEST_CASE("units too cheap for any hand-over start no threads") {
   CHECK(bench.split.shares(0).empty());
 }
 
-TEST_CASE("a hand-over that costs more than it gains is not made") {
+TEST_CASE("units whose hand-over costs more than it gains stay on one thread") {
   Bench bench({50us, 50us});
   bench.hand_over = 60us;
   CHECK(bench.steps(1000) == 0);
   CHECK(bench.hand_overs == 1);
 }
 
-TEST_CASE("one dear unit among cheap ones is no case for threads") {
+TEST_CASE("one expensive unit among cheap ones starts no threads") {
   Bench bench({500us, 100ns, 100ns});
   CHECK(bench.steps(1000) == 0);
 }
 
-TEST_CASE("threads that turn out no faster are left, and tried less and less often") {
+TEST_CASE("threads that are not faster are given up, and tried less and less often") {
   Bench bench({50us, 50us});
   bench.speedup = 1.01;  // as for units that wait for each other's lock
   const std::size_t first = bench.steps(400'000);
@@ -144,7 +144,7 @@ TEST_CASE("the decision follows the costs") {
   CHECK_FALSE(bench.split.is_parallel());
 }
 
-TEST_CASE("long steps are decided on after a few") {
+TEST_CASE("with long steps a few are enough for the decision") {
   Bench bench({200ms, 200ms});
   CHECK(bench.steps(3) == 0);
   CHECK(bench.steps(LoadBalancer::kTurns) == LoadBalancer::kTurns / 2);

@@ -35,7 +35,7 @@ void announce(ScriptedUnit& unit, std::vector<Time> instants) {
   unit.on_event = [time, instants](ScriptedUnit&) {
     EventResult result;
     for (const Time instant : instants) {
-      if (instant > *time && !result.next_event) result.next_event = instant;
+      if (instant > *time && !result.next_event_time) result.next_event_time = instant;
     }
     return result;
   };
@@ -74,7 +74,7 @@ TEST_CASE("event-driven steps go from event to event, and no further than the ma
   }
 }
 
-TEST_CASE("no step is longer than a unit says it can be") {
+TEST_CASE("no step is longer than a unit's maximum step") {
   ScriptedSystem f;
   f.add("a", Describe("a").maximum_step(40ms).done());
   f.add("b", Describe("b").maximum_step(60ms).done());

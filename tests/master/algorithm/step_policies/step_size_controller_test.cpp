@@ -13,7 +13,7 @@ constexpr double kOrder = 2;
 
 }  // namespace
 
-TEST_CASE("the first step has the size that was asked for") {
+TEST_CASE("the first step has the requested size") {
   CHECK(StepSizeController(10ms, kOrder).size() == Duration(10ms));
 }
 

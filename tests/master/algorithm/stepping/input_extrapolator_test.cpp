@@ -46,7 +46,7 @@ struct Ramp {
     ramp.on_step = [jump, jumps](ScriptedUnit& self, Time, Time to) {
       self.number(0) = *jump + to_seconds(to);
       StepResult result = reached(to);
-      result.event_needed = std::find(jumps.begin(), jumps.end(), to) != jumps.end();
+      result.event_handling_needed = std::find(jumps.begin(), jumps.end(), to) != jumps.end();
       return result;
     };
     ramp.on_event = [jump](ScriptedUnit& self) {

@@ -20,8 +20,8 @@ System system_of(std::vector<Describe> units) {
 
 std::string names(const System& system) {
   std::string text;
-  for (const StepPlace& place : step_order(system, kFixedSteps, Coupling::Jacobi))
-    text += system.components()[place.component].name;
+  for (const StepOrderEntry& entry : step_order(system, kFixedSteps, Coupling::Jacobi))
+    text += system.components()[entry.component].name;
   return text;
 }
 
@@ -42,7 +42,7 @@ TEST_CASE("within a role the order is that of the file") {
   CHECK(names(system_of({obedient(), obedient(), obedient()})) == "abc");
 }
 
-TEST_CASE("who never stops follows, and is rolled back only where errors are controlled") {
+TEST_CASE("a unit that never stops follows, and is rolled back only where errors are controlled") {
   const System system = system_of({follower(), early(), rollback()});
   CHECK(names(system) == "cba");
   const System pair = system_of({follower(), rollback()});
@@ -51,12 +51,12 @@ TEST_CASE("who never stops follows, and is rolled back only where errors are con
   CHECK((order[0].saves_state && order[1].saves_state));
 }
 
-TEST_CASE("who cannot go back begins a new stage where one before it may stop") {
+TEST_CASE("a unit that cannot be rolled back begins a new stage where one before it may stop") {
   const auto stages = [](std::vector<Describe> units) {
     std::string text;
     const System system = system_of(std::move(units));
-    for (const StepPlace& place : step_order(system, kFixedSteps, Coupling::Jacobi)) {
-      text += std::to_string(place.stage);
+    for (const StepOrderEntry& entry : step_order(system, kFixedSteps, Coupling::Jacobi)) {
+      text += std::to_string(entry.stage);
     }
     return text;
   };
@@ -73,9 +73,9 @@ TEST_CASE("who cannot go back begins a new stage where one before it may stop") 
 TEST_CASE("a state is saved only where another unit may stop") {
   const auto saves = [](std::vector<Describe> units) {
     std::string text;
-    for (const StepPlace& place :
+    for (const StepOrderEntry& entry :
          step_order(system_of(std::move(units)), kFixedSteps, Coupling::Jacobi)) {
-      text += place.saves_state ? 's' : '-';
+      text += entry.saves_state ? 's' : '-';
     }
     return text;
   };
@@ -118,17 +118,18 @@ std::string order_of(const std::vector<Hosted>& units, const StepPolicyType& pol
   const System system(declare(units));
   std::string text;
   std::size_t stage = 0;
-  for (const StepPlace& place : step_order(system, policy, Coupling::Jacobi)) {
-    if (place.stage != stage) text += '|';
-    stage = place.stage;
-    text += system.components()[place.component].name + (place.saves_state ? "*" : "");
+  for (const StepOrderEntry& entry : step_order(system, policy, Coupling::Jacobi)) {
+    if (entry.stage != stage) text += '|';
+    stage = entry.stage;
+    text += system.components()[entry.component].name + (entry.saves_state ? "*" : "");
   }
   return text;
 }
 
 std::string reason_of(const std::vector<Hosted>& units, std::size_t component) {
-  for (const StepPlace& place : step_order(System(declare(units)), kFixedSteps, Coupling::Jacobi)) {
-    if (place.component == component) return place.reason;
+  for (const StepOrderEntry& entry :
+       step_order(System(declare(units)), kFixedSteps, Coupling::Jacobi)) {
+    if (entry.component == component) return entry.reason;
   }
   return "";
 }
@@ -146,7 +147,7 @@ TEST_CASE("of those that may return early and have snapshots at most, one needs 
         "c*|b|a");
 }
 
-TEST_CASE("who may only reject a step is saved where another may stop") {
+TEST_CASE("a unit that may only reject a step is saved where another may stop") {
   CHECK(order_of({{unknown(), kSnapshots}, {obedient()}}) == "a|b");
   CHECK(order_of({{unknown(), kSnapshots}, {unknown(), kSnapshots}}) == "b*|a");
   CHECK(order_of({{unknown(), kSnapshots}, {unknown()}}) == "a*|b");
@@ -161,12 +162,12 @@ TEST_CASE("with error-controlled steps everybody is saved") {
                  kErrorControlledSteps) == "a*b*c*");
 }
 
-TEST_CASE("a state of its own goes before snapshots") {
+TEST_CASE("a state of the unit is preferred to snapshots") {
   CHECK(order_of({{rollback().may_return_early(), kSnapshots}, {early()}}) == "a*|b");
   CHECK_THAT(reason_of({{rollback(), kSnapshots}, {early()}}, 0), Contains("its state is saved"));
 }
 
-TEST_CASE("the reason says who needs a snapshot, and who does not") {
+TEST_CASE("the reason has which unit needs a snapshot and which does not") {
   const std::vector<Hosted> pair = {{early(), kSnapshots}, {early(), kSnapshots}};
   CHECK_THAT(reason_of(pair, 0), Contains("may return early") && Contains("no snapshot needed"));
   CHECK_THAT(reason_of(pair, 1), Contains("a snapshot of its process is taken before each step"));
@@ -176,7 +177,7 @@ TEST_CASE("the reason says who needs a snapshot, and who does not") {
              Contains("nothing is saved"));
 }
 
-TEST_CASE("who has to be given snapshots") {
+TEST_CASE("the units that need snapshots") {
   const auto missing = [](const std::vector<Hosted>& units, std::vector<bool> may_have,
                           const StepPolicyType& policy = kFixedSteps) {
     std::string text;
@@ -198,7 +199,7 @@ TEST_CASE("who has to be given snapshots") {
                 kErrorControlledSteps) == "a");
 }
 
-TEST_CASE("who is given the snapshots that are missing can step") {
+TEST_CASE("a system with the missing snapshots has a step order") {
   std::vector<Hosted> units = {{early()}, {unknown()}, {early()}, {early()}, {obedient()}};
   const std::vector<bool> may_have = {true, true, false, true, true};
   CHECK_THROWS_AS(order_of(units), Error);
@@ -208,7 +209,7 @@ TEST_CASE("who is given the snapshots that are missing can step") {
   CHECK(order_of(units) == "a*d*|c|b|e");
 }
 
-TEST_CASE("who is not allowed to return early needs no snapshots") {
+TEST_CASE("a unit that is not allowed to return early needs no snapshots") {
   SystemDeclaration declaration = declare({{early()}, {early()}});
   declaration.components[1].early_return_allowed = false;
   CHECK(missing_snapshots(declaration.components, kFixedSteps, {true, true}).empty());
@@ -237,7 +238,7 @@ TEST_CASE("a unit that is not allowed to return early follows") {
   const auto order = step_order(System(declaration), kFixedSteps, Coupling::Jacobi);
   REQUIRE(order.size() == 3);
   CHECK(order[0].component == 1);
-  CHECK(order[0].role == StepRole::MayStopEarly);
+  CHECK(order[0].role == StepRole::MayReturnEarly);
   CHECK(order[1].role == StepRole::Follows);
   CHECK(order[1].stage == 1);
   CHECK_THAT(order[1].reason, Contains("is not allowed to return early"));

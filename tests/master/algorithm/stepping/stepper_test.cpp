@@ -36,7 +36,7 @@ auto stopping_at(std::set<Time> instants) {
     const bool stops = stop != instants.end() && *stop < to;
     StepResult result = integrate(unit, from, stops ? *stop : to);
     result.early_return = stops;
-    result.event_needed = stop != instants.end() && *stop <= to;
+    result.event_handling_needed = stop != instants.end() && *stop <= to;
     return result;
   };
 }
@@ -96,7 +96,7 @@ TEST_CASE("a unit that never stops goes where the others have got, and is not sa
   CHECK(statistics.rollbacks == 0);
 }
 
-TEST_CASE("the earliest of several stops counts, in whatever order the units stand") {
+TEST_CASE("the earliest of several stops counts, in any order of the units") {
   const bool swapped = GENERATE(false, true);
   ScriptedSystem f;
   const auto description = integrator().may_return_early().can_save_state().done();
@@ -165,7 +165,7 @@ TEST_CASE("where one unit rejects a step that another stops in, their order chan
   CHECK(f.instances[2]->number(1) == Approx(0.001).epsilon(1e-12));
 }
 
-TEST_CASE("a unit that says how far it could have come gets a point there") {
+TEST_CASE("the time that a unit could have reached becomes a communication point") {
   const bool is_alone = GENERATE(true, false);
   ScriptedSystem f;
   f.add("turns", Describe("t").can_save_state().output("y").done()).on_step =
@@ -216,7 +216,7 @@ TEST_CASE("a unit that always rejects is named, with how often and where") {
                                            Contains("minimum of 0.000000001 s"));
 }
 
-TEST_CASE("who rejects after another has made a final step is told so") {
+TEST_CASE("a rejection after another unit's final step is an error that names both") {
   ScriptedSystem f;
   f.add("first", Describe("first").output("y").done()).on_step = [](ScriptedUnit&, Time, Time to) {
     return reached(to);
@@ -276,7 +276,7 @@ TEST_CASE("a unit of one step size that rejects is blamed itself") {
                                            Contains("one size only"));
 }
 
-TEST_CASE("who asks a unit of one step size for another is told") {
+TEST_CASE("a rejection that a unit of one step size cannot follow is an error") {
   ScriptedSystem f;
   f.add("rigid", Describe("rigid").fixed_step().can_save_state().done());
   auto& picky = f.add("picky", Describe("picky").done());
@@ -302,7 +302,7 @@ TEST_CASE("how often a unit rejected is counted for each") {
   CHECK_THAT(error, Contains("unit 'a'") && Contains(fmt::format(" {} times ", count)));
 }
 
-TEST_CASE("super-dense instants are counted on while time stands") {
+TEST_CASE("super-dense instants are counted on while the time stays the same") {
   ScriptedSystem f;
   auto& a = f.add("a", Describe("a")
                            .add("c", ValueType::Clock, Causality::Output)
@@ -314,7 +314,7 @@ TEST_CASE("super-dense instants are counted on while time stands") {
     if (from != Time(2ms) || zero_steps-- == 0) return reached(to);
     unit.clock(0) = true;
     StepResult result = reached(from);
-    result.early_return = result.event_needed = true;
+    result.early_return = result.event_handling_needed = true;
     return result;
   };
   a.on_event = [](ScriptedUnit& unit) {

@@ -9,7 +9,7 @@ using Words = std::vector<std::string>;
 
 namespace {
 
-/// An option as it is told of.
+/// An option as it is documented.
 Option told(const std::string& name, const std::string& placeholder,
             const std::string& description = "") {
   CLI::App app("An example", "example");
@@ -38,7 +38,7 @@ TEST_CASE("what a value can be is read from its placeholder and its description"
   CHECK(std::ranges::count(check.choices, "serialization") == 1);
 }
 
-TEST_CASE("names, bounds, defaults and what may be repeated are told") {
+TEST_CASE("names, bounds, defaults and repeatable options are documented") {
   CLI::App app("An example", "example");
   int count = 3;
   app.add_option("--count,-c", count, "How many")
@@ -62,7 +62,7 @@ TEST_CASE("names, bounds, defaults and what may be repeated are told") {
   CHECK_FALSE(command.options.at(3).takes_value());
 }
 
-TEST_CASE("commands are told with what is below them, but for hidden ones") {
+TEST_CASE("commands are documented with their subcommands, except hidden ones") {
   CLI::App app("An example,\nof two lines.\n", "example");
   app.footer("That is all.");
   CLI::App* trace = app.add_subcommand("trace", "Traces");
@@ -85,11 +85,11 @@ TEST_CASE("commands are told with what is below them, but for hidden ones") {
   CHECK(all_of(command).size() == 3);
 }
 
-TEST_CASE("help is told of the program alone, and offered everywhere") {
+TEST_CASE("help is documented for the program only, and offered everywhere") {
   CLI::App app("An example", "example");
   app.add_subcommand("run", "Run");
   const Command command = describe(app);
-  CHECK(told_options(command).size() == 1);
-  CHECK(told_options(command.commands[0]).empty());
+  CHECK(documented_options(command).size() == 1);
+  CHECK(documented_options(command.commands[0]).empty());
   CHECK(command.commands[0].options.at(0).names == Words{"-h", "--help"});
 }

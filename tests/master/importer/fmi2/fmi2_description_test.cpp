@@ -98,8 +98,8 @@ TEST_CASE("an FMI 2.0 unit's attributes and capabilities") {
   CHECK(unit.max_output_derivative_order == 3);
   CHECK(unit.default_step == 10ms);
   CHECK(unit.default_stop == Time(12'500ms));
-  CHECK(unit.units.at("degC").offset == 273.15);
-  CHECK(unit.units.at("mm/s").exponents == std::array<int, 8>{0, 1, -1, 0, 0, 0, 0, 0});
+  CHECK(unit.units_of_measure.at("degC").offset == 273.15);
+  CHECK(unit.units_of_measure.at("mm/s").exponents == std::array<int, 8>{0, 1, -1, 0, 0, 0, 0, 0});
   REQUIRE(unit.fmi2);
   CHECK(unit.fmi2->can_run_asynchronously);
   const auto plain = importer::parse_model_description(
@@ -139,7 +139,7 @@ TEST_CASE("an FMI 2.0 unit's variables") {
   CHECK(variable("T2").initial == Initial::Approx);
 }
 
-TEST_CASE("what a variable leaves out stands in its declared type") {
+TEST_CASE("an attribute that a variable does not have comes from its declared type") {
   const core::Variable t = variable("T");
   CHECK((t.unit == "degC" && t.min == "-273.15" && t.max == "99" && t.nominal == 300));
   const core::Variable mode = variable("mode");
@@ -207,7 +207,7 @@ TEST_CASE("the indices of ModelStructure count from 1, in lists of knowns, too")
              Contains("with the index 11; expected one from 1 to 10"));
 }
 
-TEST_CASE("broken FMI 2.0 descriptions say where") {
+TEST_CASE("errors of broken FMI 2.0 descriptions have the line") {
   CHECK_THAT(fmi2_error_with("guid=\"{8c4e810f}\"", ""),
              Contains("unit.xml:2: ") && Contains("'guid'"));
   CHECK_THAT(fmi2_error_with("declaredType=\"Mode\"", "declaredType=\"Mood\""),
@@ -231,7 +231,7 @@ TEST_CASE("broken FMI 2.0 descriptions say where") {
   CHECK_THAT(fmi2_error_with("ModelVariables>", "Variables>"), Contains("unit.xml"));
 }
 
-TEST_CASE("a unit for Model Exchange only says so") {
+TEST_CASE("a unit for Model Exchange only is refused by name") {
   std::string text = kTank;
   const auto first = text.find("<CoSimulation");
   const std::string last = "</CoSimulation>";

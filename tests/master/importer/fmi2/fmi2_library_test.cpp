@@ -37,7 +37,7 @@ TEST_CASE("a missing function is named") {
                  Contains("hint: export it with C linkage"));
 }
 
-TEST_CASE("functions with the prefix of a static library say how to get rid of it") {
+TEST_CASE("functions with the prefix of a static library are an error with its remedy") {
   CHECK_THAT(load_error("fmi2_with_prefix"), Contains("does not export fmi2DoStep") &&
                                                  Contains("the prefix 'fmi2_with_prefix_'") &&
                                                  Contains("FMI2_OVERRIDE_FUNCTION_PREFIX"));

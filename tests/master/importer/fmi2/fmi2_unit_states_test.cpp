@@ -58,7 +58,7 @@ class Relaxation {
 
 }  // namespace
 
-TEST_CASE("several states are kept at once, each in its slot, and steps leave them alone") {
+TEST_CASE("several states are kept at once, each in its slot, and steps do not change them") {
   Relaxation unit;
   unit.start();
   const double first = unit.step();

@@ -104,7 +104,7 @@ using stride::tests::at;
 
 // ---- Life ----
 
-TEST_CASE("an FMI 2.0 unit lives from its instantiation to its end", "[here]") {
+TEST_CASE("an FMI 2.0 unit goes through its life cycle", "[here]") {
   Fmi2Fixture unit("fmi2_relaxation");
   CHECK(unit.global<int>("fmi2_living_units") == 1);
   unit.set("k", 3);
@@ -113,7 +113,7 @@ TEST_CASE("an FMI 2.0 unit lives from its instantiation to its end", "[here]") {
   unit.start(Time(1s));
   CHECK(unit.get("x") == 5);
   const core::StepResult result = unit.step(Time(1s), at(1.5));
-  CHECK(result.went_through(at(1.5)));
+  CHECK(result.reached_without_request(at(1.5)));
   CHECK(unit.global<double>("fmi2_step_begin") == 1);
   CHECK(unit.global<double>("fmi2_step_size") == 0.5);
   CHECK(unit.global<fmi2Boolean>("fmi2_no_restore") == fmi2True);
@@ -149,7 +149,7 @@ TEST_CASE("start values of inputs wait for Initialization Mode") {
   CHECK(unit.get(ValueType::String, "string.echo").strings()[0] == "hello");
 }
 
-TEST_CASE("an FMI 2.0 unit that cannot be instantiated says why") {
+TEST_CASE("the error of a failed instantiation has the message of an FMI 2.0 unit") {
   const Scratch scratch;
   const importer::UnpackedFmu unpacked(test_fmu("fmi2_types"));
   fs::copy(unpacked.folder(), scratch / "unit", fs::copy_options::recursive);
@@ -252,7 +252,7 @@ TEST_CASE("after the first exchange an FMI 2.0 unit is stepped without allocatin
   const auto step = [&](int k) {
     return unit->step({Time(k * 1ms), Time((k + 1) * 1ms)}, {inputs, read});
   };
-  CHECK(step(0).went_through(Time(1ms)));
+  CHECK(step(0).reached_without_request(Time(1ms)));
   const auto before = allocations.load();
   for (int k = 1; k < 100; ++k) step(k);
   CHECK(allocations.load() == before);
@@ -265,11 +265,12 @@ TEST_CASE("instants that are one double are one to the unit") {
   Fmi2Fixture unit("fmi2_relaxation");
   unit.start();
   const Time late(std::chrono::seconds(9'000'000));
-  CHECK(unit.step(late, late + Duration(1)).went_through(late + Duration(1)));
+  CHECK(unit.step(late, late + Duration(1)).reached_without_request(late + Duration(1)));
   CHECK(unit.global<double>("fmi2_step_size") == 0);
 }
 
-TEST_CASE("a step that ends early is undone where the state was saved, and says how far it came") {
+TEST_CASE(
+    "a step that ends early is undone where the state was saved, with the time that was reached") {
   Fmi2Fixture unit("fmi2_turner");
   unit.start();
   const core::StepResult result = unit.step({}, Time(1s));
@@ -277,9 +278,9 @@ TEST_CASE("a step that ends early is undone where the state was saved, and says 
   CHECK(result.reached == at(0.25));
   CHECK(diagnostics(*unit).rejection_reason() == "there is a turn at 0.25 s");
   CHECK(unit.get("y") == 0);
-  CHECK(unit.step({}, at(0.25)).went_through(at(0.25)));
+  CHECK(unit.step({}, at(0.25)).reached_without_request(at(0.25)));
   CHECK(unit.get("y") == 0.25);
-  CHECK(unit.step(at(0.25), Time(1s)).went_through(Time(1s)));
+  CHECK(unit.step(at(0.25), Time(1s)).reached_without_request(Time(1s)));
   CHECK(unit.get("y") == Approx(-0.5));
 }
 
@@ -300,7 +301,7 @@ TEST_CASE("a state that was just saved for core is not saved again", "[here]") {
   state(*unit).save_state();
   CHECK(unit.step({}, Time(1s)).rejected);
   CHECK(unit.get("y") == 0);
-  CHECK(unit.step({}, at(0.125)).went_through(at(0.125)));
+  CHECK(unit.step({}, at(0.125)).reached_without_request(at(0.125)));
   CHECK(unit.global<int>("fmi2_saved_states") == before + 1);
   unit.step(at(0.125), at(0.2));
   CHECK(unit.global<int>("fmi2_saved_states") == before + 2);
@@ -310,7 +311,7 @@ TEST_CASE("a state that was just saved for core is not saved again", "[here]") {
   CHECK(unit.get("y") == 0);
 }
 
-TEST_CASE("a unit that does not say how far it came is undone all the same") {
+TEST_CASE("a step is undone although the time that was reached is unknown") {
   Fmi2Fixture unit("fmi2_turner");
   unit.set_flag("mute");
   unit.start();
@@ -318,14 +319,14 @@ TEST_CASE("a unit that does not say how far it came is undone all the same") {
   CHECK(result.rejected);
   CHECK(result.reached == Time{});
   CHECK(diagnostics(*unit).rejection_reason() == "there is a turn at 0.25 s");
-  CHECK(unit.step({}, at(0.125)).went_through(at(0.125)));
+  CHECK(unit.step({}, at(0.125)).reached_without_request(at(0.125)));
 }
 
-TEST_CASE("a unit without a state stands where it came to, which the log says once") {
+TEST_CASE("a unit without a state stays at the time that it reached, with one warning") {
   Fmi2Fixture unit("fmi2_turner_without_state");
   unit.start();
   const core::StepResult result = unit.step({}, Time(1s));
-  CHECK((result.early_return && !result.rejected && !result.terminate));
+  CHECK((result.early_return && !result.rejected && !result.terminate_simulation));
   CHECK(result.reached == at(0.25));
   CHECK(unit.get("y") == 0.25);
   std::vector<Line> warnings;
@@ -337,7 +338,7 @@ TEST_CASE("a unit without a state stands where it came to, which the log says on
                                       Contains("canGetAndSetFMUstate"));
 }
 
-TEST_CASE("a unit without a state must say where it stands") {
+TEST_CASE("a unit without a state must report the time that it reached") {
   const bool is_mute = GENERATE(true, false);
   Fmi2Fixture unit("fmi2_turner_without_state");
   unit.set_flag(is_mute ? "mute" : "stays");
@@ -355,13 +356,13 @@ TEST_CASE("a unit may end the simulation within a step") {
   unit.set_flag("ends");
   unit.start();
   const core::StepResult result = unit.step({}, Time(1s));
-  CHECK((result.terminate && result.early_return && !result.rejected));
+  CHECK((result.terminate_simulation && result.early_return && !result.rejected));
   CHECK(result.reached == at(0.25));
   CHECK(unit.get("y") == 0.25);
   CHECK_NOTHROW(unit->terminate());
 }
 
-TEST_CASE("a unit that ends the simulation and does not say when") {
+TEST_CASE("a unit that ends the simulation at an unknown time") {
   const bool has_state = GENERATE(true, false);
   Fmi2Fixture unit(has_state ? "fmi2_turner" : "fmi2_turner_without_state");
   unit.set_flag("ends");
@@ -372,14 +373,14 @@ TEST_CASE("a unit that ends the simulation and does not say when") {
     return;
   }
   const core::StepResult result = unit.step({}, Time(1s));
-  CHECK((result.terminate && result.early_return));
+  CHECK((result.terminate_simulation && result.early_return));
   CHECK(result.reached == Time{});
   CHECK(unit.get("y") == 0);
 }
 
 // ---- Steps that are pending ----
 
-TEST_CASE("a pending step ends by a callback, or when the unit is asked") {
+TEST_CASE("a pending step ends by a callback, or by a poll") {
   const int how = GENERATE(0, 1, 3);
   const bool has_state = GENERATE(true, false);
   CAPTURE(how, has_state);
@@ -388,7 +389,7 @@ TEST_CASE("a pending step ends by a callback, or when the unit is asked") {
   unit.start();
   for (int k = 0; k < 20; ++k) {
     const Time from(k * 50ms), to((k + 1) * 50ms);
-    CHECK(unit.step(from, to).went_through(to));
+    CHECK(unit.step(from, to).reached_without_request(to));
     CHECK(unit.get("y") == Approx(to_seconds(to)));
   }
   CHECK_NOTHROW(unit->terminate());
@@ -415,10 +416,10 @@ TEST_CASE("the status of a pending step is that of the step") {
              Contains("fmi2DoStep returned fmi2Error: the night was short"));
 }
 
-TEST_CASE("a step that takes long is told once, with what the unit says of it", "[here]") {
+TEST_CASE("a step that takes long is logged once, with the unit's own text", "[here]") {
   std::vector<std::string> told;
   std::function<void()> release;
-  Fmi2Fixture unit("fmi2_sleeper", {.patience = 0ms,
+  Fmi2Fixture unit("fmi2_sleeper", {.warn_after = 0ms,
                                     .log = [&](const std::string&, importer::Status status,
                                                const std::string&, const std::string& message) {
                                       CHECK(status == importer::Status::Warning);
@@ -429,7 +430,7 @@ TEST_CASE("a step that takes long is told once, with what the unit says of it", 
   release = wake;
   unit.set_number("how", 2);
   unit.start();
-  CHECK(unit.step({}, Time(1s)).went_through(Time(1s)));
+  CHECK(unit.step({}, Time(1s)).reached_without_request(Time(1s)));
   REQUIRE(told.size() == 1);
   CHECK_THAT(told[0], Contains("has not finished its step from 0 s yet (fmi2Pending); it says: "
                                "asleep; stride waits for it"));
@@ -450,7 +451,7 @@ TEST_CASE("a unit that interpolates is given the derivatives of its inputs") {
   });
   for (const double end : {0.1, 0.35, 1.0}) {
     unit.set("u", input(to_seconds(begin)));
-    CHECK(unit.step(begin, at(end)).went_through(at(end)));
+    CHECK(unit.step(begin, at(end)).reached_without_request(at(end)));
     begin = at(end);
   }
   CHECK(unit.get("x") == Approx(1 + 1 + 1).epsilon(1e-13));
@@ -491,11 +492,11 @@ TEST_CASE("a failure without a word, with a long one and with one that must not 
   CHECK_THAT(run_error([&] { unit.step({}, Time(1s)); }), Contains("fmi2Error: " + expected));
 }
 
-TEST_CASE("a warning of an FMI 2.0 unit is logged and the step stands") {
+TEST_CASE("a warning of an FMI 2.0 unit is logged and the step is accepted") {
   Fmi2Fixture unit("fmi2_grumbler");
   unit.set_number("mood", 1);
   unit.start();
-  CHECK(unit.step({}, Time(1s)).went_through(Time(1s)));
+  CHECK(unit.step({}, Time(1s)).reached_without_request(Time(1s)));
   REQUIRE(unit.lines.size() == 1);
   CHECK(unit.lines[0].unit == "u1");
   CHECK(unit.lines[0].status == importer::Status::Warning);

@@ -90,7 +90,7 @@ importer::InstanceOptions intermediate() {
 
 }  // namespace
 
-TEST_CASE("intervals are exact, with what the unit says of them") {
+TEST_CASE("intervals are exact, with their qualifiers") {
   ClocksFixture f("clocks");
   f.set("interval", "0.0125");
   f.unit->enter_initialization({}, std::nullopt);
@@ -124,7 +124,7 @@ TEST_CASE("what is no interval names the clock, the function and the time") {
              Contains("variable 'tick'") && Contains("does not export fmi3GetIntervalFraction"));
 }
 
-TEST_CASE("a unit that can be asked for its inputs within a step sets them through the port") {
+TEST_CASE("inputs within a step are set through the port") {
   ClocksFixture held("oscillator_mass");
   ClocksFixture following("oscillator_mass", intermediate());
   const Follower follower(following);
@@ -143,7 +143,7 @@ TEST_CASE("a unit that can be asked for its inputs within a step sets them throu
   CHECK(*follower.calls == 7);
 }
 
-TEST_CASE("without the option, and of a unit without such inputs, nothing is asked") {
+TEST_CASE("inputs within a step are not requested without the option, nor of a unit without them") {
   ClocksFixture f("oscillator_mass");
   inputs_within_step(*f.unit).set_input_update([](double) { FAIL("it asked"); });
   f.start();
@@ -152,7 +152,7 @@ TEST_CASE("without the option, and of a unit without such inputs, nothing is ask
         nullptr);
 }
 
-TEST_CASE("what is thrown within a step is thrown after it, and the unit lives on") {
+TEST_CASE("an exception of a callback within a step is thrown after it, and the unit goes on") {
   ClocksFixture f("oscillator_mass", intermediate());
   int asked = 0;
   inputs_within_step(*f.unit).set_input_update([&](double) {

@@ -180,9 +180,9 @@ TEST_CASE("idle units of every kind break their promises where they are stepped 
     return std::pair(result, std::abs(idler.real("level") - tangent));
   };
   const auto [honest, error] = step("honest");
-  CHECK_FALSE((honest.rejected || honest.early_return || honest.event_needed));
+  CHECK_FALSE((honest.rejected || honest.early_return || honest.event_handling_needed));
   CHECK(error < 1e-3);
-  CHECK(step("ticks").first.event_needed);
+  CHECK(step("ticks").first.event_handling_needed);
   CHECK(step("returns_early").first.early_return);
   CHECK(step("rejects").first.rejected);
 }

@@ -184,10 +184,10 @@ TEST_CASE("a message travels with its clock through Event Mode") {
   unit.set("receive.clock", active);
   unit.set("receive.frame", frame);
   CHECK_FALSE(unit.number<bool>("send.clock"));
-  CHECK(unit->update_discrete_states().iterate);
+  CHECK(unit->update_discrete_states().discrete_states_need_update);
   CHECK(unit.number<bool>("send.clock"));
   CHECK(unit.get("send.frame") == frame);
-  CHECK_FALSE(unit->update_discrete_states().iterate);
+  CHECK_FALSE(unit->update_discrete_states().discrete_states_need_update);
   CHECK_FALSE(unit.number<bool>("send.clock"));
   unit->enter_step_mode();
 }
@@ -263,7 +263,7 @@ TEST_CASE("fmi3Discard is a rejected step") {
   CHECK(stepper.number<std::int32_t>("steps") == 1);
 }
 
-TEST_CASE("what a unit says when it rejects a step is kept until it rejects another") {
+TEST_CASE("the reason of a rejected step is kept until the next rejection") {
   CHECK(diagnostics(*Raw("unit").unit).rejection_reason().empty());
   Raw silent("discard");
   silent.unit->step({{}, Time(1s)});
@@ -298,28 +298,28 @@ TEST_CASE("events, next events and the end of the run are passed on") {
   unit->enter_initialization({}, Time(1s));
   unit->exit_initialization();
   const core::EventResult first = unit->update_discrete_states();
-  CHECK(first.next_event == Time(15ms));
-  CHECK_FALSE(first.iterate);
+  CHECK(first.next_event_time == Time(15ms));
+  CHECK_FALSE(first.discrete_states_need_update);
   unit->enter_step_mode();
   const core::StepResult early = unit->step({{}, Time(15ms)});
   CHECK(early.early_return);
-  CHECK(early.event_needed);
+  CHECK(early.event_handling_needed);
   CHECK(early.reached == at(0.0123));
   CHECK_FALSE(unit->step({early.reached, Time(15ms)}).early_return);
   unit->enter_event_mode();
   const core::EventResult second = unit->update_discrete_states();
-  CHECK(second.iterate);
-  CHECK_FALSE(second.next_event);
+  CHECK(second.discrete_states_need_update);
+  CHECK_FALSE(second.next_event_time);
   unit->enter_step_mode();
-  CHECK(unit->step({Time(15ms), Time(30ms)}).event_needed);
-  CHECK(unit->step({Time(30ms), Time(40ms)}).terminate);
+  CHECK(unit->step({Time(15ms), Time(30ms)}).event_handling_needed);
+  CHECK(unit->step({Time(30ms), Time(40ms)}).terminate_simulation);
   unit->terminate();
 }
 
 TEST_CASE("an instant that no simulation reaches is no next event") {
   Raw raw("unit");
   raw.unit->enter_event_mode();
-  CHECK_FALSE(raw.unit->update_discrete_states().next_event);
+  CHECK_FALSE(raw.unit->update_discrete_states().next_event_time);
 }
 
 TEST_CASE("a small drift of a unit's own time is tolerated") {
@@ -480,7 +480,7 @@ TEST_CASE("a saved state comes back any number of times, and is replaced by the 
   unit->terminate();
 }
 
-TEST_CASE("after a restore errors speak of the restored time") {
+TEST_CASE("after a restore errors have the restored time") {
   Raw raw("sets", {}, "raw_extended", kKeepsStates);
   raw.unit->step({{}, Time(1s)});
   state(*raw.unit).save_state();
@@ -523,7 +523,7 @@ TEST_CASE("a state that cannot be saved or restored is an error") {
              Contains("fmi3SetFMUState returned fmi3Discard"));
 }
 
-TEST_CASE("a warning is logged and the step stands") {
+TEST_CASE("a warning is logged and the step is accepted") {
   std::vector<std::string> logged;
   Raw raw("warning", {.log = [&](const std::string& unit, importer::Status status,
                                  const std::string& category, const std::string& message) {
@@ -534,7 +534,7 @@ TEST_CASE("a warning is logged and the step stands") {
   CHECK(logged == std::vector<std::string>{"warning/1/logStatusWarning/it gets hot"});
 }
 
-TEST_CASE("a log sink that throws does no harm") {
+TEST_CASE("an exception of a log sink has no effect") {
   Raw raw("warning", {.log = [](auto&&...) { throw std::runtime_error("the disk is full"); }});
   CHECK_NOTHROW(raw.unit->step({{}, Time(1ms)}));
 }
@@ -574,16 +574,16 @@ TEST_CASE("a unit without resources gets none") {
   CHECK(path.strings()[0] == (raw.scratch / "raw/resources").string() + "/");
 }
 
-TEST_CASE("the next event is not before the instant that the unit said") {
+TEST_CASE("the next event is not before the time that the unit gave") {
   Raw raw("thirds");
   raw.unit->enter_event_mode();
-  const auto next = raw.unit->update_discrete_states().next_event;
+  const auto next = raw.unit->update_discrete_states().next_event_time;
   REQUIRE(next);
   CHECK(to_seconds(*next) >= 1.0 / 3);
   CHECK(to_seconds(*next - Duration(1)) < 1.0 / 3);
 }
 
-TEST_CASE("picoseconds that a double does not tell apart are one instant to the unit") {
+TEST_CASE("picoseconds that are the same double are one instant to the unit") {
   const Time point = at(8192.001);
   Raw raw("fine");
   Time from = point;
@@ -592,14 +592,14 @@ TEST_CASE("picoseconds that a double does not tell apart are one instant to the 
   CHECK(result.reached == from + Duration(1));
 }
 
-TEST_CASE("who returns early at the end of the step has reached it") {
+TEST_CASE("an early return at the end of the step is a complete step") {
   Raw raw("arrives", {.early_return_allowed = true});
   Time end = at(8192.001);
   while (time_from_seconds(to_seconds(end)) == end) end += Duration(1);
   CHECK(raw.unit->step({end - 1ms, end}).reached == end);
 }
 
-TEST_CASE("Event Mode is not wanted by who has none") {
+TEST_CASE("a request of Event Mode by a unit without it is an error") {
   Raw raw("needs", {}, "raw", "");
   CHECK_THROWS_WITH(raw.unit->step({Time(), Time(1ms)}),
                     Contains("eventHandlingNeeded") && Contains("hasEventMode"));
@@ -649,7 +649,7 @@ TEST_CASE("what a library does not export for structure and derivatives is named
 
 // ---- Messages in words ----
 
-TEST_CASE("a unit says what a message says") {
+TEST_CASE("a unit gives the text of a message") {
   Fmi3Fixture unit("types");
   const core::ValueReference frame = unit.reference("receive.frame");
   CHECK(texts(*unit).describe_message(frame, {0x26, 0x27}) == "2 bytes in receive.frame");
@@ -665,7 +665,7 @@ TEST_CASE("a unit says what a message says") {
              Contains("strideDescribeMessage returned fmi3Error: ") && Contains("not Binary"));
 }
 
-TEST_CASE("a unit of another tool says what a message says") {
+TEST_CASE("a unit of another tool gives the text of a message") {
   const auto say = [](const char* behaviour, const core::Binary& value) {
     return texts(*Raw(behaviour, {}, "raw_extended").unit).describe_message(7, value);
   };
@@ -679,7 +679,7 @@ TEST_CASE("a unit of another tool says what a message says") {
              Contains("strideDescribeMessage returned fmi3Error: no comment"));
 }
 
-TEST_CASE("why a unit has nothing to say is not the reason of a later failure") {
+TEST_CASE("the log of a missing message text is not the reason of a later failure") {
   Raw raw("mute", {}, "raw_extended");
   CHECK(texts(*raw.unit).describe_message(7, {1}) == "");
   raw.unit->step({Time(0s), Time(500ms)});

@@ -51,7 +51,7 @@ TEST_CASE("an exception's message comes back") {
   CHECK(run_in_child([]() -> std::string { throw 42; }).end == End::Threw);
 }
 
-TEST_CASE("a crash is told by its signal, an exit by its code") {
+TEST_CASE("a crash is reported by its signal, an exit by its code") {
   for (const int signal : {SIGSEGV, SIGABRT, SIGKILL}) {
     const ChildOutcome outcome = run_in_child([&] {
       std::raise(signal);

@@ -45,7 +45,7 @@ TEST_CASE("what is in a pipe is read in pieces, and the file is closed at its en
   CHECK_FALSE(read_some(pipe.read, text));
 }
 
-TEST_CASE("a failure tells what and why") {
+TEST_CASE("a failure has what failed and the reason") {
   errno = ENOENT;
   try {
     fail("the thing");

@@ -50,7 +50,7 @@ TEST_CASE("two processes answer each other, and lose no ring") {
   CHECK(status == 0);
 }
 
-TEST_CASE("a sleep ends when its time is over, and does not begin if the bell has rung") {
+TEST_CASE("a sleep ends when its time is over, and does not begin after a ring") {
   Doorbell doorbell;
   const auto rings = doorbell.rings();
   doorbell.sleep(rings, 1ms);

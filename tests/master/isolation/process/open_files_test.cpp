@@ -55,7 +55,7 @@ TEST_CASE("what was written since is taken back") {
   CHECK(text_of(scratch / "trace") == "one\n");
 }
 
-TEST_CASE("who reads reads the same again") {
+TEST_CASE("after the reset of its position a file gives the same bytes again") {
   const stride::tests::ScratchFolder scratch;
   std::ofstream(scratch / "stimuli") << "abcdef";
   const Descriptor file = opened_file(scratch / "stimuli", O_RDONLY);

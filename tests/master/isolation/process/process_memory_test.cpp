@@ -44,7 +44,7 @@ TEST_CASE("memory that was allocated counts, also if it was never used") {
   CHECK(outcome.text == "counted");
 }
 
-TEST_CASE("of a process that is not there nothing is said") {
+TEST_CASE("the memory of a process that does not exist is 0") {
   CHECK(most_memory(-1) == 0);
   CHECK(private_memory(-1) == 0);
   CHECK(data_memory(-1) == 0);

@@ -55,7 +55,7 @@ bool is_root() { return ::geteuid() == 0; }
 
 }  // namespace
 
-TEST_CASE("it says what is in force, and what is missing") {
+TEST_CASE("the protections in force and the missing ones are listed") {
   const ScratchFolder scratch;
   const std::string said = in_child([&] {
     const Protections protections =
@@ -73,7 +73,7 @@ TEST_CASE("it says what is in force, and what is missing") {
   CHECK((said.find("missing:\n") + 9 == said.size()) == (version >= kLandlockSignals));
 }
 
-TEST_CASE("what the kernel does not have is told, and the rest is put on") {
+TEST_CASE("protections that the kernel lacks are listed, and the others are in force") {
   const std::string said = in_child([] {
     for (int i = 0; i < 16; ++i) enter_sandbox({});  // as deep as Landlock can be nested
     const Protections protections = enter_sandbox({});
@@ -189,7 +189,7 @@ TEST_CASE("of root's privileges those for files are left") {
         in_child([&] { return open_file(foreign, O_RDWR); }));
 }
 
-TEST_CASE("what a unit lives on is left") {
+TEST_CASE("what a unit needs is left") {
   CHECK(say([] { return content("/proc/self/status").empty() ? "empty" : "read"; }) == "read");
   CHECK(say([] {
           int ends[2];

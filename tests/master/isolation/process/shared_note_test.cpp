@@ -9,7 +9,7 @@
 
 using namespace stride::isolation;
 
-TEST_CASE("a note outlives who wrote it, and is cut off where it is too long") {
+TEST_CASE("a note outlives its writer, and is cut off where it is too long") {
   SharedNote note;
   run_in_child([&] {
     note.write(std::string(1000, 'x').c_str(), -7);

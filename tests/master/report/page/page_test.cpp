@@ -9,7 +9,7 @@
 
 namespace report = stride::report;
 
-TEST_CASE("the mark for the data stands in the page once, on its own line, before the script") {
+TEST_CASE("the mark for the data is in the page once, on its own line, before the script") {
   const std::string page(report::page());
   const std::string line = "\n" + std::string(report::kDataMark) + "\n";
   const std::size_t mark = page.find(line);

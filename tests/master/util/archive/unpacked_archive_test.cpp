@@ -136,7 +136,7 @@ TEST_CASE("an archive larger than the limits is refused") {
   CHECK_NOTHROW(UnpackedArchive(many, kExpected, {}, {.bytes = 4, .entries = 3}));
 }
 
-TEST_CASE("what is no archive is an error that says so") {
+TEST_CASE("a file that is no archive is an error") {
   const Scratch scratch;
   CHECK_THAT(unpack_error(scratch / "absent.fmu"), Contains("there is no file"));
   const std::string text = unpack_error(scratch.write("text.fmu", "This is no archive at all."));

@@ -6,7 +6,7 @@
 
 using namespace stride::xml;
 
-TEST_CASE("Elements are found in document order, whatever stands between them") {
+TEST_CASE("Elements are found in document order, whatever is between them") {
   const std::string text =
       "<?xml version='1.0'?><!-- <no/> --><a x='>' y=\"</a>\"><b/><![CDATA[<no>]]><c>t</c ></a>";
   const auto places = element_places(text);

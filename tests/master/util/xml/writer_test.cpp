@@ -4,7 +4,7 @@
 
 using stride::xml::Writer;
 
-TEST_CASE("elements, attributes and texts, with what XML wants escaped") {
+TEST_CASE("elements, attributes and texts are written with the escapes of XML") {
   Writer xml;
   xml.open("a");
   xml.attribute("name", "1 < 2 & \"3\"");

@@ -37,7 +37,7 @@ struct Environment {
 }  // namespace
 
 // first: later the kind is chosen
-TEST_CASE("a user may forbid pictures, and is told so") {
+TEST_CASE("pictures can be forbidden, with a message") {
   const Environment environment("disable");
   CHECK_THROWS_WITH(make_off_screen(), Contains("MUJOCO_GL is 'disable'") && Contains("'osmesa'"));
 }

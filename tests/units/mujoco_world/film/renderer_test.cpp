@@ -82,7 +82,7 @@ TEST_CASE("what moves to the right does so in the picture, by as much") {
   CHECK(patch(renderer.draw(world.model(), world.drawn()), kBlue).count > 100);
 }
 
-TEST_CASE("what stands still looks the same, what moves does not") {
+TEST_CASE("what is at rest looks the same, what moves does not") {
   if (scene::lacks_open_gl()) return;
   const worlds::Folder folder(scene::kBoxes);
   World world(folder.path());

@@ -94,7 +94,7 @@ TEST_CASE("a gear that turns the drive round is taken into account", "[robot]") 
   CHECK_THROWS_WITH(at(0.05), Catch::Contains("out of reach"));  // -0.45 m
 }
 
-TEST_CASE("contacts and weak drives are told", "[robot]") {
+TEST_CASE("contacts and weak drives are reported", "[robot]") {
   const worlds::Folder weak(lift("<position joint='lift' kp='100' forcerange='-19 19'/>"));
   const Pose hanging = Reach(weak.path(), "reader_coil", "tag_coil").solve({0.2}).at(0);
   CHECK(hanging.overload == std::vector<std::string>{"lift"});
@@ -108,14 +108,14 @@ TEST_CASE("contacts and weak drives are told", "[robot]") {
   CHECK(touching.contacts == std::vector<std::string>{"'shelf' and 'unnamed_1'"});
 }
 
-TEST_CASE("what cannot be reached says which distance, and how near it came", "[robot]") {
+TEST_CASE("an unreachable pose is an error with the distance that remains", "[robot]") {
   const worlds::Folder folder(lift("<position joint='lift' kp='100'/>", "-0.2 0.2"));
   Reach reach(folder.path(), "reader_coil", "tag_coil");
   CHECK_THROWS_WITH(reach.solve({0.5, 0.1}),
                     Catch::Contains("distance of 0.100000 m") && Catch::Contains("by 0.200000 m"));
 }
 
-TEST_CASE("what reach needs is asked for", "[robot]") {
+TEST_CASE("requirements of reach that are missing are errors", "[robot]") {
   const worlds::Folder folder(lift("<motor joint='lift'/>"));
   CHECK_THROWS_WITH(
       Reach(folder.path(), "coil", "tag_coil"),

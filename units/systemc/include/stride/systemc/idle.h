@@ -55,7 +55,7 @@ class IdleSkipper {
   bool skip(Time to, Duration max_skip);
   Duration room(Time to, Duration max_skip) const;
   Duration lead() const;
-  Duration patience();
+  Duration until_next_check();
 
   Kernel& kernel_;
   IdleRules& rules_;

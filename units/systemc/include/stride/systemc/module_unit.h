@@ -32,7 +32,7 @@
 namespace stride::systemc {
 
 /// A DeviceUnit that is said row by row, in the constructor. A row's target is where its value
-/// stands in the module:
+/// is in the module:
 ///
 ///   &Module::port                            a port, a signal, or another member of the module
 ///   [](Module& m) -> auto& { return m.a.b; } the same of a submodule

@@ -1,6 +1,6 @@
-// A sensor's life, and the ways in which it can be simulated.
-#ifndef STRIDE_TESTS_UNITS_SENSOR_LIFE_H
-#define STRIDE_TESTS_UNITS_SENSOR_LIFE_H
+// A simulation of a sensor, and the settings that must not change its results.
+#ifndef STRIDE_TESTS_UNITS_SENSOR_SIMULATED_SENSOR_H
+#define STRIDE_TESTS_UNITS_SENSOR_SIMULATED_SENSOR_H
 
 #include <cstdint>
 #include <cstring>
@@ -16,7 +16,7 @@ namespace sensor {
 constexpr stride::Duration kSecond = 1000 * kMillisecond;
 
 /// How a sensor is simulated. None of it may change a result.
-struct Way {
+struct SensorSettings {
   bool gating = true;
   std::optional<stride::Duration> max_skip;
   std::string trace_file;
@@ -24,13 +24,13 @@ struct Way {
 };
 
 /// With a slow clock, so that one without a gate can be simulated, and energy for minutes.
-inline void prepare(UnitBench& bench, const Way& way) {
+inline void prepare(UnitBench& bench, const SensorSettings& settings) {
   bench.value<double>("power.initial_voltage") = 4.0;
   bench.value<double>("power.capacitance") = 2e-3;
-  bench.value<double>("control_unit.clock_frequency") = way.frequency;
-  bench.value<bool>("control_unit.clock_gating") = way.gating;
-  bench.value<std::string>("trace.file") = way.trace_file;
-  if (way.max_skip) bench.enable_skipping(*way.max_skip);
+  bench.value<double>("control_unit.clock_frequency") = settings.frequency;
+  bench.value<bool>("control_unit.clock_gating") = settings.gating;
+  bench.value<std::string>("trace.file") = settings.trace_file;
+  if (settings.max_skip) bench.enable_skipping(*settings.max_skip);
   bench.initialize(stride::Time(7 * kMillisecond));
 }
 
@@ -62,7 +62,7 @@ struct Record {
 };
 
 /// Commands, fields and temperatures at seeded instants, for two and a half seconds or more.
-inline Record live(UnitBench& bench, unsigned seed) {
+inline Record simulate(UnitBench& bench, unsigned seed) {
   std::mt19937 random(seed);  // its sequence is part of the C++ standard
   Record record;
   const stride::Time end = bench.now() + 5 * kSecond / 2;
@@ -85,10 +85,10 @@ inline Record live(UnitBench& bench, unsigned seed) {
   return record;
 }
 
-inline Record live(const Way& way, unsigned seed) {
+inline Record simulate(const SensorSettings& settings, unsigned seed) {
   UnitBench bench;
-  prepare(bench, way);
-  Record record = live(bench, seed);
+  prepare(bench, settings);
+  Record record = simulate(bench, seed);
   bench.unit().terminate();
   return record;
 }

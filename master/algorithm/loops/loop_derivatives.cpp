@@ -1,10 +1,10 @@
-#include "master/algorithm/loops/loop_tangents.h"
+#include "master/algorithm/loops/loop_derivatives.h"
 
 #include <algorithm>
 #include <set>
 
 namespace stride::core {
-bool LoopTangents::exist(const System& system, const EvaluationBlock& loop) {
+bool LoopDerivatives::exist(const System& system, const EvaluationBlock& loop) {
   const auto is_real_one = [&](VariableId id) { return is_real(system.variable(id).type); };
   return std::ranges::all_of(loop.inputs, is_real_one) &&
          std::ranges::all_of(loop.steps, [&](const EvaluationStep& step) {
@@ -14,8 +14,8 @@ bool LoopTangents::exist(const System& system, const EvaluationBlock& loop) {
          });
 }
 
-LoopTangents::LoopTangents(const System& system, std::span<const std::unique_ptr<Unit>> units,
-                           const EvaluationBlock& loop)
+LoopDerivatives::LoopDerivatives(const System& system, std::span<const std::unique_ptr<Unit>> units,
+                                 const EvaluationBlock& loop)
     : system_(system), units_(units), loop_(loop) {
   lay_out_inputs();
   for (const EvaluationStep& step : loop.steps) add_derivatives(step);
@@ -23,14 +23,14 @@ LoopTangents::LoopTangents(const System& system, std::span<const std::unique_ptr
 }
 
 /// The inputs are sorted, so those of one component are adjacent.
-void LoopTangents::lay_out_inputs() {
+void LoopDerivatives::lay_out_inputs() {
   for (const VariableId id : loop_.inputs) {
     input_offsets_[id] = inputs_.size();
     inputs_.resize(inputs_.size() + system_.variable(id).size);
   }
 }
 
-void LoopTangents::add_derivatives(const EvaluationStep& step) {
+void LoopDerivatives::add_derivatives(const EvaluationStep& step) {
   auto& unit = units_[step.component]->require_capability<DirectionalDerivatives>();
   UnitDerivatives derivatives{step.component, &unit, {}, {}, outputs_.size(), 0, inputs_.size(), 0};
   for (const VariableId id : step.outputs) {
@@ -49,9 +49,10 @@ void LoopTangents::add_derivatives(const EvaluationStep& step) {
 }
 
 /// Inputs at which the loop is cut keep their values within a sweep.
-void LoopTangents::add_carried() {
+void LoopDerivatives::add_carried() {
   std::set<VariableId> cut;
-  for (const Tear& tear : loop_.tears) cut.insert(tear.inputs.begin(), tear.inputs.end());
+  for (const TearingVariable& variable : loop_.tearing_variables)
+    cut.insert(variable.inputs.begin(), variable.inputs.end());
   for (std::size_t i = 0; i < loop_.steps.size(); ++i) {
     for (const Connection& connection : system_.connections()) {
       const auto to = input_offsets_.find(connection.to);
@@ -64,9 +65,9 @@ void LoopTangents::add_carried() {
   }
 }
 
-void LoopTangents::derive(std::size_t tear, std::size_t element, std::span<double> column) {
+void LoopDerivatives::derive(std::size_t variable, std::size_t element, std::span<double> column) {
   std::ranges::fill(inputs_, 0.0);
-  for (const VariableId id : loop_.tears[tear].inputs) {
+  for (const VariableId id : loop_.tearing_variables[variable].inputs) {
     inputs_[input_offsets_.at(id) + element] = 1;
   }
   auto carried = carried_.begin();
@@ -83,7 +84,7 @@ void LoopTangents::derive(std::size_t tear, std::size_t element, std::span<doubl
     }
   }
   std::size_t row = 0;
-  for (const Tear& back : loop_.tears) {
+  for (const TearingVariable& back : loop_.tearing_variables) {
     const std::size_t from = output_offsets_.at(back.source);
     for (std::size_t k = 0; k < system_.variable(back.source).size; ++k) {
       column[row++] = back.conversion.linear.factor * outputs_[from + k];

@@ -1,4 +1,4 @@
-#include "master/algorithm/loops/loop_tangents.h"
+#include "master/algorithm/loops/loop_derivatives.h"
 
 #include <cmath>
 
@@ -67,14 +67,14 @@ TEST_CASE("the chain rule runs through arrays and units of measurement") {
   const System system(f.declaration);
   const auto order = evaluation_order(system, Phase::Initialization);
   REQUIRE(order.size() == 1);
-  REQUIRE(LoopTangents::exist(system, order[0]));
-  REQUIRE(order[0].tears.size() == 1);
-  LoopTangents tangents(system, f.units, order[0]);
+  REQUIRE(LoopDerivatives::exist(system, order[0]));
+  REQUIRE(order[0].tearing_variables.size() == 1);
+  LoopDerivatives derivatives(system, f.units, order[0]);
   std::vector<double> first(2), second(2);
-  tangents.derive(0, 0, first);
-  tangents.derive(0, 1, second);
+  derivatives.derive(0, 0, first);
+  derivatives.derive(0, 1, second);
   // the loop is cut before one of the two; the product of the matrices is that of the other then
-  const bool cut_before_a = order[0].tears[0].inputs[0].component == 0;
+  const bool cut_before_a = order[0].tearing_variables[0].inputs[0].component == 0;
   if (cut_before_a) {
     CHECK(first == std::vector<double>{5, 40});    // b (a e1), in metres again
     CHECK(second == std::vector<double>{10, 58});  // b (a e2)
@@ -84,7 +84,7 @@ TEST_CASE("the chain rule runs through arrays and units of measurement") {
   }
 }
 
-TEST_CASE("a loop is solved with the derivatives of its units, where all know them") {
+TEST_CASE("a loop is solved with the derivatives of its units, if all provide them") {
   Cosine with(true);
   Cosine without(false);
   for (Cosine* system : {&with, &without}) {
@@ -107,5 +107,6 @@ TEST_CASE("derivatives are of no use where something else than real numbers is i
                  .done());
   f.wire("a", "y", "a", "u");
   const System system(f.declaration);
-  CHECK_FALSE(LoopTangents::exist(system, evaluation_order(system, Phase::Initialization).front()));
+  CHECK_FALSE(
+      LoopDerivatives::exist(system, evaluation_order(system, Phase::Initialization).front()));
 }

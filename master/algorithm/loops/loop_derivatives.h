@@ -1,6 +1,6 @@
 // The derivatives of an algebraic loop in the inputs at which it is cut.
-#ifndef STRIDE_MASTER_ALGORITHM_LOOPS_LOOP_TANGENTS_H
-#define STRIDE_MASTER_ALGORITHM_LOOPS_LOOP_TANGENTS_H
+#ifndef STRIDE_MASTER_ALGORITHM_LOOPS_LOOP_DERIVATIVES_H
+#define STRIDE_MASTER_ALGORITHM_LOOPS_LOOP_DERIVATIVES_H
 
 #include <cstddef>
 #include <map>
@@ -17,20 +17,20 @@ namespace stride::core {
 
 /// The derivatives of one sweep through a loop, by the chain rule, from the directional derivatives
 /// of its units.
-class LoopTangents {
+class LoopDerivatives {
  public:
   /// `loop` is one, and outlives this object, as do the others.
-  LoopTangents(const System& system, std::span<const std::unique_ptr<Unit>> units,
-               const EvaluationBlock& loop);
+  LoopDerivatives(const System& system, std::span<const std::unique_ptr<Unit>> units,
+                  const EvaluationBlock& loop);
 
   /// Whether all units in the loop provide their derivatives, and all its values are floating-point
   /// numbers.
   static bool exist(const System& system, const EvaluationBlock& loop);
 
   /// Writes the derivative of the values that one sweep gives back, for each element of the cut
-  /// inputs, one tear after the other, in the element `element` of the tear `tear`. The units have
-  /// their inputs from the last sweep.
-  void derive(std::size_t tear, std::size_t element, std::span<double> column);
+  /// inputs, one tearing variable after the other, in the element `element` of the tearing variable
+  /// `variable`. The units have their inputs from the last sweep.
+  void derive(std::size_t variable, std::size_t element, std::span<double> column);
 
  private:
   /// The derivatives of the outputs of one component in those of its inputs that are in the loop.
