@@ -57,6 +57,7 @@ Fmi3Unit::Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library,
       has_resources ? parts_.resources.c_str() : nullptr, fmi3False, options_.debug_logging,
       description.has_event_mode, options_.early_return_allowed, intermediate.data(),
       intermediate.size(), this, &on_log, intermediate.empty() ? nullptr : &on_intermediate_update);
+  clear_note();
   if (instance_ == nullptr) {
     fail(fmt::format("fmi3InstantiateCoSimulation failed: {}",
                      take_messages("fmi3InstantiateCoSimulation")));
@@ -68,6 +69,7 @@ Fmi3Unit::~Fmi3Unit() {
   for (SavedState& saved : states_) free_state(saved);
   note_call("fmi3FreeInstance");
   if (!is_condemned_) fmi_.FreeInstance(instance_);
+  clear_note();
 }
 
 core::Capability* Fmi3Unit::find_capability(core::CapabilityId id) {
@@ -290,6 +292,7 @@ void Fmi3Unit::update_inputs(double time) noexcept {
   } catch (...) {
     callback_failure_ = std::current_exception();
   }
+  write_note("fmi3DoStep");  // which goes on, whatever was called meanwhile
 }
 
 /// FMI 3.0, 4.2: a unit with a fixed internal step may stand elsewhere than where it was sent.
