@@ -15,7 +15,7 @@
 #include "master/algorithm/capabilities/resetting.h"
 #include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/capabilities/state_serialization.h"
-#include "master/importer/asynchronous_step.h"
+#include "master/importer/fmi2/asynchronous_step.h"
 #include "master/importer/fmi2/fmi2_attributes.h"
 #include "master/importer/fmi2/fmi2_library.h"
 #include "master/importer/fmi2/input_derivatives.h"

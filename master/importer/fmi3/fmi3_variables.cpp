@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "master/importer/clock_attributes.h"
+#include "master/importer/fmi3/clock_attributes.h"
 #include "master/importer/variable_attributes.h"
 
 namespace stride::importer {
