@@ -16,7 +16,7 @@
 #include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/events/event_handler.h"
 #include "master/algorithm/idle/idle_scheduler.h"
-#include "master/algorithm/loops/initial_values.h"
+#include "master/algorithm/loops/ordered_evaluation.h"
 #include "master/algorithm/run_context.h"
 #include "master/algorithm/step_policies/step_policy.h"
 #include "master/algorithm/stepping/input_extrapolator.h"
