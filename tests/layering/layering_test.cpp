@@ -20,7 +20,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"interfaces", {"stride"}},
     {"master/util",
      {"stride/time.h", "fmt", "tinyxml2.h", "utf8.h", "archive.h", "archive_entry.h"}},
-    {"master/model", {"stride/time.h", "master/util", "fmt"}},
+    {"master/model", {"stride/time.h", "stride/value_type.h", "master/util", "fmt"}},
     {"master/algorithm", {"stride/time.h", "master/model", "master/util", "fmt", "Eigen"}},
     {"master/importer", {"stride", "master/algorithm", "master/model", "master/util", "fmt"}},
     {"master/isolation",
