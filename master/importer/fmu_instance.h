@@ -76,6 +76,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
 
   /// Whether the description promises the capability; of MessageText only the library knows.
   bool declares(core::CapabilityId id) const;
+  core::Capability* diagnostics() { return static_cast<core::UnitDiagnostics*>(this); }
 
   /// Calls function(instance, arguments...).
   template <class Function, class... Arguments>

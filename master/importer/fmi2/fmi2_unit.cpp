@@ -47,9 +47,7 @@ Fmi2Unit::~Fmi2Unit() {
 
 core::Capability* Fmi2Unit::find_capability(core::CapabilityId id) {
   if (!declares(id)) return nullptr;
-  return core::select_capability<core::StateSaving, core::StateSerialization, core::Resetting,
-                                 core::DirectionalDerivatives, core::InputsWithinStep,
-                                 core::UnitDiagnostics>(*this, id);
+  return id == core::UnitDiagnostics::kId ? diagnostics() : implemented(id);
 }
 
 void Fmi2Unit::enter_initialization(Time start, std::optional<Time> stop) {

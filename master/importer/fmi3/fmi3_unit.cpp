@@ -75,11 +75,7 @@ Fmi3Unit::~Fmi3Unit() {
 core::Capability* Fmi3Unit::find_capability(core::CapabilityId id) {
   const bool has_text = library_->describe_functions().DescribeMessage != nullptr;
   if (id == core::MessageText::kId ? !has_text : !declares(id)) return nullptr;
-  return core::select_capability<core::ConfigurationMode, core::StateSaving,
-                                 core::StateSerialization, core::Resetting, core::IdlePromises,
-                                 core::DirectionalDerivatives, core::ClockIntervals,
-                                 core::InputsWithinStep, core::MessageText, core::UnitDiagnostics>(
-      *this, id);
+  return id == core::UnitDiagnostics::kId ? diagnostics() : implemented(id);
 }
 
 void Fmi3Unit::enter_configuration_mode() {
