@@ -51,6 +51,14 @@ Capability* select_capability(U& unit, CapabilityId id) {
   return selected;
 }
 
+/// A base of a unit that implements the interfaces Cs, so that each is listed once.
+template <CapabilityInterface... Cs>
+class Capabilities : public Cs... {
+ protected:
+  /// The one of them that has this identifier; null if none has.
+  Capability* implemented(CapabilityId id) { return select_capability<Cs...>(*this, id); }
+};
+
 }  // namespace stride::core
 
 #endif

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include <stride/time.h>
 
@@ -75,6 +76,21 @@ class Observer {
   virtual void on_communication_point(Time /*time*/) {}
   /// The run is over, successful or not; records must be complete on disk when this returns.
   virtual void on_finish() {}
+};
+
+/// Reports activities to the observers that watch them. Without such an observer a report is one
+/// comparison.
+class Activities {
+ public:
+  void add(Observer& observer) {
+    if (observer.watches_activities()) watchers_.push_back(&observer);
+  }
+  void report(const Activity& activity) const {
+    for (Observer* watcher : watchers_) watcher->on_activity(activity);
+  }
+
+ private:
+  std::vector<Observer*> watchers_;
 };
 
 }  // namespace stride::core

@@ -5,7 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include "master/algorithm/activities.h"
 #include "master/algorithm/exchange/exchange.h"
 #include "master/algorithm/exchange/system_outputs.h"
 #include "master/algorithm/observer.h"

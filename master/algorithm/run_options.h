@@ -7,15 +7,21 @@
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <stride/time.h>
 
-#include "master/algorithm/step_policies/step_policy_type.h"
 #include "master/model/variable_id.h"
 
 namespace stride::core {
+
+class StepPolicy;
+class System;
+struct RunOptions;
+struct StepOptions;
 
 /// Which output values the units use during a step.
 enum class Coupling : std::uint8_t {
@@ -33,6 +39,29 @@ inline constexpr std::array kExtrapolations{Extrapolation::Hold, Extrapolation::
 /// The name in scenarios and on the command line: "gauss-seidel".
 const char* name(Coupling coupling);
 const char* name(Extrapolation extrapolation);
+
+/// The static properties of a step policy, and its factory. Each is defined in the file of its
+/// class, in step_policies/.
+struct StepPolicyType {
+  const char* name;  ///< in scenarios and on the command line
+  /// Whether communication points are on a grid of StepOptions::size.
+  bool has_grid = false;
+  /// Whether StepPolicy::accept() decides on each step by the error of the inputs, so that all
+  /// units have to be able to undo a step.
+  bool controls_error = false;
+  std::unique_ptr<StepPolicy> (*create)(const System& system, const RunOptions& options);
+  /// For people: "in steps of 0.01 s".
+  std::string (*describe)(const StepOptions& options);
+};
+
+extern const StepPolicyType kFixedSteps;
+extern const StepPolicyType kEventDrivenSteps;
+extern const StepPolicyType kErrorControlledSteps;
+
+/// The policies that scenarios and the command line accept, in the order in which they are listed.
+inline constexpr std::array kStepPolicies{&kFixedSteps, &kEventDrivenSteps, &kErrorControlledSteps};
+
+inline const char* name(const StepPolicyType* policy) { return policy->name; }
 
 struct StepOptions {
   const StepPolicyType* policy = &kFixedSteps;

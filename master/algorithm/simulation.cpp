@@ -16,7 +16,7 @@
 #include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/events/event_handler.h"
 #include "master/algorithm/idle/idle_scheduler.h"
-#include "master/algorithm/loops/initial_values.h"
+#include "master/algorithm/loops/ordered_evaluation.h"
 #include "master/algorithm/run_context.h"
 #include "master/algorithm/step_policies/step_policy.h"
 #include "master/algorithm/stepping/input_extrapolator.h"
@@ -38,7 +38,7 @@ class Simulation::Run {
         inputs_(make_input_extrapolator()),
         idle_(make_idle_scheduler()),
         event_handler_(context_, idle_.get()),
-        stepper_(context_, sets_inputs_in_steps() ? pointer_to(inputs_) : nullptr, idle_.get()) {
+        stepper_(context_, sets_inputs_in_steps() ? inputs_.get() : nullptr, idle_.get()) {
     if (sets_inputs_in_steps()) connect_input_updates();
   }
 
@@ -87,10 +87,6 @@ class Simulation::Run {
   }
 
  private:
-  template <class Part>
-  static Part* pointer_to(std::optional<Part>& part) {
-    return part ? &*part : nullptr;
-  }
   std::size_t count() const { return units_.size(); }
   bool sets_inputs_in_steps() const { return options_.sets_inputs_in_steps(); }
 
@@ -169,9 +165,9 @@ class Simulation::Run {
   }
 
   /// Nothing where inputs are held and their error is not controlled.
-  std::optional<InputExtrapolator> make_input_extrapolator() {
-    if (!sets_inputs_in_steps() && !options_.step.policy->controls_error) return std::nullopt;
-    return std::optional<InputExtrapolator>(std::in_place, context_);
+  std::unique_ptr<InputExtrapolator> make_input_extrapolator() {
+    if (!sets_inputs_in_steps() && !options_.step.policy->controls_error) return nullptr;
+    return std::make_unique<InputExtrapolator>(context_);
   }
 
   std::unique_ptr<IdleScheduler> make_idle_scheduler() {
@@ -270,8 +266,8 @@ class Simulation::Run {
   const WallClock clock_ = context_.clock;
 
   std::unique_ptr<StepPolicy> step_policy_;
-  std::optional<InputExtrapolator> inputs_;  ///< nothing where inputs are held
-  std::unique_ptr<IdleScheduler> idle_;      ///< nothing where no unit may be suspended
+  std::unique_ptr<InputExtrapolator> inputs_;  ///< nothing where inputs are held
+  std::unique_ptr<IdleScheduler> idle_;        ///< nothing where no unit may be suspended
   EventHandler event_handler_;
   Stepper stepper_;
 

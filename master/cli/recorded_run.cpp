@@ -1,16 +1,19 @@
 #include "master/cli/recorded_run.h"
 
+#include <algorithm>
 #include <exception>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "master/cli/report_page.h"
-#include "master/cli/verdicts.h"
+#include "master/cli/table.h"
 #include "master/recorders/results_folder.h"
 #include "master/recorders/run_json.h"
 #include "master/util/error.h"
+#include "master/util/time_text.h"
 
 namespace stride::cli {
 namespace {
@@ -23,6 +26,53 @@ void warn_of_failure(Work&& work) {
   } catch (const std::exception& failure) {
     spdlog::warn("{}", failure.what());
   }
+}
+
+// ---- Verdicts ----
+
+const char* word(std::optional<bool> passed) {
+  if (!passed) return "undecided";
+  return *passed ? "passed" : "FAILED";
+}
+
+/// A table with its title, of the units and of the scenario's checks; empty if there are none.
+std::string verdict_table(std::span<const core::Verdict> verdicts) {
+  if (verdicts.empty()) return "";
+  const bool has_times = std::ranges::any_of(
+      verdicts, [](const core::Verdict& verdict) { return verdict.time.has_value(); });
+  std::vector<Table::Column> columns{{"by"}, {"verdict"}};
+  if (has_times) columns.push_back({"first failure [s]", Table::Align::Right});
+  columns.push_back({"because"});
+  Table table(columns);
+  for (const core::Verdict& verdict : verdicts) {
+    std::vector<std::string> row{verdict.name, word(verdict.passed)};
+    if (has_times) row.push_back(verdict.time ? core::to_text(*verdict.time) : "");
+    row.push_back(verdict.text);
+    table.add(std::move(row));
+  }
+  return "\nVerdicts\n" + table.text();
+}
+
+/// A line for each bad verdict, with its first instant and the values there.
+std::string failures_text(std::span<const core::Verdict> verdicts) {
+  std::string text;
+  for (const core::Verdict& verdict : verdicts) {
+    if (verdict.passed != false) continue;
+    const std::string reason = core::reason(verdict);
+    text += "\n  " + core::to_text(core::Context{verdict.where, {}, {}, {}}) + verdict.name;
+    if (!reason.empty()) text += ": " + reason;
+  }
+  return text;
+}
+
+/// Throws core::Error (Run) that names each bad verdict.
+void require_passed(std::span<const core::Verdict> verdicts) {
+  const auto failed = std::ranges::count(verdicts, std::optional(false), &core::Verdict::passed);
+  if (failed == 0) return;
+  core::fail_run({}, fmt::format("the run is complete, and has failed by {} of {}{}", failed,
+                                 verdicts.size() == 1 ? "1 verdict"
+                                                      : fmt::format("{} verdicts", verdicts.size()),
+                                 failures_text(verdicts)));
 }
 
 }  // namespace

@@ -3,28 +3,47 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstring>
-#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include <stride/time.h>
 
 namespace stride::importer {
 
-/// The name of the function of a unit that is being called, for whoever looks into the memory of a
-/// process that has crashed.
+/// Which function of a unit is being called, and at which simulated time. It outlives a crash of
+/// the call, where its owner has put it into memory that outlives the process (isolation::Shared).
+///
+/// There are neither pointers nor locks in it, and nothing here allocates: it can be read by
+/// another process, and by a signal handler. A reader beside the writer may see a name that is half
+/// written, and never reads past the note's end.
 class CallNote {
  public:
-  void write(const char* function) {
-    const std::size_t size = std::min(std::strlen(function), name_.size() - 1);
+  static constexpr std::size_t kLongestName = 63;
+
+  /// `function` is cut off after kLongestName characters.
+  void write(const char* function, Time time = {}) noexcept {
+    const std::size_t size = std::min(std::strlen(function), kLongestName);
     std::memcpy(name_.data(), function, size);
     name_[size] = '\0';
+    time_ = time;
   }
-  void clear() { name_[0] = '\0'; }
+  void clear() noexcept { name_[0] = '\0'; }
 
-  /// Empty if no function is being called.
-  std::string read() const { return {name_.data(), ::strnlen(name_.data(), name_.size())}; }
+  /// Empty if no function is being called. Valid until the note is written again.
+  std::string_view function() const noexcept {
+    return {name_.data(), ::strnlen(name_.data(), kLongestName)};
+  }
+  /// Of the last call, whether it has returned or not.
+  Time time() const noexcept { return time_; }
 
  private:
-  std::array<char, 64> name_{};
+  std::array<char, kLongestName + 1> name_{};
+  Time time_{};
 };
+
+static_assert(std::is_trivially_copyable_v<CallNote> && std::is_trivially_destructible_v<CallNote>);
 
 }  // namespace stride::importer
 

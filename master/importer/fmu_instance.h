@@ -38,7 +38,7 @@ struct InstanceOptions {
   core::Location where{};  ///< the component's position in the scenario, for errors
   /// With the array sizes that its structural parameters give; nothing = as the FMU says.
   std::shared_ptr<const core::UnitDescription> description{};
-  /// Where the name of each function is noted before it is called; null = nowhere.
+  /// Where each function is noted while it is called; null = nowhere. Must outlive the instance.
   CallNote* call_note = nullptr;
 };
 
@@ -76,6 +76,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
 
   /// Whether the description promises the capability; of MessageText only the library knows.
   bool declares(core::CapabilityId id) const;
+  core::Capability* diagnostics() { return static_cast<core::UnitDiagnostics*>(this); }
 
   /// Calls function(instance, arguments...).
   template <class Function, class... Arguments>
@@ -84,11 +85,20 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   template <class Function, class... Arguments>
   Status call_discardable(const char* name, Function* function, Arguments... arguments);
 
-  /// To be called before each call.
+  /// To be called before each call, and clear_note() after it has returned. What it throws leaves
+  /// the note as it is: where the exception comes from.
   void note_call(const char* name) {
     ++calls_;
+    write_note(name);
+  }
+  /// For a call that does not count, or goes on.
+  void write_note(const char* name) {
     if (call_note_ != nullptr) [[unlikely]]
-      call_note_->write(name);
+      call_note_->write(name, time_.value_or(Time{}));
+  }
+  void clear_note() {
+    if (call_note_ != nullptr) [[unlikely]]
+      call_note_->clear();
   }
   void check_callable(const char* name) const {
     if (failed_in_ != nullptr || is_unusable_.load(std::memory_order_relaxed)) [[unlikely]]
@@ -174,6 +184,7 @@ template <class Function, class... Arguments>
   check_callable(name);
   note_call(name);
   const auto status = static_cast<Status>(function(instance_, arguments...));
+  clear_note();
   const bool is_quiet = !has_messages_.load(std::memory_order_relaxed);
   if (status == Status::Ok && is_quiet) [[likely]]
     return status;

@@ -90,7 +90,7 @@ struct ChannelMemory {
   std::atomic<std::uint64_t> most_memory = 0;  ///< resident, of those that have ended [byte]
   SnapshotBoard snapshots;
 
-  importer::CallNote call_note;  ///< which function of the unit is being called
+  importer::CallNote call_note;
   ByteRing logged;   ///< messages of the unit, see log_message.h; written by its process
   ByteRing printed;  ///< standard output and error; written by the supervisor
 };

@@ -157,8 +157,8 @@ void HostClient::fail_bad_message(std::optional<Time> time) {
 
 std::string HostClient::present_call() const {
   constexpr std::size_t kLongest = 100;
-  const std::string function =
-      core::readable_text(channel_.memory->call_note.read(), kLongest);  // the unit can write there
+  const std::string function = core::readable_text(
+      std::string(channel_.memory->call_note.function()), kLongest);  // the unit can write there
   return function.empty() ? "" : " in " + function;
 }
 

@@ -225,7 +225,7 @@ core::Context Server::context() const {
 
 /// Of an exception that has crossed the unit's interface, which none may; nothing otherwise.
 std::string Server::origin() const {
-  const std::string function = memory_.call_note.read();
+  const std::string function(memory_.call_note.function());
   return function.empty() ? "" : function + " let an exception out: ";
 }
 
@@ -319,7 +319,6 @@ void Server::set_input_update(bool is_set) {
 
 /// The master may get and set before it answers.
 void Server::request_inputs(double seconds_into_step) {
-  const importer::CallNote asking = memory_.call_note;
   MessageWriter question(channel_.messages);
   question.put(seconds_into_step);
   reply(ReplyCode::RequestInputs, question);
@@ -327,7 +326,6 @@ void Server::request_inputs(double seconds_into_step) {
     if (requested() == RequestCode::InputsNotUpdated) throw CallbackFailure();
     serve();
   }
-  memory_.call_note = asking;
 }
 
 // ---- States ----

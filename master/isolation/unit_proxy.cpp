@@ -33,11 +33,7 @@ UnitProxy::UnitProxy(HostedUnitSpec spec) : spec_(std::move(spec)) {
 
 core::Capability* UnitProxy::find_capability(core::CapabilityId id) {
   if (!capabilities_.test(static_cast<std::size_t>(id))) return nullptr;
-  return core::select_capability<
-      core::ConfigurationMode, core::StateSaving, core::StateSerialization, core::Resetting,
-      core::IdlePromises, core::DirectionalDerivatives, core::ClockIntervals,
-      core::InputsWithinStep, core::MessageText, core::UnitDiagnostics, core::HostDiagnostics>(
-      *this, id);
+  return implemented(id);
 }
 
 UnitProxy::~UnitProxy() {

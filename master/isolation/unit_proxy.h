@@ -29,18 +29,12 @@ namespace stride::isolation {
 /// Represents a unit in another process: each function is a request, and what the unit answers or
 /// throws is answered and thrown here. Its capabilities are those of the unit, besides
 /// HostDiagnostics, and StateSaving where states are snapshots of the process.
-class UnitProxy final : public core::Unit,
-                        public core::ConfigurationMode,
-                        public core::StateSaving,
-                        public core::StateSerialization,
-                        public core::Resetting,
-                        public core::IdlePromises,
-                        public core::DirectionalDerivatives,
-                        public core::ClockIntervals,
-                        public core::InputsWithinStep,
-                        public core::MessageText,
-                        public core::UnitDiagnostics,
-                        public core::HostDiagnostics {
+class UnitProxy final
+    : public core::Unit,
+      public core::Capabilities<
+          core::ConfigurationMode, core::StateSaving, core::StateSerialization, core::Resetting,
+          core::IdlePromises, core::DirectionalDerivatives, core::ClockIntervals,
+          core::InputsWithinStep, core::MessageText, core::UnitDiagnostics, core::HostDiagnostics> {
  public:
   using References = std::span<const core::ValueReference>;
 

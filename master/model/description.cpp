@@ -4,12 +4,7 @@
 
 namespace stride::core {
 
-const char* name(ValueType type) {
-  constexpr const char* kNames[] = {"Float32", "Float64", "Int8",   "UInt8",       "Int16",
-                                    "UInt16",  "Int32",   "UInt32", "Int64",       "UInt64",
-                                    "Boolean", "String",  "Binary", "Enumeration", "Clock"};
-  return kNames[static_cast<std::size_t>(type)];
-}
+const char* name(ValueType type) { return type_name(type); }
 
 const char* name(Causality causality) {
   constexpr const char* kNames[] = {

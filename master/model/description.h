@@ -2,7 +2,9 @@
 #ifndef STRIDE_MASTER_MODEL_DESCRIPTION_H
 #define STRIDE_MASTER_MODEL_DESCRIPTION_H
 
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,6 +12,7 @@
 #include <vector>
 
 #include <stride/time.h>
+#include <stride/value_type.h>
 
 #include "master/model/interval.h"
 #include "master/model/unit_of_measure.h"
@@ -18,24 +21,8 @@ namespace stride::core {
 
 using ValueReference = std::uint32_t;
 
-enum class ValueType : std::uint8_t {
-  Float32,
-  Float64,
-  Int8,
-  UInt8,
-  Int16,
-  UInt16,
-  Int32,
-  UInt32,
-  Int64,
-  UInt64,
-  Boolean,
-  String,
-  Binary,
-  Enumeration,
-  Clock,
-};
-inline constexpr std::size_t kValueTypeCount = 15;
+using ValueType = stride::Type;
+inline constexpr std::size_t kValueTypeCount = std::size(kTypeNames);
 
 /// Whether it is a floating-point type.
 inline bool is_real(ValueType type) {

@@ -16,7 +16,7 @@
 
 namespace stride::core {
 
-using Binary = std::vector<std::uint8_t>;
+using stride::Binary;
 
 /// The bytes of one element of a numeric type (Boolean and Clock: 1); 0 for String and Binary.
 std::size_t element_size(ValueType type);

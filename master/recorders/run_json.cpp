@@ -89,7 +89,7 @@ Json signal_entries(const core::System& system, std::span<const core::VariableId
     for (std::size_t i = 0; i < variable.size; ++i) {
       entries.push_back({{"name", column_name(system, id, i)},
                          {"unit", variable.unit},
-                         {"type", name(variable.type)},
+                         {"type", core::name(variable.type)},
                          {"variability", name(variable.variability)}});
     }
   }

@@ -117,7 +117,7 @@ class Completion {
       case ValueType::Float32:
       case ValueType::Float64: {
         const std::string unit = declared_unit(description, variable.unit);
-        const char* word = is_first_version_ ? "Real" : name(variable.type);
+        const char* word = is_first_version_ ? "Real" : core::name(variable.type);
         return unit.empty() ? fmt::format("<{}{}/>", ssc(), word)
                             : fmt::format("<{}{} unit=\"{}\"/>", ssc(), word, xml::escaped(unit));
       }
@@ -128,9 +128,10 @@ class Completion {
       case ValueType::Boolean:
       case ValueType::String:
       case ValueType::Binary:
-        return fmt::format("<{}{}/>", ssc(), name(variable.type));
+        return fmt::format("<{}{}/>", ssc(), core::name(variable.type));
       default:
-        return fmt::format("<{}{}/>", ssc(), is_first_version_ ? "Integer" : name(variable.type));
+        return fmt::format("<{}{}/>", ssc(),
+                           is_first_version_ ? "Integer" : core::name(variable.type));
     }
   }
 

@@ -1,5 +1,7 @@
 #include "master/verify/checks.h"
 
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "master/isolation/process/child.h"
@@ -30,7 +32,7 @@ std::string last_line(const std::string& printed) {
 
 }  // namespace
 
-std::string explain(const isolation::ChildOutcome& outcome, const isolation::SharedNote& note) {
+std::string explain(const isolation::ChildOutcome& outcome, const importer::CallNote& note) {
   std::string text;
   switch (outcome.end) {
     case End::Answered:
@@ -50,8 +52,8 @@ std::string explain(const isolation::ChildOutcome& outcome, const isolation::Sha
       text = "it was interrupted";
       break;
   }
-  if (const std::string function = note.what(); !function.empty()) {
-    text += fmt::format(" in {} at {} s", function, core::to_text(Duration(note.picoseconds())));
+  if (const std::string_view function = note.function(); !function.empty()) {
+    text += fmt::format(" in {} at {} s", function, core::to_text(note.time()));
   }
   if (const std::string said = last_line(outcome.printed); !said.empty()) {
     text += fmt::format("; its last words: {}", said);

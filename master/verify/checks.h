@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "master/importer/call_note.h"
 #include "master/isolation/process/child.h"
-#include "master/isolation/process/shared_note.h"
 #include "master/verify/finding.h"
 #include "master/verify/test_instance.h"
 #include "master/verify/tested_unit.h"
@@ -19,7 +19,7 @@ namespace stride::verify {
 /// loaded before.
 struct Trial {
   const TestedUnit& tested;
-  isolation::SharedNote& note;
+  importer::CallNote& note;  ///< in memory that outlives that process
 
   /// An instance in this process.
   TestInstance make_instance(TestInstanceOptions options = {}) const {
@@ -41,7 +41,7 @@ struct Trial {
 
 /// "it crashed with signal 11 (SIGSEGV) in fmi3Reset at 0.1 s", for what ended otherwise than by an
 /// answer or an exception.
-std::string explain(const isolation::ChildOutcome& outcome, const isolation::SharedNote& note);
+std::string explain(const isolation::ChildOutcome& outcome, const importer::CallNote& note);
 
 struct UnitCheck {
   const char* name;

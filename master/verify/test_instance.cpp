@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "master/algorithm/capabilities/configuration_mode.h"
+#include "master/algorithm/capabilities/resetting.h"
+#include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/util/time_text.h"
 #include "master/verify/finding.h"
@@ -48,20 +51,28 @@ std::string text_of(const ValueBlock& block, std::size_t first, std::size_t size
   return text;
 }
 
+std::unique_ptr<core::Unit> instantiate(const TestedUnit& tested, importer::CallNote& note,
+                                        const TestInstanceOptions& options) {
+  note.write("the loading of its library");
+  tested.fmu().load_library();
+  note.clear();
+  return tested.fmu().instantiate(options.name,
+                                  {.early_return_allowed = options.early_return_allowed,
+                                   .may_go_back = true,
+                                   .description = tested.system().components()[0].description,
+                                   .call_note = &note});
+}
+
 }  // namespace
 
-TestInstance::TestInstance(const TestedUnit& tested, isolation::SharedNote& note,
+TestInstance::TestInstance(const TestedUnit& tested, importer::CallNote& note,
                            TestInstanceOptions options)
     : tested_(tested),
       options_(std::move(options)),
       stimulus_(tested, options_.seed != 0 ? options_.seed : tested.request().seed),
       units_([&] {
         std::vector<std::unique_ptr<core::Unit>> units;
-        units.push_back(std::make_unique<WatchedUnit>(
-            tested, note, options_.name,
-            importer::InstanceOptions{.early_return_allowed = options_.early_return_allowed,
-                                      .may_go_back = true,
-                                      .description = tested.system().components()[0].description}));
+        units.push_back(instantiate(tested, note, options_));
         return units;
       }()) {
   clocks_.emplace(tested_.system(), units_);

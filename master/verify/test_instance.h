@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "master/algorithm/events/clocks.h"
+#include "master/algorithm/unit.h"
+#include "master/importer/call_note.h"
 #include "master/verify/recording.h"
 #include "master/verify/stimulus.h"
 #include "master/verify/tested_unit.h"
-#include "master/verify/watched_unit.h"
 
 namespace stride::verify {
 
@@ -29,7 +30,9 @@ struct TestInstanceOptions {
 /// where the unit does what no unit may, core::Error where it fails.
 class TestInstance {
  public:
-  TestInstance(const TestedUnit& tested, isolation::SharedNote& note,
+  /// In `note` is the function of the unit that is being called. `tested` and `note` must outlive
+  /// this object.
+  TestInstance(const TestedUnit& tested, importer::CallNote& note,
                TestInstanceOptions options = {});
 
   core::Unit& unit() { return *units_.front(); }

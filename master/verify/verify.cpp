@@ -7,8 +7,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "master/importer/call_note.h"
 #include "master/isolation/process/child.h"
-#include "master/isolation/process/shared_note.h"
+#include "master/isolation/process/shared_memory.h"
 #include "master/util/error.h"
 #include "master/util/suggest.h"
 #include "master/verify/checks.h"
@@ -48,9 +49,9 @@ bool is_wanted(const UnitCheck& check, const std::vector<std::string>& wanted) {
 }
 
 Finding run_isolated(const UnitCheck& check, const TestedUnit& tested, const Hooks& hooks) {
-  isolation::SharedNote note;
+  const isolation::Shared<importer::CallNote> note;
   const auto work = [&] {
-    const Trial trial{tested, note};
+    const Trial trial{tested, *note};
     try {
       return to_text(check.run(trial));
     } catch (const Failure& failure) {
@@ -65,7 +66,7 @@ Finding run_isolated(const UnitCheck& check, const TestedUnit& tested, const Hoo
     core::fail_run({}, fmt::format("interrupted during the check '{}'", check.name));
   }
   if (outcome.end == End::Answered) return finding_from_text(outcome.text);
-  std::string text = explain(outcome, note);
+  std::string text = explain(outcome, *note);
   if (outcome.end == End::TimedOut) {
     text += fmt::format(" (limit: {} s)",
                         std::chrono::duration<double>(tested.request().limit).count());

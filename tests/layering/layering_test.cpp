@@ -1,4 +1,5 @@
 // Dependencies run one way. Targets keep it at link time; this keeps it for headers.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -19,7 +20,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"interfaces", {"stride"}},
     {"master/util",
      {"stride/time.h", "fmt", "tinyxml2.h", "utf8.h", "archive.h", "archive_entry.h"}},
-    {"master/model", {"stride/time.h", "master/util", "fmt"}},
+    {"master/model", {"stride/time.h", "stride/value_type.h", "master/util", "fmt"}},
     {"master/algorithm", {"stride/time.h", "master/model", "master/util", "fmt", "Eigen"}},
     {"master/importer", {"stride", "master/algorithm", "master/model", "master/util", "fmt"}},
     {"master/isolation",
@@ -97,6 +98,48 @@ bool is_source(const fs::path& path) {
   return path.extension() == ".h" || path.extension() == ".cpp";
 }
 
+/// Each part of a room with the other parts that it includes. A part is a folder of the room, or a
+/// header with its source beside them.
+using Parts = std::map<std::string, std::set<std::string>>;
+
+std::string part_of(const fs::path& file) {
+  return file.has_parent_path() ? file.begin()->string() : file.stem().string();
+}
+
+Parts parts_of(const std::string& room) {
+  Parts parts;
+  const fs::path folder = fs::path(STRIDE_SOURCE_DIR) / room;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!is_source(entry.path())) continue;
+    const std::string part = part_of(entry.path().lexically_relative(folder));
+    for (const std::string& header : includes(entry.path())) {
+      if (!begins_with(header, room)) continue;
+      const std::string other = part_of(fs::path(header).lexically_relative(room));
+      if (other != part) parts[part].insert(other);
+    }
+  }
+  return parts;
+}
+
+/// The parts that include each other in a circle, and those that include such a part.
+std::string circular(Parts parts) {
+  const auto is_free = [&](const auto& part) {
+    return std::none_of(part.second.begin(), part.second.end(),
+                        [&](const std::string& other) { return parts.count(other) != 0; });
+  };
+  for (auto part = parts.begin(); part != parts.end();) {
+    if (!is_free(*part)) {
+      ++part;
+      continue;
+    }
+    parts.erase(part);
+    part = parts.begin();
+  }
+  std::string names;
+  for (const auto& [part, others] : parts) names += part + " ";
+  return names;
+}
+
 }  // namespace
 
 TEST_CASE("every folder includes only what it may depend on") {
@@ -127,6 +170,13 @@ TEST_CASE("every folder with sources has a rule") {
       CHECK(kAllowed.count(entry.path().lexically_relative(root).string()) == 1);
     }
   }
+}
+
+TEST_CASE("no parts of the algorithm include each other in a circle") {
+  const Parts parts = parts_of("master/algorithm");
+  CHECK(parts.at("stepping").count("run_context") == 1);
+  CHECK(circular(parts).empty());
+  CHECK(circular({{"a", {"b"}}, {"b", {"c"}}, {"c", {"b", "d"}}, {"e", {"d"}}}) == "a b c ");
 }
 
 TEST_CASE("a unit's model does not include FMI") {

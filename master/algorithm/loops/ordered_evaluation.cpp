@@ -3,6 +3,16 @@
 #include <algorithm>
 
 namespace stride::core {
+namespace {
+
+class AllUnits : public OrderedEvaluation::Participants {
+ public:
+  bool takes_part(std::size_t) const override { return true; }
+  void on_discontinuity(VariableId, bool) override {}
+  bool include(std::size_t) override { return false; }
+};
+
+}  // namespace
 
 OrderedEvaluation::OrderedEvaluation(RunContext& context, Phase phase, UnitTimer::Sum time)
     : system_(context.system),
@@ -154,6 +164,12 @@ void OrderedEvaluation::check_nan(const Block& block) const {
       std::any_of(block.stages.begin(), block.stages.end(),
                   [&](const EvaluationStage& s) { return staged_.has_nan(s.read); });
   if (has_nan) exchange_.check_nan(time_);
+}
+
+void set_initial_values(RunContext& context, Time start) {
+  AllUnits all;
+  OrderedEvaluation(context, Phase::Initialization, &UnitStatistics::initialization_time)
+      .run(start, all);
 }
 
 }  // namespace stride::core

@@ -93,6 +93,13 @@ class OrderedEvaluation {
   bool is_trying_ = false;  ///< values are those of an iteration, not of a solution
 };
 
+/// The units are in Initialization Mode. Reads each connected output after all that it depends on,
+/// and writes each connected input; algebraic loops are solved. So values pass through a chain of
+/// units of any length before the first step, and a unit is called only as often as the declared
+/// dependencies require. Throws Error (Run): a connected output is NaN, or no solution of a loop
+/// was found.
+void set_initial_values(RunContext& context, Time start);
+
 }  // namespace stride::core
 
 #endif

@@ -30,6 +30,7 @@ Fmi2Unit::Fmi2Unit(std::string name, std::shared_ptr<const Fmi2Library> library,
       fmi_.Instantiate(name_.c_str(), fmi2CoSimulation,
                        parts_.description->instantiation_token.c_str(), parts_.resources.c_str(),
                        &callbacks_, fmi2False, options_.debug_logging ? fmi2True : fmi2False);
+  clear_note();
   if (instance_ == nullptr) {
     fail(fmt::format("fmi2Instantiate failed: {}", take_messages("fmi2Instantiate")));
   }
@@ -41,13 +42,12 @@ Fmi2Unit::~Fmi2Unit() {
   for (SavedState& saved : states_) free_state(saved);
   note_call("fmi2FreeInstance");
   if (!is_unusable_) fmi_.FreeInstance(instance_);
+  clear_note();
 }
 
 core::Capability* Fmi2Unit::find_capability(core::CapabilityId id) {
   if (!declares(id)) return nullptr;
-  return core::select_capability<core::StateSaving, core::StateSerialization, core::Resetting,
-                                 core::DirectionalDerivatives, core::InputsWithinStep,
-                                 core::UnitDiagnostics>(*this, id);
+  return id == core::UnitDiagnostics::kId ? diagnostics() : implemented(id);
 }
 
 void Fmi2Unit::enter_initialization(Time start, std::optional<Time> stop) {

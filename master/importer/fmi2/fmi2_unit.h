@@ -15,7 +15,7 @@
 #include "master/algorithm/capabilities/resetting.h"
 #include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/capabilities/state_serialization.h"
-#include "master/importer/asynchronous_step.h"
+#include "master/importer/fmi2/asynchronous_step.h"
 #include "master/importer/fmi2/fmi2_attributes.h"
 #include "master/importer/fmi2/fmi2_library.h"
 #include "master/importer/fmi2/input_derivatives.h"
@@ -48,12 +48,10 @@ namespace stride::importer {
 ///
 /// After the first exchange, get(), set() and step() do not allocate, except where a string
 /// outgrows the longest before it.
-class Fmi2Unit final : public FmuInstance,
-                       public core::StateSaving,
-                       public core::StateSerialization,
-                       public core::Resetting,
-                       public core::DirectionalDerivatives,
-                       public core::InputsWithinStep {
+class Fmi2Unit final
+    : public FmuInstance,
+      public core::Capabilities<core::StateSaving, core::StateSerialization, core::Resetting,
+                                core::DirectionalDerivatives, core::InputsWithinStep> {
  public:
   /// Throws core::Error of the kind Run, with the unit's messages, if it cannot be instantiated.
   Fmi2Unit(std::string name, std::shared_ptr<const Fmi2Library> library,

@@ -36,7 +36,9 @@ void Fmi2Unit::restore(const SavedState& saved) {
 
 void Fmi2Unit::free_state(SavedState& saved) {
   if (saved.state == nullptr || is_unusable_ || fmi_.FreeFMUstate == nullptr) return;
+  write_note("fmi2FreeFMUstate");
   if (fmi_.FreeFMUstate(instance_, &saved.state) == fmi2Fatal) mark_unusable();
+  clear_note();
   saved = {};
 }
 

@@ -31,6 +31,7 @@ Status Fmi2Unit::wait_for_step() {
   const Clock::time_point began = Clock::now();
   Status status = Status::Pending;
   for (auto pause = 20us; status == Status::Pending; pause = std::min(pause * 2, kLongestPause)) {
+    write_note("fmi2DoStep");  // whose work goes on
     status = asynchronous_.wait(pause).value_or(Status::Pending);
     if (status == Status::Pending) status = poll_step();
     const bool is_long = !has_slow_step_warning_ && Clock::now() - began > options_.warn_after;
@@ -41,6 +42,7 @@ Status Fmi2Unit::wait_for_step() {
                     "waits for it",
                     core::to_text(*time_), pending_text()));
   }
+  clear_note();
   return check_status("fmi2DoStep", status);
 }
 

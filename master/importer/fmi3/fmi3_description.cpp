@@ -1,12 +1,201 @@
 #include "master/importer/fmi3/fmi3_description.h"
 
+#include <map>
+#include <vector>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "master/importer/common_description.h"
-#include "master/importer/fmi3/fmi3_variables.h"
+#include "master/importer/fmi3/clock_attributes.h"
+#include "master/importer/variable_attributes.h"
 
 namespace stride::importer {
 namespace {
+
+using core::Causality;
+using core::ValueType;
+using core::Variability;
+
+/// Value reference -> index of the variable.
+using VariableIndex = std::map<core::ValueReference, std::size_t>;
+
+// ---- Variables, with what their declared types add ----
+
+TypeDefinitions read_type_definitions(const xml::Element& root) {
+  TypeDefinitions types;
+  const auto definitions = root.child("TypeDefinitions");
+  if (!definitions) return types;
+  for (const xml::Element& definition : definitions->children()) {
+    if (!definition.is("", "Annotations")) types.add(definition, definition);
+  }
+  return types;
+}
+
+std::optional<xml::Element> declared_type(const xml::Element& element,
+                                          const TypeDefinitions& types) {
+  const auto type = types.declared(element);
+  if (type && type->name().local != fmt::format("{}Type", element.name().local)) {
+    element.fail(fmt::format("declaredType=\"{}\" is a {}; expected a <{}Type>",
+                             *element.attribute("declaredType"), type->tag(),
+                             element.name().local));
+  }
+  return type;
+}
+
+/// A String or Binary variable has an element per start value, the other types an attribute.
+std::string read_start(const xml::Element& element, ValueType type) {
+  if (type != ValueType::String && type != ValueType::Binary) return element.attribute_or("start");
+  std::vector<std::string> values;
+  for (const xml::Element& start : element.children("Start"))
+    values.push_back(start.attribute_or("value"));
+  return fmt::format("{}", fmt::join(values, " "));
+}
+
+core::Variable read_variable(const xml::Element& element, ValueType type,
+                             const TypeDefinitions& types) {
+  core::Variable variable;
+  variable.name = element.required("name");
+  variable.reference = element.required_number<core::ValueReference>("valueReference");
+  variable.type = type;
+  variable.causality = read_causality(element);
+  variable.variability = read_variability(element, type, variable.causality);
+  variable.initial = read_initial(element, variable);
+  variable.description = element.attribute_or("description");
+  for (const xml::Element& alias : element.children("Alias")) {
+    variable.aliases.push_back(alias.required("name"));
+  }
+  variable.start = read_start(element, type);
+  variable.clocks = element.number_list<core::ValueReference>("clocks");
+  // a clocked variable is discrete (FMI 3.0, 2.2.8.3), whatever the default for its type
+  const bool continuous = variable.variability == Variability::Continuous;
+  if (variable.is_clocked() && continuous) variable.variability = Variability::Discrete;
+  const auto declared = declared_type(element, types);
+  variable.unit = inherited(element, declared, "unit");
+  variable.min = inherited(element, declared, "min");
+  variable.max = inherited(element, declared, "max");
+  variable.nominal = read_nominal(element, type, declared);
+  if (type == ValueType::Clock) {
+    variable.clock = read_clock_attributes(element, declared, variable.causality);
+  }
+  variable.intermediate_update = element.flag("intermediateUpdate");
+  if (type != ValueType::Enumeration) return variable;
+  if (!declared) element.required("declaredType");
+  variable.items = read_items(*declared);
+  return variable;
+}
+
+/// Resolves the relations of variables: names, references, clocks, dimensions.
+class Linker {
+ public:
+  Linker(std::vector<core::Variable>& variables, const std::vector<xml::Element>& elements)
+      : variables_(variables), elements_(elements) {}
+
+  VariableIndex run() {
+    for (std::size_t i = 0; i < variables_.size(); ++i) add(i);
+    for (std::size_t i = 0; i < variables_.size(); ++i) {
+      check_clocks(i);
+      read_dimensions(i);
+    }
+    return std::move(index_);
+  }
+
+ private:
+  void add(std::size_t i) {
+    const core::Variable& variable = variables_[i];
+    names_.add(variable.name, elements_[i]);
+    for (const xml::Element& alias : elements_[i].children("Alias")) {
+      names_.add(alias.required("name"), alias);
+    }
+    const auto [same_reference, is_new] = index_.emplace(variable.reference, i);
+    if (is_new) return;
+    elements_[i].fail(fmt::format(
+        "variable '{}' has the value reference {} of '{}' in line {}", variable.name,
+        variable.reference, variables_[same_reference->second].name, line(same_reference->second)));
+  }
+
+  void check_clocks(std::size_t i) const {
+    for (const core::ValueReference clock : variables_[i].clocks) {
+      const core::Variable* found = find(clock);
+      if (found == nullptr) {
+        elements_[i].fail(fmt::format("variable '{}' belongs to the clock {}, which does not exist",
+                                      variables_[i].name, clock));
+      }
+      if (found->type == ValueType::Clock) continue;
+      elements_[i].fail(
+          fmt::format("variable '{}' belongs to the clock {}, but '{}' has the type {}",
+                      variables_[i].name, clock, found->name, core::name(found->type)));
+    }
+  }
+
+  void read_dimensions(std::size_t i) {
+    core::Variable& variable = variables_[i];
+    for (const xml::Element& dimension : elements_[i].children("Dimension")) {
+      variable.dimensions.push_back(read_dimension(dimension));
+    }
+    const auto size = core::element_count(variable.dimensions);
+    if (!size) {
+      elements_[i].fail(fmt::format("variable '{}' has more than {} elements", variable.name,
+                                    core::kMaxElements));
+    }
+    variable.size = *size;
+  }
+
+  core::Dimension read_dimension(const xml::Element& dimension) const {
+    if (const auto fixed = dimension.number<std::uint64_t>("start")) return *fixed;
+    const auto reference = dimension.number<core::ValueReference>("valueReference");
+    if (!reference) dimension.fail("<Dimension> needs 'start' or 'valueReference'");
+    const core::Variable* source = find(*reference);
+    const bool gives_size =
+        source != nullptr && (source->causality == Causality::StructuralParameter ||
+                              source->variability == Variability::Constant);
+    if (!gives_size) {
+      dimension.fail(
+          fmt::format("the value reference {} of <Dimension> is not that of a "
+                      "structural parameter",
+                      *reference));
+    }
+    const auto words = xml::split(source->start);
+    const auto size = words.size() == 1 ? xml::to_number<std::uint64_t>(words[0]) : std::nullopt;
+    if (!size) {
+      dimension.fail(
+          fmt::format("the structural parameter '{}' has the start value '{}'; "
+                      "expected a number of elements",
+                      source->name, source->start));
+    }
+    const bool is_parameter = source->causality == Causality::StructuralParameter;
+    return {*size, is_parameter ? reference : std::nullopt};
+  }
+
+  const core::Variable* find(core::ValueReference reference) const {
+    const auto found = index_.find(reference);
+    return found == index_.end() ? nullptr : &variables_[found->second];
+  }
+  int line(std::size_t i) const { return elements_[i].where().line; }
+
+  std::vector<core::Variable>& variables_;
+  const std::vector<xml::Element>& elements_;
+  VariableNames names_;
+  VariableIndex index_;
+};
+
+/// Appends the variables of <ModelVariables> in order.
+VariableIndex read_variables(const xml::Element& root, std::vector<core::Variable>& variables) {
+  const auto list = root.child("ModelVariables");
+  if (!list) root.fail("<ModelVariables> is missing");
+  const TypeDefinitions types = read_type_definitions(root);
+  std::vector<xml::Element> elements;
+  for (const xml::Element& element : list->children()) {
+    if (element.is("", "Annotations")) continue;
+    const auto type = find_named<ValueType>(element.name().local, core::kValueTypeCount);
+    if (!type) element.fail(fmt::format("{} is no type of FMI 3.0", element.tag()));
+    variables.push_back(read_variable(element, *type, types));
+    elements.push_back(element);
+  }
+  return Linker(variables, elements).run();
+}
+
+// ---- Capabilities, dependencies, annotations ----
 
 void read_co_simulation(const xml::Element& element, core::UnitDescription& unit) {
   read_capabilities(element, unit);

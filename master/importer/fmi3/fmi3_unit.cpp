@@ -57,6 +57,7 @@ Fmi3Unit::Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library,
       has_resources ? parts_.resources.c_str() : nullptr, fmi3False, options_.debug_logging,
       description.has_event_mode, options_.early_return_allowed, intermediate.data(),
       intermediate.size(), this, &on_log, intermediate.empty() ? nullptr : &on_intermediate_update);
+  clear_note();
   if (instance_ == nullptr) {
     fail(fmt::format("fmi3InstantiateCoSimulation failed: {}",
                      take_messages("fmi3InstantiateCoSimulation")));
@@ -68,16 +69,13 @@ Fmi3Unit::~Fmi3Unit() {
   for (SavedState& saved : states_) free_state(saved);
   note_call("fmi3FreeInstance");
   if (!is_unusable_) fmi_.FreeInstance(instance_);
+  clear_note();
 }
 
 core::Capability* Fmi3Unit::find_capability(core::CapabilityId id) {
   const bool has_text = library_->describe_functions().DescribeMessage != nullptr;
   if (id == core::MessageText::kId ? !has_text : !declares(id)) return nullptr;
-  return core::select_capability<core::ConfigurationMode, core::StateSaving,
-                                 core::StateSerialization, core::Resetting, core::IdlePromises,
-                                 core::DirectionalDerivatives, core::ClockIntervals,
-                                 core::InputsWithinStep, core::MessageText, core::UnitDiagnostics>(
-      *this, id);
+  return id == core::UnitDiagnostics::kId ? diagnostics() : implemented(id);
 }
 
 void Fmi3Unit::enter_configuration_mode() {
@@ -290,6 +288,7 @@ void Fmi3Unit::update_inputs(double time) noexcept {
   } catch (...) {
     callback_failure_ = std::current_exception();
   }
+  write_note("fmi3DoStep");  // which goes on, whatever was called meanwhile
 }
 
 /// FMI 3.0, 4.2: a unit with a fixed internal step may end at another time than that of the step.

@@ -36,16 +36,12 @@ namespace stride::importer {
 ///
 /// After the first exchange, get(), set(), step() and get_derivatives() do not allocate, except
 /// where a string or binary value outgrows the longest before it; idle_until() never does.
-class Fmi3Unit final : public FmuInstance,
-                       public core::ConfigurationMode,
-                       public core::StateSaving,
-                       public core::StateSerialization,
-                       public core::Resetting,
-                       public core::IdlePromises,
-                       public core::DirectionalDerivatives,
-                       public core::ClockIntervals,
-                       public core::InputsWithinStep,
-                       public core::MessageText {
+class Fmi3Unit final
+    : public FmuInstance,
+      public core::Capabilities<core::ConfigurationMode, core::StateSaving,
+                                core::StateSerialization, core::Resetting, core::IdlePromises,
+                                core::DirectionalDerivatives, core::ClockIntervals,
+                                core::InputsWithinStep, core::MessageText> {
  public:
   /// Throws core::Error of the kind Run, with the unit's messages, if it cannot be instantiated.
   Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library, UnitParts parts,

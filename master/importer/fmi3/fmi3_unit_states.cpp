@@ -26,7 +26,9 @@ void Fmi3Unit::restore_state() {
 
 void Fmi3Unit::free_state(SavedState& saved) {
   if (saved.state == nullptr || is_unusable_ || fmi_.FreeFMUState == nullptr) return;
+  write_note("fmi3FreeFMUState");
   if (fmi_.FreeFMUState(instance_, &saved.state) == fmi3Fatal) mark_unusable();
+  clear_note();
   saved = {};
 }
 

@@ -160,7 +160,7 @@ void compare_with_library(const Trial& trial, std::vector<std::string>& mistakes
   if (!library || !library->describes_itself()) return;
   const std::filesystem::path folder = trial.tested.fmu().folder();
   const std::filesystem::path resources = folder / "resources";
-  trial.note.write("strideModelDescription", 0);
+  trial.note.write("strideModelDescription");
   const std::string own =
       library->describe(std::filesystem::is_directory(resources) ? resources : "");
   trial.note.clear();

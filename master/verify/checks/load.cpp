@@ -46,7 +46,7 @@ std::string version_of(const Trial& trial, void* library) {
   using GetVersion = const char*();
   auto* const get = reinterpret_cast<GetVersion*>(::dlsym(library, name.c_str()));
   if (get == nullptr) throw Failure(fmt::format("the library does not export {}", name));
-  trial.note.write(name.c_str(), 0);
+  trial.note.write(name.c_str());
   const char* const version = get();
   trial.note.clear();
   return version != nullptr ? version : "";
@@ -57,10 +57,10 @@ std::string version_of(const Trial& trial, void* library) {
 void load_and_unload(const Trial& trial, const std::filesystem::path& folder) {
   trial.in_child([&] {
     {
-      trial.note.write("the loading of its library", 0);
+      trial.note.write("the loading of its library");
       const auto fmu = importer::Fmu::load(folder);
       const auto unit = fmu->instantiate("unit");
-      trial.note.write("the unloading of its library", 0);
+      trial.note.write("the unloading of its library");
     }
     trial.note.clear();
     return std::string();
@@ -72,7 +72,7 @@ void load_and_unload(const Trial& trial, const std::filesystem::path& folder) {
 Finding check_load(const Trial& trial) {
   const core::UnitDescription& description = trial.tested.description();
   load_and_unload(trial, trial.tested.fmu().folder());
-  trial.note.write("the loading of its library", 0);
+  trial.note.write("the loading of its library");
   const auto library = trial.tested.fmu().load_library();
   const Handle handle(::dlopen(library->path().c_str(), RTLD_NOW | RTLD_LOCAL));
   trial.note.clear();

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "master/algorithm/capabilities/message_text.h"
 #include "master/util/error.h"
 #include "master/util/readable_text.h"
 #include "master/util/time_text.h"

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "master/algorithm/capabilities/state_saving.h"
+#include "master/algorithm/capabilities/state_serialization.h"
 #include "master/util/error.h"
 #include "master/util/time_text.h"
 #include "master/verify/checks.h"

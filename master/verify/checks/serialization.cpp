@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "master/algorithm/capabilities/state_saving.h"
+#include "master/algorithm/capabilities/state_serialization.h"
 #include "master/util/error.h"
 #include "master/util/hex.h"
 #include "master/verify/checks.h"

@@ -1,8 +1,9 @@
 // Every way in which a unit may end its process is an error that names it, and nothing is left.
+#include <array>
 #include <csignal>
 
 #include "master/isolation/process/child.h"
-#include "master/isolation/process/shared_note.h"
+#include "master/isolation/process/shared_memory.h"
 #include "tests/build.h"
 #include "tests/master/isolation/support.h"
 
@@ -121,18 +122,20 @@ TEST_CASE("without its supervisor a unit's process ends, and the master notices"
 
 TEST_CASE("when the master is killed nothing of it is left") {
   const Scratch scratch;
-  isolation::SharedNote note;
+  const isolation::Shared<std::array<pid_t, 2>> processes;
   isolation::run_in_child([&] {
     Fixture unit("faulty");
     const Fixture other("faulty");  // whose processes do not keep those of the first
     unit.start({{"fault", "daemon"}});
     unit.step(0, 1);
-    note.write("", (std::int64_t{Fixture::supervisor()} << 32) + Fixture::server());
+    *processes = {Fixture::supervisor(), Fixture::server()};
     std::raise(SIGKILL);
     return std::string();
   });
-  CHECK(has_ended(static_cast<pid_t>(note.picoseconds() >> 32)));
-  CHECK(has_ended(static_cast<pid_t>(note.picoseconds())));
+  for (const pid_t process : *processes) {
+    REQUIRE(process != 0);
+    CHECK(has_ended(process));
+  }
   CHECK(left_folders(scratch).empty());
 }
 

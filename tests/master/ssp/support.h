@@ -11,6 +11,7 @@
 #include <string>
 
 #include "master/model/system.h"
+#include "tests/error_of.h"
 
 namespace stride::tests {
 
@@ -65,17 +66,6 @@ inline std::string ssd_with(const std::string& elements, const std::string& behi
   return ssd("<ssd:System name=\"root\">\n<ssd:Elements>\n" + elements + "\n</ssd:Elements>\n" +
                  behind + "\n</ssd:System>",
              version);
-}
-
-/// What() of the exception that a call throws.
-template <class Call>
-std::string error_of(Call&& call) {
-  try {
-    call();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "(no error)";
 }
 
 inline core::Variable variable(const std::string& name, core::ValueReference reference,

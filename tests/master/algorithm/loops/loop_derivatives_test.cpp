@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/algorithm/loops/initial_values.h"
+#include "master/algorithm/loops/ordered_evaluation.h"
 #include "tests/master/algorithm/scripted_system.h"
 
 using namespace stride;

@@ -1,5 +1,6 @@
 #include "master/isolation/process/child.h"
 
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -10,7 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "master/isolation/process/shared_note.h"
+#include "master/isolation/process/shared_memory.h"
 
 using namespace stride::isolation;
 using namespace std::chrono_literals;
@@ -69,25 +70,24 @@ TEST_CASE("a crash is reported by its signal, an exit by its code") {
 }
 
 TEST_CASE("a child that takes too long is ended, and with it its own children") {
-  SharedNote note;
+  const Shared<std::atomic<pid_t>> grandchild;
   const ChildOutcome outcome = run_in_child(
       [&] {
         if (const pid_t own = ::fork(); own == 0)
           wait_for_ever();
         else
-          note.write("forked", own);
+          *grandchild = own;
         wait_for_ever();
         return std::string();
       },
       {.limit = 200ms});
   CHECK(outcome.end == End::TimedOut);
-  CHECK(note.what() == "forked");
+  REQUIRE(*grandchild != 0);
   CHECK_FALSE(has_child_left());
   // whoever adopts the grandchild may take a while to bury it
-  const auto grandchild = static_cast<pid_t>(note.picoseconds());
   const auto lives = [&] {
     char state = 'X';
-    const std::string path = "/proc/" + std::to_string(grandchild) + "/stat";
+    const std::string path = "/proc/" + std::to_string(*grandchild) + "/stat";
     if (std::FILE* const file = std::fopen(path.c_str(), "r")) {
       if (std::fscanf(file, "%*d (%*[^)]) %c", &state) != 1) state = 'X';
       std::fclose(file);

@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "master/util/xml/document.h"
-#include "tests/master/util/xml/support.h"
+#include "tests/error_of.h"
 
 using namespace stride;
 using namespace stride::tests;
@@ -41,22 +41,22 @@ TEST_CASE("Attributes and children that are not known are refused with the neare
       "<twice/><twice/></a>",
       "x.xml");
   const xml::Element root = document.root();
-  CHECK_THAT(xml_error([&] {
+  CHECK_THAT(error_of([&] {
                root.allow_attributes({"size", "empty", "yes"});
              }),
              Contains("x.xml:1: <a> has no attribute 'siez'") && Contains("did you mean 'size'?"));
-  CHECK_THAT(xml_error([&] {
+  CHECK_THAT(error_of([&] {
                root.allow_children({{"one", "step"}, {"one", "b"}});
              }),
              Contains("x.xml:2: <stpe> is not known in <a>") && Contains("did you mean 'step'?"));
-  CHECK_THAT(xml_error([&] {
+  CHECK_THAT(error_of([&] {
                root.allow_children({{"one", "stpe"}, {"one", "b"}});
              }),
              Contains("<b> is in the namespace 'x'") && Contains("it belongs in 'one'"));
-  CHECK_THAT(xml_error([&] { root.required("none"); }), Contains("<a> needs the attribute 'none'"));
-  CHECK_THAT(xml_error([&] { root.required("empty"); }), Contains("'empty' of <a> is empty"));
-  CHECK_THAT(xml_error([&] { root.flag("yes", true); }), Contains("expected true or false"));
-  CHECK_THAT(xml_error([&] { root.child({"one", "twice"}); }), Contains("a second <twice> in <a>"));
+  CHECK_THAT(error_of([&] { root.required("none"); }), Contains("<a> needs the attribute 'none'"));
+  CHECK_THAT(error_of([&] { root.required("empty"); }), Contains("'empty' of <a> is empty"));
+  CHECK_THAT(error_of([&] { root.flag("yes", true); }), Contains("expected true or false"));
+  CHECK_THAT(error_of([&] { root.child({"one", "twice"}); }), Contains("a second <twice> in <a>"));
 }
 
 TEST_CASE("attributes are read with their defaults") {
@@ -81,13 +81,13 @@ TEST_CASE("complaints name file and line") {
   const xml::Document document =
       xml::Document::parse("<a>\n<b i='1.5' f='x' flag='maybe' list='1 two'/>\n</a>", "unit.xml");
   const xml::Element b = *document.root().child("b");
-  CHECK_THAT(xml_error([&] { b.required("name"); }),
+  CHECK_THAT(error_of([&] { b.required("name"); }),
              Contains("unit.xml:2: <b> needs the attribute 'name'"));
-  CHECK_THAT(xml_error([&] { b.number<int>("i"); }),
+  CHECK_THAT(error_of([&] { b.number<int>("i"); }),
              Contains("i=\"1.5\"") && Contains("expected an integer"));
-  CHECK_THAT(xml_error([&] { b.number<double>("f"); }), Contains("expected a number"));
-  CHECK_THAT(xml_error([&] { b.flag("flag"); }), Contains("expected true or false"));
-  CHECK_THAT(xml_error([&] { b.number_list<int>("list"); }), Contains("list=\"two\""));
+  CHECK_THAT(error_of([&] { b.number<double>("f"); }), Contains("expected a number"));
+  CHECK_THAT(error_of([&] { b.flag("flag"); }), Contains("expected true or false"));
+  CHECK_THAT(error_of([&] { b.number_list<int>("list"); }), Contains("list=\"two\""));
 }
 
 TEST_CASE("an attribute is known by its namespace, not by its prefix") {

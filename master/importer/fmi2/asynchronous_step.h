@@ -1,6 +1,6 @@
 // The end of a step that a unit makes in a thread of its own.
-#ifndef STRIDE_MASTER_IMPORTER_ASYNCHRONOUS_STEP_H
-#define STRIDE_MASTER_IMPORTER_ASYNCHRONOUS_STEP_H
+#ifndef STRIDE_MASTER_IMPORTER_FMI2_ASYNCHRONOUS_STEP_H
+#define STRIDE_MASTER_IMPORTER_FMI2_ASYNCHRONOUS_STEP_H
 
 #include <chrono>
 #include <condition_variable>

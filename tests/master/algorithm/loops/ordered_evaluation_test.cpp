@@ -1,4 +1,4 @@
-#include "master/algorithm/loops/initial_values.h"
+#include "master/algorithm/loops/ordered_evaluation.h"
 
 #include <cmath>
 #include <random>

@@ -1,4 +1,4 @@
-#include "master/importer/asynchronous_step.h"
+#include "master/importer/fmi2/asynchronous_step.h"
 
 namespace stride::importer {
 

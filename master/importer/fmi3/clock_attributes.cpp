@@ -1,4 +1,4 @@
-#include "master/importer/clock_attributes.h"
+#include "master/importer/fmi3/clock_attributes.h"
 
 #include <cstdint>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-#include "master/algorithm/activities.h"
+#include "master/algorithm/observer.h"
 
 #include <catch2/catch.hpp>
 
