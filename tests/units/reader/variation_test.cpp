@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <complex>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -22,18 +23,31 @@ Variation trembling(std::uint64_t seed, std::vector<double> amplitudes = {0.002,
   return variation;
 }
 
-/// The mean square over 200 s of what a Hann window lets through at a frequency.
-double power(const Tremor& tremor, double frequency) {
-  constexpr double kLength = 200.0;
-  constexpr int kPoints = 10000;
-  std::complex<double> sum = 0;
-  for (int i = 0; i < kPoints; ++i) {
-    const double t = kLength * i / kPoints;
-    const double window = 1 - std::cos(2 * M_PI * i / kPoints);
-    sum += window * tremor.at(0, at(t)) * std::polar(1.0, -2 * M_PI * frequency * t);
+/// What a Hann window lets through of 200 s of a tremor's first axis.
+class Spectrum {
+ public:
+  explicit Spectrum(const Tremor& tremor) : windowed_(kPoints) {
+    for (int i = 0; i < kPoints; ++i) {
+      const double window = 1 - std::cos(2 * M_PI * i / kPoints);
+      windowed_[static_cast<std::size_t>(i)] = window * tremor.at(0, at(kLength * i / kPoints));
+    }
   }
-  return std::norm(sum / static_cast<double>(kPoints));
-}
+  /// Its mean square at a frequency.
+  double power(double frequency) const {
+    const std::complex<double> turn = std::polar(1.0, -2 * M_PI * frequency * kLength / kPoints);
+    std::complex<double> sum = 0, phase = 1;
+    for (const double value : windowed_) {
+      sum += value * phase;
+      phase *= turn;
+    }
+    return std::norm(sum / static_cast<double>(kPoints));
+  }
+
+ private:
+  static constexpr double kLength = 200.0;
+  static constexpr int kPoints = 10000;
+  std::vector<double> windowed_;
+};
 
 }  // namespace
 
@@ -77,19 +91,16 @@ TEST_CASE("Its mean is zero and its power that of a sine of its amplitude") {
 }
 
 TEST_CASE("Its spectrum lies between the lowest and the highest frequency, in all parts of it") {
-  const Tremor tremor(trembling(9));
+  const Spectrum spectrum{Tremor(trembling(9))};
   const double whole = 0.002 * 0.002 / 2;
-  double inside = 0;
-  for (double f = 3.9; f < 12.1; f += 0.005) inside += power(tremor, f);
-  CHECK(inside > 0);
   for (const double f : {0.5, 1.0, 2.0, 3.0, 3.9, 12.1, 13.0, 16.0, 20.0}) {
     INFO(f << " Hz");
-    CHECK(power(tremor, f) < 1e-9 * whole);
+    CHECK(spectrum.power(f) < 1e-9 * whole);
   }
   for (double part = 4; part < 12; part += 0.5) {  // one sine in each sixteenth of the band
     double strongest = 0;
     for (double f = part; f < part + 0.5; f += 0.002)
-      strongest = std::max(strongest, power(tremor, f));
+      strongest = std::max(strongest, spectrum.power(f));
     INFO(part << " Hz");
     CHECK(strongest > 0.01 * whole);
   }
