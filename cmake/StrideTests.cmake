@@ -30,7 +30,8 @@ function(stride_test_code target)
   target_compile_options(${target} PRIVATE ${stride_test_flags})
 endfunction()
 
-# The static libraries of this repository that these link, but for tests' own code.
+# The static libraries of this repository that these link, but for tests' own code and the kit, which is not whole
+# without a unit.
 function(stride_libraries_under_test result)
   set(found "")
   foreach(library IN LISTS ARGN)
@@ -45,7 +46,8 @@ function(stride_libraries_under_test result)
     get_target_property(type ${library} TYPE)
     get_target_property(is_imported ${library} IMPORTED)
     get_target_property(is_test_code ${library} STRIDE_UNSANITIZED)
-    if(type STREQUAL STATIC_LIBRARY AND NOT is_imported AND NOT is_test_code)
+    get_target_property(needs_a_unit ${library} STRIDE_NEEDS_A_UNIT)
+    if(type STREQUAL STATIC_LIBRARY AND NOT is_imported AND NOT is_test_code AND NOT needs_a_unit)
       list(APPEND found ${library})
     endif()
     get_target_property(links ${library} INTERFACE_LINK_LIBRARIES)

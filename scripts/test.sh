@@ -10,13 +10,16 @@ quick=no
 [ "${1:-}" = --quick ] && quick=yes
 install_packages "${packages_build[@]}" "${packages_test[@]}"
 
+# some tests wait for a network or for a time
+parallel=$(($(nproc) + 1))
+
 section() { printf '\n== %s\n' "$*"; }
 
 # build_and_test PRESET
 build_and_test() {
   cmake --preset "$1" --log-level=WARNING -DSTRIDE_WARNINGS_AS_ERRORS=ON -DSTRIDE_BUILD_TESTS=ON
   cmake --build --preset "$1"
-  ctest --preset "$1" --parallel 2
+  ctest --preset "$1" --parallel "$parallel"
 }
 
 section "Format"
@@ -39,5 +42,5 @@ if [ "$quick" = no ]; then
   cmake --preset release -B build/release-mujoco3 --log-level=WARNING -DSTRIDE_WARNINGS_AS_ERRORS=ON \
     -DMuJoCo_ROOT="$PWD/build/mujoco3/mujoco"
   cmake --build build/release-mujoco3 --target mujoco_tests
-  ctest --test-dir build/release-mujoco3 --output-on-failure --label-regex mujoco
+  ctest --test-dir build/release-mujoco3 --output-on-failure --label-regex mujoco --parallel "$parallel"
 fi
