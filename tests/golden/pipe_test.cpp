@@ -13,7 +13,7 @@ using namespace stride::tests;
 
 namespace {
 
-constexpr const char* kPipeStop =
+constexpr const char* kStop =
     "15.2";  // two requests with wrong bits or none, an answer, a brown-out
 constexpr std::size_t kAnswers = 1;
 
@@ -21,7 +21,7 @@ Arguments options() {
   Arguments arguments = {"--set", "sensor.trace.file=sensor.vcd", "--set",
                          "sensor.trace.signals=recData DataUCToTrm Charge awake"};
   for (const std::string& word : without_judge("nfc_pipe")) arguments.push_back(word);
-  for (const char* word : {"--stop", kPipeStop, "--no-trace", "--no-idle-skip"})
+  for (const char* word : {"--stop", kStop, "--no-trace", "--no-idle-skip"})
     arguments.push_back(word);
   return arguments;
 }

@@ -21,7 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLeastRows = 11;
-constexpr const char* kStop = "";  // the scenario's
 
 /// All in scenarios/ that have golden results, so that nothing is to be fetched for them, and a
 /// sensor; with the names of these.
@@ -212,7 +211,6 @@ TEST_CASE("each sensor of each scenario gives the same results when it is replay
     Arguments arguments = without_judge(scenario);
     arguments.push_back("--no-trace");
     if (!skips) arguments.push_back("--no-idle-skip");
-    if (*kStop != '\0') arguments.insert(arguments.end(), {"--stop", kStop});
     for (const std::string& sensor : sensors) {
       arguments.insert(arguments.end(), {"--signals", sensor + ".*", "--capture",
                                          sensor + "=" + (folder / sensor).string()});

@@ -179,6 +179,25 @@ TEST_CASE("no parts of the algorithm include each other in a circle") {
   CHECK(circular({{"a", {"b"}}, {"b", {"c"}}, {"c", {"b", "d"}}, {"e", {"d"}}}) == "a b c ");
 }
 
+TEST_CASE("every header of the master is included by something other than its own source") {
+  const fs::path root = STRIDE_SOURCE_DIR;
+  std::map<std::string, std::set<std::string>> includers;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "master")) {
+    if (!is_source(entry.path())) continue;
+    const fs::path file = entry.path().lexically_relative(root);
+    if (file.extension() == ".h") includers[file.string()];
+    for (const std::string& header : includes(entry.path())) {
+      const bool own = fs::path(header).replace_extension() == fs::path(file).replace_extension();
+      if (begins_with(header, "master") && !own) includers[header].insert(file.string());
+    }
+  }
+  CHECK(includers.size() > 100);
+  for (const auto& [header, files] : includers) {
+    INFO(header);
+    CHECK_FALSE(files.empty());
+  }
+}
+
 TEST_CASE("a unit's model does not include FMI") {
   const std::set<std::string> kWithoutFmi = {"stride/time.h", "stride/tangent.h",
                                              "stride/value_type.h", "stride/value_text.h"};
