@@ -37,7 +37,7 @@ std::string stem(const std::filesystem::path& scenario);
 
 /// What a scenario is read with.
 struct ReadOptions {
-  ssp::UnitFinder find_unit{};                    ///< says where the FMUs are that hold parameters
+  ssp::UnitFinder find_unit{};                    ///< finds the FMUs that hold parameters
   std::vector<ssp::ParameterValue> parameters{};  ///< bound to the root system behind all others
 };
 

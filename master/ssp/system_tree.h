@@ -41,7 +41,7 @@ struct ConnectionEnd {
   std::string connector;
 };
 struct SystemConnection {
-  ConnectionEnd start, end;  ///< which does not say which way the value goes
+  ConnectionEnd start, end;  ///< which does not define which way the value goes
   core::PathSegment segment;
   core::Location where;
 };

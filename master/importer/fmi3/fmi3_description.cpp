@@ -188,7 +188,7 @@ VariableIndex read_variables(const xml::Element& root, std::vector<core::Variabl
   for (const xml::Element& element : list->children()) {
     if (element.is("", "Annotations")) continue;
     const auto type = find_named<ValueType>(element.name().local, core::kValueTypeCount);
-    if (!type) element.fail(fmt::format("{} is no type of FMI 3.0", element.tag()));
+    if (!type) element.fail(fmt::format("{} is not a type of FMI 3.0", element.tag()));
     variables.push_back(read_variable(element, *type, types));
     elements.push_back(element);
   }
