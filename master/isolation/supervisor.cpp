@@ -169,8 +169,8 @@ void supervise(Channel& channel, Descriptor control, pid_t master,
     serve(self);
     ::_exit(0);
   }
-  pid_t nobody = 0;
-  channel.memory->active.compare_exchange_strong(nobody, server);
+  pid_t none = 0;
+  channel.memory->active.compare_exchange_strong(none, server);
   output.write.close();
   if (server < 0) {
     channel.memory->end_code = errno;

@@ -311,10 +311,10 @@ class Composer {
                                    : range_of(*last.type)->holds(becomes);
     if (is_known) return;
     fail(fmt::format("cannot connect '{}' to '{}': the item '{}' of the one becomes {}, which is "
-                     "no {}",
+                     "not {}",
                      first.name, last.name, item, becomes,
-                     to_items ? fmt::format("item of the other: {}", item_text(last.items))
-                              : core::name(*last.type)),
+                     to_items ? fmt::format("an item of the other: {}", item_text(last.items))
+                              : fmt::format("a valid {}", core::name(*last.type))),
          to_items ? "define what it becomes, in an <ssc:EnumerationMappingTransformation>"
                   : "define what it becomes, in an <ssc:IntegerMappingTransformation>");
   }

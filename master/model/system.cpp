@@ -204,7 +204,7 @@ void System::note_missing(const StartDeclaration& wanted) {
   }
 }
 
-/// Of those that are there; of the others, what is not meant to be passed over is an error.
+/// Of those that are there; of the others, what must not be ignored is an error.
 std::vector<System::Target> System::find_targets(const SystemDeclaration& declaration,
                                                  Diagnostics& diagnostics) {
   std::vector<Target> targets;

@@ -76,7 +76,7 @@ std::chrono::milliseconds parse_call_limit(std::string_view text);
 /// Takes a whole number of MiB, and returns bytes. Throws likewise.
 std::uint64_t parse_memory_limit(std::string_view text);
 
-/// Whether and for how long components may be left alone.
+/// Whether and for how long components may be suspended.
 struct IdleRule {
   ComponentPattern components;
   bool enabled = true;

@@ -241,7 +241,7 @@ std::optional<std::size_t> read_output(const xml::Element& element, const char* 
   if (fits) return place;
   element.fail(fmt::format("{}=\"{}\" of {} is {}; expected a scalar {} output without a clock",
                            attribute, *name, element.tag(),
-                           place ? "another variable" : "no variable", core::name(type)));
+                           place ? "another variable" : "not a variable", core::name(type)));
 }
 
 /// What FMI has no word for, in the annotation that the unit kit writes.

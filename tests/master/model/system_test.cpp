@@ -220,7 +220,7 @@ TEST_CASE("declared connectors must agree with the unit") {
   CHECK_THAT(with({"u", {}, Causality::Output, "", {}}),
              Contains("the connector has output, the unit has input"));
   CHECK_THAT(with({"u", ValueType::Int32, {}, "", {}}),
-             Contains("says Int32, the unit says Float64"));
+             Contains("has Int32, the unit has Float64"));
   CHECK_THAT(with({"u", {}, {}, "s", {}}), Contains("the connector is in 's'"));
 }
 

@@ -72,7 +72,7 @@ TEST_CASE("integers of all sizes, up to their limits") {
   check_limits<std::uint64_t>();
   CHECK_THROWS_WITH(read<std::int8_t>("128"),
                     "'128' is not a valid Int8; expected a whole number within its range");
-  CHECK_THROWS_WITH(read<std::uint8_t>("-1"), Catch::Contains("no UInt8"));
+  CHECK_THROWS_WITH(read<std::uint8_t>("-1"), Catch::Contains("not a valid UInt8"));
 }
 
 TEST_CASE("truth and bytes") {

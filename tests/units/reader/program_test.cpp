@@ -131,7 +131,7 @@ TEST_CASE("Every error has the file and the line") {
     check([](Lines& l) { l.pose = R"(<poses><pose name="rest" a="0" b="1,5"/></poses>)"; },
           "3:", "b=\"1,5\" is not a number");
     check([](Lines& l) { l.pose = R"(<poses><pose name="rest" a="0" b="inf"/></poses>)"; },
-          "3:", "no number");
+          "3:", "not a number");
     check(
         [](Lines& l) {
           l.pose = R"(<poses><pose name="x" a="0" b="1"/><pose name="x" a="0" b="1"/></poses>)";

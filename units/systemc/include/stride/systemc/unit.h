@@ -39,7 +39,7 @@ namespace stride::systemc {
 /// asks for a communication point at that instant, and gets it if the master allows early return.
 ///
 /// Every device has the parameters `trace.file` and `trace.signals`; see trace.h. One that declares
-/// what idle means has its idle time skipped where the importer enables it, and can be left alone
+/// what idle means has its idle time skipped where the importer enables it, and can be suspended
 /// while its outputs keep their tangents; see <stride/idle.h> and idle.h.
 ///
 /// SystemC cannot save its state, so a device unit cannot be rolled back by itself; in a process of
