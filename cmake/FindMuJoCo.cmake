@@ -8,7 +8,7 @@
 
 find_path(MuJoCo_INCLUDE_DIR mujoco/mujoco.h)
 
-# the header says 222 for 2.2.2, but 3017000 for 3.17.0
+# the header contains 222 for 2.2.2, but 3017000 for 3.17.0
 set(MuJoCo_VERSION "")
 foreach(header IN ITEMS mujoco.h mjmodel.h)
   if(NOT EXISTS "${MuJoCo_INCLUDE_DIR}/mujoco/${header}")

@@ -2,7 +2,8 @@
 #
 # Headers that nearly every test includes are compiled once per language standard, for all tests. A test's sources
 # include what they use all the same: with STRIDE_PRECOMPILED_HEADERS=OFF nothing is compiled beforehand. Nor is it in a
-# unity build, which reads a header so few times that it gains nothing.
+# unity build, which reads a header so few times that it gains nothing. Units made for tests have headers of their own,
+# in each build (tests/test_units).
 set(stride_has_test_headers OFF)
 if(STRIDE_PRECOMPILED_HEADERS AND NOT CMAKE_UNITY_BUILD)
   set(stride_has_test_headers ON)

@@ -43,7 +43,7 @@ endfunction()
 function(stride_add_systemc_unit name)
   if(NOT TARGET stride::systemc)
     message(FATAL_ERROR "stride_add_systemc_unit(${name}): the SystemC kit is missing; outside of stride's own build "
-      "say find_package(stride REQUIRED COMPONENTS systemc)")
+      "use find_package(stride REQUIRED COMPONENTS systemc)")
   endif()
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "RESOURCES" "SOURCES;LIBRARIES;BUNDLE")
   set(resources "")

@@ -4,9 +4,9 @@
     docs/plot_skip_error.py [--program PROGRAM] > docs/images/skip_error.svg
 
 The sensor lies on a table without a field for 20 s; its capacitor leaks and feeds a voltage-dependent load, so its
-voltage is no straight line. Beside it a unit that is never idle makes a communication point each millisecond. Each run
+voltage is not a straight line. Beside it a unit that is never idle makes a communication point each millisecond. Each run
 with skipping is compared with one without, for two tolerances. The error must stay below the remainder of a tangent,
-max |V''| maxSkip^2 / 2, and below the tolerance, whichever is less; otherwise the program says so and ends with
+max |V''| maxSkip^2 / 2, and below the tolerance, whichever is less; otherwise the program reports it and ends with
 status 1. Needs nothing but Python.
 """
 

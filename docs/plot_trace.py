@@ -124,7 +124,7 @@ class Picture:
 
 
 def merged(intervals):
-    """The intervals in order, those joined that no eye can tell apart."""
+    """The intervals in order, joined where they are closer than a pixel."""
     joined = []
     for begin, end in intervals:
         if joined and begin - joined[-1][1] < 0.3:

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Formats all C and C++ sources with clang-format 14; with --check it only tells what is not formatted.
+# Formats all C and C++ sources with clang-format 14; with --check it only lists what is not formatted.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 mode=(-i)

@@ -2,8 +2,8 @@
 # Writes the golden results of the scenarios anew, which tests/golden compares each run with.
 #
 # When to use it: after a change that is meant to alter what a scenario shows (its program, its parameters, a unit's
-# model). Look at the difference with `git diff` first and say in the commit message why each number moved. A failing
-# test is no reason by itself: a refactoring must not change these files.
+# model). Look at the difference with `git diff` first and state in the commit message why each number moved. A failing
+# test is not a reason by itself: a refactoring must not change these files.
 #
 #   scripts/update_golden.sh [PROGRAM]     PROGRAM is build/release/bin/stride unless named
 set -euo pipefail

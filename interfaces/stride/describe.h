@@ -1,4 +1,4 @@
-/* What the values of Binary variables say, in words, for people: an optional function beside the
+/* The content of Binary variables' values as human-readable text: an optional function beside the
  * FMI 3.0 table. A library that exports it gives the text of its messages; to an importer that does
  * not know it, the unit is a plain FMU.
  *
@@ -16,11 +16,11 @@ extern "C" {
 #endif
 
 /* In any state of the instance. Writes into `text`, which has room for `capacity` bytes, what
- * `value`, `size` bytes long, says as a value of this Binary variable, and into *textSize how many
+ * `value`, `size` bytes long, means as a value of this Binary variable, and into *textSize how many
  * bytes that are. The text is UTF-8 in one line, without control characters and without an end of
  * string; what does not fit is left out behind the last whole character that does.
  *
- * fmi3OK: it is there. fmi3Discard: the unit has nothing to say of this variable or this value,
+ * fmi3OK: it is there. fmi3Discard: the unit has no text for this variable or this value,
  * and *textSize is 0. Any other status is a misuse, such as a variable that is not Binary.
  *
  * The value is any that could have come, such as one with bit errors, or another unit's: all bytes

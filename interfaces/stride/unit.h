@@ -92,14 +92,14 @@ class Unit {
   virtual void terminate() {}
 
   /// Until when the unit promises to be idle, as <stride/idle.h> has it, for the inputs that are in
-  /// its members; an instant that is not after `now` is no promise, Time::max() one without an end.
-  /// Called where a step or Event Mode has ended, and only where the importer has enabled skipping;
-  /// it changes nothing. The kit cuts the promise off at max_skip(), at the event that the unit has
-  /// announced, and at its maximum_step. Needs UnitInfo::promises_idle.
+  /// its members; an instant that is not after `now` is not a promise, Time::max() one without an
+  /// end. Called where a step or Event Mode has ended, and only where the importer has enabled
+  /// skipping; it changes nothing. The kit cuts the promise off at max_skip(), at the event that
+  /// the unit has announced, and at its maximum_step. Needs UnitInfo::promises_idle.
   virtual Time idle_until(Time now) const { return now; }
 
   /// A value of this Binary variable in words, as <stride/describe.h> has it: a line as
-  /// short as can be, in UTF-8; empty if there is nothing to say. Called with any bytes, also of a
+  /// short as can be, in UTF-8; empty if there is no text. Called with any bytes, also of a
   /// size that the unit never sends. Control characters become blanks; what is thrown is logged as
   /// a warning, and the run goes on without the text.
   virtual std::string describe_message(const Variable& /*variable*/,
@@ -130,7 +130,7 @@ class Unit {
   VariableBuilder input(std::string name, T& member) {
     return add(std::move(name), Causality::Input, Initial::Exact, member);
   }
-  /// Its initial value is computed by initialize(), unless exact() is said.
+  /// Its initial value is computed by initialize(), unless exact() is called.
   template <class T>
   VariableBuilder output(std::string name, T& member) {
     return add(std::move(name), Causality::Output, Initial::Calculated, member);
@@ -142,7 +142,7 @@ class Unit {
     return add_row(std::move(name), Causality::Output, Initial::Calculated, detail::type_of<T>(),
                    elements, size, {size});
   }
-  /// Fixed, unless tunable() is said.
+  /// Fixed, unless tunable() is called.
   template <class T>
   VariableBuilder parameter(std::string name, T& member) {
     return add(std::move(name), Causality::Parameter, Initial::Exact, member);
@@ -152,9 +152,9 @@ class Unit {
     return add(std::move(name), Causality::Local, Initial::Calculated, member);
   }
 
-  /// Says that the variables and the members listed here are the whole state, so that the unit can
-  /// be saved, rolled back and serialised. May be called several times; state() alone says that the
-  /// variables are all.
+  /// Declares that the variables and the members listed here are the whole state, so that the unit
+  /// can be saved, rolled back and serialised. May be called several times; state() alone declares
+  /// that the variables are all.
   template <class... Members>
   void state(Members&... members) {
     lists_state_ = true;

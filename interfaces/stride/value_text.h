@@ -72,14 +72,14 @@ namespace detail {
   // not within a character of UTF-8
   while (length < text.size() && length > 0 && (text[length] & 0xC0) == 0x80) --length;
   const std::string shown(text.substr(0, length));
-  throw std::invalid_argument("'" + shown + (length < text.size() ? "…" : "") + "' is no " + type +
-                              "; expected " + expected);
+  throw std::invalid_argument("'" + shown + (length < text.size() ? "…" : "") +
+                              "' is not a valid " + type + "; expected " + expected);
 }
 
 }  // namespace detail
 
-/// Reads a whole text. Throws std::invalid_argument that says what was expected of a value of the
-/// type, which is called `type`.
+/// Reads a whole text. Throws std::invalid_argument that contains what was expected of a value of
+/// the type, which is called `type`.
 template <class T>
 void parse_value(std::string_view text, T& value, const char* type = type_name<T>()) {
   if constexpr (std::is_same_v<T, std::string>) {

@@ -57,7 +57,7 @@ fmi3Status call(fmi3Instance handle, Function function, Body&& body) {
     report(instance.importer(), function, failure.what());
   } catch (...) {
     instance.fail();
-    report(instance.importer(), function, "the unit threw something that is no std::exception");
+    report(instance.importer(), function, "the unit threw something that is not a std::exception");
   }
   return fmi3Error;
 }

@@ -31,9 +31,9 @@ fmi3Status fmi3GetIntervalDecimal(fmi3Instance instance, const fmi3ValueReferenc
   return call(instance, Function::GetIntervalDecimal, [&](Instance& unit) {
     for (size_t i = 0; i < count; ++i) unit.check_has_interval(references[i]);
     for (size_t i = 0; i < count; ++i) {
-      const Instance::ClockInterval said = unit.clock_interval(references[i]);
-      intervals[i] = stride::to_seconds(said.interval);
-      qualifiers[i] = said.qualifier;
+      const Instance::ClockInterval given = unit.clock_interval(references[i]);
+      intervals[i] = stride::to_seconds(given.interval);
+      qualifiers[i] = given.qualifier;
     }
     return fmi3OK;
   });
@@ -45,10 +45,10 @@ fmi3Status fmi3GetIntervalFraction(fmi3Instance instance, const fmi3ValueReferen
   return call(instance, Function::GetIntervalFraction, [&](Instance& unit) {
     for (size_t i = 0; i < count; ++i) unit.check_has_interval(references[i]);
     for (size_t i = 0; i < count; ++i) {
-      const Instance::ClockInterval said = unit.clock_interval(references[i]);
-      counters[i] = counter_of(said.interval);
+      const Instance::ClockInterval given = unit.clock_interval(references[i]);
+      counters[i] = counter_of(given.interval);
       resolutions[i] = kResolution;
-      qualifiers[i] = said.qualifier;
+      qualifiers[i] = given.qualifier;
     }
     return fmi3OK;
   });

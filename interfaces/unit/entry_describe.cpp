@@ -11,9 +11,9 @@ fmi3Status strideDescribeMessage(fmi3Instance instance, fmi3ValueReference varia
                                  const fmi3Byte value[], size_t size, char text[], size_t capacity,
                                  size_t* text_size) {
   return call(instance, Function::DescribeMessage, [&](const Instance& unit) {
-    const std::string said = unit.describe_message(variable, value, size, capacity);
-    std::copy(said.begin(), said.end(), text);
-    *text_size = said.size();
-    return said.empty() ? fmi3Discard : fmi3OK;
+    const std::string line = unit.describe_message(variable, value, size, capacity);
+    std::copy(line.begin(), line.end(), text);
+    *text_size = line.size();
+    return line.empty() ? fmi3Discard : fmi3OK;
   });
 }

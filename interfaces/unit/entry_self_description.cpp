@@ -28,7 +28,7 @@ const char* self_description(const char* resources, const char** error, Describe
   } catch (const std::exception& failure) {
     *error = keep(failure.what());
   } catch (...) {
-    *error = "the unit's constructor threw something that is no std::exception";
+    *error = "the unit's constructor threw something that is not a std::exception";
   }
   return nullptr;
 }

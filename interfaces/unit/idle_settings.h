@@ -1,4 +1,4 @@
-// What an importer has said of a unit's idle skipping (<stride/idle.h>), kept where the unit reads
+// What an importer has set for a unit's idle skipping (<stride/idle.h>), kept where the unit reads
 // it.
 #ifndef STRIDE_INTERFACES_UNIT_IDLE_SETTINGS_H
 #define STRIDE_INTERFACES_UNIT_IDLE_SETTINGS_H

@@ -251,7 +251,7 @@ bool Instance::is_intermediate(fmi3ValueReference reference) const {
 }
 
 /// Gives the importer occasion to set its intermediate inputs (FMI 3.0, 4.2.2). It is always free
-/// to be called for an earlier instant, since no instant is said to be finished.
+/// to be called for an earlier instant, since no instant is known to be finished.
 void Instance::update_inputs(double seconds_into_step) {
   const double rounding = 1e-9 * step_size_;
   if (!(seconds_into_step >= -rounding && seconds_into_step <= step_size_ + rounding)) {
@@ -360,7 +360,7 @@ std::string Instance::describe_message(fmi3ValueReference reference, const fmi3B
     text = unit_->describe_message(row, size == 0 ? Binary() : Binary(value, value + size));
   } catch (const std::exception& failure) {
     importer_.message(fmi3Warning, LogWarnings,
-                      "what a value of '" + row.name + "' says is not known: " + failure.what());
+                      "a value of '" + row.name + "' cannot be described: " + failure.what());
   }
   std::replace_if(text.begin(), text.end(), is_control, ' ');
   return text.substr(0, whole_characters(text, capacity));
@@ -407,7 +407,7 @@ void Instance::set_idle_tolerances(const fmi3ValueReference outputs[], std::size
     slot(outputs[i], Type::Float64);
     const std::string& name = table_->row(outputs[i]).name;
     if (!idle_->has_tolerance(outputs[i])) {
-      throw Misuse("variable '" + name + "' is no output with a tolerance in the manifest");
+      throw Misuse("variable '" + name + "' is not an output with a tolerance in the manifest");
     }
     if (tolerances[i] > 0 && std::isfinite(tolerances[i])) continue;
     throw Misuse("the tolerance of '" + name + "' is " + to_text(tolerances[i]) +
@@ -467,7 +467,7 @@ void Instance::check_saved(const std::uint8_t* bytes, std::size_t size) const {
   } catch (const std::exception&) {
   }
   if (token != token_ || size_without_end + sizeof size_without_end != size) {
-    throw Misuse("these bytes are no saved state of this unit");
+    throw Misuse("these bytes are not a saved state of this unit");
   }
 }
 

@@ -24,13 +24,13 @@ struct Misuse : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// A time that the importer gives [s]; throws Misuse for what is no instant.
+/// A time that the importer gives [s]; throws Misuse for what is not an instant.
 Time checked_time(double seconds);
 /// A length of time that it gives, to the nearest picosecond; throws Misuse likewise.
 Duration duration_of_seconds(double seconds);
 Duration duration_of_fraction(std::uint64_t counter, std::uint64_t resolution);
 
-/// What the importer said when it made the instance.
+/// What the importer gave when it made the instance.
 struct Importer {
   std::string instance_name;
   std::filesystem::path resources;
@@ -106,7 +106,7 @@ class Instance final : private InputUpdater {
   void enable_idle_skipping(double max_skip);
   void set_idle_tolerances(const fmi3ValueReference outputs[], std::size_t count,
                            const double tolerances[], std::size_t size);
-  /// An instant that is not after the present one is no promise, Time::max() one without an end.
+  /// An instant that is not after the present one is not a promise, Time::max() one without an end.
   Time idle_until() const;
 
   /// A value of a Binary variable in words (<stride/describe.h>), in whole characters, `capacity`

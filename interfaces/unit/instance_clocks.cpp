@@ -66,7 +66,7 @@ Instance::ClockInterval Instance::clock_interval(fmi3ValueReference reference) {
   const fmi3IntervalQualifier qualifier = ClockAccess::report(clock);
   const bool may_be_unknown = row.interval_variability == IntervalVariability::Countdown;
   if (qualifier == fmi3IntervalNotYetKnown && !may_be_unknown) {
-    throw std::logic_error("the unit has not said the interval of its " +
+    throw std::logic_error("the unit has not set the interval of its " +
                            std::string(name(row.interval_variability)) + " clock '" + row.name +
                            "'");
   }

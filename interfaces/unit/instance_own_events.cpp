@@ -21,7 +21,7 @@ void Instance::begin_own_events() {
                    "input clocks never tick, and what belongs to them stays as it is");
   }
   if (handle_own_events()) {
-    throw std::runtime_error("the unit wants the simulation to end before its first step");
+    throw std::runtime_error("the unit requests the end of the simulation before its first step");
   }
 }
 
@@ -96,7 +96,7 @@ void Instance::note_discrete_change(const fmi3ValueReference references[], std::
   }
 }
 
-/// Says once what an importer without Event Mode misses. This is no debug logging, so it does not
+/// Logs once what an importer without Event Mode misses. This is not debug logging, so it does not
 /// depend on log categories.
 void Instance::warn_of_clocks(Causality causality, bool& warned, const std::string& consequence) {
   if (warned || importer_.log == nullptr) return;

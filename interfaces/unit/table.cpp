@@ -55,7 +55,7 @@ void check_name(const Variable& row) {
   if (row.name.empty()) throw std::logic_error("a variable has no name");
   if (is_structured_name(row.name)) return;
   reject(row,
-         "this is no structured name (FMI 3.0, 2.4.7.5.1); expected identifiers joined by "
+         "this is not a structured name (FMI 3.0, 2.4.7.5.1); expected identifiers joined by "
          "dots, such as \"arm.joint_1\", \"axes[2,1]\" or \"der(x)\", with anything else in single "
          "quotes, such as \"'left arm'.angle\"");
 }
@@ -91,7 +91,8 @@ void check_bounds(const Variable& row) {
     if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
       for (const auto& bound : {row.min, row.max}) {
         if (!bound || can_hold<T>(*bound)) continue;
-        reject(row, "the bound " + to_text(*bound) + " is no value of the type " + name(row.type));
+        reject(row,
+               "the bound " + to_text(*bound) + " is not a value of the type " + name(row.type));
       }
     } else {
       reject(row, std::string("the type ") + name(row.type) + " has no bounds");
@@ -221,7 +222,7 @@ void Table::check_verdict() const {
     if (row->is_verdict_text) take(*row, Type::String, text);
   }
   if (text != nullptr && verdict == nullptr) {
-    reject(*text, "there is no verdict to explain; say verdict() of a Boolean output, too");
+    reject(*text, "there is no verdict to explain; call verdict() of a Boolean output, too");
   }
 }
 

@@ -27,7 +27,7 @@ inline constexpr std::size_t kCapabilities = static_cast<std::size_t>(Capability
 
 /// The base of these interfaces. Each has its identifier as a constant kId. An implementation
 /// belongs to its unit and exists as long; it is used by the thread that uses the unit, and its
-/// functions throw core::Error that names the unit, unless its header says otherwise.
+/// functions throw core::Error that names the unit, unless its header states otherwise.
 class Capability {
  public:
   Capability() = default;

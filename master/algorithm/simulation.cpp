@@ -48,7 +48,7 @@ class Simulation::Run {
       return std::ranges::binary_search(context_.observed, id);
     };
     if (!std::ranges::all_of(signals, is_read)) {
-      throw std::logic_error("an observer wants a signal that is not read");
+      throw std::logic_error("an observer requested a signal that is not read");
     }
     context_.observers.push_back(&observer);
     wanted_.push_back(std::move(signals));

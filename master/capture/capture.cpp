@@ -38,7 +38,7 @@ Capture::Capture(const core::System& system, const std::string& system_name,
            fmt::format("with the coupling '{}' and the extrapolation '{}' inputs change within a "
                        "step, which cannot be captured",
                        core::name(options.coupling), core::name(options.extrapolation)),
-           "say --coupling jacobi --extrapolation hold");
+           "use --coupling jacobi --extrapolation hold");
   }
   for (std::size_t i = 0; i < requests.size(); ++i) {
     open(system, system_name, requests[i], requests.first(i));

@@ -87,7 +87,7 @@ void Condition::read_expected(const ConditionText& text) {
   tolerance_ = core::real(*tolerance, 0);
   if (*tolerance_ < 0) {
     throw std::invalid_argument(
-        fmt::format("tolerance: '{}' is no number of at least 0", *text.tolerance));
+        fmt::format("tolerance: '{}' is not a number of at least 0", *text.tolerance));
   }
   text_ += " ± " + value_text(*tolerance, 0);
 }
@@ -101,7 +101,7 @@ Condition::Bound Condition::parse(const char* attribute,
   } catch (const std::invalid_argument& mistake) {
     throw std::invalid_argument(fmt::format("{}: {}", attribute, mistake.what()));
   }
-  throw std::invalid_argument(fmt::format("{}: '{}' is no finite number", attribute, *text));
+  throw std::invalid_argument(fmt::format("{}: '{}' is not a finite number", attribute, *text));
 }
 
 void Condition::check_order(const char* low_name, const Bound& low, const char* high_name,

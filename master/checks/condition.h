@@ -28,16 +28,16 @@ struct ConditionText {
 /// A comparison of one element of a variable, in the variable's own type and unit of measure.
 class Condition {
  public:
-  /// Throws std::invalid_argument, whose text says what was expected, where nothing is compared or
-  /// no value could meet it, for bounds of what has no order (only numbers have), a tolerance of
-  /// what is no real number, and values that are not finite or not of the variable's type.
+  /// Throws std::invalid_argument, whose text contains what was expected, where nothing is compared
+  /// or no value could meet it, for bounds of what has no order (only numbers have), a tolerance of
+  /// what is not a real number, and values that are not finite or not of the variable's type.
   Condition(const core::Variable& variable, const ConditionText& text);
 
   /// Of the element of a block of the variable's type. Does not allocate.
   Truth holds(const core::ValueBlock& block, std::size_t element) const;
   /// ">= 1.8 V and <= 5 V", "= true"
   const std::string& text() const { return text_; }
-  /// A value for people: "1.79 V", "charging", "'on'".
+  /// A human-readable value: "1.79 V", "charging", "'on'".
   std::string value_text(const core::ValueBlock& block, std::size_t element) const;
 
  private:

@@ -57,7 +57,9 @@ void add_complete(CLI::App& app) {
                    "The scenario: an SSP system file (.ssd) or package (.ssp)")
       ->required()
       ->type_name("");
-  command->add_option("--output,-o", arguments->output, "Write there instead of into FILE itself")
+  command
+      ->add_option("--output,--out,-o", arguments->output,
+                   "Write there instead of into FILE itself")
       ->type_name("FILE");
   command->callback([arguments] { complete(*arguments); });
 }

@@ -55,7 +55,7 @@ std::string explain(const CLI::App* app, const CLI::Error& mistake) {
                        stride::core::suggestion(rest.front(), names));
   }
   if (command == app) return fmt::format("stride: error: {}\n\n{}", mistake.what(), app->help());
-  return fmt::format("stride: error: {}\n  hint: '{} --help' tells what it takes\n", mistake.what(),
+  return fmt::format("stride: error: {}\n  hint: '{} --help' lists its options\n", mistake.what(),
                      full_name(command));
 }
 
@@ -81,8 +81,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.failure_message(explain);
   app.footer(
-      "Exit codes: 0 good, 1 the run failed or a verdict on it is bad, 2 the input was wrong.\n"
-      "'stride COMMAND --help' tells more about a command.");
+      "Exit codes: 0 good, 1 the run failed, or a check or verdict failed, 2 the input was wrong.\n"
+      "'stride COMMAND --help' shows more about a command.");
   app.add_flag_callback(
       "--verbose", [] { spdlog::set_level(spdlog::level::info); },
       "Show everything that units log, not only warnings and errors");

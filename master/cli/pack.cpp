@@ -84,7 +84,7 @@ void add_pack(CLI::App& app) {
           "program (.xml), or a scenario (.ssd)")
       ->required()
       ->type_name("");
-  command->add_option("--output,-o", request->output, "The .fmu or .ssp to write")
+  command->add_option("--output,--out,-o", request->output, "The .fmu or .ssp to write")
       ->required()
       ->type_name("FILE");
   command

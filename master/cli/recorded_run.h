@@ -63,8 +63,8 @@ class RecordedRun {
               std::vector<std::unique_ptr<core::Unit>> units, capture::Capture& capture,
               TestReport& test_report);
 
-  /// Throws core::Error (Run) if the run fails or is interrupted, and if a verdict on it is bad.
-  /// Whatever happens, the results are complete up to the last communication point.
+  /// Throws core::Error (Run) if the run fails or is interrupted, and if a check or a verdict
+  /// failed. Whatever happens, the results are complete up to the last communication point.
   void run();
 
  private:

@@ -39,7 +39,7 @@ void add_report(CLI::App& app) {
   command->add_option("FOLDER", arguments->folder, "The results of a run")
       ->required()
       ->type_name("");
-  command->add_option("--output,-o", arguments->out, "Write there instead of into the folder")
+  command->add_option("--output,--out,-o", arguments->out, "Write there instead of into the folder")
       ->type_name("FILE");
   command->add_flag("--open", arguments->open, "Open the page in a browser");
   command->callback([arguments] { make_report(*arguments); });

@@ -99,7 +99,7 @@ void run(const RunArguments& arguments, TestReport& report) {
   RecordedRun(loaded, options, {folder, files}, display, std::move(units), capture, report).run();
 }
 
-/// Whatever ends the command, the test report says so.
+/// Whatever ends the command, the test report contains it.
 void run_and_report(const RunArguments& arguments) {
   TestReport report(arguments.junit, arguments.scenario.scenario);
   try {
@@ -117,7 +117,7 @@ void add_run(CLI::App& app) {
   const auto arguments = std::make_shared<RunArguments>();
   add_scenario_options(*command, arguments->scenario);
   command
-      ->add_option("--out,-o", arguments->out,
+      ->add_option("--out,--output,-o", arguments->out,
                    "Results folder; otherwise results/ and the scenario's name")
       ->type_name("FOLDER");
   command

@@ -60,7 +60,7 @@ void add_step_options(CLI::App& command, scenario::StepSettings& settings) {
       ->type_name("NUMBER");
   add_setting(
       command, "--coupling", settings, &StepSettings::set_coupling,
-      "Inputs of a unit during a step: the outputs at its begin, or, from units that have stepped "
+      "Inputs of a unit during a step: the outputs at its start, or, from units that have stepped "
       "before it, those at its end")
       ->type_name(alternatives(core::kCouplings));
   add_setting(command, "--extrapolation", settings, &StepSettings::set_extrapolation,

@@ -85,7 +85,7 @@ std::string Summary::text(const core::RunStatistics& statistics) const {
 std::string Summary::message_table() const {
   Table table({{"time [s]", Table::Align::Right},
                {"message"},
-               {"what it says", Table::Align::Left, true},
+               {"content", Table::Align::Left, true},
                {"received by"}});
   for (const Sent& sent : messages_) {
     std::string receivers;
@@ -93,7 +93,7 @@ std::string Summary::message_table() const {
       receivers += (receivers.empty() ? "" : ", ") + system_.components()[i].name;
     }
     table.add({core::to_text(sent.time), system_.full_name(sent.id), sent.text,
-               receivers.empty() ? "nobody" : receivers});
+               receivers.empty() ? "none" : receivers});
   }
   std::string text = table.text(output_width());
   if (message_count_ > messages_.size()) {

@@ -7,10 +7,10 @@
 
 namespace stride::cli {
 
-/// The width of the terminal of standard output, in characters; 120 if it is no terminal.
+/// The width of the terminal of standard output, in characters; 120 if it is not a terminal.
 std::size_t output_width();
 
-/// A text table for people: a header, a line under it, and rows; columns as wide as they need.
+/// A human-readable text table: a header, a line under it, and rows; columns as wide as they need.
 class Table {
  public:
   enum class Align { Left, Right };

@@ -15,15 +15,15 @@
 
 namespace stride::cli {
 
-/// The file exists from the beginning and says at first that the run has not ended, so a killed run
-/// is not taken for a good one.
+/// The file exists from the beginning, and states at first that the run has not ended, so a killed
+/// run is not taken for a good one.
 class TestReport {
  public:
   /// Throws core::Error if the file cannot be written. Without a file it does nothing, as do the
   /// functions below.
   TestReport(std::filesystem::path file, const std::filesystem::path& scenario);
 
-  /// The run is over; `error` says why if it has not come to its end.
+  /// The run is over; `error` is the reason if it has not come to its end.
   void write(const core::RunOptions& options, const core::RunStatistics& statistics,
              std::span<const core::Verdict> verdicts, const std::optional<std::string>& error);
   /// For a run that did not begin, or whose report was not written.

@@ -159,7 +159,7 @@ void add_verify(CLI::App& app) {
   command->add_option("--seed", request.seed, "Seed of the stimulus of the other numeric inputs")
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--lives", request.instances, "Instances that 'memory' makes and frees")
+  command->add_option("--instances", request.instances, "Instances that 'memory' makes and frees")
       ->type_name("N")
       ->check(CLI::Range(40U, 10'000'000U))
       ->capture_default_str();

@@ -16,7 +16,7 @@ const char* fmi2_platform();
 
 /// The path of the library of this name in an unpacked FMU of this version, "2.0" or "3.0". Throws
 /// core::Error of the kind Input that lists the platforms that there are, if it is not built for
-/// this one, and says how to come by such a library.
+/// this one, and states how to get such a library.
 std::filesystem::path find_library(const std::filesystem::path& fmu_folder,
                                    const std::string& fmi_version,
                                    const std::string& model_identifier,

@@ -1,4 +1,4 @@
-// What the descriptions of both versions of FMI say in the same words.
+// What the descriptions of both versions of FMI have in common.
 #ifndef STRIDE_MASTER_IMPORTER_COMMON_DESCRIPTION_H
 #define STRIDE_MASTER_IMPORTER_COMMON_DESCRIPTION_H
 

@@ -36,7 +36,7 @@ struct InstanceOptions {
   std::chrono::milliseconds warn_after = std::chrono::seconds(10);
   LogSink log{};
   core::Location where{};  ///< the component's position in the scenario, for errors
-  /// With the array sizes that its structural parameters give; nothing = as the FMU says.
+  /// With the array sizes that its structural parameters give; nothing = as in the FMU.
   std::shared_ptr<const core::UnitDescription> description{};
   /// Where each function is noted while it is called; null = nowhere. Must outlive the instance.
   CallNote* call_note = nullptr;
@@ -140,7 +140,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   void receive(Status status, const char* category, const char* message) noexcept;
   /// The failure messages of the call that has just ended, for one line of text.
   std::string take_messages(const std::string& function);
-  /// The same of a rejected step; empty if the unit said nothing.
+  /// The same of a rejected step; empty if the unit gave none.
   void take_rejection_reason(const char* function);
   /// Logs a warning of the importer itself.
   void warn(const std::string& message) const;

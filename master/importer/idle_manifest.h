@@ -1,4 +1,4 @@
-// Reads the manifest of org.stride.idle, by which a unit says that it can promise to be idle
+// Reads the manifest of org.stride.idle, by which a unit declares that it can promise to be idle
 // (<stride/idle.h>, docs/idle.md).
 #ifndef STRIDE_MASTER_IMPORTER_IDLE_MANIFEST_H
 #define STRIDE_MASTER_IMPORTER_IDLE_MANIFEST_H

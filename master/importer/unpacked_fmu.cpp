@@ -13,7 +13,7 @@ std::string missing_description_hint(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     if (!fs::exists(entry.path() / "modelDescription.xml")) continue;
     return fmt::format(
-        "it stands in the folder '{0}' there; the contents of '{0}' belong at the "
+        "it is in the folder '{0}' there; the contents of '{0}' belong at the "
         "top",
         entry.path().filename().string());
   }

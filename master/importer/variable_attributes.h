@@ -1,4 +1,4 @@
-// What the descriptions of both versions of FMI say of a variable in the same words.
+// What the descriptions of a variable in both versions of FMI have in common.
 #ifndef STRIDE_MASTER_IMPORTER_VARIABLE_ATTRIBUTES_H
 #define STRIDE_MASTER_IMPORTER_VARIABLE_ATTRIBUTES_H
 
@@ -35,7 +35,7 @@ class VariableNames {
   std::map<std::string, int> lines_;
 };
 
-/// The types that are declared by name, each by the element that says what it is.
+/// The types that are declared by name, each by the element that defines it.
 class TypeDefinitions {
  public:
   /// Throws core::Error of the kind Input at the definition whose name is there already.
@@ -49,20 +49,20 @@ class TypeDefinitions {
 
 // Each throws core::Error of the kind Input where the attribute has another value than it may.
 
-/// Local if it is not said.
+/// Local if it is absent.
 core::Causality read_causality(const xml::Element& variable);
-/// If it is not said, fixed for parameters, else continuous for floating-point numbers, else
+/// If it is absent, fixed for parameters, else continuous for floating-point numbers, else
 /// discrete (FMI 3.0, 2.4.7.4).
 core::Variability read_variability(const xml::Element& variable, core::ValueType type,
                                    core::Causality causality);
-/// From its causality and variability, if it is not said (FMI 3.0, 2.4.7.5; FMI 2.0, 2.2.7). Inputs
+/// From its causality and variability, if it is absent (FMI 3.0, 2.4.7.5; FMI 2.0, 2.2.7). Inputs
 /// are exact.
 core::Initial read_initial(const xml::Element& element, const core::Variable& variable);
 
 /// An attribute of the variable, or else of its declared type.
 std::string inherited(const xml::Element& element, const std::optional<xml::Element>& type,
                       const char* attribute);
-/// Likewise the magnitude of a floating-point number; 0 if it is not said.
+/// Likewise the magnitude of a floating-point number; 0 if it is absent.
 double read_nominal(const xml::Element& element, core::ValueType type,
                     const std::optional<xml::Element>& declared);
 /// The items of an enumeration's type.

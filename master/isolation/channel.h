@@ -1,4 +1,5 @@
-// What a unit's process and the master have in common: requests, replies, and what is said besides.
+// What a unit's process and the master have in common: requests, replies, and logged and printed
+// lines.
 #ifndef STRIDE_MASTER_ISOLATION_CHANNEL_H
 #define STRIDE_MASTER_ISOLATION_CHANNEL_H
 
@@ -73,7 +74,7 @@ struct alignas(64) Turn {
 
 /// In shared memory. The messages themselves are in a GrowingMemory beside it, where each replaces
 /// the one before. Replies have the number of their request, so neither
-/// side keeps a state, and any process that is in charge of the unit may go on with it.
+/// side keeps a state, and any process that becomes the active one may continue with it.
 ///
 /// The unit's process may write anything here: sizes are checked, and what is no such value is an
 /// error.
@@ -82,7 +83,7 @@ struct ChannelMemory {
   Turn reply;    ///< the master waits for it, for the end, and for logged lines that do not fit
   std::atomic<std::uint64_t> calls = 0;  ///< of functions of the unit
 
-  /// The process in charge of the unit. The end of any other does not matter.
+  /// The active process of the unit. The end of any other does not matter.
   std::atomic<pid_t> active = 0;
   std::atomic<HostEnd> end = HostEnd::None;  ///< of that one; written by the supervisor
   std::atomic<int> end_code = 0;  ///< the error of the start, the exit code, or the signal

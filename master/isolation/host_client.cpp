@@ -107,7 +107,7 @@ void HostClient::finish() {
   take_last_line();
 }
 
-// ---- What is said besides ----
+// ---- Logged and printed lines ----
 
 void HostClient::take_lines() {
   log_.read([&](LogMessage&& message) {

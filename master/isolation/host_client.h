@@ -26,16 +26,16 @@ class HostClient {
 
   /// A message to be written and sent; it replaces the message before.
   MessageWriter write() { return MessageWriter(channel_.messages); }
-  /// Sends a request and waits for what is said to it. Throws core::Error of the kind Run, at
+  /// Sends a request and waits for the reply. Throws core::Error of the kind Run, at
   /// `time`, if the process ends before, or is ended because its time is over.
   ReplyCode send(RequestCode request, const MessageWriter& message, std::optional<Time> time);
-  /// What was said, until the next message is written.
+  /// The reply, until the next message is written.
   MessageReader read();
 
   /// Logs something about the unit.
   void log(importer::Status status, const std::string& category,
            const std::string& text) const noexcept;
-  /// Ends the process, and lets the log have what it still has to say.
+  /// Ends the process, and logs its remaining messages.
   void finish();
 
   /// The process has ended, or sends what cannot be read: nothing can be sent any longer.

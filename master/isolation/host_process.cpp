@@ -109,7 +109,8 @@ void HostProcess::send(Command command) const {
 }
 
 std::string HostProcess::how_it_ended() const {
-  if (is_supervisor_lost_) return "its process was killed, since something has ended its keeper";
+  if (is_supervisor_lost_)
+    return "its process was killed, since something has ended its supervisor";
   const int code = channel_.end_code;
   switch (channel_.end.load()) {
     case HostEnd::NotStarted:

@@ -25,7 +25,7 @@ class HostProcess {
   HostProcess(const HostProcess&) = delete;
   HostProcess& operator=(const HostProcess&) = delete;
 
-  /// Whether no process is in charge of the unit any longer. Cheap.
+  /// Whether the unit has no active process any longer. Cheap.
   bool has_ended() const { return channel_.end.load(std::memory_order_acquire) != HostEnd::None; }
   /// Likewise; also looks whether the supervisor runs, and ends the unit's process if it does not.
   bool look_for_end();

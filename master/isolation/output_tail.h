@@ -17,7 +17,7 @@ class OutputTail {
   void add_logged(std::string_view line) { add("logged", line); }
   void add_printed(std::string_view line) { add("printed", line); }
 
-  /// "\n  it logged: LINE\n  it printed: LINE", in the order in which they were said.
+  /// "\n  it logged: LINE\n  it printed: LINE", in the order in which they came.
   std::string text() const;
 
  private:

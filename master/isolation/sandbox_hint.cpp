@@ -12,15 +12,15 @@ namespace {
 constexpr std::array<std::string_view, 6> kDenied{
     "ermission denied", "not permitted", "EACCES", "EPERM", "rrno 13", "rrno 1]"};
 
-bool looks_denied(std::string_view said) {
+bool looks_denied(std::string_view text) {
   return std::ranges::any_of(
-      kDenied, [&](std::string_view words) { return said.find(words) != std::string_view::npos; });
+      kDenied, [&](std::string_view words) { return text.find(words) != std::string_view::npos; });
 }
 
 }  // namespace
 
-std::string sandbox_hint(std::string_view said, const std::string& unit, const HostOptions& host) {
-  if (!host.is_sandboxed || !looks_denied(said)) return {};
+std::string sandbox_hint(std::string_view text, const std::string& unit, const HostOptions& host) {
+  if (!host.is_sandboxed || !looks_denied(text)) return {};
   std::string folders;
   for (const std::filesystem::path& folder : host.writable) folders += folder.string() + ", ";
   return fmt::format(

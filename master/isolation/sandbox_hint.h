@@ -9,8 +9,8 @@
 namespace stride::isolation {
 
 /// How to find out whether a unit has failed because it is in a sandbox; empty if it is in none, or
-/// if what was said of the failure does not look like it.
-std::string sandbox_hint(std::string_view said, const std::string& unit, const HostOptions& host);
+/// if the text of the failure does not look like it.
+std::string sandbox_hint(std::string_view text, const std::string& unit, const HostOptions& host);
 
 }  // namespace stride::isolation
 

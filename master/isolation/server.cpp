@@ -119,7 +119,7 @@ void Server::serve() {
     fail(core::Error(core::Error::Kind::Run, context(), origin() + error.what()));
   } catch (...) {
     fail(core::Error(core::Error::Kind::Run, context(),
-                     origin() + "something was thrown that is no std::exception"));
+                     origin() + "something was thrown that is not a std::exception"));
   }
   reply(what, out);
 }
@@ -185,10 +185,10 @@ void Server::handle(RequestCode request, MessageReader& in, MessageWriter& out) 
     case RequestCode::EnterStepMode:
       return unit_->enter_step_mode();
     case RequestCode::GetClockInterval: {
-      const core::ClockInterval said = capability<core::ClockIntervals>().clock_interval(
+      const core::ClockInterval given = capability<core::ClockIntervals>().clock_interval(
           variable(in.take<core::ValueReference>()));
-      out.put(said.state);
-      return out.put(said.interval);
+      out.put(given.state);
+      return out.put(given.interval);
     }
     case RequestCode::GetClockShift:
       return out.put(capability<core::ClockIntervals>().clock_shift(

@@ -18,7 +18,7 @@ inline void raise_to(std::atomic<std::uint64_t>& most, std::uint64_t value) {
 }
 
 /// The snapshots of a unit's process, and their orders. In shared memory, since
-/// the process in charge of the unit needs it, however far it was taken back.
+/// the active process of the unit needs it, however far it was taken back.
 struct SnapshotBoard {
   static constexpr std::size_t kSlots = 16;
   /// One that was ordered to end keeps its entry until the supervisor has seen its end.
@@ -27,7 +27,7 @@ struct SnapshotBoard {
   enum class State : std::uint32_t {
     Free,
     Frozen,
-    TakesOver,  ///< it was ordered to replace the process in charge
+    TakesOver,  ///< it was ordered to become the active process
     Ends,       ///< it was ordered to end
     Lost,       ///< it has ended untold
   };
@@ -50,7 +50,7 @@ struct SnapshotBoard {
     for (auto& entry : entry_of) entry = 0;
   }
 
-  /// For the supervisor: a process that is not in charge has ended.
+  /// For the supervisor: a process other than the active one has ended.
   void note_end(pid_t process);
 };
 

@@ -101,7 +101,7 @@ bool Snapshots::freeze(Entry& entry) {
     try {
       process = fork_sibling();
     } catch (const std::system_error& failure) {
-      entry.state = State::Lost;  // it is in charge itself now
+      entry.state = State::Lost;  // it is the active process itself now
       fail(fmt::format("its process cannot be restored: {}", failure.what()));
     }
     if (process == 0) return take_over();
@@ -142,9 +142,8 @@ void Snapshots::check(std::size_t slot) const {
 /// What a fork would leave behind.
 void Snapshots::refuse_company() const {
   const std::string hint =
-      "use a unit that can save its state (canGetAndSetFMUState), or see that it need not be "
-      "rolled "
-      "back: `stride check` says why it is";
+      "use a unit that can save its state (canGetAndSetFMUState), or avoid the need for "
+      "rollback; `stride check` prints the reason";
   if (const std::size_t threads = thread_count(); threads > 1) {
     fail(fmt::format("the unit runs {} threads, and a snapshot of its process holds one only",
                      threads),

@@ -34,14 +34,15 @@ struct SnapshotOptions {
 /// set back to the positions and lengths that they had.
 class Snapshots {
  public:
-  /// `active` names the process in charge of the unit, `supervisor` its parent.
+  /// `active` names the active process of the unit, `supervisor` its parent.
   Snapshots(SnapshotBoard& board, std::atomic<pid_t>& active, pid_t supervisor,
             SnapshotOptions options);
 
   /// Keeps the process in the slot, instead of what was kept there. Returns false; and once more
   /// true, in another process, for each restore of what was kept. The content of this process's
   /// stack and heap is then as it was; what it shares with others is not. Throws core::Error (Run)
-  /// at `time` if there can be no snapshot, or no other process in charge when one is restored.
+  /// at `time` if there can be no snapshot, or no other process can become active when one is
+  /// restored.
   bool save(std::size_t slot, std::optional<Time> time = std::nullopt);
 
   /// Ends this process, and goes on where what the slot holds was saved. Throws core::Error (Run)

@@ -152,7 +152,7 @@ void supervise(Channel& channel, Descriptor control, pid_t master,
                const std::function<void(pid_t)>& serve) noexcept {
   ::setpgid(0, 0);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
-  ::prctl(PR_SET_NAME, "stride-keeper");
+  ::prctl(PR_SET_NAME, "unit-supervisor");
   forget_signal_handlers();
   const Descriptor nowhere(::open("/dev/null", O_RDWR | O_CLOEXEC));
   redirect_standard_files(nowhere.number());
@@ -169,8 +169,8 @@ void supervise(Channel& channel, Descriptor control, pid_t master,
     serve(self);
     ::_exit(0);
   }
-  pid_t nobody = 0;
-  channel.memory->active.compare_exchange_strong(nobody, server);
+  pid_t none = 0;
+  channel.memory->active.compare_exchange_strong(none, server);
   output.write.close();
   if (server < 0) {
     channel.memory->end_code = errno;

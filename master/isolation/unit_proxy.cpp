@@ -261,14 +261,14 @@ void UnitProxy::reset() {
 // ---- Clocks ----
 
 core::ClockInterval UnitProxy::clock_interval(const core::Variable& clock) {
-  core::ClockInterval said;
+  core::ClockInterval given;
   call(
       RequestCode::GetClockInterval, [&](MessageWriter& to) { to.put(clock.reference); },
       [&](MessageReader& from) {
-        said.state = from.take<core::ClockInterval::State>();
-        said.interval = from.take<core::Interval>();
+        given.state = from.take<core::ClockInterval::State>();
+        given.interval = from.take<core::Interval>();
       });
-  return said;
+  return given;
 }
 
 core::Interval UnitProxy::clock_shift(const core::Variable& clock) {

@@ -170,7 +170,7 @@ class Composer {
                  ? fmt::format("not every {} is a {}", core::name(*from.type), core::name(*to.type))
                  : "one is not converted into the other"),
          is_integer(*from.type) && is_integer(*to.type)
-             ? "an <ssc:IntegerMappingTransformation> whose targets all fit says which become "
+             ? "an <ssc:IntegerMappingTransformation> whose targets all fit defines which become "
                "which; otherwise put a unit between them that converts the value"
              : "put a unit between them that converts the value, or use one with another type");
   }
@@ -223,7 +223,7 @@ class Composer {
     fail(fmt::format("cannot connect {}: '{}' is in '{}', '{}' in '{}', and one cannot be "
                      "converted into the other",
                      wire(segment), from.name, from.unit.name, to.name, to.unit.name),
-         "correct the wiring, or say suppressUnitConversion=\"true\" if the numbers fit");
+         "correct the wiring, or set suppressUnitConversion=\"true\" if the numbers fit");
   }
 
   std::int64_t item(const Transformation& transformation, std::size_t place,
@@ -251,7 +251,7 @@ class Composer {
     for (const auto& [source, target] : map) {
       if (range && !range->holds(target)) {
         fail(transformation,
-             fmt::format("the target {} of the mapping is no {}, which '{}' is", target,
+             fmt::format("the target {} of the mapping is not a valid {}, which '{}' is", target,
                          core::name(*to.type), to.name),
              "choose a number that it can have");
       }
@@ -267,8 +267,8 @@ class Composer {
                                         [&](const auto& item) { return item.second == target; });
     if (is_known) return;
     fail(transformation,
-         fmt::format("the target {} of the mapping is no item of the Enumeration of '{}'", target,
-                     to.name),
+         fmt::format("the target {} of the mapping is not an item of the Enumeration of '{}'",
+                     target, to.name),
          fmt::format("its items are {}", item_text(to.items)));
   }
 
@@ -311,12 +311,12 @@ class Composer {
                                    : range_of(*last.type)->holds(becomes);
     if (is_known) return;
     fail(fmt::format("cannot connect '{}' to '{}': the item '{}' of the one becomes {}, which is "
-                     "no {}",
+                     "not {}",
                      first.name, last.name, item, becomes,
-                     to_items ? fmt::format("item of the other: {}", item_text(last.items))
-                              : core::name(*last.type)),
-         to_items ? "say what it becomes, in an <ssc:EnumerationMappingTransformation>"
-                  : "say what it becomes, in an <ssc:IntegerMappingTransformation>");
+                     to_items ? fmt::format("an item of the other: {}", item_text(last.items))
+                              : fmt::format("a valid {}", core::name(*last.type))),
+         to_items ? "define what it becomes, in an <ssc:EnumerationMappingTransformation>"
+                  : "define what it becomes, in an <ssc:IntegerMappingTransformation>");
   }
 
   std::string word(std::size_t segment, const std::string& word) const {

@@ -160,10 +160,10 @@ struct UnitDescription {
   unsigned max_output_derivative_order = 0;
   /// It can promise to be idle (org.stride.idle, see <stride/idle.h>).
   bool promises_idle = false;
-  /// Whether the unit may reject a step (fmi3Discard); true unless it says otherwise.
+  /// Whether the unit may reject a step (fmi3Discard); true unless it declares otherwise.
   bool may_reject = true;
   /// Steps of any sizes between two instants lead to the same values, but for rounding, while the
-  /// inputs are held; false unless the unit says so.
+  /// inputs are held; false unless the unit declares it.
   bool split_invariant = false;
   /// The index of the Boolean output that is the unit's verdict on a run, if it gives one, and of
   /// the String output that explains it.

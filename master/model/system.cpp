@@ -128,11 +128,11 @@ void System::check_connector(const SystemDeclaration& declaration,
   const Variable& variable = component.description->variables[*found];
   if (connector.causality && *connector.causality != variable.causality) {
     fail_input(context,
-               fmt::format("the connector says {}, the unit says {}",
+               fmt::format("the connector has {}, the unit has {}",
                            core::name(*connector.causality), core::name(variable.causality)));
   }
   if (connector.type && *connector.type != variable.type) {
-    fail_input(context, fmt::format("the connector says {}, the unit says {}",
+    fail_input(context, fmt::format("the connector has {}, the unit has {}",
                                     core::name(*connector.type), core::name(variable.type)));
   }
   if (connector.unit.name.empty()) return;
@@ -166,7 +166,7 @@ std::size_t System::find_component(const std::string& name, const Location& wher
   fail_input({where}, fmt::format("there is no component '{}'", name), suggestion(name, names));
 }
 
-/// If it is not there, the declaration says what is expected, in the error.
+/// If it is not there, the error contains what the declaration expects.
 VariableId System::find_variable(const std::string& component, const std::string& variable,
                                  const Location& where, const SystemDeclaration* expecting) const {
   const std::size_t index = find_component(component, where);
@@ -200,12 +200,11 @@ void System::note_missing(const StartDeclaration& wanted) {
     find_variable(wanted.component, wanted.variable, wanted.where);
   } catch (const Error& mistake) {
     if (!wanted.is_optional) throw;
-    warnings_.push_back(
-        fmt::format("{}\n  the value is passed over, as SSP wants it", mistake.what()));
+    warnings_.push_back(fmt::format("{}\n  the value is ignored, as SSP requires", mistake.what()));
   }
 }
 
-/// Of those that are there; of the others, what is not meant to be passed over is an error.
+/// Of those that are there; of the others, what must not be ignored is an error.
 std::vector<System::Target> System::find_targets(const SystemDeclaration& declaration,
                                                  Diagnostics& diagnostics) {
   std::vector<Target> targets;

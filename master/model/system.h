@@ -62,7 +62,7 @@ struct StartDeclaration {
   bool suppress_unit_conversion = false;
   Transformation transformation{};
   std::vector<ViaDeclaration> via{};
-  /// Whether it is passed over, with a warning, if there is no such variable.
+  /// Whether it is ignored, with a warning, if there is no such variable.
   bool is_optional = false;
   /// Start values with the same non-zero group come from one declaration; at least one of them must
   /// have a target.

@@ -106,10 +106,11 @@ void System::check_clocked(const ConnectionDeclaration& wanted, VariableId from,
   const std::string wire = fmt::format("'{}' to '{}'", full_name(from), full_name(to));
   const Context context{wanted.where, {}, {}, {}};
   if (variable(to).is_time_based_clock()) {
-    fail_input(context,
-               fmt::format("cannot connect {}: '{}' is a {} clock, which ticks by the time alone",
-                           wire, full_name(to), core::name(variable(to).clock->variability)),
-               "remove the connection; the master ticks such a clock when its unit says");
+    fail_input(
+        context,
+        fmt::format("cannot connect {}: '{}' is a {} clock, which ticks by the time alone", wire,
+                    full_name(to), core::name(variable(to).clock->variability)),
+        "remove the connection; the master ticks such a clock at the times that its unit gives");
   }
   if (is_message(from) == is_message(to)) return;
   const VariableId message = is_message(from) ? from : to;
@@ -138,7 +139,7 @@ void System::check_ends(const ConnectionDeclaration& wanted, VariableId from, Va
   const Context context{wanted.where, {}, {}, {}};
   if (!is_source(source)) {
     fail_input(context,
-               fmt::format("cannot connect {}: '{}' is no output but {}", wire, full_name(from),
+               fmt::format("cannot connect {}: '{}' is not an output but {}", wire, full_name(from),
                            core::name(source.causality)),
                "a connection starts at an output and ends at an input");
   }
@@ -146,7 +147,7 @@ void System::check_ends(const ConnectionDeclaration& wanted, VariableId from, Va
     const bool is_parameter = target.causality == Causality::Parameter ||
                               target.causality == Causality::StructuralParameter;
     fail_input(context,
-               fmt::format("cannot connect {}: '{}' is no input but {}", wire, full_name(to),
+               fmt::format("cannot connect {}: '{}' is not an input but {}", wire, full_name(to),
                            core::name(target.causality)),
                is_parameter ? "give the parameter its value in a <ssd:ParameterBinding>"
                             : "a connection starts at an output and ends at an input");

@@ -27,7 +27,8 @@ std::vector<std::string> split(const std::string& text) {
 }
 
 [[noreturn]] void reject(const std::string& text, const std::string& expected) {
-  throw std::invalid_argument(fmt::format("'{}' is no value for it, expected {}", text, expected));
+  throw std::invalid_argument(
+      fmt::format("'{}' is not a value for it, expected {}", text, expected));
 }
 
 template <class Number>

@@ -14,7 +14,7 @@ namespace stride::recorders {
 /// events.csv: "time,index,component,variable,direction,payload,content", a row for each message
 /// that a component sends or receives, at its exact time. The payload of Binary is written in
 /// hexadecimal digits, the elements of an array are separated by blanks; a bare clock has none. The
-/// content is what the component says that the payload means; empty where it says nothing.
+/// content is the component's description of the payload; empty where it gives none.
 class EventRecorder : public core::Observer {
  public:
   /// As CsvRecorder.

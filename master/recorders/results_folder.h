@@ -44,7 +44,7 @@ inline constexpr const char* kFilmList = "frames.csv";
 bool is_plain_file_name(const std::string& name);
 
 /// Makes the folder, and those above it, where they do not exist. Throws core::Error (Input) if
-/// that is not possible, or if it is no folder in which files can be written.
+/// that is not possible, or if it is not a folder in which files can be written.
 void make_results_folder(const std::filesystem::path& folder);
 
 /// The paths of what is in the folder, sorted: none, or not all, where it cannot be read.

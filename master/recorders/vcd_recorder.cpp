@@ -64,7 +64,7 @@ void write_binary_digits(core::OutputFile& file, Integer value) {
   file.write(std::string_view(digits + first, sizeof digits - first));
 }
 
-/// GTKWave takes what is no printable character as an octal escape.
+/// GTKWave takes what is not a printable character as an octal escape.
 void write_escaped(core::OutputFile& file, std::string_view text) {
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);

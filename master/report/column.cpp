@@ -138,7 +138,7 @@ void Column::append_integer(std::string_view text) {
   std::get<Doubles>(values_).push_back(static_cast<double>(*number));
 }
 
-/// Where nothing says what the column is: makes it what the field fits into.
+/// Where the type of the column is not known: makes it what the field fits into.
 void Column::deduce(const CsvReader::Field& field) {
   const bool is_boolean = !field.is_quoted && (field.text == "true" || field.text == "false");
   const bool is_number = !field.is_quoted && parse<double>(field.text);

@@ -16,7 +16,7 @@
 
 namespace stride::report {
 
-/// What run.json says of a column.
+/// What run.json contains about a column.
 struct SignalInfo {
   std::string name;
   std::string unit;
@@ -63,7 +63,8 @@ class Column {
   const Values& values() const { return values_; }
   std::size_t size() const;
 
-  /// Throws std::invalid_argument, whose text says what was expected, for what is not of the type.
+  /// Throws std::invalid_argument, whose text contains what was expected, for what is not of the
+  /// type.
   void append(const CsvReader::Field& field);
   /// Of the rows from `first` on, keeps those that are listed, in ascending order.
   void keep(std::size_t first, std::span<const std::size_t> rows);

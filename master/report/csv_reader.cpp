@@ -30,7 +30,7 @@ CsvReader::CsvReader(std::filesystem::path file)
   struct stat status {};
   // a device may have no end
   if (::fstat(::fileno(stream_.get()), &status) != 0 || !S_ISREG(status.st_mode)) {
-    fail_to_open("it is no regular file");
+    fail_to_open("it is not a regular file");
   }
 }
 

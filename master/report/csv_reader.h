@@ -12,7 +12,7 @@
 namespace stride::report {
 
 /// Reads a file of any length piece by piece. A last line without a line feed was cut off when its
-/// writer was killed; it is passed over.
+/// writer was killed; it is ignored.
 class CsvReader {
  public:
   struct Field {

@@ -14,7 +14,7 @@
 
 namespace stride::report {
 
-/// What shares a diagram where the scenario says nothing: the real numbers of a component that have
+/// What shares a diagram where the scenario names none: the real numbers of a component that have
 /// the same unit of measure, and all else of a component (Booleans, counts, texts) together. In the
 /// order of the columns. Without components, what is before a name's first point is one.
 std::vector<recorders::Plot> default_plots(std::span<const Column> columns,

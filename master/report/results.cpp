@@ -125,7 +125,7 @@ std::optional<fs::path> present(const fs::path& folder, const std::string& name,
   std::error_code error;
   const fs::path file = folder / name;
   if (fs::is_regular_file(file, error)) return file;
-  notes.add(file, fs::exists(file, error) ? "this is no regular file" : "this file is missing");
+  notes.add(file, fs::exists(file, error) ? "this is not a regular file" : "this file is missing");
   return std::nullopt;
 }
 
@@ -155,7 +155,7 @@ Results read_results(const fs::path& folder, const recorders::ResultFiles& files
 recorders::ResultFiles result_files(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) {
-    core::fail_input({.where = {folder.string(), 0}}, "this is no folder",
+    core::fail_input({.where = {folder.string(), 0}}, "this is not a folder",
                      "name a folder with the results of `stride run`");
   }
   if (const fs::path run = find_run_file(folder); !run.empty()) {

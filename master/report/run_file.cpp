@@ -34,7 +34,7 @@ void read_files(const Json& json, recorders::ResultFiles& files) {
   for (const auto& [what, member] : recorders::kResultFiles) {
     const std::string name = json["files"].value(what, std::string());
     if (!recorders::is_plain_file_name(name)) {
-      throw std::invalid_argument(fmt::format("'{}' is no file of this folder", name));
+      throw std::invalid_argument(fmt::format("'{}' is not a file of this folder", name));
     }
     files.*member = name;
   }
@@ -70,7 +70,8 @@ constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 20;
 std::string content(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
-    core::fail_input({.where = {file.string(), 0}}, "cannot read the file: it is no regular file");
+    core::fail_input({.where = {file.string(), 0}},
+                     "cannot read the file: it is not a regular file");
   }
   if (std::filesystem::file_size(file, error) > kMostBytes && !error) {
     core::fail_input({.where = {file.string(), 0}},
@@ -98,7 +99,7 @@ RunFile read_run_file(const std::filesystem::path& file) {
   try {
     RunFile run{Json::parse(text, refuse_depth)};
     if (!run.json.is_object()) {
-      core::fail_input({.where = {file.string(), 0}}, "this is no JSON object", hint);
+      core::fail_input({.where = {file.string(), 0}}, "this is not a JSON object", hint);
     }
     read_entries(run);
     return run;
@@ -107,7 +108,7 @@ RunFile read_run_file(const std::filesystem::path& file) {
     const auto line =
         1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
     core::fail_input({.where = {file.string(), static_cast<int>(line)}},
-                     fmt::format("this is no JSON: {}", error.what()), hint);
+                     fmt::format("this is not JSON: {}", error.what()), hint);
   } catch (const std::logic_error& error) {
     core::fail_input({.where = {file.string(), 0}},
                      fmt::format("this is not what `stride run` writes: {}", error.what()), hint);

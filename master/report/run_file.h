@@ -35,7 +35,7 @@ struct RunFile {
 /// file, and the line for what is no JSON.
 RunFile read_run_file(const std::filesystem::path& file);
 
-/// That of a results folder: run.json, or the file that says of itself to be it under another name.
+/// That of a results folder: run.json, or the file that contains it under another name.
 /// An empty path where there is none.
 std::filesystem::path find_run_file(const std::filesystem::path& folder);
 

@@ -170,7 +170,7 @@ IdleNumber read_idle_number(const xml::Element& element, double (*parse)(std::st
 
 void check_file_name(const xml::Element& element, const char* attribute, const std::string& name) {
   if (!recorders::is_plain_file_name(name)) {
-    element.fail(fmt::format("{}=\"{}\" is no plain file name", attribute, name),
+    element.fail(fmt::format("{}=\"{}\" is not a plain file name", attribute, name),
                  "the file goes into the results folder, so give its name only");
   }
 }

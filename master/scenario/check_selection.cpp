@@ -97,12 +97,12 @@ void Selection::check_window(const CheckDeclaration& check) const {
   }
   if (!named.is_message) {
     core::fail_input(context,
-                     fmt::format("'{}' is no message, but has a value at each time", named.name),
+                     fmt::format("'{}' is not a message, but has a value at each time", named.name),
                      "compare it with <stride:Always>, <stride:Never>, <stride:Eventually> or "
                      "<stride:Final>");
   }
   const NamedVariable* const carried = carried_by(named);
-  core::fail_input(context, fmt::format("the ticks of '{}' are not told of", named.name),
+  core::fail_input(context, fmt::format("ticks of '{}' cannot be checked", named.name),
                    carried == nullptr || !is_triggered(named)
                        ? "it ticks by the time alone"
                        : fmt::format("name what it carries: '{}'", carried->name));
@@ -178,7 +178,7 @@ core::VariableId Selection::find_message(const CheckDeclaration& check,
   const auto found = find_messages(check, name);
   if (found.size() == 1) return found.front();
   core::fail_input({.where = check.where},
-                   fmt::format("'{}' stands for {} messages; expected one", name, found.size()));
+                   fmt::format("'{}' matches {} messages; expected one", name, found.size()));
 }
 
 /// The name that was given, with the signal where it matches several.

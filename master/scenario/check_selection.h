@@ -14,7 +14,7 @@
 
 namespace stride::scenario {
 
-/// When a scenario begins, and when it ends as far as it says so itself.
+/// When a scenario begins, and when it ends as far as it defines that itself.
 struct ScenarioTimes {
   Time start{};
   std::optional<Time> stop{};

@@ -78,7 +78,7 @@ ProgramFiles program_files(const fs::path& declaration) {
   const xml::Document document(declaration);
   const xml::Element root = document.root();
   if (!root.is("", "process")) {
-    root.fail(fmt::format("{} is no declaration of a program", root.tag()),
+    root.fail(fmt::format("{} is not a declaration of a program", root.tag()),
               "its root is <process version=\"1\">: see docs/process-protocol.md");
   }
   const fs::path folder = fs::absolute(declaration).parent_path();

@@ -85,7 +85,7 @@ void check_unit_timeout(const HostRequest& request,
                    fmt::format("--unit-timeout {}: no unit has a process of its own, and no other "
                                "can be stopped",
                                request.unit_timeout),
-                   "say --isolate as well, or --isolate=COMPONENT");
+                   "use --isolate as well, or --isolate=COMPONENT");
 }
 
 }  // namespace stride::scenario

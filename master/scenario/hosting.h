@@ -23,7 +23,7 @@ struct HostRequest {
 
 /// The host of a component.
 struct Hosting {
-  std::string reason;  ///< for people
+  std::string reason;  ///< human-readable
   isolation::HostOptions options;
 };
 

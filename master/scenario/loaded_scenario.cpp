@@ -45,7 +45,7 @@ std::vector<ssp::ParameterValue> set_values(const std::vector<std::string>& sets
   return values;
 }
 
-/// A discarded step is retried, so it is no failure.
+/// A discarded step is retried, so it is not a failure.
 spdlog::level::level_enum level(importer::Status status) {
   switch (status) {
     case importer::Status::Ok:
@@ -164,7 +164,7 @@ void LoadedScenario::choose_times(const ScenarioRequest& request) {
     options_.stop = *unit_stop;
   } else {
     core::fail_input({{scenario_.path.string(), 0}, {}, {}, {}}, "the scenario has no stop time",
-                     "say --stop SECONDS, or write <ssd:DefaultExperiment stopTime=\"…\"/>");
+                     "use --stop SECONDS, or write <ssd:DefaultExperiment stopTime=\"…\"/>");
   }
   if (options_.stop < options_.start) {
     core::fail_input({}, fmt::format("the stop time {} s is before the start time {} s",
@@ -228,7 +228,7 @@ void LoadedScenario::choose_idle_skips(const ScenarioRequest& request) {
   if (request.no_idle_skip) {
     if (!request.max_skip.empty()) {
       core::fail_input({}, "--no-idle-skip and --max-skip contradict each other",
-                       "say one of them");
+                       "use one of them");
     }
     return;
   }
@@ -260,11 +260,12 @@ void LoadedScenario::check_fixed_steps() const {
   for (std::size_t i = 0; i < fmus_.size(); ++i) {
     if (fmus_[i]->description()->can_vary_step) continue;
     const auto& component = scenario_.system.components[i];
-    core::fail_input({component.where, component.name, {}, {}},
-                     fmt::format("the unit takes steps of one size only, and the run is no whole "
-                                 "number of steps of {} s",
-                                 core::to_text(options_.step.size)),
-                     fmt::format("stop at {} s", core::to_text(options_.stop - rest)));
+    core::fail_input(
+        {component.where, component.name, {}, {}},
+        fmt::format("the unit takes steps of one size only, and the run is not a whole "
+                    "number of steps of {} s",
+                    core::to_text(options_.step.size)),
+        fmt::format("stop at {} s", core::to_text(options_.stop - rest)));
   }
 }
 
@@ -275,7 +276,7 @@ void LoadedScenario::warn_of_internal_steps() const {
       continue;
     }
     spdlog::warn(
-        "unit '{}': its internal step of {} s is no part of the communication step of {} s, so it "
+        "unit '{}': its internal step of {} s is not part of the communication step of {} s, so it "
         "is not always where the others are",
         scenario_.system.components[i].name, core::to_text(*internal),
         core::to_text(options_.step.size));

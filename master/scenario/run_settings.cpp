@@ -24,7 +24,7 @@ typename Choices::value_type parse_word(std::string_view text, const Choices& ch
     if (text == words.back()) return choice;
   }
   throw std::invalid_argument(
-      fmt::format("'{}' is none of them; {}", text, core::suggestion(std::string(text), words)));
+      fmt::format("unknown value '{}'; {}", text, core::suggestion(std::string(text), words)));
 }
 
 Duration parse_step(std::string_view text) {
@@ -41,7 +41,7 @@ void take(T& mine, const std::optional<U>& other) {
 
 constexpr std::uint64_t kMebibyte = 1024 * 1024;
 
-/// The variable, if `fits` says that it is of the kind. What else is named has no promise to widen.
+/// The variable, if `fits` holds for it. What else is named has no promise to widen.
 template <class Fits>
 core::VariableId find(const core::System& system, const IdleNumber& number, const char* kind,
                       Fits&& fits) {
@@ -54,7 +54,7 @@ core::VariableId find(const core::System& system, const IdleNumber& number, cons
       if (names.back() == number.variable) return {i, k};
     }
   }
-  core::fail_input({number.where, {}, {}, {}}, fmt::format("'{}' is no {}", number.variable, kind),
+  core::fail_input({number.where, {}, {}, {}}, fmt::format("'{}' is not {}", number.variable, kind),
                    core::suggestion(number.variable, names));
 }
 
@@ -133,7 +133,7 @@ std::uint64_t parse_memory_limit(std::string_view text) {
       number && *number > 0 && *number <= std::numeric_limits<std::uint64_t>::max() / kMebibyte;
   if (!fits) {
     throw std::invalid_argument(
-        fmt::format("'{}' is no whole number of MiB; expected at least 1", text));
+        fmt::format("'{}' is not a whole number of MiB; expected at least 1", text));
   }
   return *number * kMebibyte;
 }
@@ -158,7 +158,7 @@ core::IdleOptions IdleSettings::options(const core::System& system,
              variable.type == core::ValueType::Float64;
     };
     options.deadbands.push_back(
-        {find(system, deadband, "Float64 input of a unit that can promise to be idle", is_input),
+        {find(system, deadband, "a Float64 input of a unit that can promise to be idle", is_input),
          deadband.value});
   }
   for (const IdleNumber& tolerance : tolerances) {
@@ -166,7 +166,7 @@ core::IdleOptions IdleSettings::options(const core::System& system,
       return variable.tolerance.has_value();
     };
     options.tolerances.push_back(
-        {find(system, tolerance, "output with a tolerance", has_one), tolerance.value});
+        {find(system, tolerance, "an output with a tolerance", has_one), tolerance.value});
   }
   return options;
 }

@@ -1,4 +1,4 @@
-// What a scenario or a command line says about steps, processes and idle skipping.
+// What a scenario or a command line sets of steps, processes and idle skipping.
 #ifndef STRIDE_MASTER_SCENARIO_RUN_SETTINGS_H
 #define STRIDE_MASTER_SCENARIO_RUN_SETTINGS_H
 
@@ -19,7 +19,7 @@
 
 namespace stride::scenario {
 
-/// What is said about the stepping; nothing where nothing is said.
+/// What is set of the stepping; nothing where it is not set.
 struct StepSettings {
   std::optional<const core::StepPolicyType*> policy;
   std::optional<Duration> size;
@@ -30,7 +30,7 @@ struct StepSettings {
   std::optional<core::Coupling> coupling;
   std::optional<core::Extrapolation> extrapolation;
 
-  /// Each takes a text into its place. Throws std::invalid_argument whose text says what was
+  /// Each takes a text into its place. Throws std::invalid_argument whose text contains what was
   /// expected. Times are above 0 s, tolerances at least 0.
   void set_policy(std::string_view text);
   void set_size(std::string_view text);
@@ -71,12 +71,12 @@ struct HostRules {
 };
 
 /// Takes a number of seconds, and rounds up to milliseconds. Throws std::invalid_argument whose
-/// text says what was expected.
+/// text contains what was expected.
 std::chrono::milliseconds parse_call_limit(std::string_view text);
 /// Takes a whole number of MiB, and returns bytes. Throws likewise.
 std::uint64_t parse_memory_limit(std::string_view text);
 
-/// Whether and for how long components may be left alone.
+/// Whether and for how long components may be suspended.
 struct IdleRule {
   ComponentPattern components;
   bool enabled = true;
@@ -99,12 +99,13 @@ struct IdleSettings {
   std::vector<IdleNumber> tolerances;
 
   /// For a run whose steps are chosen already. Throws core::Error (Input) for a pattern or a
-  /// variable that the system has not, a deadband of what is no Float64 input, a tolerance of what
-  /// is no output with one, and a max_skip below the step.
+  /// variable that the system has not, a deadband of what is not a Float64 input, a tolerance of
+  /// what is not an output with one, and a max_skip below the step.
   core::IdleOptions options(const core::System& system, const core::StepOptions& step) const;
 };
 
-/// Takes the text of a max_skip. Throws std::invalid_argument whose text says what was expected.
+/// Takes the text of a max_skip. Throws std::invalid_argument whose text contains what was
+/// expected.
 Duration parse_max_skip(std::string_view text);
 
 }  // namespace stride::scenario

@@ -37,14 +37,14 @@ std::string stem(const std::filesystem::path& scenario);
 
 /// What a scenario is read with.
 struct ReadOptions {
-  ssp::UnitFinder find_unit{};                    ///< says where the FMUs are that hold parameters
+  ssp::UnitFinder find_unit{};                    ///< finds the FMUs that hold parameters
   std::vector<ssp::ParameterValue> parameters{};  ///< bound to the root system behind all others
 };
 
 /// Reads a system of SSP 1.0 or 2.0: a .ssd, a package (.ssp), or the folder that one unpacks to;
 /// and what it names, but for its FMUs. Throws core::Error (Input) with file and line for what is
 /// missing, malformed or unknown, and for those parts of SSP that stride does not support: nothing
-/// is passed over, except what has no influence on a simulation (geometry, graphics, meta data,
+/// is ignored, except what has no influence on a simulation (geometry, graphics, meta data,
 /// other tools' annotations).
 Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& options = {});
 

@@ -46,7 +46,7 @@ std::vector<core::VariableId> all_outputs(const core::System& system) {
   std::vector<std::string> names;
   for (const core::VariableId id : recorded) names.push_back(system.full_name(id));
   core::fail_input({.where = pattern.where},
-                   fmt::format("the plot '{}' wants '{}', which matches no signal that is recorded",
+                   fmt::format("the plot '{}' names '{}', which matches no signal that is recorded",
                                plot.title, pattern.text),
                    core::suggestion(pattern.text, names));
 }

@@ -199,7 +199,7 @@ class Completion {
   }
 
   /// Adds to a list below the root element, or makes it: behind <System>, and <Units> behind
-  /// <Enumerations>, as the schema wants it.
+  /// <Enumerations>, as the schema requires.
   void add_list(const char* list, const std::vector<std::string>& pieces) {
     if (pieces.empty()) return;
     if (const auto found = root_.child({kSsd, list})) {

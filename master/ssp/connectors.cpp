@@ -50,7 +50,7 @@ std::optional<ValueType> type_of(const xml::Element& type, const std::string& ss
     if (name == core::name(candidate)) return candidate;
     known.emplace_back(core::name(candidate));
   }
-  type.fail(fmt::format("{} is no type of a connector", type.tag()),
+  type.fail(fmt::format("{} is not a type of a connector", type.tag()),
             core::suggestion(std::string(name), known));
 }
 
@@ -65,7 +65,7 @@ void read_child(const xml::Element& child, const SspFile& file,
   }
   if (!read_type(child, file, connector)) {
     child.fail(fmt::format("{} is not known in a connector", child.tag()),
-               fmt::format("a type stands in the namespace '{}': <ssc:Float64/>", kSsc));
+               fmt::format("types are in the namespace '{}': <ssc:Float64/>", kSsc));
   }
   if (std::exchange(has_type, true)) {
     child.fail(fmt::format("{} is a second type of this connector", child.tag()));

@@ -73,7 +73,7 @@ fs::path Files::system_file(const fs::path& package, const std::string& name,
     core::fail_input({where, {}, {}, {}},
                      fmt::format("'{}' names '{}', and the systems of a package are at its top",
                                  shown(package), name),
-                     "name a .ssd that stands there");
+                     "name a .ssd at the top level of the package");
   }
   const fs::path folder = fs::is_directory(package) ? package : unpack(package, kPackage, where);
   const fs::path file = folder / name;

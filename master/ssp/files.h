@@ -14,7 +14,7 @@
 
 namespace stride::ssp {
 
-/// Says where the FMU is that a scenario names by this path; throws core::Error (Input) if it is
+/// Finds the FMU that a scenario names by this path; throws core::Error (Input) if it is
 /// nowhere.
 using UnitFinder =
     std::function<std::filesystem::path(const std::filesystem::path&, const core::Location&)>;

@@ -235,8 +235,8 @@ class Flattener {
       core::fail_input({value.where, {}, {}, {}},
                        fmt::format("there is no component '{}{}'", before, head), hint);
     }
-    warn(value, fmt::format("the parameter '{}' belongs to no component and is passed over, as SSP "
-                            "wants it; names read component.variable{}",
+    warn(value, fmt::format("the parameter '{}' belongs to no component and is ignored, as SSP "
+                            "requires; names read component.variable{}",
                             value.name, hint.empty() ? "" : "\n  hint: " + hint));
   }
 

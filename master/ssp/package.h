@@ -11,7 +11,7 @@
 
 namespace stride::ssp {
 
-/// Says which .fmu archive to pack for the FMU that a source names; throws core::Error (Input) if
+/// Finds the .fmu archive to pack for the FMU that a source names; throws core::Error (Input) if
 /// there is none.
 using FmuMaker =
     std::function<std::filesystem::path(const std::filesystem::path&, const core::Location&)>;

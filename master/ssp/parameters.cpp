@@ -44,7 +44,7 @@ ParameterValue read_value(const xml::Element& type, const Definitions& inside,
   const std::string_view name = type.name().local;
   if (type.name().name_space != kSsv ||
       std::find(kTypes.begin(), kTypes.end(), name) == kTypes.end()) {
-    type.fail(fmt::format("{} is no type of a parameter", type.tag()),
+    type.fail(fmt::format("{} is not a type of a parameter", type.tag()),
               "write one such as <ssv:Float64 value=\"…\"/>, <ssv:Int32 …/> or <ssv:Boolean …/>");
   }
   type.allow_attributes({"value", "unit", "name", "mime-type"});
@@ -92,7 +92,7 @@ void check_version(const xml::Element& root, const char* what) {
 
 std::vector<ParameterValue> read_set(const xml::Element& set, const Definitions& around) {
   if (!set.is(kSsv, "ParameterSet")) {
-    set.fail(fmt::format("{} is no parameter set", set.tag()),
+    set.fail(fmt::format("{} is not a parameter set", set.tag()),
              fmt::format("expected <ParameterSet> of the namespace '{}'", kSsv));
   }
   set.allow_attributes({"version", "name", "author", "fileversion", "copyright", "license",
@@ -164,7 +164,7 @@ std::vector<ParameterValue> map_values(const xml::Element& mapping,
                                        const std::vector<ParameterValue>& values,
                                        const BindingContext& context) {
   if (!mapping.is(kSsm, "ParameterMapping")) {
-    mapping.fail(fmt::format("{} is no parameter mapping", mapping.tag()),
+    mapping.fail(fmt::format("{} is not a parameter mapping", mapping.tag()),
                  fmt::format("expected <ParameterMapping> of the namespace '{}'", kSsm));
   }
   mapping.allow_attributes({"version", "author", "fileversion", "copyright", "license",

@@ -173,8 +173,8 @@ std::size_t PortGraph::find_signal(const ElementNode& reference, const std::stri
 
 // ---- Connections ----
 
-/// In SSP, start and end do not say which way a value goes: the kinds of the connectors do. Where
-/// they are left out, the start is the source.
+/// In SSP, start and end do not define which way a value goes: the kinds of the connectors do.
+/// Where they are left out, the start is the source.
 void PortGraph::add_connection(const SystemNode& node, const SystemConnection& connection) {
   auto [start, start_role] = find_end(node, connection.start, connection.where);
   auto [end, end_role] = find_end(node, connection.end, connection.where);
@@ -245,7 +245,7 @@ PortGraph::Way PortGraph::way_to(std::size_t port) const {
 void PortGraph::fail_round(const PortConnection& connection) const {
   core::fail_input({connection.where, {}, {}, {}},
                    fmt::format("this connection leads from '{}' back to '{}' through connectors "
-                               "of systems alone, so no component says what the value is",
+                               "of systems alone, so no component provides the value",
                                ports_[connection.from].path, ports_[connection.to].path),
                    "remove one of the connections in the circle");
 }

@@ -17,13 +17,13 @@ namespace stride::ssp {
 struct Port {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  std::string path;  ///< for people: "arm.motor.torque"
+  std::string path;  ///< human-readable: "arm.motor.torque"
   Flow flow = Flow::Unsaid;
   std::size_t component = kNone;  ///< of a component's connector
   std::string connector;
   core::PathConnector path_connector{};  ///< of another
   std::vector<std::size_t> outgoing{};   ///< connections
-  std::vector<std::size_t> incoming{};   ///< one at most, where it is no component's connector
+  std::vector<std::size_t> incoming{};   ///< one at most, where it is not a component's connector
 
   bool is_component() const { return component != kNone; }
 };

@@ -29,7 +29,7 @@ core::ConnectorDeclaration read_entry(const xml::Element& element, const SspFile
 
 SignalDictionary read_entries(const xml::Element& root) {
   if (!root.is(kSsb, "SignalDictionary")) {
-    root.fail(fmt::format("{} is no signal dictionary", root.tag()),
+    root.fail(fmt::format("{} is not a signal dictionary", root.tag()),
               fmt::format("expected <SignalDictionary> of the namespace '{}'", kSsb));
   }
   const SspFile file{root.required("version"), read_definitions(root, kSsb)};

@@ -26,7 +26,7 @@ constexpr const char* kPackageType = "application/x-ssp-package";
 constexpr std::size_t kMostNested = 64;
 constexpr std::size_t kMostSystems = 10'000;
 
-/// What a file of another kind is, so that the error can say so.
+/// What a file of another kind is, for the error.
 std::string kind_of(const xml::Name& root) {
   constexpr std::array<std::pair<xml::Name, const char*>, 4> kKinds{
       {{{kSsv, "ParameterSet"}, "a parameter set (.ssv)"},

@@ -28,7 +28,7 @@ struct ParameterValue {
   core::UnitOfMeasure unit;
   core::Location where;
   core::PathSegment segment{};  ///< of its parameter mapping
-  bool is_required = false;     ///< a mistake, if it has no target; SSP's are passed over then
+  bool is_required = false;     ///< a mistake, if it has no target; SSP's are ignored then
 };
 
 /// The signals that all references to a signal dictionary share, by name.
@@ -41,7 +41,7 @@ struct ConnectionEnd {
   std::string connector;
 };
 struct SystemConnection {
-  ConnectionEnd start, end;  ///< which does not say which way the value goes
+  ConnectionEnd start, end;  ///< which does not define which way the value goes
   core::PathSegment segment;
   core::Location where;
 };

@@ -18,7 +18,7 @@ using TransformationKind = core::Transformation::Kind;
 double finite(const xml::Element& element, const char* attribute, double otherwise) {
   const double number = element.number<double>(attribute).value_or(otherwise);
   if (std::isfinite(number)) return number;
-  element.fail(fmt::format("{}=\"{}\" is no finite number", attribute, number));
+  element.fail(fmt::format("{}=\"{}\" is not a finite number", attribute, number));
 }
 
 void read_linear(const xml::Element& element, Transformation& transformation) {

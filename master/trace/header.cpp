@@ -57,10 +57,10 @@ class HeaderReader {
     const std::string_view keyword = words_.next();
     line_ = words_.line();
     if (keyword.empty() || words_.is_at_end()) {
-      fail("the file ends before $enddefinitions, so it was cut off or is no value change dump");
+      fail("the file ends before $enddefinitions, so it was cut off or is not a value change dump");
     }
     if (keyword.front() != '$' || keyword == "$end") {
-      fail(fmt::format("'{}' stands where a section such as $timescale, $scope or $var is expected",
+      fail(fmt::format("'{}' is where a section such as $timescale, $scope or $var is expected",
                        Words::shown(keyword)),
            header_.text.size() == keyword.size()
                ? "expected a value change dump (.vcd); gunzip a compressed file, and turn an FST "
@@ -130,11 +130,12 @@ class HeaderReader {
     Declaration made;
     const auto read = std::from_chars(width.data(), width.data() + width.size(), made.width);
     if (read.ec != std::errc{} || read.ptr != width.data() + width.size()) {
-      words_.fail(line_, fmt::format("'{}' is no width in bits", Words::shown(width)));
+      words_.fail(line_, fmt::format("'{}' is not a width in bits", Words::shown(width)));
     }
     if (!is_code(code)) {
-      words_.fail(line_, fmt::format("'{}' is no identifier code; expected printable characters",
-                                     Words::shown(code)));
+      words_.fail(line_,
+                  fmt::format("'{}' is not an identifier code; expected printable characters",
+                              Words::shown(code)));
     }
     made.code = header_.codes.add(code);
     made.line = line_;

@@ -19,7 +19,7 @@ inline constexpr std::string_view kAdvanceTime = "advanceTime";
 class AdvanceTime {
  public:
   /// Nothing where the trace has no such variable. Throws core::Error (Input) if it has two, or one
-  /// that is no integer of 64 bits at most.
+  /// that is not an integer of 64 bits at most.
   static std::optional<AdvanceTime> of(const Reader& reader);
 
   bool is(const Entry& change) const { return change.code == code_; }
@@ -28,7 +28,7 @@ class AdvanceTime {
   std::uint32_t code() const { return code_; }
   std::int64_t total() const { return total_; }
 
-  /// Takes a change of it. Throws core::Error (Input) if it falls, or is no number below 2^63.
+  /// Takes a change of it. Throws core::Error (Input) if it falls, or is not a number below 2^63.
   void update(const Reader& reader, const Entry& change);
 
  private:
@@ -44,9 +44,9 @@ bool is_advance_time(const Header& header, const Declaration& declaration);
 /// All entries from one stamp to the next one, equal stamps taken together. What
 /// $dumpvars and its kin open ends with it, if not before.
 struct Instant {
-  bool has_stamp = false;  ///< false for what is before the first one
-  std::int64_t stamp = 0;  ///< kernel time [ticks]
-  std::int64_t time = 0;  ///< true time [ticks]: the stamp plus what advanceTime says behind it all
+  bool has_stamp = false;     ///< false for what is before the first one
+  std::int64_t stamp = 0;     ///< kernel time [ticks]
+  std::int64_t time = 0;      ///< true time [ticks]: the stamp plus the whole advanceTime
   std::int64_t skipped = 0;   ///< advanceTime
   std::int64_t line = 0;      ///< of the stamp
   std::uint64_t changes = 0;  ///< but for those of advanceTime

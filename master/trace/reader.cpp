@@ -58,7 +58,7 @@ const Entry* Reader::next() {
       return read_section(word);
     default:
       fail(entry_.line,
-           fmt::format("'{}' is no time stamp, no change and no section", Words::shown(word)),
+           fmt::format("'{}' is not a time stamp, no change and no section", Words::shown(word)),
            "expected #TIME, a change such as 1! or b101 !, or a section such as $comment; extended "
            "dumps ($dumpports) are not supported");
   }
@@ -71,9 +71,10 @@ const Entry* Reader::read_stamp(std::string_view word) {
     fail(entry_.line, fmt::format("the time stamp {} is beyond 2^63 - 1", Words::shown(word)));
   }
   if (read.ec != std::errc{} || read.ptr != end || word[1] == '-') {
-    fail(entry_.line, fmt::format("'{}' is no time stamp; expected # and a whole number, such as "
-                                  "#1000",
-                                  Words::shown(word)));
+    fail(entry_.line,
+         fmt::format("'{}' is not a time stamp; expected # and a whole number, such as "
+                     "#1000",
+                     Words::shown(word)));
   }
   if (last_stamp_ && entry_.stamp < *last_stamp_) {
     fail(entry_.line,

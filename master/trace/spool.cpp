@@ -17,7 +17,7 @@ namespace stride::trace {
 namespace {
 
 std::filesystem::path folder() {
-  const char* const wanted = std::getenv("TMPDIR");  // opening a file fails if it is no folder
+  const char* const wanted = std::getenv("TMPDIR");  // opening a file fails if it is not a folder
   return wanted != nullptr ? wanted : "/tmp";
 }
 

@@ -29,7 +29,7 @@ Timescale Timescale::parse(std::string_view text) {
   const auto unit = std::find(kUnits.begin(), kUnits.end(), word.substr(digits));
   if ((number != "1" && number != "10" && number != "100") || unit == kUnits.end()) {
     throw std::invalid_argument(
-        fmt::format("'{}' is no time scale; expected 1, 10 or 100 of s, ms, us, ns, ps or fs",
+        fmt::format("'{}' is not a time scale; expected 1, 10 or 100 of s, ms, us, ns, ps or fs",
                     word.substr(0, 20)));
   }
   return {kSmallest + 3 * static_cast<int>(unit - kUnits.begin()) +

@@ -14,7 +14,7 @@ namespace stride::trace {
 struct Timescale {
   int exponent = -12;
 
-  /// "1 ps", "10ns". Throws std::invalid_argument that says what was expected.
+  /// "1 ps", "10ns". Throws std::invalid_argument that contains what was expected.
   static Timescale parse(std::string_view text);
   /// "10 ns"
   std::string text() const;

@@ -22,13 +22,13 @@ std::optional<double> finite_number(std::string_view text) {
 double parse_at_least_zero(std::string_view text) {
   const std::optional<double> value = finite_number(text);
   if (value && *value >= 0) return *value;
-  throw std::invalid_argument(fmt::format("'{}' is no number of at least 0", text));
+  throw std::invalid_argument(fmt::format("'{}' is not a number of at least 0", text));
 }
 
 double parse_above_zero(std::string_view text) {
   const std::optional<double> value = finite_number(text);
   if (value && *value > 0) return *value;
-  throw std::invalid_argument(fmt::format("'{}' is no number above 0", text));
+  throw std::invalid_argument(fmt::format("'{}' is not a number above 0", text));
 }
 
 }  // namespace stride::core

@@ -6,8 +6,8 @@
 
 namespace stride::core {
 
-/// Each takes the text of a finite number. Throws std::invalid_argument whose text says what was
-/// expected.
+/// Each takes the text of a finite number. Throws std::invalid_argument whose text contains what
+/// was expected.
 double parse_at_least_zero(std::string_view text);
 double parse_above_zero(std::string_view text);
 

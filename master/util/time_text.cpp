@@ -60,7 +60,7 @@ std::int64_t take_exponent(std::string_view& rest, std::string_view text) {
   const bool is_negative = !rest.empty() && rest.front() == '-';
   if (!rest.empty() && (rest.front() == '-' || rest.front() == '+')) rest.remove_prefix(1);
   const std::string_view digits = take_digits(rest);
-  if (digits.empty()) reject(text, "is no number");
+  if (digits.empty()) reject(text, "is not a number");
   constexpr std::int64_t kBeyondAnyTime = 1'000'000'000;
   std::int64_t value = kBeyondAnyTime;
   std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -79,9 +79,9 @@ Decimal parse_decimal(std::string_view text) {
     rest.remove_prefix(1);
     fraction = take_digits(rest);
   }
-  if (whole.empty() && fraction.empty()) reject(text, "is no number");
+  if (whole.empty() && fraction.empty()) reject(text, "is not a number");
   decimal.point = static_cast<std::int64_t>(whole.size()) + take_exponent(rest, text);
-  if (!rest.empty()) reject(text, "is no number");
+  if (!rest.empty()) reject(text, "is not a number");
 
   decimal.digits = fmt::format("{}{}", whole, fraction);
   const std::size_t zeros = std::min(decimal.digits.find_first_not_of('0'), decimal.digits.size());

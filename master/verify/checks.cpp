@@ -55,8 +55,8 @@ std::string explain(const isolation::ChildOutcome& outcome, const importer::Call
   if (const std::string_view function = note.function(); !function.empty()) {
     text += fmt::format(" in {} at {} s", function, core::to_text(note.time()));
   }
-  if (const std::string said = last_line(outcome.printed); !said.empty()) {
-    text += fmt::format("; its last words: {}", said);
+  if (const std::string line = last_line(outcome.printed); !line.empty()) {
+    text += fmt::format("; its last output: {}", line);
   }
   return text;
 }
@@ -92,15 +92,15 @@ const std::vector<UnitCheck>& checks() {
       {"dependencies", "an output does not depend on an input that is declared to be none of its",
        &check_dependencies},
       {"events", "Event Mode, early returns and next events are as declared", &check_events},
-      {"calls", "a whole life in order works; calls out of order are refused", &check_calls},
-      {"messages", "what the unit says of messages is text, and saying it changes nothing",
-       &check_messages},
-      {"splitting", "steps may be split, where the unit says so", &check_splitting},
+      {"calls", "an instance called in order works; calls out of order are refused", &check_calls},
+      {"messages", "message descriptions are valid text and change no state", &check_messages},
+      {"splitting", "steps may be split, if the unit declares it", &check_splitting},
       {"rejection", "a rejected step leaves the unit as it was", &check_rejection},
       {"reset", "after a reset the unit is like a new one", &check_reset},
       {"instances", "instances in one process do not disturb each other", &check_instances},
-      {"restore", "a restored state goes on as the saved one did", &check_restore},
-      {"serialization", "a state goes on from its bytes, also in another process",
+      {"restore", "an instance continues from a restored state as from the saved one",
+       &check_restore},
+      {"serialization", "an instance continues from a serialised state, also in another process",
        &check_serialization},
       {"memory", "neither memory nor files nor threads are left behind", &check_memory},
       {"determinism", "two processes get the same bits", &check_determinism},

@@ -9,7 +9,7 @@ namespace stride::verify {
 
 /// Whether the variable can be read where no clock ticks.
 bool is_readable(const core::Variable& variable);
-/// Whether its value before the start is what the description says.
+/// Whether its value before the start is that of the description.
 bool has_exact_start(const core::Variable& variable);
 
 /// Throws Failure: "'y' is 1 WHEN, though REASON 0".

@@ -242,7 +242,7 @@ bool TestInstance::try_step(Time to) {
   }
   const bool stands_still = result.reached == position_.now && !result.event_handling_needed;
   if (stands_still) {
-    throw Failure(fmt::format("at {} s a step returns early where it began, and wants no event",
+    throw Failure(fmt::format("at {} s a step returns early where it began, and requests no event",
                               core::to_text(position_.now)));
   }
   position_.now = result.reached;

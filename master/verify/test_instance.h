@@ -55,7 +55,7 @@ class TestInstance {
   void enter_initialization();
   void exit_initialization();
 
-  /// To the communication point k, unless the unit wants the simulation to end before.
+  /// To the communication point k, unless the unit requests the end of the simulation before.
   void run_to(std::size_t k, bool records = true);
   /// One communication step with the inputs as they are, and the events at its end; false if it was
   /// rejected, in which case nothing has changed.

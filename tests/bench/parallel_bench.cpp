@@ -1,7 +1,7 @@
 // Serial against parallel: communication steps of units that burn a given time each, on one thread,
 // on two where the run finds that they pay, and on two in any case. What counts are the ratios,
 // serial : parallel. Where threads cannot pay the first one is 1, for then they are not used; the
-// second one tells what they would have cost. The times are the best of all iterations, since other
+// second one shows what they would have cost. The times are the best of all iterations, since other
 // programs only ever make them longer.
 #include <algorithm>
 #include <chrono>

@@ -24,10 +24,10 @@ std::string mistake_of(const Workspace& workspace) {
 
 }  // namespace
 
-TEST_CASE("a .fmu that is no archive") {
+TEST_CASE("a .fmu that is not an archive") {
   const Workspace workspace = using_unit("letter.fmu");
   workspace.scratch().write("letter.fmu", "Dear reader,\n");
-  CHECK_THAT(mistake_of(workspace), Contains("letter.fmu' is no zip archive") &&
+  CHECK_THAT(mistake_of(workspace), Contains("letter.fmu' is not a zip archive") &&
                                         Contains("expected an FMU: a .fmu archive (zip)"));
 }
 
@@ -38,7 +38,7 @@ TEST_CASE("an archive that breaks off") {
   CHECK_THAT(mistake_of(workspace), Contains("half.fmu'") && Contains("damaged"));
 }
 
-TEST_CASE("an archive that is no FMU") {
+TEST_CASE("an archive that is not an FMU") {
   const Workspace workspace = using_unit("photos.fmu");
   make_zip(workspace / "photos.fmu", {{"holiday.txt", "sunny"}});
   CHECK_THAT(mistake_of(workspace), Contains("has no modelDescription.xml at its top"));
@@ -60,7 +60,7 @@ TEST_CASE("an archive cannot write outside its folder") {
   CHECK(files == std::vector<std::string>{".lock", "evil.fmu", "test.ssd"});
 }
 
-TEST_CASE("a model description that is no XML names its line") {
+TEST_CASE("a model description that is not XML names its line") {
   const Workspace workspace = using_unit("unit");
   workspace.scratch().write("unit/modelDescription.xml", "<fmiModelDescription>\n<a>\n</b>\n");
   const Outcome outcome = workspace.run();

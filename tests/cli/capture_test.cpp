@@ -133,7 +133,7 @@ TEST_CASE("what cannot be captured is refused before the run") {
                  Contains("name a file that you may write"));
   CHECK_THAT(mistake({"--capture", "second=a.csv", "--coupling", "gauss-seidel"}),
              Contains("'gauss-seidel'") && Contains("cannot be captured") &&
-                 Contains("say --coupling jacobi --extrapolation hold"));
+                 Contains("use --coupling jacobi --extrapolation hold"));
   CHECK_THAT(mistake({"--capture", "second=a.csv", "--extrapolation", "linear"}),
              Contains("'linear'") && Contains("cannot be captured"));
 }

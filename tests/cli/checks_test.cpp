@@ -213,7 +213,7 @@ TEST_CASE("mistakes in checks are reported with file and line, all at once") {
   const std::string message = input_error_of(run(workspace));
   CHECK_THAT(message, Contains("there are 5 mistakes") &&
                           Contains(workspace.at("filter.z") + "there is no signal 'filter.z'") &&
-                          Contains("belongs to a clock") && Contains("is no message") &&
+                          Contains("belongs to a clock") && Contains("is not a message") &&
                           Contains("no value fits min 2 and max 1") &&
                           Contains("from: 2 s is behind the end of the run, at 1 s"));
   CHECK_THAT(input_error_of(run(watched("<stride:Alwais signal='filter.y' min='0'/>"))),

@@ -18,8 +18,8 @@ TEST_CASE("--help and --version are answered on the standard output") {
   CHECK(help.exit_code == 0);
   CHECK(help.err == "");
   CHECK_THAT(help.out, Contains("Usage: stride") &&
-                           Contains("Exit codes: 0 good, 1 the run failed or a verdict "
-                                    "on it is bad, 2 the input was wrong."));
+                           Contains("Exit codes: 0 good, 1 the run failed, or a check or "
+                                    "verdict failed, 2 the input was wrong."));
   const Outcome run_help = run_program({"run", "--help"});
   CHECK(run_help.exit_code == 0);
   for (const char* option : {"--stop", "--step", "--set", "--swap", "--signals", "--out",
@@ -51,7 +51,7 @@ TEST_CASE("times on the command line are numbers of seconds that make sense") {
   CHECK_THAT(input_error_of(workspace.run({"--stop", "-1"})),
              Contains("--stop -1: '-1' is negative"));
   CHECK_THAT(input_error_of(workspace.run({"--stop", "soon"})),
-             Contains("--stop soon: 'soon' is no number; expected a number of seconds"));
+             Contains("--stop soon: 'soon' is not a number; expected a number of seconds"));
   CHECK_THAT(input_error_of(workspace.run({"--stop", "1e9"})), Contains("beyond 9.2e6 s"));
   CHECK_THAT(input_error_of(workspace.run({"--step", "0"})), Contains("a step must be above 0 s"));
   CHECK_FALSE(fs::exists(workspace / "out"));
@@ -95,7 +95,7 @@ TEST_CASE("--set explains what is wrong with it") {
              Contains("no component 'frist'") && Contains("did you mean 'first'?"));
   CHECK_THAT(error("first.time_constnat=1"), Contains("unit 'first', variable 'time_constnat'") &&
                                                  Contains("did you mean 'time_constant'?"));
-  CHECK_THAT(error("first.u=high"), Contains("'high' is no value for it, expected a Float64"));
+  CHECK_THAT(error("first.u=high"), Contains("'high' is not a value for it, expected a Float64"));
   CHECK_THAT(error("first.u="), Contains("expected one Float64 value"));
   CHECK_THAT(error("first.time=1"), Contains("cannot be set"));
   CHECK_FALSE(fs::exists(workspace / "out"));

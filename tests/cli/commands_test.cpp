@@ -105,6 +105,25 @@ TEST_CASE("complete can write another file without a change of its input") {
   CHECK_THAT(outcome.err, Contains("nowhere/full.ssd: the folder of this file does not exist"));
 }
 
+TEST_CASE("each command that writes an output takes both spellings of the option") {
+  const Workspace workspace(two_filters());
+  const std::string spellings[] = {"-o", "--out", "--output"};
+  for (const std::string& spelling : spellings) {
+    CAPTURE(spelling);
+    const Arguments commands[] = {
+        {"run", "test.ssd", "--quiet", "--stop", "0.01", spelling, "results"},
+        {"report", "results", spelling, "page.html"},
+        {"complete", "test.ssd", spelling, "full.ssd"},
+        {"pack", unit_library("minimal").string(), spelling, "packed.fmu"}};
+    for (const Arguments& command : commands) {
+      CAPTURE(command.front());
+      CHECK(workspace.stride(command).exit_code == 0);
+      CHECK(fs::exists(workspace / command.back()));
+    }
+    for (const Arguments& command : commands) fs::remove_all(workspace / command.back());
+  }
+}
+
 TEST_CASE("complete leaves a scenario that it cannot complete as it is") {
   const Workspace workspace(Parts{component("filter", "minimla.fmu")});
   const auto before = files_below(workspace.scratch().path());
@@ -135,7 +154,7 @@ TEST_CASE("pack finds a .fmu among the units, and gives it other resources") {
         run_program({"inspect", "minimal.fmu"}).out);
 }
 
-TEST_CASE("pack does not take what is no unit") {
+TEST_CASE("pack does not take what is not a unit") {
   const Workspace workspace(two_filters());
   workspace.scratch().write("notes.txt", "no library");
   const Outcome outcome = workspace.stride({"pack", "notes.txt", "--output", "packed.fmu"});

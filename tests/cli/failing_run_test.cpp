@@ -32,7 +32,7 @@ TEST_CASE("a unit that throws something else is named, too") {
   const Workspace workspace = beside_a_filter("fuse", "thrower.fmu");
   CHECK_THAT(
       failure_of(workspace, {"--set", "fuse.throw_at=0.5", "--set", "fuse.odd=true"}, "0.499"),
-      Contains("unit 'fuse', at 0.499 s: ") && Contains("no std::exception"));
+      Contains("unit 'fuse', at 0.499 s: ") && Contains("not a std::exception"));
 }
 
 TEST_CASE("a unit that answers fmi3Error without a word") {
@@ -43,7 +43,7 @@ TEST_CASE("a unit that answers fmi3Error without a word") {
                  Contains("fmi3DoStep returned fmi3Error"));
 }
 
-TEST_CASE("an output that is no number is named, with the time") {
+TEST_CASE("an output that is not a number is named, with the time") {
   const Workspace workspace =
       beside_a_filter("source", "not_a_number.fmu", connection("source.y", "filter.u"));
   CHECK_THAT(failure_of(workspace, {"--set", "source.nan_at=0.25"}, "0.249"),

@@ -152,7 +152,7 @@ TEST_CASE("the time between pictures is above 0") {
   const Workspace workspace = pendulum();
   CHECK_THAT(input_error_of(workspace.run({"--film=0"})),
              Contains("--film=0: expected a time above 0") && Contains("such as --film=0.1"));
-  CHECK_THAT(input_error_of(workspace.run({"--film=soon"})), Contains("'soon' is no number"));
+  CHECK_THAT(input_error_of(workspace.run({"--film=soon"})), Contains("'soon' is not a number"));
   CHECK_THAT(input_error_of(workspace.run({"--film", "--set", "world.film.width=5000"})),
              Contains("film.width") && Contains("expected at most 4096"));
 }

@@ -1,4 +1,4 @@
-// Units in processes of their own: how one says so, and what one sees of it.
+// Units in processes of their own: how they are requested, and what is visible of it.
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/scenarios.h"
@@ -129,12 +129,12 @@ TEST_CASE("a time limit without a process is a mistake") {
   for (const char* command : {"run", "check"}) {
     CHECK_THAT(input_error_of(workspace.stride({command, "test.ssd", "--unit-timeout", "5"})),
                Contains("--unit-timeout 5: no unit has a process of its own") &&
-                   Contains("hint: say --isolate as well"));
+                   Contains("hint: use --isolate as well"));
   }
   CHECK_THAT(input_error_of(workspace.run({"--isolate", "--unit-timeout", "0"})),
              Contains("--unit-timeout 0: a time limit must be above 0 s"));
   CHECK_THAT(input_error_of(workspace.run({"--isolate", "--unit-timeout", "soon"})),
-             Contains("--unit-timeout soon: 'soon' is no number"));
+             Contains("--unit-timeout soon: 'soon' is not a number"));
   CHECK_FALSE(fs::exists(workspace / "out"));
 }
 

@@ -1,4 +1,4 @@
-// Units that harm their processes, or those around them: exit code 1, an error that says what
+// Units that harm their processes, or those around them: exit code 1, an error that reports what
 // happened, complete results up to there, and nothing left behind.
 #include <csignal>
 #include <functional>
@@ -66,7 +66,7 @@ std::string error_of(const Workspace& workspace, const Outcome& outcome,
   return run["error"];
 }
 
-/// What a run that has to go well says, with nothing left.
+/// The output of a run that has to succeed, with nothing left.
 std::string said_by(const Workspace& workspace, const Arguments& options, Arguments before = {}) {
   const Leftovers leftovers;
   for (const std::string& argument : Workspace::run_arguments(options)) before.push_back(argument);
@@ -188,7 +188,7 @@ TEST_CASE("a unit that kills its parent kills itself") {
   const Leftovers leftovers;
   const Outcome outcome = workspace.run(does("kill parent", {"--no-sandbox", "--stop", "1e6"}));
   CHECK_THAT(error_of(workspace, outcome, leftovers),
-             Contains("unit 'faulty', at ") && Contains("keeper"));
+             Contains("unit 'faulty', at ") && Contains("supervisor"));
 }
 
 // ---- Killed from outside ----
@@ -222,11 +222,11 @@ TEST_CASE("a unit's process that is killed from outside") {
   CHECK_THAT(run.error(), Contains("unit 'faulty', at ") && Contains("SIGKILL"));
 }
 
-TEST_CASE("a keeper that is killed from outside") {
+TEST_CASE("a supervisor that is killed from outside") {
   LongRun run;
-  CHECK(run.leftovers.processes("stride-keeper").size() == 2);
-  run.kill_one_of("stride-keeper");
-  CHECK_THAT(run.error(), Contains("unit '") && Contains("keeper"));
+  CHECK(run.leftovers.processes("unit-supervisor").size() == 2);
+  run.kill_one_of("unit-supervisor");
+  CHECK_THAT(run.error(), Contains("unit '") && Contains("supervisor"));
 }
 
 TEST_CASE("nothing stays of a run that is killed") {
@@ -247,7 +247,7 @@ TEST_CASE("nothing is left of a killed run with snapshots") {
                   workspace.scratch().path());
   while (process.is_running() && leftovers.processes("b").size() < 2) {
   }
-  CHECK(leftovers.processes("stride-keeper").size() == 1);
+  CHECK(leftovers.processes("unit-supervisor").size() == 1);
   process.send(SIGKILL);
   CHECK(process.wait().exit_code == -SIGKILL);
   CHECK(leftovers.after_a_while() == std::vector<std::string>{});

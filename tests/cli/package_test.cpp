@@ -132,5 +132,5 @@ TEST_CASE("a value without a variable is ignored with a warning") {
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.err, Contains("unit 'first', variable 'time_constnt'") &&
                               Contains("did you mean 'time_constant'?") &&
-                              Contains("passed over, as SSP wants it"));
+                              Contains("is ignored, as SSP requires"));
 }

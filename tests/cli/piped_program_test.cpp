@@ -147,7 +147,7 @@ TEST_CASE("a program that cannot be packed is reported with the line of its decl
   CHECK_FALSE(fs::exists(workspace / "none.fmu"));
   workspace.scratch().write("other.xml", "<ssd/>");
   CHECK_THAT(input_error_of(workspace.stride({"pack", "other.xml", "-o", "none.fmu"})),
-             Contains("other.xml:1: <ssd> is no declaration of a program"));
+             Contains("other.xml:1: <ssd> is not a declaration of a program"));
   workspace.scratch().write("other.xml", declaration("<program name=\"x\"/>"));
   CHECK_THAT(input_error_of(workspace.stride({"pack", "other.xml", "-o", "none.fmu", "--resources",
                                               workspace.scratch().path()})),
@@ -190,6 +190,6 @@ TEST_CASE("no program outlives the run, even if that is killed") {
   run.send(SIGKILL);
   run.wait();
   CHECK(comes_true([&] { return !is_running(program); }));
-  // the keeper of a host sweeps up, and goes
+  // the supervisor of a host removes temporary folders, and ends
   CHECK(comes_true([&] { return !is_hosted || is_swept(workspace); }));
 }

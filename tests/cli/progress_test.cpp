@@ -14,7 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Throws for a line that is no object.
+/// Throws for a line that is not an object.
 std::vector<json> objects(const std::string& lines) {
   std::vector<json> objects;
   std::istringstream stream(lines);

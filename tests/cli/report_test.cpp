@@ -94,7 +94,7 @@ TEST_CASE("a plot of what is not recorded is refused before the run") {
   const Workspace workspace = with("<stride:Plot title=\"U\" signals=\"first.u\"/>");
   CHECK_THAT(input_error_of(workspace.run()),
              Contains(workspace.at("<stride:Plot") +
-                      "the plot 'U' wants 'first.u', which matches no signal that is recorded"));
+                      "the plot 'U' names 'first.u', which matches no signal that is recorded"));
 }
 
 TEST_CASE("a failed run has a report, with the error") {
@@ -182,7 +182,7 @@ TEST_CASE("a folder without results is refused") {
   CHECK_THAT(input_error_of(workspace.stride({"report", "tmp"})),
              Contains("tmp: there are no results in this folder"));
   CHECK_THAT(input_error_of(workspace.stride({"report", "none"})),
-             Contains("none: this is no folder"));
+             Contains("none: this is not a folder"));
 }
 
 TEST_CASE("wrong results are refused with file and line") {
@@ -246,6 +246,6 @@ TEST_CASE("a report is written to the given file only") {
   run.replace(run.find("\"report.html\""), 13, "\"../victim.html\"");
   workspace.scratch().write("out/run.json", run);
   CHECK_THAT(input_error_of(workspace.stride({"report", "out"})),
-             Contains("'../victim.html' is no file of this folder"));
+             Contains("'../victim.html' is not a file of this folder"));
   CHECK_FALSE(fs::exists(workspace / "victim.html"));
 }

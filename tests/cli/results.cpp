@@ -54,7 +54,7 @@ double Csv::number(std::size_t row, std::size_t column) const {
   const char* const end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, value);
   if (result.ec == std::errc{} && result.ptr == end) return value;
-  throw std::runtime_error(file_.string() + ": '" + text + "' is no number");
+  throw std::runtime_error(file_.string() + ": '" + text + "' is not a number");
 }
 
 std::vector<double> Csv::numbers(const std::string& title) const {

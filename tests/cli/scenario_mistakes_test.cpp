@@ -41,7 +41,7 @@ TEST_CASE("a scenario that is not there") {
   CHECK_THAT(outcome.err, StartsWith("stride: error: nowhere/test.ssd: the file does not exist"));
 }
 
-TEST_CASE("a scenario that is no XML names the file and the line") {
+TEST_CASE("a scenario that is not XML names the file and the line") {
   std::string text = scenario_text(two_filters());
   text.erase(text.find("</ssd:Connections>"), std::string("</ssd:Connections>").size());
   const Workspace workspace(text);
@@ -140,7 +140,7 @@ TEST_CASE("a connection against the direction of its variables") {
   const Workspace workspace(with_connection("types.float64.echo", "filter.time_constant"));
   CHECK_THAT(mistake_in(workspace),
              Contains(workspace.at("<ssd:Connection ")) &&
-                 Contains("'filter.time_constant' is no input but parameter"));
+                 Contains("'filter.time_constant' is not an input but parameter"));
 }
 
 TEST_CASE("an input with two sources names both and both lines") {

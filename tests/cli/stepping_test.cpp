@@ -132,7 +132,7 @@ TEST_CASE("what a policy cannot do is an error before the run") {
   CHECK_THAT(input_error_of(refused), Contains("cannot be rolled back: 's'"));
   CHECK_FALSE(fs::exists(workspace / "out"));
   CHECK_THAT(input_error_of(workspace.run({"--policy", "fast"})),
-             Contains("--policy fast: 'fast' is none of them; known are: fixed, event-driven"));
+             Contains("--policy fast: unknown value 'fast'; known are: fixed, event-driven"));
   CHECK_THAT(input_error_of(workspace.run({"--max-step", "1e-10"})),
              Contains("the maximum step of 0.0000000001 s is below the minimum"));
   CHECK_THAT(input_error_of(workspace.run({"--policy", "error-controlled", "--relative-tolerance",

@@ -67,7 +67,7 @@ struct Altered {
 }  // namespace
 
 TEST_CASE("a unit that keeps what it declares passes all checks") {
-  const Outcome outcome = verify("lying_none.fmu", {"--lives", "100"});
+  const Outcome outcome = verify("lying_none.fmu", {"--instances", "100"});
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.err == "");
   CHECK_THAT(outcome.out, StartsWith("lying_none: FMI 3.0, steps of 0.001 s to 0.2 s, seed 1\n"));
@@ -108,12 +108,12 @@ TEST_CASE("each lie is found, with variable, values and time") {
       "lying_mumbles_messages.fmu", "messages",
       "as 'message' at 0 s is not one line of UTF-8 without control characters: \"\uFFFDmm\"");
   check_fails("lying_counts_questions.fmu", "messages",
-              "'steps' is 1 in an instance that is never asked what messages say, and ");
+              "'steps' is 1 in an instance without requests for message descriptions, and ");
   check_fails("lying_iterates_for_ever.fmu", "events", "do not come to an end: 1000 iterations");
 }
 
 TEST_CASE("what is left behind is found") {
-  const Arguments few{"--lives", "400"};
+  const Arguments few{"--instances", "400"};
   if (kSanitized) {
     CHECK_THAT(row(verify_one("lying_leaks.fmu", "memory", few), "memory"),
                Contains("skipped") && Contains("sanitizers"));
@@ -121,7 +121,7 @@ TEST_CASE("what is left behind is found") {
   }
   check_fails("lying_leaks.fmu", "memory", "it leaks 112 bytes of heap", few);
   check_fails("lying_leaks_pages.fmu", "memory", "it leaks 0 bytes of heap and", few);
-  check_fails("lying_leaks_files.fmu", "memory", "420 lives leave 420 files open", few);
+  check_fails("lying_leaks_files.fmu", "memory", "420 instances leave 420 files open", few);
   check_fails("lying_grows_in_steps.fmu", "memory", "while it runs it grows by 112 bytes of heap",
               few);
 }
@@ -170,10 +170,10 @@ TEST_CASE("capabilities that a unit does not declare are not checked") {
 TEST_CASE("a state that is declared and is not there") {
   const Altered unit("stateless", "canHandleVariable",
                      "canGetAndSetFMUState=\"true\" canHandleVariable");
-  const Outcome outcome = verify(unit.folder.string(), {"--lives", "40"});
+  const Outcome outcome = verify(unit.folder.string(), {"--instances", "40"});
   CHECK(outcome.exit_code == 1);
   CHECK_THAT(row(outcome, "description"),
-             Contains("FAILED") && Contains("is not what the library says of itself"));
+             Contains("FAILED") && Contains("differs from the library's own description"));
   CHECK_THAT(row(outcome, "restore"),
              Contains("FAILED") && Contains("fmi3GetFMUState returned fmi3Error"));
 }
@@ -248,7 +248,7 @@ TEST_CASE("mistakes in the input are reported, with exit code 2") {
   CHECK_THAT(mistake({"verify", "minimal.fmu", "--step", "1", "--stop", "2"}),
              Contains("there are 2 steps") && Contains("expected 4 at least"));
   CHECK_THAT(mistake({"verify", "minimal.fmu", "--timeout", "-1"}), Contains("--timeout -1"));
-  CHECK_THAT(mistake({"verify", "minimal.fmu", "--lives", "3"}), Contains("--lives"));
+  CHECK_THAT(mistake({"verify", "minimal.fmu", "--instances", "3"}), Contains("--instances"));
   CHECK_THAT(mistake({"verify", "minimal.fmu", "--json", "/nowhere/x.json"}),
              Contains("/nowhere/x.json"));
   const std::string err = run_program({"verify", "minimal.fmu", "--check", "rest"}).err;
@@ -305,8 +305,8 @@ TEST_CASE("a damaged description is refused or judged") {
   int failed = 0;
   for (int i = 0; i < kTrials; ++i) {
     workspace.scratch().write("unit/modelDescription.xml", mutator.mutate(whole));
-    const Outcome outcome =
-        workspace.stride({"verify", "unit", "--lives", "40", "--timeout", "20", "--stop", "0.01"});
+    const Outcome outcome = workspace.stride(
+        {"verify", "unit", "--instances", "40", "--timeout", "20", "--stop", "0.01"});
     CAPTURE(i, outcome.exit_code, outcome.out, outcome.err);
     CHECK((outcome.exit_code == 0 || outcome.exit_code == 1 || outcome.exit_code == 2));
     CHECK_THAT(outcome.out, !Contains("signal") && !Contains("in time"));

@@ -7,12 +7,12 @@
     <!-- test: result SCENARIO FILE -->   how that file in the results folder of the scenario begins
     <!-- test: session NAME -->           console, commands behind "$ " and what they print, beside the files; blocks of
                                           one name are one session
-    <!-- test: part PATH -->              lines that stand so, whatever their indentation, in that file of the repository
+    <!-- test: part PATH -->              lines of that file of the repository, indented in any way
 
 blocks.py extract FOLDER PAGE...   writes them into the folder and prints "unit NAME", "scenario NAME" and
                                    "session NAME", one a line
 blocks.py check PAGE...            fails for a page without a marked block, for a result without its scenario, and for a
-                                   part that is no part of its file
+                                   part that is not part of its file
 """
 
 import pathlib
@@ -63,12 +63,12 @@ def blocks_of(page):
         kind, *words = marker.group(1).split() or [""]
         pattern = PATH if kind == "part" else NAME
         if kind not in WORDS or len(words) != WORDS[kind] or not all(map(pattern.fullmatch, words)):
-            raise Mistake(f"{place}: '{marker.group(1)}' is no test; see tests/docs/blocks.py for those there are")
+            raise Mistake(f"{place}: '{marker.group(1)}' is not a test; see tests/docs/blocks.py for those there are")
         opening = FENCE.fullmatch(lines[number]) if number < len(lines) else None
         if not opening:
             raise Mistake(f"{place}: expected a fenced block in the next line")
         if opening.group(1) != LANGUAGES.get(kind, opening.group(1)):
-            raise Mistake(f"{place}: expected ```{LANGUAGES[kind]}, the page says ```{opening.group(1)}")
+            raise Mistake(f"{place}: expected ```{LANGUAGES[kind]}, the page has ```{opening.group(1)}")
         first = number + 1
         try:
             number = lines.index("```", first) + 1
@@ -117,7 +117,7 @@ def check_part(page, path, text):
     if not file.is_file():
         raise Mistake(f"{page}: there is no file {path}")
     if without_indentation(text) not in without_indentation(file.read_text(encoding="utf-8")):
-        raise Mistake(f"{page}: what it shows of {path} does not stand there:\n{text}")
+        raise Mistake(f"{page}: what it shows of {path} is not in that file:\n{text}")
 
 
 def check(pages):
@@ -134,7 +134,7 @@ def check(pages):
                 check_part(page, words[0], text)
     for page, (scenario, file) in results:
         if scenario not in scenarios:
-            raise Mistake(f"{page}: the result {file} is of '{scenario}', which is no scenario")
+            raise Mistake(f"{page}: the result {file} is of '{scenario}', which is not a scenario")
 
 
 def main(arguments):

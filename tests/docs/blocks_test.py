@@ -53,7 +53,7 @@ class BlocksTest(unittest.TestCase):
         self.assertEqual(self.run_on(session + part.format("  import io"), "check")[0], 0)
         status, output = self.run_on(session + part.format("import ioo"), "check")
         self.assertEqual(status, 1)
-        self.assertIn("does not stand there", output)
+        self.assertIn("is not in that file", output)
         status, output = self.run_on(session + part.replace("_test.py", "_best.py"), "check")
         self.assertEqual(status, 1)
         self.assertIn("no file tests/docs/blocks_best.py", output)
@@ -67,8 +67,8 @@ class BlocksTest(unittest.TestCase):
             "<!-- test: unit tank -->\n\n```cpp\nint a;\n```\n": "page.md:1: expected a fenced block",
             "<!-- test: unit tank -->\n```xml\n<a/>\n```\n": "page.md:1: expected ```cpp",
             "<!-- test: unit tank -->\n```cpp\nint a;\n": "page.md:1: the fenced block has no end",
-            "<!-- test: units tank -->\n```cpp\nint a;\n```\n": "page.md:1: 'units tank' is no test",
-            "<!-- test: unit ../tank -->\n```cpp\nint a;\n```\n": "page.md:1: 'unit ../tank' is no test",
+            "<!-- test: units tank -->\n```cpp\nint a;\n```\n": "page.md:1: 'units tank' is not a test",
+            "<!-- test: unit ../tank -->\n```cpp\nint a;\n```\n": "page.md:1: 'unit ../tank' is not a test",
             "<!-- test: file a -->\n```\n1\n```\n<!-- test: file a -->\n```\n2\n```\n": "'file a' differs",
         }.items():
             with self.subTest(text=text):
@@ -85,7 +85,7 @@ class BlocksTest(unittest.TestCase):
         status, output = self.run_on("<!-- test: unit a -->\n```cpp\nint a;\n```\n"
                                      "<!-- test: result fill signals.csv -->\n```\ntime\n```\n", "check")
         self.assertEqual(status, 1)
-        self.assertIn("no scenario", output)
+        self.assertIn("not a scenario", output)
 
 
 if __name__ == "__main__":

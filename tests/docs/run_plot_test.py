@@ -11,7 +11,7 @@ STEP = 3.0  # 100 ms of the golden results, in units of the picture
 
 
 def parts(svg):
-    """(name, numbers, all else) of each element that is no curve."""
+    """(name, numbers, all else) of each element that is not a curve."""
     for element in xml.fromstring(svg):
         name = element.tag.rsplit("}", 1)[-1]
         if name == "polygon":

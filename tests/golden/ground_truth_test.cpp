@@ -138,7 +138,7 @@ TEST_CASE("a log that is taken for new is wrong, for the case has cooled meanwhi
   CHECK_THAT(table.verdict()["text"].get<std::string>(), Contains("1 of 5 measurements right"));
 }
 
-TEST_CASE("a measurement of a truth that is no longer recorded is reported, and is no mistake") {
+TEST_CASE("a measurement of a truth that is no longer recorded is reported, and is not a mistake") {
   const Table table;
   const Outcome outcome =
       table.run({"--quiet", "--set", "ground_truth.memory=0.5", "--set",

@@ -38,7 +38,7 @@ std::map<std::string, std::vector<std::string>> scenarios_with_sensors() {
   return found;
 }
 
-/// What the scenario says of the component's early returns.
+/// What the scenario sets of the component's early returns.
 std::string early_return(const std::string& scenario, const std::string& component) {
   const std::string text = text_of(scenario_folder(scenario) / (scenario + ".ssd"));
   std::smatch match;

@@ -26,7 +26,7 @@ Arguments without_judge(const std::string& scenario);
 class ScenarioRun {
  public:
   /// `scenario`: the name of a folder in scenarios/, or the path of a .ssd. Throws
-  /// std::runtime_error, with what the program says, if it fails.
+  /// std::runtime_error, with the output of the program, if it fails.
   explicit ScenarioRun(const std::string& scenario, const Arguments& further = {});
   ~ScenarioRun();
   ScenarioRun(const ScenarioRun&) = delete;

@@ -56,7 +56,7 @@ const ScenarioRun& exact_run() {
   return only;
 }
 
-/// What run.json says of a component.
+/// What run.json contains about a component.
 nlohmann::json unit_entry(const ScenarioRun& run, const std::string& component) {
   const auto told = nlohmann::json::parse(text_of(run.file("run.json")));
   for (const auto& unit : told["units"]) {

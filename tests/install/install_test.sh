@@ -54,7 +54,7 @@ grep -Eq '^  frequency +parameter +Float64 +Hz +0.5 ' "$work/table" || { cat "$w
 grep -Eq '^  position +output +Float64 +m ' "$work/table" || { cat "$work/table"; fail "no position"; }
 
 step "A program is packed with the installed unit process, and is a good unit"
-"$stride" verify "$work/project/build/units/pump.fmu" --lives 40 --check splitting > "$work/table" ||
+"$stride" verify "$work/project/build/units/pump.fmu" --instances 40 --check splitting > "$work/table" ||
   { cat "$work/table"; fail "the pump is no good"; }
 
 # position = cos(pi t); behind the low-pass of 1 s, held over 1 ms, (cos(pi t) + pi sin(pi t) - exp(-t)) / (1 + pi^2)

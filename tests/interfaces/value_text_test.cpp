@@ -26,9 +26,9 @@ TEST_CASE("bytes are two hexadecimal digits each, of either case when read") {
 TEST_CASE("an error names the type, as it is called where the value is") {
   std::int64_t item = 0;
   CHECK_THROWS_WITH(parse_value("red", item, type_name(Type::Enumeration)),
-                    "'red' is no Enumeration; expected a whole number within its range");
+                    "'red' is not a valid Enumeration; expected a whole number within its range");
   CHECK_THROWS_WITH(parse_value("red", item),
-                    "'red' is no Int64; expected a whole number within its range");
+                    "'red' is not a valid Int64; expected a whole number within its range");
 }
 
 TEST_CASE("an error cuts a long text at the start of a character") {
@@ -38,10 +38,10 @@ TEST_CASE("an error cuts a long text at the start of a character") {
   for (int i = 0; i < 29; ++i) shown += "ö";
   double number = 0;
   CHECK_THROWS_WITH(parse_value(text, number),
-                    "'" + shown + "…' is no Float64; expected a number such as 1.5e-06");
+                    "'" + shown + "…' is not a valid Float64; expected a number such as 1.5e-06");
   const std::string longest(60, 'x');
   CHECK_THROWS_WITH(parse_value(longest, number),
-                    "'" + longest + "' is no Float64; expected a number such as 1.5e-06");
+                    "'" + longest + "' is not a valid Float64; expected a number such as 1.5e-06");
 }
 
 TEST_CASE("every type has its name of FMI 3.0") {

@@ -41,5 +41,5 @@ for model in "gymnasium-$version"/gymnasium/envs/mujoco/assets/*.xml; do
 done
 [ $count -ge 10 ] || { echo "only $count models were found"; exit 1; }
 
-"$stride" verify swimmer.fmu --lives 40 > verify.txt || { cat verify.txt; exit 1; }
+"$stride" verify swimmer.fmu --instances 40 > verify.txt || { cat verify.txt; exit 1; }
 echo "$count worlds"

@@ -91,7 +91,7 @@ def main(program, folder):
     package = os.environ.get("STRIDE_OMSIMULATOR")
     if not package:
         print("SKIPPED: STRIDE_OMSIMULATOR does not name a folder with the Python package OMSimulator. The one of PyPI fetches "
-              "a program from elsewhere while it is installed, so it is no requirement, and CI has none")
+              "a program from elsewhere while it is installed, so it is not a requirement, and CI has none")
         return SKIPPED
     sys.path.insert(0, package)
     import OMSimulator as oms

@@ -98,23 +98,23 @@ bool is_source(const fs::path& path) {
   return path.extension() == ".h" || path.extension() == ".cpp";
 }
 
-/// Each part of a room with the other parts that it includes. A part is a folder of the room, or a
-/// header with its source beside them.
+/// Each part of a module with the other parts that it includes. A part is a folder of the module,
+/// or a header with its source beside them.
 using Parts = std::map<std::string, std::set<std::string>>;
 
 std::string part_of(const fs::path& file) {
   return file.has_parent_path() ? file.begin()->string() : file.stem().string();
 }
 
-Parts parts_of(const std::string& room) {
+Parts parts_of(const std::string& module) {
   Parts parts;
-  const fs::path folder = fs::path(STRIDE_SOURCE_DIR) / room;
+  const fs::path folder = fs::path(STRIDE_SOURCE_DIR) / module;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (!is_source(entry.path())) continue;
     const std::string part = part_of(entry.path().lexically_relative(folder));
     for (const std::string& header : includes(entry.path())) {
-      if (!begins_with(header, room)) continue;
-      const std::string other = part_of(fs::path(header).lexically_relative(room));
+      if (!begins_with(header, module)) continue;
+      const std::string other = part_of(fs::path(header).lexically_relative(module));
       if (other != part) parts[part].insert(other);
     }
   }

@@ -67,7 +67,7 @@ TEST_CASE("proportional control on a constant clock follows the closed form") {
   check_proportional(record, 0.002, 0.01, 50);
 }
 
-TEST_CASE("a controller on a countdown clock follows a period that is no decimal") {
+TEST_CASE("a controller on a countdown clock follows a period that is not a decimal") {
   // as picoseconds: what the unit counts down
   const double period = to_seconds(duration_from_seconds(std::sqrt(2.0) * 3e-3));
   const Duration step = GENERATE(Duration(1ms), Duration(1s));

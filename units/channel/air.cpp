@@ -93,7 +93,7 @@ void Air::add_observation(Time now, double carrier_power) {
   if (observed.empty() || !(observed.back() == added)) observed.push_back(std::move(added));
 }
 
-// Whatever can be said of the bits that have ended.
+// Whatever is known of the bits that have ended.
 void Air::decide() {
   for (const Direction direction : {Direction::kDown, Direction::kUp}) {
     for (Reception& reception : receptions(direction)) decide(reception, direction);

@@ -44,7 +44,7 @@ enum class Overlap {
 
 struct Rules {
   Overlap overlap = Overlap::kSuperpose;
-  bool half_duplex = true;     ///< a receiver does not hear what overlaps its transmission
+  bool half_duplex = true;     ///< a receiver does not receive what overlaps its transmission
   double capture_ratio = 1.0;  ///< with kSuperpose: a tag stronger by this factor masks another
 };
 
@@ -119,7 +119,7 @@ class Air {
   /// What each side gets of the other, and would get with another carrier power [W].
   virtual Signals signals(std::size_t tag, double carrier_power) const = 0;
 
-  /// A receiver that gets less [W] does not hear.
+  /// A receiver with less [W] receives nothing.
   virtual double least_signal(Direction direction, std::size_t tag) const = 0;
   /// That a bit is heard wrong: 0 to 0.5. `others` is the power of other frames at this receiver.
   virtual double bit_error_probability(Direction direction, std::size_t tag, std::uint32_t bit_rate,

@@ -40,7 +40,7 @@ void require_pose(const std::string& antenna, const Pose& pose) {
   }
   if (!is_directed(pose)) {
     throw std::invalid_argument("the axis of " + antenna +
-                                " is no direction: expected a finite normal vector, its length "
+                                " is not a direction: expected a finite normal vector, its length "
                                 "not zero");
   }
 }

@@ -41,7 +41,7 @@ class Model : public Air {
  public:
   /// The poses are in the same coordinates, one for each tag; carrier power in [W], 0 for a reader
   /// whose antenna is off. Throws std::invalid_argument for an axis of length zero, a negative
-  /// power or what is no number, naming it.
+  /// power or what is not a number, naming it.
   void move(const Pose& reader, const std::vector<Pose>& tags, double carrier_power) {
     require_carrier_power(carrier_power);
     require_pose("reader_coil", reader);

@@ -30,15 +30,15 @@ struct Transit {
   stride::Time end_of_bits(std::size_t count) const;
 };
 
-/// As nfc::Frame says: the start of communication, one bit long, then the bits, then one bit's time
-/// for the end of communication. Propagation takes no time.
+/// As nfc::Frame defines: the start of communication, one bit long, then the bits, then one bit's
+/// time for the end of communication. Propagation takes no time.
 Transit nominal_transit(const nfc::Frame& frame);
 
 /// One frame on its way to one receiver.
 struct Reception {
   nfc::Frame sent;
   Transit transit;
-  std::uint32_t tag = 0;     ///< that hears it, or that sent it
+  std::uint32_t tag = 0;     ///< that receives it, or that sent it
   std::uint64_t number = 0;  ///< among the sender's frames
   stride::Time end{};        ///< when the receiver gets it
   nfc::Bits heard;           ///< the bits that have ended, errors included

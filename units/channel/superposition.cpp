@@ -65,7 +65,7 @@ class Grid {
     }
   }
 
-  // A start of communication disturbs what is there, but is no bit of its own.
+  // A start of communication disturbs what is there, but is not a bit of its own.
   void add(std::size_t index, Slot slot, bool extend = true) {
     if (index >= slots_.size()) {
       if (!extend) return;

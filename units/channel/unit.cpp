@@ -266,12 +266,12 @@ void ChannelUnit::list_input(const std::string& name, Port& port, const std::str
 
 void ChannelUnit::list_output(const std::string& name, Port& port, const std::string& receiver) {
   output(name + ".clock", port.clock)
-      .description("ticks when a frame has ended that " + receiver + " hears");
+      .description("ticks when a frame has ended that " + receiver + " receives");
   output(name + ".frame", port.frame)
       .clocked_by(port.clock)
       .mime_type(kFrameType)
       .depends_on({})
-      .description("the frame as " + receiver + " hears it, with bit errors");
+      .description("the frame as " + receiver + " receives it, with bit errors");
 }
 
 bool ChannelUnit::take_frames() {

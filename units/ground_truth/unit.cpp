@@ -83,7 +83,7 @@ class GroundTruth : public stride::Unit {
         .unit("s")
         .min(0)
         .clocked_by(clock_)
-        .description("how old the measurement says to be");
+        .description("age of the measurement, as reported");
     input("measurement.age_resolution", age_resolution_)
         .unit("s")
         .min(0)
@@ -99,7 +99,7 @@ class GroundTruth : public stride::Unit {
     parameter("max_age", max_age_)
         .unit("s")
         .range(0, stride::kMaxSeconds)
-        .description("by how much a measurement may be older than it says");
+        .description("by how much a measurement may be older than reported");
     parameter("memory", memory_)
         .unit("s")
         .range(0, stride::kMaxSeconds)
@@ -122,7 +122,7 @@ class GroundTruth : public stride::Unit {
                 "of the last measurement that was compared: measured less true");
     list_number("worst.error", found.worst.error, quantity_.difference, "the largest one");
     list_number("worst.time", worst_time_, "s", "when this measurement was received");
-    list_number("worst.measured", found.worst.measured, quantity_.unit, "what it says");
+    list_number("worst.measured", found.worst.measured, quantity_.unit, "measured value");
     list_number("worst.truth", found.worst.truth, quantity_.unit, "the nearest that was true");
   }
 

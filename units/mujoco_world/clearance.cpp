@@ -8,7 +8,7 @@
 namespace mujoco_world {
 namespace {
 
-// As MuJoCo's documentation says in "Collision detection"; the pairs that it leaves out because one
+// As in MuJoCo's documentation, "Collision detection"; the pairs that it leaves out because one
 // body is the other's parent are kept.
 bool may_collide(const mjModel& model, int first, int second) {
   const int* const weld = model.body_weldid;

@@ -69,7 +69,7 @@ inline constexpr const char* kRequiredSites = "required_sites";
 /// Compiles an MJCF file. Throws std::runtime_error with the file and MuJoCo's message, or with the
 /// site that is required and missing, and those that there are.
 /// Features that would make the world irreproducible are switched off: noise on sensors (MuJoCo 2),
-/// sleeping bodies (MuJoCo 3). That is said in a warning (hooks.h).
+/// sleeping bodies (MuJoCo 3). A warning reports that (hooks.h).
 ModelPointer load_model(const std::filesystem::path& file);
 
 Catalogue list(const mjModel& model);

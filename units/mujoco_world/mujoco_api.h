@@ -25,7 +25,7 @@ static_assert(std::is_same_v<mjtNum, double>, "MuJoCo must be built in double pr
 /// Enabled features that would make a world irreproducible: here the sensors' noise, from rand().
 inline constexpr int kIrreproducible = mjENBL_SENSORNOISE;
 
-/// Whether bodies that are no geoms can touch, too.
+/// Whether bodies that are not geoms can touch, too.
 inline bool has_deformables(const mjModel*) { return false; }
 inline int actuator_count(const mjModel* model) { return model->nu; }
 inline int first_control(const mjModel*, int actuator) { return actuator; }

@@ -21,17 +21,18 @@ struct Noise {
 /// Noise power per bandwidth [W/Hz]: k_B T + interference / kInterferenceBandwidth.
 double noise_density(const Noise& noise);
 
-/// How much of a bit's time the signal is there with which the bit is told, and how it is detected.
+/// How much of a bit's time the signal is there with which the bit is encoded, and how it is
+/// detected.
 struct BitSignal {
   double seconds;  ///< that the signal lasts, times the share of its power that gets through
   bool coherent;   ///< the phase is known; otherwise only the envelope is looked at
 };
 
 /// Reader to tag: amplitude shift keying of 100 %, modified Miller code (ISO/IEC 14443-2:2020,
-/// 8.1.2 and 8.1.3.1). A bit is told by where in it the pause is, if any; the pause lasts a quarter
-/// of the bit at each of the rates 106, 212, 424 and 848 kbit/s (t1 in 8.1.2.2 and 8.1.2.3). The
-/// two resonances let the envelope fall no further than two low-passes of the time constants
-/// tau = 2 Q / omega in a row do in this time; the signal is that difference.
+/// 8.1.2 and 8.1.3.1). A bit is encoded by where in it the pause is, if any; the pause lasts a
+/// quarter of the bit at each of the rates 106, 212, 424 and 848 kbit/s (t1 in 8.1.2.2
+/// and 8.1.2.3). The two resonances let the envelope fall no further than two low-passes of the
+/// time constants tau = 2 Q / omega in a row do in this time; the signal is that difference.
 BitSignal down_signal(std::uint32_t bit_rate, double reader_quality, double tag_quality);
 
 /// Tag to reader: load modulation with the subcarrier fc/16 (8.2.2 and 8.2.3); at 106 kbit/s on-off

@@ -75,7 +75,7 @@ class NfcChannel : public channel::ModelUnit<Channel, nfc_channel::Parameters> {
     list_positive(name + ".modulation_resistance", tag.chip.modulation_resistance, "Ohm",
                   "switched in parallel by the load modulator");
     list_positive(name + ".power_threshold", tag.power_threshold, "W",
-                  "a tag with less power does not hear");
+                  "a tag with less power receives nothing");
     list_noise(name, tag.noise);
   }
 
@@ -84,7 +84,7 @@ class NfcChannel : public channel::ModelUnit<Channel, nfc_channel::Parameters> {
                   "in series with the coil; 0 tunes it to the carrier");
     list_noise("reader", p_.reader.noise);
     list_positive("reader.sensitivity", p_.reader.sensitivity, "W",
-                  "a reader that receives less power does not hear");
+                  "a reader with less power receives nothing");
     list_positive("reader.capture_ratio", p_.reader.capture_ratio, "dB",
                   "a tag that is stronger by more masks another");
     parameter("seed", p_.seed).description("seed of the bit errors");

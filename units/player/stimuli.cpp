@@ -34,7 +34,7 @@ stride::Time parse_time(const std::string& text) {
     return stride::Time(stride::Duration(ticks));
   }
   throw std::invalid_argument("'" + text +
-                              "' is no time; expected seconds such as 14.200358702064");
+                              "' is not a time; expected seconds such as 14.200358702064");
 }
 
 class Reader {
@@ -92,7 +92,7 @@ class Reader {
     if (what == "input") return read_input();
     if (what == "item") return read_item();
     if (what == "set") return read_start_value();
-    if (what == "skip" || what == "tolerance") return;  // for people: it is said of the unit
+    if (what == "skip" || what == "tolerance") return;  // human-readable, about the unit
     rows_.fail("'" + what +
                "' is not known here; expected unit, component, system, input, item, set, skip, "
                "tolerance or time");
@@ -127,7 +127,7 @@ class Reader {
       const char* const last = word.data() + word.size();
       const auto [end, mistake] = std::from_chars(word.data(), last, size);
       if (mistake != std::errc() || end != last || size == 0 || size > kMostElements / input.size) {
-        rows_.fail("'" + text + "' are no sizes of an array; expected numbers such as '3 2'");
+        rows_.fail("'" + text + "' are not sizes of an array; expected numbers such as '3 2'");
       }
       input.dimensions.push_back(size);
       input.size *= size;
@@ -137,13 +137,13 @@ class Reader {
   void read_item() {
     expect_fields(4, "item,INPUT,NAME,NUMBER");
     Input& input = known(row()[1]);
-    if (input.type != Type::Enumeration) rows_.fail("'" + input.name + "' is no Enumeration");
+    if (input.type != Type::Enumeration) rows_.fail("'" + input.name + "' is not an Enumeration");
     Values number = values_of(Type::Enumeration);
     checked([&] { append_parsed(number, Type::Enumeration, row()[3]); });
     input.items.emplace_back(row()[2], std::get<std::vector<std::int64_t>>(number).front());
   }
 
-  /// Of an input it is its value from the start on; parameters are for people.
+  /// Of an input it is its value from the start on; parameters are for human readers.
   void read_start_value() {
     if (row().size() < 3) expect_fields(3, "set,VARIABLE,VALUE");
     const std::optional<std::size_t> place = find(row()[1]);
@@ -233,7 +233,7 @@ class Reader {
       const auto [end, mistake] = std::from_chars(text.data(), last, entry.event);
       if (mistake != std::errc() || end != last || entry.event < 0) {
         rows_.fail("'" + text +
-                   "' is no event; expected the number of an iteration, step, end, or "
+                   "' is not an event; expected the number of an iteration, step, end, or "
                    "nothing");
       }
     }

@@ -183,8 +183,8 @@ class PlayerUnit : public stride::Unit {
     position.late = position.beside = -1;
   }
 
-  void warn_once(bool& told, const std::string& message) const {
-    if (!std::exchange(told, true)) log(stride::Severity::Warning, message);
+  void warn_once(bool& has_warned, const std::string& message) const {
+    if (!std::exchange(has_warned, true)) log(stride::Severity::Warning, message);
   }
 
   player::Stimuli stimuli_;

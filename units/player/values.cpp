@@ -30,7 +30,7 @@ Type type_named(const std::string& name) {
     if (name == stride::kTypeNames[i]) return static_cast<Type>(i);
     known.append(i == 0 ? "" : ", ").append(stride::kTypeNames[i]);
   }
-  throw std::invalid_argument("'" + name + "' is no type; expected " + known);
+  throw std::invalid_argument("'" + name + "' is not a type; expected " + known);
 }
 
 Values values_of(Type type) {

@@ -26,7 +26,7 @@ Type type_named(const std::string& name);
 /// No values yet, of this type.
 Values values_of(Type type);
 
-/// Reads one value and adds it. Throws std::invalid_argument that says what was expected.
+/// Reads one value and adds it. Throws std::invalid_argument that contains what was expected.
 void append_parsed(Values& values, Type type, const std::string& text);
 
 }  // namespace player

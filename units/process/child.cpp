@@ -117,7 +117,7 @@ int failure_of(const Descriptor& failure) {
 std::string remedy(int error) {
   if (error == ENOENT) return "; it does not exist, or the interpreter in its first line does not";
   if (error == EACCES) return "; make it an executable file (chmod +x)";
-  if (error == ENOEXEC) return "; it is no program for this machine; a script begins with #!";
+  if (error == ENOEXEC) return "; it is not a program for this machine; a script begins with #!";
   return "";
 }
 
@@ -153,7 +153,7 @@ Child::Child(const std::vector<std::string>& command) {
   if (id_ == 0) {
     const int mistake =
         launch.run(parent, {input.read.number(), output.write.number(), error.write.number()});
-    [[maybe_unused]] const auto told = ::write(failure.write.number(), &mistake, sizeof mistake);
+    [[maybe_unused]] const auto written = ::write(failure.write.number(), &mistake, sizeof mistake);
     ::_exit(127);
   }
   if (id_ < 0) throw std::runtime_error("cannot start '" + path + "': " + reason(errno));

@@ -34,7 +34,7 @@ class Descriptor {
 class Child {
  public:
   /// Starts the program with its arguments; `command.front()` is a path, or a name that is looked
-  /// for in PATH. Throws std::runtime_error that says why it cannot be started.
+  /// for in PATH. Throws std::runtime_error with the reason if it cannot be started.
   explicit Child(const std::vector<std::string>& command);
   /// Kills it, unless it has ended.
   ~Child();

@@ -185,7 +185,7 @@ class Reader {
     if (child.has("max")) variable.max = child.number("max");
   }
 
-  /// `receive.frame` has the clock `receive.clock`, unless another name is said.
+  /// `receive.frame` has the clock `receive.clock`, unless another name is given.
   void read_clock(const Element& child, Variable& variable) {
     const std::size_t dot = variable.name.rfind('.');
     if (child.has("clock")) {

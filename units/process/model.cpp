@@ -16,20 +16,21 @@ std::string seconds(Time time) {
   return text + " s";
 }
 
-const char* word(Role role) {
+/// With its article.
+const char* with_article(Role role) {
   switch (role) {
     case Role::Parameter:
-      return "parameter";
+      return "a parameter";
     case Role::Input:
-      return "input";
+      return "an input";
     case Role::Output:
-      return "output";
+      return "an output";
     case Role::MessageInput:
-      return "message input";
+      return "a message input";
     case Role::MessageOutput:
       break;
   }
-  return "message output";
+  return "a message output";
 }
 
 }  // namespace
@@ -186,9 +187,9 @@ std::size_t Session::find(std::string_view name, Role role) {
 
 void Session::refuse_name(std::string_view name, Role role) const {
   const auto found = places_.find(name);
-  std::string text = "'" + std::string(name) + "' is no " + word(role);
+  std::string text = "'" + std::string(name) + "' is not " + with_article(role);
   if (found != places_.end()) {
-    text += std::string(", but a ") + word(declaration_.variables[found->second].role);
+    text += std::string(", but ") + with_article(declaration_.variables[found->second].role);
   }
   std::string known;
   for (const Variable& variable : declaration_.variables) {
@@ -235,7 +236,7 @@ Sync Session::take_sync(Time to, bool may_stop) {
     throw std::invalid_argument("the step ended at " + seconds(sync.time) + ", expected " +
                                 (may_stop
                                      ? "from " + seconds(least) + " to " + seconds(to)
-                                     : seconds(to) + ", where the command said that it must end"));
+                                     : seconds(to) + ", where the command required it to end"));
   }
   if (tag_.has("next")) {
     sync.next = take_time("next");

@@ -141,8 +141,8 @@ void ProgramLines::exchange() {
   }
   if (ready == 0) {
     wait_for_end({});
-    fail("has said nothing for " + std::to_string(limits_.silence.count()) +
-         " ms while it was to " + awaited_ +
+    fail("wrote nothing for " + std::to_string(limits_.silence.count()) + " ms while it was to " +
+         awaited_ +
          ", and was ended; if that is what it needs, raise the parameter process.time_limit");
   }
   if (ready < 0) return;
@@ -228,7 +228,8 @@ void ProgramLines::finish() {
   child_->input().close();
   const auto limit = limits_.silence.count() != 0 ? limits_.silence : std::chrono::hours(24 * 365);
   if (!wait_for_end(limit)) {
-    fail("was told to end, and has not done so within " + std::to_string(limits_.silence.count()) +
+    fail("received the end command, and has not ended within " +
+         std::to_string(limits_.silence.count()) +
          " ms; it should end after <end/>, or where its standard input ends");
   }
   if (!child_->has_succeeded()) {

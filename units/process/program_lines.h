@@ -23,7 +23,7 @@ struct Limits {
 };
 
 /// A program that has been started, and the lines on its pipes. All functions throw
-/// std::runtime_error that names the program, says what was expected, and quotes what it wrote.
+/// std::runtime_error that names the program, contains what was expected, and quotes what it wrote.
 class ProgramLines {
  public:
   /// Receives each line that the program writes to its standard error.

@@ -173,7 +173,7 @@ class ProcessUnit : public stride::Unit {
     parameter("process.time_limit", time_limit_)
         .unit("s")
         .range(0, 1e6)
-        .description("the program may say nothing for so long when it is asked; 0 is for ever");
+        .description("maximum time without output while an answer is expected; 0: no limit");
     parameter("process.answer_limit", answer_limit_)
         .description("how many bytes it may write until it has answered");
     if (!declaration_.has_trace) return;

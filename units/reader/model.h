@@ -81,8 +81,8 @@ class Reader {
 
   enum class Phase : std::uint8_t { kIdle, kWaiting, kReceiving, kPausing };
 
-  /// All that a rollback has to bring back. What the axes and the carrier do is no part of it: they
-  /// are functions of time.
+  /// All that a rollback has to bring back. What the axes and the carrier do is not part of it:
+  /// they are functions of time.
   struct State {
     std::vector<Record> records;  ///< of the commands so far, in the program's order
     Phase phase = Phase::kIdle;

@@ -189,8 +189,9 @@ class ReaderUnit : public stride::Unit {
           .description(meaning);
     };
     list("temperature", measurement_, "degC", "the temperature");
-    list("age", age_, "s", "how old it is at least, as the sensor says");
-    list("age_resolution", age_resolution_, "s", "how much older it may be for want of digits");
+    list("age", age_, "s", "minimum age, as the sensor reports it");
+    list("age_resolution", age_resolution_, "s",
+         "how much older it may be, because ages are rounded down");
   }
 
   void list_counts() {
@@ -198,7 +199,7 @@ class ReaderUnit : public stride::Unit {
       output(std::string("messages.") + name, value).depends_on({}).description(meaning);
     };
     count("sent", shown_.sent, "commands sent, each counted once");
-    count("retries", shown_.retries, "frames sent again for want of an intact answer");
+    count("retries", shown_.retries, "frames sent again because an intact answer is missing");
     count("answered", shown_.answered, "commands with an intact answer, whatever its status");
     count("refused", shown_.refused, "answered commands whose status was not OK");
     count("unanswered", shown_.unanswered, "commands without an intact answer in the end");

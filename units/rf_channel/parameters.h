@@ -16,7 +16,7 @@ struct Radio {
   double antenna_gain = 0.0;   ///< in its best direction, over an isotropic antenna [dB]
   double noise_figure = 10.0;  ///< over the thermal noise of 290 K [dB]
   double interference = 0.0;   ///< power of other senders in the receiver's bandwidth [W]
-  double sensitivity = 1e-13;  ///< a receiver that gets less does not hear [W]
+  double sensitivity = 1e-13;  ///< a receiver with less receives nothing [W]
 };
 
 struct TagParameters {

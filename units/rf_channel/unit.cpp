@@ -49,7 +49,7 @@ class RfChannel : public channel::ModelUnit<Channel, rf_channel::Parameters> {
     parameter(name + ".sensitivity", radio.sensitivity)
         .unit("W")
         .min(0)
-        .description("a receiver that gets less does not hear");
+        .description("a receiver with less receives nothing");
   }
 
   void list_tag_parameters(TagParameters& tag) {

@@ -16,7 +16,7 @@ struct TransceiverParameters {
 
 struct ControlUnitParameters {
   double clock_frequency = 50e6;         ///< [Hz]; its half period is rounded to a picosecond
-  bool clock_gating = true;              ///< the clock stands still while the control unit sleeps
+  bool clock_gating = true;              ///< the clock is stopped while the control unit sleeps
   std::int32_t boot_cycles = 50'000;     ///< from power-on to the first instruction
   std::int32_t wake_up_cycles = 250;     ///< from stop mode to the first instruction
   std::int32_t decode_cycles = 40;       ///< to decode a command
@@ -87,7 +87,7 @@ void add_control_unit(Part& control_unit, const Add& add) {
   add(control_unit.clock_frequency, "control_unit.clock_frequency", "Hz", 1e3, 1e9,
       "frequency of the control unit's clock");
   add(control_unit.clock_gating, "control_unit.clock_gating", "", 0, 1,
-      "whether the clock stands still while the control unit sleeps");
+      "whether the clock is stopped while the control unit sleeps");
   add(control_unit.boot_cycles, "control_unit.boot_cycles", "", 1, 1e9,
       "clock cycles from power-on to the first instruction");
   add(control_unit.wake_up_cycles, "control_unit.wake_up_cycles", "", 1, 1e9,
@@ -114,7 +114,7 @@ void add_adc(Part& adc, const Add& add) {
   add(adc.minimum, "adc.minimum", "degC", -273.15, 327, "temperature of code 0");
   add(adc.maximum, "adc.maximum", "degC", -273.15, 327, "temperature of code 4095");
   add(adc.offset_error, "adc.offset_error", "K", -100, 100,
-      "by how much too high a temperature is converted, for want of calibration");
+      "by how much too high a temperature is converted, because calibration is missing");
   add(adc.conversion_cycles, "adc.conversion_cycles", "", 1, 1e9, "clock cycles of a conversion");
   add(adc.current, "adc.current", "A", 0, 1, "current while it converts");
 }

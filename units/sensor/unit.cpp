@@ -112,7 +112,7 @@ class SensorUnit : public stride::systemc::DeviceUnit<Sensor> {
     indicator("frames.sent", counters_.sent, "answers started");
     indicator("frames.cut", counters_.cut, "answers cut off because power or carrier failed");
     indicator("frames.dropped", counters_.dropped,
-              "answers not started for want of power or carrier");
+              "answers not started because power or carrier is missing");
     indicator("commands.lost", overflows_, "commands that found the FIFO full");
   }
 

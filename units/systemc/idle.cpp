@@ -67,10 +67,10 @@ std::string to_text(const IdleSkipper::Statistics& statistics) {
 
 std::string obstacle_text(Time obstacle) {
   std::ostringstream text;
-  text << "the device said that it was idle, but SystemC had something to notify at "
+  text << "the device declared itself idle, but SystemC had something to notify at "
        << to_seconds(obstacle)
        << " s: such time is not skipped; use a Timer in the place of wait(time) or notify(delay), "
-          "or say the period of the clock that goes on";
+          "or declare the period of the clock that continues";
   return text.str();
 }
 

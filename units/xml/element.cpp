@@ -47,7 +47,7 @@ double Element::to_number(const char* attribute, const std::string& value) const
   const char* end = value.data() + value.size();
   const auto [stop, error] = std::from_chars(value.data(), end, number);
   if (error != std::errc() || stop != end || !std::isfinite(number)) {
-    fail(std::string(attribute) + "=\"" + value + "\" is no number: expected one such as 14.2");
+    fail(std::string(attribute) + "=\"" + value + "\" is not a number: expected one such as 14.2");
   }
   return number;
 }

@@ -1,4 +1,4 @@
-// XML elements whose errors say where they are and what was expected.
+// XML elements whose errors contain their place and what was expected.
 #ifndef STRIDE_UNITS_XML_ELEMENT_H
 #define STRIDE_UNITS_XML_ELEMENT_H
 

@@ -27,7 +27,7 @@ enum class IntervalVariability : std::uint8_t {
 /// the Event Mode that follows, and the kit withdraws it when that super-dense instant is over. An
 /// input has ticked during the update_outputs() before event() and during event() if the importer
 /// set it in this super-dense instant, as it does with a time-based clock at the times that the
-/// unit said.
+/// unit gave.
 class Clock {
  public:
   void tick() { ticked_ = 1; }
@@ -35,7 +35,7 @@ class Clock {
   void clear() { ticked_ = 0; }
 
   /// Of a periodic clock: from tick to tick, as it is declared, or as the importer or the unit has
-  /// set it. Of a changing or countdown clock: what count_down() said last.
+  /// set it. Of a changing or countdown clock: what count_down() set last.
   Duration interval() const { return interval_; }
   /// Of a periodic clock: from the start to the first tick.
   Duration shift() const { return shift_; }

@@ -78,8 +78,8 @@ class Event {
   Time time() const { return time_; }
 
   /// Announces the next instant at which the unit wants Event Mode, in the place of the one that
-  /// was announced before. It stays announced at each event until one at or after it has come, so a
-  /// unit that has nothing new to say says nothing. The importer comes there, or, if its
+  /// was announced before. It stays announced at each event until one at or after it has come, so
+  /// call it only if the time changes. The importer comes there, or, if its
   /// communication points are elsewhere, to the first one after it.
   void next_event(Time time) { next_ = time; }
   /// Withdraws what was announced.

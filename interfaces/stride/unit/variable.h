@@ -40,7 +40,7 @@ struct Variable {
   const Clock* clock = nullptr;                             ///< the clock that it belongs to
   bool intermediate = false;  ///< of an input: Step::update_inputs() asks for it
   IntervalVariability interval_variability = IntervalVariability::Triggered;  ///< of a Clock
-  bool has_interval = false;  ///< of a periodic Clock: it is declared, not said by the unit
+  bool has_interval = false;  ///< of a periodic Clock: it is declared, not given by the unit
   const double* derivative = nullptr;  ///< of an output: its first derivative, element by element
   std::optional<std::vector<std::string>> dependencies;  ///< of an output: nothing = unknown = all
   std::optional<double> deadband;   ///< of a Float64 input, see <stride/idle.h>
@@ -49,7 +49,7 @@ struct Variable {
   bool is_verdict_text = false;     ///< of a String output: it explains the verdict
 };
 
-/// What input(), output(), parameter() and local() return, to say more about the row. Units are
+/// What input(), output(), parameter() and local() return, to add more to the row. Units are
 /// written in the Modelica notation: "m", "rad/s", "N.m", "degC".
 class VariableBuilder {
  public:
@@ -131,7 +131,7 @@ class VariableBuilder {
   /// What this Boolean output is at the end of a run is the unit's verdict: false, and the run has
   /// failed, however well it went.
   VariableBuilder& verdict() { return row_.is_verdict = true, *this; }
-  /// This String output explains the verdict, for people.
+  /// This String output explains the verdict, as human-readable text.
   VariableBuilder& verdict_text() { return row_.is_verdict_text = true, *this; }
 
  private:

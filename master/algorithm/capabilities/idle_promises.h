@@ -25,7 +25,7 @@ class IdlePromises : public Capability {
   virtual void set_idle_tolerances(std::span<const ValueReference> outputs,
                                    std::span<const double> tolerances) = 0;
   /// The instant before which the unit need not be called, while its inputs stay within their
-  /// deadbands and none of its clocks is set. A time not after the current one is no promise;
+  /// deadbands and none of its clocks is set. A time not after the current one is not a promise;
   /// Time::min() if skipping is not enabled.
   virtual Time idle_until() = 0;
   /// The first derivatives of Float64 outputs that have a tolerance, in their units of measure per

@@ -282,8 +282,8 @@ std::string EventHandler::described_by(VariableId id, const ValueBlock& block) c
   if (unit == nullptr) return {};
   std::string text;
   for (const Binary& value : block.binaries()) {
-    const std::string said = unit->describe_message(system_.variable(id).reference, value);
-    if (!said.empty()) text.append(text.empty() ? "" : "; ").append(said);
+    const std::string described = unit->describe_message(system_.variable(id).reference, value);
+    if (!described.empty()) text.append(text.empty() ? "" : "; ").append(described);
   }
   return text;
 }
@@ -301,7 +301,7 @@ void EventHandler::fail_ticking() const {
   }
   fail_run(
       {{}, {}, {}, time_},
-      fmt::format("after {} event iterations at one instant these units still want another: "
+      fmt::format("after {} event iterations at one instant these units still require another: "
                   "{}",
                   kEventLimit, quoted(names)),
       "look for messages or values that answer each other without any delay, and for units that "

@@ -421,7 +421,7 @@ void Exchange::check_item(const MappedCopy& copy, Time time) const {
     return;
   const VariableId to = copy.connection->to;
   fail_run({{}, system_.components()[to.component].name, system_.variable(to).name, time},
-           fmt::format("'{}' gives it {}, which is no item of its Enumeration",
+           fmt::format("'{}' gives it {}, which is not an item of its Enumeration",
                        system_.full_name(copy.connection->from), value),
            "map such values in an <ssc:IntegerMappingTransformation> at the connection");
 }

@@ -26,7 +26,7 @@ struct StepOrderEntry {
   StepRole role;
   bool can_vary_step;
   bool saves_state;    ///< whether its state is saved before each step
-  std::string reason;  ///< of its position, for people
+  std::string reason;  ///< of its position, human-readable
   /// Counted from 0. All units of a stage make the same step, possibly at the same time; a stage
   /// begins when the one before it has completed its step.
   std::size_t stage = 0;

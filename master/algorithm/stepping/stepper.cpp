@@ -329,8 +329,8 @@ void Stepper::check_minimum(const StepInterval& interval, Time reached) const {
 /// The unit's reason for the rejection.
 std::string Stepper::reason(const Cut& cut) const {
   auto* const unit = cut.is_rejection ? cut.by->unit->capability<UnitDiagnostics>() : nullptr;
-  const std::string said = unit != nullptr ? unit->rejection_reason() : "";
-  return said.empty() ? "" : "; it says: " + said;
+  const std::string text = unit != nullptr ? unit->rejection_reason() : "";
+  return text.empty() ? "" : "; message of the unit: " + text;
 }
 
 void Stepper::fail_size(const UnitStep& unit_step, const StepInterval& interval) const {

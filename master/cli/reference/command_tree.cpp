@@ -150,9 +150,9 @@ std::vector<const Command*> all_of(const Command& command) {
 }
 
 std::vector<Option> documented_options(const Command& command) {
-  std::vector<Option> told = command.options;
-  if (command.words.size() > 1) std::erase_if(told, &Option::is_help);
-  return told;
+  std::vector<Option> shown = command.options;
+  if (command.words.size() > 1) std::erase_if(shown, &Option::is_help);
+  return shown;
 }
 
 std::string value_text(const Option& option) {

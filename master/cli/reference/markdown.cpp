@@ -11,7 +11,7 @@ constexpr std::size_t kMarkdownWidth = 120;
 
 constexpr const char* kMarkdownHead =
     "# Command line\n\n"
-    "This page is what the program says of itself (`stride COMMAND --help`), written by\n"
+    "This page is the help of the program (`stride COMMAND --help`), written by\n"
     "`scripts/update_reference.sh`. [scenario.md](scenario.md#command-line) has examples, and what "
     "mistakes look like; an\n"
     "installation has the same as man pages (`man stride-run`), and completion for bash, zsh and "

@@ -11,7 +11,7 @@
 
 namespace stride::importer {
 
-/// Where a unit's callback stepFinished says how a step ended, on whatever thread, before
+/// Where a unit's callback stepFinished reports how a step ended, on whatever thread, before
 /// fmi2DoStep returns or after it, and even after a poll has found the same.
 class AsynchronousStep {
  public:

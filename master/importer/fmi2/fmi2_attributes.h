@@ -1,4 +1,4 @@
-// What a description says of an FMI 2.0 unit beside what core knows.
+// What a description of an FMI 2.0 unit contains beside what core knows.
 #ifndef STRIDE_MASTER_IMPORTER_FMI2_FMI2_ATTRIBUTES_H
 #define STRIDE_MASTER_IMPORTER_FMI2_FMI2_ATTRIBUTES_H
 

@@ -110,9 +110,10 @@ class Variables {
 
   /// To FMI 2.0 "continuous" is the default, of an Integer as well, which cannot be.
   static Variability variability(const xml::Element& element, const core::Variable& variable) {
-    const Variability said = read_variability(element, variable.type, variable.causality);
-    const bool is_possible = said != Variability::Continuous || variable.type == ValueType::Float64;
-    return is_possible ? said : Variability::Discrete;
+    const Variability declared = read_variability(element, variable.type, variable.causality);
+    const bool is_possible =
+        declared != Variability::Continuous || variable.type == ValueType::Float64;
+    return is_possible ? declared : Variability::Discrete;
   }
 
   std::optional<xml::Element> declared_type(const xml::Element& typed) const {

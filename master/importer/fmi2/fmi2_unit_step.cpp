@@ -59,13 +59,13 @@ Status Fmi2Unit::poll_step() {
   return static_cast<Status>(of_step);
 }
 
-/// What the unit says of a step that is not finished.
+/// The unit's message about a step that is not finished.
 std::string Fmi2Unit::pending_text() {
   if (fmi_.GetStringStatus == nullptr) return "";
   note_call("fmi2GetStringStatus");
   fmi2String text = nullptr;
   const fmi2Status answer = fmi_.GetStringStatus(instance_, fmi2PendingStatus, &text);
-  return answer == fmi2OK && text != nullptr ? fmt::format("; it says: {}", text) : "";
+  return answer == fmi2OK && text != nullptr ? fmt::format("; message of the unit: {}", text) : "";
 }
 
 // ---- Partial steps (FMI 2.0, 4.2.2 and 4.2.3) ----
@@ -86,7 +86,8 @@ core::StepResult Fmi2Unit::accept_termination(const core::StepInterval& interval
   if (!reached) {
     if (!saves_each_step_) {
       fail(
-          "the unit ended the simulation within its step (fmi2Terminated), and does not say when "
+          "the unit ended the simulation within its step (fmi2Terminated), and does not report "
+          "when "
           "(fmi2LastSuccessfulTime)");
     }
     restore(is_as_saved_ ? states_.chosen() : before_step_);
@@ -103,9 +104,9 @@ core::StepResult Fmi2Unit::accept_partial_step(const core::StepInterval& interva
     fail(fmt::format("fmi2DoStep returned fmi2Discard in the step to {} s, the unit {}, and its "
                      "state was not saved, since it cannot be (canGetAndSetFMUstate){}{}",
                      core::to_text(interval.to),
-                     reached ? "says that it came no further than where the step began"
-                             : "does not say how far it came (fmi2LastSuccessfulTime)",
-                     rejection_reason_.empty() ? "" : "; it says: ", rejection_reason_),
+                     reached ? "reports that it came no further than where the step began"
+                             : "does not report how far it came (fmi2LastSuccessfulTime)",
+                     rejection_reason_.empty() ? "" : "; message of the unit: ", rejection_reason_),
          "try a smaller step, or use a unit that can save its state");
   }
   if (!std::exchange(has_discard_warning_, true)) {

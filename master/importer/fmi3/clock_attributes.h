@@ -1,4 +1,4 @@
-// Reads what a modelDescription.xml says of a clock.
+// Reads a clock of a modelDescription.xml.
 #ifndef STRIDE_MASTER_IMPORTER_FMI3_CLOCK_ATTRIBUTES_H
 #define STRIDE_MASTER_IMPORTER_FMI3_CLOCK_ATTRIBUTES_H
 

@@ -188,7 +188,7 @@ VariableIndex read_variables(const xml::Element& root, std::vector<core::Variabl
   for (const xml::Element& element : list->children()) {
     if (element.is("", "Annotations")) continue;
     const auto type = find_named<ValueType>(element.name().local, core::kValueTypeCount);
-    if (!type) element.fail(fmt::format("{} is no type of FMI 3.0", element.tag()));
+    if (!type) element.fail(fmt::format("{} is not a type of FMI 3.0", element.tag()));
     variables.push_back(read_variable(element, *type, types));
     elements.push_back(element);
   }
@@ -241,7 +241,7 @@ std::optional<std::size_t> read_output(const xml::Element& element, const char* 
   if (fits) return place;
   element.fail(fmt::format("{}=\"{}\" of {} is {}; expected a scalar {} output without a clock",
                            attribute, *name, element.tag(),
-                           place ? "another variable" : "no variable", core::name(type)));
+                           place ? "another variable" : "not a variable", core::name(type)));
 }
 
 /// What FMI has no word for, in the annotation that the unit kit writes.

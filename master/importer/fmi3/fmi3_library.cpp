@@ -75,8 +75,8 @@ std::string Fmi3Library::describe(const fs::path& resources, const core::Locatio
   if (!describes_itself()) {
     core::fail_input(
         {.where = where},
-        fmt::format("the library '{}' does not know its own model description", path().string()),
-        "only libraries made with stride's unit kit do; give an FMU that has a "
+        fmt::format("the library '{}' contains no model description", path().string()),
+        "only libraries made with stride's unit kit contain one; give an FMU that has a "
         "modelDescription.xml instead");
   }
   return text_from(self_description_, resources, where);

@@ -47,7 +47,7 @@ class Fmi3Library : public SharedLibrary {
   const IdleFunctions& idle_functions() const { return idle_functions_; }
   const DescribeFunctions& describe_functions() const { return describe_functions_; }
   /// Throws core::Error of the kind Input that names the functions of idle skipping that are
-  /// missing, for a unit whose manifest says that it has them.
+  /// missing, for a unit whose manifest declares them.
   void require_idle_functions(const core::Location& where = {}) const;
 
   /// Whether the library was made with the unit kit, and so knows its own model description.

@@ -118,7 +118,8 @@ std::string Fmi3Unit::describe_message(core::ValueReference variable, const core
     return {};
   }
   if (size > text.size()) {
-    fail(fmt::format("{} says that it has written {} bytes where {} fit", name, size, text.size()));
+    fail(fmt::format("{} reports that it has written {} bytes where {} fit", name, size,
+                     text.size()));
   }
   text.resize(size);
   return text;
@@ -338,10 +339,10 @@ core::EventResult Fmi3Unit::update_discrete_states() {
   core::EventResult result{.discrete_states_need_update = iterate,
                            .terminate_simulation = terminate,
                            .next_event_time = {}};
-  // Some units say "never" by a time that no simulation reaches.
+  // Some units express "never" by a time that no simulation reaches.
   if (has_next && !(next > kMaxSeconds)) {
     result.next_event_time = checked_time(next, "nextEventTime");
-    // a unit may compare: it is not entered a rounding error before the instant that it said
+    // a unit may compare: it is not entered a rounding error before the instant that it gave
     while (to_seconds(*result.next_event_time) < next) *result.next_event_time += Duration(1);
   }
   return result;

@@ -30,7 +30,7 @@ namespace stride::importer {
 /// after one.
 ///
 /// A step that succeeds without an early return ends at its end, also where the unit's own time
-/// (lastSuccessfulTime) is another, as with a fixed internal step; the log says so once.
+/// (lastSuccessfulTime) is another, as with a fixed internal step; the log contains it once.
 ///
 /// What an input update throws within a step is thrown by step(), which has ended then.
 ///

@@ -1,4 +1,4 @@
-// What a unit says of its time-based clocks.
+// A unit's time-based clocks.
 #include <stdexcept>
 
 #include <fmt/format.h>

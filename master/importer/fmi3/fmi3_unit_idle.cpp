@@ -49,10 +49,10 @@ const Fmi3Unit::TangentOutput& Fmi3Unit::tangent_output(core::ValueReference ref
       tangent_outputs_.begin(), tangent_outputs_.end(), reference,
       [](const TangentOutput& output, core::ValueReference r) { return output.reference < r; });
   if (found != tangent_outputs_.end() && found->reference == reference) return *found;
-  fail(
-      fmt::format("the variable with the value reference {} is no output with a tolerance, so it "
-                  "has no tangent",
-                  reference));
+  fail(fmt::format(
+      "the variable with the value reference {} is not an output with a tolerance, so it "
+      "has no tangent",
+      reference));
 }
 
 void Fmi3Unit::get_derivatives(References outputs, std::span<double> derivatives) {

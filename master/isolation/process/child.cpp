@@ -45,7 +45,7 @@ void settle(pid_t parent, int output) {
     text = error.what();
   } catch (...) {
     kind = kException;
-    text = "something was thrown that is no std::exception";
+    text = "something was thrown that is not a std::exception";
   }
   write_all(answer, &kind, 1);
   write_all(answer, text.data(), text.size());

@@ -1,4 +1,4 @@
-// A process's memory: what the kernel says of it (proc(5)), and its limit.
+// A process's memory: as the kernel reports it (proc(5)), and its limit.
 #ifndef STRIDE_MASTER_ISOLATION_PROCESS_PROCESS_MEMORY_H
 #define STRIDE_MASTER_ISOLATION_PROCESS_PROCESS_MEMORY_H
 
@@ -8,14 +8,14 @@
 
 namespace stride::isolation {
 
-/// The most that was resident so far [byte]; 0 if it is not said.
+/// The most that was resident so far [byte]; 0 if it is not known.
 std::uint64_t most_memory(pid_t process);
 
-/// What is resident and no other process has [byte]; 0 if it is not said. It goes through all pages
-/// of the process.
+/// What is resident and no other process has [byte]; 0 if it is not known. It goes through all
+/// pages of the process.
 std::uint64_t private_memory(pid_t process);
 
-/// What it has allocated, and may write to alone, resident or not [byte]; 0 if it is not said.
+/// What it has allocated, and may write to alone, resident or not [byte]; 0 if it is not known.
 std::uint64_t data_memory(pid_t process);
 
 /// Lets this process have so many bytes of data more than it has now: heap, stacks of threads, and

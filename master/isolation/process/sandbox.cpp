@@ -101,7 +101,7 @@ void guard_files(Protections& protections, std::span<const WritableFolder> writa
     protections.in_force.push_back(kSignals);
   } else {
     protections.missing.push_back(std::string(kSignals) + " (Landlock " + std::to_string(version) +
-                                  " knows no signals)");
+                                  " does not restrict signals)");
   }
 }
 

@@ -117,7 +117,7 @@ class Extraction {
     }
     archive_read_support_format_zip(reader_.get());
     if (archive_read_open_filename(reader_.get(), archive_.c_str(), kPiece) != ARCHIVE_OK) {
-      fail("is no zip archive", expected_);
+      fail("is not a zip archive", expected_);
     }
   }
 

@@ -102,7 +102,7 @@ class PendingFile {
 
 void add_file(Contents& contents, const std::string& name, const fs::path& file, bool executable) {
   if (!fs::is_regular_file(file)) {
-    core::fail_input({}, fmt::format("'{}' is no file that can be packed", file.string()));
+    core::fail_input({}, fmt::format("'{}' is not a file that can be packed", file.string()));
   }
   if (!contents.emplace(name, Content{{}, file, executable}).second) {
     core::fail_input({}, fmt::format("two files would be '{}' in the archive", name));
@@ -111,7 +111,7 @@ void add_file(Contents& contents, const std::string& name, const fs::path& file,
 
 void add_folder(Contents& contents, const std::string& prefix, const fs::path& folder) {
   if (!fs::is_directory(folder)) {
-    core::fail_input({}, fmt::format("'{}' is no folder that can be packed", folder.string()));
+    core::fail_input({}, fmt::format("'{}' is not a folder that can be packed", folder.string()));
   }
   constexpr auto kFollow = fs::directory_options::follow_directory_symlink;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, kFollow)) {

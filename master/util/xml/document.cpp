@@ -92,7 +92,7 @@ void check_encoding(const std::string& text, const std::string& file) {
   }
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") ||
       text.find('\0') != std::string::npos) {
-    fail(file, "this is no text in UTF-8", "save it as XML with the encoding UTF-8");
+    fail(file, "this is not valid UTF-8 text", "save it as XML with the encoding UTF-8");
   }
   const std::string encoding = declared_encoding(text);
   if (encoding != "utf-8" && encoding != "us-ascii") {

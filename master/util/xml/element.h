@@ -94,7 +94,7 @@ class Element {
   std::optional<Element> child(Name name) const;
   std::optional<Element> parent() const;
 
-  /// Refuses what is not listed, so that no misspelt word is passed over. Attributes of other
+  /// Refuses what is not listed, so that no misspelt word is ignored. Attributes of other
   /// namespaces, and the attributes `id` and `description`, are always allowed.
   void allow_attributes(std::initializer_list<std::string_view> names) const;
   void allow_children(std::initializer_list<Name> names) const;

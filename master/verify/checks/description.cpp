@@ -167,10 +167,10 @@ void compare_with_library(const Trial& trial, std::vector<std::string>& mistakes
   const std::string packed = read_file(folder / "modelDescription.xml");
   if (own == packed) return;
   const auto place = std::mismatch(own.begin(), own.end(), packed.begin(), packed.end()).first;
-  mistakes.push_back(
-      fmt::format("modelDescription.xml is not what the library says of itself, first in line {}; "
-                  "pack the unit again",
-                  1 + std::count(own.begin(), place, '\n')));
+  mistakes.push_back(fmt::format(
+      "modelDescription.xml differs from the library's own description, first in line {}; "
+      "pack the unit again",
+      1 + std::count(own.begin(), place, '\n')));
 }
 
 }  // namespace

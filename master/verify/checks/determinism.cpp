@@ -54,7 +54,7 @@ Finding check_determinism(const Trial& trial) {
     return to_text(instance.recording());
   }));
   const auto differs = difference(tested, first.rows, second.rows, "in one process",
-                                  "in another, whose memory is not zero and stands elsewhere");
+                                  "in another, whose memory is not zero and at other addresses");
   if (differs) return failed(*differs);
   return passed(fmt::format("two processes, {} values at {} instants", tested.observed_count(),
                             first.rows.size()));

@@ -90,7 +90,7 @@ Finding check_load(const Trial& trial) {
   }
   const std::string version = version_of(trial, handle.get());
   if (version.substr(0, 2) != description.fmi_version.substr(0, 2)) {
-    return failed(fmt::format("{} says '{}', but the model description is of fmiVersion '{}'",
+    return failed(fmt::format("{} returns '{}', but the model description is of fmiVersion '{}'",
                               trial.tested.function("GetVersion"), version,
                               description.fmi_version));
   }

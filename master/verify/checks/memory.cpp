@@ -125,18 +125,20 @@ Finding check_memory(const Trial& trial) {
     if (!instance.recording().has_ended) instance.terminate();
   });
   if (instances.is_leak()) {
-    return failed(fmt::format("it leaks {}, over {} lives (allowed: {} and {})",
-                              instances.text("life"), instances.count, kMostHeap, kMostResident));
+    return failed(fmt::format("it leaks {}, over {} instances (allowed: {} and {})",
+                              instances.text("instance"), instances.count, kMostHeap,
+                              kMostResident));
   }
   const std::size_t all_instances = instances.count + kWarmUp;
   const std::size_t files = open_files();
   if (files > files_before + all_instances / 2) {
-    return failed(fmt::format("{} lives leave {} files open", all_instances, files - files_before));
+    return failed(
+        fmt::format("{} instances leave {} files open", all_instances, files - files_before));
   }
   const std::size_t tasks = threads();
   if (tasks > threads_before + all_instances / 2) {
-    return failed(
-        fmt::format("{} lives leave {} threads running", all_instances, tasks - threads_before));
+    return failed(fmt::format("{} instances leave {} threads running", all_instances,
+                              tasks - threads_before));
   }
 
   TestInstance instance = trial.make_instance();
@@ -156,7 +158,7 @@ Finding check_memory(const Trial& trial) {
     notes.push_back(
         fmt::format("{} threads run on when no instance is left", tasks - threads_before));
   }
-  return passed(fmt::format("{} after {} lives; {} after {} steps", instances.text("life"),
+  return passed(fmt::format("{} after {} instances; {} after {} steps", instances.text("instance"),
                             instances.count, steps.text("step"), steps.count),
                 std::move(notes));
 }

@@ -59,14 +59,15 @@ class TextQueries {
   void query(TestInstance& instance, const Variable& variable, const Binary& value) {
     auto& unit = instance.capability<core::MessageText>();
     const std::string text = unit.describe_message(variable.reference, value);
-    const std::string what = fmt::format("what {} bytes say as '{}' at {} s", value.size(),
-                                         variable.name, core::to_text(instance.now()));
+    const std::string what =
+        fmt::format("the description of {} bytes as '{}' at {} s", value.size(), variable.name,
+                    core::to_text(instance.now()));
     if (!core::is_readable(text)) {
       throw Failure(what + " is not one line of UTF-8 without control characters: \"" +
                     core::readable_text(text, 60) + '"');
     }
     if (unit.describe_message(variable.reference, value) != text) {
-      throw Failure(what + " is something else when it is asked again: \"" +
+      throw Failure(what + " differs when it is requested again: \"" +
                     core::readable_text(text, 60) + '"');
     }
     ++values_;
@@ -96,9 +97,9 @@ Finding check_messages(const Trial& trial) {
     instance.run_to(trial.point_at(share));
     queries.query(instance);
   }
-  if (const auto differs =
-          difference(trial.tested, expected.rows, instance.recording().rows,
-                     "in an instance that is never asked what messages say", "in one that is")) {
+  if (const auto differs = difference(trial.tested, expected.rows, instance.recording().rows,
+                                      "in an instance without requests for message descriptions",
+                                      "in one with them")) {
     throw Failure(*differs);
   }
   instance.terminate();

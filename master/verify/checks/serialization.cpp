@@ -88,7 +88,7 @@ void compare(const Trial& trial, const Serialized& made, const Recording& seen,
   if (differs) throw Failure(*differs);
 }
 
-/// What the unit makes of bytes that are no state.
+/// What the unit makes of bytes that are not a state.
 std::string reaction(const Trial& trial, const Bytes& bytes) {
   try {
     return trial.in_child([&] {

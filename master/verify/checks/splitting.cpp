@@ -21,7 +21,7 @@ std::vector<std::string> words(const std::string& text) {
   return words;
 }
 
-/// The difference of two values, as a share of `scale`; 1 for what is no number.
+/// The difference of two values, as a share of `scale`; 1 for what is not a number.
 double deviation(const std::string& one, const std::string& other, double scale) {
   if (one == other) return 0;
   const auto here = words(one);
@@ -93,7 +93,7 @@ Comparison compare(const TestedUnit& tested, const std::vector<Row>& whole,
 
 bool is_multiple(Duration size, Duration of) { return size % of == Duration{}; }
 
-/// Why halves of a step have to give what the whole gives; empty if nothing says so.
+/// Why halves of a step have to give what the whole gives; empty if there is no reason.
 std::string reason_for_equality(const TestedUnit& tested) {
   const core::UnitDescription& unit = tested.description();
   if (unit.split_invariant) return "though it declares that steps may be split (splitInvariant)";

@@ -1,4 +1,4 @@
-// What a unit says of its messages, through the C entry point.
+// A unit's descriptions of its messages, through the C entry point.
 #include <string>
 #include <vector>
 
@@ -67,7 +67,7 @@ TEST_CASE("an exception becomes a warning, and the unit goes on") {
   REQUIRE(unit.start_steps() == fmi3OK);
   CHECK(ask(unit, "receive.frame", {0}).status == fmi3Discard);
   CHECK_THAT(unit.last_message(),
-             Contains("what a value of 'receive.frame' says is not known: nought"));
+             Contains("a value of 'receive.frame' cannot be described: nought"));
   CHECK(unit.step(0, 0.125) == fmi3OK);
 }
 

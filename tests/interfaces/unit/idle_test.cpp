@@ -200,7 +200,7 @@ TEST_CASE("a tolerance that cannot be is refused, and none of its call is set") 
     CHECK_THAT(unit.last_message(), Contains("the tolerance of 'level' is "));
   }
   CHECK(unit.set_tolerance("inflow", 1) == fmi3Error);
-  CHECK_THAT(unit.last_message(), Contains("variable 'inflow' is no output with a tolerance"));
+  CHECK_THAT(unit.last_message(), Contains("variable 'inflow' is not an output with a tolerance"));
   CHECK(unit.set_tolerance("reports", 1) == fmi3Error);
   CHECK_THAT(unit.last_message(), Contains("'reports' is of the type Int64, not Float64"));
   const fmi3ValueReference both[] = {unit.reference("level"), unit.reference("inflow")};

@@ -90,7 +90,7 @@ TEST_CASE("a discrete input that is set between steps is an event") {
   CHECK(unit.integer("instants") == 2);
 }
 
-TEST_CASE("a continuous input that is set between steps is no event") {
+TEST_CASE("a continuous input that is set between steps is not an event") {
   const UnitLibrary library(unit_library("minimal"));
   UnitInstance unit(library, without_event_mode());
   REQUIRE(unit.set_real("time_constant", 1e-3) == fmi3OK);

@@ -688,7 +688,7 @@ TEST_CASE("a serialised state continues in another instance") {
   CHECK(second.clock("send.clock"));
 }
 
-TEST_CASE("bytes that are no state of this unit are refused") {
+TEST_CASE("bytes that are not a state of this unit are refused") {
   const UnitLibrary types(unit_library("types"));
   const UnitLibrary stepper(unit_library("stepper"));
   UnitInstance source(types);
@@ -706,7 +706,7 @@ TEST_CASE("bytes that are no state of this unit are refused") {
     CAPTURE(bytes.size());
     CHECK(stepper.DeserializeFMUState(unit.handle, bytes.data(), bytes.size(), &state) ==
           fmi3Error);
-    CHECK_THAT(unit.last_message(), Contains("no saved state of this unit"));
+    CHECK_THAT(unit.last_message(), Contains("not a saved state of this unit"));
     CHECK(state == nullptr);
   }
   CHECK(unit.initialize() == fmi3OK);

@@ -48,7 +48,7 @@ void check(const std::function<void(Rows&)>& list) {
 TEST_CASE("a name that is not structured is refused with the grammar") {
   CHECK_NOTHROW(check([](Rows& unit) { unit.input("'left arm'.axes[1]", unit.real); }));
   CHECK_THROWS_WITH(check([](Rows& unit) { unit.input("left arm", unit.real); }),
-                    Contains("variable 'left arm': this is no structured name") &&
+                    Contains("variable 'left arm': this is not a structured name") &&
                         Contains("\"'left arm'.angle\""));
   CHECK_THROWS_WITH(check([](Rows& unit) { unit.input("", unit.real); }), Contains("no name"));
 }
@@ -63,7 +63,7 @@ TEST_CASE("bounds are values of the type") {
     unit.input("large", unit.large).max(0x1p63);
   }));
   CHECK_THROWS_WITH(check([](Rows& unit) { unit.input("small", unit.small).max(128); }),
-                    "variable 'small': the bound 128 is no value of the type Int8");
+                    "variable 'small': the bound 128 is not a value of the type Int8");
   CHECK_THROWS(check([](Rows& unit) { unit.input("small", unit.small).min(-129); }));
   CHECK_THROWS(check([](Rows& unit) { unit.input("small", unit.small).max(0.5); }));
   CHECK_THROWS(check([](Rows& unit) { unit.input("natural", unit.natural).min(-1); }));

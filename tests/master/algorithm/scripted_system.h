@@ -13,7 +13,7 @@
 
 namespace stride::core {
 
-/// Units wired as the test says; the instances stay reachable while the simulation
+/// Units wired as the test defines; the instances stay reachable while the simulation
 /// owns them.
 struct ScriptedSystem {
   SystemDeclaration declaration;

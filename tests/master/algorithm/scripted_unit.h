@@ -60,7 +60,7 @@ class Describe {
   Describe& output(const std::string& name, const std::string& unit = "") {
     return add(name, ValueType::Float64, Causality::Output, unit);
   }
-  /// A time-based input clock; without an interval the unit says it.
+  /// A time-based input clock; without an interval the unit gives it.
   Describe& clock(const std::string& name, IntervalVariability variability,
                   std::optional<Interval> interval = std::nullopt, Interval shift = {}) {
     add(name, ValueType::Clock, Causality::Input);
@@ -167,7 +167,7 @@ class ScriptedUnit : public Unit,
   /// Called when an input clock is set.
   std::function<void(ScriptedUnit&)> on_set_clock = [](ScriptedUnit&) {};
   std::function<EventResult(ScriptedUnit&)> on_event = [](ScriptedUnit&) { return EventResult{}; };
-  /// What it says of its time-based clocks.
+  /// Its time-based clocks.
   std::function<ClockInterval(ScriptedUnit&, ValueReference)> on_clock_interval =
       [](ScriptedUnit&, ValueReference) { return ClockInterval{}; };
   std::function<Interval(ScriptedUnit&, ValueReference)> on_clock_shift =
@@ -179,13 +179,13 @@ class ScriptedUnit : public Unit,
   /// The derivatives of an unknown with respect to a known, each element of one by each of the
   /// other, row by row.
   std::function<std::vector<double>(ScriptedUnit&, ValueReference, ValueReference)> on_derivative;
-  /// What it says of a message.
+  /// Its description of a message.
   std::function<std::string(ScriptedUnit&, ValueReference, const Binary&)> on_describe =
       [](ScriptedUnit&, ValueReference, const Binary&) { return std::string(); };
   std::optional<Duration> max_skip;  ///< as it was enabled
   /// Keeps or brings back what the script holds beside the values.
   std::function<void(bool save)> on_state = [](bool) {};
-  std::optional<HostStatistics> host;  ///< what it says of its process
+  std::optional<HostStatistics> host;  ///< about its process
   Calls calls;
   int gets = 0;
 

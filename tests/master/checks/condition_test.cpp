@@ -131,15 +131,18 @@ TEST_CASE("what makes no sense is refused") {
   CHECK(mistake(ValueType::Float64, range("1", "1")) == "(none)");
   CHECK_THAT(mistake(ValueType::Float64, open_range("1", "1")),
              Contains("no value fits above 1 and below 1"));
-  CHECK_THAT(mistake(ValueType::Float64, range("nan", "1")), Contains("min: 'nan' is no finite"));
-  CHECK_THAT(mistake(ValueType::Float64, range("0", "inf")), Contains("max: 'inf' is no finite"));
-  CHECK_THAT(mistake(ValueType::Float64, range("low", "1")), Contains("min: 'low' is no value"));
+  CHECK_THAT(mistake(ValueType::Float64, range("nan", "1")),
+             Contains("min: 'nan' is not a finite"));
+  CHECK_THAT(mistake(ValueType::Float64, range("0", "inf")),
+             Contains("max: 'inf' is not a finite"));
+  CHECK_THAT(mistake(ValueType::Float64, range("low", "1")), Contains("min: 'low' is not a value"));
   CHECK_THAT(mistake(ValueType::UInt8, equals("256")), Contains("within the range of UInt8"));
   CHECK_THAT(mistake(ValueType::Boolean, equals("yes")), Contains("true or false"));
   CHECK_THAT(mistake(ValueType::Boolean, range("false", "true")),
              Contains("a Boolean has no order; expected equals"));
   CHECK_THAT(mistake(ValueType::Int32, equals("3", "1")), Contains("for real numbers"));
-  CHECK_THAT(mistake(ValueType::Float64, equals("3", "-1")), Contains("no number of at least 0"));
+  CHECK_THAT(mistake(ValueType::Float64, equals("3", "-1")),
+             Contains("not a number of at least 0"));
   ConditionText both = range("0", "1");
   both.equals = "1";
   CHECK_THAT(mistake(ValueType::Float64, both), Contains("exclude each other"));

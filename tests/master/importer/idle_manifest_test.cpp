@@ -86,7 +86,7 @@ TEST_CASE("elements of later versions are ignored, unknown ones of this version 
              Contains("<Ouput> has no meaning here; expected <Input> or <Output>"));
 }
 
-TEST_CASE("what is no manifest of this extension is refused") {
+TEST_CASE("what is not a manifest of this extension is refused") {
   CHECK_THAT(mistake("<fmiLayeredStandardManifest>"), Contains("not well-formed"));
   CHECK_THAT(mistake("<Manifest/>"), Contains("expected <fmiLayeredStandardManifest>"));
   CHECK_THAT(mistake(with_head("fmi-ls-name='org.stride.idle' fmi-ls-version='1.0.0'", "")),

@@ -315,7 +315,7 @@ TEST_CASE("which outputs are the unit's verdict and its text") {
   CHECK_FALSE(judge("mayReject=\"false\"").verdict);
   CHECK_FALSE(judge("verdict=\"good\"").verdict_text);
   CHECK_THAT(input_error([&] { judge("verdict=\"god\""); }),
-             Contains("unit.xml:") && Contains("verdict=\"god\" of <s:Unit> is no variable; "
+             Contains("unit.xml:") && Contains("verdict=\"god\" of <s:Unit> is not a variable; "
                                                "expected a scalar Boolean output without a clock"));
   for (const std::string other : {"why", "on", "seen"}) {
     CHECK_THAT(input_error([&] { judge("verdict=\"" + other + "\""); }),
@@ -480,7 +480,8 @@ TEST_CASE("missing parts and wrong values are errors with their line") {
   CHECK_THAT(error_with("valueReference=\"9\"", ""), Contains("'valueReference'"));
   CHECK_THAT(error_with("valueReference=\"9\"", "valueReference=\"-9\""),
              Contains("expected an integer"));
-  CHECK_THAT(error_with("<Boolean name", "<Bool name"), Contains("<Bool> is no type of FMI 3.0"));
+  CHECK_THAT(error_with("<Boolean name", "<Bool name"),
+             Contains("<Bool> is not a type of FMI 3.0"));
   CHECK_THAT(error_with("causality=\"input\"", "causality=\"inward\""),
              Contains("expected one of parameter, "));
   CHECK_THAT(error_with("variability=\"tunable\"", "variability=\"often\""),

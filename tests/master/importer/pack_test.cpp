@@ -142,10 +142,11 @@ TEST_CASE("what cannot be packed is an error with its cause") {
     request.bundled = {unit_library("stateless")};
     CHECK_THAT(input_error([&] { importer::pack(request); }), Contains("two files would be"));
   }
-  SECTION("resources that are no folder") {
+  SECTION("resources that are not a folder") {
     request.library = unit_library("types");
     request.resources = scratch / "resources/note.txt";
-    CHECK_THAT(input_error([&] { importer::pack(request); }), Contains("note.txt' is no folder"));
+    CHECK_THAT(input_error([&] { importer::pack(request); }),
+               Contains("note.txt' is not a folder"));
   }
   SECTION("a library without the kit") {
     request.library = raw_library("raw");

@@ -26,10 +26,10 @@ TEST_CASE("an undefined symbol is named") {
              Contains("needs the symbol 'stride_test_nobody_has_this', which no library"));
 }
 
-TEST_CASE("what is no library for this machine is an error") {
+TEST_CASE("what is not a library for this machine is an error") {
   const Scratch scratch;
   CHECK_THAT(
-      error_of_loading(scratch.write("text.so", "this is no library, whatever its name says")),
+      error_of_loading(scratch.write("text.so", "this is not a library, whatever its name says")),
       Contains("text.so' cannot be loaded") && Contains(importer::platform()));
   CHECK_THAT(error_of_loading(scratch / "absent.so"), Contains("absent.so' cannot be loaded"));
 }

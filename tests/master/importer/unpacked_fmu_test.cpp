@@ -21,7 +21,8 @@ TEST_CASE("an FMU has a description at its top") {
   CHECK_THAT(unpack_error(make_zip(scratch / "other.fmu", {{"readme", "x"}})),
              Contains("no modelDescription.xml"));
   CHECK_THAT(unpack_error(make_zip(scratch / "nested.fmu", {{"top/modelDescription.xml", "x"}})),
-             Contains("it stands in the folder 'top'"));
-  const std::string text = unpack_error(scratch.write("text.fmu", "This is no archive at all."));
+             Contains("it is in the folder 'top'"));
+  const std::string text =
+      unpack_error(scratch.write("text.fmu", "This is not an archive at all."));
   CHECK_THAT(text, Contains("system.ssd:7: ") && Contains("hint: expected an FMU"));
 }

@@ -104,7 +104,7 @@ TEST_CASE("an error comes over with all its parts") {
   }
 }
 
-TEST_CASE("what is no error of core's becomes one of the unit, and consequent ones stay it") {
+TEST_CASE("what is not an error of core's becomes one of the unit, and consequent ones stay it") {
   const There plain([](MessageWriter& to) {
     put_error(to, std::runtime_error("no"), {.where = {"system.ssd", 3}, .unit = "u"});
   });

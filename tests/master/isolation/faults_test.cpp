@@ -114,7 +114,7 @@ TEST_CASE("without its supervisor a unit's process ends, and the master notices"
     CHECK_THAT(run_error([&] {
                  for (int i = 0; i < 100'000; ++i) unit.number("y");
                }),
-               Contains("something has ended its keeper"));
+               Contains("something has ended its supervisor"));
     CHECK(has_ended(server));
   }
   CHECK(Belongings() == before);

@@ -228,7 +228,7 @@ TEST_CASE("snapshots end with the supervisor") {
   CHECK(processes.size() >= 2);
   ::kill(Hosted::supervisor(), SIGKILL);
   CHECK(std::all_of(processes.begin(), processes.end(), has_ended));
-  CHECK_THROWS_WITH(unit.step(0, 0.1), Contains("unit 'u'") && Contains("ended its keeper"));
+  CHECK_THROWS_WITH(unit.step(0, 0.1), Contains("unit 'u'") && Contains("ended its supervisor"));
 }
 
 TEST_CASE("the end of a restored unit's process is an error with its cause") {
@@ -236,7 +236,7 @@ TEST_CASE("the end of a restored unit's process is an error with its cause") {
   unit.start();
   state(*unit).save_state();
   state(*unit).restore_state();
-  // the snapshot is not in charge, so it is not missed before it is needed
+  // the snapshot is not the active process, so it is not missed before it is needed
   for (const pid_t process : children(Hosted::supervisor())) ::kill(process, SIGKILL);
   CHECK_THROWS_WITH(
       [&] {

@@ -35,7 +35,7 @@ struct World {
   std::atomic<int> passes = 0;
   std::array<std::atomic<int>, 8> seen{};
   std::array<char, 1000> error{};
-  int status = 0;          ///< of the process in charge
+  int status = 0;          ///< of the active process
   int most_processes = 0;  ///< that the supervisor had at a time, as far as it saw
 };
 
@@ -58,7 +58,8 @@ int count_children() {
   ::_exit(0);
 }
 
-/// Serves in a child of a supervisor, until who is in charge ends. Returns the error that left it.
+/// Serves in a child of a supervisor, until the active process ends. Returns the error that left
+/// it.
 std::string run(SharedWorld& world, const Serve& serve, SnapshotOptions options = {}) {
   options.context.unit = "u";
   const auto outcome = isolation::run_in_child([&] {
@@ -105,7 +106,7 @@ TEST_CASE("a process goes on where it was saved, any number of times") {
   CHECK(world->board.restores == 499);
 }
 
-TEST_CASE("a slot holds what was saved in it last, whichever process is in charge") {
+TEST_CASE("a slot holds what was saved in it last, whichever process is active") {
   SharedWorld world;
   const auto error = run(world, [](World& w, Snapshots& snapshots) {
     int value = 1;
@@ -148,7 +149,7 @@ TEST_CASE("of many snapshots in a slot the last one stays") {
   CHECK(world->seen[0] == 299);
   CHECK(world->board.snapshots == 300);
   CHECK(world->board.most_kept == 1);
-  // Those that were in charge before a restore may not have been waited for yet.
+  // Those that were active before a restore may not have been waited for yet.
   CHECK(world->most_processes <= static_cast<int>(SnapshotBoard::kEntries) + kPasses);
 }
 

@@ -166,7 +166,7 @@ TEST_CASE("the targets of a mapping are in the target, its sources need not be i
   const auto small = point("b.u", ValueType::UInt8);
   CHECK_THAT(
       reason({point("a.y", ValueType::UInt8), small}, {numbers(Kind::IntegerMapping, {{1, 256}})}),
-      Contains("x.ssd:7: the target 256 of the mapping is no UInt8, which 'b.u' is"));
+      Contains("x.ssd:7: the target 256 of the mapping is not a valid UInt8, which 'b.u' is"));
   const Conversion c = of({point("a.y", ValueType::UInt8), small},
                           {numbers(Kind::IntegerMapping, {{-1, 3}, {1, 2}, {999, 4}})});
   CHECK(c.map == NumberMap{{1, 2}});
@@ -183,14 +183,15 @@ TEST_CASE("the items of Enumerations are mapped by their names") {
   CHECK_THAT(reason({items("a.y", kLamp), items("b.u", kSignal)}, {names({{"of", "red"}})}),
              Contains("x.ssd:7: the Enumeration of 'a.y' has no item 'of'") &&
                  Contains("did you mean 'off'?"));
-  CHECK_THAT(reason({items("a.y", kLamp), items("b.u", kSignal)}, {names({{"off", "red"}})}),
-             Contains("the item 'on' of the one becomes 1, which is no item of the other: red (3), "
-                      "green (4)"));
+  CHECK_THAT(
+      reason({items("a.y", kLamp), items("b.u", kSignal)}, {names({{"off", "red"}})}),
+      Contains("the item 'on' of the one becomes 1, which is not an item of the other: red (3), "
+               "green (4)"));
   CHECK_THAT(reason({items("a.y", kLamp), items("b.u", kSignal)}, {{}}),
              Contains("the item 'off'") && Contains("EnumerationMappingTransformation"));
   CHECK_THAT(reason({items("a.y", kLamp), items("b.u", kSignal)},
                     {numbers(Kind::IntegerMapping, {{0, 3}, {1, 5}})}),
-             Contains("the target 5 of the mapping is no item of the Enumeration of 'b.u'"));
+             Contains("the target 5 of the mapping is not an item of the Enumeration of 'b.u'"));
 }
 
 TEST_CASE("an Enumeration goes to an integer that holds its items, and back if they are items") {
@@ -202,7 +203,7 @@ TEST_CASE("an Enumeration goes to an integer that holds its items, and back if t
                {numbers(Kind::IntegerMapping, {{-1, 0}})}) == "accepted");
   CHECK_THAT(reason({items("a.y", {{"low", -1}, {"lower", -2}}), to(ValueType::UInt8)},
                     {numbers(Kind::IntegerMapping, {{-1, 0}})}),
-             Contains("the item 'lower' of the one becomes -2, which is no UInt8"));
+             Contains("the item 'lower' of the one becomes -2, which is not a valid UInt8"));
   const Conversion back = of({point("a.y", ValueType::Int32), items("b.u", kSignal)}, {{}});
   CHECK(back.valid == std::vector<std::int64_t>{3, 4});
 }
@@ -271,7 +272,7 @@ TEST_CASE("each connection of a running system converts, from the first instant 
   CHECK(seen == std::vector<std::string>{"13 8 4 false " + all, "16 10 5 false " + all});
 }
 
-TEST_CASE("an integer that is no item of the Enumeration that it goes to ends the run") {
+TEST_CASE("an integer that is not an item of the Enumeration that it goes to ends the run") {
   ScriptedSystem system;
   auto sink = std::make_shared<UnitDescription>(
       *Describe("sink").add("mode", ValueType::Enumeration, Causality::Input).done());

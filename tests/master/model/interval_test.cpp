@@ -56,7 +56,7 @@ TEST_CASE("a double is the decimal that a person would write for it") {
   CHECK(tick(Interval::from_seconds(1e-30), 1) == 0);
 }
 
-TEST_CASE("what is no length of time is refused") {
+TEST_CASE("what is not a length of time is refused") {
   CHECK_THROWS_WITH(Interval::from_seconds(-1e-3), Contains("negative"));
   CHECK_THROWS_WITH(Interval::from_seconds(std::nan("")), Contains("not a number"));
   CHECK_THROWS_WITH(Interval::from_fraction(1, 0), Contains("resolution is 0"));
@@ -65,7 +65,7 @@ TEST_CASE("what is no length of time is refused") {
   CHECK_THROWS_AS(Interval::from_duration(Duration(-1)), std::invalid_argument);
 }
 
-TEST_CASE("what is later than any time is no tick") {
+TEST_CASE("what is later than any time is not a tick") {
   CHECK_FALSE(tick_time(Time{}, {}, Interval::from_seconds(kInfinity), 1));
   CHECK_FALSE(tick_time(Time{}, Interval::from_seconds(1e300), {}, 0));
   CHECK_FALSE(tick_time(Time{}, {}, Interval::from_fraction(kMax, 1), kMax));

@@ -95,9 +95,9 @@ TEST_CASE("names that do not exist are named with the nearest that does") {
 }
 
 TEST_CASE("a connection goes from an output to an input of the same type and size") {
-  CHECK_THAT(reason({wire("u", "u")}), Contains("'alpha.u' is no output but input"));
-  CHECK_THAT(reason({wire("y", "y")}), Contains("'beta.y' is no input but output"));
-  CHECK_THAT(reason({wire("y", "gain")}), Contains("'beta.gain' is no input but parameter"));
+  CHECK_THAT(reason({wire("u", "u")}), Contains("'alpha.u' is not an output but input"));
+  CHECK_THAT(reason({wire("y", "y")}), Contains("'beta.y' is not an input but output"));
+  CHECK_THAT(reason({wire("y", "gain")}), Contains("'beta.gain' is not an input but parameter"));
   CHECK_THAT(reason({wire("y", "n")}), Contains("Float64 and Int32 are different types"));
   CHECK_THAT(reason({wire("pair", "trio")}), Contains("an array of 2 elements and an array of 3"));
   CHECK_THAT(reason({wire("y", "trio")}), Contains("a scalar and an array of 3"));
@@ -218,9 +218,9 @@ TEST_CASE("declared connectors must agree with the unit") {
   CHECK(with({"u", ValueType::Float64, Causality::Input, "m", {}}) == "accepted");
   CHECK_THAT(with({"v", {}, {}, "", {}}), Contains("s.ssd:5") && Contains("no such variable"));
   CHECK_THAT(with({"u", {}, Causality::Output, "", {}}),
-             Contains("the connector says output, the unit says input"));
+             Contains("the connector has output, the unit has input"));
   CHECK_THAT(with({"u", ValueType::Int32, {}, "", {}}),
-             Contains("says Int32, the unit says Float64"));
+             Contains("has Int32, the unit has Float64"));
   CHECK_THAT(with({"u", {}, {}, "s", {}}), Contains("the connector is in 's'"));
 }
 
@@ -239,7 +239,7 @@ TEST_CASE("a unit that does not fit is explained connector by connector, each of
       reason(system),
       StartsWith(
           "there are 5 mistakes:\n"
-          "  s.ssd:5: unit 'beta', variable 'u': the connector says Int32, the unit says Float64\n"
+          "  s.ssd:5: unit 'beta', variable 'u': the connector has Int32, the unit has Float64\n"
           "  s.ssd:6: unit 'beta', variable 'lamp': its model 'model' has no such variable; "
           "expected an output Boolean for 'alpha.n'\n"
           "  s.ssd:7: unit 'beta', variable 'height': its model 'model' has no such variable; "

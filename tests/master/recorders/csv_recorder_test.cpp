@@ -31,7 +31,7 @@ TEST_CASE("signals.csv has a row for each communication point") {
         "0.001,0.30000000000000004,true,-3,1,-0.5,1e-09,\"\",0aff,0\n");
 }
 
-TEST_CASE("Values that are no numbers are written, too") {
+TEST_CASE("Values that are not numbers are written, too") {
   const TemporaryFolder folder;
   SampleRun run;
   CsvRecorder recorder(run.system, folder / "signals.csv");

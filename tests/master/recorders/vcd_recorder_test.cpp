@@ -115,7 +115,7 @@ TEST_CASE("GTKWave's reader takes the trace, and finds every change in it") {
   }
 }
 
-TEST_CASE("A value that is no number changes once") {
+TEST_CASE("A value that is not a number changes once") {
   const TemporaryFolder folder;
   SampleRun run;
   VcdRecorder recorder(run.system, folder / "x.vcd");

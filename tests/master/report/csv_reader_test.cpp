@@ -70,7 +70,7 @@ TEST_CASE("what cannot be read is named") {
   CHECK_THAT(error_of([&] { CsvReader(folder / "none.csv"); }),
              Contains("none.csv: cannot read the file: No such file"));
   CHECK_THAT(error_of([&] { CsvReader("/dev/zero"); }),
-             Contains("/dev/zero: cannot read the file: it is no regular file"));
+             Contains("/dev/zero: cannot read the file: it is not a regular file"));
 }
 
 TEST_CASE("what the recorders write comes back, across all borders of the buffer") {

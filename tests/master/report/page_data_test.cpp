@@ -85,6 +85,6 @@ TEST_CASE("no text ends the element that contains the JSON") {
   CHECK(Json::parse(text)["a"] == "</script><!-- \\ \" \n");
 }
 
-TEST_CASE("what is no UTF-8 is replaced") {
+TEST_CASE("what is not valid UTF-8 is replaced") {
   CHECK(json_text(Json("a\xff\xc3(")) == "\"a\xEF\xBF\xBD\xEF\xBF\xBD(\"");
 }

@@ -182,5 +182,5 @@ TEST_CASE("a folder without results is refused") {
   const TemporaryFolder folder;
   folder.write("something", "");
   CHECK_THAT(error_of([&] { result_files(folder / ""); }), Contains("there are no results"));
-  CHECK_THAT(error_of([&] { result_files(folder / "none"); }), Contains("this is no folder"));
+  CHECK_THAT(error_of([&] { result_files(folder / "none"); }), Contains("this is not a folder"));
 }

@@ -50,14 +50,14 @@ TEST_CASE("a file of an older program has less") {
   CHECK(run.files.signals == "signals.csv");
 }
 
-TEST_CASE("what is no run.json is refused") {
+TEST_CASE("what is not a run.json is refused") {
   const TemporaryFolder folder;
   const auto refusal = [&](const std::string& text) {
     return error_of([&] { read_run_file(folder.write("run.json", text)); });
   };
-  CHECK_THAT(refusal("{\n\"a\": 1,\n\"b\""), Contains("run.json:3: this is no JSON"));
-  CHECK_THAT(refusal(""), Contains("run.json:1: this is no JSON"));
-  CHECK_THAT(refusal("[]"), Contains("this is no JSON object"));
+  CHECK_THAT(refusal("{\n\"a\": 1,\n\"b\""), Contains("run.json:3: this is not JSON"));
+  CHECK_THAT(refusal(""), Contains("run.json:1: this is not JSON"));
+  CHECK_THAT(refusal("[]"), Contains("this is not a JSON object"));
   CHECK_THAT(refusal(R"({"signals": [{"name": 1}]})"),
              Contains("run.json: this is not what `stride run` writes: "));
   CHECK_THAT(refusal(R"({"plots": 3})"), Contains("this is not what `stride run` writes: "));

@@ -96,7 +96,7 @@ TEST_CASE("a mistake is named with file, line and column") {
              Contains("signals.csv:3: column 'a.on': expected true or false"));
   CHECK_THAT(refusal("0,1,true\n"),
              Contains("signals.csv:2: expected 4 fields, as in the header, found 3"));
-  CHECK_THAT(refusal("soon,1,true,\"\"\n"), Contains("column 'time': 'soon' is no number"));
+  CHECK_THAT(refusal("soon,1,true,\"\"\n"), Contains("column 'time': 'soon' is not a number"));
   CHECK_THAT(refusal("1,1,true,\"\"\n0.5,1,true,\"\"\n"),
              Contains("signals.csv:3: column 'time': the time goes back"));
   CHECK_THAT(error_of([] { read("x,y\n1,2\n"); }), Contains("expected the column 'time'"));

@@ -151,13 +151,14 @@ TEST_CASE("A mistake in the annotation is named with its line") {
   CHECK_THAT(annotation_error("<stride:Step siez='1'/>"), Contains("did you mean 'size'?"));
   CHECK_THAT(annotation_error("<stride:Step size=''/>"),
              Contains("the attribute 'size' of <stride:Step> is empty"));
-  CHECK_THAT(annotation_error("<stride:Step size='1 ms'/>"), Contains("size: '1 ms' is no number"));
+  CHECK_THAT(annotation_error("<stride:Step size='1 ms'/>"),
+             Contains("size: '1 ms' is not a number"));
   CHECK_THAT(annotation_error("<stride:Step maximum='0'/>"),
              Contains("maximum: a step must be above 0 s"));
   CHECK_THAT(annotation_error("<stride:Step policy='fixt'/>"),
-             Contains("policy: 'fixt' is none of them; did you mean 'fixed'?"));
+             Contains("policy: unknown value 'fixt'; did you mean 'fixed'?"));
   CHECK_THAT(annotation_error("<stride:Step relativeTolerance='-1'/>"),
-             Contains("relativeTolerance: '-1' is no number of at least 0"));
+             Contains("relativeTolerance: '-1' is not a number of at least 0"));
   CHECK_THAT(annotation_error("<stride:Exchange coupling='x'/>"), Contains("jacobi, gauss-seidel"));
   CHECK_THAT(annotation_error("<stride:Step size='1'/><stride:Step size='1'/>"),
              Contains("a second <stride:Step>"));
@@ -176,7 +177,7 @@ TEST_CASE("A mistake in the annotation is named with its line") {
   CHECK_THAT(annotation_error("<stride:Host components='a' timeout='0'/>"),
              Contains("x.ssd:4: ") && Contains("timeout: a time limit must be above 0 s"));
   CHECK_THAT(annotation_error("<stride:Host components='a' memoryLimit='1.5'/>"),
-             Contains("memoryLimit: '1.5' is no whole number of MiB; expected at least 1"));
+             Contains("memoryLimit: '1.5' is not a whole number of MiB; expected at least 1"));
   CHECK_THAT(annotation_error("<stride:Host components='a' process='false' timeout='5'/>"),
              Contains("x.ssd:4: ") && Contains("timeout is for a unit with a process of its own"));
   CHECK_THAT(annotation_error("<stride:IdleSkip maxSkip='0'/>"),
@@ -192,7 +193,7 @@ TEST_CASE("A mistake in the annotation is named with its line") {
   CHECK_THAT(annotation_error("<stride:Plot title='A' signals=' '/>"),
              Contains("x.ssd:4: ") && Contains("the plot shows nothing"));
   CHECK_THAT(annotation_error("<stride:Results trace='../a.vcd'/>"),
-             Contains("is no plain file name"));
+             Contains("is not a plain file name"));
   CHECK_THAT(annotation_error("<stride:Results trace='run.json'/>"),
              Contains("two results have the file name 'run.json'"));
 }

@@ -162,7 +162,7 @@ TEST_CASE("a setting that does not fit is refused at its line") {
       refusal([](IdleSettings& c) {
         c.deadbands = {{"idler.v", 1, {"x.ssd", 3}}};
       }),
-      Contains("x.ssd:3") && Contains("'idler.v' is no Float64 input") && Contains("idler.u"));
+      Contains("x.ssd:3") && Contains("'idler.v' is not a Float64 input") && Contains("idler.u"));
   CHECK_THAT(refusal([](IdleSettings& c) {
                c.deadbands = {{"busy.u", 1, {}}};
              }),
@@ -170,7 +170,7 @@ TEST_CASE("a setting that does not fit is refused at its line") {
   CHECK_THAT(refusal([](IdleSettings& c) {
                c.tolerances = {{"busy.y", 1, {}}};
              }),
-             Contains("no output with a tolerance"));
+             Contains("not an output with a tolerance"));
   CHECK_THAT(refusal([](IdleSettings& c) { c.rules = {rule("idle", true, std::nullopt)}; }),
              Contains("x.ssd:7") && Contains("matches no component"));
   CHECK_THAT(

@@ -192,7 +192,7 @@ TEST_CASE("What is misspelt is refused, and the right word suggested") {
        "the kind 'ouput' is not known", "did you mean 'output'?"},
       {ssd_with("<ssd:Component name='a' source='a.fmu'><ssd:Connectors><ssd:Connector name='x' "
                 "kind='output'><ssc:Flot64/></ssd:Connector></ssd:Connectors></ssd:Component>"),
-       "<ssc:Flot64> is no type of a connector", "did you mean 'Float64'?"},
+       "<ssc:Flot64> is not a type of a connector", "did you mean 'Float64'?"},
       {ssd_with("<ssd:Component name='a' source='a.fmu'><ssd:Connectors><ssd:Connector name='x' "
                 "kind='output'><ssd:Float64/></ssd:Connector></ssd:Connectors></ssd:Component>"),
        "<ssd:Float64> is not known in a connector", "SystemStructureCommon"},
@@ -249,7 +249,7 @@ TEST_CASE("Start and stop time are exact and make sense") {
   CHECK(none.stop == std::nullopt);
   CHECK(read(ssd(experiment("stopTime='0.1'"))).stop == Time(std::chrono::milliseconds(100)));
   CHECK_THROWS_WITH(read(ssd(experiment("stopTime='soon'"))),
-                    Contains("x.ssd:4: stopTime='soon' is no number"));
+                    Contains("x.ssd:4: stopTime='soon' is not a number"));
   CHECK_THROWS_WITH(read(ssd(experiment("startTime='-1'"))),
                     Contains("startTime='-1' is negative"));
   CHECK_THROWS_WITH(read(ssd(experiment("startTime='2' stopTime='1.5'"))),

@@ -144,7 +144,7 @@ TEST_CASE("Of an array each element is drawn") {
 TEST_CASE("A pattern that matches no recorded signal is refused at its line") {
   CHECK_THROWS_WITH(
       selected({plot("Height", {"a.distance", "a.distnace"})}),
-      Contains("x.ssd:9: the plot 'Height' wants 'a.distnace', which matches no signal that is "
+      Contains("x.ssd:9: the plot 'Height' names 'a.distnace', which matches no signal that is "
                "recorded") &&
           Contains("did you mean 'a.distance'?"));
   CHECK_THROWS_WITH(selected({plot("Gain", {"a.gain"})}), Contains("matches no signal"));

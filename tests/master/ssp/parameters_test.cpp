@@ -273,7 +273,8 @@ TEST_CASE("A broken set in a file of its own is named") {
   folder.write("p.ssv", "<ssv:ParameterSet>");
   CHECK_THROWS_WITH(read_scenario(file), Contains("p.ssv:1: this is not well-formed XML"));
   folder.write("p.ssv", text);
-  CHECK_THROWS_WITH(read_scenario(file), Contains("p.ssv:2:") && Contains("is no parameter set"));
+  CHECK_THROWS_WITH(read_scenario(file),
+                    Contains("p.ssv:2:") && Contains("is not a parameter set"));
   folder.write("p.ssv", set("", "9"));
   CHECK_THROWS_WITH(read_scenario(file), Contains("the version '9' of parameter sets"));
 }
@@ -285,7 +286,7 @@ TEST_CASE("Parameters that cannot be meant are refused") {
   const auto [text, message] = GENERATE_COPY(table<std::string, std::string>({
       {one(""), "<ssv:Parameter> holds no value"},
       {one("<ssv:Real/>"), "<ssv:Real> needs the attribute 'value'"},
-      {one("<ssv:Rael value='1'/>"), "<ssv:Rael> is no type of a parameter"},
+      {one("<ssv:Rael value='1'/>"), "<ssv:Rael> is not a type of a parameter"},
       {one("<ssv:Real value='1'/><ssv:Real value='2'/>"), "<ssv:Parameter> has two values"},
       {one("<ssv:String value='1'><ssv:Value value='2'/></ssv:String>"), "has both"},
       {one("<ssv:String><ssv:Value value='a b'/><ssv:Value value='c'/></ssv:String>"),

@@ -62,7 +62,7 @@ TEST_CASE("each transformation of SSP is read") {
 TEST_CASE("transformations that cannot be meant are refused") {
   const auto [text, message] = GENERATE(table<std::string, std::string>({
       {"<ssc:LinearTransformation factor='two'/>", "factor=\"two\""},
-      {"<ssc:LinearTransformation factor='inf'/>", "is no finite number"},
+      {"<ssc:LinearTransformation factor='inf'/>", "is not a finite number"},
       {"<ssc:LinearTransformation faktor='2'/>", "did you mean 'factor'?"},
       {mapping("Integer", ""), "holds no <MapEntry>"},
       {mapping("Integer", map_entry("1.5", "2")), "source=\"1.5\""},

@@ -90,21 +90,20 @@ TEST_CASE("A header is kept as it is, and its declarations are found in it") {
   CHECK(text.substr(header.end_definitions) == "$enddefinitions\n  $end");
 }
 
-TEST_CASE("What is no header is reported with its line") {
+TEST_CASE("What is not a header is reported with its line") {
   CHECK_THAT(header_error(""), Contains("x.vcd:1: the file ends before $enddefinitions"));
   CHECK_THAT(header_error("$timescale 1 ps $end\n"), Contains("x.vcd:2: the file ends before"));
-  CHECK_THAT(header_error("\x1f\x8b\x08 gzip"),
-             Contains("x.vcd:1: '\\x1f\\x8b\\x08' stands where") && Contains("gunzip") &&
-                 Contains("fst2vcd"));
+  CHECK_THAT(header_error("\x1f\x8b\x08 gzip"), Contains("x.vcd:1: '\\x1f\\x8b\\x08' is where") &&
+                                                    Contains("gunzip") && Contains("fst2vcd"));
   CHECK_THAT(header_error("$version 1 $end\n#0\n"),
-             Contains("x.vcd:2: '#0' stands where") && !Contains("hint"));
-  CHECK_THAT(header_error("$version 1 $end $end\n"), Contains("x.vcd:1: '$end' stands where"));
+             Contains("x.vcd:2: '#0' is where") && !Contains("hint"));
+  CHECK_THAT(header_error("$version 1 $end $end\n"), Contains("x.vcd:1: '$end' is where"));
   CHECK_THAT(header_error("$enddefinitions $end\n"),
              Contains("x.vcd:1: there is no $timescale") && Contains("$timescale 1 ns $end"));
   CHECK_THAT(header_error("$timescale 2 ps $end\n$enddefinitions $end\n"),
-             Contains("x.vcd:1: '2ps' is no time scale; expected 1, 10 or 100 of"));
+             Contains("x.vcd:1: '2ps' is not a time scale; expected 1, 10 or 100 of"));
   CHECK_THAT(header_error("$timescale $end\n$enddefinitions $end\n"),
-             Contains("'' is no time scale"));
+             Contains("'' is not a time scale"));
   CHECK_THAT(header_declaration_error("$timescale 1 ps $end\n"),
              Contains("x.vcd:2: there is a second $timescale"));
   CHECK_THAT(header_declaration_error("$upscope $end\n"),
@@ -131,9 +130,9 @@ TEST_CASE("A variable has a type, a width, a code and a name") {
              Contains("x.vcd:2: a $var has a type, a width, a code and a name, this one has only "
                       "3 of them"));
   CHECK_THAT(header_declaration_error("$var wire many ! a $end\n"),
-             Contains("x.vcd:2: 'many' is no width in bits"));
+             Contains("x.vcd:2: 'many' is not a width in bits"));
   CHECK_THAT(header_declaration_error("$var wire -1 ! a $end\n"),
-             Contains("'-1' is no width in bits"));
+             Contains("'-1' is not a width in bits"));
   CHECK_THAT(header_declaration_error("$var wire 1 \xc3\xa4 a $end\n"),
-             Contains("x.vcd:2: '\\xc3\\xa4' is no identifier code"));
+             Contains("x.vcd:2: '\\xc3\\xa4' is not an identifier code"));
 }

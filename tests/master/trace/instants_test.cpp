@@ -81,7 +81,7 @@ TEST_CASE("Two of them are one too many, unless they are the same") {
   CHECK(total(dump(first + "$scope module a $end\n" + first, "#1\nb1 t\n")) == 1);
 }
 
-TEST_CASE("What is no number, or falls, is reported with its line") {
+TEST_CASE("What is not a number, or falls, is reported with its line") {
   CHECK_THAT(value_error("#1\nbx t\n"),
              Contains("x.vcd:8: advanceTime is 'bx'; expected a whole number, such as b1001"));
   CHECK_THAT(value_error("#1\nb1z0 t\n"), Contains("advanceTime is 'b1z0'"));

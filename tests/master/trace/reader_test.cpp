@@ -86,15 +86,15 @@ TEST_CASE("Lines may end as on other systems") {
 
 TEST_CASE("What is no entry is reported with its line") {
   CHECK_THAT(reader_error("#0\nq!\n"),
-             Contains("x.vcd:8: 'q!' is no time stamp, no change and no section") &&
+             Contains("x.vcd:8: 'q!' is not a time stamp, no change and no section") &&
                  Contains("hint: expected #TIME"));
   CHECK_THAT(reader_error("#0\npD 6 0 !\n"),
              Contains("extended dumps ($dumpports) are not supported"));
   CHECK_THAT(reader_error("#0\n1 !\n"),
              Contains("x.vcd:8: the value '1' has no identifier code behind it"));
-  CHECK_THAT(reader_error("#\n"), Contains("x.vcd:7: '#' is no time stamp"));
-  CHECK_THAT(reader_error("#1.5\n"), Contains("'#1.5' is no time stamp"));
-  CHECK_THAT(reader_error("#-1\n"), Contains("'#-1' is no time stamp"));
+  CHECK_THAT(reader_error("#\n"), Contains("x.vcd:7: '#' is not a time stamp"));
+  CHECK_THAT(reader_error("#1.5\n"), Contains("'#1.5' is not a time stamp"));
+  CHECK_THAT(reader_error("#-1\n"), Contains("'#-1' is not a time stamp"));
   CHECK_THAT(reader_error("#9223372036854775808\n"),
              Contains("x.vcd:7: the time stamp #9223372036854775808 is beyond 2^63 - 1"));
   CHECK_THAT(reader_error("#0\n1!\n" + std::string(3, '\0') + "\n"),
@@ -129,7 +129,8 @@ TEST_CASE("A file that is cut off is reported with the line and what it ends in"
   CHECK_THAT(reader_error("#5\n$dumpvars\n1!\n"), Contains("it ends within the $dumpvars"));
 }
 
-TEST_CASE("A section that has ended is no sign of a cut, and neither is one before a later stamp") {
+TEST_CASE(
+    "A section that has ended is not a sign of a cut, and neither is one before a later stamp") {
   CHECK(read_entries(two_variables("#5\n$dumpvars\n1!\n$end")).size() == 4);
   CHECK(read_entries(two_variables("$dumpvars\n#5\n1!\n")).size() == 3);
 }

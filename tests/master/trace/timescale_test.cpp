@@ -20,7 +20,7 @@ TEST_CASE("A time scale is 1, 10 or 100 of a unit, with or without a blank") {
   CHECK(Timescale::parse("1\n\tns").text() == "1 ns");
 }
 
-TEST_CASE("Anything else is no time scale") {
+TEST_CASE("Anything else is not a time scale") {
   for (const char* text : {"", "1", "ps", "2 ps", "1000 ps", "1 as", "1 Ps", "-1 ps", "1.0 ps"}) {
     INFO(text);
     CHECK_THROWS_AS(Timescale::parse(text), std::invalid_argument);

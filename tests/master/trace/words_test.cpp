@@ -27,7 +27,7 @@ TEST_CASE("Blanks of all kinds part words") {
   CHECK(all(folder.write("x", "")).empty());
 }
 
-TEST_CASE("A NUL is no blank: it is what a crashed machine leaves at the end of a file") {
+TEST_CASE("A NUL is not a blank: it is what a crashed machine leaves at the end of a file") {
   const TemporaryFolder folder;
   Words words(folder.write("x", std::string("a\0\0\n", 4)));
   CHECK(words.next() == std::string_view("a\0\0", 3));

@@ -28,7 +28,7 @@ TEST_CASE("Question marks and sets match one character") {
   CHECK(matches_glob("a[", "a["));
 }
 
-TEST_CASE("A name is no glob") {
+TEST_CASE("A name is not a glob") {
   CHECK_FALSE(is_glob("sensor.led"));
   CHECK(is_glob("sensor.*"));
   CHECK(is_glob("a[1]"));

@@ -13,7 +13,7 @@ TEST_CASE("bytes become two digits each, and bytes again") {
   CHECK(from_hex("") == Bytes{});
 }
 
-TEST_CASE("what is no pair of digits is no byte") {
+TEST_CASE("what is not a pair of digits is not a byte") {
   for (const char* text : {"", "1", "g0", "0g", "-1", "+1", " 1", "0x"})
     CHECK_FALSE(hex_byte(text));
   CHECK(hex_byte("7fz") == 0x7f);

@@ -67,7 +67,7 @@ TEST_CASE("A link stays, and the file that it leads to is replaced") {
   CHECK(files_in(folder / "there") == 1);
 }
 
-TEST_CASE("What is no regular file is written, not replaced") {
+TEST_CASE("What is not a regular file is written, not replaced") {
   const TemporaryFolder folder;
   const fs::path pipe = folder / "pipe";
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);

@@ -47,20 +47,20 @@ TEST_CASE("More than twelve decimals are rounded to the picosecond") {
   CHECK(parse_seconds(text) == Duration(ticks));
 }
 
-TEST_CASE("What is no time is refused, and the text says what was expected") {
+TEST_CASE("What is not a time is refused, and the text says what was expected") {
   const auto [text, reason] = GENERATE(table<const char*, const char*>({
-      {"", "is no number"},
-      {" ", "is no number"},
-      {".", "is no number"},
-      {"-", "is no number"},
-      {"1 s", "is no number"},
-      {"1,5", "is no number"},
-      {"0x10", "is no number"},
-      {"1e", "is no number"},
-      {"1e+", "is no number"},
-      {"nan", "is no number"},
-      {"INF", "is no number"},
-      {"1.2.3", "is no number"},
+      {"", "is not a number"},
+      {" ", "is not a number"},
+      {".", "is not a number"},
+      {"-", "is not a number"},
+      {"1 s", "is not a number"},
+      {"1,5", "is not a number"},
+      {"0x10", "is not a number"},
+      {"1e", "is not a number"},
+      {"1e+", "is not a number"},
+      {"nan", "is not a number"},
+      {"INF", "is not a number"},
+      {"1.2.3", "is not a number"},
       {"-1", "is negative"},
       {"-1e-12", "is negative"},
       {"9200000.000000000001", "is beyond 9.2e6 s"},

@@ -1,6 +1,6 @@
 /* y rises by 1 in a second until the instant `turn`, and falls as fast after it. A step that leads
- * across that instant ends there, with fmi2Discard. Parameters: `ends` wants the simulation to end
- * there, `mute` does not say how far it came, and `stays` says that it came nowhere. */
+ * across that instant ends there, with fmi2Discard. Parameters: `ends` requests the end of the
+ * simulation there, `mute` does not say how far it came, and `stays` says that it came nowhere. */
 #include "tests/test_units/fmi2/unit.h"
 
 enum { kY = FIRST_OTHER, kTurn, kDirection };

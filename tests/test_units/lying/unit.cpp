@@ -38,8 +38,8 @@ enum Lie {
   AnnouncesPast,      ///< its next event is over
   IteratesForEver,    ///< its events do not end
   ExitsInStep,        ///< it ends the process
-  MumblesMessages,    ///< what it says of messages is no text
-  CountsQuestions,    ///< it changes when it is asked what a message says
+  MumblesMessages,    ///< its descriptions of messages are not text
+  CountsQuestions,    ///< it changes when a message is described
 };
 constexpr Lie kLie = LIE;
 

@@ -9,7 +9,7 @@ class Thrower : public stride::Unit {
  public:
   Thrower() {
     parameter("throw_at", throw_at_).unit("s").description("instant from which a step fails");
-    parameter("odd", odd_).description("throw something that is no std::exception");
+    parameter("odd", odd_).description("throw something that is not a std::exception");
     output("steps", steps_).exact().depends_on({}).description("steps made");
     state();
   }

@@ -57,7 +57,7 @@ TEST_CASE("Bits before the first collision are heard") {
   CHECK(heard.bits[collision] == 1);
 }
 
-TEST_CASE("A longer answer goes on after a shorter one, and is no good frame") {
+TEST_CASE("A longer answer goes on after a shorter one, and is not a good frame") {
   const Frame heard = superposed({answer({0}), answer({0, 1, 2, 3})});
   CHECK(heard.bits.size() == answer({0, 1, 2, 3}).bits.size());
   CHECK_FALSE(is_good(heard));

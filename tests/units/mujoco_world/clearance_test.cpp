@@ -91,7 +91,7 @@ TEST_CASE("a wide table is no nearer than its surface", "[mujoco_world]") {
   CHECK_FALSE(above_table(0.101, "", "margin='0.01'").excluded());
 }
 
-TEST_CASE("what MuJoCo lets through is no obstacle", "[mujoco_world]") {
+TEST_CASE("what MuJoCo lets through is not an obstacle", "[mujoco_world]") {
   CHECK(above_table(0.05, "", "contype='0' conaffinity='0'").excluded());
 }
 

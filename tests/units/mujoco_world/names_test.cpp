@@ -4,7 +4,7 @@
 
 using mujoco_world::name_part;
 
-TEST_CASE("a name that is no identifier is quoted", "[mujoco_world]") {
+TEST_CASE("a name that is not an identifier is quoted", "[mujoco_world]") {
   CHECK(name_part("elbow_1") == "elbow_1");
   CHECK(name_part("_") == "_");
   CHECK(name_part("left arm") == "'left arm'");

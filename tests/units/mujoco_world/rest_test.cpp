@@ -154,7 +154,7 @@ TEST_CASE("a speed, an acceleration, an activation or a contact starts the windo
   CHECK(disturbed_at_7({0, 0, 0, 1, 0}) == 18);  // what touches comes and goes
 }
 
-TEST_CASE("a speed that grows is no rest, a creep is") {
+TEST_CASE("a speed that grows is not rest, a creep is") {
   CHECK(Observer().steps_to_rest([](int i) { return Seen{1e-8 * std::exp(0.01 * i)}; }) == 1001);
   CHECK(Observer().steps_to_rest([](int) { return Seen{1e-4}; }) == 10);
   CHECK(Observer().steps_to_rest([](int i) { return Seen{1e-4 * std::exp(-0.01 * i)}; }) == 10);

@@ -49,7 +49,7 @@ TEST_CASE("A frame survives encoding, whatever its length") {
   }
 }
 
-TEST_CASE("Bytes that are no frame are refused with a reason") {
+TEST_CASE("Bytes that are not a frame are refused with a reason") {
   const Bytes good = nfc::encode({Time{}, 106, {1, 0, 1, 1, 0, 0, 1, 1, 1}});
   CHECK_THROWS_WITH(nfc::decode({}), Catch::Contains("at least 16 bytes"));
   CHECK_THROWS_WITH(nfc::decode(Bytes(good.begin(), good.begin() + 15)), Catch::Contains("has 15"));

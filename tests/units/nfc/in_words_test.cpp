@@ -85,7 +85,7 @@ TEST_CASE("another bit rate than that of the sensor is in the text") {
         "read_temperature at 212 kbit/s");
 }
 
-TEST_CASE("what is no frame is described with the reason") {
+TEST_CASE("what is not a frame is described with the reason") {
   CHECK(nfc::in_words({}, Sender::kReader) ==
         "no frame: a frame has at least 16 bytes, this one has 0");
   Bytes slow = payload(whole({0x01}));

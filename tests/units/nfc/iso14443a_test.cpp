@@ -69,7 +69,7 @@ TEST_CASE("Every byte survives the way to bits and back, with an odd number of o
   }
 }
 
-TEST_CASE("Bits with a wrong parity or of no whole number of bytes are no bytes") {
+TEST_CASE("Bits with a wrong parity or of no whole number of bytes are not bytes") {
   Bits bits = nfc::to_bits({0x12, 0x34});
   for (std::size_t i = 0; i < bits.size(); ++i) {
     bits[i] ^= 1;
@@ -121,7 +121,7 @@ TEST_CASE("A frame that was cut off is found, wherever the cut is") {
   }
 }
 
-TEST_CASE("What is no command takes no arguments") {
+TEST_CASE("What is not a command takes no arguments") {
   CHECK(nfc::argument_bytes(nfc::Command::kSelect) == 4);
   CHECK(nfc::argument_bytes(static_cast<nfc::Command>(0x7F)) == -1);
 }

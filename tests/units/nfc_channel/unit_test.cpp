@@ -239,7 +239,7 @@ TEST_CASE("What makes no sense is an error that names it") {
   check_is_refused(library, name, value);
 }
 
-TEST_CASE("Bytes that are no frame are an error") {
+TEST_CASE("Bytes that are not a frame are an error") {
   const UnitLibrary library(unit_library("nfc_channel"));
   InstanceChoices logging;
   logging.logging = true;

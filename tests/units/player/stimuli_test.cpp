@@ -79,13 +79,14 @@ TEST_CASE("an edited head is reported with its line") {
   CHECK_THAT(mistake_with("input,mode", "inpt,mode"), Catch::Contains("'inpt' is not known here"));
   CHECK_THAT(mistake_with("input,mode", "input,level"),
              Catch::Contains("x.csv:6: the input 'level' is described twice"));
-  CHECK_THAT(mistake_with("Enumeration", "Enum"), Catch::Contains("'Enum' is no type"));
-  CHECK_THAT(mistake_with("item,mode,on", "item,level,on"), Catch::Contains("is no Enumeration"));
+  CHECK_THAT(mistake_with("Enumeration", "Enum"), Catch::Contains("'Enum' is not a type"));
+  CHECK_THAT(mistake_with("item,mode,on", "item,level,on"),
+             Catch::Contains("is not an Enumeration"));
   CHECK_THAT(
       mistake_with(",message.clock,,", ",other.clock,,"),
       Catch::Contains("the head has no clock 'other.clock', which the input 'message.text'"));
-  CHECK_THAT(mistake_with("2 1,", "2 0,"), Catch::Contains("'2 0' are no sizes of an array"));
-  CHECK_THAT(mistake_with("2 1,", "99999999999999 3,"), Catch::Contains("no sizes"));
+  CHECK_THAT(mistake_with("2 1,", "2 0,"), Catch::Contains("'2 0' are not sizes of an array"));
+  CHECK_THAT(mistake_with("2 1,", "99999999999999 3,"), Catch::Contains("not sizes"));
   CHECK_THAT(mistake_with("set,level,9", "set,level,9,9"),
              Catch::Contains("'level' has 1 element, the line gives 2"));
   CHECK_THAT(mistake_with("time,event,variable,value", "time,event,value"),
@@ -112,13 +113,14 @@ TEST_CASE("rows that are out of order are reported with their line") {
 
 TEST_CASE("a bad row is reported with its line, and what was expected") {
   CHECK_THAT(mistake_with("0.25,,level,0.75", "0.25,,level,much"),
-             Catch::Contains("'much' is no Float64; expected a number"));
+             Catch::Contains("'much' is not a valid Float64; expected a number"));
   CHECK_THAT(mistake_with("0.25,,level", "0.25,,lever"),
              Catch::Contains("the head has no input 'lever', only level, mode, "));
-  CHECK_THAT(mistake_with("0.25,,level", "0.25,x,level"), Catch::Contains("'x' is no event"));
-  CHECK_THAT(mistake_with("0.25,,level", "1e-3,,level"), Catch::Contains("'1e-3' is no time"));
-  CHECK_THAT(mistake_with("0.25,,level", "-1,,level"), Catch::Contains("'-1' is no time"));
-  CHECK_THAT(mistake_with("0.25,,level", "0.2500000000001,,level"), Catch::Contains("is no time"));
+  CHECK_THAT(mistake_with("0.25,,level", "0.25,x,level"), Catch::Contains("'x' is not an event"));
+  CHECK_THAT(mistake_with("0.25,,level", "1e-3,,level"), Catch::Contains("'1e-3' is not a time"));
+  CHECK_THAT(mistake_with("0.25,,level", "-1,,level"), Catch::Contains("'-1' is not a time"));
+  CHECK_THAT(mistake_with("0.25,,level", "0.2500000000001,,level"),
+             Catch::Contains("is not a time"));
   CHECK_THAT(mistake_with("1,message.clock,", "1,message.clock,5"),
              Catch::Contains("the tick of a clock has no value"));
 }

@@ -40,5 +40,6 @@ TEST_CASE("without stimuli, or with bad ones, the error has what is expected") {
   const Resources none("");
   CHECK_THROWS_WITH(library.describe(none.path()), Contains("stimuli.csv: cannot be read"));
   const Resources bad(replaced(example(), "0.25,,level,0.75", "0.25,,level,x"));
-  CHECK_THROWS_WITH(library.describe(bad.path()), Contains("stimuli.csv:20: 'x' is no Float64"));
+  CHECK_THROWS_WITH(library.describe(bad.path()),
+                    Contains("stimuli.csv:20: 'x' is not a valid Float64"));
 }

@@ -49,20 +49,22 @@ TEST_CASE("truth, text and bytes") {
   CHECK(parsed<stride::Binary>(Type::Binary, "").empty());
 }
 
-TEST_CASE("what is no value of the type is refused with what was expected") {
-  CHECK(refusal(Type::Float64, "1,5") == "'1,5' is no Float64; expected a number such as 1.5e-06");
+TEST_CASE("what is not a value of the type is refused with what was expected") {
+  CHECK(refusal(Type::Float64, "1,5") ==
+        "'1,5' is not a valid Float64; expected a number such as 1.5e-06");
   CHECK(refusal(Type::Float64, "") != "");
   CHECK(refusal(Type::UInt8, "256") ==
-        "'256' is no UInt8; expected a whole number within its range");
+        "'256' is not a valid UInt8; expected a whole number within its range");
   CHECK(refusal(Type::Int8, "1.0") != "");
-  CHECK(refusal(Type::Boolean, "1") == "'1' is no Boolean; expected true or false");
+  CHECK(refusal(Type::Boolean, "1") == "'1' is not a valid Boolean; expected true or false");
   CHECK(refusal(Type::Binary, "abc") ==
-        "'abc' is no Binary; expected two hexadecimal digits for each byte");
+        "'abc' is not a valid Binary; expected two hexadecimal digits for each byte");
   CHECK(refusal(Type::Binary, "0g") != "");
 }
 
 TEST_CASE("types have the names of FMI 3.0") {
   CHECK(type_named("Enumeration") == Type::Enumeration);
   CHECK(type_named("Clock") == Type::Clock);
-  CHECK_THROWS_WITH(type_named("Real"), Catch::Contains("'Real' is no type; expected Float32, "));
+  CHECK_THROWS_WITH(type_named("Real"),
+                    Catch::Contains("'Real' is not a type; expected Float32, "));
 }

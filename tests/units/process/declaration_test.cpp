@@ -63,7 +63,7 @@ TEST_CASE("mistakes in a declaration are reported with file and line") {
       {"<input name=\"u\"/>", "expected the attribute 'type'"},
       {"<input name=\"u\" type=\"Real\"/>",
        "type=\"Real\" is not known: expected Float32, Float64, Int8"},
-      {"<input name=\"u\" type=\"Int8\" start=\"200\"/>", "'200' is no Int8"},
+      {"<input name=\"u\" type=\"Int8\" start=\"200\"/>", "'200' is not a valid Int8"},
       {"<input name=\"u\" type=\"Int8\" size=\"3\"/>", "unknown attribute 'size'"},
       {"<input name=\"u\" type=\"Int8\" variability=\"continuous\"/>", "expected discrete"},
       {"<input name=\"\" type=\"Int8\"/>", "expected a name"},
@@ -85,7 +85,7 @@ TEST_CASE("mistakes of the whole") {
   CHECK_THROWS_WITH(declared("<process version=\"1\" time-unit=\"min\"/>"),
                     Contains("expected ps, ns, us, ms or s"));
   CHECK_THROWS_WITH(declared("<process version=\"1\" may-stop=\"yes\"/>"),
-                    Contains("'yes' is no Boolean"));
+                    Contains("'yes' is not a valid Boolean"));
   CHECK_THROWS_WITH(declared("<process version=\"1\" maximum-step=\"0\"/>"),
                     Contains("more than 0"));
   CHECK_THROWS_WITH(declared("<unit version=\"1\"/>"), Contains("expected <process> as the root"));

@@ -120,7 +120,7 @@ TEST_CASE("the lines that a program receives, to the letter") {
         "<end/>\n");
 }
 
-TEST_CASE("a step that is no multiple of the unit of time is sent in picoseconds") {
+TEST_CASE("a step that is not a multiple of the unit of time is sent in picoseconds") {
   Declaration declaration = example();
   declaration.time_unit = Duration(1000);
   const std::string lines = told(
@@ -176,15 +176,15 @@ TEST_CASE("wrong answers are named and quoted, with what was expected") {
       {"hello", "wrote as line 4 'hello': column 1: expected '<'"},
       {"<output name=\"y\" value=\"1\"", "column 27: expected a blank or '/>'"},
       {"<put/>", "<put> is not known: expected <output>, <message>"},
-      {"<output name=\"z\" value=\"1\"/>", "'z' is no output; declared are 'y', 'n'"},
-      {"<output name=\"u\" value=\"1\"/>", "'u' is no output, but a input"},
-      {"<output name=\"out\" value=\"1\"/>", "'out' is no output, but a message output"},
+      {"<output name=\"z\" value=\"1\"/>", "'z' is not an output; declared are 'y', 'n'"},
+      {"<output name=\"u\" value=\"1\"/>", "'u' is not an output, but an input"},
+      {"<output name=\"out\" value=\"1\"/>", "'out' is not an output, but a message output"},
       {"<output name=\"y\"/>", "expected the attribute 'value'"},
       {"<output name=\"y\" value=\"1\" unit=\"m\"/>", "unknown attribute 'unit'"},
-      {"<output name=\"y\" value=\"one\"/>", "'one' is no Float64; expected a number"},
-      {"<output name=\"n\" value=\"200\"/>", "'200' is no Int8"},
+      {"<output name=\"y\" value=\"one\"/>", "'one' is not a valid Float64; expected a number"},
+      {"<output name=\"n\" value=\"200\"/>", "'200' is not a valid Int8"},
       {"<message name=\"in\" time=\"0\" value=\"\"/>",
-       "'in' is no message output, but a message input"},
+       "'in' is not a message output, but a message input"},
       {"<message name=\"out\" value=\"a\"/>", "expected the attribute 'time'"},
       {"<message name=\"out\" time=\"11\" value=\"a\"/>",
        "expected in the order of time, from 0 s to 1e-11 s"},
@@ -197,11 +197,11 @@ TEST_CASE("wrong answers are named and quoted, with what was expected") {
       {"<time-unit picoseconds=\"0\"/>", "expected at least one picosecond"},
       {"<sync time=\"11\"/>", "the step ended at 1.1e-11 s, expected from 0 s to 1e-11 s"},
       {"<sync time=\"-1\"/>", "time=\"-1\": expected from 0 to"},
-      {"<sync time=\"0.5\"/>", "'0.5' is no Int64; expected a whole number"},
+      {"<sync time=\"0.5\"/>", "'0.5' is not a valid Int64; expected a whole number"},
       {"<time-unit picoseconds=\"1000000\"/>\n<sync time=\"9223372036854775807\"/>",
        "expected from 0 to 9223372036854"},
       {"<sync time=\"10\" next=\"10\"/>", "next: expected an instant behind 1e-11 s"},
-      {"<sync time=\"10\" end=\"yes\"/>", "'yes' is no Boolean"},
+      {"<sync time=\"10\" end=\"yes\"/>", "'yes' is not a valid Boolean"},
       {"<error text=\"out of coffee\"/>", "fails: out of coffee"},
   }));
   Play p(shell(started() + answer("step", line) + "read -r last"));
@@ -214,7 +214,7 @@ TEST_CASE("a program that must not stop") {
   Play p(shell(started() + answer("step", "<sync time=\"9\"/>") + "read -r last"));
   p.start();
   CHECK_THROWS_WITH(p.session->step(at(10), false),
-                    Contains("expected 1e-11 s, where the command said that it must end"));
+                    Contains("expected 1e-11 s, where the command required it to end"));
 }
 
 TEST_CASE("all outputs are sent at the start") {

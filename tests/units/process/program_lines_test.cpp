@@ -89,7 +89,7 @@ TEST_CASE("a program that falls silent is ended") {
   ProgramLines silent(shell("exec sleep 1000"), {50ms, 1000}, {});
   silent.send("make a step");
   CHECK_THROWS_WITH(silent.next_line(),
-                    Contains("has said nothing for 50 ms while it was to make a step") &&
+                    Contains("wrote nothing for 50 ms while it was to make a step") &&
                         Contains("process.time_limit"));
 }
 
@@ -115,7 +115,7 @@ TEST_CASE("a line with a mistake is named and quoted") {
                     Contains("the program 'sh -c' wrote as line 3 '<three>': expected four"));
 }
 
-TEST_CASE("what is no text is quoted as far as it is") {
+TEST_CASE("what is not text is quoted as far as it is") {
   Heard heard;
   ProgramLines program(
       shell("printf 'a\\377\\033[1mb\\n' >&2; sleep 0.05; printf '\\342\\202<\\n'"), {},
@@ -136,5 +136,5 @@ TEST_CASE("the end is waited for, and has to be a good one") {
                                       Contains("sorry"));
   ProgramLines stubborn(shell("exec sleep 1000"), {50ms, 1000}, {});
   CHECK_THROWS_WITH(stubborn.finish(),
-                    Contains("was told to end, and has not done so within 50 ms"));
+                    Contains("received the end command, and has not ended within 50 ms"));
 }

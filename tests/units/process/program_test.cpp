@@ -145,7 +145,7 @@ TEST_CASE("messages come in, go out, and stop a step") {
         "<output name=\"count\" value=\"2\"/>\n<sync time=\"40\" next=\"500\" end=\"true\"/>\n");
 }
 
-TEST_CASE("an instant that is no multiple of the unit of time makes that a picosecond") {
+TEST_CASE("an instant that is not a multiple of the unit of time makes that a picosecond") {
   const Outcome outcome = run(std::string(kOpen) +
                                   "<time-unit picoseconds=\"1000\"/>\n<start time=\"1\"/>\n<step "
                                   "size=\"2\" may-stop=\"true\"/>\n"
@@ -175,7 +175,7 @@ TEST_CASE("a failure is reported, and the exit code is 1") {
        "the program has no input 'v', which its declaration has"},
       {"<parameter name=\"u\" value=\"1\"/>", "the program has no parameter 'u'"},
       {"<message name=\"out\" time=\"0\" value=\"1\"/>", "the program has no message input 'out'"},
-      {"<input name=\"u\" value=\"x\"/>", "'x' is no Float64"},
+      {"<input name=\"u\" value=\"x\"/>", "'x' is not a valid Float64"},
       {"<start time=\"0\"/>\n<step size=\"5\" may-stop=\"false\"/>",
        "step() returned an instant at which it must not stop"},
       {"<start time=\"0\"/>\n<step size=\"6\" may-stop=\"true\"/>", "no more"},

@@ -45,7 +45,7 @@ TEST_CASE("references are characters") {
                     "or a reference");
 }
 
-TEST_CASE("what is no tag is refused where it stops being one") {
+TEST_CASE("what is not a tag is refused where it stops being one") {
   const auto [line, expected] = GENERATE(table<std::string, std::string>({
       {"", "column 1: expected '<'"},
       {"hello", "column 1: expected '<'"},

@@ -210,7 +210,7 @@ TEST_CASE("what a program does wrong is an error that names it, and the program 
        "column 12: expected a value in quotation marks"},
       {start_answer() + "kill -KILL $$", "was killed by signal 9 (SIGKILL)"},
       {start_answer() + "echo 'no more ideas' >&2; exit 1", "no more ideas"},
-      {start_answer() + "exec sleep 1000", "has said nothing for 2000 ms"},
+      {start_answer() + "exec sleep 1000", "wrote nothing for 2000 ms"},
   }));
   Scripted scripted(script);
   UnitInstance& unit = scripted.unit;
@@ -231,7 +231,7 @@ TEST_CASE("a program that cannot be started") {
   CHECK_THAT(unit.last_message(), Contains("cannot start 'no-such-program'"));
 }
 
-TEST_CASE("an end that is no good one is an error") {
+TEST_CASE("an end that is not a good one is an error") {
   Scripted scripted(start_answer() + answer("end", "") + "exit 5");
   REQUIRE(scripted.unit.start_steps() == fmi3OK);
   CHECK(scripted.unit.fmi.Terminate(scripted.unit.handle) == fmi3Error);

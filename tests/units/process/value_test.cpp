@@ -71,14 +71,14 @@ TEST_CASE("integers of all sizes, up to their limits") {
   check_limits<std::int64_t>();
   check_limits<std::uint64_t>();
   CHECK_THROWS_WITH(read<std::int8_t>("128"),
-                    "'128' is no Int8; expected a whole number within its range");
-  CHECK_THROWS_WITH(read<std::uint8_t>("-1"), Catch::Contains("no UInt8"));
+                    "'128' is not a valid Int8; expected a whole number within its range");
+  CHECK_THROWS_WITH(read<std::uint8_t>("-1"), Catch::Contains("not a valid UInt8"));
 }
 
 TEST_CASE("truth and bytes") {
   CHECK(text_of(true) == "true");
   CHECK_FALSE(read<bool>("false"));
-  CHECK_THROWS_WITH(read<bool>("1"), "'1' is no Boolean; expected true or false");
+  CHECK_THROWS_WITH(read<bool>("1"), "'1' is not a valid Boolean; expected true or false");
   CHECK(text_of(Binary{0, 15, 255}) == "000fff");
   CHECK(read<Binary>("000FfF") == Binary{0, 15, 255});
   CHECK(read<Binary>("").empty());
@@ -92,7 +92,8 @@ TEST_CASE("no number is read from more or less than one") {
     CHECK_THROWS_AS(read<double>(bad), std::invalid_argument);
     CHECK_THROWS_AS(read<std::int32_t>(bad), std::invalid_argument);
   }
-  CHECK_THROWS_WITH(read<double>(std::string(500, 'x')), Catch::Contains("xxx…' is no Float64"));
+  CHECK_THROWS_WITH(read<double>(std::string(500, 'x')),
+                    Catch::Contains("xxx…' is not a valid Float64"));
 }
 
 TEST_CASE("names of types") {
@@ -101,7 +102,7 @@ TEST_CASE("names of types") {
   CHECK(std::string(type_name<Binary>()) == "Binary");
 }
 
-TEST_CASE("what is no text of XML in UTF-8 is found") {
+TEST_CASE("what is not valid text of XML in UTF-8 is found") {
   CHECK(first_unfit("tab\t, ß, €, 😀") == std::string::npos);
   CHECK(first_unfit("a\x01") == 1);
   for (const char* bad : {"\x80", "\xC3", "\xC0\x80", "\xED\xA0\x80", "\xEF\xBF\xBF",

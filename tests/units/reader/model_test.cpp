@@ -115,7 +115,7 @@ TEST_CASE("Each sample of a log is a measurement, with its age in the log") {
   CHECK(measurements[2].age == Duration{});
 }
 
-TEST_CASE("What is no temperature, refused or damaged is no measurement") {
+TEST_CASE("What is not a temperature, refused or damaged is not a measurement") {
   Reader reader = reader_with(R"(<command at="2" name="identify"/>
                                  <command at="3" name="read_temperature"/>
                                  <command at="4" name="read_temperature"/>)");

@@ -129,9 +129,9 @@ TEST_CASE("Every error has the file and the line") {
     check([](Lines& l) { l.pose = R"(<poses><pose name="rest" a="0" b="1" c="2"/></poses>)"; },
           "3:", "unknown attribute 'c': expected 'name', 'a', 'b'");
     check([](Lines& l) { l.pose = R"(<poses><pose name="rest" a="0" b="1,5"/></poses>)"; },
-          "3:", "b=\"1,5\" is no number");
+          "3:", "b=\"1,5\" is not a number");
     check([](Lines& l) { l.pose = R"(<poses><pose name="rest" a="0" b="inf"/></poses>)"; },
-          "3:", "no number");
+          "3:", "not a number");
     check(
         [](Lines& l) {
           l.pose = R"(<poses><pose name="x" a="0" b="1"/><pose name="x" a="0" b="1"/></poses>)";
@@ -191,7 +191,7 @@ TEST_CASE("Every error has the file and the line") {
     check([](Lines& l) { l.command = R"(<command at="9" name="identify"/>)"; },
           "6:", "the antenna is off");
     check([](Lines& l) { l.command = R"(<command at="soon" name="identify"/>)"; },
-          "6:", "at=\"soon\" is no number");
+          "6:", "at=\"soon\" is not a number");
     check(
         [](Lines& l) {
           l.command =

@@ -91,7 +91,7 @@ TEST_CASE("each command has its answer") {
   CHECK(ask(kSleep) == kOk);
 }
 
-TEST_CASE("what is no command, or has wrong arguments, is answered by the protocol's error") {
+TEST_CASE("what is not a command, or has wrong arguments, is answered by the protocol's error") {
   Dialogue ask;
   CHECK(ask({0x7F}) == kUnknown);
   CHECK(ask({0x00}) == kUnknown);

@@ -25,7 +25,7 @@ void write_file(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) fail(path);
   const ssize_t written = ::write(file, bytes.data(), bytes.size());
-  // what is written in part has not said why
+  // a partial write has not given its reason
   if (written >= 0 && static_cast<std::size_t>(written) < bytes.size()) errno = ENOSPC;
   const bool is_whole = static_cast<std::size_t>(written) == bytes.size();
   const int reason = errno;

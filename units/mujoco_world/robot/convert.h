@@ -31,8 +31,8 @@ struct Conversion {
 ///
 /// Each link of a URDF becomes a body, also one without mass. What a link looks like is left out,
 /// its collision geometry stays, as MuJoCo does with a URDF. A mesh is looked for as its filename
-/// says, relative to the file; package://NAME/… in the folder NAME, in or above that of the file;
-/// and as the URDF's own <mujoco><compiler meshdir> says.
+/// has it, relative to the file; package://NAME/… in the folder NAME, in or above that of the file;
+/// and in the URDF's own <mujoco><compiler meshdir>.
 ///
 /// Left out are keyframes, since they do not fit a scene with further joints, and the sizes of
 /// MuJoCo's buffers.

@@ -38,8 +38,8 @@ class Reach {
 
   /// One pose for each distance [m], in this order. Of the ways from the start through all of them
   /// that were found, it is one without contacts if there is any, and the shortest of these: the
-  /// sum over its legs of what the joint that moves most moves. Throws std::runtime_error that says
-  /// how near it came.
+  /// sum over its legs of what the joint that moves most moves. Throws std::runtime_error that
+  /// contains how near it came.
   std::vector<Pose> solve(const std::vector<double>& distances);
 
  private:

@@ -306,7 +306,7 @@ TEST_CASE("the error has the whole path, the values, and how to break the loop")
   CHECK_THAT(text, !Contains("declare"));
 }
 
-TEST_CASE("NaN on the way to the initial values is no error") {
+TEST_CASE("NaN on the way to the initial values is not an error") {
   InitialSystem f;
   auto& a = f.add("a", Describe("a").input("u").output("x").output("y").done());
   auto& b = f.add("b", Describe("b").input("u").input("v").output("y").output("z").done());

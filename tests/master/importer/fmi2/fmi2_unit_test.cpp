@@ -346,8 +346,9 @@ TEST_CASE("a unit without a state must report the time that it reached") {
   CHECK_THAT(
       run_error([&] { unit.step({}, Time(1s)); }),
       Contains("unit 'u1', at 0 s: fmi2DoStep returned fmi2Discard in the step to 1 s") &&
-          Contains(is_mute ? "does not say how far it came" : "came no further than where") &&
-          Contains("it says: there is a turn at 0.25 s") && Contains("hint: try a smaller step"));
+          Contains(is_mute ? "does not report how far it came" : "came no further than where") &&
+          Contains("message of the unit: there is a turn at 0.25 s") &&
+          Contains("hint: try a smaller step"));
 }
 
 TEST_CASE("a unit may end the simulation within a step") {
@@ -369,7 +370,7 @@ TEST_CASE("a unit that ends the simulation at an unknown time") {
   unit.set_flag("mute");
   unit.start();
   if (!has_state) {
-    CHECK_THAT(run_error([&] { unit.step({}, Time(1s)); }), Contains("does not say when"));
+    CHECK_THAT(run_error([&] { unit.step({}, Time(1s)); }), Contains("does not report when"));
     return;
   }
   const core::StepResult result = unit.step({}, Time(1s));
@@ -432,8 +433,9 @@ TEST_CASE("a step that takes long is logged once, with the unit's own text", "[h
   unit.start();
   CHECK(unit.step({}, Time(1s)).reached_without_request(Time(1s)));
   REQUIRE(told.size() == 1);
-  CHECK_THAT(told[0], Contains("has not finished its step from 0 s yet (fmi2Pending); it says: "
-                               "asleep; stride waits for it"));
+  CHECK_THAT(told[0],
+             Contains("has not finished its step from 0 s yet (fmi2Pending); message of the unit: "
+                      "asleep; stride waits for it"));
 }
 
 // ---- Inputs within a step ----

@@ -110,7 +110,7 @@ TEST_CASE("a unit without fractions gives decimals") {
   CHECK(clocks(*wise.unit).clock_interval(wise.tick()).state == ClockInterval::State::NotYetKnown);
 }
 
-TEST_CASE("what is no interval names the clock, the function and the time") {
+TEST_CASE("what is not an interval names the clock, the function and the time") {
   const std::string fixed = "intervalVariability=\"fixed\"";
   RawClock backwards("backwards", fixed);
   CHECK_THAT(run_error([&] { clocks(*backwards.unit).clock_interval(backwards.tick()); }),

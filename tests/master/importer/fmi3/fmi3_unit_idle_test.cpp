@@ -113,7 +113,7 @@ TEST_CASE("an output without a tolerance has no tangent") {
   Idler idler;
   idler.start();
   CHECK_THAT(run_error([&] { idler.slope("reports"); }),
-             Contains("tank") && Contains("is no output with a tolerance"));
+             Contains("tank") && Contains("is not an output with a tolerance"));
 }
 
 TEST_CASE("an output whose manifest gives it no derivative has the derivative 0") {

@@ -79,7 +79,7 @@ TEST_CASE("bytes of a state continue in another instance that was never started"
   CHECK(serialization(*other).serialize_state().size() == bytes.size());
 }
 
-TEST_CASE("bytes that are no state, and a state that is not there, are errors") {
+TEST_CASE("bytes that are not a state, and a state that is not there, are errors") {
   Stepper unit;
   CHECK_THAT(run_error([&] { serialization(*unit).serialize_state(); }),
              Contains("no state of it has been saved"));

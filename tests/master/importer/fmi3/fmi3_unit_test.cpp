@@ -351,7 +351,7 @@ TEST_CASE("a unit's own time may differ from the end of the step, which the log 
   CHECK(Raw("lies").unit->step({{}, Time(1s)}).reached == Time(1s));
 }
 
-TEST_CASE("a time of a unit's own that is no time is an error") {
+TEST_CASE("a time of a unit's own that is not a time is an error") {
   Raw endless("endless", {}, "raw_extended");
   CHECK_THAT(run_error([&] {
                endless.unit->step({{}, Time(1s)});
@@ -381,7 +381,7 @@ TEST_CASE("fmi3Error is an error with function, time and the unit's own words") 
   CHECK_NOTHROW(unit->terminate());
 }
 
-TEST_CASE("an exception that is no std::exception does not cross the unit's border") {
+TEST_CASE("an exception that is not a std::exception does not cross the unit's border") {
   Fmi3Fixture unit("thrower");
   unit.set("odd", "true");
   unit.initialize();
@@ -673,8 +673,9 @@ TEST_CASE("a unit of another tool gives the text of a message") {
   CHECK(say("plain", {}) == "7: 0 bytes, somewhere");
   CHECK(say("mute", {1}) == "");
   CHECK(Raw("plain").unit->capability<core::MessageText>() == nullptr);
-  CHECK_THAT(run_error([&] { say("babbles", {1}); }),
-             Contains("strideDescribeMessage says that it has written 1025 bytes where 1024 fit"));
+  CHECK_THAT(
+      run_error([&] { say("babbles", {1}); }),
+      Contains("strideDescribeMessage reports that it has written 1025 bytes where 1024 fit"));
   CHECK_THAT(run_error([&] { say("refuses_it", {1}); }),
              Contains("strideDescribeMessage returned fmi3Error: no comment"));
 }

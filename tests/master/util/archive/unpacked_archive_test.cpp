@@ -136,12 +136,13 @@ TEST_CASE("an archive larger than the limits is refused") {
   CHECK_NOTHROW(UnpackedArchive(many, kExpected, {}, {.bytes = 4, .entries = 3}));
 }
 
-TEST_CASE("a file that is no archive is an error") {
+TEST_CASE("a file that is not an archive is an error") {
   const Scratch scratch;
   CHECK_THAT(unpack_error(scratch / "absent.fmu"), Contains("there is no file"));
-  const std::string text = unpack_error(scratch.write("text.fmu", "This is no archive at all."));
-  CHECK_THAT(text, Contains("text.fmu' is no zip archive") && Contains("hint: expected a unit"));
-  CHECK_THAT(unpack_error(scratch.write("empty.fmu", "")), Contains("is no zip archive"));
+  const std::string text =
+      unpack_error(scratch.write("text.fmu", "This is not an archive at all."));
+  CHECK_THAT(text, Contains("text.fmu' is not a zip archive") && Contains("hint: expected a unit"));
+  CHECK_THAT(unpack_error(scratch.write("empty.fmu", "")), Contains("is not a zip archive"));
 }
 
 TEST_CASE("a damaged archive is an error") {

@@ -42,9 +42,9 @@ TEST_CASE("what cannot be packed is an error") {
   const Scratch scratch;
   archive::Contents contents;
   CHECK_THAT(input_error([&] { archive::add_file(contents, "a", scratch / "absent", false); }),
-             Contains("absent' is no file"));
+             Contains("absent' is not a file"));
   CHECK_THAT(input_error([&] { archive::add_folder(contents, "", scratch / "absent"); }),
-             Contains("absent' is no folder"));
+             Contains("absent' is not a folder"));
   archive::add_file(contents, "a", scratch.write("a", "text"), false);
   CHECK_THAT(input_error([&] { archive::add_file(contents, "a", scratch / "a", false); }),
              Contains("two files would be 'a'"));

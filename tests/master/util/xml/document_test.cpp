@@ -38,8 +38,8 @@ TEST_CASE("What is not well-formed is refused with its line") {
   CHECK_THAT(error_in(""), Contains("the file holds nothing"));
   CHECK_THAT(error_in("<!-- nothing -->"), Contains("the file holds no XML element"));
   CHECK_THAT(error_in("<a/>\n<b/>"), Contains("x.ssd:2: a second root element <b>"));
-  CHECK_THAT(error_in(std::string("<a>\0</a>", 8)), Contains("this is no text in UTF-8"));
-  CHECK_THAT(error_in("\xff\xfe<"), Contains("this is no text in UTF-8"));
+  CHECK_THAT(error_in(std::string("<a>\0</a>", 8)), Contains("this is not valid UTF-8 text"));
+  CHECK_THAT(error_in("\xff\xfe<"), Contains("this is not valid UTF-8 text"));
   CHECK_THAT(error_in("<?xml version='1.0' encoding='ISO-8859-1'?><a/>"),
              Contains("the encoding 'iso-8859-1' is not read"));
   CHECK(error_in("<?xml version='1.0' encoding='utf-8'?><a encoding='x'/>") == "(no error)");
@@ -57,7 +57,7 @@ TEST_CASE("A document's elements stay valid when it is moved") {
   CHECK(second.text() == "<a>\n<b/></a>");
 }
 
-TEST_CASE("an end tag is no element") {
+TEST_CASE("an end tag is not an element") {
   CHECK_THROWS_WITH(xml::Document::parse("<a></b c='1'/></a>", "x.xml"),
                     Contains("x.xml: this is not well-formed XML") && Contains("'/' at its end"));
   CHECK_NOTHROW(xml::Document::parse("<a><!-- </b/> --><![CDATA[</c/>]]><d/></a>", "x.xml"));

@@ -32,7 +32,7 @@ TEST_CASE("what XML cannot hold is replaced") {
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<a x=\"1\uFFFD2\">a\tb\nc\uFFFD[0m</a>\n");
 }
 
-TEST_CASE("what is no UTF-8, and what is no character of XML, is replaced") {
+TEST_CASE("what is not valid UTF-8, and what is not a character of XML, is replaced") {
   const auto [text, expected] = GENERATE(table<std::string, std::string>({
       {"a\xff=1", "a\uFFFD=1"},
       {"\xef\xbf\xbe|\xef\xbf\xbf|\xef\xbf\xbd", "\uFFFD|\uFFFD|\uFFFD"},

@@ -176,7 +176,7 @@ TEST_CASE("what is mounted becomes a part of the body", "[robot]") {
       Catch::Contains("no body 'c'") && Catch::Contains("are: 'a', 'b'"));
 }
 
-TEST_CASE("what is no model is an error that names the file", "[robot]") {
+TEST_CASE("what is not a model is an error that names the file", "[robot]") {
   const worlds::Folder folder;
   folder.write("page.xml", "<html/>");
   CHECK_THROWS_WITH(load_robot(folder.path() / "page.xml"),

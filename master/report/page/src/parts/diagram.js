@@ -108,7 +108,7 @@ export function diagramSection({ report, tip }) {
     ...edges.map((edge, index) => arrow(edge, graph.edge(edge.from, edge.to, String(index)), tip)),
     ...diagram.components.map((component) => block(component, graph.node(component.name))),
   );
-  const note = "A number tells how many connections an arrow stands for; dashed ones carry messages.";
+  const note = "A number is the count of connections that an arrow represents; dashed ones carry messages.";
   return h(
     "section",
     { "aria-label": "Diagram" },

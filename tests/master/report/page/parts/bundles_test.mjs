@@ -29,6 +29,6 @@ test("a component in a system is found by its whole name", () => {
   assert.deepEqual([found.from, found.to], ["arm.motor", "arm"]);
 });
 
-test("a connector of the whole system is no component", () => {
+test("a connector of the whole system is not a component", () => {
   assert.deepEqual(bundles({ components: kComponents, connections: [connect("outside", "arm.x")] }), []);
 });

@@ -47,7 +47,7 @@ test("undecided is neither passed nor failed", () => {
   assert.equal(summary({ outcome: "completed", checks: [check("a", null), check("b", true)] }).kind, "open");
 });
 
-test("a run that failed is no success, whatever was judged until then", () => {
+test("a run that failed is not a success, whatever was judged until then", () => {
   assert.deepEqual(summary({ outcome: "failed", checks: [check("a", true)] }), { kind: "bad", text: "The run failed" });
   assert.equal(summary({ outcome: "interrupted", checks: [check("a", true)] }).kind, "open");
   assert.equal(summary({ outcome: "interrupted", checks: [check("a", false, 1)] }).kind, "bad");

@@ -44,7 +44,7 @@ inline constexpr std::size_t kLogSamples = 8;          ///< at most, in an answe
 inline constexpr std::size_t kLogSampleBytes = 4;      ///< age and temperature
 inline constexpr std::uint16_t kOldestLogAge = 65535;  ///< of a sample [s]: so much, or more
 
-/// How many bytes of arguments a command takes; -1 for a byte that is no command.
+/// How many bytes of arguments a command takes; -1 for a byte that is not a command.
 constexpr int argument_bytes(Command command) {
   switch (command) {
     case Command::kIdentify:

@@ -54,7 +54,7 @@ Frame cut_off(Frame frame, stride::Time time);
 /// significant place.
 Bytes encode(const Frame& frame);
 
-/// The inverse. Throws std::invalid_argument if the bytes are no frame.
+/// The inverse. Throws std::invalid_argument if the bytes are not a frame.
 Frame decode(const Bytes& payload);
 
 }  // namespace nfc

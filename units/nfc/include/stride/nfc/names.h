@@ -16,7 +16,7 @@ inline constexpr Command kCommands[] = {
 };
 inline constexpr Status kStatuses[] = {Status::kOk, Status::kUnknownCommand, Status::kBadArgument};
 
-/// Such as "read_temperature"; "raw 0x7F" for a byte that is no command.
+/// Such as "read_temperature"; "raw 0x7F" for a byte that is not a command.
 std::string name_of(Command command);
 
 /// Such as "bad_argument"; "status 0x7F" for a byte that is none.

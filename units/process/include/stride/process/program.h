@@ -185,7 +185,7 @@ class Program {
     throw std::invalid_argument(std::string(attribute) + ": expected from 0 to " +
                                 std::to_string(most));
   }
-  /// Makes the unit of time a picosecond if the instant is no multiple of it.
+  /// Makes the unit of time a picosecond if the instant is not a multiple of it.
   void fit_unit_to(Time time) {
     if (time.time_since_epoch().count() % unit_ == 0) return;
     unit_ = 1;

@@ -1,4 +1,4 @@
-// Values and texts of the protocol. Values are written and read as <stride/value_text.h> says;
+// Values and texts of the protocol. Values are written and read as <stride/value_text.h> defines;
 // texts are escaped by TagWriter.
 #ifndef STRIDE_PROCESS_VALUE_H
 #define STRIDE_PROCESS_VALUE_H

@@ -60,7 +60,7 @@ struct IntegerConversion {
     result = static_cast<std::conditional_t<Signed, sc_dt::int64, sc_dt::uint64>>(value);
     return result;
   }
-  // bounds beyond 2^53 are no doubles; those of the FMI type itself go without saying
+  // bounds beyond 2^53 are no doubles; those of the FMI type itself need no check
   static void describe(VariableBuilder& row) {
     constexpr bool kFillsType = Width == 8 * static_cast<int>(sizeof(Fmi));
     if (!kFillsType && Width <= 53) {
@@ -172,7 +172,7 @@ struct FixedPointConversion {
   static_assert(Width <= 53, "a Float64 has 53 bits: this fixed-point type has more");
   using Fmi = double;
   static Fmi to_fmi(const T& value) { return value.to_double(); }
-  static T from_fmi(Fmi value) { return T(value); }  // rounded and saturated as the type says
+  static T from_fmi(Fmi value) { return T(value); }  // rounded and saturated as the type defines
   static void describe(VariableBuilder&) {}
 };
 }  // namespace detail

@@ -46,7 +46,7 @@ class IdleSkipper {
   Time advance(Time to, bool may_stop_early, Duration max_skip);
 
   const Statistics& statistics() const { return statistics_; }
-  /// The device said that it was idle, without a clock, but SystemC had something to notify at this
+  /// The device declared itself idle, without a clock, but SystemC had something to notify at this
   /// instant: a wait(time) or notify(delay) where a Timer should be. Such time is simulated. Beside
   /// a clock that goes on such a notification is not seen, and comes later by what is skipped.
   std::optional<Time> obstacle() const { return obstacle_; }

@@ -31,7 +31,7 @@
 
 namespace stride::systemc {
 
-/// A DeviceUnit that is said row by row, in the constructor. A row's target is where its value
+/// A DeviceUnit that is declared row by row, in the constructor. A row's target is where its value
 /// is in the module:
 ///
 ///   &Module::port                            a port, a signal, or another member of the module
@@ -322,7 +322,7 @@ class ModuleUnit : public DeviceUnit<Module> {
         make_ = [](const char* name) { return std::make_unique<Module>(name); };
       } else {
         throw std::logic_error(
-            "the module's constructor takes more than its name: say construct()");
+            "the module's constructor takes more than its name: call construct()");
       }
     }
     auto module = make_(name_.c_str());

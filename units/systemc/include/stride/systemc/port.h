@@ -28,7 +28,7 @@ namespace detail {
 /// Where a value is held. One of the three is set.
 template <class T>
 struct Place {
-  sc_core::sc_object* object = nullptr;  ///< none for a channel that is no object
+  sc_core::sc_object* object = nullptr;  ///< none for a channel that is not an object
   sc_core::sc_port_b<sc_core::sc_signal_in_if<T>>* in = nullptr;
   sc_core::sc_port_b<sc_core::sc_signal_inout_if<T>>* out = nullptr;
   sc_core::sc_signal_in_if<T>* signal = nullptr;

@@ -154,7 +154,7 @@ class OutputRow final : public PlaceRow<T> {
   }
 };
 
-/// What a function of the module gives, or a member of it that is no signal.
+/// What a function of the module gives, or a member of it that is not a signal.
 template <class T>
 class ValueRow final : public Row {
  public:

@@ -38,8 +38,8 @@ namespace stride::systemc {
 /// The device's own time starts at zero where the simulation starts. A device that calls sc_pause
 /// asks for a communication point at that instant, and gets it if the master allows early return.
 ///
-/// Every device has the parameters `trace.file` and `trace.signals`; see trace.h. One that says
-/// what idle means has its idle time skipped where the importer enables it, and can be left alone
+/// Every device has the parameters `trace.file` and `trace.signals`; see trace.h. One that declares
+/// what idle means has its idle time skipped where the importer enables it, and can be suspended
 /// while its outputs keep their tangents; see <stride/idle.h> and idle.h.
 ///
 /// SystemC cannot save its state, so a device unit cannot be rolled back by itself; in a process of
@@ -138,7 +138,7 @@ class DeviceUnit : public Unit {
   /// For how long on_skip() is good enough; see tangent_holds_for().
   virtual Duration longest_skip(const Module& /*module*/) const { return Duration::max(); }
   /// For how long, while it is idle, each output stays within its tolerance of its tangent, those
-  /// without a tolerance what they are. Zero is no promise; the next Timer ends one by itself.
+  /// without a tolerance what they are. Zero is not a promise; the next Timer ends one by itself.
   virtual Duration tangents_hold_for(const Module& /*module*/) const { return {}; }
 
   Time to_device(Time time) const { return Time(time - start_); }
