@@ -6,6 +6,7 @@
 
 #include "master/isolation/process/process_memory.h"
 #include "master/isolation/sandbox_hint.h"
+#include "master/isolation/server.h"
 #include "master/util/readable_text.h"
 
 namespace stride::isolation {

@@ -10,10 +10,11 @@
 #include "master/algorithm/statistics.h"
 #include "master/isolation/channel.h"
 #include "master/isolation/host_process.h"
+#include "master/isolation/hosted_unit_spec.h"
+#include "master/isolation/log_message.h"
 #include "master/isolation/message.h"
 #include "master/isolation/output_tail.h"
 #include "master/isolation/process/doorbell.h"
-#include "master/isolation/server.h"
 
 namespace stride::isolation {
 

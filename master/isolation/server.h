@@ -11,31 +11,16 @@
 
 #include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/unit.h"
-#include "master/importer/fmu.h"
 #include "master/isolation/channel.h"
-#include "master/isolation/hosted_unit.h"
+#include "master/isolation/hosted_unit_spec.h"
 #include "master/isolation/log_message.h"
 #include "master/isolation/message.h"
 #include "master/isolation/process/doorbell.h"
 #include "master/isolation/process/sandbox.h"
 #include "master/isolation/snapshots.h"
 #include "master/isolation/step_plan.h"
-#include "master/util/archive/temporary_folder.h"
 
 namespace stride::isolation {
-
-/// What a hosted unit is instantiated from.
-struct HostedUnitSpec {
-  std::shared_ptr<importer::Fmu> fmu;
-  std::string name;
-  importer::InstanceOptions options;
-  HostOptions host;
-  /// For a unit in a sandbox: $TMPDIR, since that of others is closed to it.
-  std::unique_ptr<archive::TemporaryFolder> temporary{};
-
-  /// Whether its states are snapshots of its process.
-  bool has_snapshots() const { return host.takes_snapshots && !fmu->description()->can_save_state; }
-};
 
 /// The host of a unit: it serves the master's requests one after the other.
 class Server {

@@ -21,7 +21,7 @@
 #include "master/algorithm/unit.h"
 #include "master/isolation/codec.h"
 #include "master/isolation/host_client.h"
-#include "master/isolation/server.h"
+#include "master/isolation/hosted_unit_spec.h"
 #include "master/isolation/step_plan.h"
 
 namespace stride::isolation {
