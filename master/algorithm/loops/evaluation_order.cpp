@@ -152,7 +152,7 @@ class LoopPlanner {
         const auto from = local_.find(network_.node_of(connection.from));
         if (from == local_.end()) continue;
         inner_.insert(input);
-        if (position[from->second] < position[i] || !cut_.insert(input).second) continue;
+        if (position[from->second] < position[i] || !torn_.insert(input).second) continue;
         const Conversion& conversion = connection.conversion;
         TearingVariable& variable =
             tearing_variables[{connection.from, conversion.linear.factor, conversion.linear.offset,
@@ -170,7 +170,7 @@ class LoopPlanner {
   }
 
   void find_steps() {
-    const Digraph graph = inner_edges([&](VariableId input) { return cut_.count(input) == 0; });
+    const Digraph graph = inner_edges([&](VariableId input) { return torn_.count(input) == 0; });
     std::vector<std::size_t> components;
     for (const std::size_t node : nodes_) components.push_back(network_.nodes()[node].component);
     for (std::vector<std::size_t>& group : grouped_order(graph, components)) {
@@ -197,7 +197,7 @@ class LoopPlanner {
     }
   }
 
-  /// From an input that is cut through the loop back to it.
+  /// From an input of a tearing variable through the loop back to it.
   std::vector<VariableId> shortest_path(VariableId input) const {
     const VariableId last = network_.source(input).from;
     std::map<std::size_t, VariableId> reached_by;  // node -> input
@@ -244,7 +244,7 @@ class LoopPlanner {
   const std::vector<std::size_t>& nodes_;
   std::map<std::size_t, std::size_t> local_;  // node -> its place in nodes_
   std::set<VariableId> inner_;                // inputs
-  std::set<VariableId> cut_;                  // those of the tearing_variables
+  std::set<VariableId> torn_;                 // those of the tearing_variables
   EvaluationBlock block_;
 };
 

@@ -17,7 +17,7 @@ struct EvaluationStep {
   std::vector<VariableId> outputs;  ///< sorted
 };
 
-/// Where a loop is cut: these inputs get the same value from one output, and it is solved for.
+/// Where a loop is torn: these inputs get the same value from one output, and it is solved for.
 struct TearingVariable {
   VariableId source;
   Conversion conversion;
@@ -40,7 +40,7 @@ struct EvaluationBlock {
 
 /// All connected outputs that are not clocked, each behind those that it depends on. Components
 /// are read in few steps: a component all of whose outputs can be read goes first; of several, the
-/// first in the file. A loop is a strongly connected part of the dependencies, cut at few
+/// first in the file. A loop is a strongly connected part of the dependencies, torn at few
 /// connections. Both choices are heuristics, and depend on nothing but the system.
 std::vector<EvaluationBlock> evaluation_order(const System& system, Phase phase);
 

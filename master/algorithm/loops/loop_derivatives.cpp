@@ -48,16 +48,16 @@ void LoopDerivatives::add_derivatives(const EvaluationStep& step) {
   derivatives_.push_back(std::move(derivatives));
 }
 
-/// Inputs at which the loop is cut keep their values within a sweep.
+/// Tearing variables keep their values within a sweep.
 void LoopDerivatives::add_carried() {
-  std::set<VariableId> cut;
+  std::set<VariableId> torn;
   for (const TearingVariable& variable : loop_.tearing_variables)
-    cut.insert(variable.inputs.begin(), variable.inputs.end());
+    torn.insert(variable.inputs.begin(), variable.inputs.end());
   for (std::size_t i = 0; i < loop_.steps.size(); ++i) {
     for (const Connection& connection : system_.connections()) {
       const auto to = input_offsets_.find(connection.to);
       const bool begins_here = std::ranges::binary_search(loop_.steps[i].outputs, connection.from);
-      if (!begins_here || to == input_offsets_.end() || cut.contains(connection.to)) continue;
+      if (!begins_here || to == input_offsets_.end() || torn.contains(connection.to)) continue;
       carried_.push_back({i, output_offsets_.at(connection.from), to->second,
                           system_.variable(connection.to).size,
                           connection.conversion.linear.factor});

@@ -37,10 +37,10 @@ void OrderedEvaluation::plan(const EvaluationBlock& planned, const Targets& targ
   Block& block = blocks_.emplace_back();
   block.plan = &planned;
   std::set<VariableId> inner(planned.inputs.begin(), planned.inputs.end());
-  std::set<VariableId> cut;
+  std::set<VariableId> torn;
   if (planned.is_loop()) block.loop.emplace(context, planned, staged_);
   for (const TearingVariable& variable : planned.tearing_variables)
-    cut.insert(variable.inputs.begin(), variable.inputs.end());
+    torn.insert(variable.inputs.begin(), variable.inputs.end());
   std::vector<VariableId> onward;
   for (const EvaluationStep& step : planned.steps) {
     EvaluationStage& stage =
@@ -49,7 +49,7 @@ void OrderedEvaluation::plan(const EvaluationBlock& planned, const Targets& targ
       for (const VariableId input : targets.at(output)) {
         if (planned.is_loop() && inner.count(input) == 0) {
           onward.push_back(input);
-        } else if (cut.count(input) == 0) {
+        } else if (torn.count(input) == 0) {
           stage.links.push_back(staged_.plan_link(input));
         }
       }

@@ -57,7 +57,7 @@ class OrderedEvaluation {
  private:
   struct EvaluationStage {
     StagedExchange::OutputRead read;
-    std::vector<StagedExchange::Link> links;  ///< of a loop: those that stay in it and are not cut
+    std::vector<StagedExchange::Link> links;  ///< of a loop: those that stay in it and are not torn
   };
   struct Block {
     std::vector<EvaluationStage> stages;

@@ -148,7 +148,7 @@ TEST_CASE("outputs of a unit are read at once where that is possible") {
   CHECK(net.order() == "a.x|b.y|a.y");
 }
 
-TEST_CASE("a loop is cut at few inputs; those of one source count once") {
+TEST_CASE("a loop is torn at few inputs; those of one source count once") {
   const auto hub = Describe("hub").input("u").input("v").output("y");
   Net net;
   net.add("a", hub).add("b", direct()).add("c", direct());
