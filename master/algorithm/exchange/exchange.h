@@ -101,7 +101,7 @@ class Exchange {
   Signal signal(VariableId id);
 
   /// The value of a connected variable, for the evaluation of single variables: an output that was
-  /// read is written there, and deliver() reads an input there. See StagedExchange.
+  /// read is written there, and deliver() reads an input there. See OrderedExchange.
   ValueSlice slice(VariableId id);
 
  private:

@@ -37,8 +37,8 @@ double epsilon(const System& system, const EvaluationBlock& plan) {
     return system.variable(id).type == ValueType::Float32;
   };
   bool coarse = std::ranges::any_of(plan.inputs, is_coarse);
-  for (const EvaluationStep& step : plan.steps) {
-    coarse |= std::ranges::any_of(step.outputs, is_coarse);
+  for (const OutputGroup& group : plan.groups) {
+    coarse |= std::ranges::any_of(group.outputs, is_coarse);
   }
   return coarse ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
 }
@@ -46,8 +46,8 @@ double epsilon(const System& system, const EvaluationBlock& plan) {
 }  // namespace
 
 AlgebraicLoop::AlgebraicLoop(RunContext& context, const EvaluationBlock& plan,
-                             StagedExchange& staged)
-    : system_(context.system), plan_(plan), staged_(staged) {
+                             OrderedExchange& exchange)
+    : system_(context.system), plan_(plan), exchange_(exchange) {
   if (LoopDerivatives::exist(system_, plan)) derivatives_.emplace(system_, context.units, plan);
   scale_.epsilon = epsilon(system_, plan);
   for (const TearingVariable& variable : plan.tearing_variables) {
@@ -57,7 +57,7 @@ AlgebraicLoop::AlgebraicLoop(RunContext& context, const EvaluationBlock& plan,
               {},
               ValueBlock(input.type, input.size),
               is_real(input.type)};
-    for (const VariableId id : variable.inputs) tear.links.push_back(staged.plan_link(id));
+    for (const VariableId id : variable.inputs) tear.links.push_back(exchange.plan_link(id));
     for (std::size_t i = 0; i < input.size; ++i) {
       unknowns_.push_back({tears_.size(), i});
       if (!tear.is_real) continue;
@@ -70,11 +70,11 @@ AlgebraicLoop::AlgebraicLoop(RunContext& context, const EvaluationBlock& plan,
 
 void AlgebraicLoop::guess() {
   for (Tear& tear : tears_) {
-    staged_.read_input(tear.links.front());
+    exchange_.read_input(tear.links.front());
     const ValueSlice first = tear.links.front().target_value();
-    for (StagedExchange::Link& link : tear.links) {
+    for (OrderedExchange::Link& link : tear.links) {
       copy_elements(link.target_value(), first);
-      staged_.touch(link);
+      exchange_.touch(link);
     }
   }
 }
@@ -196,16 +196,16 @@ void AlgebraicLoop::put(const Values& values) {
 }
 
 void AlgebraicLoop::put(Tear& tear, const ValueBlock& value) {
-  for (StagedExchange::Link& link : tear.links) {
+  for (OrderedExchange::Link& link : tear.links) {
     const ValueSlice& to = link.target_value();
-    if (copy_elements(*to.block, to.first, value, 0, value.size())) staged_.touch(link);
+    if (copy_elements(*to.block, to.first, value, 0, value.size())) exchange_.touch(link);
   }
 }
 
 void AlgebraicLoop::put(std::span<const double> x) {
   for (std::size_t i = 0; i < reals_.size(); ++i) {
-    for (StagedExchange::Link& link : tears_[reals_[i].tear].links) {
-      if (change_real(link.target_value(), reals_[i].element, x[i])) staged_.touch(link);
+    for (OrderedExchange::Link& link : tears_[reals_[i].tear].links) {
+      if (change_real(link.target_value(), reals_[i].element, x[i])) exchange_.touch(link);
     }
   }
 }

@@ -32,7 +32,7 @@ class AlgebraicLoop {
   using Sweep = std::function<void()>;
 
   /// `plan` is a loop and outlives this object, as do the others.
-  AlgebraicLoop(RunContext& context, const EvaluationBlock& plan, StagedExchange& staged);
+  AlgebraicLoop(RunContext& context, const EvaluationBlock& plan, OrderedExchange& exchange);
 
   /// Reads the start values of the tearing variables from the units.
   void guess();
@@ -48,7 +48,7 @@ class AlgebraicLoop {
   struct Tear {
     const TearingVariable* variable;
     ValueSlice source;
-    std::vector<StagedExchange::Link> links;
+    std::vector<OrderedExchange::Link> links;
     ValueBlock result;  ///< the value of the source, converted for the inputs
     bool is_real;
   };
@@ -75,7 +75,7 @@ class AlgebraicLoop {
 
   const System& system_;
   const EvaluationBlock& plan_;
-  StagedExchange& staged_;
+  OrderedExchange& exchange_;
   std::vector<Tear> tears_;
   std::vector<Unknown> unknowns_;
   std::vector<Unknown> reals_;  ///< those of the unknowns that Newton's method is for

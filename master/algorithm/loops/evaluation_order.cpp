@@ -99,14 +99,14 @@ class Network {
   std::map<VariableId, std::vector<std::size_t>> dependants_;
 };
 
-EvaluationStep make_step(const Network& network, const std::vector<std::size_t>& nodes) {
-  EvaluationStep step{network.nodes()[nodes.front()].component, {}};
+OutputGroup make_group(const Network& network, const std::vector<std::size_t>& nodes) {
+  OutputGroup group{network.nodes()[nodes.front()].component, {}};
   for (const std::size_t node : nodes) {
     const auto& outputs = network.nodes()[node].outputs;
-    step.outputs.insert(step.outputs.end(), outputs.begin(), outputs.end());
+    group.outputs.insert(group.outputs.end(), outputs.begin(), outputs.end());
   }
-  std::sort(step.outputs.begin(), step.outputs.end());
-  return step;
+  std::sort(group.outputs.begin(), group.outputs.end());
+  return group;
 }
 
 /// One strongly connected part of the network.
@@ -119,7 +119,7 @@ class LoopPlanner {
 
   EvaluationBlock run() {
     find_tears();
-    find_steps();
+    find_groups();
     find_paths();
     find_undeclared();
     return std::move(block_);
@@ -169,13 +169,13 @@ class LoopPlanner {
     block_.inputs.assign(inner_.begin(), inner_.end());
   }
 
-  void find_steps() {
+  void find_groups() {
     const Digraph graph = inner_edges([&](VariableId input) { return torn_.count(input) == 0; });
     std::vector<std::size_t> components;
     for (const std::size_t node : nodes_) components.push_back(network_.nodes()[node].component);
     for (std::vector<std::size_t>& group : grouped_order(graph, components)) {
       for (std::size_t& item : group) item = nodes_[item];
-      block_.steps.push_back(make_step(network_, group));
+      block_.groups.push_back(make_group(network_, group));
     }
   }
 
@@ -278,7 +278,7 @@ std::vector<EvaluationBlock> evaluation_order(const System& system, Phase phase)
     }
     std::vector<std::size_t> nodes;
     for (const std::size_t part : group) nodes.push_back(parts[part].front());
-    blocks.emplace_back().steps.push_back(make_step(network, nodes));
+    blocks.emplace_back().groups.push_back(make_group(network, nodes));
   }
   return blocks;
 }

@@ -43,13 +43,13 @@ class LoopDerivatives {
   };
   /// A connection that carries the derivatives of outputs on to inputs.
   struct CarriedDerivative {
-    std::size_t step;  ///< of the loop, after which it is carried
+    std::size_t group;  ///< of the loop, after which it is carried
     std::size_t from, to, size;
     double factor;
   };
 
   void lay_out_inputs();
-  void add_derivatives(const EvaluationStep& step);
+  void add_derivatives(const OutputGroup& group);
   void add_carried();
 
   const System& system_;
@@ -57,7 +57,7 @@ class LoopDerivatives {
   const EvaluationBlock& loop_;
   std::map<VariableId, std::size_t> input_offsets_, output_offsets_;
   std::vector<UnitDerivatives> derivatives_;
-  std::vector<CarriedDerivative> carried_;  ///< by step
+  std::vector<CarriedDerivative> carried_;  ///< by group
   std::vector<double> inputs_, outputs_;
 };
 

@@ -34,10 +34,10 @@ struct Net {
     std::string text;
     for (const EvaluationBlock& block : evaluation_order(system, phase)) {
       std::string steps;
-      for (const EvaluationStep& step : block.steps) {
+      for (const OutputGroup& group : block.groups) {
         std::string outputs;
-        for (const VariableId id : step.outputs) {
-          CHECK(id.component == step.component);
+        for (const VariableId id : group.outputs) {
+          CHECK(id.component == group.component);
           outputs += (outputs.empty() ? "" : ",") + system.full_name(id);
         }
         steps += (steps.empty() ? "" : ">") + outputs;
