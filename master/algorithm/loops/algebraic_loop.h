@@ -14,7 +14,7 @@
 #include "master/algorithm/loops/evaluation_order.h"
 #include "master/algorithm/loops/loop_derivatives.h"
 #include "master/algorithm/loops/loop_solver.h"
-#include "master/algorithm/loops/staged_exchange.h"
+#include "master/algorithm/loops/ordered_exchange.h"
 #include "master/algorithm/run_context.h"
 
 namespace stride::core {

@@ -15,7 +15,7 @@
 
 #include "master/algorithm/loops/algebraic_loop.h"
 #include "master/algorithm/loops/evaluation_order.h"
-#include "master/algorithm/loops/staged_exchange.h"
+#include "master/algorithm/loops/ordered_exchange.h"
 #include "master/algorithm/run_context.h"
 #include "master/algorithm/unit_timer.h"
 

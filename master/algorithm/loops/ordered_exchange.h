@@ -1,6 +1,6 @@
 // The exchange of single variables, in the order of their evaluation.
-#ifndef STRIDE_MASTER_ALGORITHM_LOOPS_STAGED_EXCHANGE_H
-#define STRIDE_MASTER_ALGORITHM_LOOPS_STAGED_EXCHANGE_H
+#ifndef STRIDE_MASTER_ALGORITHM_LOOPS_ORDERED_EXCHANGE_H
+#define STRIDE_MASTER_ALGORITHM_LOOPS_ORDERED_EXCHANGE_H
 
 #include <cstddef>
 #include <deque>

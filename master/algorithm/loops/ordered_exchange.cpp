@@ -1,4 +1,4 @@
-#include "master/algorithm/loops/staged_exchange.h"
+#include "master/algorithm/loops/ordered_exchange.h"
 
 #include <algorithm>
 #include <cmath>
