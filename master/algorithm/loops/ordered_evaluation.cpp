@@ -95,7 +95,7 @@ void OrderedEvaluation::run(Time time, Participants& participants) {
     }
   }
   for (std::size_t i = 0; i < system_.components().size(); ++i) {
-    if (participants.takes_part(i)) ordered_exchange_.write(i);
+    if (participants.takes_part(i)) ordered_exchange_.write_inputs(i);
   }
 }
 

@@ -62,7 +62,7 @@ void OrderedExchange::begin() {
 }
 
 void OrderedExchange::evaluate(OutputRead& read) {
-  write(read.component_);
+  write_inputs(read.component_);
   for (Batch& batch : read.batches_) {
     timer_.timed(read.component_,
                  [&] { units_[read.component_]->get(batch.references, batch.values); });
@@ -72,7 +72,7 @@ void OrderedExchange::evaluate(OutputRead& read) {
   }
 }
 
-void OrderedExchange::write(std::size_t component) {
+void OrderedExchange::write_inputs(std::size_t component) {
   for (Batch* batch : due_[component]) {
     complete(*batch);
     for (const Batch::Member& member : batch->members) {

@@ -70,7 +70,7 @@ class OrderedExchange {
   /// Writes what was routed to the component, then reads the outputs of the group.
   void evaluate(OutputRead& read);
   /// Writes what was routed to the component.
-  void write(std::size_t component);
+  void write_inputs(std::size_t component);
   /// Copies an output's value to the input; returns whether the input changes.
   bool route(Link& link);
   /// The input was changed in the exchange, see Link::target_value().

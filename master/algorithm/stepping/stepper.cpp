@@ -235,7 +235,7 @@ bool Stepper::stays_suspended(UnitStep& unit_step, const StepInterval& interval)
 
 /// The inputs are part of the state.
 void Stepper::save(UnitStep& unit_step) {
-  exchange_.deliver_routed(unit_step.component, *unit_step.unit);
+  exchange_.write_routed_inputs(unit_step.component, *unit_step.unit);
   unit_step.state->save_state();
   unit_step.saved = true;
 }
@@ -244,7 +244,7 @@ void Stepper::roll_back(UnitStep& unit_step, const StepInterval& interval) {
   unit_step.undone = unit_step.result.reached;
   restore(unit_step, interval.from);
   unit_step.rolled_back = true;
-  if (interval.from == interval.to) exchange_.fetch(unit_step.component, *unit_step.unit);
+  if (interval.from == interval.to) exchange_.read_outputs(unit_step.component, *unit_step.unit);
 }
 
 void Stepper::restore(UnitStep& unit_step, Time from) {

@@ -40,7 +40,7 @@ class Stepper {
   const std::vector<StepOrderEntry>& order() const { return order_; }
 
   /// Takes all units from `from` to `target`, or to the earlier instant, returned, at which one of
-  /// them stopped, and fetches their outputs. Throws Error (Run) naming the unit: a step shorter
+  /// them stopped, and reads their outputs. Throws Error (Run) naming the unit: a step shorter
   /// than the minimum was rejected, or a unit stopped when another could not go back.
   Time advance(Time from, Time target);
 
