@@ -25,7 +25,7 @@ namespace stride::isolation {
 /// The host of a unit: it serves the master's requests one after the other.
 class Server {
  public:
-  Server(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor);
+  Server(HostLink& link, const HostedUnitSpec& spec, pid_t supervisor);
 
   /// Returns when the unit was destroyed, because the master wanted it.
   void run();
@@ -37,24 +37,24 @@ class Server {
   void await_request();
   /// Does what the present request wants, and replies.
   void serve();
-  void handle(RequestCode request, MessageReader& in, MessageWriter& out);
-  void reply(ReplyCode what, const MessageWriter& message);
+  void handle(RequestCode request, PacketReader& in, PacketWriter& out);
+  void reply(ReplyCode what, const PacketWriter& packet);
 
-  void instantiate(MessageWriter& out);
+  void instantiate(PacketWriter& out);
   void free();
-  void get(MessageReader& in, MessageWriter& out);
-  void set(MessageReader& in);
-  void make_plan(MessageReader& in);
-  void step(MessageReader& in, MessageWriter& out);
-  void save_state(MessageReader& in);
-  void restore_state(MessageReader& in);
+  void get(PacketReader& in, PacketWriter& out);
+  void set(PacketReader& in);
+  void make_plan(PacketReader& in);
+  void step(PacketReader& in, PacketWriter& out);
+  void save_state(PacketReader& in);
+  void restore_state(PacketReader& in);
   void select_state(std::size_t slot);
-  void get_directional_derivative(MessageReader& in, MessageWriter& out);
+  void get_directional_derivative(PacketReader& in, PacketWriter& out);
   void set_input_update(bool is_set);
   void request_inputs(double seconds_into_step);
-  void set_idle_tolerances(MessageReader& in);
-  void get_derivatives(MessageReader& in, MessageWriter& out);
-  void describe_message(MessageReader& in, MessageWriter& out);
+  void set_idle_tolerances(PacketReader& in);
+  void get_derivatives(PacketReader& in, PacketWriter& out);
+  void describe_message(PacketReader& in, PacketWriter& out);
   const core::Variable& variable(core::ValueReference reference) const;
   /// The master asks for nothing else.
   template <core::CapabilityInterface C>
@@ -64,8 +64,8 @@ class Server {
   core::Context context() const;
   std::string origin() const;
 
-  Channel& channel_;
-  ChannelMemory& memory_;
+  HostLink& link_;
+  HostLinkMemory& memory_;
   const HostedUnitSpec& spec_;
   LogWriter log_;
   Waiter waiter_;
@@ -81,7 +81,7 @@ class Server {
 };
 
 /// Runs a server in a fresh fork: its surroundings first.
-void serve(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor) noexcept;
+void serve(HostLink& link, const HostedUnitSpec& spec, pid_t supervisor) noexcept;
 
 }  // namespace stride::isolation
 

@@ -51,8 +51,8 @@ std::vector<pid_t> children() {
 
 class Supervisor {
  public:
-  Supervisor(ChannelMemory& channel, Descriptor control, Descriptor output)
-      : channel_(channel),
+  Supervisor(HostLinkMemory& link, Descriptor control, Descriptor output)
+      : link_(link),
         control_(std::move(control)),
         output_(std::move(output)),
         ends_(watch_children()) {}
@@ -109,8 +109,8 @@ class Supervisor {
   /// What the unit has printed, a piece of it; returns whether there was something.
   bool forward_output() {
     if (pending_.empty() && !read_some(output_, pending_)) return false;
-    pending_.erase(0, channel_.printed.write(pending_));
-    channel_.reply.doorbell.ring();
+    pending_.erase(0, link_.printed.write(pending_));
+    link_.reply.doorbell.ring();
     return true;
   }
 
@@ -126,16 +126,16 @@ class Supervisor {
   }
 
   void note_end(pid_t child, int status, const rusage& usage) {
-    raise_to(channel_.most_memory, static_cast<std::uint64_t>(usage.ru_maxrss) * 1024);
-    channel_.snapshots.note_end(child);
-    if (child != channel_.active || channel_.end != HostEnd::None) return;
+    raise_to(link_.most_memory, static_cast<std::uint64_t>(usage.ru_maxrss) * 1024);
+    link_.snapshots.note_end(child);
+    if (child != link_.active || link_.end != HostEnd::None) return;
     forward_all_output(100ms);  // its output comes first
-    channel_.end_code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
-    channel_.end = WIFSIGNALED(status) ? HostEnd::Killed : HostEnd::Exited;
-    channel_.reply.doorbell.ring();
+    link_.end_code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
+    link_.end = WIFSIGNALED(status) ? HostEnd::Killed : HostEnd::Exited;
+    link_.reply.doorbell.ring();
   }
 
-  ChannelMemory& channel_;
+  HostLinkMemory& link_;
   Descriptor control_, output_, ends_;
   std::string pending_;  ///< printed, and there was no room for it
 };
@@ -148,7 +148,7 @@ void clean_up_after(pid_t master) {
 
 }  // namespace
 
-void supervise(Channel& channel, Descriptor control, pid_t master,
+void supervise(HostLink& link, Descriptor control, pid_t master,
                const std::function<void(pid_t)>& serve) noexcept {
   ::setpgid(0, 0);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
@@ -156,28 +156,28 @@ void supervise(Channel& channel, Descriptor control, pid_t master,
   forget_signal_handlers();
   const Descriptor nowhere(::open("/dev/null", O_RDWR | O_CLOEXEC));
   redirect_standard_files(nowhere.number());
-  const int messages = channel.messages.file().number();
-  close_other_files({control.number(), messages});
+  const int packets = link.packets.file().number();
+  close_other_files({control.number(), packets});
   Pipe output;
   const pid_t self = ::getpid();
   const pid_t server = ::fork();
   if (server == 0) {
     end_with(self);
-    channel.memory->active = ::getpid();  // which may be another one when this is seen below
+    link.memory->active = ::getpid();  // which may be another one when this is seen below
     redirect_standard_files(output.write.number());
-    close_other_files({messages});
+    close_other_files({packets});
     serve(self);
     ::_exit(0);
   }
   pid_t nobody = 0;
-  channel.memory->active.compare_exchange_strong(nobody, server);
+  link.memory->active.compare_exchange_strong(nobody, server);
   output.write.close();
   if (server < 0) {
-    channel.memory->end_code = errno;
-    channel.memory->end = HostEnd::NotStarted;
-    channel.memory->reply.doorbell.ring();
+    link.memory->end_code = errno;
+    link.memory->end = HostEnd::NotStarted;
+    link.memory->reply.doorbell.ring();
   }
-  Supervisor supervisor(*channel.memory, std::move(control), std::move(output.read));
+  Supervisor supervisor(*link.memory, std::move(control), std::move(output.read));
   const bool is_wanted = supervisor.run();
   supervisor.kill_children();
   if (is_wanted) {

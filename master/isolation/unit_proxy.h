@@ -79,7 +79,7 @@ class UnitProxy final
  private:
   core::Capability* find_capability(core::CapabilityId id) override;
 
-  /// Sends put(MessageWriter&) and takes the answer with take(MessageReader&).
+  /// Sends put(PacketWriter&) and takes the answer with take(PacketReader&).
   template <class Put, class Take>
   void call(RequestCode request, Put&& put, Take&& take);
   template <class Put>

@@ -12,8 +12,8 @@ namespace stride::recorders {
 /// The content of a message, for people, in a line of `most` characters at most: its content in its
 /// component's words, else the text of a String, numbers with their unit of measure, the size of
 /// bytes. Empty for a bare clock.
-std::string message_text(const core::System& system, const core::Message& message,
-                         std::size_t most);
+std::string message_summary(const core::System& system, const core::Message& message,
+                            std::size_t most);
 
 }  // namespace stride::recorders
 
