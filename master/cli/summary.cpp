@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "master/cli/table.h"
-#include "master/recorders/message_text.h"
+#include "master/recorders/message_summary.h"
 #include "master/util/error.h"
 #include "master/util/time_text.h"
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "master/algorithm/unit.h"
-#include "master/isolation/message.h"
+#include "master/isolation/packet.h"
 #include "master/isolation/process/sandbox.h"
 #include "master/model/values.h"
 #include "master/util/error.h"

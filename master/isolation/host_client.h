@@ -8,12 +8,12 @@
 #include <string_view>
 
 #include "master/algorithm/statistics.h"
-#include "master/isolation/channel.h"
+#include "master/isolation/host_link.h"
 #include "master/isolation/host_process.h"
 #include "master/isolation/hosted_unit_spec.h"
 #include "master/isolation/log_message.h"
-#include "master/isolation/message.h"
 #include "master/isolation/output_tail.h"
+#include "master/isolation/packet.h"
 #include "master/isolation/process/doorbell.h"
 
 namespace stride::isolation {

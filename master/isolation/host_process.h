@@ -7,7 +7,7 @@
 
 #include <sys/types.h>
 
-#include "master/isolation/channel.h"
+#include "master/isolation/host_link.h"
 #include "master/isolation/process/descriptor.h"
 #include "master/isolation/supervisor.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "master/importer/status.h"
-#include "master/isolation/channel.h"
+#include "master/isolation/host_link.h"
 
 namespace stride::isolation {
 

@@ -11,10 +11,10 @@
 
 #include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/unit.h"
-#include "master/isolation/channel.h"
+#include "master/isolation/host_link.h"
 #include "master/isolation/hosted_unit_spec.h"
 #include "master/isolation/log_message.h"
-#include "master/isolation/message.h"
+#include "master/isolation/packet.h"
 #include "master/isolation/process/doorbell.h"
 #include "master/isolation/process/sandbox.h"
 #include "master/isolation/snapshots.h"

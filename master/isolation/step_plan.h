@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "master/algorithm/unit.h"
-#include "master/isolation/message.h"
+#include "master/isolation/packet.h"
 
 namespace stride::isolation {
 

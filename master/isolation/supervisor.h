@@ -5,7 +5,7 @@
 
 #include <sys/types.h>
 
-#include "master/isolation/channel.h"
+#include "master/isolation/host_link.h"
 #include "master/isolation/process/descriptor.h"
 
 namespace stride::isolation {

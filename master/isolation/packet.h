@@ -1,6 +1,6 @@
 // A packet, the content of a request or reply, written into shared memory and read from it.
-#ifndef STRIDE_MASTER_ISOLATION_MESSAGE_H
-#define STRIDE_MASTER_ISOLATION_MESSAGE_H
+#ifndef STRIDE_MASTER_ISOLATION_PACKET_H
+#define STRIDE_MASTER_ISOLATION_PACKET_H
 
 #include <array>
 #include <bit>

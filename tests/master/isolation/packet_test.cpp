@@ -1,4 +1,4 @@
-#include "master/isolation/message.h"
+#include "master/isolation/packet.h"
 
 #include <limits>
 

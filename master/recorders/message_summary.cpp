@@ -1,4 +1,4 @@
-#include "master/recorders/message_text.h"
+#include "master/recorders/message_summary.h"
 
 #include <type_traits>
 

@@ -1,6 +1,6 @@
 // What a unit's process and the master have in common: requests, replies, and what is said besides.
-#ifndef STRIDE_MASTER_ISOLATION_CHANNEL_H
-#define STRIDE_MASTER_ISOLATION_CHANNEL_H
+#ifndef STRIDE_MASTER_ISOLATION_HOST_LINK_H
+#define STRIDE_MASTER_ISOLATION_HOST_LINK_H
 
 #include <atomic>
 #include <cstddef>
