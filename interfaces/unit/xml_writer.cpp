@@ -3,40 +3,10 @@
 #include <charconv>
 #include <cmath>
 
+#include <stride/xml_text.h>
+
 namespace stride::kit {
 namespace {
-
-std::string escape(std::string_view value) {
-  std::string text;
-  for (const char c : value) {
-    switch (c) {
-      case '&':
-        text += "&amp;";
-        break;
-      case '<':
-        text += "&lt;";
-        break;
-      case '>':
-        text += "&gt;";
-        break;
-      case '"':
-        text += "&quot;";
-        break;
-      case '\n':
-        text += "&#10;";
-        break;
-      case '\r':
-        text += "&#13;";
-        break;
-      case '\t':
-        text += "&#9;";
-        break;
-      default:
-        text += c;
-    }
-  }
-  return text;
-}
 
 template <class Real>
 std::string shortest(Real value) {
@@ -66,7 +36,7 @@ XmlWriter& XmlWriter::open(std::string_view element) {
 }
 
 XmlWriter& XmlWriter::attribute(std::string_view name, std::string_view value) {
-  text_.append(" ").append(name).append("=\"").append(escape(value)).append("\"");
+  text_.append(" ").append(name).append("=\"").append(xml_escaped(value)).append("\"");
   return *this;
 }
 
