@@ -18,11 +18,12 @@ namespace stride {
 
 // ---- Bytes ----
 
+inline constexpr char kHexadecimalDigits[] = "0123456789abcdef";
+
 /// Appends two lower-case hexadecimal digits.
 inline void append_hexadecimal(std::string& text, std::uint8_t byte) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  text += kDigits[byte >> 4];
-  text += kDigits[byte & 15];
+  text += kHexadecimalDigits[byte >> 4];
+  text += kHexadecimalDigits[byte & 15];
 }
 
 /// The value of a hexadecimal digit of either case; -1 for any other character.

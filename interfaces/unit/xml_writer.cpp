@@ -1,8 +1,8 @@
 #include "interfaces/unit/xml_writer.h"
 
-#include <charconv>
 #include <cmath>
 
+#include <stride/value_text.h>
 #include <stride/xml_text.h>
 
 namespace stride::kit {
@@ -12,9 +12,9 @@ template <class Real>
 std::string shortest(Real value) {
   if (std::isnan(value)) return "NaN";
   if (std::isinf(value)) return value > 0 ? "INF" : "-INF";
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  return std::string(buffer, end);
+  std::string text;
+  append_value(text, value);
+  return text;
 }
 
 }  // namespace
