@@ -96,7 +96,7 @@ void run(const RunArguments& arguments, TestReport& report) {
   auto units = loaded.instantiate(folder);
   capture.wrap(units);
   const RunDisplay display{progress_style(arguments), arguments.quiet, arguments.open};
-  RecordedRun(loaded, options, {folder, files}, display, std::move(units), capture, report).run();
+  RecordedRun({loaded, options, {folder, files}, display, capture, report}, std::move(units)).run();
 }
 
 /// Whatever ends the command, the test report says so.

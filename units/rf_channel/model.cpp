@@ -61,8 +61,9 @@ Channel::Channel(const Parameters& parameters)
 void Channel::move_tag(std::size_t index, const Pose& reader, const Pose& tag, Link& link) {
   const Radio& radio = parameters_.tags[index].radio;
   link.distance = (tag.position - reader.position).norm();
-  link.gain = path_gain(reader, tag, parameters_.antenna, gain_of(parameters_.reader, radio),
-                        parameters_.ground, parameters_.frequency);
+  link.gain = path_gain(reader, tag,
+                        {parameters_.antenna, gain_of(parameters_.reader, radio),
+                         parameters_.ground, parameters_.frequency});
   link.coupling = std::sqrt(link.gain);
   link.signals = signals(index, carrier_power());
   link.field_strength = field_strength(link.signals.down, radio, parameters_.frequency);

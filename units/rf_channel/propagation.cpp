@@ -83,16 +83,16 @@ Reflection reflection(const Ground& ground, double sine, double frequency) {
           (sine - root) / (sine + root)};
 }
 
-double path_gain(const Pose& first, const Pose& second, Antenna antenna, double gain,
-                 const Ground& ground, double frequency) {
-  const Rays rays{first, second, antenna, ground, frequency};
+double path_gain(const Pose& first, const Pose& second, const PathConditions& conditions) {
+  const Ground& ground = conditions.ground;
+  const Rays rays{first, second, conditions.antenna, ground, conditions.frequency};
   Complex field = rays.direct();
   if (ground.reflects) {
     if (std::min(first.position.z(), second.position.z()) < ground.height) return 0.0;
     field += rays.reflected();
   }
   const double amplitude = rays.wavelength() / (4.0 * M_PI) * std::abs(field);
-  return std::min(1.0, gain * amplitude * amplitude);
+  return std::min(1.0, conditions.gain * amplitude * amplitude);
 }
 
 }  // namespace rf_channel
