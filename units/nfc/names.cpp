@@ -14,19 +14,19 @@ std::string hexadecimal(std::uint32_t number, int digits) {
 
 std::string name_of(Command command) {
   switch (command) {
-    case Command::kIdentify:
+    case Command::Identify:
       return "identify";
-    case Command::kReadTemperature:
+    case Command::ReadTemperature:
       return "read_temperature";
-    case Command::kSetLed:
+    case Command::SetLed:
       return "set_led";
-    case Command::kSelect:
+    case Command::Select:
       return "select";
-    case Command::kReadLog:
+    case Command::ReadLog:
       return "read_log";
-    case Command::kSetSamplingPeriod:
+    case Command::SetSamplingPeriod:
       return "set_sampling_period";
-    case Command::kSleep:
+    case Command::Sleep:
       return "sleep";
   }
   return "raw " + hexadecimal(static_cast<std::uint8_t>(command), 2);
@@ -34,11 +34,11 @@ std::string name_of(Command command) {
 
 std::string name_of(Status status) {
   switch (status) {
-    case Status::kOk:
+    case Status::Ok:
       return "ok";
-    case Status::kUnknownCommand:
+    case Status::UnknownCommand:
       return "unknown_command";
-    case Status::kBadArgument:
+    case Status::BadArgument:
       return "bad_argument";
   }
   return "status " + hexadecimal(static_cast<std::uint8_t>(status), 2);

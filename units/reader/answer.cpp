@@ -9,7 +9,7 @@ namespace {
 constexpr double kCountsPerDegree = 100.0;
 constexpr std::size_t kLongestData = nfc::kLogSamples * nfc::kLogSampleBytes;
 
-/// How many bytes of data follow kOk.
+/// How many bytes of data follow Ok.
 struct DataSize {
   std::size_t least;
   std::size_t most;
@@ -18,28 +18,28 @@ struct DataSize {
 
 DataSize data_size(nfc::Command command) {
   switch (command) {
-    case nfc::Command::kIdentify:
+    case nfc::Command::Identify:
       return {4, 4};
-    case nfc::Command::kReadTemperature:
+    case nfc::Command::ReadTemperature:
       return {2, 2};
-    case nfc::Command::kReadLog:
+    case nfc::Command::ReadLog:
       return {0, kLongestData, nfc::kLogSampleBytes};
-    case nfc::Command::kSelect:
-    case nfc::Command::kSetSamplingPeriod:
-    case nfc::Command::kSetLed:
-    case nfc::Command::kSleep:
+    case nfc::Command::Select:
+    case nfc::Command::SetSamplingPeriod:
+    case nfc::Command::SetLed:
+    case nfc::Command::Sleep:
       return {0, 0};
   }
   return {0, kLongestData};
 }
 
 bool is_known(nfc::Status status) {
-  return status == nfc::Status::kOk || status == nfc::Status::kUnknownCommand ||
-         status == nfc::Status::kBadArgument;
+  return status == nfc::Status::Ok || status == nfc::Status::UnknownCommand ||
+         status == nfc::Status::BadArgument;
 }
 
 bool fits(nfc::Command command, nfc::Status status, std::size_t size) {
-  if (status != nfc::Status::kOk) return size == 0;
+  if (status != nfc::Status::Ok) return size == 0;
   const DataSize expected = data_size(command);
   return size >= expected.least && size <= expected.most && size % expected.unit == 0;
 }
@@ -73,10 +73,10 @@ std::optional<Answer> parse_answer(nfc::Command command, const nfc::Bits& bits) 
   if (!is_known(answer.status) || !fits(command, answer.status, content->size() - 1)) {
     return std::nullopt;
   }
-  if (answer.status != nfc::Status::kOk) return answer;
-  if (command == nfc::Command::kIdentify) answer.identifier = nfc::number_in(*content, 1, 5);
-  if (command == nfc::Command::kReadTemperature) answer.temperature = temperature(*content, 1);
-  if (command == nfc::Command::kReadLog) read_log(*content, answer);
+  if (answer.status != nfc::Status::Ok) return answer;
+  if (command == nfc::Command::Identify) answer.identifier = nfc::number_in(*content, 1, 5);
+  if (command == nfc::Command::ReadTemperature) answer.temperature = temperature(*content, 1);
+  if (command == nfc::Command::ReadLog) read_log(*content, answer);
   return answer;
 }
 

@@ -47,7 +47,7 @@ struct Rays {
   }
 
   double direct_weight(const Vector3d& u) const {
-    if (antenna != Antenna::kDipole) return 1.0;
+    if (antenna != Antenna::Dipole) return 1.0;
     const Vector3d a = first.axis.normalized();
     const Vector3d b = second.axis.normalized();
     return a.dot(b) - a.dot(u) * b.dot(u);
@@ -60,8 +60,8 @@ struct Rays {
   }
 
   Complex reflected_weight(const Vector3d& down, const Reflection& reflection) const {
-    if (antenna == Antenna::kIsotropicVertical) return reflection.vertical;
-    if (antenna == Antenna::kIsotropicHorizontal) return reflection.horizontal;
+    if (antenna == Antenna::IsotropicVertical) return reflection.vertical;
+    if (antenna == Antenna::IsotropicHorizontal) return reflection.horizontal;
     const Vector3d a = first.axis.normalized();
     const Vector3d b = second.axis.normalized();
     const Vector3d side = across(down);

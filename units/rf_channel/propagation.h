@@ -18,9 +18,9 @@ inline constexpr double kVacuumImpedance = 376.730313668;        ///< [Ohm], COD
 /// What both antennas are like. The isotropic ones do not exist, but are what formulas for paths
 /// over the ground are written for: alike in all directions, of one polarisation, always matched.
 enum class Antenna : std::int64_t {
-  kIsotropicVertical = 0,    ///< the electric field in the plane of incidence
-  kIsotropicHorizontal = 1,  ///< the electric field parallel to the ground
-  kDipole = 2,               ///< short, along the pose's axis
+  IsotropicVertical = 0,    ///< the electric field in the plane of incidence
+  IsotropicHorizontal = 1,  ///< the electric field parallel to the ground
+  Dipole = 2,               ///< short, along the pose's axis
 };
 
 /// A plane across the z axis, of one material.

@@ -14,10 +14,10 @@ TEST_CASE("each command and each status has a name of its own") {
     names.insert(nfc::name_of(static_cast<Status>(byte)));
   }
   CHECK(names.size() == 512);
-  CHECK(nfc::name_of(Command::kReadTemperature) == "read_temperature");
-  CHECK(nfc::name_of(Command::kSetSamplingPeriod) == "set_sampling_period");
+  CHECK(nfc::name_of(Command::ReadTemperature) == "read_temperature");
+  CHECK(nfc::name_of(Command::SetSamplingPeriod) == "set_sampling_period");
   CHECK(nfc::name_of(static_cast<Command>(0x7F)) == "raw 0x7F");
-  CHECK(nfc::name_of(Status::kBadArgument) == "bad_argument");
+  CHECK(nfc::name_of(Status::BadArgument) == "bad_argument");
   CHECK(nfc::name_of(static_cast<Status>(0xE0)) == "status 0xE0");
 }
 

@@ -11,10 +11,10 @@ namespace nfc {
 
 /// All commands that have a name.
 inline constexpr Command kCommands[] = {
-    Command::kIdentify,          Command::kSelect, Command::kReadTemperature, Command::kReadLog,
-    Command::kSetSamplingPeriod, Command::kSetLed, Command::kSleep,
+    Command::Identify,          Command::Select, Command::ReadTemperature, Command::ReadLog,
+    Command::SetSamplingPeriod, Command::SetLed, Command::Sleep,
 };
-inline constexpr Status kStatuses[] = {Status::kOk, Status::kUnknownCommand, Status::kBadArgument};
+inline constexpr Status kStatuses[] = {Status::Ok, Status::UnknownCommand, Status::BadArgument};
 
 /// Such as "read_temperature"; "raw 0x7F" for a byte that is no command.
 std::string name_of(Command command);
