@@ -13,23 +13,9 @@ std::string hexadecimal(std::uint32_t number, int digits) {
 }  // namespace
 
 std::string name_of(Command command) {
-  switch (command) {
-    case Command::Identify:
-      return "identify";
-    case Command::ReadTemperature:
-      return "read_temperature";
-    case Command::SetLed:
-      return "set_led";
-    case Command::Select:
-      return "select";
-    case Command::ReadLog:
-      return "read_log";
-    case Command::SetSamplingPeriod:
-      return "set_sampling_period";
-    case Command::Sleep:
-      return "sleep";
-  }
-  return "raw " + hexadecimal(static_cast<std::uint8_t>(command), 2);
+  const CommandFormat* const format = find_format(command);
+  return format != nullptr ? format->name
+                           : "raw " + hexadecimal(static_cast<std::uint8_t>(command), 2);
 }
 
 std::string name_of(Status status) {

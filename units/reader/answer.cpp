@@ -1,5 +1,6 @@
 #include "units/reader/answer.h"
 
+#include <stride/nfc/commands.h>
 #include <stride/nfc/iso14443a.h>
 #include <stride/nfc/numbers.h>
 
@@ -7,30 +8,11 @@ namespace reader {
 namespace {
 
 constexpr double kCountsPerDegree = 100.0;
-constexpr std::size_t kLongestData = nfc::kLogSamples * nfc::kLogSampleBytes;
 
-/// How many bytes of data follow Ok.
-struct DataSize {
-  std::size_t least;
-  std::size_t most;
-  std::size_t unit = 1;  // it is a multiple of this
-};
-
-DataSize data_size(nfc::Command command) {
-  switch (command) {
-    case nfc::Command::Identify:
-      return {4, 4};
-    case nfc::Command::ReadTemperature:
-      return {2, 2};
-    case nfc::Command::ReadLog:
-      return {0, kLongestData, nfc::kLogSampleBytes};
-    case nfc::Command::Select:
-    case nfc::Command::SetSamplingPeriod:
-    case nfc::Command::SetLed:
-    case nfc::Command::Sleep:
-      return {0, 0};
-  }
-  return {0, kLongestData};
+/// An answer to a command that is not known may have any data.
+nfc::DataSize data_size(nfc::Command command) {
+  const nfc::CommandFormat* const format = nfc::find_format(command);
+  return format != nullptr ? format->data : nfc::DataSize{0, nfc::kLogSize.most, 1};
 }
 
 bool is_known(nfc::Status status) {
@@ -40,7 +22,7 @@ bool is_known(nfc::Status status) {
 
 bool fits(nfc::Command command, nfc::Status status, std::size_t size) {
   if (status != nfc::Status::Ok) return size == 0;
-  const DataSize expected = data_size(command);
+  const nfc::DataSize expected = data_size(command);
   return size >= expected.least && size <= expected.most && size % expected.unit == 0;
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include <stride/nfc/commands.h>
 #include <stride/nfc/names.h>
 #include <stride/nfc/numbers.h>
 #include <stride/value_text.h>
@@ -60,9 +61,9 @@ Request raw_request(const Element& element) {
 nfc::Command to_command(const Element& element) {
   const std::string name = element.text("name");
   std::vector<std::string> known;
-  for (const nfc::Command command : nfc::kCommands) {
-    if (name == name_of(command)) return command;
-    known.push_back(name_of(command));
+  for (const nfc::CommandFormat& format : nfc::kCommands) {
+    if (name == format.name) return format.command;
+    known.push_back(format.name);
   }
   known.push_back(kRaw);
   element.fail("unknown command '" + name + "': expected one of " + xml::quoted_list(known));

@@ -44,22 +44,45 @@ inline constexpr std::size_t kLogSamples = 8;          ///< at most, in an answe
 inline constexpr std::size_t kLogSampleBytes = 4;      ///< age and temperature
 inline constexpr std::uint16_t kOldestLogAge = 65535;  ///< of a sample [s]: so much, or more
 
+/// How many bytes of data follow Ok in an answer.
+struct DataSize {
+  std::size_t least = 0;
+  std::size_t most = 0;
+  std::size_t unit = 1;  ///< it is a multiple of this
+};
+
+struct CommandFormat {
+  Command command;
+  const char* name;  ///< in programs, reports and messages
+  int argument_bytes;
+  DataSize data;
+};
+
+inline constexpr DataSize kLogSize{0, kLogSamples* kLogSampleBytes, kLogSampleBytes};
+
+/// All commands, in the order in which they are listed for people.
+inline constexpr CommandFormat kCommands[] = {
+    {Command::Identify, "identify", 0, {4, 4}},
+    {Command::Select, "select", 4, {}},
+    {Command::ReadTemperature, "read_temperature", 0, {2, 2}},
+    {Command::ReadLog, "read_log", 0, kLogSize},
+    {Command::SetSamplingPeriod, "set_sampling_period", 2, {}},
+    {Command::SetLed, "set_led", 1, {}},
+    {Command::Sleep, "sleep", 0, {}},
+};
+
+/// Null for a byte that is no command.
+constexpr const CommandFormat* find_format(Command command) {
+  for (const CommandFormat& format : kCommands) {
+    if (format.command == command) return &format;
+  }
+  return nullptr;
+}
+
 /// How many bytes of arguments a command takes; -1 for a byte that is no command.
 constexpr int argument_bytes(Command command) {
-  switch (command) {
-    case Command::Identify:
-    case Command::ReadTemperature:
-    case Command::ReadLog:
-    case Command::Sleep:
-      return 0;
-    case Command::SetLed:
-      return 1;
-    case Command::SetSamplingPeriod:
-      return 2;
-    case Command::Select:
-      return 4;
-  }
-  return -1;
+  const CommandFormat* const format = find_format(command);
+  return format != nullptr ? format->argument_bytes : -1;
 }
 
 }  // namespace nfc

@@ -9,11 +9,6 @@
 
 namespace nfc {
 
-/// All commands that have a name.
-inline constexpr Command kCommands[] = {
-    Command::Identify,          Command::Select, Command::ReadTemperature, Command::ReadLog,
-    Command::SetSamplingPeriod, Command::SetLed, Command::Sleep,
-};
 inline constexpr Status kStatuses[] = {Status::Ok, Status::UnknownCommand, Status::BadArgument};
 
 /// Such as "read_temperature"; "raw 0x7F" for a byte that is no command.
