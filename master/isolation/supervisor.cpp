@@ -146,6 +146,27 @@ void clean_up_after(pid_t master) {
   archive::TemporaryFolder::sweep_abandoned();
 }
 
+/// The unit's process, which never returns.
+[[noreturn]] void run_server(HostLink& link, const Pipe& output, pid_t supervisor,
+                             const std::function<void(pid_t)>& serve) {
+  end_with(supervisor);
+  link.memory->active = ::getpid();  // which may be another one when the supervisor looks
+  redirect_standard_files(output.write.number());
+  close_other_files({link.packets.file().number()});
+  serve(supervisor);
+  ::_exit(0);
+}
+
+/// What the master sees of the fork.
+void note_start(HostLinkMemory& link, pid_t server, int error) {
+  pid_t none = 0;
+  link.active.compare_exchange_strong(none, server);
+  if (server >= 0) return;
+  link.end_code = error;
+  link.end = HostEnd::NotStarted;
+  link.reply.doorbell.ring();
+}
+
 }  // namespace
 
 void supervise(HostLink& link, Descriptor control, pid_t master,
@@ -156,27 +177,13 @@ void supervise(HostLink& link, Descriptor control, pid_t master,
   forget_signal_handlers();
   const Descriptor nowhere(::open("/dev/null", O_RDWR | O_CLOEXEC));
   redirect_standard_files(nowhere.number());
-  const int packets = link.packets.file().number();
-  close_other_files({control.number(), packets});
+  close_other_files({control.number(), link.packets.file().number()});
   Pipe output;
   const pid_t self = ::getpid();
   const pid_t server = ::fork();
-  if (server == 0) {
-    end_with(self);
-    link.memory->active = ::getpid();  // which may be another one when this is seen below
-    redirect_standard_files(output.write.number());
-    close_other_files({packets});
-    serve(self);
-    ::_exit(0);
-  }
-  pid_t nobody = 0;
-  link.memory->active.compare_exchange_strong(nobody, server);
+  if (server == 0) run_server(link, output, self, serve);
+  note_start(*link.memory, server, errno);
   output.write.close();
-  if (server < 0) {
-    link.memory->end_code = errno;
-    link.memory->end = HostEnd::NotStarted;
-    link.memory->reply.doorbell.ring();
-  }
   Supervisor supervisor(*link.memory, std::move(control), std::move(output.read));
   const bool is_wanted = supervisor.run();
   supervisor.kill_children();
