@@ -2,7 +2,6 @@
 #ifndef STRIDE_VALUE_TEXT_H
 #define STRIDE_VALUE_TEXT_H
 
-#include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
@@ -18,11 +17,12 @@ namespace stride {
 
 // ---- Bytes ----
 
+inline constexpr char kHexadecimalDigits[] = "0123456789abcdef";
+
 /// Appends two lower-case hexadecimal digits.
 inline void append_hexadecimal(std::string& text, std::uint8_t byte) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  text += kDigits[byte >> 4];
-  text += kDigits[byte & 15];
+  text += kHexadecimalDigits[byte >> 4];
+  text += kHexadecimalDigits[byte & 15];
 }
 
 /// The value of a hexadecimal digit of either case; -1 for any other character.
@@ -47,6 +47,15 @@ inline bool parse_hexadecimal(std::string_view text, Binary& bytes) {
   return true;
 }
 
+// ---- Characters ----
+
+/// How many of the first `most` bytes of a text in UTF-8 are whole characters.
+inline std::size_t whole_characters(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return text.size();
+  while (most > 0 && (text[most] & 0xC0) == 0x80) --most;
+  return most;
+}
+
 // ---- Values ----
 
 /// Appends the shortest decimal that reads back as the same number, "inf", "-inf" or "nan"; true or
@@ -67,10 +76,7 @@ namespace detail {
 
 [[noreturn]] inline void refuse_value(std::string_view text, const char* type,
                                       const char* expected) {
-  constexpr std::size_t kMost = 60;
-  std::size_t length = std::min(text.size(), kMost);
-  // not within a character of UTF-8
-  while (length < text.size() && length > 0 && (text[length] & 0xC0) == 0x80) --length;
+  const std::size_t length = whole_characters(text, 60);
   const std::string shown(text.substr(0, length));
   throw std::invalid_argument("'" + shown + (length < text.size() ? "…" : "") +
                               "' is not a valid " + type + "; expected " + expected);

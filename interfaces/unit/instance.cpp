@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include <stride/idle.h>
+#include <stride/value_text.h>
 
 #include "interfaces/unit/model_description.h"
 #include "interfaces/unit/xml_writer.h"
@@ -55,13 +56,6 @@ std::uint8_t log_category(const char* wanted) {
 }
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
-
-/// How many of the first `most` bytes are whole characters of UTF-8.
-std::size_t whole_characters(const std::string& text, std::size_t most) {
-  if (text.size() <= most) return text.size();
-  while (most > 0 && (text[most] & 0xC0) == 0x80) --most;
-  return most;
-}
 
 void check_range(const Variable& row) {
   if (!row.min && !row.max) return;

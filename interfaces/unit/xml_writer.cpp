@@ -1,50 +1,20 @@
 #include "interfaces/unit/xml_writer.h"
 
-#include <charconv>
 #include <cmath>
+
+#include <stride/value_text.h>
+#include <stride/xml_text.h>
 
 namespace stride::kit {
 namespace {
-
-std::string escape(std::string_view value) {
-  std::string text;
-  for (const char c : value) {
-    switch (c) {
-      case '&':
-        text += "&amp;";
-        break;
-      case '<':
-        text += "&lt;";
-        break;
-      case '>':
-        text += "&gt;";
-        break;
-      case '"':
-        text += "&quot;";
-        break;
-      case '\n':
-        text += "&#10;";
-        break;
-      case '\r':
-        text += "&#13;";
-        break;
-      case '\t':
-        text += "&#9;";
-        break;
-      default:
-        text += c;
-    }
-  }
-  return text;
-}
 
 template <class Real>
 std::string shortest(Real value) {
   if (std::isnan(value)) return "NaN";
   if (std::isinf(value)) return value > 0 ? "INF" : "-INF";
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  return std::string(buffer, end);
+  std::string text;
+  append_value(text, value);
+  return text;
 }
 
 }  // namespace
@@ -66,7 +36,7 @@ XmlWriter& XmlWriter::open(std::string_view element) {
 }
 
 XmlWriter& XmlWriter::attribute(std::string_view name, std::string_view value) {
-  text_.append(" ").append(name).append("=\"").append(escape(value)).append("\"");
+  text_.append(" ").append(name).append("=\"").append(xml_escaped(value)).append("\"");
   return *this;
 }
 

@@ -145,10 +145,10 @@ std::string initial_order_text(const core::System& system) {
   const auto order = core::evaluation_order(system, core::Phase::Initialization);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const core::EvaluationBlock& block = order[i];
-    for (const core::EvaluationStep& step : block.steps) {
+    for (const core::OutputGroup& group : block.groups) {
       std::vector<std::string> outputs;
-      for (const core::VariableId id : step.outputs) outputs.push_back(system.variable(id).name);
-      table.add({std::to_string(i + 1), system.components()[step.component].name,
+      for (const core::VariableId id : group.outputs) outputs.push_back(system.variable(id).name);
+      table.add({std::to_string(i + 1), system.components()[group.component].name,
                  shortened(outputs),
                  block.is_loop() ? "loop, solved for " + solved_for(system, block) : "once"});
     }

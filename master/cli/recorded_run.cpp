@@ -92,26 +92,18 @@ void Recorders::add_to(core::Simulation& simulation) {
   if (activity_) simulation.add_observer(*activity_);
 }
 
-RecordedRun::RecordedRun(const scenario::LoadedScenario& loaded, const core::RunOptions& options,
-                         ResultsTarget results, const RunDisplay& display,
-                         std::vector<std::unique_ptr<core::Unit>> units, capture::Capture& capture,
-                         TestReport& test_report)
-    : loaded_(loaded),
-      options_(options),
-      results_(std::move(results)),
-      display_(display),
-      capture_(capture),
-      test_report_(test_report),
-      simulation_(loaded.system(), std::move(units), options_),
-      recorders_(loaded.system(), results_),
-      checks_(loaded.checks()),
-      summary_(loaded.system()),
-      progress_(display.progress, options_.start, options_.stop, simulation_) {
-  capture_.follow(simulation_);
+RecordedRun::RecordedRun(RunSetup setup, std::vector<std::unique_ptr<core::Unit>> units)
+    : setup_(std::move(setup)),
+      simulation_(setup_.loaded.system(), std::move(units), setup_.options),
+      recorders_(setup_.loaded.system(), setup_.results),
+      checks_(setup_.loaded.checks()),
+      summary_(setup_.loaded.system()),
+      progress_(setup_.display.progress, setup_.options.start, setup_.options.stop, simulation_) {
+  setup_.capture.follow(simulation_);
   recorders_.add_to(simulation_);
   if (!checks_.is_empty()) simulation_.add_observer(checks_, checks_.signals());
-  if (!capture_.is_empty()) simulation_.add_observer(capture_);
-  if (!display_.quiet) simulation_.add_observer(summary_);
+  if (!setup_.capture.is_empty()) simulation_.add_observer(setup_.capture);
+  if (!setup_.display.quiet) simulation_.add_observer(summary_);
   simulation_.add_observer(progress_);
 }
 
@@ -124,7 +116,7 @@ void RecordedRun::run() {
   }
   const core::RunEnd end = simulation_.statistics().end;
   progress_.end(name(end));
-  capture_.end(name(end));
+  setup_.capture.end(name(end));
   collect_verdicts(end == core::RunEnd::EndedByUnit ||
                    (end == core::RunEnd::Completed && !is_cut_short()));
   write_statistics(std::nullopt);
@@ -134,7 +126,7 @@ void RecordedRun::run() {
 /// The failure of the run is the error to report, so later failures are warnings.
 void RecordedRun::conclude_failure(const std::string& error) {
   progress_.end("failed");
-  warn_of_failure([&] { capture_.end(fmt::format("failed: {}", error)); });
+  warn_of_failure([&] { setup_.capture.end(fmt::format("failed: {}", error)); });
   collect_verdicts(false);
   warn_of_failure([&] { write_statistics(error); });
   warn_of_failure([&] { write_page(); });
@@ -152,7 +144,7 @@ void RecordedRun::conclude() {
   const auto rethrow_page_failure = [&] {
     if (page_failure) std::rethrow_exception(page_failure);
   };
-  if (!display_.quiet) print_summary();
+  if (!setup_.display.quiet) print_summary();
   const bool is_good =
       simulation_.statistics().end != core::RunEnd::Interrupted && failures_text(verdicts_).empty();
   if (!is_good) warn_of_failure(rethrow_page_failure);
@@ -163,7 +155,7 @@ void RecordedRun::conclude() {
 
 /// By --stop, before what the scenario demands of all of it.
 bool RecordedRun::is_cut_short() const {
-  return options_.stop < loaded_.scenario().stop.value_or(Time{});
+  return setup_.options.stop < setup_.loaded.scenario().stop.value_or(Time{});
 }
 
 void RecordedRun::collect_verdicts(bool is_complete) {
@@ -181,24 +173,24 @@ void RecordedRun::warn_of_verdicts() const {
 }
 
 void RecordedRun::write_statistics(const std::optional<std::string>& error) {
-  test_report_.write(options_, simulation_.statistics(), verdicts_, error);
-  if (results_.files.statistics.empty()) return;
-  recorders::write_run_json(results_.folder / results_.files.statistics,
-                            {.scenario = loaded_.scenario().path,
-                             .system = loaded_.system(),
-                             .options = options_,
+  setup_.test_report.write(setup_.options, simulation_.statistics(), verdicts_, error);
+  if (setup_.results.files.statistics.empty()) return;
+  recorders::write_run_json(setup_.results.folder / setup_.results.files.statistics,
+                            {.scenario = setup_.loaded.scenario().path,
+                             .system = setup_.loaded.system(),
+                             .options = setup_.options,
                              .statistics = simulation_.statistics(),
                              .verdicts = verdicts_,
                              .error = error,
-                             .files = results_.files,
-                             .plots = loaded_.plots()});
+                             .files = setup_.results.files,
+                             .plots = setup_.loaded.plots()});
 }
 
 void RecordedRun::write_page() const {
-  const auto& [folder, files] = results_;
+  const auto& [folder, files] = setup_.results;
   if (files.report.empty()) return;
   write_report(folder, files, folder / files.report);
-  if (display_.open_report) warn_of_failure([&] { open_in_browser(folder / files.report); });
+  if (setup_.display.open_report) warn_of_failure([&] { open_in_browser(folder / files.report); });
 }
 
 void RecordedRun::require_end() const {
@@ -210,7 +202,7 @@ void RecordedRun::require_end() const {
 }
 
 void RecordedRun::print_summary() const {
-  const auto& [folder, files] = results_;
+  const auto& [folder, files] = setup_.results;
   fmt::print("\n{}{}\nResults in {}:", summary_.text(simulation_.statistics()),
              verdict_table(verdicts_), folder.string());
   for (const auto& [what, member] : recorders::kResultFiles) {

@@ -38,6 +38,16 @@ struct RunDisplay {
   bool open_report = false;  ///< in a browser, when the run is over
 };
 
+/// What a run is made from. The scenario, the capture and the test report must outlive the run.
+struct RunSetup {
+  const scenario::LoadedScenario& loaded;
+  core::RunOptions options;
+  ResultsTarget results;
+  RunDisplay display;
+  capture::Capture& capture;
+  TestReport& test_report;
+};
+
 /// The recorders of the result files that are written.
 class Recorders {
  public:
@@ -56,12 +66,9 @@ class Recorders {
 /// One simulation with its recorders, checks, captures, summary, progress and reports.
 class RecordedRun {
  public:
-  /// `units` are the instances of the scenario, with the captured ones wrapped by `capture`. The
-  /// scenario, the capture and the test report must outlive this object. Creates the result files.
-  RecordedRun(const scenario::LoadedScenario& loaded, const core::RunOptions& options,
-              ResultsTarget results, const RunDisplay& display,
-              std::vector<std::unique_ptr<core::Unit>> units, capture::Capture& capture,
-              TestReport& test_report);
+  /// `units` are the instances of the scenario, with the captured ones wrapped by the capture.
+  /// Creates the result files.
+  RecordedRun(RunSetup setup, std::vector<std::unique_ptr<core::Unit>> units);
 
   /// Throws core::Error (Run) if the run fails or is interrupted, and if a check or a verdict
   /// failed. Whatever happens, the results are complete up to the last communication point.
@@ -78,12 +85,7 @@ class RecordedRun {
   void warn_of_verdicts() const;
   bool is_cut_short() const;
 
-  const scenario::LoadedScenario& loaded_;
-  const core::RunOptions options_;
-  const ResultsTarget results_;
-  const RunDisplay display_;
-  capture::Capture& capture_;
-  TestReport& test_report_;
+  const RunSetup setup_;
   core::Simulation simulation_;
   Recorders recorders_;
   checks::Checks checks_;

@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "master/cli/table.h"
-#include "master/recorders/message_text.h"
+#include "master/recorders/message_summary.h"
 #include "master/util/error.h"
 #include "master/util/time_text.h"
 
@@ -44,8 +44,10 @@ void Summary::on_message(const core::Message& message) {
   if (!message.received) {
     ++message_count_;
     if (messages_.size() < kMostMessages) {
-      messages_.push_back(
-          {message.id, message.time, recorders::message_text(system_, message, kLongestText), {}});
+      messages_.push_back({message.id,
+                           message.time,
+                           recorders::message_summary(system_, message, kLongestText),
+                           {}});
     }
   } else if (message_count_ <= kMostMessages) {
     note_receiver(message.id);

@@ -129,12 +129,18 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   /// before it.
   template <class Function>
   void reset_by(const char* name, Function* function);
-  /// The bytes of a kept state. `size_of` and `write` are the unit's functions for them.
-  template <class SizeOf, class Answer, class Byte>
-  std::vector<std::uint8_t> serialized(void* state, const char* size_name, SizeOf* size_of,
-                                       const char* name,
-                                       Answer (*write)(void*, void*, Byte*, std::size_t),
-                                       const char* capability);
+  /// The unit's functions that write a kept state as bytes.
+  template <class Answer, class Byte>
+  struct Serialization {
+    const char* size_name;
+    Answer (*size_of)(void*, void*, std::size_t*);
+    const char* write_name;
+    Answer (*write)(void*, void*, Byte*, std::size_t);
+    const char* capability;  ///< with which a library exports them
+  };
+  /// The bytes of a kept state.
+  template <class Answer, class Byte>
+  std::vector<std::uint8_t> serialized(void* state, const Serialization<Answer, Byte>& functions);
 
   /// Of a message of the unit; may be called on any thread, throws nothing.
   void receive(Status status, const char* category, const char* message) noexcept;
@@ -208,18 +214,16 @@ void FmuInstance::reset_by(const char* name, Function* function) {
   rejection_reason_.clear();
 }
 
-template <class SizeOf, class Answer, class Byte>
-std::vector<std::uint8_t> FmuInstance::serialized(void* state, const char* size_name,
-                                                  SizeOf* size_of, const char* name,
-                                                  Answer (*write)(void*, void*, Byte*, std::size_t),
-                                                  const char* capability) {
+template <class Answer, class Byte>
+std::vector<std::uint8_t> FmuInstance::serialized(void* state,
+                                                  const Serialization<Answer, Byte>& functions) {
   if (state == nullptr) fail("no state of it has been saved that could be serialised");
-  require(size_name, size_of, capability);
-  require(name, write, capability);
+  require(functions.size_name, functions.size_of, functions.capability);
+  require(functions.write_name, functions.write, functions.capability);
   std::size_t size = 0;
-  call(size_name, size_of, state, &size);
+  call(functions.size_name, functions.size_of, state, &size);
   std::vector<std::uint8_t> bytes(size);
-  call(name, write, state, reinterpret_cast<Byte*>(bytes.data()), size);
+  call(functions.write_name, functions.write, state, reinterpret_cast<Byte*>(bytes.data()), size);
   return bytes;
 }
 

@@ -27,7 +27,8 @@ ModelDescription read(const xml::Element& root) {
   unit.description = root.attribute_or("description");
   unit.generation_tool = root.attribute_or("generationTool");
   read_units(root, unit);
-  is_fmi2 ? read_fmi2_description(root, unit) : read_fmi3_description(root, unit);
+  if (is_fmi2) unit.fmi2 = read_fmi2_description(root, unit);
+  if (!is_fmi2) read_fmi3_description(root, unit);
   read_default_experiment(root, unit);
   return unit;
 }

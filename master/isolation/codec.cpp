@@ -18,7 +18,7 @@ std::size_t byte_count(const core::ValueBlock& values) {
 
 // ---- Values ----
 
-void put_values(MessageWriter& to, const core::ValueBlock& values) {
+void put_values(PacketWriter& to, const core::ValueBlock& values) {
   if (is_number(values.type())) return to.put_bytes(values.bytes(), byte_count(values));
   core::visit(values, [&]<class T>(std::span<const T> elements) {
     if constexpr (!std::is_arithmetic_v<T>) {
@@ -30,7 +30,7 @@ void put_values(MessageWriter& to, const core::ValueBlock& values) {
   });
 }
 
-void take_values(MessageReader& from, core::ValueBlock& values) {
+void take_values(PacketReader& from, core::ValueBlock& values) {
   if (is_number(values.type())) return from.take_into(values.bytes(), byte_count(values));
   core::visit(values, [&]<class T>(std::span<T> elements) {
     if constexpr (!std::is_arithmetic_v<T>) {
@@ -44,24 +44,24 @@ void take_values(MessageReader& from, core::ValueBlock& values) {
   });
 }
 
-void put_shape(MessageWriter& to, const core::ValueBlock& values) {
+void put_shape(PacketWriter& to, const core::ValueBlock& values) {
   to.put(values.type());
   to.put(values.size());
 }
 
-core::ValueBlock take_shape(MessageReader& from) {
+core::ValueBlock take_shape(PacketReader& from) {
   const auto type = from.take<core::ValueType>();
   return {type, from.take<std::size_t>()};
 }
 
 // ---- Results ----
 
-void put_time(MessageWriter& to, std::optional<Time> time) {
+void put_time(PacketWriter& to, std::optional<Time> time) {
   to.put(time.has_value());
   to.put(time.value_or(Time{}).time_since_epoch().count());
 }
 
-std::optional<Time> take_time(MessageReader& from) {
+std::optional<Time> take_time(PacketReader& from) {
   const bool is_there = from.take<bool>();
   const Time time{Duration(from.take<Duration::rep>())};
   return is_there ? std::optional(time) : std::nullopt;
@@ -73,7 +73,7 @@ enum Flag : std::uint8_t { kRejected = 1, kEarlyReturn = 2, kEventNeeded = 4, kT
 
 }  // namespace
 
-void put_step(MessageWriter& to, const core::StepResult& result) {
+void put_step(PacketWriter& to, const core::StepResult& result) {
   to.put(static_cast<std::uint8_t>((result.rejected ? kRejected : 0) |
                                    (result.early_return ? kEarlyReturn : 0) |
                                    (result.event_handling_needed ? kEventNeeded : 0) |
@@ -81,7 +81,7 @@ void put_step(MessageWriter& to, const core::StepResult& result) {
   to.put(result.reached.time_since_epoch().count());
 }
 
-core::StepResult take_step(MessageReader& from) {
+core::StepResult take_step(PacketReader& from) {
   const auto flags = from.take<std::uint8_t>();
   return {.rejected = (flags & kRejected) != 0,
           .early_return = (flags & kEarlyReturn) != 0,
@@ -90,13 +90,13 @@ core::StepResult take_step(MessageReader& from) {
           .reached = Time(Duration(from.take<Duration::rep>()))};
 }
 
-void put_events(MessageWriter& to, const core::EventResult& result) {
+void put_events(PacketWriter& to, const core::EventResult& result) {
   to.put(result.discrete_states_need_update);
   to.put(result.terminate_simulation);
   put_time(to, result.next_event_time);
 }
 
-core::EventResult take_events(MessageReader& from) {
+core::EventResult take_events(PacketReader& from) {
   core::EventResult result;
   result.discrete_states_need_update = from.take<bool>();
   result.terminate_simulation = from.take<bool>();
@@ -106,7 +106,7 @@ core::EventResult take_events(MessageReader& from) {
 
 // ---- Errors ----
 
-void put_error(MessageWriter& to, const std::exception& error, const core::Context& context,
+void put_error(PacketWriter& to, const std::exception& error, const core::Context& context,
                const std::string& hint) {
   const auto* const own = dynamic_cast<const core::Error*>(&error);
   if (own == nullptr) {
@@ -123,7 +123,7 @@ void put_error(MessageWriter& to, const std::exception& error, const core::Conte
   to.put(own->hint().empty() ? hint : own->hint());
 }
 
-void throw_error(MessageReader& from) {
+void throw_error(PacketReader& from) {
   const auto kind = from.take<core::Error::Kind>();
   const bool is_consequent = from.take<bool>();
   core::Context context;
@@ -142,12 +142,12 @@ void throw_error(MessageReader& from) {
 
 namespace {
 
-void put_lines(MessageWriter& to, const std::vector<std::string>& lines) {
+void put_lines(PacketWriter& to, const std::vector<std::string>& lines) {
   to.put(lines.size());
   for (const std::string& line : lines) to.put(line);
 }
 
-std::vector<std::string> take_lines(MessageReader& from) {
+std::vector<std::string> take_lines(PacketReader& from) {
   std::vector<std::string> lines(from.take_count(sizeof(std::size_t)));
   for (std::string& line : lines) line = from.take_text();
   return lines;
@@ -155,20 +155,20 @@ std::vector<std::string> take_lines(MessageReader& from) {
 
 }  // namespace
 
-void put_capabilities(MessageWriter& to, const CapabilitySet& capabilities) {
+void put_capabilities(PacketWriter& to, const CapabilitySet& capabilities) {
   to.put(std::uint64_t{capabilities.to_ullong()});
 }
 
-CapabilitySet take_capabilities(MessageReader& from) {
+CapabilitySet take_capabilities(PacketReader& from) {
   return CapabilitySet(from.take<std::uint64_t>());
 }
 
-void put_protections(MessageWriter& to, const Protections& protections) {
+void put_protections(PacketWriter& to, const Protections& protections) {
   put_lines(to, protections.in_force);
   put_lines(to, protections.missing);
 }
 
-Protections take_protections(MessageReader& from) {
+Protections take_protections(PacketReader& from) {
   Protections protections;
   protections.in_force = take_lines(from);
   protections.missing = take_lines(from);

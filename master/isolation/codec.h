@@ -1,4 +1,4 @@
-// core's types in messages.
+// core's types in packets.
 #ifndef STRIDE_MASTER_ISOLATION_CODEC_H
 #define STRIDE_MASTER_ISOLATION_CODEC_H
 
@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "master/algorithm/unit.h"
-#include "master/isolation/message.h"
+#include "master/isolation/packet.h"
 #include "master/isolation/process/sandbox.h"
 #include "master/model/values.h"
 #include "master/util/error.h"
@@ -14,36 +14,36 @@
 namespace stride::isolation {
 
 /// The elements only: the other side knows type and size.
-void put_values(MessageWriter& to, const core::ValueBlock& values);
-void take_values(MessageReader& from, core::ValueBlock& values);
+void put_values(PacketWriter& to, const core::ValueBlock& values);
+void take_values(PacketReader& from, core::ValueBlock& values);
 
 /// An empty block of the type and size of another.
-void put_shape(MessageWriter& to, const core::ValueBlock& values);
-core::ValueBlock take_shape(MessageReader& from);
+void put_shape(PacketWriter& to, const core::ValueBlock& values);
+core::ValueBlock take_shape(PacketReader& from);
 
-void put_step(MessageWriter& to, const core::StepResult& result);
-core::StepResult take_step(MessageReader& from);
+void put_step(PacketWriter& to, const core::StepResult& result);
+core::StepResult take_step(PacketReader& from);
 
-void put_events(MessageWriter& to, const core::EventResult& result);
-core::EventResult take_events(MessageReader& from);
+void put_events(PacketWriter& to, const core::EventResult& result);
+core::EventResult take_events(PacketReader& from);
 
-void put_time(MessageWriter& to, std::optional<Time> time);
-std::optional<Time> take_time(MessageReader& from);
+void put_time(PacketWriter& to, std::optional<Time> time);
+std::optional<Time> take_time(PacketReader& from);
 
 /// With all its parts; what is no core::Error becomes one of this unit. `hint` is for an error that
 /// has none.
-void put_error(MessageWriter& to, const std::exception& error, const core::Context& context,
+void put_error(PacketWriter& to, const std::exception& error, const core::Context& context,
                const std::string& hint = "");
 /// Throws it.
-[[noreturn]] void throw_error(MessageReader& from);
+[[noreturn]] void throw_error(PacketReader& from);
 
 /// Those of a unit.
 using CapabilitySet = std::bitset<core::kCapabilities>;
-void put_capabilities(MessageWriter& to, const CapabilitySet& capabilities);
-CapabilitySet take_capabilities(MessageReader& from);
+void put_capabilities(PacketWriter& to, const CapabilitySet& capabilities);
+CapabilitySet take_capabilities(PacketReader& from);
 
-void put_protections(MessageWriter& to, const Protections& protections);
-Protections take_protections(MessageReader& from);
+void put_protections(PacketWriter& to, const Protections& protections);
+Protections take_protections(PacketReader& from);
 
 }  // namespace stride::isolation
 

@@ -6,6 +6,7 @@
 
 #include "master/isolation/process/process_memory.h"
 #include "master/isolation/sandbox_hint.h"
+#include "master/isolation/server.h"
 #include "master/util/readable_text.h"
 
 namespace stride::isolation {
@@ -25,36 +26,36 @@ double seconds(std::chrono::milliseconds time) {
 
 HostClient::HostClient(const HostedUnitSpec& spec)
     : spec_(spec),
-      process_(channel_, [&](pid_t supervisor) { serve(channel_, spec, supervisor); }),
-      log_(*channel_.memory) {}
+      process_(link_, [&](pid_t supervisor) { serve(link_, spec, supervisor); }),
+      log_(*link_.memory) {}
 
 // ---- To and fro ----
 
-ReplyCode HostClient::send(RequestCode request, const MessageWriter& message,
+ReplyCode HostClient::send(RequestCode request, const PacketWriter& packet,
                            std::optional<Time> time) {
   if (has_failed()) [[unlikely]]
     core::fail_run(context(time), "it cannot be called, because " + failure_);
-  Turn& turn = channel_.memory->request;
+  Turn& turn = link_.memory->request;
   turn.what.store(static_cast<std::uint32_t>(request), std::memory_order_relaxed);
-  turn.size.store(message.size(), std::memory_order_relaxed);
+  turn.size.store(packet.size(), std::memory_order_relaxed);
   turn.number.store(++number_, std::memory_order_release);
   turn.doorbell.ring();
   if (!waiter_.spin([&] { return has_reply(); })) await_reply(time);
   if (!log_.is_empty()) [[unlikely]]
     take_lines();
-  return static_cast<ReplyCode>(channel_.memory->reply.what.load(std::memory_order_relaxed));
+  return static_cast<ReplyCode>(link_.memory->reply.what.load(std::memory_order_relaxed));
 }
 
-MessageReader HostClient::read() {
-  const std::size_t size = channel_.memory->reply.size.load(std::memory_order_relaxed);
-  if (!channel_.messages.follow(size)) throw BadMessage();
-  return MessageReader({channel_.messages.data(), size});
+PacketReader HostClient::read() {
+  const std::size_t size = link_.memory->reply.size.load(std::memory_order_relaxed);
+  if (!link_.packets.follow(size)) throw BadPacket();
+  return PacketReader({link_.packets.data(), size});
 }
 
 void HostClient::await_reply(std::optional<Time> time) {
   const auto begin = Clock::now();
   const auto limit = spec_.host.call_limit;
-  Doorbell& doorbell = channel_.memory->reply.doorbell;
+  Doorbell& doorbell = link_.memory->reply.doorbell;
   for (;;) {
     const std::uint32_t rings = doorbell.rings();
     take_lines();
@@ -88,15 +89,15 @@ void HostClient::warn_of_slow_call() {
 }
 
 core::HostStatistics HostClient::statistics() const {
-  const SnapshotBoard& snapshots = channel_.memory->snapshots;
+  const SnapshotBoard& snapshots = link_.memory->snapshots;
   core::HostStatistics statistics;
   statistics.snapshots = snapshots.snapshots;
   statistics.restores = snapshots.restores;
   statistics.most_snapshots = snapshots.most_kept;
   statistics.most_snapshot_memory = snapshots.most_memory;
-  statistics.most_memory = channel_.memory->most_memory;
+  statistics.most_memory = link_.memory->most_memory;
   if (!process_.has_ended()) {
-    statistics.most_memory = std::max(statistics.most_memory, most_memory(channel_.memory->active));
+    statistics.most_memory = std::max(statistics.most_memory, most_memory(link_.memory->active));
   }
   return statistics;
 }
@@ -114,7 +115,7 @@ void HostClient::take_lines() {
     output_tail_.add_logged(message.text);
     log(message.status, message.category, message.text);
   });
-  channel_.memory->printed.read(printed_.bytes());
+  link_.memory->printed.read(printed_.bytes());
   printed_.take([&](std::string_view line) { log_printed(line); });
 }
 
@@ -149,16 +150,16 @@ void HostClient::fail(const std::string& what, std::optional<Time> time) {
   core::fail_run(context(time), failure_ + output_tail_.text(), hint);
 }
 
-void HostClient::fail_bad_message(std::optional<Time> time) {
+void HostClient::fail_bad_packet(std::optional<Time> time) {
   process_.kill();
   take_lines();
-  fail(BadMessage().what() + present_call(), time);
+  fail(BadPacket().what() + present_call(), time);
 }
 
 std::string HostClient::present_call() const {
   constexpr std::size_t kLongest = 100;
-  const std::string function = core::readable_text(
-      std::string(channel_.memory->call_note.function()), kLongest);  // the unit can write there
+  const std::string function = core::readable_text(std::string(link_.memory->call_note.function()),
+                                                   kLongest);  // the unit can write there
   return function.empty() ? "" : " in " + function;
 }
 

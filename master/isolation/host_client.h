@@ -8,12 +8,13 @@
 #include <string_view>
 
 #include "master/algorithm/statistics.h"
-#include "master/isolation/channel.h"
+#include "master/isolation/host_link.h"
 #include "master/isolation/host_process.h"
-#include "master/isolation/message.h"
+#include "master/isolation/hosted_unit_spec.h"
+#include "master/isolation/log_message.h"
 #include "master/isolation/output_tail.h"
+#include "master/isolation/packet.h"
 #include "master/isolation/process/doorbell.h"
-#include "master/isolation/server.h"
 
 namespace stride::isolation {
 
@@ -24,13 +25,13 @@ class HostClient {
   /// Starts the process. Throws std::system_error if there can be none.
   explicit HostClient(const HostedUnitSpec& spec);
 
-  /// A message to be written and sent; it replaces the message before.
-  MessageWriter write() { return MessageWriter(channel_.messages); }
+  /// A packet to be written and sent; it replaces the packet before.
+  PacketWriter write() { return PacketWriter(link_.packets); }
   /// Sends a request and waits for the reply. Throws core::Error of the kind Run, at
   /// `time`, if the process ends before, or is ended because its time is over.
-  ReplyCode send(RequestCode request, const MessageWriter& message, std::optional<Time> time);
-  /// The reply, until the next message is written.
-  MessageReader read();
+  ReplyCode send(RequestCode request, const PacketWriter& packet, std::optional<Time> time);
+  /// The reply, until the next packet is written.
+  PacketReader read();
 
   /// Logs something about the unit.
   void log(importer::Status status, const std::string& category,
@@ -40,14 +41,14 @@ class HostClient {
 
   /// The process has ended, or sends what cannot be read: nothing can be sent any longer.
   bool has_failed() const { return !failure_.empty(); }
-  [[noreturn]] void fail_bad_message(std::optional<Time> time);
+  [[noreturn]] void fail_bad_packet(std::optional<Time> time);
   /// Of snapshots and memory; also after a failure.
   core::HostStatistics statistics() const;
-  std::uint64_t calls() const { return channel_.memory->calls.load(std::memory_order_relaxed); }
+  std::uint64_t calls() const { return link_.memory->calls.load(std::memory_order_relaxed); }
 
  private:
   bool has_reply() const {
-    return channel_.memory->reply.number.load(std::memory_order_acquire) == number_;
+    return link_.memory->reply.number.load(std::memory_order_acquire) == number_;
   }
   void await_reply(std::optional<Time> time);
   void take_lines();
@@ -59,7 +60,7 @@ class HostClient {
   core::Context context(std::optional<Time> time) const;
 
   const HostedUnitSpec& spec_;
-  Channel channel_;
+  HostLink link_;
   HostProcess process_;
   Waiter waiter_;
   std::uint32_t number_ = 0;  ///< of the latest request

@@ -46,8 +46,8 @@ void flush_standard_files() {
 
 }  // namespace
 
-HostProcess::HostProcess(Channel& channel, const std::function<void(pid_t)>& serve)
-    : channel_(*channel.memory) {
+HostProcess::HostProcess(HostLink& link, const std::function<void(pid_t)>& serve)
+    : link_(*link.memory) {
   ControlSocket control;
   flush_standard_files();
   const pid_t master = ::getpid();
@@ -55,12 +55,12 @@ HostProcess::HostProcess(Channel& channel, const std::function<void(pid_t)>& ser
   if (supervisor_ < 0) fail("fork");
   if (supervisor_ == 0) {
     control.ours.close();
-    supervise(channel, std::move(control.theirs), master, serve);
+    supervise(link, std::move(control.theirs), master, serve);
   }
   ::setpgid(supervisor_, supervisor_);  // in both processes, in whichever order
   control_ = std::move(control.ours);
-  channel.memory.hide_from_children();
-  channel.messages.hide_from_children();
+  link.memory.hide_from_children();
+  link.packets.hide_from_children();
 }
 
 bool HostProcess::look_for_end() {
@@ -68,8 +68,8 @@ bool HostProcess::look_for_end() {
   if (!is_supervisor_gone()) return false;
   ::kill(-supervisor_, SIGKILL);
   is_supervisor_lost_ = true;
-  channel_.end = HostEnd::Killed;
-  channel_.end_code = SIGKILL;
+  link_.end = HostEnd::Killed;
+  link_.end_code = SIGKILL;
   return true;
 }
 
@@ -85,9 +85,9 @@ void HostProcess::finish(const std::function<void()>& meanwhile) {
   send(Command::Finish);
   control_.close();
   while (!is_supervisor_gone()) {
-    const std::uint32_t rings = channel_.reply.doorbell.rings();
+    const std::uint32_t rings = link_.reply.doorbell.rings();
     meanwhile();
-    channel_.reply.doorbell.sleep(rings, 1ms);
+    link_.reply.doorbell.sleep(rings, 1ms);
   }
   ::kill(-supervisor_, SIGKILL);  // in vain, unless something has ended the supervisor
   int status = 0;
@@ -111,8 +111,8 @@ void HostProcess::send(Command command) const {
 std::string HostProcess::how_it_ended() const {
   if (is_supervisor_lost_)
     return "its process was killed, since something has ended its supervisor";
-  const int code = channel_.end_code;
-  switch (channel_.end.load()) {
+  const int code = link_.end_code;
+  switch (link_.end.load()) {
     case HostEnd::NotStarted:
       return fmt::format("its process cannot be started: {}", std::strerror(code));
     case HostEnd::Exited:

@@ -7,7 +7,7 @@
 
 #include <sys/types.h>
 
-#include "master/isolation/channel.h"
+#include "master/isolation/host_link.h"
 #include "master/isolation/process/descriptor.h"
 #include "master/isolation/supervisor.h"
 
@@ -18,7 +18,7 @@ class HostProcess {
  public:
   /// Forks. `serve` is called in the unit's process, with the process id of its parent; that
   /// process ends when it returns. Throws std::system_error if there can be no process.
-  HostProcess(Channel& channel, const std::function<void(pid_t)>& serve);
+  HostProcess(HostLink& link, const std::function<void(pid_t)>& serve);
   ~HostProcess() {
     finish([] {});
   }
@@ -26,7 +26,7 @@ class HostProcess {
   HostProcess& operator=(const HostProcess&) = delete;
 
   /// Whether the unit has no active process any longer. Cheap.
-  bool has_ended() const { return channel_.end.load(std::memory_order_acquire) != HostEnd::None; }
+  bool has_ended() const { return link_.end.load(std::memory_order_acquire) != HostEnd::None; }
   /// Likewise; also looks whether the supervisor runs, and ends the unit's process if it does not.
   bool look_for_end();
   /// Ends the unit's process.
@@ -42,7 +42,7 @@ class HostProcess {
   void send(Command command) const;
   bool is_supervisor_gone() const;
 
-  ChannelMemory& channel_;
+  HostLinkMemory& link_;
   Descriptor control_;
   pid_t supervisor_ = 0;
   bool is_supervisor_lost_ = false;

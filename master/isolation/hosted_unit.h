@@ -2,31 +2,14 @@
 #ifndef STRIDE_MASTER_ISOLATION_HOSTED_UNIT_H
 #define STRIDE_MASTER_ISOLATION_HOSTED_UNIT_H
 
-#include <chrono>
-#include <cstdint>
-#include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "master/algorithm/unit.h"
 #include "master/importer/fmu.h"
+#include "master/isolation/host_options.h"
 
 namespace stride::isolation {
-
-/// The category of log messages that are lines of a unit's standard output or error.
-inline constexpr const char* kPrinted = "printed";
-
-struct HostOptions {
-  std::optional<std::chrono::milliseconds> call_limit{};  ///< of each call; nothing = no limit
-  std::optional<std::uint64_t> memory_limit{};            ///< of the unit's data [byte]
-  bool is_sandboxed = true;
-  /// Folders that the unit may write to, beside its own resources.
-  std::vector<std::filesystem::path> writable{};
-  /// Whether save_state() forks, if the unit cannot save its state itself.
-  bool takes_snapshots = false;
-};
 
 /// Makes an instance in a host, a process of its own: its library is loaded there and nowhere else,
 /// but for a bare one, which is asked for its description here (importer::Fmu). To be called while

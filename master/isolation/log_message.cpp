@@ -25,9 +25,9 @@ void LogWriter::write(const LogMessage& message) {
 
 void LogWriter::write(std::string_view bytes) {
   for (;;) {
-    bytes.remove_prefix(channel_.logged.write(bytes));
+    bytes.remove_prefix(link_.logged.write(bytes));
     if (bytes.empty()) return;
-    channel_.reply.doorbell.ring();
+    link_.reply.doorbell.ring();
     std::this_thread::sleep_for(std::chrono::microseconds(100));
   }
 }

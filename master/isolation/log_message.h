@@ -6,7 +6,7 @@
 #include <string>
 
 #include "master/importer/status.h"
-#include "master/isolation/channel.h"
+#include "master/isolation/host_link.h"
 
 namespace stride::isolation {
 
@@ -19,26 +19,26 @@ struct LogMessage {
 /// master has read.
 class LogWriter {
  public:
-  explicit LogWriter(ChannelMemory& channel) : channel_(channel) {}
+  explicit LogWriter(HostLinkMemory& link) : link_(link) {}
   void write(const LogMessage& message);
 
  private:
   void write(std::string_view bytes);
 
-  ChannelMemory& channel_;
+  HostLinkMemory& link_;
   std::mutex mutex_;
 };
 
 /// In the master.
 class LogReader {
  public:
-  explicit LogReader(ChannelMemory& channel) : channel_(channel) {}
+  explicit LogReader(HostLinkMemory& link) : link_(link) {}
 
-  bool is_empty() const { return channel_.logged.is_empty(); }
+  bool is_empty() const { return link_.logged.is_empty(); }
   /// Calls take(LogMessage&&) for each message that is there as a whole.
   template <class Take>
   void read(Take&& take) {
-    channel_.logged.read(bytes_);
+    link_.logged.read(bytes_);
     LogMessage message;
     while (next(message)) take(std::move(message));
   }
@@ -46,7 +46,7 @@ class LogReader {
  private:
   bool next(LogMessage& message);
 
-  ChannelMemory& channel_;
+  HostLinkMemory& link_;
   std::string bytes_;  ///< read, and not taken yet
 };
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "master/isolation/hosted_unit.h"
+#include "master/isolation/host_options.h"
 
 namespace stride::isolation {
 

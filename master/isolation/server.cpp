@@ -53,21 +53,21 @@ std::vector<WritableFolder> writable_folders(const HostedUnitSpec& spec) {
 
 }  // namespace
 
-void serve(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor) noexcept {
+void serve(HostLink& link, const HostedUnitSpec& spec, pid_t supervisor) noexcept {
   forget_signal_handlers();
   ::prctl(PR_SET_NAME, spec.name.c_str());
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a crash loses no line
   ::on_exit(&on_exit_called, nullptr);
-  Server(channel, spec, supervisor).run();
+  Server(link, spec, supervisor).run();
   ::_exit(0);
 }
 
-Server::Server(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor)
-    : channel_(channel), memory_(*channel.memory), spec_(spec), log_(*channel.memory) {
+Server::Server(HostLink& link, const HostedUnitSpec& spec, pid_t supervisor)
+    : link_(link), memory_(*link.memory), spec_(spec), log_(*link.memory) {
   if (!spec.has_snapshots()) return;
   snapshots_.emplace(
       memory_.snapshots, memory_.active, supervisor,
-      SnapshotOptions{context(), {channel.messages.file().number()}, spec.host.memory_limit});
+      SnapshotOptions{context(), {link.packets.file().number()}, spec.host.memory_limit});
 }
 
 void Server::run() {
@@ -100,9 +100,9 @@ RequestCode Server::requested() const {
 }
 
 void Server::serve() {
-  channel_.messages.follow(memory_.request.size);
-  MessageReader in({channel_.messages.data(), memory_.request.size});
-  MessageWriter out(channel_.messages);
+  link_.packets.follow(memory_.request.size);
+  PacketReader in({link_.packets.data(), memory_.request.size});
+  PacketWriter out(link_.packets);
   ReplyCode what = ReplyCode::Done;
   const auto fail = [&](const std::exception& error) {
     what = ReplyCode::Failed;
@@ -131,19 +131,19 @@ C& Server::capability() const {
   return static_cast<C&>(*found);
 }
 
-void Server::reply(ReplyCode what, const MessageWriter& message) {
+void Server::reply(ReplyCode what, const PacketWriter& packet) {
   memory_.call_note.clear();
   if (diagnostics_ != nullptr) {
     memory_.calls.store(undone_calls_ + diagnostics_->calls(), std::memory_order_relaxed);
   }
   memory_.reply.what.store(static_cast<std::uint32_t>(what), std::memory_order_relaxed);
-  memory_.reply.size.store(message.size(), std::memory_order_relaxed);
+  memory_.reply.size.store(packet.size(), std::memory_order_relaxed);
   memory_.reply.number.store(memory_.request.number.load(std::memory_order_relaxed),
                              std::memory_order_release);
   memory_.reply.doorbell.ring();
 }
 
-void Server::handle(RequestCode request, MessageReader& in, MessageWriter& out) {
+void Server::handle(RequestCode request, PacketReader& in, PacketWriter& out) {
   switch (request) {
     case RequestCode::Instantiate:
       return instantiate(out);
@@ -231,7 +231,7 @@ std::string Server::origin() const {
 
 // ---- Life cycle ----
 
-void Server::instantiate(MessageWriter& out) {
+void Server::instantiate(PacketWriter& out) {
   put_protections(out, prepare());
   importer::InstanceOptions options = spec_.options;
   options.call_note = &memory_.call_note;
@@ -259,21 +259,21 @@ void Server::free() {
 
 // ---- Values ----
 
-void Server::get(MessageReader& in, MessageWriter& out) {
+void Server::get(PacketReader& in, PacketWriter& out) {
   const auto references = in.take_all<core::ValueReference>();
   core::ValueBlock values = take_shape(in);
   unit_->get(references, values);
   put_values(out, values);
 }
 
-void Server::set(MessageReader& in) {
+void Server::set(PacketReader& in) {
   const auto references = in.take_all<core::ValueReference>();
   core::ValueBlock values = take_shape(in);
   take_values(in, values);
   unit_->set(references, values);
 }
 
-void Server::get_directional_derivative(MessageReader& in, MessageWriter& out) {
+void Server::get_directional_derivative(PacketReader& in, PacketWriter& out) {
   const auto unknowns = in.take_all<core::ValueReference>();
   const auto knowns = in.take_all<core::ValueReference>();
   const auto seed = in.take_all<double>();
@@ -291,12 +291,12 @@ const core::Variable& Server::variable(core::ValueReference reference) const {
 
 // ---- Steps ----
 
-void Server::make_plan(MessageReader& in) {
+void Server::make_plan(PacketReader& in) {
   const auto number = in.take<std::uint32_t>();
   plans_.at(number) = StepBuffers(in);
 }
 
-void Server::step(MessageReader& in, MessageWriter& out) {
+void Server::step(PacketReader& in, PacketWriter& out) {
   StepBuffers& plan = plans_.at(in.take<std::uint32_t>());
   const auto interval = in.take<core::StepInterval>();
   plan.take_inputs(in);
@@ -319,7 +319,7 @@ void Server::set_input_update(bool is_set) {
 
 /// The master may get and set before it answers.
 void Server::request_inputs(double seconds_into_step) {
-  MessageWriter question(channel_.messages);
+  PacketWriter question(link_.packets);
   question.put(seconds_into_step);
   reply(ReplyCode::RequestInputs, question);
   for (await_request(); requested() != RequestCode::InputsUpdated; await_request()) {
@@ -332,13 +332,13 @@ void Server::request_inputs(double seconds_into_step) {
 
 /// With snapshots it returns once more for each restored state, in the process that goes on then,
 /// and the request is one to restore.
-void Server::save_state(MessageReader& in) {
+void Server::save_state(PacketReader& in) {
   if (!snapshots_) return capability<core::StateSaving>().save_state();
   memory_.call_note.write("the snapshot of its process");
   if (snapshots_->save(slot_, take_time(in))) undone_calls_ = memory_.calls - diagnostics_->calls();
 }
 
-void Server::restore_state(MessageReader& in) {
+void Server::restore_state(PacketReader& in) {
   if (!snapshots_) return capability<core::StateSaving>().restore_state();
   memory_.call_note.write("the return to a snapshot of its process");
   snapshots_->restore(slot_, take_time(in));
@@ -351,19 +351,19 @@ void Server::select_state(std::size_t slot) {
 
 // ---- Idle time ----
 
-void Server::set_idle_tolerances(MessageReader& in) {
+void Server::set_idle_tolerances(PacketReader& in) {
   const auto outputs = in.take_all<core::ValueReference>();
   capability<core::IdlePromises>().set_idle_tolerances(outputs, in.take_all<double>());
 }
 
-void Server::get_derivatives(MessageReader& in, MessageWriter& out) {
+void Server::get_derivatives(PacketReader& in, PacketWriter& out) {
   const auto outputs = in.take_all<core::ValueReference>();
   std::vector<double> derivatives(in.take<std::size_t>());
   capability<core::IdlePromises>().get_derivatives(outputs, derivatives);
   out.put_bytes(derivatives.data(), derivatives.size() * sizeof(double));
 }
 
-void Server::describe_message(MessageReader& in, MessageWriter& out) {
+void Server::describe_message(PacketReader& in, PacketWriter& out) {
   const auto variable = in.take<core::ValueReference>();
   const core::Binary value = in.take_all<core::Binary::value_type>();
   out.put(capability<core::MessageText>().describe_message(variable, value));

@@ -11,36 +11,21 @@
 
 #include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/unit.h"
-#include "master/importer/fmu.h"
-#include "master/isolation/channel.h"
-#include "master/isolation/hosted_unit.h"
+#include "master/isolation/host_link.h"
+#include "master/isolation/hosted_unit_spec.h"
 #include "master/isolation/log_message.h"
-#include "master/isolation/message.h"
+#include "master/isolation/packet.h"
 #include "master/isolation/process/doorbell.h"
 #include "master/isolation/process/sandbox.h"
 #include "master/isolation/snapshots.h"
 #include "master/isolation/step_plan.h"
-#include "master/util/archive/temporary_folder.h"
 
 namespace stride::isolation {
-
-/// What a hosted unit is instantiated from.
-struct HostedUnitSpec {
-  std::shared_ptr<importer::Fmu> fmu;
-  std::string name;
-  importer::InstanceOptions options;
-  HostOptions host;
-  /// For a unit in a sandbox: $TMPDIR, since that of others is closed to it.
-  std::unique_ptr<archive::TemporaryFolder> temporary{};
-
-  /// Whether its states are snapshots of its process.
-  bool has_snapshots() const { return host.takes_snapshots && !fmu->description()->can_save_state; }
-};
 
 /// The host of a unit: it serves the master's requests one after the other.
 class Server {
  public:
-  Server(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor);
+  Server(HostLink& link, const HostedUnitSpec& spec, pid_t supervisor);
 
   /// Returns when the unit was destroyed, because the master wanted it.
   void run();
@@ -52,24 +37,24 @@ class Server {
   void await_request();
   /// Does what the present request wants, and replies.
   void serve();
-  void handle(RequestCode request, MessageReader& in, MessageWriter& out);
-  void reply(ReplyCode what, const MessageWriter& message);
+  void handle(RequestCode request, PacketReader& in, PacketWriter& out);
+  void reply(ReplyCode what, const PacketWriter& packet);
 
-  void instantiate(MessageWriter& out);
+  void instantiate(PacketWriter& out);
   void free();
-  void get(MessageReader& in, MessageWriter& out);
-  void set(MessageReader& in);
-  void make_plan(MessageReader& in);
-  void step(MessageReader& in, MessageWriter& out);
-  void save_state(MessageReader& in);
-  void restore_state(MessageReader& in);
+  void get(PacketReader& in, PacketWriter& out);
+  void set(PacketReader& in);
+  void make_plan(PacketReader& in);
+  void step(PacketReader& in, PacketWriter& out);
+  void save_state(PacketReader& in);
+  void restore_state(PacketReader& in);
   void select_state(std::size_t slot);
-  void get_directional_derivative(MessageReader& in, MessageWriter& out);
+  void get_directional_derivative(PacketReader& in, PacketWriter& out);
   void set_input_update(bool is_set);
   void request_inputs(double seconds_into_step);
-  void set_idle_tolerances(MessageReader& in);
-  void get_derivatives(MessageReader& in, MessageWriter& out);
-  void describe_message(MessageReader& in, MessageWriter& out);
+  void set_idle_tolerances(PacketReader& in);
+  void get_derivatives(PacketReader& in, PacketWriter& out);
+  void describe_message(PacketReader& in, PacketWriter& out);
   const core::Variable& variable(core::ValueReference reference) const;
   /// The master asks for nothing else.
   template <core::CapabilityInterface C>
@@ -79,8 +64,8 @@ class Server {
   core::Context context() const;
   std::string origin() const;
 
-  Channel& channel_;
-  ChannelMemory& memory_;
+  HostLink& link_;
+  HostLinkMemory& memory_;
   const HostedUnitSpec& spec_;
   LogWriter log_;
   Waiter waiter_;
@@ -96,7 +81,7 @@ class Server {
 };
 
 /// Runs a server in a fresh fork: its surroundings first.
-void serve(Channel& channel, const HostedUnitSpec& spec, pid_t supervisor) noexcept;
+void serve(HostLink& link, const HostedUnitSpec& spec, pid_t supervisor) noexcept;
 
 }  // namespace stride::isolation
 

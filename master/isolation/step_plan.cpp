@@ -27,7 +27,7 @@ bool fits(const std::vector<StepShape::Part>& shape, Bound values) {
       });
 }
 
-void put_parts(MessageWriter& to, Bound values) {
+void put_parts(PacketWriter& to, Bound values) {
   to.put(values.size());
   for (const core::BoundValues& part : values) {
     to.put_all(part.references);
@@ -64,17 +64,17 @@ std::uint32_t KnownStepShapes::add(const core::StepValues& values) {
   return latest_;
 }
 
-void put_shape(MessageWriter& to, const core::StepValues& values) {
+void put_shape(PacketWriter& to, const core::StepValues& values) {
   put_parts(to, values.inputs);
   put_parts(to, values.outputs);
 }
 
 // ---- In the unit's process ----
 
-StepBuffers::StepBuffers(MessageReader& from)
+StepBuffers::StepBuffers(PacketReader& from)
     : inputs_(take_parts(from)), outputs_(take_parts(from)) {}
 
-std::vector<core::BoundValues> StepBuffers::take_parts(MessageReader& from) {
+std::vector<core::BoundValues> StepBuffers::take_parts(PacketReader& from) {
   std::vector<core::BoundValues> bound;
   const std::size_t count = from.take_count(1);
   for (std::size_t i = 0; i < count; ++i) {
@@ -85,11 +85,11 @@ std::vector<core::BoundValues> StepBuffers::take_parts(MessageReader& from) {
   return bound;
 }
 
-void StepBuffers::take_inputs(MessageReader& from) {
+void StepBuffers::take_inputs(PacketReader& from) {
   for (const core::BoundValues& input : inputs_) take_values(from, *input.block);
 }
 
-void StepBuffers::put_outputs(MessageWriter& to) const {
+void StepBuffers::put_outputs(PacketWriter& to) const {
   for (const core::BoundValues& output : outputs_) put_values(to, *output.block);
 }
 

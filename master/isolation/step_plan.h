@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "master/algorithm/unit.h"
-#include "master/isolation/message.h"
+#include "master/isolation/packet.h"
 
 namespace stride::isolation {
 
@@ -48,10 +48,10 @@ class KnownStepShapes {
 class StepBuffers {
  public:
   StepBuffers() = default;
-  explicit StepBuffers(MessageReader& from);
+  explicit StepBuffers(PacketReader& from);
 
-  void take_inputs(MessageReader& from);
-  void put_outputs(MessageWriter& to) const;
+  void take_inputs(PacketReader& from);
+  void put_outputs(PacketWriter& to) const;
   core::StepValues values() const { return {inputs_, outputs_}; }
 
  private:
@@ -59,14 +59,14 @@ class StepBuffers {
     std::vector<core::ValueReference> references;
     core::ValueBlock block;
   };
-  std::vector<core::BoundValues> take_parts(MessageReader& from);
+  std::vector<core::BoundValues> take_parts(PacketReader& from);
 
   std::deque<Part> parts_;  // whose elements stay where they are
   std::vector<core::BoundValues> inputs_, outputs_;
 };
 
 /// What StepBuffers is made of.
-void put_shape(MessageWriter& to, const core::StepValues& values);
+void put_shape(PacketWriter& to, const core::StepValues& values);
 
 }  // namespace stride::isolation
 

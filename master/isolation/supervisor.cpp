@@ -51,8 +51,8 @@ std::vector<pid_t> children() {
 
 class Supervisor {
  public:
-  Supervisor(ChannelMemory& channel, Descriptor control, Descriptor output)
-      : channel_(channel),
+  Supervisor(HostLinkMemory& link, Descriptor control, Descriptor output)
+      : link_(link),
         control_(std::move(control)),
         output_(std::move(output)),
         ends_(watch_children()) {}
@@ -109,8 +109,8 @@ class Supervisor {
   /// What the unit has printed, a piece of it; returns whether there was something.
   bool forward_output() {
     if (pending_.empty() && !read_some(output_, pending_)) return false;
-    pending_.erase(0, channel_.printed.write(pending_));
-    channel_.reply.doorbell.ring();
+    pending_.erase(0, link_.printed.write(pending_));
+    link_.reply.doorbell.ring();
     return true;
   }
 
@@ -126,16 +126,16 @@ class Supervisor {
   }
 
   void note_end(pid_t child, int status, const rusage& usage) {
-    raise_to(channel_.most_memory, static_cast<std::uint64_t>(usage.ru_maxrss) * 1024);
-    channel_.snapshots.note_end(child);
-    if (child != channel_.active || channel_.end != HostEnd::None) return;
+    raise_to(link_.most_memory, static_cast<std::uint64_t>(usage.ru_maxrss) * 1024);
+    link_.snapshots.note_end(child);
+    if (child != link_.active || link_.end != HostEnd::None) return;
     forward_all_output(100ms);  // its output comes first
-    channel_.end_code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
-    channel_.end = WIFSIGNALED(status) ? HostEnd::Killed : HostEnd::Exited;
-    channel_.reply.doorbell.ring();
+    link_.end_code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
+    link_.end = WIFSIGNALED(status) ? HostEnd::Killed : HostEnd::Exited;
+    link_.reply.doorbell.ring();
   }
 
-  ChannelMemory& channel_;
+  HostLinkMemory& link_;
   Descriptor control_, output_, ends_;
   std::string pending_;  ///< printed, and there was no room for it
 };
@@ -146,9 +146,30 @@ void clean_up_after(pid_t master) {
   archive::TemporaryFolder::sweep_abandoned();
 }
 
+/// The unit's process, which never returns.
+[[noreturn]] void run_server(HostLink& link, const Pipe& output, pid_t supervisor,
+                             const std::function<void(pid_t)>& serve) {
+  end_with(supervisor);
+  link.memory->active = ::getpid();  // which may be another one when the supervisor looks
+  redirect_standard_files(output.write.number());
+  close_other_files({link.packets.file().number()});
+  serve(supervisor);
+  ::_exit(0);
+}
+
+/// What the master sees of the fork.
+void note_start(HostLinkMemory& link, pid_t server, int error) {
+  pid_t none = 0;
+  link.active.compare_exchange_strong(none, server);
+  if (server >= 0) return;
+  link.end_code = error;
+  link.end = HostEnd::NotStarted;
+  link.reply.doorbell.ring();
+}
+
 }  // namespace
 
-void supervise(Channel& channel, Descriptor control, pid_t master,
+void supervise(HostLink& link, Descriptor control, pid_t master,
                const std::function<void(pid_t)>& serve) noexcept {
   ::setpgid(0, 0);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
@@ -156,28 +177,14 @@ void supervise(Channel& channel, Descriptor control, pid_t master,
   forget_signal_handlers();
   const Descriptor nowhere(::open("/dev/null", O_RDWR | O_CLOEXEC));
   redirect_standard_files(nowhere.number());
-  const int messages = channel.messages.file().number();
-  close_other_files({control.number(), messages});
+  close_other_files({control.number(), link.packets.file().number()});
   Pipe output;
   const pid_t self = ::getpid();
   const pid_t server = ::fork();
-  if (server == 0) {
-    end_with(self);
-    channel.memory->active = ::getpid();  // which may be another one when this is seen below
-    redirect_standard_files(output.write.number());
-    close_other_files({messages});
-    serve(self);
-    ::_exit(0);
-  }
-  pid_t none = 0;
-  channel.memory->active.compare_exchange_strong(none, server);
+  if (server == 0) run_server(link, output, self, serve);
+  note_start(*link.memory, server, errno);
   output.write.close();
-  if (server < 0) {
-    channel.memory->end_code = errno;
-    channel.memory->end = HostEnd::NotStarted;
-    channel.memory->reply.doorbell.ring();
-  }
-  Supervisor supervisor(*channel.memory, std::move(control), std::move(output.read));
+  Supervisor supervisor(*link.memory, std::move(control), std::move(output.read));
   const bool is_wanted = supervisor.run();
   supervisor.kill_children();
   if (is_wanted) {

@@ -5,7 +5,7 @@
 
 #include <sys/types.h>
 
-#include "master/isolation/channel.h"
+#include "master/isolation/host_link.h"
 #include "master/isolation/process/descriptor.h"
 
 namespace stride::isolation {
@@ -22,7 +22,7 @@ enum class Command : char {
 /// removes. To be called in a fresh fork of the master.
 ///
 /// `serve` is called in the unit's process, with the supervisor's process id.
-[[noreturn]] void supervise(Channel& channel, Descriptor control, pid_t master,
+[[noreturn]] void supervise(HostLink& link, Descriptor control, pid_t master,
                             const std::function<void(pid_t)>& serve) noexcept;
 
 }  // namespace stride::isolation

@@ -20,8 +20,8 @@ UnitProxy::UnitProxy(HostedUnitSpec spec) : spec_(std::move(spec)) {
                    fmt::format("there can be no process for it: {}", failure.what()));
   }
   call(
-      RequestCode::Instantiate, [](MessageWriter&) {},
-      [&](MessageReader& from) {
+      RequestCode::Instantiate, [](PacketWriter&) {},
+      [&](PacketReader& from) {
         protections_ = take_protections(from);
         capabilities_ = take_capabilities(from);
       });
@@ -62,17 +62,17 @@ core::HostStatistics UnitProxy::host_statistics() const {
 template <class Put, class Take>
 void UnitProxy::call(RequestCode request, Put&& put, Take&& take) {
   try {
-    MessageWriter message = client_->write();
-    put(message);
-    ReplyCode reply = client_->send(request, message, time_);
+    PacketWriter packet = client_->write();
+    put(packet);
+    ReplyCode reply = client_->send(request, packet, time_);
     if (reply != ReplyCode::Done) [[unlikely]] {
       reply = serve_input_requests(reply);
       if (reply != ReplyCode::Done) throw_reply(reply);
     }
-    MessageReader answer = client_->read();
+    PacketReader answer = client_->read();
     take(answer);
-  } catch (const BadMessage&) {
-    client_->fail_bad_message(time_);
+  } catch (const BadPacket&) {
+    client_->fail_bad_packet(time_);
   } catch (const std::system_error& failure) {
     core::fail_run({.where = spec_.options.where, .unit = spec_.name, .time = time_},
                    failure.what());
@@ -81,11 +81,11 @@ void UnitProxy::call(RequestCode request, Put&& put, Take&& take) {
 
 template <class Put>
 void UnitProxy::call(RequestCode request, Put&& put) {
-  call(request, put, [](MessageReader&) {});
+  call(request, put, [](PacketReader&) {});
 }
 
 void UnitProxy::call(RequestCode request) {
-  call(request, [](MessageWriter&) {});
+  call(request, [](PacketWriter&) {});
 }
 
 ReplyCode UnitProxy::serve_input_requests(ReplyCode reply) {
@@ -111,8 +111,8 @@ void UnitProxy::throw_reply(ReplyCode reply) {
   if (reply == ReplyCode::CallbackFailed && callback_failure_) {
     std::rethrow_exception(std::exchange(callback_failure_, nullptr));
   }
-  if (reply != ReplyCode::Failed) throw BadMessage();
-  MessageReader error = client_->read();
+  if (reply != ReplyCode::Failed) throw BadPacket();
+  PacketReader error = client_->read();
   throw_error(error);
 }
 
@@ -124,7 +124,7 @@ void UnitProxy::exit_configuration_mode() { call(RequestCode::ExitConfigurationM
 
 void UnitProxy::enter_initialization(Time start, std::optional<Time> stop) {
   time_ = start;
-  call(RequestCode::EnterInitialization, [&](MessageWriter& to) {
+  call(RequestCode::EnterInitialization, [&](PacketWriter& to) {
     put_time(to, start);
     put_time(to, stop);
   });
@@ -139,8 +139,8 @@ void UnitProxy::enter_step_mode() { call(RequestCode::EnterStepMode); }
 core::EventResult UnitProxy::update_discrete_states() {
   core::EventResult result;
   call(
-      RequestCode::UpdateDiscreteStates, [](MessageWriter&) {},
-      [&](MessageReader& from) { result = take_events(from); });
+      RequestCode::UpdateDiscreteStates, [](PacketWriter&) {},
+      [&](PacketReader& from) { result = take_events(from); });
   return result;
 }
 
@@ -149,15 +149,15 @@ core::EventResult UnitProxy::update_discrete_states() {
 void UnitProxy::get(References references, core::ValueBlock& values) {
   call(
       RequestCode::Get,
-      [&](MessageWriter& to) {
+      [&](PacketWriter& to) {
         to.put_all(references);
         put_shape(to, values);
       },
-      [&](MessageReader& from) { take_values(from, values); });
+      [&](PacketReader& from) { take_values(from, values); });
 }
 
 void UnitProxy::set(References references, const core::ValueBlock& values) {
-  call(RequestCode::Set, [&](MessageWriter& to) {
+  call(RequestCode::Set, [&](PacketWriter& to) {
     to.put_all(references);
     put_shape(to, values);
     put_values(to, values);
@@ -169,13 +169,13 @@ void UnitProxy::get_directional_derivative(References unknowns, References known
                                            std::span<double> sensitivity) {
   call(
       RequestCode::GetDirectionalDerivative,
-      [&](MessageWriter& to) {
+      [&](PacketWriter& to) {
         to.put_all(unknowns);
         to.put_all(knowns);
         to.put_all(seed);
         to.put(sensitivity.size());
       },
-      [&](MessageReader& from) { from.take_into(sensitivity.data(), sensitivity.size_bytes()); });
+      [&](PacketReader& from) { from.take_into(sensitivity.data(), sensitivity.size_bytes()); });
 }
 
 // ---- Steps ----
@@ -191,12 +191,12 @@ core::StepResult UnitProxy::step(const core::StepInterval& interval,
   core::StepResult result;
   call(
       RequestCode::Step,
-      [&](MessageWriter& to) {
+      [&](PacketWriter& to) {
         to.put(plan);
         to.put(interval);
         for (const core::BoundValues& input : values.inputs) put_values(to, *input.block);
       },
-      [&](MessageReader& from) {
+      [&](PacketReader& from) {
         result = take_step(from);
         if (result.rejected) {
           rejection_reason_ = from.take_text();
@@ -211,7 +211,7 @@ core::StepResult UnitProxy::step(const core::StepInterval& interval,
 std::uint32_t UnitProxy::plan_number(const core::StepValues& values) {
   if (const auto known = plans_.find(values)) return *known;
   const std::uint32_t number = plans_.add(values);
-  call(RequestCode::MakePlan, [&](MessageWriter& to) {
+  call(RequestCode::MakePlan, [&](PacketWriter& to) {
     to.put(number);
     put_shape(to, values);
   });
@@ -221,35 +221,35 @@ std::uint32_t UnitProxy::plan_number(const core::StepValues& values) {
 void UnitProxy::set_input_update(core::InputUpdate update) {
   input_update_ = std::move(update);
   call(RequestCode::SetInputUpdate,
-       [&](MessageWriter& to) { to.put(static_cast<bool>(input_update_)); });
+       [&](PacketWriter& to) { to.put(static_cast<bool>(input_update_)); });
 }
 
 // ---- States ----
 
 void UnitProxy::save_state() {
-  call(RequestCode::SaveState, [&](MessageWriter& to) { put_time(to, time_); });
+  call(RequestCode::SaveState, [&](PacketWriter& to) { put_time(to, time_); });
 }
 
 /// A process that is taken back knows the plans of its time only.
 void UnitProxy::restore_state() {
   if (spec_.has_snapshots()) plans_.forget();
-  call(RequestCode::RestoreState, [&](MessageWriter& to) { put_time(to, time_); });
+  call(RequestCode::RestoreState, [&](PacketWriter& to) { put_time(to, time_); });
 }
 
 void UnitProxy::select_state(std::size_t slot) {
-  call(RequestCode::SelectState, [&](MessageWriter& to) { to.put(slot); });
+  call(RequestCode::SelectState, [&](PacketWriter& to) { to.put(slot); });
 }
 
 std::vector<std::uint8_t> UnitProxy::serialize_state() {
   std::vector<std::uint8_t> bytes;
   call(
-      RequestCode::SerializeState, [](MessageWriter&) {},
-      [&](MessageReader& from) { bytes = from.take_all<std::uint8_t>(); });
+      RequestCode::SerializeState, [](PacketWriter&) {},
+      [&](PacketReader& from) { bytes = from.take_all<std::uint8_t>(); });
   return bytes;
 }
 
 void UnitProxy::deserialize_state(std::span<const std::uint8_t> bytes) {
-  call(RequestCode::DeserializeState, [&](MessageWriter& to) { to.put_all(bytes); });
+  call(RequestCode::DeserializeState, [&](PacketWriter& to) { to.put_all(bytes); });
 }
 
 void UnitProxy::reset() {
@@ -263,8 +263,8 @@ void UnitProxy::reset() {
 core::ClockInterval UnitProxy::clock_interval(const core::Variable& clock) {
   core::ClockInterval given;
   call(
-      RequestCode::GetClockInterval, [&](MessageWriter& to) { to.put(clock.reference); },
-      [&](MessageReader& from) {
+      RequestCode::GetClockInterval, [&](PacketWriter& to) { to.put(clock.reference); },
+      [&](PacketReader& from) {
         given.state = from.take<core::ClockInterval::State>();
         given.interval = from.take<core::Interval>();
       });
@@ -274,19 +274,19 @@ core::ClockInterval UnitProxy::clock_interval(const core::Variable& clock) {
 core::Interval UnitProxy::clock_shift(const core::Variable& clock) {
   core::Interval shift;
   call(
-      RequestCode::GetClockShift, [&](MessageWriter& to) { to.put(clock.reference); },
-      [&](MessageReader& from) { shift = from.take<core::Interval>(); });
+      RequestCode::GetClockShift, [&](PacketWriter& to) { to.put(clock.reference); },
+      [&](PacketReader& from) { shift = from.take<core::Interval>(); });
   return shift;
 }
 
 // ---- Idle time ----
 
 void UnitProxy::enable_idle_skipping(Duration max_skip) {
-  call(RequestCode::EnableIdleSkipping, [&](MessageWriter& to) { to.put(max_skip.count()); });
+  call(RequestCode::EnableIdleSkipping, [&](PacketWriter& to) { to.put(max_skip.count()); });
 }
 
 void UnitProxy::set_idle_tolerances(References outputs, std::span<const double> tolerances) {
-  call(RequestCode::SetIdleTolerances, [&](MessageWriter& to) {
+  call(RequestCode::SetIdleTolerances, [&](PacketWriter& to) {
     to.put_all(outputs);
     to.put_all(tolerances);
   });
@@ -295,19 +295,19 @@ void UnitProxy::set_idle_tolerances(References outputs, std::span<const double> 
 Time UnitProxy::idle_until() {
   Time until = Time::min();
   call(
-      RequestCode::GetIdleUntil, [](MessageWriter&) {},
-      [&](MessageReader& from) { until = take_time(from).value_or(Time::min()); });
+      RequestCode::GetIdleUntil, [](PacketWriter&) {},
+      [&](PacketReader& from) { until = take_time(from).value_or(Time::min()); });
   return until;
 }
 
 void UnitProxy::get_derivatives(References outputs, std::span<double> derivatives) {
   call(
       RequestCode::GetDerivatives,
-      [&](MessageWriter& to) {
+      [&](PacketWriter& to) {
         to.put_all(outputs);
         to.put(derivatives.size());
       },
-      [&](MessageReader& from) { from.take_into(derivatives.data(), derivatives.size_bytes()); });
+      [&](PacketReader& from) { from.take_into(derivatives.data(), derivatives.size_bytes()); });
 }
 
 // ---- Messages in words ----
@@ -316,11 +316,11 @@ std::string UnitProxy::describe_message(core::ValueReference variable, const cor
   std::string text;
   call(
       RequestCode::DescribeMessage,
-      [&](MessageWriter& to) {
+      [&](PacketWriter& to) {
         to.put(variable);
         to.put_all(std::span(value));
       },
-      [&](MessageReader& from) { text = from.take_text(); });
+      [&](PacketReader& from) { text = from.take_text(); });
   return text;
 }
 

@@ -21,7 +21,7 @@
 #include "master/algorithm/unit.h"
 #include "master/isolation/codec.h"
 #include "master/isolation/host_client.h"
-#include "master/isolation/server.h"
+#include "master/isolation/hosted_unit_spec.h"
 #include "master/isolation/step_plan.h"
 
 namespace stride::isolation {
@@ -79,7 +79,7 @@ class UnitProxy final
  private:
   core::Capability* find_capability(core::CapabilityId id) override;
 
-  /// Sends put(MessageWriter&) and takes the answer with take(MessageReader&).
+  /// Sends put(PacketWriter&) and takes the answer with take(PacketReader&).
   template <class Put, class Take>
   void call(RequestCode request, Put&& put, Take&& take);
   template <class Put>

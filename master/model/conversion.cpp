@@ -4,10 +4,12 @@
 #include <charconv>
 #include <limits>
 #include <map>
+#include <type_traits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "master/model/visit_type.h"
 #include "master/util/suggest.h"
 
 namespace stride::core {
@@ -32,35 +34,16 @@ constexpr Range range_of() {
 
 /// Of Float32 and Float64: the numbers up to which all whole numbers are exact.
 std::optional<Range> range_of(ValueType type) {
-  switch (type) {
-    case ValueType::Float32:
-      return Range{-(std::int64_t{1} << 24), std::uint64_t{1} << 24};
-    case ValueType::Float64:
-      return Range{-(std::int64_t{1} << 53), std::uint64_t{1} << 53};
-    case ValueType::Int8:
-      return range_of<std::int8_t>();
-    case ValueType::UInt8:
-      return range_of<std::uint8_t>();
-    case ValueType::Int16:
-      return range_of<std::int16_t>();
-    case ValueType::UInt16:
-      return range_of<std::uint16_t>();
-    case ValueType::Int32:
-      return range_of<std::int32_t>();
-    case ValueType::UInt32:
-      return range_of<std::uint32_t>();
-    case ValueType::Int64:
-    case ValueType::Enumeration:
-      return range_of<std::int64_t>();
-    case ValueType::UInt64:
-      return range_of<std::uint64_t>();
-    case ValueType::Boolean:
-    case ValueType::String:
-    case ValueType::Binary:
-    case ValueType::Clock:
-      break;
-  }
-  return std::nullopt;
+  return visit_type(type, []<class T>(std::type_identity<T>) -> std::optional<Range> {
+    if constexpr (std::is_floating_point_v<T>) {
+      constexpr auto kMost = std::int64_t{1} << std::numeric_limits<T>::digits;
+      return Range{-kMost, kMost};
+    } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+      return range_of<T>();
+    } else {
+      return std::nullopt;
+    }
+  });
 }
 
 bool is_integer(ValueType type) { return range_of(type) && !is_real(type); }

@@ -11,70 +11,13 @@
 
 #include "master/model/conversion.h"
 #include "master/model/description.h"
+#include "master/model/system_declaration.h"
 #include "master/model/values.h"
 #include "master/model/variable_id.h"
 #include "master/util/diagnostics.h"
 #include "master/util/error.h"
 
 namespace stride::core {
-
-/// Declarations: a system as written, by name, unchecked.
-struct ConnectorDeclaration {
-  std::string name;
-  std::optional<ValueType> type;
-  std::optional<Causality> causality;
-  UnitOfMeasure unit;
-  Location where{};
-  EnumerationItems items{};  ///< of its Enumeration, if that is declared
-};
-struct ComponentDeclaration {
-  std::string name;
-  std::shared_ptr<const UnitDescription> description;
-  std::vector<ConnectorDeclaration> connectors;  ///< may be empty: resolved against the description
-  Location where{};
-  bool early_return_allowed = true;
-  bool has_snapshots = false;
-};
-/// A connector of an enclosing or nested system on a connection, and the conversion before it.
-struct ViaDeclaration {
-  PathConnector connector;
-  PathSegment segment;
-};
-struct ConnectionDeclaration {
-  std::string from_component, from_connector;
-  std::string to_component, to_connector;
-  bool suppress_unit_conversion = false;
-  Location where{};
-  Transformation transformation{};    ///< on the way from the last of `via`, as is the above
-  std::vector<ViaDeclaration> via{};  ///< connectors of systems in between
-};
-/// An output connector of the system.
-struct OutputDeclaration {
-  std::string component, variable;
-  std::vector<ViaDeclaration> via;  ///< the last one is the system's connector itself, by its name
-  Location where{};
-};
-struct StartDeclaration {
-  std::string component, variable;
-  std::string value;
-  UnitOfMeasure unit;  ///< in which the value is given; no name = the variable's own
-  Location where{};
-  bool suppress_unit_conversion = false;
-  Transformation transformation{};
-  std::vector<ViaDeclaration> via{};
-  /// Whether it is ignored, with a warning, if there is no such variable.
-  bool is_optional = false;
-  /// Start values with the same non-zero group come from one declaration; at least one of them must
-  /// have a target.
-  std::size_t group = 0;
-};
-struct SystemDeclaration {
-  std::string name;
-  std::vector<ComponentDeclaration> components;
-  std::vector<ConnectionDeclaration> connections;
-  std::vector<StartDeclaration> start_values;  ///< a later one replaces an earlier one
-  std::vector<OutputDeclaration> outputs{};
-};
 
 struct Component {
   std::string name;

@@ -1,7 +1,9 @@
 #ifndef STRIDE_MASTER_MODEL_UNKNOWN_VARIABLE_H
 #define STRIDE_MASTER_MODEL_UNKNOWN_VARIABLE_H
 
-#include "master/model/system.h"
+#include "master/model/description.h"
+#include "master/model/system_declaration.h"
+#include "master/util/error.h"
 
 namespace stride::core {
 

@@ -13,6 +13,7 @@
 
 #include "master/model/conversion.h"
 #include "master/model/description.h"
+#include "master/model/visit_type.h"
 
 namespace stride::core {
 
@@ -63,37 +64,15 @@ class ValueBlock {
 /// Calls visitor(std::span<T>) with the elements of the block (const or not) in their C++ type.
 template <class Block, class Visitor>
 decltype(auto) visit(Block& block, Visitor&& visitor) {
-  switch (block.type()) {
-    case ValueType::Float32:
-      return visitor(block.template numbers<float>());
-    case ValueType::Float64:
-      return visitor(block.template numbers<double>());
-    case ValueType::Int8:
-      return visitor(block.template numbers<std::int8_t>());
-    case ValueType::UInt8:
-      return visitor(block.template numbers<std::uint8_t>());
-    case ValueType::Int16:
-      return visitor(block.template numbers<std::int16_t>());
-    case ValueType::UInt16:
-      return visitor(block.template numbers<std::uint16_t>());
-    case ValueType::Int32:
-      return visitor(block.template numbers<std::int32_t>());
-    case ValueType::UInt32:
-      return visitor(block.template numbers<std::uint32_t>());
-    case ValueType::Int64:
-    case ValueType::Enumeration:
-      return visitor(block.template numbers<std::int64_t>());
-    case ValueType::UInt64:
-      return visitor(block.template numbers<std::uint64_t>());
-    case ValueType::Boolean:
-    case ValueType::Clock:
-      return visitor(block.template numbers<bool>());
-    case ValueType::String:
+  return visit_type(block.type(), [&]<class T>(std::type_identity<T>) -> decltype(auto) {
+    if constexpr (std::is_same_v<T, std::string>) {
       return visitor(block.strings());
-    case ValueType::Binary:
-      break;
-  }
-  return visitor(block.binaries());
+    } else if constexpr (std::is_same_v<T, Binary>) {
+      return visitor(block.binaries());
+    } else {
+      return visitor(block.template numbers<T>());
+    }
+  });
 }
 
 /// Copies elements, converted, to a block of the same type or of one that System lets be connected

@@ -163,7 +163,7 @@ std::string VcdRecorder::declare(VcdScope& top, core::VariableId id, std::size_t
 void VcdRecorder::declare_signals(std::span<const core::Signal> signals, VcdScope& top) {
   for (const core::Signal& signal : signals) {
     for (std::size_t i = 0; i < system_.variable(signal.id).size; ++i) {
-      channels_.push_back({signal.block, signal.first + i, declare(top, signal.id, i)});
+      recorded_.push_back({signal.block, signal.first + i, declare(top, signal.id, i)});
     }
   }
 }
@@ -220,21 +220,21 @@ void VcdRecorder::on_message(const core::Message& message) {
 }
 
 void VcdRecorder::write_changes(bool all) {
-  for (Channel& channel : channels_) {
-    core::visit(*channel.block, [&](auto values) {
-      const auto& value = values[channel.element];
+  for (VcdVariable& variable : recorded_) {
+    core::visit(*variable.block, [&](auto values) {
+      const auto& value = values[variable.element];
       using T = std::remove_cvref_t<decltype(value)>;
       if constexpr (is_text<T>) {
         const std::string_view text(reinterpret_cast<const char*>(value.data()), value.size());
-        if (!all && text == channel.text) return;
-        channel.text = text;
+        if (!all && text == variable.text) return;
+        variable.text = text;
       } else {
         const std::uint64_t bits = bits_of(value);
-        if (!all && bits == channel.bits) return;
-        channel.bits = bits;
+        if (!all && bits == variable.bits) return;
+        variable.bits = bits;
       }
       move_to(last_point_);
-      write_change(file_, value, channel.code);
+      write_change(file_, value, variable.code);
     });
   }
 }

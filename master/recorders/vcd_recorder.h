@@ -49,7 +49,8 @@ class VcdRecorder : public core::Observer {
   void on_finish() override;
 
  private:
-  struct Channel {
+  /// An element of a recorded signal.
+  struct VcdVariable {
     const core::ValueBlock* block;
     std::size_t element;
     std::string code;
@@ -72,7 +73,7 @@ class VcdRecorder : public core::Observer {
   const core::System& system_;
   core::OutputFile file_;
   std::uint64_t codes_ = 0;
-  std::vector<Channel> channels_;
+  std::vector<VcdVariable> recorded_;
   std::vector<std::vector<MessageCodes>> messages_;  ///< by component and variable
   std::optional<Time> written_time_;
   Time last_point_{};

@@ -1,11 +1,12 @@
 #include "master/report/column.h"
 
 #include <charconv>
-#include <iterator>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include <stride/value_text.h>
 
 namespace stride::report {
 namespace {
@@ -47,8 +48,9 @@ std::optional<Number> parse(std::string_view text) {
 /// As signals.csv has it.
 std::string text_of(double value, ValueType type) {
   if (!core::is_real(type)) return std::to_string(static_cast<std::int64_t>(value));
-  char text[32];
-  return {text, std::to_chars(std::begin(text), std::end(text), value).ptr};
+  std::string text;
+  append_value(text, value);
+  return text;
 }
 
 template <class Element>

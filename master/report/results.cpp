@@ -10,7 +10,6 @@
 
 #include "master/recorders/results_folder.h"
 #include "master/report/notes.h"
-#include "master/report/signals_file.h"
 #include "master/report/table.h"
 #include "master/util/error.h"
 

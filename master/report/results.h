@@ -9,18 +9,10 @@
 #include <vector>
 
 #include "master/recorders/results_folder.h"
-#include "master/report/column.h"
 #include "master/report/run_file.h"
+#include "master/report/signals_file.h"
 
 namespace stride::report {
-
-/// signals.csv. Times are in picoseconds and grow strictly: of several rows at one instant the last
-/// one counts.
-struct Signals {
-  std::vector<std::int64_t> times;
-  std::vector<Column> columns;
-  std::optional<std::size_t> thinned;  ///< rows of each block of which only the extremes were kept
-};
 
 /// A row of events.csv.
 struct Message {

@@ -1,9 +1,11 @@
 #include "master/scenario/annotation.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -190,55 +192,47 @@ void read_results(const xml::Element& element, ScenarioAnnotation& annotation) {
   }
 }
 
+/// A child of <stride:Scenario>.
+struct ScenarioElement {
+  std::string_view name;
+  bool may_repeat;
+  void (*read)(const xml::Element& element, ScenarioAnnotation& annotation);
+};
+
+constexpr ScenarioElement kElements[] = {
+    {"Step", false, [](const auto& element, auto& to) { read_step(element, to.step); }},
+    {"Exchange", false, [](const auto& element, auto& to) { read_exchange(element, to.step); }},
+    {"Record", true, read_record},
+    {"Checks", false, [](const auto& element, auto& to) { to.checks = read_checks(element); }},
+    {"Results", false, read_results},
+    {"Plot", true, read_plot},
+    {"MainThread", true, read_main_thread},
+    {"EarlyReturn", true, read_early_return},
+    {"Host", true, [](const auto& element, auto& to) { read_host(element, to.hosts); }},
+    {"IdleSkip", true, [](const auto& element, auto& to) { read_idle_skip(element, to.idle); }},
+    {"Deadband", true,
+     [](const auto& element, auto& to) {
+       to.idle.deadbands.push_back(read_idle_number(element, core::parse_at_least_zero));
+     }},
+    {"Tolerance", true,
+     [](const auto& element, auto& to) {
+       to.idle.tolerances.push_back(read_idle_number(element, core::parse_above_zero));
+     }},
+};
+
+template <std::size_t... i>
+void allow_elements(const xml::Element& scenario, std::index_sequence<i...>) {
+  scenario.allow_children({xml::Name(ssp::kStrideScenario, kElements[i].name)...});
+}
+
 ScenarioAnnotation read_scenario_element(const xml::Element& scenario) {
   scenario.allow_attributes({});
-  scenario.allow_children({{ssp::kStrideScenario, "Step"},
-                           {ssp::kStrideScenario, "Exchange"},
-                           {ssp::kStrideScenario, "Record"},
-                           {ssp::kStrideScenario, "Checks"},
-                           {ssp::kStrideScenario, "Results"},
-                           {ssp::kStrideScenario, "Plot"},
-                           {ssp::kStrideScenario, "MainThread"},
-                           {ssp::kStrideScenario, "EarlyReturn"},
-                           {ssp::kStrideScenario, "Host"},
-                           {ssp::kStrideScenario, "IdleSkip"},
-                           {ssp::kStrideScenario, "Deadband"},
-                           {ssp::kStrideScenario, "Tolerance"}});
+  allow_elements(scenario, std::make_index_sequence<std::size(kElements)>());
   ScenarioAnnotation annotation;
-  if (const auto step = scenario.child({ssp::kStrideScenario, "Step"}))
-    read_step(*step, annotation.step);
-  if (const auto exchange = scenario.child({ssp::kStrideScenario, "Exchange"})) {
-    read_exchange(*exchange, annotation.step);
-  }
-  for (const xml::Element& record : scenario.children({ssp::kStrideScenario, "Record"})) {
-    read_record(record, annotation);
-  }
-  for (const xml::Element& element : scenario.children({ssp::kStrideScenario, "Plot"})) {
-    read_plot(element, annotation);
-  }
-  if (const auto checks = scenario.child({ssp::kStrideScenario, "Checks"})) {
-    annotation.checks = read_checks(*checks);
-  }
-  for (const xml::Element& element : scenario.children({ssp::kStrideScenario, "MainThread"})) {
-    read_main_thread(element, annotation);
-  }
-  for (const xml::Element& element : scenario.children({ssp::kStrideScenario, "EarlyReturn"})) {
-    read_early_return(element, annotation);
-  }
-  for (const xml::Element& element : scenario.children({ssp::kStrideScenario, "Host"})) {
-    read_host(element, annotation.hosts);
-  }
-  for (const xml::Element& element : scenario.children({ssp::kStrideScenario, "IdleSkip"})) {
-    read_idle_skip(element, annotation.idle);
-  }
-  for (const xml::Element& element : scenario.children({ssp::kStrideScenario, "Deadband"})) {
-    annotation.idle.deadbands.push_back(read_idle_number(element, core::parse_at_least_zero));
-  }
-  for (const xml::Element& element : scenario.children({ssp::kStrideScenario, "Tolerance"})) {
-    annotation.idle.tolerances.push_back(read_idle_number(element, core::parse_above_zero));
-  }
-  if (const auto results = scenario.child({ssp::kStrideScenario, "Results"})) {
-    read_results(*results, annotation);
+  for (const ScenarioElement& kind : kElements) {
+    const xml::Name name(ssp::kStrideScenario, kind.name);
+    if (!kind.may_repeat) scenario.child(name);  // two are an error
+    for (const xml::Element& element : scenario.children(name)) kind.read(element, annotation);
   }
   return annotation;
 }

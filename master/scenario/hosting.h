@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "master/algorithm/run_options.h"
-#include "master/isolation/hosted_unit.h"
+#include "master/isolation/host_options.h"
 #include "master/model/system.h"
 #include "master/scenario/run_settings.h"
 

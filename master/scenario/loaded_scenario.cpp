@@ -9,6 +9,7 @@
 
 #include "master/algorithm/step_policies/step_policy.h"
 #include "master/checks/checks.h"
+#include "master/isolation/hosted_unit.h"
 #include "master/scenario/check_selection.h"
 #include "master/scenario/component_selection.h"
 #include "master/scenario/film.h"

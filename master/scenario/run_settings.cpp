@@ -70,6 +70,24 @@ void check(const IdleRule& rule, const core::StepOptions& step) {
                    "--no-idle-skip)");
 }
 
+/// By component.
+std::vector<std::optional<Duration>> max_skips(const std::vector<IdleRule>& rules,
+                                               const core::System& system,
+                                               const core::StepOptions& step) {
+  constexpr Duration kDefault = IdleSettings::kDefaultMaxSkip;
+  std::vector<std::string> names;
+  for (const core::Component& component : system.components()) names.push_back(component.name);
+  std::vector<std::optional<Duration>> skips(names.size(), kDefault);
+  for (const IdleRule& rule : rules) {
+    check(rule, step);
+    for (const std::size_t i : select_components(names, {&rule.components, 1})) {
+      skips[i].reset();
+      if (rule.enabled) skips[i] = rule.max_skip.value_or(kDefault);
+    }
+  }
+  return skips;
+}
+
 }  // namespace
 
 void StepSettings::set_policy(std::string_view text) {
@@ -142,29 +160,20 @@ core::IdleOptions IdleSettings::options(const core::System& system,
                                         const core::StepOptions& step) const {
   core::IdleOptions options;
   options.least = step.policy->has_grid ? step.size : Duration{1};
-  std::vector<std::string> names;
-  for (const core::Component& component : system.components()) names.push_back(component.name);
-  options.max_skip.assign(names.size(), kDefaultMaxSkip);
-  for (const IdleRule& rule : rules) {
-    check(rule, step);
-    for (const std::size_t i : select_components(names, {&rule.components, 1})) {
-      options.max_skip[i].reset();
-      if (rule.enabled) options.max_skip[i] = rule.max_skip.value_or(kDefaultMaxSkip);
-    }
-  }
+  options.max_skip = max_skips(rules, system, step);
+  const auto is_input = [](const core::UnitDescription& unit, const core::Variable& variable) {
+    return unit.promises_idle && variable.causality == core::Causality::Input &&
+           variable.type == core::ValueType::Float64;
+  };
   for (const IdleNumber& deadband : deadbands) {
-    const auto is_input = [](const core::UnitDescription& unit, const core::Variable& variable) {
-      return unit.promises_idle && variable.causality == core::Causality::Input &&
-             variable.type == core::ValueType::Float64;
-    };
     options.deadbands.push_back(
         {find(system, deadband, "a Float64 input of a unit that can promise to be idle", is_input),
          deadband.value});
   }
+  const auto has_one = [](const core::UnitDescription&, const core::Variable& variable) {
+    return variable.tolerance.has_value();
+  };
   for (const IdleNumber& tolerance : tolerances) {
-    const auto has_one = [](const core::UnitDescription&, const core::Variable& variable) {
-      return variable.tolerance.has_value();
-    };
     options.tolerances.push_back(
         {find(system, tolerance, "an output with a tolerance", has_one), tolerance.value});
   }

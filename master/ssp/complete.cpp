@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <stride/xml_text.h>
+
 #include "master/ssp/definitions.h"
 #include "master/ssp/ssp.h"
 #include "master/ssp/system_reader.h"
@@ -106,7 +108,7 @@ class Completion {
     std::string content = type(component, path, description, variable);
     if (!is_first_version_) content += dimensions(variable) + clocks(description, variable);
     const std::string start = fmt::format("<{}Connector name=\"{}\" kind=\"{}\"", ssd_,
-                                          xml::escaped(variable.name), name(variable.causality));
+                                          xml_escaped(variable.name), name(variable.causality));
     if (content.empty()) return start + "/>";
     return fmt::format("{}>{}</{}Connector>", start, content, ssd_);
   }
@@ -119,7 +121,7 @@ class Completion {
         const std::string unit = declared_unit(description, variable.unit);
         const char* word = is_first_version_ ? "Real" : core::name(variable.type);
         return unit.empty() ? fmt::format("<{}{}/>", ssc(), word)
-                            : fmt::format("<{}{} unit=\"{}\"/>", ssc(), word, xml::escaped(unit));
+                            : fmt::format("<{}{} unit=\"{}\"/>", ssc(), word, xml_escaped(unit));
       }
       case ValueType::Enumeration:
         return enumeration(path + "." + variable.name, variable);
@@ -150,14 +152,14 @@ class Completion {
     if (variable.items.empty()) return "";
     if (enumerations_.insert(enumeration_name).second) {
       std::string text =
-          fmt::format("<{}Enumeration name=\"{}\">", ssc(), xml::escaped(enumeration_name));
+          fmt::format("<{}Enumeration name=\"{}\">", ssc(), xml_escaped(enumeration_name));
       for (const auto& [item, value] : variable.items) {
         text +=
-            fmt::format("\n\t<{}Item name=\"{}\" value=\"{}\"/>", ssc(), xml::escaped(item), value);
+            fmt::format("\n\t<{}Item name=\"{}\" value=\"{}\"/>", ssc(), xml_escaped(item), value);
       }
       new_enumerations_.push_back(text + fmt::format("\n</{}Enumeration>", ssc()));
     }
-    return fmt::format("<{}Enumeration name=\"{}\"/>", ssc(), xml::escaped(enumeration_name));
+    return fmt::format("<{}Enumeration name=\"{}\"/>", ssc(), xml_escaped(enumeration_name));
   }
 
   /// The unit's name if the file can define it; otherwise nothing, and the FMU's own unit holds.
@@ -178,7 +180,7 @@ class Completion {
     if (base.factor != 1) attributes += fmt::format(" factor=\"{}\"", base.factor);
     if (base.offset != 0) attributes += fmt::format(" offset=\"{}\"", base.offset);
     return fmt::format("<{0}Unit name=\"{1}\"><{0}BaseUnit{2}/></{0}Unit>", ssc(),
-                       xml::escaped(unit), attributes);
+                       xml_escaped(unit), attributes);
   }
 
   std::string dimensions(const core::Variable& variable) {
@@ -193,7 +195,7 @@ class Completion {
     std::string text;
     for (const core::ValueReference reference : variable.clocks) {
       const core::Variable& clock = description.variables[*description.find(reference)];
-      text += fmt::format("<{}Clock name=\"{}\"/>", ssd_, xml::escaped(clock.name));
+      text += fmt::format("<{}Clock name=\"{}\"/>", ssd_, xml_escaped(clock.name));
     }
     return text;
   }

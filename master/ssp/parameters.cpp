@@ -158,11 +158,7 @@ std::vector<ParameterValue> read_values(const xml::Element& binding,
   return read_set(*set, context.definitions);
 }
 
-/// SSP 2.0, "ParameterMapping": what is not mapped is not applied, a parameter may get several
-/// names, and no name two parameters.
-std::vector<ParameterValue> map_values(const xml::Element& mapping,
-                                       const std::vector<ParameterValue>& values,
-                                       const BindingContext& context) {
+void check_mapping(const xml::Element& mapping) {
   if (!mapping.is(kSsm, "ParameterMapping")) {
     mapping.fail(fmt::format("{} is not a parameter mapping", mapping.tag()),
                  fmt::format("expected <ParameterMapping> of the namespace '{}'", kSsm));
@@ -172,30 +168,47 @@ std::vector<ParameterValue> map_values(const xml::Element& mapping,
   check_version(mapping, "parameter mappings");
   mapping.allow_children(
       {{kSsm, "MappingEntry"}, {kSsc, "MetaData"}, {kSsc, "Signature"}, {kSsm, "Annotations"}});
+}
+
+void check_entry(const xml::Element& entry) {
+  entry.allow_attributes({"source", "target", "suppressUnitConversion"});
+  entry.allow_children({{kSsc, "LinearTransformation"},
+                        {kSsc, "BooleanMappingTransformation"},
+                        {kSsc, "IntegerMappingTransformation"},
+                        {kSsc, "EnumerationMappingTransformation"},
+                        {kSsm, "Annotations"}});
+}
+
+/// Appends the values that the entry maps, with their new name; returns whether there are any.
+bool map_values_of(const xml::Element& entry, const std::vector<ParameterValue>& values,
+                   std::vector<ParameterValue>& mapped) {
+  const std::size_t before = mapped.size();
+  for (const ParameterValue& value : values) {
+    if (value.name != entry.given("source")) continue;
+    mapped.push_back(value);
+    mapped.back().name = entry.required("target");
+    mapped.back().segment = read_path_segment(entry);
+  }
+  return mapped.size() > before;
+}
+
+/// SSP 2.0, "ParameterMapping": what is not mapped is not applied, a parameter may get several
+/// names, and no name two parameters.
+std::vector<ParameterValue> map_values(const xml::Element& mapping,
+                                       const std::vector<ParameterValue>& values,
+                                       const BindingContext& context) {
+  check_mapping(mapping);
   std::vector<ParameterValue> mapped;
   std::set<std::string> targets;
   for (const xml::Element& entry : mapping.children({kSsm, "MappingEntry"})) {
-    entry.allow_attributes({"source", "target", "suppressUnitConversion"});
-    entry.allow_children({{kSsc, "LinearTransformation"},
-                          {kSsc, "BooleanMappingTransformation"},
-                          {kSsc, "IntegerMappingTransformation"},
-                          {kSsc, "EnumerationMappingTransformation"},
-                          {kSsm, "Annotations"}});
+    check_entry(entry);
     const std::string source = entry.given("source");
     const std::string target = entry.required("target");
     if (!targets.insert(target).second) {
       entry.fail(fmt::format("two parameters are mapped to '{}'", target),
                  "keep one of the two entries");
     }
-    bool is_there = false;
-    for (const ParameterValue& value : values) {
-      if (value.name != source) continue;
-      is_there = true;
-      mapped.push_back(value);
-      mapped.back().name = target;
-      mapped.back().segment = read_path_segment(entry);
-    }
-    if (is_there) continue;
+    if (map_values_of(entry, values, mapped)) continue;
     context.warnings.push_back(
         fmt::format("{}:{}: the parameter set has no '{}' to be mapped to '{}'", entry.where().file,
                     entry.where().line, source, target));

@@ -13,23 +13,13 @@ bool opens_changes(std::string_view keyword) {
          keyword == "$dumpoff";
 }
 
-}  // namespace
+enum class WordKind { Stamp, Scalar, Vector, Section, Unknown };
 
-Reader::Reader(std::filesystem::path file, CutOff cut_off)
-    : words_(std::move(file)), header_(read_header(words_)), on_cut_(cut_off) {}
-
-const Entry* Reader::next() {
-  if (cut_) return nullptr;
-  const std::string_view word = words_.next();
-  if (word.empty()) return end_of_file();
-  entry_.line = words_.line();
-  if (words_.is_at_end() && word != "$end") {
-    return cut_off(fmt::format("'{}' (no line end follows)", Words::shown(word)),
-                   "; a file that is whole needs a last line end");
-  }
-  switch (word.front()) {
+/// By the first character.
+inline WordKind kind_of(char first) {
+  switch (first) {
     case '#':
-      return read_stamp(word);
+      return WordKind::Stamp;
     case '0':
     case '1':
     case 'x':
@@ -46,22 +36,51 @@ const Entry* Reader::next() {
     case 'H':
     case '-':
     case '?':  // SystemC's, for a value that it has no letter for
-      return read_scalar(word);
+      return WordKind::Scalar;
     case 'b':
     case 'B':
     case 'r':
     case 'R':
     case 's':
     case 'S':
-      return read_vector(word);
+      return WordKind::Vector;
     case '$':
-      return read_section(word);
+      return WordKind::Section;
     default:
-      fail(entry_.line,
-           fmt::format("'{}' is not a time stamp, no change and no section", Words::shown(word)),
-           "expected #TIME, a change such as 1! or b101 !, or a section such as $comment; extended "
-           "dumps ($dumpports) are not supported");
+      return WordKind::Unknown;
   }
+}
+
+}  // namespace
+
+Reader::Reader(std::filesystem::path file, CutOff cut_off)
+    : words_(std::move(file)), header_(read_header(words_)), on_cut_(cut_off) {}
+
+const Entry* Reader::next() {
+  if (cut_) return nullptr;
+  const std::string_view word = words_.next();
+  if (word.empty()) return end_of_file();
+  entry_.line = words_.line();
+  if (words_.is_at_end() && word != "$end") {
+    return cut_off(fmt::format("'{}' (no line end follows)", Words::shown(word)),
+                   "; a file that is whole needs a last line end");
+  }
+  switch (kind_of(word.front())) {
+    case WordKind::Stamp:
+      return read_stamp(word);
+    case WordKind::Scalar:
+      return read_scalar(word);
+    case WordKind::Vector:
+      return read_vector(word);
+    case WordKind::Section:
+      return read_section(word);
+    case WordKind::Unknown:
+      break;
+  }
+  fail(entry_.line,
+       fmt::format("'{}' is not a time stamp, no change and no section", Words::shown(word)),
+       "expected #TIME, a change such as 1! or b101 !, or a section such as $comment; extended "
+       "dumps ($dumpports) are not supported");
 }
 
 const Entry* Reader::read_stamp(std::string_view word) {

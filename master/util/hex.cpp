@@ -1,6 +1,6 @@
 #include "master/util/hex.h"
 
-#include <charconv>
+#include <utility>
 
 namespace stride::core {
 
@@ -13,21 +13,15 @@ std::string to_hex(std::span<const std::uint8_t> bytes) {
 
 std::optional<std::uint8_t> hex_byte(std::string_view digits) {
   if (digits.size() < 2) return std::nullopt;
-  const char* const end = digits.data() + 2;
-  std::uint8_t byte = 0;
-  return std::from_chars(digits.data(), end, byte, 16).ptr == end ? std::optional(byte)
-                                                                  : std::nullopt;
+  const int high = hexadecimal_digit(digits[0]);
+  const int low = hexadecimal_digit(digits[1]);
+  if (high < 0 || low < 0) return std::nullopt;
+  return static_cast<std::uint8_t>(16 * high + low);
 }
 
 std::optional<std::vector<std::uint8_t>> from_hex(std::string_view digits) {
   std::vector<std::uint8_t> bytes;
-  bytes.reserve(digits.size() / 2);
-  for (; !digits.empty(); digits.remove_prefix(2)) {
-    const auto byte = hex_byte(digits);
-    if (!byte) return std::nullopt;
-    bytes.push_back(*byte);
-  }
-  return bytes;
+  return parse_hexadecimal(digits, bytes) ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
 }  // namespace stride::core

@@ -9,15 +9,16 @@
 #include <string_view>
 #include <vector>
 
+#include <stride/value_text.h>
+
 namespace stride::core {
 
 /// Calls write(char) with two lower-case digits for each byte.
 template <class Write>
 void write_hex(std::span<const std::uint8_t> bytes, Write&& write) {
-  constexpr char kDigits[] = "0123456789abcdef";
   for (const std::uint8_t byte : bytes) {
-    write(kDigits[byte >> 4]);
-    write(kDigits[byte & 15]);
+    write(kHexadecimalDigits[byte >> 4]);
+    write(kHexadecimalDigits[byte & 15]);
   }
 }
 

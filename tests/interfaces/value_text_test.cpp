@@ -31,6 +31,16 @@ TEST_CASE("an error names the type, as it is called where the value is") {
                     "'red' is not a valid Int64; expected a whole number within its range");
 }
 
+TEST_CASE("a text is cut between characters") {
+  CHECK(whole_characters("aö€", 6) == 6);
+  CHECK(whole_characters("aö€", 9) == 6);
+  CHECK(whole_characters("aö€", 5) == 3);
+  CHECK(whole_characters("aö€", 3) == 3);
+  CHECK(whole_characters("aö€", 2) == 1);
+  CHECK(whole_characters("ö", 1) == 0);
+  CHECK(whole_characters("", 0) == 0);
+}
+
 TEST_CASE("an error cuts a long text at the start of a character") {
   std::string text = "1";
   for (int i = 0; i < 40; ++i) text += "ö";

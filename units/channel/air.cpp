@@ -15,7 +15,7 @@ namespace {
 using stride::Time;
 
 FrameNumber number_of(const Reception& reception, Direction direction) {
-  return {2 * reception.tag + (direction == Direction::kUp ? 1 : 0), reception.number};
+  return {2 * reception.tag + (direction == Direction::Up ? 1 : 0), reception.number};
 }
 
 // So that no sum of times overflows; an importer may bring a frame late, but not by an hour.
@@ -68,7 +68,7 @@ Transit Air::transit(const nfc::Frame& frame, std::size_t, Time) const {
 }
 
 std::vector<Reception>& Air::receptions(Direction direction) {
-  return direction == Direction::kUp ? state_.up : state_.down;
+  return direction == Direction::Up ? state_.up : state_.down;
 }
 
 Time Air::now() const { return state_.observed.empty() ? Time{} : state_.observed.back().time; }
@@ -95,7 +95,7 @@ void Air::add_observation(Time now, double carrier_power) {
 
 // Whatever is known of the bits that have ended.
 void Air::decide() {
-  for (const Direction direction : {Direction::kDown, Direction::kUp}) {
+  for (const Direction direction : {Direction::Down, Direction::Up}) {
     for (Reception& reception : receptions(direction)) decide(reception, direction);
   }
 }
@@ -139,7 +139,7 @@ void Air::decide_next(Reception& reception, Direction direction, std::size_t ind
   const double signal = signal_at(reception.next_instant(), index, reception.tag, direction);
   reception.lost = is_too_weak(reception, signal, direction);
   if (reception.lost) return;
-  const double others = direction == Direction::kUp ? disturbance(reception, index, signal) : 0.0;
+  const double others = direction == Direction::Up ? disturbance(reception, index, signal) : 0.0;
   const double error_probability =
       bit_error_probability(direction, reception.tag, reception.sent.bit_rate, signal, others);
   if (!reception.has_header) return hear_header(reception, direction, error_probability);
@@ -155,7 +155,7 @@ void Air::hear_header(Reception& reception, Direction direction, double error_pr
   const double intact = std::pow(1.0 - error_probability, reception.transit.header_bits);
   reception.has_header = true;
   if (uniform(seed_, number_of(reception, direction), kHeader) >= intact) reception.deaf = true;
-  if (direction == Direction::kDown) return;
+  if (direction == Direction::Down) return;
   for (Reception& other : state_.up) {
     if (reception.keeps_busy_at(other.transit.begin)) other.deaf = true;
   }
@@ -167,14 +167,14 @@ bool Air::is_too_weak(const Reception& reception, double signal, Direction direc
 
 // Of tags that are too weak to collide with this one, or of all [W].
 double Air::disturbance(const Reception& reception, std::size_t index, double signal) const {
-  if (rules_.overlap == Overlap::kPass) return 0.0;
+  if (rules_.overlap == Overlap::Pass) return 0.0;
   const Time time = reception.next_instant();
   double power = 0.0;
   for (const Reception& other : state_.up) {
     if (&other == &reception || time <= other.transit.begin || time > other.end) continue;
-    const double disturbing = signal_at(time, index, other.tag, Direction::kUp);
+    const double disturbing = signal_at(time, index, other.tag, Direction::Up);
     const bool is_masked = disturbing * rules_.capture_ratio < signal;
-    if (is_masked || rules_.overlap == Overlap::kInterfere) power += disturbing;
+    if (is_masked || rules_.overlap == Overlap::Interfere) power += disturbing;
   }
   return power;
 }
@@ -235,7 +235,7 @@ std::optional<nfc::Frame> Air::to_tag(std::size_t tag) {
 
 std::optional<nfc::Frame> Air::to_reader() {
   decide();
-  if (rules_.overlap == Overlap::kSuperpose) return superposed_at_reader();
+  if (rules_.overlap == Overlap::Superpose) return superposed_at_reader();
   return take_ended(state_.up, now());
 }
 

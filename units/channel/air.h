@@ -13,14 +13,14 @@
 
 namespace channel {
 
-enum class Direction { kDown, kUp };  ///< from the reader to a tag, from a tag to the reader
+enum class Direction { Down, Up };  ///< from the reader to a tag, from a tag to the reader
 
 /// The power of the signal that each side gets from the other [W].
 struct Signals {
   double down = 0.0;  ///< at the tag
   double up = 0.0;    ///< at the reader
 
-  double of(Direction direction) const { return direction == Direction::kUp ? up : down; }
+  double of(Direction direction) const { return direction == Direction::Up ? up : down; }
   bool operator==(const Signals& other) const { return down == other.down && up == other.up; }
 };
 
@@ -37,15 +37,16 @@ struct Observation {
 
 /// How the reader receives frames of several tags that are on the air at once.
 enum class Overlap {
-  kSuperpose,  ///< one message (superposed()), but for tags that are masked by a stronger one
-  kInterfere,  ///< it hears the one whose header came first; each is noise to the others
-  kPass,       ///< each by itself
+  Superpose,  ///< one message (superposed()), but for tags that are masked by a stronger one
+  Interfere,  ///< it hears the one whose header came first; each is noise to the others
+  Pass,       ///< each by itself
 };
 
 struct Rules {
-  Overlap overlap = Overlap::kSuperpose;
-  bool half_duplex = true;     ///< a receiver does not receive what overlaps its transmission
-  double capture_ratio = 1.0;  ///< with kSuperpose: a tag stronger by this factor masks another
+  Overlap overlap = Overlap::Superpose;
+  bool half_duplex = true;  ///< a receiver does not receive what overlaps its transmission
+  double capture_ratio =
+      1.0;  ///< with Overlap::Superpose: a tag stronger by this factor masks another
 };
 
 /// A channel's frames. A technology derives from it and defines how strong signals are and how

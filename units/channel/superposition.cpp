@@ -13,12 +13,12 @@ using nfc::kBitsPerByte;
 using stride::Duration;
 using stride::Time;
 
-enum class Slot : std::uint8_t { kSilent, kZero, kOne, kCollision };
+enum class Slot : std::uint8_t { Silent, Zero, One, Collision };
 
 Slot both(Slot first, Slot second) {
-  if (first == Slot::kSilent) return second;
-  if (second == Slot::kSilent || first == second) return first;
-  return Slot::kCollision;
+  if (first == Slot::Silent) return second;
+  if (second == Slot::Silent || first == second) return first;
+  return Slot::Collision;
 }
 
 // The bits of the earliest frame as a grid, of which each frame takes some.
@@ -32,17 +32,17 @@ class Grid {
   void add(const nfc::Frame& frame) {
     const auto offset = bits_in_step(frame);
     if (!offset) return add_collision(frame.start, frame.start + nfc::air_time(frame));
-    if (*offset > 0) add(static_cast<std::size_t>(*offset) - 1, Slot::kCollision, false);
+    if (*offset > 0) add(static_cast<std::size_t>(*offset) - 1, Slot::Collision, false);
     for (std::size_t i = 0; i < frame.bits.size(); ++i) {
-      add(static_cast<std::size_t>(*offset) + i, frame.bits[i] != 0 ? Slot::kOne : Slot::kZero);
+      add(static_cast<std::size_t>(*offset) + i, frame.bits[i] != 0 ? Slot::One : Slot::Zero);
     }
   }
 
   nfc::Frame frame() const {
     nfc::Frame result{start_, bit_rate_, {}};
-    for (const Slot slot : slots_) result.bits.push_back(slot != Slot::kZero ? 1 : 0);
+    for (const Slot slot : slots_) result.bits.push_back(slot != Slot::Zero ? 1 : 0);
     for (std::size_t i = 0; i < slots_.size(); ++i) {
-      if (slots_[i] == Slot::kCollision) spoil_parity(result.bits, i / kBitsPerByte);
+      if (slots_[i] == Slot::Collision) spoil_parity(result.bits, i / kBitsPerByte);
     }
     return result;
   }
@@ -61,7 +61,7 @@ class Grid {
   void add_collision(Time from, Time to) {
     const auto index = [this](Time time) { return (time - start_) / bit_ - 1; };
     for (std::int64_t i = std::max<std::int64_t>(0, index(from)); i <= index(to); ++i) {
-      add(static_cast<std::size_t>(i), Slot::kCollision);
+      add(static_cast<std::size_t>(i), Slot::Collision);
     }
   }
 
@@ -69,7 +69,7 @@ class Grid {
   void add(std::size_t index, Slot slot, bool extend = true) {
     if (index >= slots_.size()) {
       if (!extend) return;
-      slots_.resize(index + 1, Slot::kSilent);
+      slots_.resize(index + 1, Slot::Silent);
     }
     slots_[index] = both(slots_[index], slot);
   }

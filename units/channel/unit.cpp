@@ -117,7 +117,7 @@ std::string ChannelUnit::describe_message(const stride::Variable& variable,
   const auto is_to_tag = [&](const TagPorts& tag) { return variable.data == &tag.to.frame; };
   const bool is_request =
       variable.data == &from_reader_.frame || std::any_of(ports_.begin(), ports_.end(), is_to_tag);
-  return nfc::in_words(value, is_request ? nfc::Sender::kReader : nfc::Sender::kTag);
+  return nfc::in_words(value, is_request ? nfc::Sender::Reader : nfc::Sender::Tag);
 }
 
 void ChannelUnit::save_state(stride::StateWriter& writer) const {

@@ -66,19 +66,18 @@ double SensorCase::ambient_rate(stride::Time time) const {
   return parameters_.drift_amplitude * drift_frequency() * std::cos(drift_phase(time));
 }
 
-stride::Duration SensorCase::case_tangent_holds_for(double tolerance, stride::Time time,
-                                                    double temperature, double absorbed_power,
-                                                    double rate, double deadband) const {
-  const double now = temperature_rate(time, temperature, absorbed_power);
+stride::Duration SensorCase::case_tangent_holds_for(const CaseTangent& tangent,
+                                                    double tolerance) const {
+  const double now = temperature_rate(tangent.time, tangent.temperature, tangent.absorbed_power);
   const double ambient = parameters_.drift_amplitude * drift_frequency();
   const double curvature = (ambient + std::max(std::abs(now), ambient)) / time_constant_;
-  const double other_slope = std::abs(now - rate);
-  const double other_power = deadband * parameters_.thermal_resistance;
+  const double other_slope = std::abs(now - tangent.rate);
+  const double other_power = tangent.deadband * parameters_.thermal_resistance;
   if (other_power < tolerance / 2) {
     return stride::tangent_holds_for(tolerance - other_power, curvature, other_slope);
   }
   return stride::tangent_holds_for(tolerance, curvature,
-                                   other_slope + deadband / parameters_.heat_capacity);
+                                   other_slope + tangent.deadband / parameters_.heat_capacity);
 }
 
 stride::Duration SensorCase::ambient_tangent_holds_for(double tolerance) const {

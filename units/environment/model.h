@@ -15,6 +15,15 @@ struct Parameters {
   double initial_temperature = 21.5;  ///< of the case at time 0 [degC]
 };
 
+/// A line that begins at the temperature of the case, and the power for which it has been drawn.
+struct CaseTangent {
+  stride::Time time;      ///< where it begins
+  double temperature;     ///< there [degC]
+  double rate;            ///< its slope [K/s]
+  double absorbed_power;  ///< there [W]
+  double deadband;        ///< within which the power stays of this one [W]
+};
+
 /// The case as one heat capacity that loses heat through one resistance (Incropera et al.,
 /// "Fundamentals of Heat and Mass Transfer", ch. 5, the lumped capacitance method):
 ///     C dT/dt = P - (T - T_ambient(t)) / R,  T_ambient(t) = mean + amplitude sin(2 pi t / period)
@@ -38,17 +47,14 @@ class SensorCase {
   double ambient_temperature(stride::Time time) const;  ///< [degC]
   double ambient_rate(stride::Time time) const;         ///< its derivative [K/s]
 
-  /// How long, from `time` on, the case's temperature stays within `tolerance` [K] of a line that
-  /// begins at it with the slope `rate` [K/s], while the absorbed power stays within `deadband` [W]
-  /// of this one.
+  /// How long the case's temperature stays within `tolerance` [K] of the tangent, while the
+  /// absorbed power stays within the deadband.
   ///
   /// The rate obeys RC dT'/dt + T' = dT_ambient/dt, of which the right side is never more than
-  /// a = 2 pi amplitude / period; so |T'| <= max(|T'(time)|, a) from `time` on, and
+  /// a = 2 pi amplitude / period; so |T'| <= max(|T'(time)|, a) from then on, and
   /// |T''| <= (a + max(|T'(time)|, a)) / RC. Another power moves the case by deadband R at most, at
   /// the rate deadband / C at most.
-  stride::Duration case_tangent_holds_for(double tolerance, stride::Time time, double temperature,
-                                          double absorbed_power, double rate,
-                                          double deadband) const;
+  stride::Duration case_tangent_holds_for(const CaseTangent& tangent, double tolerance) const;
   /// Likewise of the ambient temperature, with its own slope: |T''| <= (2 pi / period)^2 amplitude.
   stride::Duration ambient_tangent_holds_for(double tolerance) const;
 

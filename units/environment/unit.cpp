@@ -75,8 +75,8 @@ class Environment : public stride::Unit {
 
   // always: how long depends on how straight the temperatures run
   stride::Time idle_until(stride::Time now) const override {
-    const auto of_case = case_.case_tangent_holds_for(tolerance_of(temperature_), now, temperature_,
-                                                      absorbed_power_, rate_, kPowerDeadband);
+    const auto of_case = case_.case_tangent_holds_for(
+        {now, temperature_, rate_, absorbed_power_, kPowerDeadband}, tolerance_of(temperature_));
     const auto of_air = case_.ambient_tangent_holds_for(tolerance_of(ambient_temperature_));
     return stride::later(now, std::min(of_case, of_air));
   }

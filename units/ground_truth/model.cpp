@@ -53,21 +53,21 @@ Comparison Judge::compare(const Measurement& measurement) {
     deviation.truth = std::clamp(measurement.value, truth->low, truth->high);
     deviation.error = measurement.value - deviation.truth;
     const bool is_right = std::abs(deviation.error) <= parameters_.tolerance;
-    comparison.finding = is_right             ? Finding::kRight
-                         : truth->is_complete ? Finding::kWrong
-                                              : Finding::kUnknown;
+    comparison.finding = is_right             ? Finding::Right
+                         : truth->is_complete ? Finding::Wrong
+                                              : Finding::Unknown;
   }
   count(comparison);
   return comparison;
 }
 
 void Judge::count(const Comparison& comparison) {
-  if (comparison.finding == Finding::kUnknown) {
+  if (comparison.finding == Finding::Unknown) {
     ++state_.unknown;
     return;
   }
   const bool is_first = compared() == 0;
-  ++(comparison.finding == Finding::kRight ? state_.right : state_.wrong);
+  ++(comparison.finding == Finding::Right ? state_.right : state_.wrong);
   state_.last = comparison.deviation;
   if (is_first || std::abs(state_.last.error) > std::abs(state_.worst.error)) {
     state_.worst = state_.last;
@@ -93,7 +93,7 @@ std::string Judge::text_of(const Comparison& comparison) const {
   const std::string measured = "measurement at " + seconds(deviation.received) + ": " +
                                quantity_text(deviation.measured, quantity_.unit);
   const std::string made = "between " + seconds(comparison.from) + " and " + seconds(comparison.to);
-  if (comparison.finding == Finding::kUnknown) {
+  if (comparison.finding == Finding::Unknown) {
     return measured + " was made " + made + ", of which the truth is not remembered; " +
            "it is not compared";
   }

@@ -28,9 +28,9 @@ struct Measurement {
 };
 
 enum class Finding : std::uint8_t {
-  kRight,    ///< within the tolerance of the truth at some instant at which it may have been made
-  kWrong,    ///< at none
-  kUnknown,  ///< at none of those of which the truth is known, and of some it is not
+  Right,    ///< within the tolerance of the truth at some instant at which it may have been made
+  Wrong,    ///< at none
+  Unknown,  ///< at none of those of which the truth is known, and of some it is not
 };
 
 /// How far a measurement is off.
@@ -43,7 +43,7 @@ struct Deviation {
 
 /// What became of a measurement.
 struct Comparison {
-  Finding finding = Finding::kUnknown;
+  Finding finding = Finding::Unknown;
   stride::Time from, to;  ///< when it may have been made
   Deviation deviation;    ///< its truth and its error are 0 where nothing of the truth is known
 };

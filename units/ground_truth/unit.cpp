@@ -59,7 +59,7 @@ class GroundTruth : public stride::Unit {
     const Comparison comparison =
         judge_.compare({event.time(), value_, duration("measurement.age", age_),
                         duration("measurement.age_resolution", age_resolution_)});
-    if (comparison.finding != Finding::kRight) {
+    if (comparison.finding != Finding::Right) {
       log(stride::Severity::Warning, judge_.text_of(comparison));
     }
     show();

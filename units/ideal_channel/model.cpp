@@ -16,7 +16,7 @@ const Parameters& checked(const Parameters& parameters) {
 
 channel::Rules rules() {
   channel::Rules rules;
-  rules.overlap = channel::Overlap::kPass;
+  rules.overlap = channel::Overlap::Pass;
   rules.half_duplex = false;
   return rules;
 }

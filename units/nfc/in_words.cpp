@@ -42,7 +42,7 @@ std::string answer_in_words(const Bytes& content) {
   const std::size_t data = content.size() - 1;
   std::string text = name_of(status);
   if (data == 0) return text;
-  if (status == Status::kOk) {
+  if (status == Status::Ok) {
     if (data == 2) return text + " " + temperature(content, 1);
     if (data == 4) return text + " " + hexadecimal(number_in(content, 1, 5));
     const bool is_log = data % kLogSampleBytes == 0 && data / kLogSampleBytes <= kLogSamples;
@@ -60,11 +60,11 @@ std::string request_in_words(const Bytes& content) {
     return text + " " + digits(content, 1) + ", wrong size of arguments";
   }
   switch (command) {
-    case Command::kSetLed:
+    case Command::SetLed:
       return text + " " + std::to_string(content[1]);
-    case Command::kSelect:
+    case Command::Select:
       return text + " " + hexadecimal(number_in(content, 1, 5));
-    case Command::kSetSamplingPeriod:
+    case Command::SetSamplingPeriod:
       return text + " " + std::to_string(number_in(content, 1, 3)) + " s";
     default:
       return content.size() == 1 ? text : text + " " + digits(content, 1);
@@ -82,7 +82,7 @@ std::optional<Command> begun_command(const Bits& bits) {
 std::string damage_in_words(const Bits& bits, Sender sender) {
   if (bits.empty()) return "cut before its first bit";
   const std::string cut = "cut after " + std::to_string(bits.size());
-  if (sender == Sender::kReader) {
+  if (sender == Sender::Reader) {
     if (const auto command = begun_command(bits)) {
       const auto arguments = static_cast<std::size_t>(argument_bytes(*command));
       const std::size_t whole = kBitsPerByte * (1 + arguments + kCrcBytes);
@@ -99,7 +99,7 @@ std::string bits_in_words(const Bits& bits, Sender sender) {
   const auto bytes = to_bytes(bits);
   const auto content = bytes ? without_crc(*bytes) : std::nullopt;
   if (!content || content->empty()) return damage_in_words(bits, sender);
-  return sender == Sender::kReader ? request_in_words(*content) : answer_in_words(*content);
+  return sender == Sender::Reader ? request_in_words(*content) : answer_in_words(*content);
 }
 
 }  // namespace

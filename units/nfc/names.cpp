@@ -13,32 +13,18 @@ std::string hexadecimal(std::uint32_t number, int digits) {
 }  // namespace
 
 std::string name_of(Command command) {
-  switch (command) {
-    case Command::kIdentify:
-      return "identify";
-    case Command::kReadTemperature:
-      return "read_temperature";
-    case Command::kSetLed:
-      return "set_led";
-    case Command::kSelect:
-      return "select";
-    case Command::kReadLog:
-      return "read_log";
-    case Command::kSetSamplingPeriod:
-      return "set_sampling_period";
-    case Command::kSleep:
-      return "sleep";
-  }
-  return "raw " + hexadecimal(static_cast<std::uint8_t>(command), 2);
+  const CommandFormat* const format = find_format(command);
+  return format != nullptr ? format->name
+                           : "raw " + hexadecimal(static_cast<std::uint8_t>(command), 2);
 }
 
 std::string name_of(Status status) {
   switch (status) {
-    case Status::kOk:
+    case Status::Ok:
       return "ok";
-    case Status::kUnknownCommand:
+    case Status::UnknownCommand:
       return "unknown_command";
-    case Status::kBadArgument:
+    case Status::BadArgument:
       return "bad_argument";
   }
   return "status " + hexadecimal(static_cast<std::uint8_t>(status), 2);

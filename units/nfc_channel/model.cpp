@@ -85,14 +85,14 @@ Signals Channel::signals_at(std::size_t index, double carrier_power) const {
 }
 
 double Channel::least_signal(Direction direction, std::size_t tag) const {
-  return direction == Direction::kUp ? parameters_.reader.sensitivity
-                                     : tags_[tag].parameters.power_threshold;
+  return direction == Direction::Up ? parameters_.reader.sensitivity
+                                    : tags_[tag].parameters.power_threshold;
 }
 
 double Channel::bit_error_probability(Direction direction, std::size_t index,
                                       std::uint32_t bit_rate, double signal, double others) const {
   const Tag& tag = tags_[index];
-  const bool up = direction == Direction::kUp;
+  const bool up = direction == Direction::Up;
   const BitSignal& bit = (up ? tag.up : tag.down)[index_of(bit_rate)];
   const double noise =
       (up ? reader_noise_density_ : tag.noise_density) + others / kInterferenceBandwidth;

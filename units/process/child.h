@@ -18,6 +18,7 @@ class Descriptor {
   explicit Descriptor(int number) : number_(number) {}
   ~Descriptor() { close(); }
   Descriptor(Descriptor&& other) noexcept;
+  /// Closes its own file first.
   Descriptor& operator=(Descriptor&& other) noexcept;
 
   int number() const { return number_; }

@@ -1,5 +1,6 @@
 #include "units/reader/answer.h"
 
+#include <stride/nfc/commands.h>
 #include <stride/nfc/iso14443a.h>
 #include <stride/nfc/numbers.h>
 
@@ -7,40 +8,21 @@ namespace reader {
 namespace {
 
 constexpr double kCountsPerDegree = 100.0;
-constexpr std::size_t kLongestData = nfc::kLogSamples * nfc::kLogSampleBytes;
 
-/// How many bytes of data follow kOk.
-struct DataSize {
-  std::size_t least;
-  std::size_t most;
-  std::size_t unit = 1;  // it is a multiple of this
-};
-
-DataSize data_size(nfc::Command command) {
-  switch (command) {
-    case nfc::Command::kIdentify:
-      return {4, 4};
-    case nfc::Command::kReadTemperature:
-      return {2, 2};
-    case nfc::Command::kReadLog:
-      return {0, kLongestData, nfc::kLogSampleBytes};
-    case nfc::Command::kSelect:
-    case nfc::Command::kSetSamplingPeriod:
-    case nfc::Command::kSetLed:
-    case nfc::Command::kSleep:
-      return {0, 0};
-  }
-  return {0, kLongestData};
+/// An answer to a command that is not known may have any data.
+nfc::DataSize data_size(nfc::Command command) {
+  const nfc::CommandFormat* const format = nfc::find_format(command);
+  return format != nullptr ? format->data : nfc::DataSize{0, nfc::kLogSize.most, 1};
 }
 
 bool is_known(nfc::Status status) {
-  return status == nfc::Status::kOk || status == nfc::Status::kUnknownCommand ||
-         status == nfc::Status::kBadArgument;
+  return status == nfc::Status::Ok || status == nfc::Status::UnknownCommand ||
+         status == nfc::Status::BadArgument;
 }
 
 bool fits(nfc::Command command, nfc::Status status, std::size_t size) {
-  if (status != nfc::Status::kOk) return size == 0;
-  const DataSize expected = data_size(command);
+  if (status != nfc::Status::Ok) return size == 0;
+  const nfc::DataSize expected = data_size(command);
   return size >= expected.least && size <= expected.most && size % expected.unit == 0;
 }
 
@@ -73,10 +55,10 @@ std::optional<Answer> parse_answer(nfc::Command command, const nfc::Bits& bits) 
   if (!is_known(answer.status) || !fits(command, answer.status, content->size() - 1)) {
     return std::nullopt;
   }
-  if (answer.status != nfc::Status::kOk) return answer;
-  if (command == nfc::Command::kIdentify) answer.identifier = nfc::number_in(*content, 1, 5);
-  if (command == nfc::Command::kReadTemperature) answer.temperature = temperature(*content, 1);
-  if (command == nfc::Command::kReadLog) read_log(*content, answer);
+  if (answer.status != nfc::Status::Ok) return answer;
+  if (command == nfc::Command::Identify) answer.identifier = nfc::number_in(*content, 1, 5);
+  if (command == nfc::Command::ReadTemperature) answer.temperature = temperature(*content, 1);
+  if (command == nfc::Command::ReadLog) read_log(*content, answer);
   return answer;
 }
 

@@ -24,7 +24,7 @@ struct Sample {
 
 /// The sensor's answer to a command.
 struct Answer {
-  nfc::Status status = nfc::Status::kOk;
+  nfc::Status status = nfc::Status::Ok;
   std::uint32_t identifier = 0;  ///< after identify
   double temperature = 0.0;      ///< after read_temperature [degC]
   std::uint32_t sample_count = 0;
@@ -33,7 +33,7 @@ struct Answer {
 };
 
 /// Nothing unless parity, CRC and status are right and the data are what the command calls for: an
-/// answer with another status than kOk has no data. What a command that is not in nfc::Command
+/// answer with another status than Ok has no data. What a command that is not in nfc::Command
 /// calls for is unknown, so any data will do.
 std::optional<Answer> parse_answer(nfc::Command command, const nfc::Bits& bits);
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include <stride/nfc/commands.h>
 #include <stride/nfc/names.h>
 #include <stride/nfc/numbers.h>
 #include <stride/value_text.h>
@@ -60,9 +61,9 @@ Request raw_request(const Element& element) {
 nfc::Command to_command(const Element& element) {
   const std::string name = element.text("name");
   std::vector<std::string> known;
-  for (const nfc::Command command : nfc::kCommands) {
-    if (name == name_of(command)) return command;
-    known.push_back(name_of(command));
+  for (const nfc::CommandFormat& format : nfc::kCommands) {
+    if (name == format.name) return format.command;
+    known.push_back(format.name);
   }
   known.push_back(kRaw);
   element.fail("unknown command '" + name + "': expected one of " + xml::quoted_list(known));
@@ -75,13 +76,13 @@ Request request(const Element& element) {
   }
   const nfc::Command command = to_command(element);
   switch (command) {
-    case nfc::Command::kSetLed:
+    case nfc::Command::SetLed:
       allow_attributes(element, {"led"});
       return {command, led(element)};
-    case nfc::Command::kSelect:
+    case nfc::Command::Select:
       allow_attributes(element, {"identifier"});
       return {command, nfc::most_significant_first(identifier(element))};
-    case nfc::Command::kSetSamplingPeriod:
+    case nfc::Command::SetSamplingPeriod:
       allow_attributes(element, {"period"});
       return {command, nfc::most_significant_first(
                            static_cast<std::uint16_t>(element.whole_number("period", 0, 0xFFFF)))};
@@ -126,11 +127,11 @@ std::uint32_t bit_rate(const Element& element) {
 /// The attributes of an <expect> that are about the data.
 std::vector<std::string> data_attributes(nfc::Command command) {
   switch (command) {
-    case nfc::Command::kIdentify:
+    case nfc::Command::Identify:
       return {"identifier"};
-    case nfc::Command::kReadTemperature:
+    case nfc::Command::ReadTemperature:
       return {"lowest", "highest"};
-    case nfc::Command::kReadLog:
+    case nfc::Command::ReadLog:
       return {"lowest", "highest", "samples"};
     default:
       return {};
@@ -169,7 +170,7 @@ Expectation parse_expectation(const Element& element, nfc::Command command) {
   Expectation expectation;
   read_status(element, expectation);
   auto attributes = data_attributes(command);
-  if (!expectation.answer || expectation.status != nfc::Status::kOk) attributes.clear();
+  if (!expectation.answer || expectation.status != nfc::Status::Ok) attributes.clear();
   attributes.insert(attributes.begin(), "status");
   element.allow_only_leaf(attributes);
   if (element.has("identifier")) expectation.identifier = identifier(element);

@@ -46,10 +46,10 @@ bool is_met(const Expectation& expectation, nfc::Command command,
             const std::optional<Answer>& answer) {
   if (!answer) return !expectation.answer;
   if (!expectation.answer || answer->status != expectation.status) return false;
-  if (answer->status != nfc::Status::kOk) return true;
+  if (answer->status != nfc::Status::Ok) return true;
   if (expectation.identifier && answer->identifier != *expectation.identifier) return false;
-  if (command == nfc::Command::kReadTemperature) return is_within(expectation, answer->temperature);
-  if (command != nfc::Command::kReadLog) return true;
+  if (command == nfc::Command::ReadTemperature) return is_within(expectation, answer->temperature);
+  if (command != nfc::Command::ReadLog) return true;
   return answer->sample_count >= expectation.samples &&
          std::all_of(
              answer->samples.begin(), answer->samples.begin() + answer->sample_count,
@@ -68,14 +68,14 @@ std::string text_of(const Expectation& expectation) {
 
 std::string text_of(nfc::Command command, const Answer& answer) {
   const std::string text = name_of(answer.status);
-  if (answer.status != nfc::Status::kOk) return text;
-  if (command == nfc::Command::kIdentify) {
+  if (answer.status != nfc::Status::Ok) return text;
+  if (command == nfc::Command::Identify) {
     return text + " identifier " + nfc::hexadecimal(answer.identifier);
   }
-  if (command == nfc::Command::kReadTemperature) {
+  if (command == nfc::Command::ReadTemperature) {
     return text + " " + xml::shortest(answer.temperature) + " degC";
   }
-  if (command == nfc::Command::kReadLog) return text + log_text(answer);
+  if (command == nfc::Command::ReadLog) return text + log_text(answer);
   return text;
 }
 

@@ -12,10 +12,10 @@
 
 namespace reader {
 
-/// The data are looked at where the status is kOk.
+/// The data are looked at where the status is Ok.
 struct Expectation {
   bool answer = true;  ///< false: no intact answer must come
-  nfc::Status status = nfc::Status::kOk;
+  nfc::Status status = nfc::Status::Ok;
   std::optional<std::uint32_t> identifier;  ///< of identify
   std::optional<double> lowest;   ///< of read_temperature, of each sample of read_log [degC]
   std::optional<double> highest;  ///< likewise

@@ -19,18 +19,18 @@ stride::Duration grace() { return nfc::bit_duration(106); }
 
 std::string got_text(const Record& record, nfc::Command command) {
   switch (record.outcome) {
-    case Outcome::kAnswered:
-    case Outcome::kRefused:
+    case Outcome::Answered:
+    case Outcome::Refused:
       return text_of(command, record.answer);
-    case Outcome::kUnanswered:
+    case Outcome::Unanswered:
       return "no answer";
-    case Outcome::kDamaged:
+    case Outcome::Damaged:
       return "a damaged answer";
-    case Outcome::kCut:
+    case Outcome::Cut:
       return "no answer because the antenna went off";
-    case Outcome::kNotSent:
+    case Outcome::NotSent:
       return "no chance because the antenna was off";
-    case Outcome::kWaiting:
+    case Outcome::Waiting:
       break;
   }
   return "nothing yet";
@@ -57,9 +57,9 @@ double Reader::carrier_power(stride::Time time) const {
 void Reader::advance(stride::Time now) {
   auto& s = state_;
   if (cut_is_due(now)) return;  // transmit() settles it
-  if (s.phase == Phase::kReceiving && s.reception.end <= now) finish_reception();
-  if (s.phase == Phase::kWaiting && s.give_up_at <= now) {
-    fail_try(s.give_up_at, Outcome::kUnanswered);
+  if (s.phase == Phase::Receiving && s.reception.end <= now) finish_reception();
+  if (s.phase == Phase::Waiting && s.give_up_at <= now) {
+    fail_try(s.give_up_at, Outcome::Unanswered);
   }
   skip_without_antenna(now);
 }
@@ -67,37 +67,37 @@ void Reader::advance(stride::Time now) {
 // what has to be sent now and cannot be, because the antenna is off
 void Reader::skip_without_antenna(stride::Time now) {
   if (carrier_end(program_, now)) return;
-  if (state_.phase == Phase::kPausing && state_.retry_at <= now) settle(now, state_.last_try);
+  if (state_.phase == Phase::Pausing && state_.retry_at <= now) settle(now, state_.last_try);
   while (command_is_due(now)) {
     Record record;
     record.sent_at = now;
     state_.records.push_back(record);
-    settle(now, Outcome::kNotSent);
+    settle(now, Outcome::NotSent);
   }
 }
 
 bool Reader::command_is_due(stride::Time now) const {
   const std::size_t next = state_.records.size();
-  return state_.phase == Phase::kIdle && next < program_.commands.size() &&
+  return state_.phase == Phase::Idle && next < program_.commands.size() &&
          program_.commands[next].at <= now;
 }
 
 bool Reader::cut_is_due(stride::Time now) const {
-  if (state_.phase != Phase::kWaiting) return false;
+  if (state_.phase != Phase::Waiting) return false;
   const auto end = carrier_end(program_, state_.request_start);
   return end && *end < state_.request_end && *end <= now;
 }
 
 bool Reader::is_due(stride::Time now) const {
   if (cut_is_due(now)) return true;
-  const bool again = state_.phase == Phase::kPausing && state_.retry_at <= now;
+  const bool again = state_.phase == Phase::Pausing && state_.retry_at <= now;
   return (again || command_is_due(now)) && carrier_end(program_, now).has_value();
 }
 
 std::optional<nfc::Frame> Reader::transmit(stride::Time now) {
   if (cut_is_due(now)) return cut();
   if (!is_due(now)) return std::nullopt;
-  if (state_.phase == Phase::kPausing) {
+  if (state_.phase == Phase::Pausing) {
     ++state_.counts.retries;
   } else {
     Record record;
@@ -115,7 +115,7 @@ nfc::Frame Reader::request(stride::Time start) const {
 
 void Reader::begin_try(stride::Time now) {
   ++state_.records.back().tries;
-  state_.phase = Phase::kWaiting;
+  state_.phase = Phase::Waiting;
   state_.request_start = now;
   state_.request_end = now + nfc::air_time(request(now));
   state_.deadline = state_.request_end + current().timeout;
@@ -125,14 +125,14 @@ void Reader::begin_try(stride::Time now) {
 nfc::Frame Reader::cut() {
   const stride::Time end = *carrier_end(program_, state_.request_start);
   nfc::Frame frame = nfc::cut_off(request(state_.request_start), end);
-  settle(end, Outcome::kCut);
+  settle(end, Outcome::Cut);
   return frame;
 }
 
 void Reader::receive(const nfc::Frame& frame) {
   auto& s = state_;
-  const bool receiving = s.phase == Phase::kReceiving;
-  if (!receiving && s.phase != Phase::kWaiting) return;
+  const bool receiving = s.phase == Phase::Receiving;
+  if (!receiving && s.phase != Phase::Waiting) return;
   if (frame.start < s.request_end || (frame.start > s.deadline && !receiving)) return;
   Reception reception;
   reception.end = frame.start + nfc::air_time(frame);
@@ -143,30 +143,30 @@ void Reader::receive(const nfc::Frame& frame) {
     reception.intact = answer.has_value();
     reception.answer = answer.value_or(Answer{});
   }
-  s.phase = Phase::kReceiving;
+  s.phase = Phase::Receiving;
   s.reception = reception;
 }
 
 void Reader::finish_reception() {
   const Reception reception = state_.reception;
-  if (!reception.intact) return fail_try(reception.end, Outcome::kDamaged);
+  if (!reception.intact) return fail_try(reception.end, Outcome::Damaged);
   const Answer& answer = reception.answer;
-  const bool is_ok = answer.status == nfc::Status::kOk;
+  const bool is_ok = answer.status == nfc::Status::Ok;
   state_.records.back().answer = answer;
   if (is_ok) keep_what_is_new(answer);
-  settle(reception.end, is_ok ? Outcome::kAnswered : Outcome::kRefused);
+  settle(reception.end, is_ok ? Outcome::Answered : Outcome::Refused);
 }
 
 void Reader::keep_what_is_new(const Answer& answer) {
-  if (current().command == nfc::Command::kIdentify) state_.identifier = answer.identifier;
-  if (current().command == nfc::Command::kReadTemperature) state_.temperature = answer.temperature;
-  if (current().command == nfc::Command::kReadLog) state_.logged = answer.sample_count;
+  if (current().command == nfc::Command::Identify) state_.identifier = answer.identifier;
+  if (current().command == nfc::Command::ReadTemperature) state_.temperature = answer.temperature;
+  if (current().command == nfc::Command::ReadLog) state_.logged = answer.sample_count;
   keep_temperatures(answer);
 }
 
 void Reader::keep_temperatures(const Answer& answer) {
   const stride::Time received = state_.reception.end;
-  if (current().command == nfc::Command::kReadTemperature) {
+  if (current().command == nfc::Command::ReadTemperature) {
     state_.measurements.push_back({received, answer.temperature, {}, {}});
   }
   for (std::uint32_t i = 0; i < answer.sample_count; ++i) {
@@ -186,26 +186,26 @@ Measurement Reader::take_measurement() {
 
 void Reader::fail_try(stride::Time at, Outcome outcome) {
   if (state_.records.back().tries > current().retries) return settle(at, outcome);
-  state_.phase = Phase::kPausing;
+  state_.phase = Phase::Pausing;
   state_.retry_at = at + current().pause;
   state_.last_try = outcome;
 }
 
 void Reader::settle(stride::Time at, Outcome outcome) {
   Record& record = state_.records.back();
-  const bool answered = outcome == Outcome::kAnswered || outcome == Outcome::kRefused;
+  const bool answered = outcome == Outcome::Answered || outcome == Outcome::Refused;
   const auto answer = answered ? std::optional<Answer>(record.answer) : std::nullopt;
   record.settled_at = at;
   record.outcome = outcome;
   record.as_expected =
-      outcome != Outcome::kNotSent && is_met(current().expectation, current().command, answer);
-  state_.phase = Phase::kIdle;
+      outcome != Outcome::NotSent && is_met(current().expectation, current().command, answer);
+  state_.phase = Phase::Idle;
 
   Counts& counts = state_.counts;
   if (answered) ++counts.answered;
-  if (outcome == Outcome::kRefused) ++counts.refused;
-  if (!answered && outcome != Outcome::kNotSent) ++counts.unanswered;
-  if (outcome == Outcome::kDamaged) ++counts.damaged;
+  if (outcome == Outcome::Refused) ++counts.refused;
+  if (!answered && outcome != Outcome::NotSent) ++counts.unanswered;
+  if (outcome == Outcome::Damaged) ++counts.damaged;
   ++(record.as_expected ? counts.as_expected : counts.unexpected);
 }
 
@@ -219,18 +219,18 @@ std::optional<stride::Time> Reader::next_event_time(stride::Time now) const {
     consider(interval.off);
   }
   switch (state_.phase) {
-    case Phase::kIdle:
+    case Phase::Idle:
       if (state_.records.size() < program_.commands.size()) {
         consider(program_.commands[state_.records.size()].at);
       }
       break;
-    case Phase::kWaiting:
+    case Phase::Waiting:
       consider(state_.give_up_at);
       break;
-    case Phase::kReceiving:
+    case Phase::Receiving:
       consider(state_.reception.end);
       break;
-    case Phase::kPausing:
+    case Phase::Pausing:
       consider(state_.retry_at);
       break;
   }

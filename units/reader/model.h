@@ -19,13 +19,13 @@
 namespace reader {
 
 enum class Outcome : std::uint8_t {
-  kWaiting,     ///< on the air, or its answer is, or it is to be sent again
-  kAnswered,    ///< an intact answer with status kOk
-  kRefused,     ///< an intact answer with another status
-  kUnanswered,  ///< no answer began in time
-  kDamaged,     ///< an answer came, but parity, CRC or content were wrong
-  kCut,         ///< the antenna was switched off while the request was on the air
-  kNotSent,     ///< the antenna was off when its turn had come
+  Waiting,     ///< on the air, or its answer is, or it is to be sent again
+  Answered,    ///< an intact answer with status Ok
+  Refused,     ///< an intact answer with another status
+  Unanswered,  ///< no answer began in time
+  Damaged,     ///< an answer came, but parity, CRC or content were wrong
+  Cut,         ///< the antenna was switched off while the request was on the air
+  NotSent,     ///< the antenna was off when its turn had come
 };
 
 /// What became of one command of the program.
@@ -33,7 +33,7 @@ struct Record {
   stride::Time sent_at;     ///< when its first frame began; when its turn came, if none did
   stride::Time settled_at;  ///< when the answer's frame ended, or the reader gave it up
   std::uint32_t tries = 0;  ///< frames that were sent for it
-  Outcome outcome = Outcome::kWaiting;
+  Outcome outcome = Outcome::Waiting;
   Answer answer;             ///< if there was an intact one
   bool as_expected = false;  ///< once it is settled
 };
@@ -52,7 +52,7 @@ struct Counts {
   std::uint64_t sent = 0;
   std::uint64_t retries = 0;      ///< frames sent again, for whichever command
   std::uint64_t answered = 0;     ///< by an intact answer, whatever its status
-  std::uint64_t refused = 0;      ///< those of the answered ones whose status was not kOk
+  std::uint64_t refused = 0;      ///< those of the answered ones whose status was not Ok
   std::uint64_t unanswered = 0;   ///< in the end; sent = answered + unanswered + waiting
   std::uint64_t damaged = 0;      ///< those of the unanswered ones whose last answer was damaged
   std::uint64_t as_expected = 0;  ///< of all that are settled, those never sent included
@@ -79,19 +79,19 @@ class Reader {
     Answer answer;
   };
 
-  enum class Phase : std::uint8_t { kIdle, kWaiting, kReceiving, kPausing };
+  enum class Phase : std::uint8_t { Idle, Waiting, Receiving, Pausing };
 
   /// All that a rollback has to bring back. What the axes and the carrier do is not part of it:
   /// they are functions of time.
   struct State {
     std::vector<Record> records;  ///< of the commands so far, in the program's order
-    Phase phase = Phase::kIdle;
+    Phase phase = Phase::Idle;
     stride::Time request_start;
     stride::Time request_end;
     stride::Time deadline;    ///< until when the answer may begin
     stride::Time give_up_at;  ///< when none that began in time can still come
     stride::Time retry_at;    ///< while pausing
-    Outcome last_try = Outcome::kWaiting;
+    Outcome last_try = Outcome::Waiting;
     Reception reception;
     Counts counts;
     double temperature = 0.0;              ///< last measured [degC], 0 before the first

@@ -102,7 +102,7 @@ class ReaderUnit : public stride::Unit {
   std::string describe_message(const stride::Variable& variable,
                                const stride::Binary& value) const override {
     const bool is_request = variable.data == &transmit_frame_;
-    return nfc::in_words(value, is_request ? nfc::Sender::kReader : nfc::Sender::kTag);
+    return nfc::in_words(value, is_request ? nfc::Sender::Reader : nfc::Sender::Tag);
   }
 
   // a state may come from an instance that runs another program, or with another seed
@@ -230,7 +230,7 @@ class ReaderUnit : public stride::Unit {
 
   bool has_report() const {
     const auto& records = reader_.state().records;
-    return reported_ < records.size() && records[reported_].outcome != reader::Outcome::kWaiting;
+    return reported_ < records.size() && records[reported_].outcome != reader::Outcome::Waiting;
   }
 
   bool has_news() const { return has_report() || reader_.has_measurement(); }

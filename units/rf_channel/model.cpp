@@ -24,7 +24,7 @@ const Parameters& checked(const Parameters& parameters) {
 
 channel::Rules rules() {
   channel::Rules rules;
-  rules.overlap = channel::Overlap::kInterfere;
+  rules.overlap = channel::Overlap::Interfere;
   return rules;
 }
 
@@ -61,8 +61,9 @@ Channel::Channel(const Parameters& parameters)
 void Channel::move_tag(std::size_t index, const Pose& reader, const Pose& tag, Link& link) {
   const Radio& radio = parameters_.tags[index].radio;
   link.distance = (tag.position - reader.position).norm();
-  link.gain = path_gain(reader, tag, parameters_.antenna, gain_of(parameters_.reader, radio),
-                        parameters_.ground, parameters_.frequency);
+  link.gain = path_gain(reader, tag,
+                        {parameters_.antenna, gain_of(parameters_.reader, radio),
+                         parameters_.ground, parameters_.frequency});
   link.coupling = std::sqrt(link.gain);
   link.signals = signals(index, carrier_power());
   link.field_strength = field_strength(link.signals.down, radio, parameters_.frequency);
@@ -82,13 +83,13 @@ Signals Channel::signals(std::size_t tag, double carrier_power) const {
 }
 
 double Channel::least_signal(Direction direction, std::size_t tag) const {
-  return direction == Direction::kUp ? parameters_.reader.sensitivity
-                                     : parameters_.tags[tag].radio.sensitivity;
+  return direction == Direction::Up ? parameters_.reader.sensitivity
+                                    : parameters_.tags[tag].radio.sensitivity;
 }
 
 double Channel::bit_error_probability(Direction direction, std::size_t tag, std::uint32_t,
                                       double signal, double others) const {
-  const double noise = direction == Direction::kUp ? reader_noise_ : tag_noises_[tag];
+  const double noise = direction == Direction::Up ? reader_noise_ : tag_noises_[tag];
   return rf_channel::bit_error_probability(parameters_.modulation,
                                            ratio_of(signal, noise + others));
 }

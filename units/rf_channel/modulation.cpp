@@ -24,7 +24,7 @@ double oqpsk_error(double ratio) {
 }  // namespace
 
 const PacketFormat& packet_format(Modulation modulation) {
-  return modulation == Modulation::kGfsk ? kGfskPacket : kOqpskPacket;
+  return modulation == Modulation::Gfsk ? kGfskPacket : kOqpskPacket;
 }
 
 double correlated_fsk_error(double bit_energy_to_noise, double correlation) {
@@ -42,7 +42,7 @@ double correlated_fsk_error(double bit_energy_to_noise, double correlation) {
 
 double bit_error_probability(Modulation modulation, double ratio) {
   if (std::isinf(ratio)) return 0.0;
-  if (modulation == Modulation::kOqpsk) return oqpsk_error(ratio);
+  if (modulation == Modulation::Oqpsk) return oqpsk_error(ratio);
   constexpr double kCorrelation = 2.0 / M_PI;  // of tones half a bit rate apart
   return correlated_fsk_error(ratio, kCorrelation);
 }

@@ -10,8 +10,8 @@
 namespace rf_channel {
 
 enum class Modulation : std::int64_t {
-  kOqpsk = 0,  ///< IEEE 802.15.4, O-QPSK PHY in the 2450 MHz band, 250 kbit/s
-  kGfsk = 1,   ///< as Bluetooth Low Energy, LE 1M
+  Oqpsk = 0,  ///< IEEE 802.15.4, O-QPSK PHY in the 2450 MHz band, 250 kbit/s
+  Gfsk = 1,   ///< as Bluetooth Low Energy, LE 1M
 };
 
 /// What a packet has around its bits, and how fast they are.

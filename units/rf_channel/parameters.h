@@ -29,8 +29,8 @@ struct Parameters {
   Radio reader;
   std::vector<TagParameters> tags = std::vector<TagParameters>(1);
   double frequency = 2.45e9;  ///< of the carrier [Hz]
-  Modulation modulation = Modulation::kOqpsk;
-  Antenna antenna = Antenna::kIsotropicVertical;
+  Modulation modulation = Modulation::Oqpsk;
+  Antenna antenna = Antenna::IsotropicVertical;
   Ground ground;
   std::uint64_t seed = 1;  ///< of the bit errors
 };

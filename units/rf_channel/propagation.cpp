@@ -47,7 +47,7 @@ struct Rays {
   }
 
   double direct_weight(const Vector3d& u) const {
-    if (antenna != Antenna::kDipole) return 1.0;
+    if (antenna != Antenna::Dipole) return 1.0;
     const Vector3d a = first.axis.normalized();
     const Vector3d b = second.axis.normalized();
     return a.dot(b) - a.dot(u) * b.dot(u);
@@ -60,8 +60,8 @@ struct Rays {
   }
 
   Complex reflected_weight(const Vector3d& down, const Reflection& reflection) const {
-    if (antenna == Antenna::kIsotropicVertical) return reflection.vertical;
-    if (antenna == Antenna::kIsotropicHorizontal) return reflection.horizontal;
+    if (antenna == Antenna::IsotropicVertical) return reflection.vertical;
+    if (antenna == Antenna::IsotropicHorizontal) return reflection.horizontal;
     const Vector3d a = first.axis.normalized();
     const Vector3d b = second.axis.normalized();
     const Vector3d side = across(down);
@@ -83,16 +83,16 @@ Reflection reflection(const Ground& ground, double sine, double frequency) {
           (sine - root) / (sine + root)};
 }
 
-double path_gain(const Pose& first, const Pose& second, Antenna antenna, double gain,
-                 const Ground& ground, double frequency) {
-  const Rays rays{first, second, antenna, ground, frequency};
+double path_gain(const Pose& first, const Pose& second, const PathConditions& conditions) {
+  const Ground& ground = conditions.ground;
+  const Rays rays{first, second, conditions.antenna, ground, conditions.frequency};
   Complex field = rays.direct();
   if (ground.reflects) {
     if (std::min(first.position.z(), second.position.z()) < ground.height) return 0.0;
     field += rays.reflected();
   }
   const double amplitude = rays.wavelength() / (4.0 * M_PI) * std::abs(field);
-  return std::min(1.0, gain * amplitude * amplitude);
+  return std::min(1.0, conditions.gain * amplitude * amplitude);
 }
 
 }  // namespace rf_channel

@@ -18,9 +18,9 @@ inline constexpr double kVacuumImpedance = 376.730313668;        ///< [Ohm], COD
 /// What both antennas are like. The isotropic ones do not exist, but are what formulas for paths
 /// over the ground are written for: alike in all directions, of one polarisation, always matched.
 enum class Antenna : std::int64_t {
-  kIsotropicVertical = 0,    ///< the electric field in the plane of incidence
-  kIsotropicHorizontal = 1,  ///< the electric field parallel to the ground
-  kDipole = 2,               ///< short, along the pose's axis
+  IsotropicVertical = 0,    ///< the electric field in the plane of incidence
+  IsotropicHorizontal = 1,  ///< the electric field parallel to the ground
+  Dipole = 2,               ///< short, along the pose's axis
 };
 
 /// A plane across the z axis, of one material.
@@ -29,6 +29,14 @@ struct Ground {
   double height = 0.0;         ///< its z [m]
   double permittivity = 15.0;  ///< relative
   double conductivity = 5e-3;  ///< [S/m]
+};
+
+/// What is the same wherever the antennas are.
+struct PathConditions {
+  Antenna antenna;  ///< of both
+  double gain;      ///< of both, as a product, in their best direction
+  Ground ground;
+  double frequency;  ///< [Hz]
 };
 
 struct Reflection {
@@ -57,13 +65,12 @@ Reflection reflection(const Ground& ground, double sine_of_angle, double frequen
 /// a ray in the direction u carries a field along a - (a u) u, the dipole's sin(theta) pattern
 /// (C. A. Balanis, "Antenna Theory", 4th ed., section 4.2 and 2.12); the ground reflects its parts
 /// in the plane of incidence and across it with a coefficient each, and b takes its part of what
-/// arrives. `gain` is G_r G_t, of the antennas in their best direction.
+/// arrives. The gain is G_r G_t.
 ///
 /// Far fields only: antennas count as no nearer than lambda / (2 pi), where a short dipole's near
 /// field begins, and never get more than was sent. An antenna below a ground that reflects gets
-/// nothing. Frequency in [Hz].
-double path_gain(const Pose& first, const Pose& second, Antenna antenna, double gain,
-                 const Ground& ground, double frequency);
+/// nothing.
+double path_gain(const Pose& first, const Pose& second, const PathConditions& conditions);
 
 }  // namespace rf_channel
 

@@ -20,7 +20,7 @@ constexpr stride::Duration kSecond = std::chrono::seconds(1);
 
 /// By those that are not selected, too.
 bool answered_by_all(Command command) {
-  return command == Command::kIdentify || command == Command::kSelect;
+  return command == Command::Identify || command == Command::Select;
 }
 
 /// The number that the arguments of a command are.
@@ -57,9 +57,9 @@ ControlUnit::ControlUnit(sc_core::sc_module_name name, const SensorParameters& p
 void ControlUnit::run() {
   if (!powered.read()) return switch_off();
   if (!carrier.read()) selected_ = false;
-  if (state_ == State::kOff) return switch_on();
-  if (state_ == State::kStop) {
-    if (!fifo_.empty() || sample_due_) enter(State::kWakeUp, parameters_.wake_up_cycles);
+  if (state_ == State::Off) return switch_on();
+  if (state_ == State::Stop) {
+    if (!fifo_.empty() || sample_due_) enter(State::WakeUp, parameters_.wake_up_cycles);
     return;
   }
   if (clock.posedge()) on_clock();
@@ -71,10 +71,10 @@ void ControlUnit::on_timer() {
   sample_event_.notify(sc_core::SC_ZERO_TIME);
 }
 
-void ControlUnit::switch_on() { enter(State::kBoot, parameters_.boot_cycles); }
+void ControlUnit::switch_on() { enter(State::Boot, parameters_.boot_cycles); }
 
 void ControlUnit::switch_off() {
-  state_ = State::kOff;
+  state_ = State::Off;
   fifo_.clear();
   log_.clear();
   timer_.cancel();
@@ -95,7 +95,7 @@ void ControlUnit::enter(State state, std::int32_t cycles) {
 }
 
 void ControlUnit::stop() {
-  state_ = State::kStop;
+  state_ = State::Stop;
   clock_enable.write(false);
   current.write(parameters_.sleep_current + timer_current());
 }
@@ -110,21 +110,21 @@ void ControlUnit::on_clock() {
 
 void ControlUnit::finish_state() {
   switch (state_) {
-    case State::kBoot:
-    case State::kWakeUp:
+    case State::Boot:
+    case State::WakeUp:
       return fetch();
-    case State::kDecode:
+    case State::Decode:
       return decode();
-    case State::kExecute:
+    case State::Execute:
       return execute();
-    case State::kStart:
+    case State::Start:
       return begin_conversion();
-    case State::kConvert:
+    case State::Convert:
       return finish_conversion();
-    case State::kHandOver:
+    case State::HandOver:
       return hand_over();
-    case State::kOff:
-    case State::kStop:
+    case State::Off:
+    case State::Stop:
       return;
   }
 }
@@ -132,7 +132,7 @@ void ControlUnit::finish_state() {
 void ControlUnit::fetch() {
   if (!fifo_.empty()) {
     command_ = fifo_.pop();
-    return enter(State::kDecode, parameters_.decode_cycles);
+    return enter(State::Decode, parameters_.decode_cycles);
   }
   if (!sample_due_) return stop();
   sample_due_ = false;
@@ -145,10 +145,10 @@ void ControlUnit::decode() {
   const bool well_formed =
       expected >= 0 && command_.data.size() == static_cast<std::size_t>(expected) + 1;
   if (!selected() && !(well_formed && answered_by_all(command()))) return fetch();
-  if (expected < 0) return answer(Status::kUnknownCommand);
-  if (!well_formed) return answer(Status::kBadArgument);
-  if (command() != Command::kReadTemperature) {
-    return enter(State::kExecute, parameters_.execute_cycles);
+  if (expected < 0) return answer(Status::UnknownCommand);
+  if (!well_formed) return answer(Status::BadArgument);
+  if (command() != Command::ReadTemperature) {
+    return enter(State::Execute, parameters_.execute_cycles);
   }
   sampling_ = false;
   start_conversion();
@@ -156,24 +156,24 @@ void ControlUnit::decode() {
 
 void ControlUnit::execute() {
   switch (command()) {
-    case Command::kIdentify:
-      return answer(Status::kOk, most_significant_first(identifier()));
-    case Command::kSelect:
+    case Command::Identify:
+      return answer(Status::Ok, most_significant_first(identifier()));
+    case Command::Select:
       return select();
-    case Command::kSetLed:
-      if (argument(command_.data) > 1) return answer(Status::kBadArgument);
+    case Command::SetLed:
+      if (argument(command_.data) > 1) return answer(Status::BadArgument);
       set_led(argument(command_.data) == 1);
-      return answer(Status::kOk);
-    case Command::kSetSamplingPeriod:
+      return answer(Status::Ok);
+    case Command::SetSamplingPeriod:
       set_sampling_period();
-      return answer(Status::kOk);
-    case Command::kReadLog:
-      return answer(Status::kOk, log_data());
-    case Command::kSleep:
+      return answer(Status::Ok);
+    case Command::ReadLog:
+      return answer(Status::Ok, log_data());
+    case Command::Sleep:
       set_led(false);
       selected_ = false;
-      return answer(Status::kOk);
-    case Command::kReadTemperature:
+      return answer(Status::Ok);
+    case Command::ReadTemperature:
       return;  // has been converted instead
   }
 }
@@ -185,7 +185,7 @@ std::uint32_t ControlUnit::identifier() const {
 void ControlUnit::select() {
   selected_ = argument(command_.data) == identifier() && carrier.read();
   if (!selected_) return fetch();
-  answer(Status::kOk);
+  answer(Status::Ok);
 }
 
 void ControlUnit::set_sampling_period() {
@@ -206,21 +206,21 @@ nfc::Bytes ControlUnit::log_data() const {
 
 void ControlUnit::start_conversion() {
   adc_start.write(true);
-  enter(State::kStart, 1);
+  enter(State::Start, 1);
 }
 
 void ControlUnit::begin_conversion() {
   if (!adc_busy.read()) return;
   adc_start.write(false);
   sampled_at_ = current_time();
-  enter(State::kConvert, 1);
+  enter(State::Convert, 1);
 }
 
 void ControlUnit::finish_conversion() {
   if (adc_busy.read()) return;
   const std::int16_t result = to_centidegrees(adc_, adc_code.read());
   if (!sampling_) {
-    return answer(Status::kOk, most_significant_first(static_cast<std::uint16_t>(result)));
+    return answer(Status::Ok, most_significant_first(static_cast<std::uint16_t>(result)));
   }
   log_.add({sampled_at_, result});
   fetch();
@@ -229,7 +229,7 @@ void ControlUnit::finish_conversion() {
 void ControlUnit::answer(Status status, const nfc::Bytes& data) {
   answer_ = {static_cast<std::uint8_t>(status)};
   append(answer_, data);
-  enter(State::kHandOver, parameters_.cycles_per_byte * static_cast<std::int32_t>(answer_.size()));
+  enter(State::HandOver, parameters_.cycles_per_byte * static_cast<std::int32_t>(answer_.size()));
 }
 
 void ControlUnit::hand_over() {

@@ -42,12 +42,12 @@ class ControlUnit : public sc_core::sc_module {
   ControlUnit(sc_core::sc_module_name name, const SensorParameters& parameters, CommandFifo& fifo);
 
   /// In stop mode or without power, with nothing to do until the timer goes off.
-  bool asleep() const { return (state_ == State::kStop || state_ == State::kOff) && !sample_due_; }
+  bool asleep() const { return (state_ == State::Stop || state_ == State::Off) && !sample_due_; }
   bool selected() const { return selected_ || always_selected_; }
   const SampleLog& log() const { return log_; }
 
  private:
-  enum class State { kOff, kBoot, kStop, kWakeUp, kDecode, kExecute, kStart, kConvert, kHandOver };
+  enum class State { Off, Boot, Stop, WakeUp, Decode, Execute, Start, Convert, HandOver };
 
   void run();
   void on_timer();
@@ -80,7 +80,7 @@ class ControlUnit : public sc_core::sc_module {
   bool always_selected_;
   CommandFifo& fifo_;
 
-  State state_ = State::kOff;
+  State state_ = State::Off;
   std::int32_t remaining_cycles_ = 0;
   ReceivedCommand command_;
   nfc::Bytes answer_;

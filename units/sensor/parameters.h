@@ -26,7 +26,7 @@ struct ControlUnitParameters {
   double sleep_current = 2.0e-6;         ///< in stop mode, the rest of the device included [A]
   double timer_current = 0.3e-6;         ///< of the timer, in addition, while it samples [A]
   double led_current = 1.0e-3;           ///< [A]
-  std::int32_t identifier = 0x53454E53;  ///< what kIdentify answers
+  std::int32_t identifier = 0x53454E53;  ///< what Command::Identify answers
 };
 
 struct AdcParameters {

@@ -81,9 +81,9 @@ void PowerUnit::arrive() {
   at_knee_ = false;
   if (good_ && !on_ && current_time() >= start_up_) on_ = true;
   if (!crossing_ || current_time() < crossing_->instant) return;
-  if (crossing_->threshold == Threshold::kPowerGood) power_good();
-  if (crossing_->threshold == Threshold::kBrownOut) brown_out();
-  at_knee_ = crossing_->threshold == Threshold::kKnee;
+  if (crossing_->threshold == Threshold::PowerGood) power_good();
+  if (crossing_->threshold == Threshold::BrownOut) brown_out();
+  at_knee_ = crossing_->threshold == Threshold::Knee;
 }
 
 void PowerUnit::take_currents() {
@@ -96,7 +96,7 @@ void PowerUnit::take_currents() {
     flow.mode = flow_.mode;
     if (at_knee_) {
       flow.mode =
-          flow_.mode == Mode::kConstantVoltage ? Mode::kConstantCurrent : Mode::kConstantVoltage;
+          flow_.mode == Mode::ConstantVoltage ? Mode::ConstantCurrent : Mode::ConstantVoltage;
     }
   }
   at_knee_ = false;
@@ -147,21 +147,21 @@ std::optional<PowerUnit::Crossing> PowerUnit::next_crossing() const {
   };
   const double knee = supply_.knee(flow_);
   switch (flow_.mode) {
-    case Mode::kConstantVoltage:
-      if (!rises && voltage_ > knee) consider(Threshold::kKnee, knee);
+    case Mode::ConstantVoltage:
+      if (!rises && voltage_ > knee) consider(Threshold::Knee, knee);
       return next;
-    case Mode::kConstantCurrent:
-      if (rises && voltage_ < knee) consider(Threshold::kKnee, knee);
+    case Mode::ConstantCurrent:
+      if (rises && voltage_ < knee) consider(Threshold::Knee, knee);
       break;
-    case Mode::kFromCapacitor:
+    case Mode::FromCapacitor:
       break;
   }
   if (rises && !good_) {
-    consider(Threshold::kPowerGood,
+    consider(Threshold::PowerGood,
              supply_.voltage_for_terminal(flow_, parameters_.power_on_voltage));
   }
   if (!rises && good_) {
-    consider(Threshold::kBrownOut,
+    consider(Threshold::BrownOut,
              supply_.voltage_for_terminal(flow_, parameters_.brown_out_voltage));
   }
   return next;

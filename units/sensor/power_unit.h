@@ -51,7 +51,7 @@ class PowerUnit : public sc_core::sc_module {
   PowerReadings curvatures_now() const;  ///< see Supply::curvatures()
 
  private:
-  enum class Threshold { kPowerGood, kBrownOut, kKnee };
+  enum class Threshold { PowerGood, BrownOut, Knee };
   struct Crossing {
     Threshold threshold;
     stride::Time instant;

@@ -33,7 +33,7 @@ Flow Supply::flow(double field_power, const Currents& parts, double voltage) con
   flow.load = std::accumulate(parts.begin(), parts.end(), 0.0);
   flow.current = std::min(flow.source - flow.load, p_.charging_current);
   if (flow.source <= flow.load) return flow;
-  flow.mode = voltage > knee(flow) ? Mode::kConstantVoltage : Mode::kConstantCurrent;
+  flow.mode = voltage > knee(flow) ? Mode::ConstantVoltage : Mode::ConstantCurrent;
   return flow;
 }
 
@@ -43,23 +43,23 @@ double Supply::knee(const Flow& flow) const {
 
 Relaxation Supply::capacitor(const Flow& flow) const {
   const double leakage_rate = 1 / (p_.leakage_resistance * p_.capacitance);
-  if (flow.mode != Mode::kConstantVoltage) return {flow.current / p_.capacitance, leakage_rate};
+  if (flow.mode != Mode::ConstantVoltage) return {flow.current / p_.capacitance, leakage_rate};
   const double charging_rate = 1 / (p_.series_resistance * p_.capacitance);
   return {p_.maximum_voltage * charging_rate, charging_rate + leakage_rate};
 }
 
 double Supply::current(const Flow& flow, double voltage) const {
-  if (flow.mode != Mode::kConstantVoltage) return flow.current;
+  if (flow.mode != Mode::ConstantVoltage) return flow.current;
   return (p_.maximum_voltage - voltage) / p_.series_resistance;
 }
 
 double Supply::terminal(const Flow& flow, double voltage) const {
-  if (flow.mode == Mode::kConstantVoltage) return p_.maximum_voltage;
+  if (flow.mode == Mode::ConstantVoltage) return p_.maximum_voltage;
   return voltage + flow.current * p_.series_resistance;
 }
 
 double Supply::rail(const Flow& flow, double voltage) const {
-  return flow.mode == Mode::kFromCapacitor ? terminal(flow, voltage) : p_.maximum_voltage;
+  return flow.mode == Mode::FromCapacitor ? terminal(flow, voltage) : p_.maximum_voltage;
 }
 
 double Supply::intake(const Flow& flow, double voltage) const {
@@ -82,7 +82,7 @@ EnergyBooks Supply::books(const Flow& flow, double voltage, double seconds) cons
     books.parts[i] = flow.parts[i] * p_.supply_voltage * seconds;
   }
   double rail = p_.maximum_voltage * seconds;  // integrated
-  if (flow.mode == Mode::kFromCapacitor) {
+  if (flow.mode == Mode::FromCapacitor) {
     const double drop = flow.current * p_.series_resistance;
     rail = law.integral(voltage, seconds) + drop * seconds;
     books.series_resistance = drop * flow.current * seconds;
@@ -101,7 +101,7 @@ void Supply::add_charging(EnergyBooks& books, const Flow& flow, double voltage,
                           double seconds) const {
   const double left = flow.source - flow.load;
   const Relaxation law = capacitor(flow);
-  if (flow.mode == Mode::kConstantCurrent) {
+  if (flow.mode == Mode::ConstantCurrent) {
     const double drop = flow.current * p_.series_resistance;
     const double highest = p_.maximum_voltage - drop;
     const Relaxation gap{law.rate * highest - law.drift, law.rate};
@@ -124,15 +124,15 @@ PowerReadings Supply::rates(const Flow& flow, double voltage) const {
   rates.stored = rates.charge * voltage;
   rates.books = powers(flow, voltage);
   switch (flow.mode) {
-    case Mode::kFromCapacitor:
+    case Mode::FromCapacitor:
       rates.terminal = rates.rail = slope;
       rates.intake = slope * (flow.load + flow.current);
       rates.load = slope * flow.load;
       break;
-    case Mode::kConstantCurrent:
+    case Mode::ConstantCurrent:
       rates.terminal = slope;
       break;
-    case Mode::kConstantVoltage:
+    case Mode::ConstantVoltage:
       rates.intake = -p_.maximum_voltage * slope / p_.series_resistance;
       break;
   }
@@ -150,7 +150,7 @@ EnergyBooks Supply::powers(const Flow& flow, double voltage) const {
   powers.leakage = voltage * voltage / p_.leakage_resistance;
   powers.regulator = flow.load * (on_rail - p_.supply_voltage);
   for (std::size_t i = 0; i < kParts; ++i) powers.parts[i] = flow.parts[i] * p_.supply_voltage;
-  if (flow.mode != Mode::kFromCapacitor) {
+  if (flow.mode != Mode::FromCapacitor) {
     powers.charger = into * (p_.maximum_voltage - terminal(flow, voltage));
     powers.limiter = p_.maximum_voltage * (left - into);
   }
@@ -167,7 +167,7 @@ PowerReadings Supply::curvatures(const Flow& flow, double voltage) const {
   bounds.stored = p_.capacitance * (slope * slope + highest * bend);
   bounds.books.leakage = 2 * highest * slope / p_.leakage_resistance;
   switch (flow.mode) {
-    case Mode::kFromCapacitor:
+    case Mode::FromCapacitor:
       bounds.terminal = bounds.rail = bend;
       bounds.intake = bend * std::abs(flow.load + flow.current);
       bounds.load = bend * flow.load;
@@ -175,11 +175,11 @@ PowerReadings Supply::curvatures(const Flow& flow, double voltage) const {
       bounds.books.rectifier = (1 - p_.rectifier_efficiency) * bounds.books.field;
       bounds.books.regulator = flow.load * slope;
       break;
-    case Mode::kConstantCurrent:
+    case Mode::ConstantCurrent:
       bounds.terminal = bend;
       bounds.books.charger = flow.current * slope;
       break;
-    case Mode::kConstantVoltage:
+    case Mode::ConstantVoltage:
       bounds.intake = p_.maximum_voltage * bend / p_.series_resistance;
       bounds.books.series_resistance = 2 * flow.current * slope;
       bounds.books.limiter = p_.maximum_voltage * slope / p_.series_resistance;

@@ -80,14 +80,14 @@ void visit_pairs(A& a, B& b, Visitor&& visit) {
 /// terminal has the maximum voltage, then this voltage. What is left over goes into the limiter. If
 /// it offers less, the capacitor feeds the rail through an ideal diode.
 struct Flow {
-  enum class Mode { kFromCapacitor, kConstantCurrent, kConstantVoltage };
+  enum class Mode { FromCapacitor, ConstantCurrent, ConstantVoltage };
 
-  Mode mode = Mode::kFromCapacitor;
+  Mode mode = Mode::FromCapacitor;
   double field_power = 0;  ///< [W]
   double source = 0;       ///< what the rectifier offers [A]
   Currents parts{};
   double load = 0;     ///< their sum [A]
-  double current = 0;  ///< into the capacitor, the most of it with kConstantVoltage [A]
+  double current = 0;  ///< into the capacitor, the most of it with Mode::ConstantVoltage [A]
 
   bool same_currents(const Flow& other) const {
     return field_power == other.field_power && parts == other.parts;
@@ -104,7 +104,7 @@ class Supply {
   /// falls, all the way.
   Relaxation capacitor(const Flow& flow) const;
 
-  /// The voltage at which kConstantCurrent and kConstantVoltage meet.
+  /// The voltage at which Mode::ConstantCurrent and Mode::ConstantVoltage meet.
   double knee(const Flow& flow) const;
 
   double current(const Flow& flow, double voltage) const;   ///< into the capacitor [A]
@@ -113,7 +113,7 @@ class Supply {
   double intake(const Flow& flow, double voltage) const;    ///< rectified and not shunted [W]
   double load(const Flow& flow, double voltage) const;      ///< regulator and parts [W]
 
-  /// The voltage at which the terminal has the given one. Not for kConstantVoltage.
+  /// The voltage at which the terminal has the given one. Not for Mode::ConstantVoltage.
   double voltage_for_terminal(const Flow& flow, double terminal) const;
 
   /// Where the energy goes in a time in which the flow stays as it is.

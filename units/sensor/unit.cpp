@@ -32,7 +32,7 @@ class SensorUnit : public stride::systemc::DeviceUnit<Sensor> {
   std::string describe_message(const stride::Variable& variable,
                                const stride::Binary& value) const override {
     const bool is_request = variable.data == &received_;
-    return nfc::in_words(value, is_request ? nfc::Sender::kReader : nfc::Sender::kTag);
+    return nfc::in_words(value, is_request ? nfc::Sender::Reader : nfc::Sender::Tag);
   }
 
  private:

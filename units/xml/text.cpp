@@ -1,14 +1,13 @@
 #include "units/xml/text.h"
 
-#include <array>
-#include <charconv>
+#include <stride/value_text.h>
 
 namespace xml {
 
 std::string shortest(double number) {
-  std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr;
-  return std::string(buffer.data(), end);
+  std::string text;
+  stride::append_value(text, number);
+  return text;
 }
 
 std::string quoted_list(const std::vector<std::string>& words) {

@@ -50,7 +50,7 @@ void EventHandler::begin() {
     activate(i);
     in_event_mode_[i] = has_event_ = true;
   }
-  for (std::size_t i = 0; i < count(); ++i) exchange_.fetch(i, *units_[i]);
+  for (std::size_t i = 0; i < count(); ++i) exchange_.read_outputs(i, *units_[i]);
 }
 
 std::optional<Time> EventHandler::next_event() const {
@@ -113,7 +113,7 @@ void EventHandler::update_announced() {
   }
 }
 
-/// Puts the units with an event or a discrete change of an input into Event Mode and delivers their
+/// Puts the units with an event or a discrete change of an input into Event Mode and writes their
 /// inputs. Returns whether another event iteration is needed.
 bool EventHandler::prepare_events() {
   for (const std::size_t i : clocks_.due(time_)) activate(i);
@@ -122,7 +122,7 @@ bool EventHandler::prepare_events() {
   }
   if (!has_active_ && !has_event_) return false;
   for (const std::size_t i : event_units_) {
-    if (in_event_mode_[i]) exchange_.deliver(i, *units_[i]);
+    if (in_event_mode_[i]) exchange_.write_inputs(i, *units_[i]);
     if (active_[i]) enter_event_mode(i);
   }
   return has_active_;
@@ -133,7 +133,7 @@ void EventHandler::enter_event_mode(std::size_t i) {
   if (idle_ != nullptr && idle_->is_suspended(i)) idle_->catch_up_and_report(i, time_);
   units_[i]->enter_event_mode();
   in_event_mode_[i] = has_event_ = true;
-  exchange_.deliver(i, *units_[i]);
+  exchange_.write_inputs(i, *units_[i]);
 }
 
 /// One super-dense instant: ticks with the values sampled at them, messages, then the units'
@@ -175,10 +175,10 @@ void EventHandler::tick_clocks() {
 /// One pass. Returns whether an input has yet to be written.
 bool EventHandler::exchange_samples(std::span<const std::size_t> ticking) {
   for (const std::size_t i : ticking) {
-    exchange_.deliver_sampled(i, *units_[i], clocks_.ticking(i));
+    exchange_.write_sampled_inputs(i, *units_[i], clocks_.ticking(i));
   }
   for (const std::size_t i : ticking) {
-    exchange_.fetch_sampled(i, *units_[i], clocks_.ticking(i));
+    exchange_.read_sampled_outputs(i, *units_[i], clocks_.ticking(i));
   }
   exchange_.route(time_);
   return std::any_of(ticking.begin(), ticking.end(), [&](std::size_t i) {
@@ -193,7 +193,7 @@ void EventHandler::exchange_after_events() {
     evaluation_->run(time_, *this);
   }
   for (const std::size_t i : event_units_) {
-    if (in_event_mode_[i]) exchange_.fetch(i, *units_[i]);
+    if (in_event_mode_[i]) exchange_.read_outputs(i, *units_[i]);
   }
   if (evaluation_) return exchange_.check_nan(time_);
   find_discontinuities();

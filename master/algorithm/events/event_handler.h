@@ -36,12 +36,12 @@ class EventHandler : private OrderedEvaluation::Participants {
   void request_event(std::size_t component) {
     if (description(component).has_event_mode) activate(component);
   }
-  /// Exchanges the outputs that have been fetched and handles events until no unit needs another
+  /// Exchanges the outputs that have been read and handles events until no unit needs another
   /// event iteration. Outputs of units in Event Mode that depend directly on inputs follow them at
   /// once, and algebraic loops between such units are solved. Units are left in Step Mode; the
-  /// inputs of those without an event are still to be written (Exchange::deliver_routed). Throws
-  /// Error (Run) if a connected output is NaN, a loop has no solution, or events do not settle
-  /// after 1000 iterations.
+  /// inputs of those without an event are still to be written (Exchange::write_routed_inputs).
+  /// Throws Error (Run) if a connected output is NaN, a loop has no solution, or events do not
+  /// settle after 1000 iterations.
   void handle_events(Time time);
 
   /// Whether the unit handled an event in the last handle_events(), by component.

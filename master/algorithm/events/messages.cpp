@@ -77,7 +77,7 @@ bool MessageExchange::poll(std::size_t component) {
   return std::find(ticked.begin(), ticked.end(), true) != ticked.end();
 }
 
-void MessageExchange::fetch(std::size_t component, Payload& payload) {
+void MessageExchange::read_payload(std::size_t component, Payload& payload) {
   units_[component]->get({&payload.reference, 1}, payload.block);
 }
 

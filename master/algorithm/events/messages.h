@@ -64,7 +64,7 @@ class MessageExchange {
   };
 
   bool poll(std::size_t component);
-  void fetch(std::size_t component, Payload& payload);
+  void read_payload(std::size_t component, Payload& payload);
   void set_clock(VariableId target);
   void set_payload(Receiver& receiver, const ValueBlock& payload);
   std::vector<Receiver> receivers_of(VariableId value,
@@ -73,7 +73,7 @@ class MessageExchange {
   template <class Prepare, class Report>
   void forward(std::size_t component, OutputClock& clock, Prepare& prepare, Report& report) {
     for (Payload& payload : clock.payloads) {
-      fetch(component, payload);
+      read_payload(component, payload);
       report(payload.id, false, &payload.block);
     }
     if (clock.payloads.empty()) report(clock.id, false, static_cast<const ValueBlock*>(nullptr));

@@ -32,7 +32,7 @@ Transfer make_transfer(const System& system, ValueType type, WriteTime write_tim
     transfer.firsts.push_back(size);
     size += system.variable(id).size;
   }
-  transfer.block = transfer.delivered = ValueBlock(type, size);
+  transfer.block = transfer.written = ValueBlock(type, size);
   return transfer;
 }
 
@@ -77,7 +77,7 @@ void copy_mapped(void* to, const void* from, const Conversion& conversion) {
 }  // namespace
 
 Exchange::Exchange(const System& system, std::span<const VariableId> observed)
-    : system_(system), is_delivered_(system.components().size()) {
+    : system_(system), are_inputs_written_(system.components().size()) {
   std::set<VariableId> outputs;
   std::set<VariableId> inputs;
   std::set<VariableId> jumps;  // fed by sampled values, which change by events
@@ -148,7 +148,7 @@ Exchange::TransferSlot Exchange::locate_output(VariableId id) {
 Signal Exchange::signal(VariableId id) {
   const TransferSlot input = locate_input(id);
   if (input.transfer != nullptr && system_.variable(id).is_clocked()) {
-    return {id, &input.transfer->delivered, input.first};
+    return {id, &input.transfer->written, input.first};
   }
   const ValueSlice value = slice(id);
   return {id, value.block, value.first};
@@ -224,7 +224,7 @@ void Exchange::add_number(const Connection& connection, ValueBlock& target, std:
   });
 }
 
-void Exchange::fetch(std::size_t component, Unit& unit) {
+void Exchange::read_outputs(std::size_t component, Unit& unit) {
   for (const BoundValues& output : step_values_[component].outputs) {
     unit.get(output.references, *output.block);
   }
@@ -235,34 +235,34 @@ void Exchange::begin_samples(std::size_t component, Unit& unit) {
     unit.get(transfer.references, transfer.block);
   }
   for (Transfer& transfer : sampled_inputs_[component]) {
-    transfer.delivered = transfer.block;
+    transfer.written = transfer.block;
     transfer.is_new = false;
   }
 }
 
 bool Exchange::any_discrete_change(std::size_t component) const {
   for (const Transfer& transfer : inputs_[component]) {
-    if (transfer.is_discrete() && !(transfer.block == transfer.delivered)) return true;
+    if (transfer.is_discrete() && !(transfer.block == transfer.written)) return true;
   }
   return false;
 }
 
-void Exchange::deliver(std::size_t component, Unit& unit) {
-  is_delivered_[component] = true;
+void Exchange::write_inputs(std::size_t component, Unit& unit) {
+  are_inputs_written_[component] = true;
   for (const BoundValues& input : step_values_[component].inputs) {
     unit.set(input.references, *input.block);
   }
-  if (has_discrete_inputs_[component]) deliver_discrete(component, unit);
+  if (has_discrete_inputs_[component]) write_discrete_inputs(component, unit);
 }
 
-void Exchange::deliver_discrete(std::size_t component, Unit& unit) {
+void Exchange::write_discrete_inputs(std::size_t component, Unit& unit) {
   for (Transfer& transfer : inputs_[component]) {
     if (transfer.is_discrete() && is_changed(transfer)) write(transfer, unit);
   }
 }
 
 void Exchange::write(Transfer& transfer, Unit& unit) {
-  transfer.delivered = transfer.block;
+  transfer.written = transfer.block;
   transfer.is_new = false;
   unit.set(transfer.references, transfer.block);
 }
@@ -271,15 +271,15 @@ bool Exchange::is_of(const Transfer& transfer, std::span<const ValueReference> t
   return std::ranges::find_first_of(transfer.clocks, ticking) != transfer.clocks.end();
 }
 
-void Exchange::fetch_sampled(std::size_t component, Unit& unit,
-                             std::span<const ValueReference> ticking) {
+void Exchange::read_sampled_outputs(std::size_t component, Unit& unit,
+                                    std::span<const ValueReference> ticking) {
   for (Transfer& transfer : sampled_outputs_[component]) {
     if (is_of(transfer, ticking)) unit.get(transfer.references, transfer.block);
   }
 }
 
-void Exchange::deliver_sampled(std::size_t component, Unit& unit,
-                               std::span<const ValueReference> ticking) {
+void Exchange::write_sampled_inputs(std::size_t component, Unit& unit,
+                                    std::span<const ValueReference> ticking) {
   for (Transfer& transfer : sampled_inputs_[component]) {
     if (is_of(transfer, ticking) && is_changed(transfer)) write(transfer, unit);
   }
@@ -297,12 +297,12 @@ std::vector<VariableId> Exchange::sampled_changes(std::size_t component,
                                                   std::span<const ValueReference> ticking) const {
   std::vector<VariableId> changes;
   for (const Transfer& transfer : sampled_inputs_[component]) {
-    if (is_of(transfer, ticking)) add_changes(transfer, transfer.delivered, changes);
+    if (is_of(transfer, ticking)) add_changes(transfer, transfer.written, changes);
   }
   return changes;
 }
 
-void Exchange::deliver_within_step(std::size_t component, Unit& unit) {
+void Exchange::write_inputs_within_step(std::size_t component, Unit& unit) {
   for (const Transfer& transfer : inputs_[component]) {
     if (transfer.write_time != WriteTime::PointAndWithin) continue;
     unit.set(transfer.references, transfer.block);
@@ -390,7 +390,7 @@ bool Exchange::RealLists<Real, Other>::route() const {
 }
 
 void Exchange::route(Time time) {
-  std::fill(is_delivered_.begin(), is_delivered_.end(), false);
+  std::fill(are_inputs_written_.begin(), are_inputs_written_.end(), false);
   bool has_nan = doubles_.route();
   if (has_other_types_) {
     route_other_types(time);

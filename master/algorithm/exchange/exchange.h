@@ -40,37 +40,38 @@ class Exchange {
   Exchange(const System& system, std::span<const VariableId> observed);
 
   /// Reads a unit's outputs and observed variables.
-  void fetch(std::size_t component, Unit& unit);
+  void read_outputs(std::size_t component, Unit& unit);
   /// Copies the outputs of all units to the inputs of all units. Throws Error (Run) where a
   /// connected output is NaN, or an integer becomes no item of an Enumeration.
   void route(Time time);
   /// Throws as route() does.
   void check_nan(Time time) const;
-  /// Whether a discrete input of the unit has changed since it was delivered; FMI requires Event
+  /// Whether a discrete input of the unit has changed since it was written; FMI requires Event
   /// Mode then.
   bool has_discrete_change(std::size_t component) const {
     return has_discrete_inputs_[component] && any_discrete_change(component);
   }
   bool has_discrete_inputs(std::size_t component) const { return has_discrete_inputs_[component]; }
   /// Writes a unit's continuous inputs, and the discrete ones if they changed.
-  void deliver(std::size_t component, Unit& unit);
+  void write_inputs(std::size_t component, Unit& unit);
   /// Likewise, if something was routed since the unit's inputs were written.
-  void deliver_routed(std::size_t component, Unit& unit) {
-    if (!is_delivered_[component]) deliver(component, unit);
+  void write_routed_inputs(std::size_t component, Unit& unit) {
+    if (!are_inputs_written_[component]) write_inputs(component, unit);
   }
-  /// A step of the unit with its inputs, as deliver_routed() writes them, and with its outputs.
+  /// A step of the unit with its inputs, as write_routed_inputs() writes them, and with its
+  /// outputs.
   StepResult step(std::size_t component, Unit& unit, const StepInterval& interval) {
     const StepValues& values = step_values_[component];
-    if (is_delivered_[component]) return unit.step(interval, {{}, values.outputs});
-    if (has_discrete_inputs_[component]) deliver_discrete(component, unit);
-    is_delivered_[component] = true;
+    if (are_inputs_written_[component]) return unit.step(interval, {{}, values.outputs});
+    if (has_discrete_inputs_[component]) write_discrete_inputs(component, unit);
+    are_inputs_written_[component] = true;
     return unit.step(interval, values);
   }
   /// An input was changed in its block by other means than route().
-  void mark_changed(std::size_t component) { is_delivered_[component] = false; }
+  void mark_changed(std::size_t component) { are_inputs_written_[component] = false; }
 
   /// Writes those of a unit's continuous inputs that may change within a step.
-  void deliver_within_step(std::size_t component, Unit& unit);
+  void write_inputs_within_step(std::size_t component, Unit& unit);
 
   /// All connections between continuous variables, sorted by target.
   std::vector<ContinuousLink> continuous_links();
@@ -87,10 +88,13 @@ class Exchange {
   /// In Initialization Mode, when its inputs have been set: what belongs to the unit's time-based
   /// clocks is exchanged at their ticks from now on, and holds what it is until then.
   void begin_samples(std::size_t component, Unit& unit);
-  /// fetch() and deliver() for what belongs to one of these clocks of the unit, which tick.
-  void fetch_sampled(std::size_t component, Unit& unit, std::span<const ValueReference> ticking);
-  void deliver_sampled(std::size_t component, Unit& unit, std::span<const ValueReference> ticking);
-  /// Whether deliver_sampled() has something new to write.
+  /// read_outputs() and write_inputs() for what belongs to one of these clocks of the unit, which
+  /// tick.
+  void read_sampled_outputs(std::size_t component, Unit& unit,
+                            std::span<const ValueReference> ticking);
+  void write_sampled_inputs(std::size_t component, Unit& unit,
+                            std::span<const ValueReference> ticking);
+  /// Whether write_sampled_inputs() has something new to write.
   bool has_sampled_change(std::size_t component, std::span<const ValueReference> ticking) const;
   /// Those inputs, for an error message.
   std::vector<VariableId> sampled_changes(std::size_t component,
@@ -101,7 +105,7 @@ class Exchange {
   Signal signal(VariableId id);
 
   /// The value of a connected variable, for the evaluation of single variables: an output that was
-  /// read is written there, and deliver() reads an input there. See StagedExchange.
+  /// read is written there, and write_inputs() reads an input there. See OrderedExchange.
   ValueSlice slice(VariableId id);
 
  private:
@@ -109,7 +113,7 @@ class Exchange {
   struct Transfer {
     ValueBlock block;
     WriteTime write_time;
-    ValueBlock delivered;                ///< of a discrete one: what was written last
+    ValueBlock written;                  ///< of a discrete one: what was written last
     bool is_new = true;                  ///< nothing was written yet
     std::vector<ValueReference> clocks;  ///< at whose ticks it is exchanged; empty: always
     std::vector<ValueReference> references;
@@ -158,11 +162,11 @@ class Exchange {
                                   const std::function<bool(const Transfer&)>& is_wanted) const;
   static bool is_of(const Transfer& transfer, std::span<const ValueReference> ticking);
   static bool is_changed(const Transfer& transfer) {
-    return transfer.is_new || !(transfer.block == transfer.delivered);
+    return transfer.is_new || !(transfer.block == transfer.written);
   }
   static void write(Transfer& transfer, Unit& unit);
   bool any_discrete_change(std::size_t component) const;
-  void deliver_discrete(std::size_t component, Unit& unit);
+  void write_discrete_inputs(std::size_t component, Unit& unit);
   void bind_step_values();
   void route_other_types(Time time);
   void add_changes(const Transfer& transfer, const ValueBlock& before,
@@ -195,7 +199,7 @@ class Exchange {
   std::vector<StepValues> step_values_;    ///< by component; the inputs are continuous ones
   std::vector<BoundValues> bound_values_;  ///< of them
   std::vector<char> has_discrete_inputs_;  ///< by component
-  std::vector<char> is_delivered_;         ///< likewise
+  std::vector<char> are_inputs_written_;   ///< likewise
   std::array<std::vector<Copy<std::byte>>, 4> numbers_;  // of 1, 2, 4 and 8 bytes
   std::vector<Copy<std::string>> strings_;
   std::vector<Copy<Binary>> binaries_;

@@ -87,7 +87,7 @@ bool IdleScheduler::catch_up(std::size_t component, Time time) {
   state.unreported_end = time;
   const StepResult result = units_[component]->step({state.since, time});
   check_promise(component, time, result);
-  exchange_.fetch(component, *units_[component]);
+  exchange_.read_outputs(component, *units_[component]);
   UnitStatistics& statistics = statistics_[component];
   ++statistics.suspensions;
   statistics.suspended_time += lag;
@@ -170,7 +170,7 @@ bool IdleScheduler::catch_up_disturbed(Time time) {
 void IdleScheduler::suspend_idle(Time time) {
   for (const std::size_t i : candidates_) {
     if (states_[i].is_suspended) continue;
-    exchange_.deliver_routed(i, *units_[i]);
+    exchange_.write_routed_inputs(i, *units_[i]);
     const Time until = states_[i].promises->idle_until();
     if (until <= time) continue;
     const Duration max_skip = states_[i].max_skip;
@@ -186,7 +186,7 @@ void IdleScheduler::suspend(std::size_t component, Time time, Time until, Time e
   state.since = time;
   state.until = until;
   state.end = end;
-  exchange_.fetch(component, *units_[component]);
+  exchange_.read_outputs(component, *units_[component]);
   for (WatchedInput& input : state.inputs) input.held = real(input.element);
   if (state.tangents.empty()) return;
   state.promises->get_derivatives(state.references, state.slopes);

@@ -44,7 +44,7 @@ class IdleScheduler {
   /// those that last.
   Duration suspended_time(Time time) const;
 
-  /// Ends the suspension of the unit: steps it to `time` and fetches its outputs. Returns whether
+  /// Ends the suspension of the unit: steps it to `time` and reads its outputs. Returns whether
   /// it has an event there, which is allowed where its promise ends. Throws Error (Run) with unit,
   /// time and promise where the unit does not keep its promise.
   bool catch_up(std::size_t component, Time time);
@@ -59,7 +59,7 @@ class IdleScheduler {
   /// After the exchange: lets the suspended units catch up that have a discrete change at an input,
   /// or an input outside of its deadband. Returns whether outputs may have changed by that.
   bool catch_up_disturbed(Time time);
-  /// After the events of a communication point: delivers the inputs of the units that are not
+  /// After the events of a communication point: writes the inputs of the units that are not
   /// suspended, reads their promises, and suspends those whose promise is long enough.
   void suspend_idle(Time time);
   /// At the end of the run.

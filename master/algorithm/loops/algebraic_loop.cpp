@@ -37,8 +37,8 @@ double epsilon(const System& system, const EvaluationBlock& plan) {
     return system.variable(id).type == ValueType::Float32;
   };
   bool coarse = std::ranges::any_of(plan.inputs, is_coarse);
-  for (const EvaluationStep& step : plan.steps) {
-    coarse |= std::ranges::any_of(step.outputs, is_coarse);
+  for (const OutputGroup& group : plan.groups) {
+    coarse |= std::ranges::any_of(group.outputs, is_coarse);
   }
   return coarse ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
 }
@@ -46,35 +46,35 @@ double epsilon(const System& system, const EvaluationBlock& plan) {
 }  // namespace
 
 AlgebraicLoop::AlgebraicLoop(RunContext& context, const EvaluationBlock& plan,
-                             StagedExchange& staged)
-    : system_(context.system), plan_(plan), staged_(staged) {
+                             OrderedExchange& exchange)
+    : system_(context.system), plan_(plan), exchange_(exchange) {
   if (LoopDerivatives::exist(system_, plan)) derivatives_.emplace(system_, context.units, plan);
   scale_.epsilon = epsilon(system_, plan);
   for (const TearingVariable& variable : plan.tearing_variables) {
     const Variable& input = system_.variable(variable.inputs.front());
-    Cut cut{&variable,
-            context.exchange.slice(variable.source),
-            {},
-            ValueBlock(input.type, input.size),
-            is_real(input.type)};
-    for (const VariableId id : variable.inputs) cut.links.push_back(staged.plan_link(id));
+    Tear tear{&variable,
+              context.exchange.slice(variable.source),
+              {},
+              ValueBlock(input.type, input.size),
+              is_real(input.type)};
+    for (const VariableId id : variable.inputs) tear.links.push_back(exchange.plan_link(id));
     for (std::size_t i = 0; i < input.size; ++i) {
-      unknowns_.push_back({cuts_.size(), i});
-      if (!cut.is_real) continue;
-      reals_.push_back({cuts_.size(), i});
+      unknowns_.push_back({tears_.size(), i});
+      if (!tear.is_real) continue;
+      reals_.push_back({tears_.size(), i});
       scale_.nominals.push_back(input.nominal);
     }
-    cuts_.push_back(std::move(cut));
+    tears_.push_back(std::move(tear));
   }
 }
 
 void AlgebraicLoop::guess() {
-  for (Cut& cut : cuts_) {
-    staged_.read_input(cut.links.front());
-    const ValueSlice first = cut.links.front().target_value();
-    for (StagedExchange::Link& link : cut.links) {
+  for (Tear& tear : tears_) {
+    exchange_.read_input(tear.links.front());
+    const ValueSlice first = tear.links.front().target_value();
+    for (OrderedExchange::Link& link : tear.links) {
       copy_elements(link.target_value(), first);
-      staged_.touch(link);
+      exchange_.touch(link);
     }
   }
 }
@@ -86,18 +86,18 @@ bool AlgebraicLoop::has_converged() {
 }
 
 void AlgebraicLoop::collect() {
-  for (Cut& cut : cuts_) {
-    copy_elements({&cut.result, 0, cut.result.size()}, cut.source, cut.variable->conversion);
+  for (Tear& tear : tears_) {
+    copy_elements({&tear.result, 0, tear.result.size()}, tear.source, tear.variable->conversion);
   }
 }
 
 bool AlgebraicLoop::has_converged(const Unknown& unknown) const {
-  const Cut& cut = cuts_[unknown.cut];
-  const ValueSlice input = cut.links.front().target_value();
+  const Tear& tear = tears_[unknown.tear];
+  const ValueSlice input = tear.links.front().target_value();
   const std::size_t at = input.first + unknown.element;
-  if (!cut.is_real) return is_same(*input.block, at, cut.result, unknown.element);
-  const double nominal = system_.variable(cut.links.front().target()).nominal;
-  return core::has_converged(real(input, unknown.element), real(cut.result, unknown.element),
+  if (!tear.is_real) return is_same(*input.block, at, tear.result, unknown.element);
+  const double nominal = system_.variable(tear.links.front().target()).nominal;
+  return core::has_converged(real(input, unknown.element), real(tear.result, unknown.element),
                              nominal, scale_.epsilon);
 }
 
@@ -121,8 +121,8 @@ void AlgebraicLoop::solve(const Sweep& sweep, Time time) {
     }
     if (have_held_values_converged()) return;
     if (round == kMostRounds) break;
-    for (Cut& cut : cuts_) {
-      if (!cut.is_real) put(cut, cut.result);
+    for (Tear& tear : tears_) {
+      if (!tear.is_real) put(tear, tear.result);
     }
   }
   fail(time);
@@ -144,8 +144,8 @@ bool AlgebraicLoop::iterate() {
     if (count == 0) return true;
     if (!is_any_new && count >= last_count) return false;
     last_count = count;
-    for (Cut& cut : cuts_) {
-      if (is_finite(cut.result)) put(cut, cut.result);
+    for (Tear& tear : tears_) {
+      if (is_finite(tear.result)) put(tear, tear.result);
     }
     sweep();
   }
@@ -155,20 +155,20 @@ bool AlgebraicLoop::iterate() {
 bool AlgebraicLoop::solve_reals() {
   std::vector<double> guess;
   for (const Unknown& unknown : reals_) {
-    guess.push_back(real(cuts_[unknown.cut].links.front().target_value(), unknown.element));
+    guess.push_back(real(tears_[unknown.tear].links.front().target_value(), unknown.element));
   }
   const auto function = [&](std::span<const double> x, std::span<double> g) {
     put(x);
     sweep();
     for (std::size_t i = 0; i < reals_.size(); ++i) {
-      g[i] = real(cuts_[reals_[i].cut].result, reals_[i].element);
+      g[i] = real(tears_[reals_[i].tear].result, reals_[i].element);
     }
   };
   LoopJacobian jacobian;
   if (derivatives_) {
     jacobian = [&](std::span<const double> x, std::span<double> columns) {
       for (std::size_t i = 0; i < reals_.size(); ++i) {
-        derivatives_->derive(reals_[i].cut, reals_[i].element,
+        derivatives_->derive(reals_[i].tear, reals_[i].element,
                              columns.subspan(i * x.size(), x.size()));
       }
     };
@@ -178,34 +178,34 @@ bool AlgebraicLoop::solve_reals() {
 
 bool AlgebraicLoop::have_held_values_converged() const {
   return std::all_of(unknowns_.begin(), unknowns_.end(), [&](const Unknown& unknown) {
-    return cuts_[unknown.cut].is_real || has_converged(unknown);
+    return tears_[unknown.tear].is_real || has_converged(unknown);
   });
 }
 
 AlgebraicLoop::Values AlgebraicLoop::inputs() const {
   Values values;
-  for (const Cut& cut : cuts_) {
-    ValueBlock& value = values.emplace_back(cut.result.type(), cut.result.size());
-    copy_elements({&value, 0, value.size()}, cut.links.front().target_value());
+  for (const Tear& tear : tears_) {
+    ValueBlock& value = values.emplace_back(tear.result.type(), tear.result.size());
+    copy_elements({&value, 0, value.size()}, tear.links.front().target_value());
   }
   return values;
 }
 
 void AlgebraicLoop::put(const Values& values) {
-  for (std::size_t i = 0; i < cuts_.size(); ++i) put(cuts_[i], values[i]);
+  for (std::size_t i = 0; i < tears_.size(); ++i) put(tears_[i], values[i]);
 }
 
-void AlgebraicLoop::put(Cut& cut, const ValueBlock& value) {
-  for (StagedExchange::Link& link : cut.links) {
+void AlgebraicLoop::put(Tear& tear, const ValueBlock& value) {
+  for (OrderedExchange::Link& link : tear.links) {
     const ValueSlice& to = link.target_value();
-    if (copy_elements(*to.block, to.first, value, 0, value.size())) staged_.touch(link);
+    if (copy_elements(*to.block, to.first, value, 0, value.size())) exchange_.touch(link);
   }
 }
 
 void AlgebraicLoop::put(std::span<const double> x) {
   for (std::size_t i = 0; i < reals_.size(); ++i) {
-    for (StagedExchange::Link& link : cuts_[reals_[i].cut].links) {
-      if (change_real(link.target_value(), reals_[i].element, x[i])) staged_.touch(link);
+    for (OrderedExchange::Link& link : tears_[reals_[i].tear].links) {
+      if (change_real(link.target_value(), reals_[i].element, x[i])) exchange_.touch(link);
     }
   }
 }
@@ -224,16 +224,16 @@ std::string AlgebraicLoop::values_text() const {
   std::size_t count = 0;
   for (const Unknown& unknown : unknowns_) {
     if (has_converged(unknown) || ++count > kMostValues) continue;
-    const Cut& cut = cuts_[unknown.cut];
-    const ValueSlice input = cut.links.front().target_value();
+    const Tear& tear = tears_[unknown.tear];
+    const ValueSlice input = tear.links.front().target_value();
     std::string text = fmt::format(
-        "with {}{} = {} it gives back {}", system_.full_name(cut.links.front().target()),
-        cut.result.size() == 1 ? "" : fmt::format("[{}]", unknown.element + 1),
+        "with {}{} = {} it gives back {}", system_.full_name(tear.links.front().target()),
+        tear.result.size() == 1 ? "" : fmt::format("[{}]", unknown.element + 1),
         element_text(*input.block, input.first + unknown.element),
-        element_text(cut.result, unknown.element));
-    if (cut.is_real) {
+        element_text(tear.result, unknown.element));
+    if (tear.is_real) {
       const double x = real(input, unknown.element);
-      text += fmt::format(", a residual of {:.3g}", real(cut.result, unknown.element) - x);
+      text += fmt::format(", a residual of {:.3g}", real(tear.result, unknown.element) - x);
     }
     texts.push_back(std::move(text));
   }
@@ -246,7 +246,7 @@ std::string AlgebraicLoop::hint() const {
       "a unit in it whose output does not depend on its input at the same instant, as "
       "a delay or a state, breaks the loop; a start value of {} nearer to the solution "
       "may help",
-      system_.full_name(cuts_.front().links.front().target()));
+      system_.full_name(tears_.front().links.front().target()));
   const std::string undeclared = undeclared_text(system_, plan_);
   return undeclared.empty() ? text
                             : text + "; " + undeclared + ", so all inputs are taken for them";

@@ -1,4 +1,4 @@
-// An algebraic loop between units: x = g(x), x being the inputs at which it is cut.
+// An algebraic loop between units: x = g(x), x being the inputs at which it is tear.
 #ifndef STRIDE_MASTER_ALGORITHM_LOOPS_ALGEBRAIC_LOOP_H
 #define STRIDE_MASTER_ALGORITHM_LOOPS_ALGEBRAIC_LOOP_H
 
@@ -14,7 +14,7 @@
 #include "master/algorithm/loops/evaluation_order.h"
 #include "master/algorithm/loops/loop_derivatives.h"
 #include "master/algorithm/loops/loop_solver.h"
-#include "master/algorithm/loops/staged_exchange.h"
+#include "master/algorithm/loops/ordered_exchange.h"
 #include "master/algorithm/run_context.h"
 
 namespace stride::core {
@@ -28,36 +28,36 @@ namespace stride::core {
 ///    changes.
 class AlgebraicLoop {
  public:
-  /// Evaluates all outputs in the loop from the inputs at which it is cut.
+  /// Evaluates all outputs in the loop from the inputs at which it is tear.
   using Sweep = std::function<void()>;
 
   /// `plan` is a loop and outlives this object, as do the others.
-  AlgebraicLoop(RunContext& context, const EvaluationBlock& plan, StagedExchange& staged);
+  AlgebraicLoop(RunContext& context, const EvaluationBlock& plan, OrderedExchange& exchange);
 
-  /// Reads the start values of the inputs at which the loop is cut from the units.
+  /// Reads the start values of the tearing variables from the units.
   void guess();
-  /// Whether the last sweep gave back the inputs at which the loop is cut: numbers to within
-  /// rounding, others exactly.
+  /// Whether the last sweep gave back the tearing variables: numbers to within rounding, others
+  /// exactly.
   bool has_converged();
   /// After a sweep that has not converged: changes the inputs until one has. Throws Error (Run)
   /// with the path and the last values if no solution is found.
   void solve(const Sweep& sweep, Time time);
 
  private:
-  /// Inputs that get the same value, and the output that it comes from.
-  struct Cut {
+  /// A tearing variable: inputs that get the same value, and the output that it comes from.
+  struct Tear {
     const TearingVariable* variable;
     ValueSlice source;
-    std::vector<StagedExchange::Link> links;
+    std::vector<OrderedExchange::Link> links;
     ValueBlock result;  ///< the value of the source, converted for the inputs
     bool is_real;
   };
-  /// One element of a cut.
+  /// One element of a tear.
   struct Unknown {
-    std::size_t cut;
+    std::size_t tear;
     std::size_t element;
   };
-  using Values = std::vector<ValueBlock>;  // by cut
+  using Values = std::vector<ValueBlock>;  // by tear
 
   void sweep();
   void collect();
@@ -67,7 +67,7 @@ class AlgebraicLoop {
   bool solve_reals();
   Values inputs() const;
   void put(const Values& values);
-  void put(Cut& cut, const ValueBlock& value);
+  void put(Tear& tear, const ValueBlock& value);
   void put(std::span<const double> x);
   [[noreturn]] void fail(Time time) const;
   std::string values_text() const;
@@ -75,8 +75,8 @@ class AlgebraicLoop {
 
   const System& system_;
   const EvaluationBlock& plan_;
-  StagedExchange& staged_;
-  std::vector<Cut> cuts_;
+  OrderedExchange& exchange_;
+  std::vector<Tear> tears_;
   std::vector<Unknown> unknowns_;
   std::vector<Unknown> reals_;  ///< those of the unknowns that Newton's method is for
   LoopScale scale_;             ///< of the reals

@@ -99,14 +99,14 @@ class Network {
   std::map<VariableId, std::vector<std::size_t>> dependants_;
 };
 
-EvaluationStep make_step(const Network& network, const std::vector<std::size_t>& nodes) {
-  EvaluationStep step{network.nodes()[nodes.front()].component, {}};
+OutputGroup make_group(const Network& network, const std::vector<std::size_t>& nodes) {
+  OutputGroup group{network.nodes()[nodes.front()].component, {}};
   for (const std::size_t node : nodes) {
     const auto& outputs = network.nodes()[node].outputs;
-    step.outputs.insert(step.outputs.end(), outputs.begin(), outputs.end());
+    group.outputs.insert(group.outputs.end(), outputs.begin(), outputs.end());
   }
-  std::sort(step.outputs.begin(), step.outputs.end());
-  return step;
+  std::sort(group.outputs.begin(), group.outputs.end());
+  return group;
 }
 
 /// One strongly connected part of the network.
@@ -119,7 +119,7 @@ class LoopPlanner {
 
   EvaluationBlock run() {
     find_tears();
-    find_steps();
+    find_groups();
     find_paths();
     find_undeclared();
     return std::move(block_);
@@ -152,7 +152,7 @@ class LoopPlanner {
         const auto from = local_.find(network_.node_of(connection.from));
         if (from == local_.end()) continue;
         inner_.insert(input);
-        if (position[from->second] < position[i] || !cut_.insert(input).second) continue;
+        if (position[from->second] < position[i] || !torn_.insert(input).second) continue;
         const Conversion& conversion = connection.conversion;
         TearingVariable& variable =
             tearing_variables[{connection.from, conversion.linear.factor, conversion.linear.offset,
@@ -169,13 +169,13 @@ class LoopPlanner {
     block_.inputs.assign(inner_.begin(), inner_.end());
   }
 
-  void find_steps() {
-    const Digraph graph = inner_edges([&](VariableId input) { return cut_.count(input) == 0; });
+  void find_groups() {
+    const Digraph graph = inner_edges([&](VariableId input) { return torn_.count(input) == 0; });
     std::vector<std::size_t> components;
     for (const std::size_t node : nodes_) components.push_back(network_.nodes()[node].component);
     for (std::vector<std::size_t>& group : grouped_order(graph, components)) {
       for (std::size_t& item : group) item = nodes_[item];
-      block_.steps.push_back(make_step(network_, group));
+      block_.groups.push_back(make_group(network_, group));
     }
   }
 
@@ -197,7 +197,7 @@ class LoopPlanner {
     }
   }
 
-  /// From an input that is cut through the loop back to it.
+  /// From an input of a tearing variable through the loop back to it.
   std::vector<VariableId> shortest_path(VariableId input) const {
     const VariableId last = network_.source(input).from;
     std::map<std::size_t, VariableId> reached_by;  // node -> input
@@ -244,7 +244,7 @@ class LoopPlanner {
   const std::vector<std::size_t>& nodes_;
   std::map<std::size_t, std::size_t> local_;  // node -> its place in nodes_
   std::set<VariableId> inner_;                // inputs
-  std::set<VariableId> cut_;                  // those of the tearing_variables
+  std::set<VariableId> torn_;                 // those of the tearing_variables
   EvaluationBlock block_;
 };
 
@@ -278,7 +278,7 @@ std::vector<EvaluationBlock> evaluation_order(const System& system, Phase phase)
     }
     std::vector<std::size_t> nodes;
     for (const std::size_t part : group) nodes.push_back(parts[part].front());
-    blocks.emplace_back().steps.push_back(make_step(network, nodes));
+    blocks.emplace_back().groups.push_back(make_group(network, nodes));
   }
   return blocks;
 }

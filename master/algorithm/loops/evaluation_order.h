@@ -12,12 +12,12 @@
 namespace stride::core {
 
 /// Outputs of one component that are read together, since what they depend on is known.
-struct EvaluationStep {
+struct OutputGroup {
   std::size_t component = 0;
   std::vector<VariableId> outputs;  ///< sorted
 };
 
-/// Where a loop is cut: these inputs get the same value from one output, and it is solved for.
+/// Where a loop is torn: these inputs get the same value from one output, and it is solved for.
 struct TearingVariable {
   VariableId source;
   Conversion conversion;
@@ -26,8 +26,8 @@ struct TearingVariable {
 
 /// What is evaluated at once: outputs of one component, or an algebraic loop.
 struct EvaluationBlock {
-  std::vector<EvaluationStep>
-      steps;  ///< one; of a loop, the order in which they follow from `tearing_variables`
+  /// One; of a loop, in the order in which they follow from `tearing_variables`.
+  std::vector<OutputGroup> groups;
   std::vector<TearingVariable> tearing_variables;  ///< of a loop only, as what follows
   std::vector<VariableId> inputs;                  ///< all that the loop runs through, sorted
   std::vector<std::string> paths;                  ///< "a.u -> a.y -> b.u -> b.y -> a.u"
@@ -39,8 +39,8 @@ struct EvaluationBlock {
 };
 
 /// All connected outputs that are not clocked, each behind those that it depends on. Components
-/// are read in few steps: a component all of whose outputs can be read goes first; of several, the
-/// first in the file. A loop is a strongly connected part of the dependencies, cut at few
+/// are read in few groups: a component all of whose outputs can be read goes first; of several, the
+/// first in the file. A loop is a strongly connected part of the dependencies, torn at few
 /// connections. Both choices are heuristics, and depend on nothing but the system.
 std::vector<EvaluationBlock> evaluation_order(const System& system, Phase phase);
 

@@ -7,10 +7,10 @@ namespace stride::core {
 bool LoopDerivatives::exist(const System& system, const EvaluationBlock& loop) {
   const auto is_real_one = [&](VariableId id) { return is_real(system.variable(id).type); };
   return std::ranges::all_of(loop.inputs, is_real_one) &&
-         std::ranges::all_of(loop.steps, [&](const EvaluationStep& step) {
-           return system.components()[step.component]
+         std::ranges::all_of(loop.groups, [&](const OutputGroup& group) {
+           return system.components()[group.component]
                       .description->provides_directional_derivatives &&
-                  std::ranges::all_of(step.outputs, is_real_one);
+                  std::ranges::all_of(group.outputs, is_real_one);
          });
 }
 
@@ -18,7 +18,7 @@ LoopDerivatives::LoopDerivatives(const System& system, std::span<const std::uniq
                                  const EvaluationBlock& loop)
     : system_(system), units_(units), loop_(loop) {
   lay_out_inputs();
-  for (const EvaluationStep& step : loop.steps) add_derivatives(step);
+  for (const OutputGroup& group : loop.groups) add_derivatives(group);
   add_carried();
 }
 
@@ -30,17 +30,18 @@ void LoopDerivatives::lay_out_inputs() {
   }
 }
 
-void LoopDerivatives::add_derivatives(const EvaluationStep& step) {
-  auto& unit = units_[step.component]->require_capability<DirectionalDerivatives>();
-  UnitDerivatives derivatives{step.component, &unit, {}, {}, outputs_.size(), 0, inputs_.size(), 0};
-  for (const VariableId id : step.outputs) {
+void LoopDerivatives::add_derivatives(const OutputGroup& group) {
+  auto& unit = units_[group.component]->require_capability<DirectionalDerivatives>();
+  UnitDerivatives derivatives{group.component, &unit, {}, {}, outputs_.size(), 0,
+                              inputs_.size(),  0};
+  for (const VariableId id : group.outputs) {
     derivatives.unknowns.push_back(system_.variable(id).reference);
     output_offsets_[id] = outputs_.size();
     outputs_.resize(outputs_.size() + system_.variable(id).size);
   }
   derivatives.outputs = outputs_.size() - derivatives.first_output;
   for (const auto& [id, offset] : input_offsets_) {
-    if (id.component != step.component) continue;
+    if (id.component != group.component) continue;
     derivatives.knowns.push_back(system_.variable(id).reference);
     derivatives.first_input = std::min(derivatives.first_input, offset);
     derivatives.inputs += system_.variable(id).size;
@@ -48,16 +49,16 @@ void LoopDerivatives::add_derivatives(const EvaluationStep& step) {
   derivatives_.push_back(std::move(derivatives));
 }
 
-/// Inputs at which the loop is cut keep their values within a sweep.
+/// Tearing variables keep their values within a sweep.
 void LoopDerivatives::add_carried() {
-  std::set<VariableId> cut;
+  std::set<VariableId> torn;
   for (const TearingVariable& variable : loop_.tearing_variables)
-    cut.insert(variable.inputs.begin(), variable.inputs.end());
-  for (std::size_t i = 0; i < loop_.steps.size(); ++i) {
+    torn.insert(variable.inputs.begin(), variable.inputs.end());
+  for (std::size_t i = 0; i < loop_.groups.size(); ++i) {
     for (const Connection& connection : system_.connections()) {
       const auto to = input_offsets_.find(connection.to);
-      const bool begins_here = std::ranges::binary_search(loop_.steps[i].outputs, connection.from);
-      if (!begins_here || to == input_offsets_.end() || cut.contains(connection.to)) continue;
+      const bool begins_here = std::ranges::binary_search(loop_.groups[i].outputs, connection.from);
+      if (!begins_here || to == input_offsets_.end() || torn.contains(connection.to)) continue;
       carried_.push_back({i, output_offsets_.at(connection.from), to->second,
                           system_.variable(connection.to).size,
                           connection.conversion.linear.factor});
@@ -77,7 +78,7 @@ void LoopDerivatives::derive(std::size_t variable, std::size_t element, std::spa
         derivatives.unknowns, derivatives.knowns,
         std::span(inputs_).subspan(derivatives.first_input, derivatives.inputs),
         std::span(outputs_).subspan(derivatives.first_output, derivatives.outputs));
-    for (; carried != carried_.end() && carried->step == i; ++carried) {
+    for (; carried != carried_.end() && carried->group == i; ++carried) {
       for (std::size_t k = 0; k < carried->size; ++k) {
         inputs_[carried->to + k] = carried->factor * outputs_[carried->from + k];
       }

@@ -1,4 +1,4 @@
-// The derivatives of an algebraic loop in the inputs at which it is cut.
+// The derivatives of an algebraic loop in its tearing variables.
 #ifndef STRIDE_MASTER_ALGORITHM_LOOPS_LOOP_DERIVATIVES_H
 #define STRIDE_MASTER_ALGORITHM_LOOPS_LOOP_DERIVATIVES_H
 
@@ -27,8 +27,8 @@ class LoopDerivatives {
   /// numbers.
   static bool exist(const System& system, const EvaluationBlock& loop);
 
-  /// Writes the derivative of the values that one sweep gives back, for each element of the cut
-  /// inputs, one tearing variable after the other, in the element `element` of the tearing variable
+  /// Writes the derivative of the values that one sweep gives back, for each element of the
+  /// tearing variables, one after the other, in the element `element` of the tearing variable
   /// `variable`. The units have their inputs from the last sweep.
   void derive(std::size_t variable, std::size_t element, std::span<double> column);
 
@@ -43,13 +43,13 @@ class LoopDerivatives {
   };
   /// A connection that carries the derivatives of outputs on to inputs.
   struct CarriedDerivative {
-    std::size_t step;  ///< of the loop, after which it is carried
+    std::size_t group;  ///< of the loop, after which it is carried
     std::size_t from, to, size;
     double factor;
   };
 
   void lay_out_inputs();
-  void add_derivatives(const EvaluationStep& step);
+  void add_derivatives(const OutputGroup& group);
   void add_carried();
 
   const System& system_;
@@ -57,7 +57,7 @@ class LoopDerivatives {
   const EvaluationBlock& loop_;
   std::map<VariableId, std::size_t> input_offsets_, output_offsets_;
   std::vector<UnitDerivatives> derivatives_;
-  std::vector<CarriedDerivative> carried_;  ///< by step
+  std::vector<CarriedDerivative> carried_;  ///< by group
   std::vector<double> inputs_, outputs_;
 };
 

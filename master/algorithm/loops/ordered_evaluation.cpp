@@ -19,8 +19,8 @@ OrderedEvaluation::OrderedEvaluation(RunContext& context, Phase phase, UnitTimer
       exchange_(context.exchange),
       phase_(phase),
       order_(evaluation_order(system_, phase)),
-      staged_(context, UnitTimer(context.clock, context.statistics.units, time),
-              phase == Phase::Initialization) {
+      ordered_exchange_(context, UnitTimer(context.clock, context.statistics.units, time),
+                        phase == Phase::Initialization) {
   std::map<VariableId, std::vector<VariableId>> targets;
   for (const Connection& connection : system_.connections()) {
     if (carries_value(system_, connection, phase)) {
@@ -37,25 +37,25 @@ void OrderedEvaluation::plan(const EvaluationBlock& planned, const Targets& targ
   Block& block = blocks_.emplace_back();
   block.plan = &planned;
   std::set<VariableId> inner(planned.inputs.begin(), planned.inputs.end());
-  std::set<VariableId> cut;
-  if (planned.is_loop()) block.loop.emplace(context, planned, staged_);
+  std::set<VariableId> torn;
+  if (planned.is_loop()) block.loop.emplace(context, planned, ordered_exchange_);
   for (const TearingVariable& variable : planned.tearing_variables)
-    cut.insert(variable.inputs.begin(), variable.inputs.end());
+    torn.insert(variable.inputs.begin(), variable.inputs.end());
   std::vector<VariableId> onward;
-  for (const EvaluationStep& step : planned.steps) {
-    EvaluationStage& stage =
-        block.stages.emplace_back(EvaluationStage{staged_.plan_read(step), {}});
-    for (const VariableId output : step.outputs) {
+  for (const OutputGroup& group : planned.groups) {
+    GroupEvaluation& evaluation =
+        block.groups.emplace_back(GroupEvaluation{ordered_exchange_.plan_read(group), {}});
+    for (const VariableId output : group.outputs) {
       for (const VariableId input : targets.at(output)) {
         if (planned.is_loop() && inner.count(input) == 0) {
           onward.push_back(input);
-        } else if (cut.count(input) == 0) {
-          stage.links.push_back(staged_.plan_link(input));
+        } else if (torn.count(input) == 0) {
+          evaluation.links.push_back(ordered_exchange_.plan_link(input));
         }
       }
     }
   }
-  for (const VariableId input : onward) block.onward.push_back(staged_.plan_link(input));
+  for (const VariableId input : onward) block.onward.push_back(ordered_exchange_.plan_link(input));
 }
 
 void OrderedEvaluation::find_direct_inputs() {
@@ -85,28 +85,28 @@ void OrderedEvaluation::find_direct_inputs() {
 void OrderedEvaluation::run(Time time, Participants& participants) {
   time_ = time;
   participants_ = &participants;
-  staged_.begin();
+  ordered_exchange_.begin();
   for (Block& block : blocks_) {
     if (block.loop) {
       evaluate_loop(block);
     } else if (takes_part(block)) {
-      evaluate(block.stages.front());
+      evaluate(block.groups.front());
       check_nan(block);
     }
   }
   for (std::size_t i = 0; i < system_.components().size(); ++i) {
-    if (participants.takes_part(i)) staged_.write(i);
+    if (participants.takes_part(i)) ordered_exchange_.write_inputs(i);
   }
 }
 
-void OrderedEvaluation::evaluate(EvaluationStage& stage) {
-  if (!participants_->takes_part(stage.read.component())) return;
-  staged_.evaluate(stage.read);
-  for (StagedExchange::Link& link : stage.links) route(link);
+void OrderedEvaluation::evaluate(GroupEvaluation& group) {
+  if (!participants_->takes_part(group.read.component())) return;
+  ordered_exchange_.evaluate(group.read);
+  for (OrderedExchange::Link& link : group.links) route(link);
 }
 
-void OrderedEvaluation::route(StagedExchange::Link& link) {
-  if (staged_.route(link)) report(link.target());
+void OrderedEvaluation::route(OrderedExchange::Link& link) {
+  if (ordered_exchange_.route(link)) report(link.target());
 }
 
 void OrderedEvaluation::report(VariableId input) {
@@ -118,12 +118,12 @@ void OrderedEvaluation::report(VariableId input) {
 }
 
 void OrderedEvaluation::sweep(Block& block) {
-  for (EvaluationStage& stage : block.stages) evaluate(stage);
+  for (GroupEvaluation& group : block.groups) evaluate(group);
 }
 
 bool OrderedEvaluation::takes_part(const Block& block) const {
-  return std::any_of(block.stages.begin(), block.stages.end(), [&](const EvaluationStage& stage) {
-    return participants_->takes_part(stage.read.component());
+  return std::any_of(block.groups.begin(), block.groups.end(), [&](const GroupEvaluation& group) {
+    return participants_->takes_part(group.read.component());
   });
 }
 
@@ -133,13 +133,13 @@ void OrderedEvaluation::evaluate_loop(Block& block) {
   sweep(block);
   if (!block.loop->has_converged()) solve(block);
   check_nan(block);
-  for (StagedExchange::Link& link : block.onward) route(link);
+  for (OrderedExchange::Link& link : block.onward) route(link);
 }
 
 void OrderedEvaluation::solve(Block& block) {
   bool has_new_participant = false;
-  for (EvaluationStage& stage : block.stages)
-    has_new_participant |= participants_->include(stage.read.component());
+  for (GroupEvaluation& group : block.groups)
+    has_new_participant |= participants_->include(group.read.component());
   std::vector<ValueBlock> before;
   for (const VariableId input : block.plan->inputs) before.push_back(value(input));
   is_trying_ = true;
@@ -160,9 +160,9 @@ ValueBlock OrderedEvaluation::value(VariableId id) {
 }
 
 void OrderedEvaluation::check_nan(const Block& block) const {
-  const bool has_nan =
-      std::any_of(block.stages.begin(), block.stages.end(),
-                  [&](const EvaluationStage& s) { return staged_.has_nan(s.read); });
+  const bool has_nan = std::any_of(
+      block.groups.begin(), block.groups.end(),
+      [&](const GroupEvaluation& group) { return ordered_exchange_.has_nan(group.read); });
   if (has_nan) exchange_.check_nan(time_);
 }
 

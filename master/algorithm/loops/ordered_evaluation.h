@@ -15,7 +15,7 @@
 
 #include "master/algorithm/loops/algebraic_loop.h"
 #include "master/algorithm/loops/evaluation_order.h"
-#include "master/algorithm/loops/staged_exchange.h"
+#include "master/algorithm/loops/ordered_exchange.h"
 #include "master/algorithm/run_context.h"
 #include "master/algorithm/unit_timer.h"
 
@@ -55,22 +55,23 @@ class OrderedEvaluation {
   void run(Time time, Participants& participants);
 
  private:
-  struct EvaluationStage {
-    StagedExchange::OutputRead read;
-    std::vector<StagedExchange::Link> links;  ///< of a loop: those that stay in it and are not cut
+  struct GroupEvaluation {
+    OrderedExchange::OutputRead read;
+    std::vector<OrderedExchange::Link>
+        links;  ///< of a loop: those that stay in it and are not torn
   };
   struct Block {
-    std::vector<EvaluationStage> stages;
+    std::vector<GroupEvaluation> groups;
     std::optional<AlgebraicLoop> loop;
     const EvaluationBlock* plan;
-    std::vector<StagedExchange::Link> onward;  ///< out of the loop
+    std::vector<OrderedExchange::Link> onward;  ///< out of the loop
   };
 
   using Targets = std::map<VariableId, std::vector<VariableId>>;  // of an output
   void plan(const EvaluationBlock& planned, const Targets& targets, RunContext& context);
   void find_direct_inputs();
-  void evaluate(EvaluationStage& stage);
-  void route(StagedExchange::Link& link);
+  void evaluate(GroupEvaluation& group);
+  void route(OrderedExchange::Link& link);
   void evaluate_loop(Block& block);
   void solve(Block& block);
   void sweep(Block& block);
@@ -83,7 +84,7 @@ class OrderedEvaluation {
   Exchange& exchange_;
   Phase phase_;
   std::vector<EvaluationBlock> order_;
-  StagedExchange staged_;
+  OrderedExchange ordered_exchange_;
   std::vector<Block> blocks_;
   std::set<VariableId> followed_;   ///< continuous inputs on which an output depends
   bool has_direct_inputs_ = false;  ///< of any kind

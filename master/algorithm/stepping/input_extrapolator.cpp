@@ -48,7 +48,7 @@ void InputExtrapolator::accept(Time time, std::span<const char> had_event) {
     if (source.signals.empty()) continue;
     SignalHistory& history = source.history;
     if (had_event[i]) history.clear();
-    // what was fetched after a step may have changed since, and a step may end where it began
+    // what was read after a step may have changed since, and a step may end where it began
     if (!history.empty() && history.newest() == time) history.remove_newest();
     source.is_ahead = false;
     sample(source, time);
@@ -83,7 +83,7 @@ void InputExtrapolator::within_step(std::size_t component, Unit& unit, double se
     const SignalHistory& history = sources_[feed.source].history;
     set_targets(feed, history, history.at(from, seconds_into_step, to - from), true);
   }
-  exchange_.deliver_within_step(component, unit);
+  exchange_.write_inputs_within_step(component, unit);
 }
 
 void InputExtrapolator::after_step(std::size_t component, Time reached) {

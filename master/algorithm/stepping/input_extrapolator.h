@@ -35,19 +35,19 @@ class InputExtrapolator {
   /// Sets a unit's inputs to their values within the step for which before_step() was called last.
   void within_step(std::size_t component, Unit& unit, double seconds_into_step);
 
-  /// At a communication point, after the outputs have been fetched: adds them to the histories. The
+  /// At a communication point, after the outputs have been read: adds them to the histories. The
   /// history of a unit that had an event begins anew: nothing is extrapolated across a jump.
   void accept(Time time, std::span<const char> had_event);
 
-  /// Leaves the inputs in the exchange, to be delivered. Throws Error (Run) where, with
+  /// Leaves the inputs in the exchange, to be written. Throws Error (Run) where, with
   /// Gauss-Seidel, the new value of an output that feeds one of them is NaN.
   void before_step(std::size_t component, const StepInterval& interval);
-  /// The outputs of the component have been fetched.
+  /// The outputs of the component have been read.
   void after_step(std::size_t component, Time reached);
   /// The unit's step is undone.
   void undo_step(std::size_t component);
 
-  /// After a step of all units to `time`, with their outputs fetched: the largest difference
+  /// After a step of all units to `time`, with their outputs read: the largest difference
   /// between an output and its polynomial, as a multiple of absolute + relative * |value|.
   ExtrapolationError extrapolation_error(Time time, double absolute, double relative);
 

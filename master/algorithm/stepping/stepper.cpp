@@ -82,7 +82,7 @@ ThreadPool& Stepper::pool() {
 
 Time Stepper::advance(Time from, Time target) {
   ++communication_step_;
-  cut_ = {};
+  early_stop_ = {};
   has_requests_ = false;
   if (balancer_.is_deciding()) return make_timed_passes(from, target);
   const Time reached = make_passes(from, target);
@@ -147,7 +147,7 @@ inline Time Stepper::step_stage(std::size_t stage, const StepInterval& interval)
     if (allowed >= reached) [[likely]]
       continue;
     reached = allowed;
-    cut_ = {&unit_step, unit_step.result.reached, unit_step.outcome == Outcome::Rejected};
+    early_stop_ = {&unit_step, unit_step.result.reached, unit_step.outcome == Outcome::Rejected};
   }
   if (reached != interval.to) check_minimum(interval, reached);
   return reached;
@@ -235,7 +235,7 @@ bool Stepper::stays_suspended(UnitStep& unit_step, const StepInterval& interval)
 
 /// The inputs are part of the state.
 void Stepper::save(UnitStep& unit_step) {
-  exchange_.deliver_routed(unit_step.component, *unit_step.unit);
+  exchange_.write_routed_inputs(unit_step.component, *unit_step.unit);
   unit_step.state->save_state();
   unit_step.saved = true;
 }
@@ -244,7 +244,7 @@ void Stepper::roll_back(UnitStep& unit_step, const StepInterval& interval) {
   unit_step.undone = unit_step.result.reached;
   restore(unit_step, interval.from);
   unit_step.rolled_back = true;
-  if (interval.from == interval.to) exchange_.fetch(unit_step.component, *unit_step.unit);
+  if (interval.from == interval.to) exchange_.read_outputs(unit_step.component, *unit_step.unit);
 }
 
 void Stepper::restore(UnitStep& unit_step, Time from) {
@@ -317,18 +317,18 @@ const std::string& Stepper::name(const UnitStep& unit_step) const {
 
 void Stepper::check_minimum(const StepInterval& interval, Time reached) const {
   const bool is_large_enough = reached - interval.from >= minimum_ && reached > interval.from;
-  if (is_large_enough || !cut_.is_rejection) return;
-  fail_run({{}, name(*cut_.by), {}, interval.from},
+  if (is_large_enough || !early_stop_.is_rejection) return;
+  fail_run({{}, name(*early_stop_.by), {}, interval.from},
            fmt::format("the unit rejected the step to {} s, {} in all, and the next one to try, to "
                        "{} s, would be shorter than the minimum of {} s{}",
-                       to_text(interval.to), times(cut_.by->rejections), to_text(reached),
-                       to_text(minimum_), reason(cut_)),
+                       to_text(interval.to), times(early_stop_.by->rejections), to_text(reached),
+                       to_text(minimum_), reason(early_stop_)),
            "look at what the unit received before this instant");
 }
 
 /// The unit's reason for the rejection.
-std::string Stepper::reason(const Cut& cut) const {
-  auto* const unit = cut.is_rejection ? cut.by->unit->capability<UnitDiagnostics>() : nullptr;
+std::string Stepper::reason(const EarlyStop& stop) const {
+  auto* const unit = stop.is_rejection ? stop.by->unit->capability<UnitDiagnostics>() : nullptr;
   const std::string text = unit != nullptr ? unit->rejection_reason() : "";
   return text.empty() ? "" : "; message of the unit: " + text;
 }
@@ -337,20 +337,22 @@ void Stepper::fail_size(const UnitStep& unit_step, const StepInterval& interval)
   const std::string hint =
       "use a unit with canHandleVariableCommunicationStepSize, or none that has events or stops "
       "early";
-  if (cut_.by == &unit_step) {
+  if (early_stop_.by == &unit_step) {
     fail_run({{}, name(unit_step), {}, interval.from},
              fmt::format("the unit rejected its step, and takes steps of one size only, {} s, so "
                          "no shorter one can be tried{}",
-                         to_text(regular_), reason(cut_)),
+                         to_text(regular_), reason(early_stop_)),
              "look at what the unit received before this instant");
   }
   const std::string who =
-      cut_.by == nullptr ? "an event, or the end of the run,"
-                         : fmt::format("'{}', which {},", name(*cut_.by),
-                                       cut_.is_rejection ? "rejected its step" : "stopped early");
+      early_stop_.by == nullptr
+          ? "an event, or the end of the run,"
+          : fmt::format("'{}', which {},", name(*early_stop_.by),
+                        early_stop_.is_rejection ? "rejected its step" : "stopped early");
   fail_run({{}, name(unit_step), {}, interval.from},
            fmt::format("the unit takes steps of one size only, {} s, but {} asks for one of {} s{}",
-                       to_text(regular_), who, to_text(interval.to - interval.from), reason(cut_)),
+                       to_text(regular_), who, to_text(interval.to - interval.from),
+                       reason(early_stop_)),
            hint);
 }
 
@@ -366,11 +368,11 @@ std::string Stepper::hint_for_final(const UnitStep& stopped) const {
 }
 
 void Stepper::fail_final(const UnitStep& ahead) const {
-  fail_run({{}, name(*cut_.by), {}, cut_.at},
+  fail_run({{}, name(*early_stop_.by), {}, early_stop_.at},
            fmt::format("the unit {}, but '{}' is at {} s already and cannot be rolled back{}",
-                       cut_.is_rejection ? "rejected a step from here" : "stopped here",
-                       name(ahead), to_text(ahead.result.reached), reason(cut_)),
-           hint_for_final(*cut_.by));
+                       early_stop_.is_rejection ? "rejected a step from here" : "stopped here",
+                       name(ahead), to_text(ahead.result.reached), reason(early_stop_)),
+           hint_for_final(*early_stop_.by));
 }
 
 }  // namespace stride::core

@@ -40,7 +40,7 @@ class Stepper {
   const std::vector<StepOrderEntry>& order() const { return order_; }
 
   /// Takes all units from `from` to `target`, or to the earlier instant, returned, at which one of
-  /// them stopped, and fetches their outputs. Throws Error (Run) naming the unit: a step shorter
+  /// them stopped, and reads their outputs. Throws Error (Run) naming the unit: a step shorter
   /// than the minimum was rejected, or a unit stopped when another could not go back.
   Time advance(Time from, Time target);
 
@@ -90,7 +90,7 @@ class Stepper {
     StateSaving* state = nullptr;  ///< where saves_state
   };
   /// The last unit that cut the present communication step short.
-  struct Cut {
+  struct EarlyStop {
     const UnitStep* by = nullptr;
     Time at{};
     bool is_rejection = false;
@@ -125,7 +125,7 @@ class Stepper {
   [[noreturn]] void rethrow_failure(const UnitStep& first) const;
   static Time retry_target(const UnitStep& unit_step, const StepInterval& interval);
   void check_minimum(const StepInterval& interval, Time reached) const;
-  std::string reason(const Cut& cut) const;
+  std::string reason(const EarlyStop& stop) const;
   [[noreturn]] void fail_size(const UnitStep& unit_step, const StepInterval& interval) const;
   std::string hint_for_final(const UnitStep& stopped) const;
   [[noreturn]] void fail_final(const UnitStep& ahead) const;
@@ -152,7 +152,7 @@ class Stepper {
   std::uint64_t communication_step_ = 0;
   Time last_end_{};  ///< of a pass, and the same as a double, since the next begins there
   double last_end_seconds_ = 0;
-  Cut cut_;
+  EarlyStop early_stop_;
   bool has_requests_ = false;
   LoadBalancer balancer_;
   std::optional<ThreadPool> pool_;  ///< started when it is first needed

@@ -18,14 +18,12 @@ using core::Causality;
 using core::ValueType;
 using core::Variability;
 
-void read_co_simulation(const xml::Element& element, ModelDescription& unit) {
+void read_fmi2_co_simulation(const xml::Element& element, core::UnitDescription& unit) {
   read_capabilities(element, unit);
   unit.can_save_state = element.flag("canGetAndSetFMUstate");
   unit.can_serialize_state = element.flag("canSerializeFMUstate");
   unit.provides_intermediate_update = element.flag("canInterpolateInputs");
   unit.provides_directional_derivatives = element.flag("providesDirectionalDerivative");
-  unit.fmi2->can_run_asynchronously =
-      element.flag("canRunAsynchronuously");  // as it is spelt there
 }
 
 /// The five elements that give a variable or a declared type its type.
@@ -55,12 +53,15 @@ xml::Element type_element(const xml::Element& parent) {
 /// Reads <ModelVariables>.
 class Variables {
  public:
-  Variables(const xml::Element& root, ModelDescription& unit) : unit_(unit) {
+  Variables(const xml::Element& root, core::UnitDescription& unit) : unit_(unit) {
     const auto list = root.child("ModelVariables");
     if (!list) root.fail("<ModelVariables> is missing");
     read_types(root);
     for (const xml::Element& element : list->children("ScalarVariable")) add(element);
   }
+
+  /// Those of the unit, in the order of the variables.
+  const std::vector<fmi2ValueReference>& references() const { return references_; }
 
  private:
   void read_types(const xml::Element& root) {
@@ -77,7 +78,7 @@ class Variables {
     variable.reference = static_cast<core::ValueReference>(unit_.variables.size());
     names_.add(variable.name, element);
     if (variable.causality == Causality::Input) check_input(element, variable, reference);
-    unit_.fmi2->references.push_back(reference);
+    references_.push_back(reference);
     unit_.variables.push_back(std::move(variable));
   }
 
@@ -134,7 +135,8 @@ class Variables {
                              variable.name, reference, same->second));
   }
 
-  ModelDescription& unit_;
+  core::UnitDescription& unit_;
+  std::vector<fmi2ValueReference> references_;
   TypeDefinitions types_;
   VariableNames names_;
   std::map<std::pair<ValueType, fmi2ValueReference>, std::string> inputs_;
@@ -142,14 +144,14 @@ class Variables {
 
 /// From an index of ModelStructure, which counts the variables from 1.
 core::ValueReference to_reference(const xml::Element& unknown, core::ValueReference index,
-                                  const ModelDescription& unit) {
+                                  const core::UnitDescription& unit) {
   if (index >= 1 && index <= unit.variables.size()) return index - 1;
   unknown.fail(fmt::format("{} refers to the variable with the index {}; expected one from 1 to {}",
                            unknown.tag(), index, unit.variables.size()));
 }
 
 std::vector<core::Unknown> read_unknowns(const xml::Element& structure, const char* list,
-                                         const ModelDescription& unit) {
+                                         const core::UnitDescription& unit) {
   std::vector<core::Unknown> unknowns;
   const auto parent = structure.child(list);
   if (!parent) return unknowns;
@@ -166,15 +168,19 @@ std::vector<core::Unknown> read_unknowns(const xml::Element& structure, const ch
 
 }  // namespace
 
-void read_fmi2_description(const xml::Element& root, ModelDescription& unit) {
-  unit.fmi2.emplace();
+Fmi2Attributes read_fmi2_description(const xml::Element& root, core::UnitDescription& unit) {
   unit.instantiation_token = root.given("guid");
-  read_co_simulation(find_co_simulation(root), unit);
-  Variables(root, unit);
+  const xml::Element co_simulation = find_co_simulation(root);
+  read_fmi2_co_simulation(co_simulation, unit);
+  Fmi2Attributes attributes;
+  attributes.can_run_asynchronously =
+      co_simulation.flag("canRunAsynchronuously");  // as it is spelt there
+  attributes.references = Variables(root, unit).references();
   const auto structure = root.child("ModelStructure");
   if (!structure) root.fail("<ModelStructure> is missing");
   unit.outputs = read_unknowns(*structure, "Outputs", unit);
   unit.initial_unknowns = read_unknowns(*structure, "InitialUnknowns", unit);
+  return attributes;
 }
 
 }  // namespace stride::importer

@@ -2,16 +2,17 @@
 #ifndef STRIDE_MASTER_IMPORTER_FMI2_FMI2_DESCRIPTION_H
 #define STRIDE_MASTER_IMPORTER_FMI2_FMI2_DESCRIPTION_H
 
-#include "master/importer/model_description.h"
+#include "master/importer/fmi2/fmi2_attributes.h"
+#include "master/model/description.h"
 #include "master/util/xml/element.h"
 
 namespace stride::importer {
 
 /// Each <ScalarVariable> becomes a variable, aliases as well: they may differ in causality, and so
 /// in what can be connected, and in their dependencies. Its reference is its index, see
-/// Fmi2Attributes. Throws as read_model_description() does, and where two inputs are aliases of
-/// each other, which FMI 2.0 forbids (2.2.7).
-void read_fmi2_description(const xml::Element& root, ModelDescription& unit);
+/// Fmi2Attributes, which are returned. Throws as read_model_description() does, and where two
+/// inputs are aliases of each other, which FMI 2.0 forbids (2.2.7).
+Fmi2Attributes read_fmi2_description(const xml::Element& root, core::UnitDescription& unit);
 
 }  // namespace stride::importer
 

@@ -48,9 +48,12 @@ void Fmi2Unit::select_state(std::size_t slot) {
 }
 
 std::vector<std::uint8_t> Fmi2Unit::serialize_state() {
-  return serialized(states_.chosen().state, "fmi2SerializedFMUstateSize",
-                    fmi_.SerializedFMUstateSize, "fmi2SerializeFMUstate", fmi_.SerializeFMUstate,
-                    kFmi2Serializing);
+  const Serialization<fmi2Status, fmi2Byte> functions{.size_name = "fmi2SerializedFMUstateSize",
+                                                      .size_of = fmi_.SerializedFMUstateSize,
+                                                      .write_name = "fmi2SerializeFMUstate",
+                                                      .write = fmi_.SerializeFMUstate,
+                                                      .capability = kFmi2Serializing};
+  return serialized(states_.chosen().state, functions);
 }
 
 /// The bytes do not contain the time.

@@ -35,9 +35,12 @@ void Fmi3Unit::free_state(SavedState& saved) {
 void Fmi3Unit::select_state(std::size_t slot) { states_.choose(slot); }
 
 std::vector<std::uint8_t> Fmi3Unit::serialize_state() {
-  return serialized(states_.chosen().state, "fmi3SerializedFMUStateSize",
-                    fmi_.SerializedFMUStateSize, "fmi3SerializeFMUState", fmi_.SerializeFMUState,
-                    kFmi3Serializing);
+  const Serialization<fmi3Status, fmi3Byte> functions{.size_name = "fmi3SerializedFMUStateSize",
+                                                      .size_of = fmi_.SerializedFMUStateSize,
+                                                      .write_name = "fmi3SerializeFMUState",
+                                                      .write = fmi_.SerializeFMUState,
+                                                      .capability = kFmi3Serializing};
+  return serialized(states_.chosen().state, functions);
 }
 
 /// The bytes do not contain the time.

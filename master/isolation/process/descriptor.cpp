@@ -11,6 +11,13 @@ namespace stride::isolation {
 
 void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
+Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
+  if (this == &other) return *this;
+  close();
+  number_ = std::exchange(other.number_, -1);
+  return *this;
+}
+
 void Descriptor::close() {
   if (is_open()) ::close(std::exchange(number_, -1));
 }

@@ -17,10 +17,8 @@ class Descriptor {
   explicit Descriptor(int number = -1) : number_(number) {}
   ~Descriptor() { close(); }
   Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
+  /// Closes its own file first.
+  Descriptor& operator=(Descriptor&& other) noexcept;
 
   int number() const { return number_; }
   bool is_open() const { return number_ >= 0; }

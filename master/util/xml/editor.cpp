@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include <stride/xml_text.h>
+
 namespace stride::xml {
 namespace {
 
@@ -143,7 +145,7 @@ void Editor::add_attribute(std::size_t element, const std::string& name, const s
   const ElementPlace& place = places_[element];
   const std::size_t close = place.start_tag_end - (place.is_empty_tag ? 2 : 1);
   const std::size_t at = text_.find_last_not_of(kBlanks, close - 1) + 1;
-  edits_.push_back({at, 0, " " + name + "=\"" + escaped(value) + "\""});
+  edits_.push_back({at, 0, " " + name + "=\"" + xml_escaped(value) + "\""});
 }
 
 void Editor::set_attribute(std::size_t element, const std::string& name, const std::string& value) {
@@ -157,7 +159,7 @@ void Editor::set_attribute(std::size_t element, const std::string& name, const s
     const std::size_t close = text_.find(text_[open], open + 1);
     const std::size_t name_end = text_.find_last_not_of(kBlanks, equals - 1) + 1;
     if (text_.substr(begin, name_end - begin) == name) {
-      edits_.push_back({open, close + 1 - open, "\"" + escaped(value) + "\""});
+      edits_.push_back({open, close + 1 - open, "\"" + xml_escaped(value) + "\""});
       return;
     }
     at = close + 1;
@@ -175,35 +177,6 @@ std::string Editor::result() const {
     at = edit.at + edit.erased;
   }
   return result + text_.substr(at);
-}
-
-std::string escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\n':
-        escaped += "&#10;";
-        break;
-      case '\t':
-        escaped += "&#9;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
 }
 
 }  // namespace stride::xml

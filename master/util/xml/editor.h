@@ -56,9 +56,6 @@ class Editor {
   std::vector<Edit> edits_;
 };
 
-/// As the value of an attribute: & < > " and control characters as entities.
-std::string escaped(const std::string& text);
-
 }  // namespace stride::xml
 
 #endif

@@ -48,9 +48,8 @@ void step(TestInstance& instance) {
   instance.unit().step({instance.now(), instance.now() + std::chrono::milliseconds(1)});
 }
 
-std::vector<Offence> offences(const TestedUnit& tested) {
-  const core::UnitDescription& unit = tested.description();
-  std::vector<Offence> list = {
+std::vector<Offence> offences_of_any_unit() {
+  return {
       {"DoStep", State::Instantiated, step},
       {"DoStep", State::Initialization, step},
       {"DoStep", State::Terminated, step},
@@ -62,17 +61,20 @@ std::vector<Offence> offences(const TestedUnit& tested) {
        [](TestInstance& instance) { instance.unit().enter_initialization({}, std::nullopt); }},
       {"Terminate", State::Instantiated, [](TestInstance& instance) { instance.terminate(); }},
   };
-  if (unit.has_event_mode) {
-    list.push_back({"DoStep", State::EventMode, step});
-    list.push_back({"EnterEventMode", State::Instantiated,
-                    [](TestInstance& instance) { instance.unit().enter_event_mode(); }});
-    list.push_back({"UpdateDiscreteStates", State::StepMode,
-                    [](TestInstance& instance) { instance.unit().update_discrete_states(); }});
-    list.push_back({"EnterStepMode", State::StepMode,
-                    [](TestInstance& instance) { instance.unit().enter_step_mode(); }});
-  }
-  if (unit.fmi_version.starts_with("2")) return list;  // there the importer numbers the variables
-  const ValueReference unknown = unused_reference(unit);
+}
+
+/// Of a unit with Event Mode.
+void add_event_mode(std::vector<Offence>& list) {
+  list.push_back({"DoStep", State::EventMode, step});
+  list.push_back({"EnterEventMode", State::Instantiated,
+                  [](TestInstance& instance) { instance.unit().enter_event_mode(); }});
+  list.push_back({"UpdateDiscreteStates", State::StepMode,
+                  [](TestInstance& instance) { instance.unit().update_discrete_states(); }});
+  list.push_back({"EnterStepMode", State::StepMode,
+                  [](TestInstance& instance) { instance.unit().enter_step_mode(); }});
+}
+
+void add_unknown_reference(std::vector<Offence>& list, ValueReference unknown) {
   list.push_back({"GetBoolean of a value reference that no variable has", State::StepMode,
                   [unknown](TestInstance& instance) {
                     core::ValueBlock value(core::ValueType::Boolean, 1);
@@ -83,6 +85,14 @@ std::vector<Offence> offences(const TestedUnit& tested) {
                     const core::ValueBlock value(core::ValueType::Boolean, 1);
                     instance.unit().set({&unknown, 1}, value);
                   }});
+}
+
+std::vector<Offence> offences(const TestedUnit& tested) {
+  const core::UnitDescription& unit = tested.description();
+  std::vector<Offence> list = offences_of_any_unit();
+  if (unit.has_event_mode) add_event_mode(list);
+  // in FMI 2.0 the importer numbers the variables
+  if (!unit.fmi_version.starts_with("2")) add_unknown_reference(list, unused_reference(unit));
   return list;
 }
 

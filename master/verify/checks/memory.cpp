@@ -44,8 +44,38 @@ Usage usage() {
 std::size_t entries(const char* folder) {
   return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
 }
-std::size_t open_files() { return entries("/proc/self/fd"); }
-std::size_t threads() { return entries("/proc/self/task"); }
+
+/// What instances may leave behind beside memory.
+struct Leftovers {
+  std::size_t files = entries("/proc/self/fd");
+  std::size_t threads = entries("/proc/self/task");
+};
+
+/// Throws Failure if there are more of them after so many instances.
+void require_released(const Leftovers& before, const Leftovers& after, std::size_t instances) {
+  if (after.files > before.files + instances / 2) {
+    throw Failure(
+        fmt::format("{} instances leave {} files open", instances, after.files - before.files));
+  }
+  if (after.threads > before.threads + instances / 2) {
+    throw Failure(fmt::format("{} instances leave {} threads running", instances,
+                              after.threads - before.threads));
+  }
+}
+
+/// Of those that are left once, whatever the number of instances.
+std::vector<std::string> notes_on(const Leftovers& before, const Leftovers& after) {
+  std::vector<std::string> notes;
+  if (after.files > before.files) {
+    notes.push_back(
+        fmt::format("{} files stay open when no instance is left", after.files - before.files));
+  }
+  if (after.threads > before.threads) {
+    notes.push_back(
+        fmt::format("{} threads run on when no instance is left", after.threads - before.threads));
+  }
+  return notes;
+}
 
 /// How much more is in use after each repetition.
 struct Growth {
@@ -107,60 +137,46 @@ constexpr bool kIsSanitized = true;  // which has an allocator of its own and ke
 constexpr bool kIsSanitized = false;
 #endif
 
-}  // namespace
-
-Finding check_memory(const Trial& trial) {
-  if (kIsSanitized) return skipped("memory cannot be measured in a build with sanitizers");
-  const TestedUnit& tested = trial.tested;
-  const auto share = tested.request().limit / 5;  // each of two growths may be measured twice
-  tested.fmu().load_library();
-  const std::size_t files_before = open_files();
-  const std::size_t threads_before = threads();
-  const std::size_t few_steps = std::min<std::size_t>(5, tested.steps());
-
-  const Growth instances = measure_surely(tested.request().instances, share, [&] {
+/// Of instances that are made, run and freed one after the other.
+Growth growth_by_instances(const Trial& trial, Clock::duration share) {
+  const std::size_t few_steps = std::min<std::size_t>(5, trial.tested.steps());
+  return measure_surely(trial.tested.request().instances, share, [&] {
     TestInstance instance = trial.make_instance();
     instance.start();
     instance.run_to(few_steps, false);
     if (!instance.recording().has_ended) instance.terminate();
   });
+}
+
+Growth growth_by_steps(const Trial& trial, Clock::duration share) {
+  TestInstance instance = trial.make_instance();
+  instance.start();
+  return measure_surely(kMostSteps, share, [&] { instance.run_to(instance.at() + 1, false); });
+}
+
+}  // namespace
+
+Finding check_memory(const Trial& trial) {
+  if (kIsSanitized) return skipped("memory cannot be measured in a build with sanitizers");
+  const auto share = trial.tested.request().limit / 5;  // each of two may be measured twice
+  trial.tested.fmu().load_library();
+  const Leftovers before;
+  const Growth instances = growth_by_instances(trial, share);
   if (instances.is_leak()) {
     return failed(fmt::format("it leaks {}, over {} instances (allowed: {} and {})",
                               instances.text("instance"), instances.count, kMostHeap,
                               kMostResident));
   }
-  const std::size_t all_instances = instances.count + kWarmUp;
-  const std::size_t files = open_files();
-  if (files > files_before + all_instances / 2) {
-    return failed(
-        fmt::format("{} instances leave {} files open", all_instances, files - files_before));
-  }
-  const std::size_t tasks = threads();
-  if (tasks > threads_before + all_instances / 2) {
-    return failed(fmt::format("{} instances leave {} threads running", all_instances,
-                              tasks - threads_before));
-  }
-
-  TestInstance instance = trial.make_instance();
-  instance.start();
-  const Growth steps =
-      measure_surely(kMostSteps, share, [&] { instance.run_to(instance.at() + 1, false); });
+  const Leftovers after;
+  require_released(before, after, instances.count + kWarmUp);
+  const Growth steps = growth_by_steps(trial, share);
   if (steps.is_leak()) {
     return failed(fmt::format("while it runs it grows by {}, over {} steps (allowed: {} and {})",
                               steps.text("step"), steps.count, kMostHeap, kMostResident));
   }
-  std::vector<std::string> notes;
-  if (files > files_before) {
-    notes.push_back(
-        fmt::format("{} files stay open when no instance is left", files - files_before));
-  }
-  if (tasks > threads_before) {
-    notes.push_back(
-        fmt::format("{} threads run on when no instance is left", tasks - threads_before));
-  }
   return passed(fmt::format("{} after {} instances; {} after {} steps", instances.text("instance"),
                             instances.count, steps.text("step"), steps.count),
-                std::move(notes));
+                notes_on(before, after));
 }
 
 }  // namespace stride::verify

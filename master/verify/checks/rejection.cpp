@@ -116,46 +116,53 @@ std::vector<std::string> values_without_rejections(const Trial& trial, std::size
   return twin.rows.front().values;
 }
 
+/// Throws Failure if the rejected steps have changed what the instance computes.
+void require_no_effect(const Trial& trial, std::size_t from, const RejectionProbe& probe,
+                       TestInstance& instance) {
+  const auto twin = values_without_rejections(trial, from, probe.reached());
+  const std::int64_t now = instance.now().time_since_epoch().count();
+  const auto differs =
+      difference(trial.tested, {{now, twin, false}}, {{now, instance.observe(), false}},
+                 "without rejected steps", "with them");
+  if (differs) throw Failure(*differs);
+}
+
+void require_allowed(const core::UnitDescription& unit, std::size_t rejections) {
+  if (unit.may_reject || rejections == 0) return;
+  throw Failure(
+      fmt::format("it rejects {} steps, though it declares mayReject=\"false\"", rejections));
+}
+
+/// Steps of other sizes than its own cannot be tried.
+Finding finding_of_fixed_step(std::size_t rejections) {
+  if (rejections > 0) {
+    return passed(fmt::format("{} steps are rejected, and made in parts", rejections));
+  }
+  return skipped(
+      "it rejects no step of its size, and has no canHandleVariableCommunicationStepSize");
+}
+
 }  // namespace
 
 Finding check_rejection(const Trial& trial) {
-  const TestedUnit& tested = trial.tested;
-  const core::UnitDescription& unit = tested.description();
+  const core::UnitDescription& unit = trial.tested.description();
   const Recording run = trial.record();
-  const auto fail_if_denied = [&](std::size_t rejections) {
-    if (unit.may_reject || rejections == 0) return;
-    throw Failure(
-        fmt::format("it rejects {} steps, though it declares mayReject=\"false\"", rejections));
-  };
-  fail_if_denied(run.rejections);
-  if (!unit.can_vary_step) {
-    return run.rejections == 0
-               ? skipped(
-                     "it rejects no step of its size, and has no "
-                     "canHandleVariableCommunicationStepSize")
-               : passed(fmt::format("{} steps are rejected, and made in parts", run.rejections));
-  }
+  require_allowed(unit, run.rejections);
+  if (!unit.can_vary_step) return finding_of_fixed_step(run.rejections);
   const std::size_t from = trial.point_at(0.2);
   TestInstance instance = trial.make_instance();
   instance.start();
   instance.run_to(from, false);
   RejectionProbe probe(trial, instance);
   probe.run();
-  fail_if_denied(probe.rejections());
+  require_allowed(unit, probe.rejections());
   std::vector<std::string> notes;
   if (!probe.error().empty()) notes.push_back("a longer step is an error: " + probe.error());
   if (probe.rejections() == 0) {
     return passed(fmt::format("no step is rejected, up to {} s", core::to_text(probe.longest())),
                   std::move(notes));
   }
-  if (probe.error().empty()) {
-    const auto twin = values_without_rejections(trial, from, probe.reached());
-    const std::int64_t now = instance.now().time_since_epoch().count();
-    const auto differs =
-        difference(tested, {{now, twin, false}}, {{now, instance.observe(), false}},
-                   "without rejected steps", "with them");
-    if (differs) throw Failure(*differs);
-  }
+  if (probe.error().empty()) require_no_effect(trial, from, probe, instance);
   return passed(fmt::format("{} steps rejected, nothing changed; shorter ones are accepted",
                             probe.rejections() + run.rejections),
                 std::move(notes));

@@ -14,13 +14,13 @@ class There {
  public:
   template <class Put>
   explicit There(Put&& put) {
-    MessageWriter out(memory_);
+    PacketWriter out(memory_);
     put(out);
     size_ = out.size();
   }
-  MessageReader read() const { return MessageReader({memory_.data(), size_}); }
-  MessageReader read_all_but(std::size_t bytes) const {
-    return MessageReader({memory_.data(), size_ - bytes});
+  PacketReader read() const { return PacketReader({memory_.data(), size_}); }
+  PacketReader read_all_but(std::size_t bytes) const {
+    return PacketReader({memory_.data(), size_ - bytes});
   }
 
  private:
@@ -45,18 +45,18 @@ TEST_CASE("blocks of all types come over") {
         elements[2] = T(1000, 'b');
       }
     });
-    const There there([&](MessageWriter& to) {
+    const There there([&](PacketWriter& to) {
       put_shape(to, values);
       put_values(to, values);
     });
-    MessageReader from = there.read();
+    PacketReader from = there.read();
     ValueBlock copy = take_shape(from);
     CHECK(copy.type() == type);
     take_values(from, copy);
     CHECK(copy == values);
-    MessageReader less = there.read_all_but(1);
+    PacketReader less = there.read_all_but(1);
     ValueBlock other = take_shape(less);
-    CHECK_THROWS_AS(take_values(less, other), BadMessage);
+    CHECK_THROWS_AS(take_values(less, other), BadPacket);
   }
 }
 
@@ -67,8 +67,8 @@ TEST_CASE("results of steps and events come over") {
                                   .event_handling_needed = (flags & 4) != 0,
                                   .terminate_simulation = (flags & 8) != 0,
                                   .reached = Time(Duration(flags - 5))};
-    const There there([&](MessageWriter& to) { put_step(to, result); });
-    MessageReader from = there.read();
+    const There there([&](PacketWriter& to) { put_step(to, result); });
+    PacketReader from = there.read();
     const core::StepResult copy = take_step(from);
     CHECK(copy.rejected == result.rejected);
     CHECK(copy.early_return == result.early_return);
@@ -77,8 +77,8 @@ TEST_CASE("results of steps and events come over") {
     CHECK(copy.reached == result.reached);
   }
   for (const auto next : {std::optional<Time>(), std::optional(Time(Duration(12)))}) {
-    const There there([&](MessageWriter& to) { put_events(to, {true, false, next}); });
-    MessageReader from = there.read();
+    const There there([&](PacketWriter& to) { put_events(to, {true, false, next}); });
+    PacketReader from = there.read();
     const core::EventResult copy = take_events(from);
     CHECK(copy.discrete_states_need_update);
     CHECK_FALSE(copy.terminate_simulation);
@@ -90,8 +90,8 @@ TEST_CASE("an error comes over with all its parts") {
   const core::Error error(core::Error::Kind::Input,
                           {{"system.ssd", 12}, "unit", "variable", Time(Duration(5))}, "message",
                           "hint");
-  const There there([&](MessageWriter& to) { put_error(to, error, {}); });
-  MessageReader from = there.read();
+  const There there([&](PacketWriter& to) { put_error(to, error, {}); });
+  PacketReader from = there.read();
   try {
     throw_error(from);
   } catch (const core::Error& copy) {
@@ -105,12 +105,12 @@ TEST_CASE("an error comes over with all its parts") {
 }
 
 TEST_CASE("what is not an error of core's becomes one of the unit, and consequent ones stay it") {
-  const There plain([](MessageWriter& to) {
+  const There plain([](PacketWriter& to) {
     put_error(to, std::runtime_error("no"), {.where = {"system.ssd", 3}, .unit = "u"});
   });
-  MessageReader from = plain.read();
+  PacketReader from = plain.read();
   CHECK_THROWS_WITH(throw_error(from), "system.ssd:3: unit 'u': no");
-  const There consequent([](MessageWriter& to) {
+  const There consequent([](PacketWriter& to) {
     put_error(to, core::ConsequentError(core::Error::Kind::Run, {}, "later"), {});
   });
   from = consequent.read();

@@ -19,9 +19,9 @@ std::vector<LogMessage> read(LogReader& reader) {
 }  // namespace
 
 TEST_CASE("messages come over one by one") {
-  const isolation::Shared<ChannelMemory> channel;
-  LogWriter writer(*channel);
-  LogReader reader(*channel);
+  const isolation::Shared<HostLinkMemory> link;
+  LogWriter writer(*link);
+  LogReader reader(*link);
   CHECK(reader.is_empty());
   writer.write({importer::Status::Warning, "category", "text"});
   writer.write({importer::Status::Pending, "", ""});
@@ -36,9 +36,9 @@ TEST_CASE("messages come over one by one") {
 }
 
 TEST_CASE("messages of several threads, longer than there is room for, come over whole") {
-  const isolation::Shared<ChannelMemory> channel;
-  LogWriter writer(*channel);
-  LogReader reader(*channel);
+  const isolation::Shared<HostLinkMemory> link;
+  LogWriter writer(*link);
+  LogReader reader(*link);
   const auto write = [&](char letter) {
     for (int i = 0; i < 5; ++i)
       writer.write({importer::Status::Ok, "", std::string(200'000, letter)});
@@ -57,9 +57,9 @@ TEST_CASE("messages of several threads, longer than there is room for, come over
 }
 
 TEST_CASE("an invalid status is refused, and a message without an end takes no memory") {
-  const isolation::Shared<ChannelMemory> channel;
-  LogReader reader(*channel);
-  channel->logged.write(std::string(16, '\xff'));
-  channel->logged.write(std::string(1000, 'x'));
+  const isolation::Shared<HostLinkMemory> link;
+  LogReader reader(*link);
+  link->logged.write(std::string(16, '\xff'));
+  link->logged.write(std::string(1000, 'x'));
   CHECK(read(reader).empty());
 }

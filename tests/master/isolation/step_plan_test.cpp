@@ -57,12 +57,12 @@ TEST_CASE("a served plan has memory for the values of its request") {
   Values values({4, 5});
   values.in.numbers<double>()[1] = 2.5;
   isolation::GrowingMemory memory("test", 64);
-  MessageWriter out(memory);
+  PacketWriter out(memory);
   put_shape(out, values.step());
   for (const core::BoundValues& input : values.inputs) {
     out.put_bytes(input.block->bytes(), 2 * sizeof(double));
   }
-  MessageReader in({memory.data(), out.size()});
+  PacketReader in({memory.data(), out.size()});
   StepBuffers plan(in);
   plan.take_inputs(in);
   REQUIRE(plan.values().inputs.size() == 1);
@@ -70,7 +70,7 @@ TEST_CASE("a served plan has memory for the values of its request") {
   CHECK(plan.values().inputs[0].float64s[1] == 2.5);
   REQUIRE(plan.values().outputs.size() == 1);
   plan.values().outputs[0].block->numbers<double>()[0] = -1;
-  MessageWriter answer(memory);
+  PacketWriter answer(memory);
   plan.put_outputs(answer);
-  CHECK(MessageReader({memory.data(), answer.size()}).take<double>() == -1);
+  CHECK(PacketReader({memory.data(), answer.size()}).take<double>() == -1);
 }

@@ -71,7 +71,7 @@ Time end_of(const nfc::Frame& frame) { return frame.start + nfc::air_time(frame)
 
 TEST_CASE(
     "Superposed, answers that overlap are one message; a weak one is masked by a strong one") {
-  Plain air(rules(Overlap::kSuperpose, 10.0));
+  Plain air(rules(Overlap::Superpose, 10.0));
   air.observe(kAirStart);
   air.from_tag(0, frame({1, 2}));
   air.from_tag(1, frame({1, 3}));
@@ -90,7 +90,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Interfering, each is heard by itself, and the strong disturb the weak") {
-  Plain air(rules(Overlap::kInterfere));
+  Plain air(rules(Overlap::Interfere));
   air.signals_of[1].up = 0.5;
   air.observe(kAirStart);
   air.from_tag(0, frame({1, 2}));
@@ -104,7 +104,7 @@ TEST_CASE("Interfering, each is heard by itself, and the strong disturb the weak
 
 TEST_CASE(
     "Passing, all arrive, also while their receiver sends, if it need not be quiet for that") {
-  Rules all = rules(Overlap::kPass);
+  Rules all = rules(Overlap::Pass);
   for (const bool half_duplex : {true, false}) {
     all.half_duplex = half_duplex;
     Plain air(all);
@@ -123,7 +123,7 @@ TEST_CASE(
 
 TEST_CASE("A header that is wrong loses its packet, and leaves the receiver to the next") {
   const auto heard = [](double error_rate) {
-    Plain air(rules(Overlap::kInterfere));
+    Plain air(rules(Overlap::Interfere));
     air.header = 16 * kAirBit;
     air.observe(kAirStart);
     air.error_rate = error_rate;
@@ -142,7 +142,7 @@ TEST_CASE("A header that is wrong loses its packet, and leaves the receiver to t
 }
 
 TEST_CASE("Packets of one sender follow each other, those of two are distinguished") {
-  Plain air(rules(Overlap::kInterfere));
+  Plain air(rules(Overlap::Interfere));
   air.header = 100 * kAirBit;
   air.observe(kAirStart);
   air.from_tag(0, frame({1}));

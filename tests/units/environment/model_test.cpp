@@ -122,7 +122,7 @@ TEST_CASE("The case leaves its tangent not before the promised time, and not muc
     CAPTURE(t);
     const double temperature = body.temperature_after(at(0), at(t), 30.0, 0.25);
     const double rate = body.temperature_rate(at(t), temperature, 0.25);
-    const auto holds = body.case_tangent_holds_for(tolerance, at(t), temperature, 0.25, rate, 0);
+    const auto holds = body.case_tangent_holds_for({at(t), temperature, rate, 0.25, 0}, tolerance);
     const auto error_after = [&](double seconds) {
       const double later = body.temperature_after(at(t), at(t + seconds), temperature, 0.25);
       return std::abs(later - temperature - rate * seconds);
@@ -137,13 +137,13 @@ TEST_CASE("Another power uses up its share of the tolerance") {
   const SensorCase body;  // R = 20 K/W, C = 5 J/K
   const double rate = body.temperature_rate(at(0), 21.5, 0.3);
   const auto holds = [&](double power, double deadband) {
-    return body.case_tangent_holds_for(0.01, at(0), 21.5, power, rate, deadband);
+    return body.case_tangent_holds_for({at(0), 21.5, rate, power, deadband}, 0.01);
   };
   CHECK(holds(0.3, 0) > holds(0.3, 1e-4));     // 2 mK of 10
   CHECK(holds(0.3, 1e-4) > holds(0.3, 1e-2));  // 0.2 K in the end, at 2 mK/s at first
   CHECK(holds(0.3, 1e-2) < Duration(5'000'000'000'000));
   CHECK(holds(0.8, 0) < Duration(100'000'000'000));  // the slope is wrong by 0.1 K/s
-  CHECK(body.case_tangent_holds_for(0.01, at(0), 21.5, 0, 0, 0) == Duration::max());
+  CHECK(body.case_tangent_holds_for({at(0), 21.5, 0, 0, 0}, 0.01) == Duration::max());
 }
 
 TEST_CASE("The ambient temperature leaves its tangent likewise") {

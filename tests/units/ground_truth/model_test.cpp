@@ -38,27 +38,27 @@ Finding finding(Judge judge, const Measurement& measurement) {
 
 TEST_CASE("a new measurement is compared with the truth of its instant") {
   const Judge judge = rising(parameters(0.25));
-  CHECK(finding(judge, {at(10), 30.2, {}, {}}) == Finding::kRight);
-  CHECK(finding(judge, {at(10), 29.6, {}, {}}) == Finding::kWrong);
-  CHECK(finding(judge, {at(10), 30.3, {}, {}}) == Finding::kWrong);
+  CHECK(finding(judge, {at(10), 30.2, {}, {}}) == Finding::Right);
+  CHECK(finding(judge, {at(10), 29.6, {}, {}}) == Finding::Wrong);
+  CHECK(finding(judge, {at(10), 30.3, {}, {}}) == Finding::Wrong);
 }
 
 TEST_CASE("it may be as old as it is allowed to be, and no older") {
   const Judge judge = rising(parameters(0.25, 2s));
-  CHECK(finding(judge, {at(10), 27.8, {}, {}}) == Finding::kRight);  // 28 two seconds ago
-  CHECK(finding(judge, {at(10), 27.6, {}, {}}) == Finding::kWrong);
-  CHECK(finding(judge, {at(10), 30.3, {}, {}}) == Finding::kWrong);  // not in the future
+  CHECK(finding(judge, {at(10), 27.8, {}, {}}) == Finding::Right);  // 28 two seconds ago
+  CHECK(finding(judge, {at(10), 27.6, {}, {}}) == Finding::Wrong);
+  CHECK(finding(judge, {at(10), 30.3, {}, {}}) == Finding::Wrong);  // not in the future
 }
 
 TEST_CASE("a measurement with an age is compared with the truth at that time") {
   const Judge judge = rising(parameters(0.25));
-  CHECK(finding(judge, {at(10), 25.0, 5s, {}}) == Finding::kRight);
-  CHECK(finding(judge, {at(10), 30.0, 5s, {}}) == Finding::kWrong);
+  CHECK(finding(judge, {at(10), 25.0, 5s, {}}) == Finding::Right);
+  CHECK(finding(judge, {at(10), 30.0, 5s, {}}) == Finding::Wrong);
   // whole seconds, rounded down: 5 to 6 seconds
-  CHECK(finding(judge, {at(10), 24.0, 5s, {}}) == Finding::kWrong);
-  CHECK(finding(judge, {at(10), 24.0, 5s, 1s}) == Finding::kRight);
-  CHECK(finding(judge, {at(10), 23.4, 5s, 1s}) == Finding::kWrong);
-  CHECK(finding(rising(parameters(0.25, 1s)), {at(10), 23.4, 5s, 1s}) == Finding::kRight);
+  CHECK(finding(judge, {at(10), 24.0, 5s, {}}) == Finding::Wrong);
+  CHECK(finding(judge, {at(10), 24.0, 5s, 1s}) == Finding::Right);
+  CHECK(finding(judge, {at(10), 23.4, 5s, 1s}) == Finding::Wrong);
+  CHECK(finding(rising(parameters(0.25, 1s)), {at(10), 23.4, 5s, 1s}) == Finding::Right);
 }
 
 TEST_CASE("the error is the least that an instant leaves") {
@@ -76,21 +76,21 @@ TEST_CASE("the error is the least that an instant leaves") {
 
 TEST_CASE("what was before the start, or is forgotten, makes nothing wrong") {
   Judge judge = rising(parameters(0.25));
-  CHECK(judge.compare({at(10), 50.0, 11s, {}}).finding == Finding::kUnknown);
-  CHECK(judge.compare({at(10), 50.0, 9s, 2s}).finding == Finding::kUnknown);
-  CHECK(judge.compare({at(10), 20.5, 9s, 2s}).finding == Finding::kRight);
+  CHECK(judge.compare({at(10), 50.0, 11s, {}}).finding == Finding::Unknown);
+  CHECK(judge.compare({at(10), 50.0, 9s, 2s}).finding == Finding::Unknown);
+  CHECK(judge.compare({at(10), 20.5, 9s, 2s}).finding == Finding::Right);
   // as old as can be said, and more than can be counted
   const Duration longest = stride::duration_from_seconds(stride::kMaxSeconds);
-  CHECK(judge.compare({at(10), 50.0, 65535s, longest}).finding == Finding::kUnknown);
-  CHECK(judge.compare({at(10), 50.0, longest, longest}).finding == Finding::kUnknown);
+  CHECK(judge.compare({at(10), 50.0, 65535s, longest}).finding == Finding::Unknown);
+  CHECK(judge.compare({at(10), 50.0, longest, longest}).finding == Finding::Unknown);
   CHECK(judge.state().unknown == 4);
   CHECK(judge.compared() == 1);
   CHECK(judge.passed());
 
   Judge forgetful({0.25, 0s, 3s, 0}, kTemperature);
   for (int i = 0; i <= 100; ++i) forgetful.note(at(0.1 * i), 20 + 0.1 * i);
-  CHECK(forgetful.compare({at(10), 50.0, 2s, {}}).finding == Finding::kWrong);
-  CHECK(forgetful.compare({at(10), 50.0, 4s, {}}).finding == Finding::kUnknown);
+  CHECK(forgetful.compare({at(10), 50.0, 2s, {}}).finding == Finding::Wrong);
+  CHECK(forgetful.compare({at(10), 50.0, 4s, {}}).finding == Finding::Unknown);
 }
 
 TEST_CASE("one wrong measurement, or too few, and the verdict is bad") {

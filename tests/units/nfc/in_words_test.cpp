@@ -23,10 +23,10 @@ nfc::Bits cut(nfc::Bits bits, std::size_t size) {
 }
 
 std::string request(const Bytes& content) {
-  return nfc::in_words(payload(whole(content)), Sender::kReader);
+  return nfc::in_words(payload(whole(content)), Sender::Reader);
 }
 std::string answer(const Bytes& content) {
-  return nfc::in_words(payload(whole(content)), Sender::kTag);
+  return nfc::in_words(payload(whole(content)), Sender::Tag);
 }
 
 }  // namespace
@@ -65,32 +65,30 @@ TEST_CASE("an answer is its status and what its data can only be") {
 
 TEST_CASE("the text of a damaged frame has what is wrong") {
   const nfc::Bits led = whole({0x03, 1});
-  CHECK(nfc::in_words(payload(cut(led, 17)), Sender::kReader) ==
-        "set_led, cut after 17 of 36 bits");
-  CHECK(nfc::in_words(payload(cut(led, 18)), Sender::kReader) ==
-        "set_led, cut after 18 of 36 bits");
-  CHECK(nfc::in_words(payload(cut(led, 8)), Sender::kReader) == "cut after 8 bits");
-  CHECK(nfc::in_words(payload({}), Sender::kReader) == "cut before its first bit");
-  CHECK(nfc::in_words(payload(cut(led, 17)), Sender::kTag) == "cut after 17 bits");
-  CHECK(nfc::in_words(payload(cut(led, 18)), Sender::kTag) == "CRC wrong");
+  CHECK(nfc::in_words(payload(cut(led, 17)), Sender::Reader) == "set_led, cut after 17 of 36 bits");
+  CHECK(nfc::in_words(payload(cut(led, 18)), Sender::Reader) == "set_led, cut after 18 of 36 bits");
+  CHECK(nfc::in_words(payload(cut(led, 8)), Sender::Reader) == "cut after 8 bits");
+  CHECK(nfc::in_words(payload({}), Sender::Reader) == "cut before its first bit");
+  CHECK(nfc::in_words(payload(cut(led, 17)), Sender::Tag) == "cut after 17 bits");
+  CHECK(nfc::in_words(payload(cut(led, 18)), Sender::Tag) == "CRC wrong");
   nfc::Bits flipped = led;
   flipped[10] ^= 1;
-  CHECK(nfc::in_words(payload(flipped), Sender::kReader) == "parity wrong");
+  CHECK(nfc::in_words(payload(flipped), Sender::Reader) == "parity wrong");
   flipped[11] ^= 1;
-  CHECK(nfc::in_words(payload(flipped), Sender::kReader) == "CRC wrong");
+  CHECK(nfc::in_words(payload(flipped), Sender::Reader) == "CRC wrong");
 }
 
 TEST_CASE("another bit rate than that of the sensor is in the text") {
-  CHECK(nfc::in_words(payload(whole({0x02}), 212), Sender::kReader) ==
+  CHECK(nfc::in_words(payload(whole({0x02}), 212), Sender::Reader) ==
         "read_temperature at 212 kbit/s");
 }
 
 TEST_CASE("what is not a frame is described with the reason") {
-  CHECK(nfc::in_words({}, Sender::kReader) ==
+  CHECK(nfc::in_words({}, Sender::Reader) ==
         "no frame: a frame has at least 16 bytes, this one has 0");
   Bytes slow = payload(whole({0x01}));
   slow[8] = 1;
-  CHECK(nfc::in_words(slow, Sender::kTag) ==
+  CHECK(nfc::in_words(slow, Sender::Tag) ==
         "no frame: bit rate 1 kbit/s: expected 106, 212, 424 or 848");
 }
 
@@ -99,7 +97,7 @@ TEST_CASE("any bits of any length have words, one line of them") {
   for (int i = 0; i < 20'000; ++i) {
     nfc::Bits bits(random() % 400);
     for (auto& bit : bits) bit = random() & 1;
-    const auto sender = (random() & 1) != 0 ? Sender::kReader : Sender::kTag;
+    const auto sender = (random() & 1) != 0 ? Sender::Reader : Sender::Tag;
     const std::string text = nfc::in_words(payload(bits), sender);
     CHECK(!text.empty());
     CHECK(text.find('\n') == std::string::npos);

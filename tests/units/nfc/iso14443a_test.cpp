@@ -122,6 +122,6 @@ TEST_CASE("A frame that was cut off is found, wherever the cut is") {
 }
 
 TEST_CASE("What is not a command takes no arguments") {
-  CHECK(nfc::argument_bytes(nfc::Command::kSelect) == 4);
+  CHECK(nfc::argument_bytes(nfc::Command::Select) == 4);
   CHECK(nfc::argument_bytes(static_cast<nfc::Command>(0x7F)) == -1);
 }

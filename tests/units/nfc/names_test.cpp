@@ -14,18 +14,21 @@ TEST_CASE("each command and each status has a name of its own") {
     names.insert(nfc::name_of(static_cast<Status>(byte)));
   }
   CHECK(names.size() == 512);
-  CHECK(nfc::name_of(Command::kReadTemperature) == "read_temperature");
-  CHECK(nfc::name_of(Command::kSetSamplingPeriod) == "set_sampling_period");
+  CHECK(nfc::name_of(Command::ReadTemperature) == "read_temperature");
+  CHECK(nfc::name_of(Command::SetSamplingPeriod) == "set_sampling_period");
   CHECK(nfc::name_of(static_cast<Command>(0x7F)) == "raw 0x7F");
-  CHECK(nfc::name_of(Status::kBadArgument) == "bad_argument");
+  CHECK(nfc::name_of(Status::BadArgument) == "bad_argument");
   CHECK(nfc::name_of(static_cast<Status>(0xE0)) == "status 0xE0");
 }
 
-TEST_CASE("the commands that are listed are those that there are") {
-  const std::set<Command> listed(std::begin(nfc::kCommands), std::end(nfc::kCommands));
+TEST_CASE("the bytes 0x01 to 0x07 are commands, and each is listed once") {
+  std::set<Command> listed;
+  for (const nfc::CommandFormat& format : nfc::kCommands) {
+    CHECK(listed.insert(format.command).second);
+    CHECK(nfc::name_of(format.command) == format.name);
+  }
   for (int byte = 0; byte < 256; ++byte) {
-    const auto command = static_cast<Command>(byte);
-    CHECK(listed.count(command) == (nfc::argument_bytes(command) < 0 ? 0 : 1));
+    CHECK(listed.count(static_cast<Command>(byte)) == (byte >= 1 && byte <= 7 ? 1 : 0));
   }
 }
 

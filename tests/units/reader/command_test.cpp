@@ -49,17 +49,17 @@ TEST_CASE("Each command of the protocol can be given, with its argument") {
     nfc::Bytes arguments;
   };
   const Case cases[] = {
-      {"name='identify'", Command::kIdentify, {}},
-      {"name='select' identifier='0x0A2B3C4D'", Command::kSelect, {0x0A, 0x2B, 0x3C, 0x4D}},
-      {"name='select' identifier='258'", Command::kSelect, {0, 0, 1, 2}},
-      {"name='read_temperature'", Command::kReadTemperature, {}},
-      {"name='read_log'", Command::kReadLog, {}},
-      {"name='set_sampling_period' period='258'", Command::kSetSamplingPeriod, {1, 2}},
-      {"name='set_led' led='on'", Command::kSetLed, {1}},
-      {"name='set_led' led='off'", Command::kSetLed, {0}},
-      {"name='sleep'", Command::kSleep, {}},
+      {"name='identify'", Command::Identify, {}},
+      {"name='select' identifier='0x0A2B3C4D'", Command::Select, {0x0A, 0x2B, 0x3C, 0x4D}},
+      {"name='select' identifier='258'", Command::Select, {0, 0, 1, 2}},
+      {"name='read_temperature'", Command::ReadTemperature, {}},
+      {"name='read_log'", Command::ReadLog, {}},
+      {"name='set_sampling_period' period='258'", Command::SetSamplingPeriod, {1, 2}},
+      {"name='set_led' led='on'", Command::SetLed, {1}},
+      {"name='set_led' led='off'", Command::SetLed, {0}},
+      {"name='sleep'", Command::Sleep, {}},
       {"name='raw' bytes='7f01'", static_cast<Command>(0x7F), {1}},
-      {"name='raw' bytes='0302'", Command::kSetLed, {2}},
+      {"name='raw' bytes='0302'", Command::SetLed, {2}},
   };
   for (const Case& each : cases) {
     INFO(each.attributes);
@@ -77,7 +77,7 @@ TEST_CASE("What is not given has its default") {
   CHECK(command.bit_rate == 106);
   CHECK(command.retries == 0);
   CHECK(command.expectation.answer);
-  CHECK(command.expectation.status == nfc::Status::kOk);
+  CHECK(command.expectation.status == nfc::Status::Ok);
   const ProgramCommand other =
       parse("name='identify' timeout='0.02' bit_rate='424' retries='3' pause='0.5'");
   CHECK(other.timeout == std::chrono::milliseconds(20));
@@ -99,7 +99,7 @@ TEST_CASE("Expectations are read") {
   CHECK_FALSE(log.highest.has_value());
   CHECK_FALSE(parse("name='sleep'", "<expect status='none'/>").expectation.answer);
   CHECK(parse("name='raw' bytes='7F'", "<expect status='unknown_command'/>").expectation.status ==
-        nfc::Status::kUnknownCommand);
+        nfc::Status::UnknownCommand);
 }
 
 TEST_CASE("A mistake in a command is reported with its line") {

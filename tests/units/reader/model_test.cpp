@@ -49,7 +49,7 @@ TEST_CASE("A command is sent at its instant, not before and only once") {
   CHECK(nfc::without_crc(*nfc::to_bytes(frame->bits)) == nfc::Bytes{0x02});
   CHECK_FALSE(reader.transmit(at(2)).has_value());
   CHECK(reader.state().counts.sent == 1);
-  CHECK(last_outcome(reader) == Outcome::kWaiting);
+  CHECK(last_outcome(reader) == Outcome::Waiting);
 }
 
 TEST_CASE("On a coarse grid a command leaves at the first point after its instant") {
@@ -72,7 +72,7 @@ TEST_CASE("An answer counts when its frame ends") {
   CHECK(reader.state().counts.answered == 1);
   CHECK(reader.state().counts.unanswered == 0);
   CHECK(reader.state().temperature == Approx(21.5));
-  CHECK(last_outcome(reader) == Outcome::kAnswered);
+  CHECK(last_outcome(reader) == Outcome::Answered);
   CHECK(reader.state().records[0].settled_at == end);
 }
 
@@ -140,7 +140,7 @@ TEST_CASE("On a coarse grid the record still has the instant at which the answer
   const auto frame = answer(at(2.001), kWarm);
   reader.receive(frame);
   reader.advance(at(2.5));
-  CHECK(last_outcome(reader) == Outcome::kAnswered);
+  CHECK(last_outcome(reader) == Outcome::Answered);
   CHECK(reader.state().records[0].settled_at == frame.start + nfc::air_time(frame));
 }
 
@@ -164,7 +164,7 @@ TEST_CASE("The time limit runs from the end of the command to the start of the a
   Reader reader = one_command();
   const auto request = reader.transmit(at(2));
   const Time deadline = at(2.05) + nfc::air_time(*request);
-  const Time end = give_up(deadline, nfc::Command::kReadTemperature);
+  const Time end = give_up(deadline, nfc::Command::ReadTemperature);
   CHECK(reader.next_event_time(at(2)) == end);
 
   SECTION("an answer that begins in time is heard to its end") {
@@ -172,7 +172,7 @@ TEST_CASE("The time limit runs from the end of the command to the start of the a
     reader.advance(deadline);
     CHECK(reader.state().counts.unanswered == 0);
     reader.advance(deadline + std::chrono::seconds(1));
-    CHECK(last_outcome(reader) == Outcome::kAnswered);
+    CHECK(last_outcome(reader) == Outcome::Answered);
   }
   SECTION("also if it arrives when it ends") {
     const auto frame = answer(deadline, kWarm);
@@ -181,14 +181,14 @@ TEST_CASE("The time limit runs from the end of the command to the start of the a
     reader.advance(arrival);
     reader.receive(frame);
     reader.advance(arrival);
-    CHECK(last_outcome(reader) == Outcome::kAnswered);
+    CHECK(last_outcome(reader) == Outcome::Answered);
   }
   SECTION("one that begins later is not heard") {
     const auto frame = answer(deadline + kPicosecond, kWarm);
     reader.advance(frame.start + nfc::air_time(frame));
     reader.receive(frame);
     reader.advance(deadline + std::chrono::seconds(1));
-    CHECK(last_outcome(reader) == Outcome::kUnanswered);
+    CHECK(last_outcome(reader) == Outcome::Unanswered);
     CHECK(reader.state().temperature == 0.0);
   }
   SECTION("without any the command is given up when none can come any more") {
@@ -209,7 +209,7 @@ TEST_CASE("What arrives while the reader sends is not heard") {
   const auto request = reader.transmit(at(2));
   reader.receive(answer(at(2) + nfc::air_time(*request) - kPicosecond, kWarm));
   reader.advance(at(3));
-  CHECK(last_outcome(reader) == Outcome::kUnanswered);
+  CHECK(last_outcome(reader) == Outcome::Unanswered);
 }
 
 TEST_CASE("An answer with a wrong CRC counts as none") {
@@ -219,7 +219,7 @@ TEST_CASE("An answer with a wrong CRC counts as none") {
   bytes[2] ^= 0x01;
   reader.receive({at(2.001), 106, nfc::to_bits(bytes)});
   reader.advance(at(2.04));
-  CHECK(last_outcome(reader) == Outcome::kDamaged);
+  CHECK(last_outcome(reader) == Outcome::Damaged);
   CHECK(reader.state().counts.answered == 0);
   CHECK(reader.state().counts.unanswered == 1);
   CHECK(reader.state().counts.damaged == 1);
@@ -232,7 +232,7 @@ TEST_CASE("Two answers at once destroy each other") {
   reader.receive(answer(at(2.001), kWarm));
   reader.receive(answer(at(2.0011), kWarm));
   reader.advance(at(2.02));
-  CHECK(last_outcome(reader) == Outcome::kDamaged);
+  CHECK(last_outcome(reader) == Outcome::Damaged);
   CHECK(reader.state().counts.unanswered == 1);
 }
 
@@ -241,8 +241,8 @@ TEST_CASE("A refusal is an answer but measures nothing") {
   reader.transmit(at(2));
   reader.receive(answer(at(2.001), {0x02}));
   reader.advance(at(2.04));
-  CHECK(last_outcome(reader) == Outcome::kRefused);
-  CHECK(reader.state().records[0].answer.status == nfc::Status::kBadArgument);
+  CHECK(last_outcome(reader) == Outcome::Refused);
+  CHECK(reader.state().records[0].answer.status == nfc::Status::BadArgument);
   CHECK(reader.state().counts.answered == 1);
   CHECK(reader.state().counts.refused == 1);
   CHECK(reader.state().temperature == 0.0);
@@ -285,7 +285,7 @@ TEST_CASE("The next event is the next thing that the program or the protocol bri
   CHECK(reader.next_event_time(at(1)) == at(2));
   const auto request = reader.transmit(at(2));
   const Time deadline = at(2.05) + nfc::air_time(*request);
-  const Time end = give_up(deadline, nfc::Command::kReadTemperature);
+  const Time end = give_up(deadline, nfc::Command::ReadTemperature);
   CHECK(reader.next_event_time(at(2.01)) == end);
   reader.advance(end);
   CHECK(reader.next_event_time(end) == at(9));
@@ -302,7 +302,7 @@ TEST_CASE("A command without an intact answer is sent again, as often as the pro
     const Time failed = *reader.next_event_time(now);
     reader.advance(failed);
     CHECK_FALSE(reader.transmit(failed).has_value());
-    CHECK(last_outcome(reader) == Outcome::kWaiting);
+    CHECK(last_outcome(reader) == Outcome::Waiting);
     now = *reader.next_event_time(failed);
     CHECK(now == failed + std::chrono::milliseconds(30));
     reader.advance(now);
@@ -316,13 +316,13 @@ TEST_CASE("A command without an intact answer is sent again, as often as the pro
   SECTION("an answer to the last one counts") {
     reader.receive(answer(now + std::chrono::milliseconds(2), kWarm));
     reader.advance(now + std::chrono::milliseconds(10));
-    CHECK(last_outcome(reader) == Outcome::kAnswered);
+    CHECK(last_outcome(reader) == Outcome::Answered);
     CHECK(reader.report(0) ==
           "at 2 s read_temperature: expected ok; got ok 21.5 degC after 3 tries");
   }
   SECTION("without one the command is unanswered once") {
     reader.advance(*reader.next_event_time(now));
-    CHECK(last_outcome(reader) == Outcome::kUnanswered);
+    CHECK(last_outcome(reader) == Outcome::Unanswered);
     CHECK(reader.state().counts.unanswered == 1);
     CHECK(reader.report(0) ==
           "at 2 s read_temperature: expected ok; got no answer after 3 tries; not as expected");
@@ -341,7 +341,7 @@ TEST_CASE("A damaged answer brings a retry, a refusal does not") {
   REQUIRE(reader.transmit(end).has_value());
   reader.receive(answer(end + std::chrono::milliseconds(2), {0x01}));
   reader.advance(at(2.05));
-  CHECK(last_outcome(reader) == Outcome::kRefused);
+  CHECK(last_outcome(reader) == Outcome::Refused);
   CHECK(reader.state().counts.damaged == 0);  // in the end it was answered
   CHECK_FALSE(reader.is_due(at(3)));
 }
@@ -355,11 +355,11 @@ TEST_CASE("A retry that falls into an interval without antenna is not sent") {
   reader.transmit(at(2));
   const Time failed = at(2.03);
   reader.advance(failed);
-  CHECK(last_outcome(reader) == Outcome::kWaiting);
+  CHECK(last_outcome(reader) == Outcome::Waiting);
   const Time retry = *reader.next_event_time(at(2.04));
   reader.advance(retry);
   CHECK_FALSE(reader.transmit(retry).has_value());
-  CHECK(last_outcome(reader) == Outcome::kUnanswered);
+  CHECK(last_outcome(reader) == Outcome::Unanswered);
   CHECK(reader.state().records[0].tries == 1);
 }
 
@@ -380,7 +380,7 @@ TEST_CASE("A request is cut where the antenna goes off, and sent again with what
   CHECK(*cut == nfc::cut_off(*whole, at(2.0001)));
   CHECK(cut->start == whole->start);
   CHECK(cut->bits.size() == 9);  // ten whole bits, of which one is the start of communication
-  CHECK(last_outcome(reader) == Outcome::kCut);
+  CHECK(last_outcome(reader) == Outcome::Cut);
   CHECK(reader.state().records[0].settled_at == at(2.0001));
   CHECK(reader.state().counts.unanswered == 1);
   CHECK_FALSE(reader.transmit(now).has_value());
@@ -396,7 +396,7 @@ TEST_CASE("A carrier that only changes its power cuts nothing") {
   reader.transmit(at(2));
   reader.advance(at(2.0001));
   CHECK_FALSE(reader.transmit(at(2.0001)).has_value());
-  CHECK(last_outcome(reader) == Outcome::kWaiting);
+  CHECK(last_outcome(reader) == Outcome::Waiting);
 }
 
 TEST_CASE("A command that is due while the antenna is off is not sent, and reported") {
@@ -409,7 +409,7 @@ TEST_CASE("A command that is due while the antenna is off is not sent, and repor
   reader.transmit(at(2));
   reader.advance(at(2.06));
   REQUIRE(reader.state().records.size() == 3);
-  CHECK(last_outcome(reader) == Outcome::kNotSent);
+  CHECK(last_outcome(reader) == Outcome::NotSent);
   CHECK(reader.state().counts.sent == 1);
   CHECK(reader.state().counts.unanswered == 1);
   CHECK(reader.state().counts.unexpected == 3);
@@ -465,8 +465,8 @@ TEST_CASE("A restored state repeats what followed it") {
   CHECK(reader.state().counts.answered == 1);
 
   reader.state() = saved;
-  CHECK(last_outcome(reader) == Outcome::kWaiting);
+  CHECK(last_outcome(reader) == Outcome::Waiting);
   reader.advance(at(3));
-  CHECK(last_outcome(reader) == Outcome::kUnanswered);
+  CHECK(last_outcome(reader) == Outcome::Unanswered);
   CHECK(reader.state().counts.answered == 0);
 }

@@ -61,7 +61,7 @@ TEST_CASE("A program is read as it is written") {
   CHECK(program.antenna[0].power == 0.5);
   REQUIRE(program.commands.size() == 1);
   CHECK(program.commands[0].at == at(6.5));
-  CHECK(program.commands[0].command == nfc::Command::kReadTemperature);
+  CHECK(program.commands[0].command == nfc::Command::ReadTemperature);
   CHECK(program.commands[0].arguments.empty());
   CHECK(program.commands[0].timeout == stride::Duration(20'000'000'000));
   CHECK(program.commands[0].bit_rate == 106);

@@ -105,7 +105,7 @@ TEST_CASE("A frame comes as it was sent, later by its packet and the way") {
 
 TEST_CASE("GFSK takes 56 us and one more for each bit") {
   Parameters parameters = free_space();
-  parameters.modulation = Modulation::kGfsk;
+  parameters.modulation = Modulation::Gfsk;
   Channel channel(parameters);
   place(channel, kStart, {0.3});
   nfc::Frame sent = frame(2);
@@ -208,7 +208,7 @@ TEST_CASE("Of two tags that send at once, equally strong, none is understood") {
   CHECK(channel.to_reader());
 
   Parameters narrow = two_tags();
-  narrow.modulation = Modulation::kGfsk;
+  narrow.modulation = Modulation::Gfsk;
   Channel gfsk(narrow);
   place(gfsk, kStart, {1.0, 1.0});
   gfsk.from_tag(0, sent);

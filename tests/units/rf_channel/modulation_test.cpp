@@ -13,11 +13,9 @@ namespace {
 
 double linear(double decibels) { return std::pow(10.0, decibels / 10.0); }
 
-double oqpsk(double decibels) {
-  return bit_error_probability(Modulation::kOqpsk, linear(decibels));
-}
+double oqpsk(double decibels) { return bit_error_probability(Modulation::Oqpsk, linear(decibels)); }
 
-double gfsk(double decibels) { return bit_error_probability(Modulation::kGfsk, linear(decibels)); }
+double gfsk(double decibels) { return bit_error_probability(Modulation::Gfsk, linear(decibels)); }
 
 /// Marcum's Q_1(a, b) for a < b as a series of Bessel functions (Simon and Alouini, eq. 4.15).
 double marcum_q(double a, double b) {
@@ -70,7 +68,7 @@ TEST_CASE("O-QPSK: it is 16 orthogonal signals distinguished by their envelopes"
       }
       wrong += is_wrong ? 1 : 0;
     }
-    const double expected = 15.0 / 8.0 * bit_error_probability(Modulation::kOqpsk, ratio);
+    const double expected = 15.0 / 8.0 * bit_error_probability(Modulation::Oqpsk, ratio);
     CHECK(static_cast<double>(wrong) / kCount ==
           Approx(expected).margin(5.0 * std::sqrt(expected / kCount)));
   }
@@ -115,7 +113,7 @@ TEST_CASE("GFSK needs some 15 dB for one error in a thousand bits, O-QPSK less t
 
 TEST_CASE(
     "Without a signal every other bit is wrong, without noise none, and more signal is better") {
-  for (const Modulation modulation : {Modulation::kOqpsk, Modulation::kGfsk}) {
+  for (const Modulation modulation : {Modulation::Oqpsk, Modulation::Gfsk}) {
     CHECK(bit_error_probability(modulation, 0.0) == Approx(0.5));
     CHECK(bit_error_probability(modulation, std::numeric_limits<double>::infinity()) == 0.0);
     double before = 0.5;
@@ -130,10 +128,10 @@ TEST_CASE(
 }
 
 TEST_CASE("A packet's bits are as fast as the standards say") {
-  const PacketFormat& oqpsk = packet_format(Modulation::kOqpsk);
+  const PacketFormat& oqpsk = packet_format(Modulation::Oqpsk);
   CHECK(oqpsk.symbol / oqpsk.bits_per_symbol == stride::duration_from_seconds(1.0 / 250e3));
   CHECK(oqpsk.header == stride::duration_from_seconds(6 * 8 / 250e3));
-  const PacketFormat& gfsk = packet_format(Modulation::kGfsk);
+  const PacketFormat& gfsk = packet_format(Modulation::Gfsk);
   CHECK(gfsk.symbol / gfsk.bits_per_symbol == stride::duration_from_seconds(1.0 / 1e6));
   CHECK(gfsk.header == stride::duration_from_seconds(7 * 8 / 1e6));
 }

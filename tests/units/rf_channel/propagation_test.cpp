@@ -51,19 +51,19 @@ TEST_CASE(
     "In free space Friis' loss is 40.2 dB at one metre and 2.45 GHz, and 6 dB more per double") {
   // 32.45 + 20 log (d / km) + 20 log (f / MHz), ITU-R P.525
   const double at_1_m =
-      path_gain(at(0, 5), at(1, 5), Antenna::kIsotropicVertical, 1.0, nowhere(), kFrequency);
+      path_gain(at(0, 5), at(1, 5), {Antenna::IsotropicVertical, 1.0, nowhere(), kFrequency});
   CHECK(-decibels(at_1_m) == Approx(32.45 - 60.0 + 20.0 * std::log10(2450.0)).margin(0.01));
   const double at_2_m =
-      path_gain(at(0, 5), at(2, 5), Antenna::kIsotropicVertical, 4.0, nowhere(), kFrequency);
+      path_gain(at(0, 5), at(2, 5), {Antenna::IsotropicVertical, 4.0, nowhere(), kFrequency});
   CHECK(at_2_m == Approx(at_1_m));  // four times the gain
 }
 
 TEST_CASE("Near by, no more is received than was sent") {
   for (const double distance : {0.0, 1e-6, 0.001, 0.01}) {
-    CHECK(path_gain(at(0, 5), at(distance, 5), Antenna::kIsotropicVertical, 1.0, nowhere(),
-                    kFrequency) == Approx(0.25));
-    CHECK(path_gain(at(0, 5), at(distance, 5), Antenna::kIsotropicVertical, 1000.0, metal(),
-                    kFrequency) == 1.0);
+    CHECK(path_gain(at(0, 5), at(distance, 5),
+                    {Antenna::IsotropicVertical, 1.0, nowhere(), kFrequency}) == Approx(0.25));
+    CHECK(path_gain(at(0, 5), at(distance, 5),
+                    {Antenna::IsotropicVertical, 1000.0, metal(), kFrequency}) == 1.0);
   }
 }
 
@@ -107,10 +107,12 @@ TEST_CASE("Isotropic antennas get the textbook's two rays") {
   for (const double distance : {0.3, 0.7, 2.0, 50.0}) {
     const double h1 = 0.4, h2 = 0.15;
     const auto r = reflection(ground, (h1 + h2) / std::hypot(distance, h1 + h2), kFrequency);
-    CHECK(path_gain(at(0, h1), at(distance, h2), Antenna::kIsotropicVertical, 1.0, ground,
-                    kFrequency) == Approx(two_rays(distance, h1, h2, r.vertical)));
-    CHECK(path_gain(at(0, h1), at(distance, h2), Antenna::kIsotropicHorizontal, 1.0, ground,
-                    kFrequency) == Approx(two_rays(distance, h1, h2, r.horizontal)));
+    CHECK(path_gain(at(0, h1), at(distance, h2),
+                    {Antenna::IsotropicVertical, 1.0, ground, kFrequency}) ==
+          Approx(two_rays(distance, h1, h2, r.vertical)));
+    CHECK(path_gain(at(0, h1), at(distance, h2),
+                    {Antenna::IsotropicHorizontal, 1.0, ground, kFrequency}) ==
+          Approx(two_rays(distance, h1, h2, r.horizontal)));
   }
 }
 
@@ -118,8 +120,8 @@ TEST_CASE("A ground at another height is the same as antennas at another height"
   Ground low;
   low.height = -3.0;
   const Ground ground;
-  CHECK(path_gain(at(0, -2.6), at(1, -2.9), Antenna::kDipole, 1.0, low, kFrequency) ==
-        Approx(path_gain(at(0, 0.4), at(1, 0.1), Antenna::kDipole, 1.0, ground, kFrequency)));
+  CHECK(path_gain(at(0, -2.6), at(1, -2.9), {Antenna::Dipole, 1.0, low, kFrequency}) ==
+        Approx(path_gain(at(0, 0.4), at(1, 0.1), {Antenna::Dipole, 1.0, ground, kFrequency})));
 }
 
 TEST_CASE("Far away the loss is 40 log d - 20 log h1 h2, whatever the frequency") {
@@ -127,12 +129,12 @@ TEST_CASE("Far away the loss is 40 log d - 20 log h1 h2, whatever the frequency"
   const double h1 = 15.0, h2 = 20.0, distance = 200e3;
   const double expected = 40.0 * std::log10(distance) - 20.0 * std::log10(h1 * h2);
   for (const double frequency : {433e6, 868e6, 2.45e9}) {
-    for (const Antenna antenna : {Antenna::kIsotropicHorizontal, Antenna::kIsotropicVertical}) {
+    for (const Antenna antenna : {Antenna::IsotropicHorizontal, Antenna::IsotropicVertical}) {
       // a vertical field takes far longer to get there, over a conductor it never does
       Ground ground;
       ground.conductivity = 0.0;
-      if (antenna == Antenna::kIsotropicVertical) ground.permittivity = 2.0;
-      const double gain = path_gain(at(0, h1), at(distance, h2), antenna, 1.0, ground, frequency);
+      if (antenna == Antenna::IsotropicVertical) ground.permittivity = 2.0;
+      const double gain = path_gain(at(0, h1), at(distance, h2), {antenna, 1.0, ground, frequency});
       CHECK(-decibels(gain) == Approx(expected).margin(0.1));
     }
   }
@@ -143,8 +145,8 @@ TEST_CASE("The received power of Rappaport's example 4.6") {
   // approximation for far away, and 5.4e-13 W in an antenna of gain 1.8. Here both rays are exact,
   // which makes 1.3 % less of the field.
   const double sent = std::pow(1e-3 * 1e3, 2) / 30.0;  // E^2 d^2 / 30 Ohm [W], times its gain
-  const double received = sent * path_gain(at(0, 50), at(5000, 1.5), Antenna::kIsotropicHorizontal,
-                                           1.8, metal(), 900e6);
+  const double received = sent * path_gain(at(0, 50), at(5000, 1.5),
+                                           {Antenna::IsotropicHorizontal, 1.8, metal(), 900e6});
   CHECK(received == Approx(5.4e-13).epsilon(0.04));
 }
 
@@ -153,10 +155,10 @@ TEST_CASE("The last maximum is at the break point, where the paths differ by hal
   const double h1 = 1.0, h2 = 2.0;
   const double break_point = 4.0 * h1 * h2 / kWavelength;
   const auto gain = [&](double distance) {
-    return path_gain(at(0, h1), at(distance, h2), Antenna::kIsotropicHorizontal, 1.0, metal(),
-                     kFrequency) /
-           path_gain(at(0, h1), at(distance, h2), Antenna::kIsotropicHorizontal, 1.0, nowhere(),
-                     kFrequency);
+    return path_gain(at(0, h1), at(distance, h2),
+                     {Antenna::IsotropicHorizontal, 1.0, metal(), kFrequency}) /
+           path_gain(at(0, h1), at(distance, h2),
+                     {Antenna::IsotropicHorizontal, 1.0, nowhere(), kFrequency});
   };
   CHECK(gain(break_point) == Approx(4.0).epsilon(1e-3));
   CHECK(gain(2.0 * break_point) == Approx(2.0).epsilon(1e-3));
@@ -168,8 +170,8 @@ TEST_CASE("The last maximum is at the break point, where the paths differ by hal
 
 TEST_CASE("A dipole has sin theta of the field, and the best direction all of the gain") {
   const auto gain = [](const Vector3d& first, const Vector3d& second) {
-    return path_gain(at(0, 5, first), at(3, 5, second), Antenna::kDipole, 1.5 * 1.5, nowhere(),
-                     kFrequency);
+    return path_gain(at(0, 5, first), at(3, 5, second),
+                     {Antenna::Dipole, 1.5 * 1.5, nowhere(), kFrequency});
   };
   const double best = gain(Vector3d::UnitZ(), Vector3d::UnitZ());
   CHECK(best == Approx(2.25 * std::pow(kWavelength / (4.0 * kPi * 3.0), 2)));
@@ -203,7 +205,7 @@ TEST_CASE("Over a conductor a dipole gets what its image sends, in any pose") {
         std::norm(kWavelength / (4.0 * kPi) *
                   (ray(first.position, first.axis, second.position, second.axis) +
                    ray(image, axis, second.position, second.axis)));
-    const double gain = path_gain(first, second, Antenna::kDipole, 1.0, metal(), kFrequency);
+    const double gain = path_gain(first, second, {Antenna::Dipole, 1.0, metal(), kFrequency});
     CHECK(gain == Approx(expected).epsilon(1e-5).margin(1e-12));
   }
 }
@@ -216,23 +218,23 @@ TEST_CASE("The way back is as good as the way there, in any pose over any ground
     const Pose first{random() + Vector3d(0, 0, 1.1), random()};
     const Pose second{random() + Vector3d(0, 0, 1.1), random()};
     const auto antenna = static_cast<Antenna>(i % 3);
-    CHECK(path_gain(first, second, antenna, 1.0, Ground(), kFrequency) ==
-          Approx(path_gain(second, first, antenna, 1.0, Ground(), kFrequency)).margin(1e-15));
+    CHECK(path_gain(first, second, {antenna, 1.0, Ground(), kFrequency}) ==
+          Approx(path_gain(second, first, {antenna, 1.0, Ground(), kFrequency})).margin(1e-15));
   }
 }
 
 TEST_CASE(
     "Straight above each other dipoles get nothing, and what lies flat gets the ground's echo") {
   const Ground ground;
-  CHECK(path_gain(at(0, 0.1), at(0, 0.5), Antenna::kDipole, 1.0, ground, kFrequency) < 1e-30);
+  CHECK(path_gain(at(0, 0.1), at(0, 0.5), {Antenna::Dipole, 1.0, ground, kFrequency}) < 1e-30);
   const double flat = path_gain(at(0, 0.1, Vector3d::UnitX()), at(0, 0.5, Vector3d::UnitX()),
-                                Antenna::kDipole, 1.0, ground, kFrequency);
+                                {Antenna::Dipole, 1.0, ground, kFrequency});
   const auto r = reflection(ground, 1.0, kFrequency);
   CHECK(flat == Approx(two_rays(0.0, 0.1, 0.5, r.horizontal)));
 }
 
 TEST_CASE("Below a ground that reflects nothing is heard") {
-  CHECK(path_gain(at(0, -0.1), at(1, 0.5), Antenna::kDipole, 1.0, Ground(), kFrequency) == 0.0);
-  CHECK(path_gain(at(0, 0.1), at(1, -0.5), Antenna::kDipole, 1.0, Ground(), kFrequency) == 0.0);
-  CHECK(path_gain(at(0, -0.1), at(1, 0.5), Antenna::kDipole, 1.0, nowhere(), kFrequency) > 0.0);
+  CHECK(path_gain(at(0, -0.1), at(1, 0.5), {Antenna::Dipole, 1.0, Ground(), kFrequency}) == 0.0);
+  CHECK(path_gain(at(0, 0.1), at(1, -0.5), {Antenna::Dipole, 1.0, Ground(), kFrequency}) == 0.0);
+  CHECK(path_gain(at(0, -0.1), at(1, 0.5), {Antenna::Dipole, 1.0, nowhere(), kFrequency}) > 0.0);
 }

@@ -58,8 +58,7 @@ void add_reader(ScriptedSystem& system, const char* name) {
     if (to.time_since_epoch() % 10ms == Duration{}) {
       nfc::Frame frame;
       frame.start = to;
-      frame.bits =
-          nfc::to_bits(nfc::with_crc({static_cast<std::uint8_t>(nfc::Command::kIdentify)}));
+      frame.bits = nfc::to_bits(nfc::with_crc({static_cast<std::uint8_t>(nfc::Command::Identify)}));
       unit.binary(2) = nfc::encode(frame);
       unit.clock(1) = true;
       result.event_handling_needed = true;

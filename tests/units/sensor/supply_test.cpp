@@ -40,7 +40,7 @@ double stored(const PowerParameters& p, double from, double to) {
 TEST_CASE("the capacitor feeds the rail where the field gives less than the loads take") {
   const Supply supply(parameters());
   const Flow flow = supply.flow(2e-3, {1e-3, 0, 0, 0.5e-3}, 3.0);  // 0.2 mA against 1.5 mA
-  CHECK(flow.mode == Mode::kFromCapacitor);
+  CHECK(flow.mode == Mode::FromCapacitor);
   CHECK(supply.current(flow, 3.0) == Approx(-1.3e-3));
   CHECK(supply.terminal(flow, 3.0) == Approx(3.0 - 1.3e-3 * 200));
   CHECK(supply.rail(flow, 3.0) == supply.terminal(flow, 3.0));
@@ -53,7 +53,7 @@ TEST_CASE(
     "in the field the rail has the maximum voltage, and the terminal what the charger gives") {
   const Supply supply(parameters());
   const Flow flow = supply.flow(12e-3, {0.2e-3, 0, 0, 0}, 3.0);  // 1.2 mA against 0.2 mA
-  CHECK(flow.mode == Mode::kConstantCurrent);
+  CHECK(flow.mode == Mode::ConstantCurrent);
   CHECK(supply.current(flow, 3.0) == Approx(1e-3));
   CHECK(supply.terminal(flow, 3.0) == Approx(3.2));
   CHECK(supply.rail(flow, 3.0) == 5);
@@ -65,7 +65,7 @@ TEST_CASE(
 TEST_CASE("from the knee on the terminal has the maximum voltage and the current falls") {
   const Supply supply(parameters());
   const Flow flow = supply.flow(12e-3, {0.2e-3, 0, 0, 0}, 4.9);
-  CHECK(flow.mode == Mode::kConstantVoltage);
+  CHECK(flow.mode == Mode::ConstantVoltage);
   CHECK(supply.current(flow, 4.9) == Approx(0.5e-3));
   CHECK(supply.terminal(flow, 4.9) == 5);
   CHECK(supply.intake(flow, 4.9) == Approx(0.7e-3 * 5));
@@ -73,7 +73,7 @@ TEST_CASE("from the knee on the terminal has the maximum voltage and the current
   CHECK(law.slope(4.9) == Approx((0.5e-3 - 4.9 / 50e3) / 1e-3));
 
   Flow below = flow;
-  below.mode = Mode::kConstantCurrent;
+  below.mode = Mode::ConstantCurrent;
   CHECK(supply.capacitor(below).slope(4.8) == Approx(law.slope(4.8)));  // they meet there
 }
 
@@ -126,7 +126,7 @@ TEST_CASE("each loss agrees with quadrature over the flow") {
       const double current = supply.current(flow, u);
       const double rail = supply.rail(flow, u);
       const double terminal = supply.terminal(flow, u);
-      const bool charging = flow.mode != Mode::kFromCapacitor;
+      const bool charging = flow.mode != Mode::FromCapacitor;
       expected.field += c.field * rail / p.maximum_voltage * h;
       expected.series_resistance += current * current * p.series_resistance * h;
       expected.leakage += u * u / p.leakage_resistance * h;

@@ -18,7 +18,7 @@ class GadgetUnit : public stride::systemc::ModuleUnit<Gadget> {
     reset(&Gadget::rst_n, stride::Duration(1'050'000), false);
     input("step", &Gadget::step, 1);
     input("offset", &Gadget::offset);
-    input("level", &Gadget::level, stride::systemc::Logic::kZ);
+    input("level", &Gadget::level, stride::systemc::Logic::Z);
     input("bus", &Gadget::bus);
     input("converter.temperature", &temperature).unit("degC");
     output("count", &Gadget::count);

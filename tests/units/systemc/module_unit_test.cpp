@@ -115,7 +115,7 @@ TEST_CASE("values reach the module, and come back from it") {
   unit.value<std::string>("bus") = "01ZX";
   unit.value<double>("converter.temperature") = 20.5;
   unit.initialize(at(kMicrosecond));  // the module's own time begins at 0 all the same
-  CHECK(unit.value<Logic>("level_out") == Logic::kZ);
+  CHECK(unit.value<Logic>("level_out") == Logic::Z);
   CHECK(unit.value<std::string>("bus_out") == "01ZX");
   CHECK(unit.value<std::uint16_t>("code") == 328);
 

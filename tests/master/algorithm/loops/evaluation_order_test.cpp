@@ -34,10 +34,10 @@ struct Net {
     std::string text;
     for (const EvaluationBlock& block : evaluation_order(system, phase)) {
       std::string steps;
-      for (const EvaluationStep& step : block.steps) {
+      for (const OutputGroup& group : block.groups) {
         std::string outputs;
-        for (const VariableId id : step.outputs) {
-          CHECK(id.component == step.component);
+        for (const VariableId id : group.outputs) {
+          CHECK(id.component == group.component);
           outputs += (outputs.empty() ? "" : ",") + system.full_name(id);
         }
         steps += (steps.empty() ? "" : ">") + outputs;
@@ -148,7 +148,7 @@ TEST_CASE("outputs of a unit are read at once where that is possible") {
   CHECK(net.order() == "a.x|b.y|a.y");
 }
 
-TEST_CASE("a loop is cut at few inputs; those of one source count once") {
+TEST_CASE("a loop is torn at few inputs; those of one source count once") {
   const auto hub = Describe("hub").input("u").input("v").output("y");
   Net net;
   net.add("a", hub).add("b", direct()).add("c", direct());

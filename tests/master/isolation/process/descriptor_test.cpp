@@ -29,6 +29,17 @@ TEST_CASE("a descriptor closes its file once") {
   moved.close();
 }
 
+TEST_CASE("a descriptor that takes over another file closes its own") {
+  Pipe pipe;
+  const int own = pipe.read.number();
+  const int other = pipe.write.number();
+  pipe.read = std::move(pipe.write);
+  CHECK_FALSE(is_open(own));
+  CHECK_FALSE(pipe.write.is_open());
+  CHECK(pipe.read.number() == other);
+  CHECK(is_open(other));
+}
+
 TEST_CASE("what is in a pipe is read in pieces, and the file is closed at its end") {
   Pipe pipe;
   std::string text;

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/master/ssp/support.h"
+#include "master/util/xml/document.h"
 
 using namespace stride::xml;
 
@@ -61,4 +61,15 @@ TEST_CASE("Elements on one line stay well-formed") {
   none.prepend_children(1, {});
   none.append_children(2, {});
   CHECK(none.result() == text);
+}
+
+TEST_CASE("A value with control characters and markup is read as it was written") {
+  const std::string value = "a\r\nb\tc\rd <&> \"e\" 'f'";
+  const std::string text = "<a x='1'/>";
+  Editor editor(text);
+  editor.add_attribute(0, "y", value);
+  editor.set_attribute(0, "x", value);
+  const auto document = Document::parse(editor.result(), "");
+  CHECK(document.root().attribute("x") == value);
+  CHECK(document.root().attribute("y") == value);
 }

@@ -8,7 +8,7 @@
 
 namespace nfc {
 
-enum class Sender { kReader, kTag };
+enum class Sender { Reader, Tag };
 
 /// The value of a Binary variable that holds a frame, in one short line: "set_led 1",
 /// "ok 21.49 °C", "set_led, cut after 17 of 36 bits", "CRC wrong". Two bytes of data in an answer

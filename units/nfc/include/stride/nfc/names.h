@@ -9,12 +9,7 @@
 
 namespace nfc {
 
-/// All commands that have a name.
-inline constexpr Command kCommands[] = {
-    Command::kIdentify,          Command::kSelect, Command::kReadTemperature, Command::kReadLog,
-    Command::kSetSamplingPeriod, Command::kSetLed, Command::kSleep,
-};
-inline constexpr Status kStatuses[] = {Status::kOk, Status::kUnknownCommand, Status::kBadArgument};
+inline constexpr Status kStatuses[] = {Status::Ok, Status::UnknownCommand, Status::BadArgument};
 
 /// Such as "read_temperature"; "raw 0x7F" for a byte that is not a command.
 std::string name_of(Command command);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <stride/process/value.h>
+#include <stride/xml_text.h>
 
 namespace stride::process {
 
@@ -251,27 +252,10 @@ inline void TagWriter::escape(std::string_view value) {
         "can hold it");
   }
   for (const char c : value) {
-    switch (c) {
-      case '<':
-        text_ += "&lt;";
-        break;
-      case '&':
-        text_ += "&amp;";
-        break;
-      case '"':
-        text_ += "&quot;";
-        break;
-      case '\n':
-        text_ += "&#10;";
-        break;
-      case '\r':
-        text_ += "&#13;";
-        break;
-      case '\t':
-        text_ += "&#9;";
-        break;
-      default:
-        text_ += c;
+    if (c == '>') {
+      text_ += c;  // no markup within a value
+    } else {
+      append_xml_character(text_, c);
     }
   }
 }

@@ -14,7 +14,7 @@
 namespace stride::systemc {
 
 /// sc_logic as an enumeration of FMI, with the values of sc_dt::sc_logic_value_t.
-enum class Logic : std::int64_t { k0 = 0, k1 = 1, kZ = 2, kX = 3 };
+enum class Logic : std::int64_t { k0 = 0, k1 = 1, Z = 2, X = 3 };
 
 namespace detail {
 

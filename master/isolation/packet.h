@@ -1,6 +1,6 @@
-// The content of a message, written into shared memory and read from it.
-#ifndef STRIDE_MASTER_ISOLATION_MESSAGE_H
-#define STRIDE_MASTER_ISOLATION_MESSAGE_H
+// A packet, the content of a request or reply, written into shared memory and read from it.
+#ifndef STRIDE_MASTER_ISOLATION_PACKET_H
+#define STRIDE_MASTER_ISOLATION_PACKET_H
 
 #include <array>
 #include <bit>
@@ -19,9 +19,9 @@ namespace stride::isolation {
 
 /// Puts one thing behind another. Numbers and structures of them are copied as they are: both ends
 /// are the same program.
-class MessageWriter {
+class PacketWriter {
  public:
-  explicit MessageWriter(GrowingMemory& memory) : memory_(memory) {}
+  explicit PacketWriter(GrowingMemory& memory) : memory_(memory) {}
 
   std::size_t size() const { return size_; }
   void clear() { size_ = 0; }
@@ -52,20 +52,20 @@ class MessageWriter {
   std::size_t size_ = 0;
 };
 
-/// A message that cannot be read.
-class BadMessage : public std::runtime_error {
+/// A packet that cannot be read.
+class BadPacket : public std::runtime_error {
  public:
-  BadMessage() : std::runtime_error("the unit's process has written into the shared memory") {}
+  BadPacket() : std::runtime_error("the unit's process has written into the shared memory") {}
 };
 
-/// Takes one thing behind another. All of it has to be taken before another message is written.
-/// Throws BadMessage where there is less than there should be.
-class MessageReader {
+/// Takes one thing behind another. All of it has to be taken before another packet is written.
+/// Throws BadPacket where there is less than there should be.
+class PacketReader {
  public:
-  explicit MessageReader(std::span<const std::byte> bytes) : rest_(bytes) {}
+  explicit PacketReader(std::span<const std::byte> bytes) : rest_(bytes) {}
 
   const std::byte* take_bytes(std::size_t size) {
-    if (size > rest_.size()) throw BadMessage();
+    if (size > rest_.size()) throw BadPacket();
     const std::byte* const bytes = rest_.data();
     rest_ = rest_.subspan(size);
     return bytes;
@@ -98,7 +98,7 @@ class MessageReader {
   /// How many things follow, of at least `least` bytes each.
   std::size_t take_count(std::size_t least) {
     const auto count = take<std::size_t>();
-    if (count > rest_.size() / least) throw BadMessage();
+    if (count > rest_.size() / least) throw BadPacket();
     return count;
   }
 

@@ -1,5 +1,5 @@
-#ifndef STRIDE_MASTER_RECORDERS_MESSAGE_TEXT_H
-#define STRIDE_MASTER_RECORDERS_MESSAGE_TEXT_H
+#ifndef STRIDE_MASTER_RECORDERS_MESSAGE_SUMMARY_H
+#define STRIDE_MASTER_RECORDERS_MESSAGE_SUMMARY_H
 
 #include <cstddef>
 #include <string>
@@ -12,8 +12,8 @@ namespace stride::recorders {
 /// The human-readable content of a message, in a line of `most` characters at most: its content in
 /// its component's words, else the text of a String, numbers with their unit of measure, the size
 /// of bytes. Empty for a bare clock.
-std::string message_text(const core::System& system, const core::Message& message,
-                         std::size_t most);
+std::string message_summary(const core::System& system, const core::Message& message,
+                            std::size_t most);
 
 }  // namespace stride::recorders
 

@@ -1,6 +1,6 @@
 // The exchange of single variables, in the order of their evaluation.
-#ifndef STRIDE_MASTER_ALGORITHM_LOOPS_STAGED_EXCHANGE_H
-#define STRIDE_MASTER_ALGORITHM_LOOPS_STAGED_EXCHANGE_H
+#ifndef STRIDE_MASTER_ALGORITHM_LOOPS_ORDERED_EXCHANGE_H
+#define STRIDE_MASTER_ALGORITHM_LOOPS_ORDERED_EXCHANGE_H
 
 #include <cstddef>
 #include <deque>
@@ -16,10 +16,10 @@
 
 namespace stride::core {
 
-/// Stages and links are planned in the order in which they will be used; inputs that become known
-/// between two stages of a component are written by one call. The values are kept in the blocks of
+/// Groups and links are planned in the order in which they will be used; inputs that become known
+/// between two groups of a component are written by one call. The values are kept in the blocks of
 /// an Exchange, which therefore has nothing to route afterwards.
-class StagedExchange {
+class OrderedExchange {
  private:
   /// Variables of one component and type, read or written by one call.
   struct Batch {
@@ -38,7 +38,7 @@ class StagedExchange {
  public:
   /// The context must outlive this object. `all_new`: an input is written when it is first
   /// routed, whatever its value; otherwise only when it changes.
-  StagedExchange(RunContext& context, const UnitTimer& timer, bool all_new);
+  OrderedExchange(RunContext& context, const UnitTimer& timer, bool all_new);
 
   class Link {
    public:
@@ -46,7 +46,7 @@ class StagedExchange {
     const ValueSlice& target_value() const { return to_; }
 
    private:
-    friend StagedExchange;
+    friend OrderedExchange;
     const Connection* connection_;
     ValueSlice from_, to_;
     Batch* batch_;
@@ -56,28 +56,28 @@ class StagedExchange {
     std::size_t component() const { return component_; }
 
    private:
-    friend StagedExchange;
+    friend OrderedExchange;
     std::size_t component_;
     std::vector<Batch> batches_;
   };
 
-  OutputRead plan_read(const EvaluationStep& step);
+  OutputRead plan_read(const OutputGroup& group);
   /// The connection that ends at the input.
   Link plan_link(VariableId input);
 
   /// Discards pending writes.
   void begin();
-  /// Writes what was routed to the component, then reads the outputs of the stage.
+  /// Writes what was routed to the component, then reads the outputs of the group.
   void evaluate(OutputRead& read);
   /// Writes what was routed to the component.
-  void write(std::size_t component);
+  void write_inputs(std::size_t component);
   /// Copies an output's value to the input; returns whether the input changes.
   bool route(Link& link);
   /// The input was changed in the exchange, see Link::target_value().
   void touch(Link& link) { make_due(link); }
   /// Reads the unit's current value of the input into the exchange.
   void read_input(Link& link);
-  /// Whether an output of the stage is NaN.
+  /// Whether an output of the group is NaN.
   bool has_nan(const OutputRead& read) const;
 
  private:

@@ -1,4 +1,4 @@
-#include "master/recorders/message_text.h"
+#include "master/recorders/message_summary.h"
 
 #include <type_traits>
 
@@ -22,8 +22,8 @@ std::string brief_text(const T& value) {
 
 }  // namespace
 
-std::string message_text(const core::System& system, const core::Message& message,
-                         std::size_t most) {
+std::string message_summary(const core::System& system, const core::Message& message,
+                            std::size_t most) {
   if (message.block == nullptr) return {};
   if (!message.content.empty()) return core::readable_text(message.content, most);
   const core::Variable& variable = system.variable(message.id);

@@ -1,7 +1,7 @@
 // What a unit's process and the master have in common: requests, replies, and logged and printed
 // lines.
-#ifndef STRIDE_MASTER_ISOLATION_CHANNEL_H
-#define STRIDE_MASTER_ISOLATION_CHANNEL_H
+#ifndef STRIDE_MASTER_ISOLATION_HOST_LINK_H
+#define STRIDE_MASTER_ISOLATION_HOST_LINK_H
 
 #include <atomic>
 #include <cstddef>
@@ -68,17 +68,17 @@ enum class HostEnd : std::uint32_t { None, NotStarted, Exited, Killed };
 struct alignas(64) Turn {
   std::atomic<std::uint32_t> number = 0;
   std::atomic<std::uint32_t> what = 0;  ///< a RequestCode or a ReplyCode
-  std::atomic<std::uint64_t> size = 0;  ///< of the message [byte]
+  std::atomic<std::uint64_t> size = 0;  ///< of the packet [byte]
   Doorbell doorbell;                    ///< for the process that waits
 };
 
-/// In shared memory. The messages themselves are in a GrowingMemory beside it, where each replaces
+/// In shared memory. The packets themselves are in a GrowingMemory beside it, where each replaces
 /// the one before. Replies have the number of their request, so neither
 /// side keeps a state, and any process that becomes the active one may continue with it.
 ///
 /// The unit's process may write anything here: sizes are checked, and what is no such value is an
 /// error.
-struct ChannelMemory {
+struct HostLinkMemory {
   Turn request;  ///< the unit's process waits for it
   Turn reply;    ///< the master waits for it, for the end, and for logged lines that do not fit
   std::atomic<std::uint64_t> calls = 0;  ///< of functions of the unit
@@ -97,9 +97,9 @@ struct ChannelMemory {
 };
 
 /// Both kinds of memory. Made by the master, inherited by the others.
-struct Channel {
-  Shared<ChannelMemory> memory;
-  GrowingMemory messages{"stride-unit", std::size_t{1} << 16};
+struct HostLink {
+  Shared<HostLinkMemory> memory;
+  GrowingMemory packets{"stride-unit", std::size_t{1} << 16};
 };
 
 }  // namespace stride::isolation

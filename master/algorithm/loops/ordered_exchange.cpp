@@ -1,4 +1,4 @@
-#include "master/algorithm/loops/staged_exchange.h"
+#include "master/algorithm/loops/ordered_exchange.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 
 namespace stride::core {
-StagedExchange::StagedExchange(RunContext& context, const UnitTimer& timer, bool all_new)
+OrderedExchange::OrderedExchange(RunContext& context, const UnitTimer& timer, bool all_new)
     : system_(context.system),
       units_(context.units),
       exchange_(context.exchange),
@@ -14,33 +14,33 @@ StagedExchange::StagedExchange(RunContext& context, const UnitTimer& timer, bool
       all_new_(all_new),
       due_(units_.size()) {}
 
-void StagedExchange::add(Batch& batch, VariableId id) {
+void OrderedExchange::add(Batch& batch, VariableId id) {
   const Variable& variable = system_.variable(id);
   batch.references.push_back(variable.reference);
   batch.members.push_back({exchange_.slice(id), batch.size});
   batch.size += variable.size;
 }
 
-void StagedExchange::complete(Batch& batch) {
+void OrderedExchange::complete(Batch& batch) {
   if (batch.values.size() != batch.size) batch.values = ValueBlock(batch.values.type(), batch.size);
 }
 
-StagedExchange::OutputRead StagedExchange::plan_read(const EvaluationStep& step) {
+OrderedExchange::OutputRead OrderedExchange::plan_read(const OutputGroup& group) {
   OutputRead read;
-  read.component_ = step.component;
+  read.component_ = group.component;
   std::map<ValueType, std::vector<VariableId>> types;
-  for (const VariableId id : step.outputs) types[system_.variable(id).type].push_back(id);
+  for (const VariableId id : group.outputs) types[system_.variable(id).type].push_back(id);
   for (const auto& [type, ids] : types) {
     Batch& batch = read.batches_.emplace_back(make_batch(type, false));
     for (const VariableId id : ids) add(batch, id);
     complete(batch);
   }
-  open_.erase(open_.lower_bound({step.component, ValueType{}}),
-              open_.lower_bound({step.component + 1, ValueType{}}));
+  open_.erase(open_.lower_bound({group.component, ValueType{}}),
+              open_.lower_bound({group.component + 1, ValueType{}}));
   return read;
 }
 
-StagedExchange::Link StagedExchange::plan_link(VariableId id) {
+OrderedExchange::Link OrderedExchange::plan_link(VariableId id) {
   const auto& all = system_.connections();
   const Connection& connection = *std::lower_bound(
       all.begin(), all.end(), id, [](const Connection& c, VariableId to) { return c.to < to; });
@@ -56,13 +56,13 @@ StagedExchange::Link StagedExchange::plan_link(VariableId id) {
   return link;
 }
 
-void StagedExchange::begin() {
+void OrderedExchange::begin() {
   for (std::vector<Batch*>& batches : due_) batches.clear();
   for (Batch& batch : batches_) batch.is_due = false;
 }
 
-void StagedExchange::evaluate(OutputRead& read) {
-  write(read.component_);
+void OrderedExchange::evaluate(OutputRead& read) {
+  write_inputs(read.component_);
   for (Batch& batch : read.batches_) {
     timer_.timed(read.component_,
                  [&] { units_[read.component_]->get(batch.references, batch.values); });
@@ -72,7 +72,7 @@ void StagedExchange::evaluate(OutputRead& read) {
   }
 }
 
-void StagedExchange::write(std::size_t component) {
+void OrderedExchange::write_inputs(std::size_t component) {
   for (Batch* batch : due_[component]) {
     complete(*batch);
     for (const Batch::Member& member : batch->members) {
@@ -84,25 +84,25 @@ void StagedExchange::write(std::size_t component) {
   due_[component].clear();
 }
 
-bool StagedExchange::route(Link& link) {
+bool OrderedExchange::route(Link& link) {
   const bool changes = copy_elements(link.to_, link.from_, link.connection_->conversion);
   if (changes || link.batch_->is_new) make_due(link);
   return changes;
 }
 
-void StagedExchange::make_due(Link& link) {
+void OrderedExchange::make_due(Link& link) {
   if (std::exchange(link.batch_->is_due, true)) return;
   due_[link.target().component].push_back(link.batch_);
 }
 
-void StagedExchange::read_input(Link& link) {
+void OrderedExchange::read_input(Link& link) {
   const Variable& input = system_.variable(link.target());
   ValueBlock value(input.type, input.size);
   units_[link.target().component]->get({&input.reference, 1}, value);
   copy_elements(link.to_, {&value, 0, input.size});
 }
 
-bool StagedExchange::has_nan(const OutputRead& read) const {
+bool OrderedExchange::has_nan(const OutputRead& read) const {
   return std::any_of(read.batches_.begin(), read.batches_.end(),
                      [](const Batch& batch) { return core::has_nan(batch.values); });
 }

@@ -1,0 +1,28 @@
+#ifndef STRIDE_MASTER_ISOLATION_HOSTED_UNIT_SPEC_H
+#define STRIDE_MASTER_ISOLATION_HOSTED_UNIT_SPEC_H
+
+#include <memory>
+#include <string>
+
+#include "master/importer/fmu.h"
+#include "master/isolation/host_options.h"
+#include "master/util/archive/temporary_folder.h"
+
+namespace stride::isolation {
+
+/// What a hosted unit is instantiated from.
+struct HostedUnitSpec {
+  std::shared_ptr<importer::Fmu> fmu;
+  std::string name;
+  importer::InstanceOptions options;
+  HostOptions host;
+  /// For a unit in a sandbox: $TMPDIR, since that of others is closed to it.
+  std::unique_ptr<archive::TemporaryFolder> temporary{};
+
+  /// Whether its states are snapshots of its process.
+  bool has_snapshots() const { return host.takes_snapshots && !fmu->description()->can_save_state; }
+};
+
+}  // namespace stride::isolation
+
+#endif
