@@ -36,7 +36,7 @@ endif()
 if(STRIDE_SANITIZE)
   # What AddressSanitizer finds by itself, or what is nothing on this processor, would double the time to compile. A
   # target with STRIDE_UNSANITIZED is linked with libraries that have sanitizers, but has none in its own code.
-  set(flags -Og -UNDEBUG -fsanitize=${STRIDE_SANITIZE} -fno-sanitize=null,alignment,vptr,object-size
+  set(flags -Og -g1 -UNDEBUG -fsanitize=${STRIDE_SANITIZE} -fno-sanitize=null,alignment,vptr,object-size
     -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_compile_options("$<$<NOT:$<BOOL:$<TARGET_PROPERTY:STRIDE_UNSANITIZED>>>:${flags}>")
   add_link_options(-fsanitize=${STRIDE_SANITIZE})

@@ -11,23 +11,24 @@
 # The same for a test that needs a program of its own: one entry of ctest, which has the program's name.
 find_package(Catch2 2.13 REQUIRED)
 
-# What tests share. Their own code is compiled alike in each build, with and without sanitizers, so that ccache has it
-# for the second one: it is the larger part of what there is to compile, and not what is under test. The thread sanitizer
-# has to see all code, or it takes what it does not see for a race.
-set(stride_test_flags -Og -UNDEBUG)
-set(stride_unsanitized ON)
 set(stride_is_sanitized false)
 if(STRIDE_SANITIZE)
   set(stride_is_sanitized true)
 endif()
-if(STRIDE_SANITIZE MATCHES thread)
-  set(stride_unsanitized OFF)
-endif()
 
-# stride_test_code(TARGET): its sources are tests' own code
+# stride_unsanitized_code(TARGET): code that is compiled alike in each build, with and without sanitizers, so that ccache
+# has it for the second one
+function(stride_unsanitized_code target)
+  set_target_properties(${target} PROPERTIES STRIDE_UNSANITIZED ON)
+  target_compile_options(${target} PRIVATE -Og -UNDEBUG)
+endfunction()
+
+# stride_test_code(TARGET): its sources are tests' own code, which is the larger part of what there is to compile, and not
+# what is under test. The thread sanitizer has to see all code that takes part in threads, or it reports false races.
 function(stride_test_code target)
-  set_target_properties(${target} PROPERTIES STRIDE_UNSANITIZED ${stride_unsanitized})
-  target_compile_options(${target} PRIVATE ${stride_test_flags})
+  if(NOT STRIDE_SANITIZE MATCHES thread)
+    stride_unsanitized_code(${target})
+  endif()
 endfunction()
 
 # The static libraries of this repository that these link, but for tests' own code and the kit, which is not whole
@@ -61,7 +62,7 @@ endfunction()
 # stride_link_test(PROGRAM): of an inline function that a test and a library both have, the linker takes the copy that it
 # sees first. That is to be the library's, with sanitizers.
 function(stride_link_test program)
-  if(NOT STRIDE_SANITIZE OR NOT stride_unsanitized)
+  if(NOT STRIDE_SANITIZE MATCHES address)
     return()
   endif()
   get_target_property(libraries ${program} LINK_LIBRARIES)
@@ -78,7 +79,7 @@ target_compile_definitions(stride_test_build PRIVATE
 
 add_library(stride_catch_main STATIC ${CMAKE_CURRENT_SOURCE_DIR}/catch_main.cpp)
 target_link_libraries(stride_catch_main PUBLIC Catch2::Catch2 stride_test_build)
-stride_test_code(stride_catch_main)
+stride_unsanitized_code(stride_catch_main)
 
 include(StrideTestHeaders)
 
