@@ -86,8 +86,7 @@ function(stride_pack_program name)
   stride_run_pack(${name} "${arg_DECLARATION}" DEPENDS "${arg_DECLARATION}" ${arg_DEPENDS})
 endfunction()
 
-# `stride pack FILE`, as a target NAME_fmu. STRIDE_PACKING_PROGRAM may name the stride of another build, where this build
-# needs units but not the program.
+# `stride pack FILE`, as a target NAME_fmu.
 function(stride_run_pack name file)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "OPTIONS;DEPENDS")
   set(folder "${CMAKE_BINARY_DIR}/units")
@@ -95,14 +94,10 @@ function(stride_run_pack name file)
     set(folder "${STRIDE_UNIT_DIR}")
   endif()
   set(fmu "${folder}/${name}.fmu")
-  set(program stride::stride)
-  if(STRIDE_PACKING_PROGRAM)
-    set(program "${STRIDE_PACKING_PROGRAM}")
-  endif()
   add_custom_command(OUTPUT "${fmu}"
     COMMAND ${CMAKE_COMMAND} -E make_directory "${folder}"
-    COMMAND ${program} pack "${file}" --output "${fmu}" ${arg_OPTIONS}
-    DEPENDS ${program} ${arg_DEPENDS}
+    COMMAND stride::stride pack "${file}" --output "${fmu}" ${arg_OPTIONS}
+    DEPENDS stride::stride ${arg_DEPENDS}
     COMMENT "Packing ${name}.fmu"
     VERBATIM)
   add_custom_target(${name}_fmu ALL DEPENDS "${fmu}")

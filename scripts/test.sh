@@ -33,8 +33,7 @@ if [ "$quick" = no ]; then
   build_and_test asan
 
   section "Thread sanitizer, the tests with several threads"
-  cmake --preset tsan --log-level=WARNING -DSTRIDE_WARNINGS_AS_ERRORS=ON -DSTRIDE_BUILD_TESTS=ON \
-    -DSTRIDE_PACKING_PROGRAM="$PWD/build/release/bin/stride"
+  cmake --preset tsan --log-level=WARNING -DSTRIDE_WARNINGS_AS_ERRORS=ON -DSTRIDE_BUILD_TESTS=ON
   cmake --build --preset tsan --target parallel_tests
   ctest --preset tsan --label-regex parallel
 
