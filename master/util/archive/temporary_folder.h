@@ -10,8 +10,9 @@ namespace stride::archive {
 /// A fresh, empty folder that goes when the object goes.
 ///
 /// It is in `<TMPDIR or /tmp>/stride-<uid>/`, beside a file of the same name with `.lock` that
-/// this process keeps locked (flock), so the kernel frees the lock however the process ends. Each
-/// new folder first sweeps away those whose lock is free: what a crashed run left behind.
+/// this process keeps locked (flock), so the kernel frees the lock however the process ends. The
+/// lock is taken before the folder is made. Each new folder first removes those whose lock is free,
+/// which crashed runs have left. No lock is waited for, so no other process can stop this one.
 class TemporaryFolder {
  public:
   /// Throws core::Error of the kind Run if it cannot be made.
