@@ -176,6 +176,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   [[noreturn]] void fail_not_callable(const char* name) const;
   [[noreturn]] void fail_missing(const char* name, const char* capability) const;
   std::string status_name(Status status) const;
+  bool is_fmi2() const { return prefix_[3] == '2'; }
 
   const char* prefix_;
   std::shared_ptr<const SharedLibrary> library_;
