@@ -101,6 +101,20 @@ void FmuInstance::fail_call(const char* function, Status status) {
        is_fatal ? "the unit may have damaged this process; save what you need and end it" : "");
 }
 
+void FmuInstance::fail_thrown(const char* function) {
+  std::string what = "something that is not a std::exception";
+  try {
+    throw;
+  } catch (const std::exception& exception) {
+    what = exception.what();
+  } catch (...) {  // it has no text
+  }
+  failed_in_ = function;
+  in_call_.store(nullptr, std::memory_order_relaxed);
+  mark_unusable();
+  fail(fmt::format("{} threw {}", function, what), "a function of FMI returns a status instead");
+}
+
 std::string FmuInstance::status_name(Status status) const {
   constexpr const char* kNames[] = {"OK", "Warning", "Discard", "Error", "Fatal", "Pending"};
   const auto i = static_cast<std::size_t>(status);
@@ -116,6 +130,16 @@ void FmuInstance::fail(const std::string& message, const std::string& hint) cons
 void FmuInstance::fail_missing(const char* name, const char* capability) const {
   fail(fmt::format("its library does not export {}", name),
        fmt::format("a unit with {} must export it", capability));
+}
+
+std::size_t unfinished_calls(std::span<UnitCall> calls) noexcept {
+  std::size_t count = 0;
+  core::Listed<FmuInstance>::for_each([&](const FmuInstance& instance) {
+    const char* const function = instance.in_call_.load(std::memory_order_relaxed);
+    if (function == nullptr || count == calls.size()) return;
+    calls[count++] = {function, &instance.name_, &instance.options_.where, instance.time_};
+  });
+  return count;
 }
 
 // ---- Messages ----
