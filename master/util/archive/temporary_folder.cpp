@@ -136,12 +136,18 @@ void TemporaryFolder::sweep_abandoned() noexcept {
 }
 
 TemporaryFolder::~TemporaryFolder() {
-  if (owner_ == ::getpid()) {
-    std::error_code ignored;
-    remove_folder(path_);
-    fs::remove(path_.string() + kLockSuffix, ignored);
-  }
+  if (owner_ == ::getpid()) remove();
   ::close(lock_);
+}
+
+void TemporaryFolder::remove_all() noexcept {
+  core::Listed<TemporaryFolder>::for_each([](const TemporaryFolder& folder) { folder.remove(); });
+}
+
+void TemporaryFolder::remove() const noexcept {
+  std::error_code ignored;
+  remove_folder(path_);
+  fs::remove(path_.string() + kLockSuffix, ignored);
 }
 
 }  // namespace stride::archive

@@ -5,6 +5,8 @@
 
 #include <sys/types.h>
 
+#include "master/util/listed.h"
+
 namespace stride::archive {
 
 /// A fresh, empty folder that goes when the object goes.
@@ -26,13 +28,19 @@ class TemporaryFolder {
   /// The folder of the folders of this user; it need not exist.
   static std::filesystem::path parent();
 
+  /// Removes all of this process, where no destructors will run; also in a fork of it.
+  static void remove_all() noexcept;
+
   /// Removes what crashed runs of this user have left; what cannot be removed stays.
   static void sweep_abandoned() noexcept;
 
  private:
+  void remove() const noexcept;
+
   std::filesystem::path path_;
   int lock_ = -1;
   pid_t owner_;  ///< a forked child must not remove what its parent uses
+  core::Listed<TemporaryFolder> listed_{*this};
 };
 
 }  // namespace stride::archive
