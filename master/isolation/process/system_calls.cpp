@@ -117,14 +117,21 @@ void forbid_reaching_processes() {
 
 void forbid_changing_attributes() {
   Filter filter;
-  for (const int call : {SCMP_SYS(chmod),       SCMP_SYS(fchmod),       SCMP_SYS(fchmodat),
-                         SCMP_SYS(chown),       SCMP_SYS(chown32),      SCMP_SYS(fchown),
-                         SCMP_SYS(fchown32),    SCMP_SYS(lchown),       SCMP_SYS(lchown32),
-                         SCMP_SYS(fchownat),    SCMP_SYS(utime),        SCMP_SYS(utimes),
-                         SCMP_SYS(futimesat),   SCMP_SYS(utimensat),    SCMP_SYS(utimensat_time64),
-                         SCMP_SYS(setxattr),    SCMP_SYS(lsetxattr),    SCMP_SYS(fsetxattr),
-                         SCMP_SYS(removexattr), SCMP_SYS(lremovexattr), SCMP_SYS(fremovexattr)}) {
+  for (const int call :
+       {SCMP_SYS(chown), SCMP_SYS(chown32), SCMP_SYS(fchown), SCMP_SYS(fchown32), SCMP_SYS(lchown),
+        SCMP_SYS(lchown32), SCMP_SYS(fchownat), SCMP_SYS(utime), SCMP_SYS(utimes),
+        SCMP_SYS(futimesat), SCMP_SYS(utimensat), SCMP_SYS(utimensat_time64), SCMP_SYS(setxattr),
+        SCMP_SYS(lsetxattr), SCMP_SYS(fsetxattr), SCMP_SYS(removexattr), SCMP_SYS(lremovexattr),
+        SCMP_SYS(fremovexattr)}) {
     filter.deny(call);
+  }
+  // a program from an archive without permissions has to become executable
+  constexpr scmp_datum_t kPrivate = 0700;
+  for (scmp_datum_t right = 1; right <= 04000; right <<= 1) {
+    if ((right & kPrivate) != 0) continue;
+    filter.deny(SCMP_SYS(chmod), {argument(1, SCMP_CMP_MASKED_EQ, right, right)});
+    filter.deny(SCMP_SYS(fchmod), {argument(1, SCMP_CMP_MASKED_EQ, right, right)});
+    filter.deny(SCMP_SYS(fchmodat), {argument(2, SCMP_CMP_MASKED_EQ, right, right)});
   }
   for (const scmp_datum_t request : {FS_IOC_SETFLAGS, FS_IOC_FSSETXATTR}) {
     filter.deny(SCMP_SYS(ioctl), {argument(1, SCMP_CMP_MASKED_EQ, kInt, request)});

@@ -22,8 +22,9 @@ void forbid_reaching_processes();
 /// call escapes the other filters because they were made before it was.
 void forbid_newer_calls();
 
-/// No change of modes, owners, times and extended attributes: neither of the user's files nor of
-/// its own, since a filter cannot tell them apart.
+/// No change of owners, times and extended attributes, and of modes only such that give no rights
+/// to others than the owner: neither of the user's files nor of its own, since a filter cannot tell
+/// them apart.
 void forbid_changing_attributes();
 
 /// No cutting off of files by their names, or when they are opened for reading.

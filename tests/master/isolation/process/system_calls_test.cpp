@@ -178,9 +178,9 @@ TEST_CASE("modes, owners, times and attributes of files stay as they are") {
   const gid_t group = ::getgid();
   int flags = 0;
   check_denied(forbid_changing_attributes,
-               {{"chmod", [&] { return ::chmod(file, 0600); }},
-                {"fchmod", [&] { return ::fchmod(open, 0600); }},
-                {"fchmodat", [&] { return ::fchmodat(AT_FDCWD, file, 0600, 0); }},
+               {{"chmod", [&] { return ::chmod(file, 0644); }},
+                {"fchmod", [&] { return ::fchmod(open, 01700); }},
+                {"fchmodat", [&] { return ::fchmodat(AT_FDCWD, file, 0602, 0); }},
                 {"chown", [&] { return ::chown(file, user, group); }},
                 {"fchown", [&] { return ::fchown(open, user, group); }},
                 {"lchown", [&] { return ::lchown(file, user, group); }},
@@ -195,6 +195,8 @@ TEST_CASE("modes, owners, times and attributes of files stay as they are") {
                 {"removexattr", [&] { return ::removexattr(file, "user.x"); }},
                 {"fremovexattr", [&] { return ::fremovexattr(open, "user.x"); }},
                 {"flags", [&] { return ::ioctl(open, FS_IOC_SETFLAGS, &flags); }}});
+  const auto make_private = [&] { return answer(::chmod(file, 0700)); };
+  CHECK(say_filtered(forbid_changing_attributes, make_private) == "done");
   ::close(open);
 }
 
