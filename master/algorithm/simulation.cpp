@@ -60,7 +60,7 @@ class Simulation::Run {
 
   void run() {
     if (std::exchange(has_run_, true)) throw std::logic_error("a simulation runs once");
-    const auto began = WallClock::Source::now();
+    began_ = WallClock::Source::now();
     std::exception_ptr failure;
     try {
       clock_.timed(statistics_.phases.initialization, [&] { initialize(); });
@@ -71,7 +71,7 @@ class Simulation::Run {
     } catch (...) {
       failure = std::current_exception();
     }
-    statistics_.wall_time = WallClock::Source::now() - began;
+    statistics_.wall_time = WallClock::Source::now() - began_;
     for (std::size_t i = 0; i < count(); ++i) {
       auto* const diagnostics = units_[i]->capability<UnitDiagnostics>();
       auto* const process = units_[i]->capability<HostDiagnostics>();
@@ -84,6 +84,12 @@ class Simulation::Run {
     if (!failure) return;
     verdicts_.clear();
     std::rethrow_exception(failure);
+  }
+
+  void abandon() noexcept {
+    statistics_.wall_time = WallClock::Source::now() - began_;
+    std::exception_ptr ignored;
+    finish_observers(ignored);
   }
 
  private:
@@ -275,6 +281,7 @@ class Simulation::Run {
   std::vector<Verdict> verdicts_;
 
   bool has_run_ = false;
+  WallClock::Source::time_point began_{};
   Time time_{};
   std::uint32_t stalled_steps_ = 0;
 };
@@ -292,6 +299,8 @@ void Simulation::add_observer(Observer& observer, std::vector<VariableId> signal
 }
 
 void Simulation::run() { run_->run(); }
+
+void Simulation::abandon() noexcept { run_->abandon(); }
 
 Duration Simulation::suspended_time() const { return run_->suspended_time(); }
 

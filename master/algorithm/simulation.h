@@ -35,6 +35,10 @@ class Simulation {
   /// are those up to the failure.
   void run();
 
+  /// Calls the observers' on_finish(), and no unit, where run() cannot go on: for a process that a
+  /// unit has damaged. The statistics are those up to there.
+  void abandon() noexcept;
+
   const RunStatistics& statistics() const;
   /// The simulated time for which units have been suspended because they promised to be idle,
   /// summed over all units up to the current communication point. Unlike

@@ -1,11 +1,24 @@
 #include "master/cli/interruption.h"
 
+#include "master/util/output_file.h"
+
 namespace stride::cli {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-void note_interruption(int) { interrupted = 1; }
+/// The second signal ends a run that reaches no communication point.
+void note_interruption(int signal) {
+  if (interrupted != 0) {
+    core::OutputFile::rescue_all();
+    ::signal(signal, SIG_DFL);
+    ::raise(signal);
+  }
+  interrupted = 1;
+}
+
+/// A handler, since programs that units start would inherit SIG_IGN.
+void do_nothing(int) {}
 
 }  // namespace
 
@@ -13,9 +26,7 @@ Interruption::Interruption() {
   interrupted = 0;
   for (Handled& handled : handled_) {
     struct sigaction action {};
-    action.sa_handler = note_interruption;
-    action.sa_flags =
-        SA_RESETHAND;  // a second signal ends a run that reaches no communication point
+    action.sa_handler = handled.signal == SIGPIPE ? do_nothing : note_interruption;
     sigaction(handled.signal, nullptr, &handled.before);
     if (handled.before.sa_handler != SIG_IGN) sigaction(handled.signal, &action, nullptr);
   }

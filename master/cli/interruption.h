@@ -6,8 +6,9 @@
 
 namespace stride::cli {
 
-/// During its lifetime the first SIGINT and the first SIGTERM only set flag(). A second one ends
-/// the process.
+/// During its lifetime the first SIGINT, SIGTERM or SIGHUP only sets flag(). A second one ends the
+/// process, after the lines that files hold in memory were written. SIGPIPE does not end it:
+/// writing fails instead.
 class Interruption {
  public:
   Interruption();
@@ -23,7 +24,7 @@ class Interruption {
     int signal;
     struct sigaction before;
   };
-  std::array<Handled, 2> handled_{{{SIGINT, {}}, {SIGTERM, {}}}};
+  std::array<Handled, 4> handled_{{{SIGINT, {}}, {SIGTERM, {}}, {SIGHUP, {}}, {SIGPIPE, {}}}};
 };
 
 }  // namespace stride::cli

@@ -1,12 +1,18 @@
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <exception>
+#include <iostream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include "master/cli/commands.h"
 #include "master/util/error.h"
@@ -68,9 +74,42 @@ int parse(CLI::App& app, int argc, char** argv) {
   }
 }
 
+/// A file that the run opens must not get a number that messages are written to.
+void open_missing_standard_files() {
+  for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(file, F_GETFD) >= 0) continue;
+    (void)::open("/dev/null", file == STDIN_FILENO ? O_RDONLY : O_WRONLY);
+  }
+}
+
+/// What was printed is in memory yet. Throws core::Error (Run).
+void flush_standard_output() {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return;
+  stride::core::fail_run({}, fmt::format("cannot write the standard output: {}",
+                                         std::generic_category().message(errno)));
+}
+
+int execute(CLI::App& app, int argc, char** argv) {
+  try {
+    const int code = parse(app, argc, argv);
+    flush_standard_output();
+    return code;
+  } catch (const stride::core::Error& error) {
+    fmt::print(stderr, "stride: error: {}\n", error.what());
+    return error.kind() == stride::core::Error::Kind::Input ? kWrongInput : kRunFailed;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "stride: error: {}\n", error.what());
+  } catch (...) {
+    fmt::print(stderr, "stride: error: something that is not a std::exception was thrown\n");
+  }
+  return kRunFailed;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_missing_standard_files();
   set_up_log();
   std::signal(SIGXFSZ, SIG_IGN);  // then writing fails with an error; the signal would kill
   CLI::App app(
@@ -95,13 +134,5 @@ int main(int argc, char** argv) {
   stride::cli::add_pack(app);
   stride::cli::add_trace(app);
   stride::cli::add_reference(app);
-  try {
-    return parse(app, argc, argv);
-  } catch (const stride::core::Error& error) {
-    fmt::print(stderr, "stride: error: {}\n", error.what());
-    return error.kind() == stride::core::Error::Kind::Input ? kWrongInput : kRunFailed;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "stride: error: {}\n", error.what());
-    return kRunFailed;
-  }
+  return execute(app, argc, argv);
 }

@@ -101,7 +101,7 @@ void Progress::end(const std::string& outcome) {
   last.speed = last.wall > 0 ? to_seconds(time_ - start_) / last.wall : 0;  // of all of it
   if (form_ == Form::Json) return show_json(last, &outcome);
   show(last);
-  if (form_ == Form::Rewritten) fmt::print(stderr, "\n");
+  if (form_ == Form::Rewritten) put("\n");
 }
 
 Progress::State Progress::state() const {
@@ -116,6 +116,12 @@ Progress::State Progress::state() const {
   return state;
 }
 
+/// A run goes on where its progress cannot be shown any longer.
+void Progress::put(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 void Progress::show(const State& state) const {
   if (form_ == Form::Json) return show_json(state, nullptr);
   std::string line =
@@ -123,12 +129,7 @@ void Progress::show(const State& state) const {
   if (state.speed > 0) line += fmt::format(", {:.3g} times real time", state.speed);
   if (state.skipped > 0) line += fmt::format(", {:.1f} % skipped", 100 * state.skipped);
   if (state.left) line += fmt::format(", {} left", duration_text(*state.left));
-  if (form_ == Form::Rewritten) {
-    fmt::print(stderr, "\r{}\033[K", line);
-  } else {
-    fmt::print(stderr, "{}\n", line);
-  }
-  std::fflush(stderr);
+  put(form_ == Form::Rewritten ? fmt::format("\r{}\033[K", line) : line + "\n");
 }
 
 void Progress::show_json(const State& state, const std::string* outcome) const {
@@ -138,8 +139,7 @@ void Progress::show_json(const State& state, const std::string* outcome) const {
                                    {"skipped", state.skipped},  {"left", nullptr}};
   if (state.left) object["left"] = *state.left;
   if (outcome != nullptr) object["outcome"] = *outcome;
-  fmt::print(stderr, "{}\n", object.dump());
-  std::fflush(stderr);
+  put(object.dump() + "\n");
 }
 
 }  // namespace stride::cli

@@ -79,6 +79,7 @@ class Progress : public core::Observer {
   bool is_due(Time time, Clock::time_point now) const;
   State state() const;
   void show(const State& state) const;
+  static void put(const std::string& text);
   void show_json(const State& state, const std::string* outcome) const;
 
   Form form_;

@@ -123,6 +123,11 @@ void RecordedRun::run() {
   conclude();
 }
 
+void RecordedRun::abandon(const std::string& error) {
+  simulation_.abandon();
+  conclude_failure(error);
+}
+
 /// The failure of the run is the error to report, so later failures are warnings.
 void RecordedRun::conclude_failure(const std::string& error) {
   progress_.end("failed");

@@ -74,6 +74,10 @@ class RecordedRun {
   /// failed. Whatever happens, the results are complete up to the last communication point.
   void run();
 
+  /// Instead of the end of run(), which something has prevented: ends the records without calling
+  /// any unit, and writes what contains the error.
+  void abandon(const std::string& error);
+
  private:
   void conclude_failure(const std::string& error);
   void conclude();

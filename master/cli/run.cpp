@@ -12,6 +12,7 @@
 
 #include "master/capture/capture.h"
 #include "master/cli/commands.h"
+#include "master/cli/crash_guard.h"
 #include "master/cli/interruption.h"
 #include "master/cli/recorded_run.h"
 #include "master/cli/report_page.h"
@@ -86,7 +87,7 @@ std::vector<capture::CaptureRequest> captures(const RunArguments& arguments) {
 
 /// The units' processes are forked from this one, so all that they inherit is prepared before: the
 /// results folder, and the environment variable that names it.
-void run(const RunArguments& arguments, TestReport& report) {
+void run(const RunArguments& arguments, TestReport& report, CrashGuard& guard) {
   const Interruption interruption;
   const scenario::LoadedScenario loaded(arguments.scenario);
   const recorders::ResultFiles files = chosen_files(arguments, loaded.scenario());
@@ -96,14 +97,18 @@ void run(const RunArguments& arguments, TestReport& report) {
   auto units = loaded.instantiate(folder);
   capture.wrap(units);
   const RunDisplay display{progress_style(arguments), arguments.quiet, arguments.open};
-  RecordedRun({loaded, options, {folder, files}, display, capture, report}, std::move(units)).run();
+  RecordedRun recorded({loaded, options, {folder, files}, display, capture, report},
+                       std::move(units));
+  const CrashGuard::Scope scope(guard, [&](const std::string& error) { recorded.abandon(error); });
+  recorded.run();
 }
 
 /// Whatever ends the command, the test report contains it.
 void run_and_report(const RunArguments& arguments) {
   TestReport report(arguments.junit, arguments.scenario.scenario);
+  CrashGuard guard([&](const std::string& error) { report.write(error); });
   try {
-    run(arguments, report);
+    run(arguments, report, guard);
   } catch (const std::exception& failure) {
     if (!report.is_written()) report.write(failure.what());
     throw;

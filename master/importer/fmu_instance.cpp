@@ -75,7 +75,7 @@ bool FmuInstance::declares(core::CapabilityId id) const {
 // ---- Calls and failures ----
 
 Status FmuInstance::check_status(const char* name, Status status) {
-  if (status == Status::Discard || status == Status::Pending) return status;
+  if (status == Status::Discard || (status == Status::Pending && is_fmi2())) return status;
   if (status != Status::Ok && status != Status::Warning) fail_call(name, status);
   if (has_messages_.load(std::memory_order_relaxed)) take_messages(name);
   return status;
@@ -94,20 +94,33 @@ void FmuInstance::fail_not_callable(const char* name) const {
 
 void FmuInstance::fail_call(const char* function, Status status) {
   failed_in_ = function;
-  const bool is_fatal =
-      status != Status::Error && status != Status::Discard && status != Status::Pending;
+  const bool is_fatal = status == Status::Fatal;
   if (is_fatal) mark_unusable();
   rethrow_callback_failure();  // it is the cause of what the unit answered
   fail(fmt::format("{} returned {}: {}", function, status_name(status), take_messages(function)),
        is_fatal ? "the unit may have damaged this process; save what you need and end it" : "");
 }
 
+void FmuInstance::fail_thrown(const char* function) {
+  std::string what = "something that is not a std::exception";
+  try {
+    throw;
+  } catch (const std::exception& exception) {
+    what = exception.what();
+  } catch (...) {  // it has no text
+  }
+  failed_in_ = function;
+  in_call_.store(nullptr, std::memory_order_relaxed);
+  mark_unusable();
+  fail(fmt::format("{} threw {}", function, what), "a function of FMI returns a status instead");
+}
+
 std::string FmuInstance::status_name(Status status) const {
   constexpr const char* kNames[] = {"OK", "Warning", "Discard", "Error", "Fatal", "Pending"};
   const auto i = static_cast<std::size_t>(status);
-  const bool is_fmi2 = prefix_[3] == '2';
-  if (i < std::size(kNames) - (is_fmi2 ? 0 : 1)) return std::string(prefix_) + kNames[i];
-  return fmt::format("a status that FMI {}.0 does not have", prefix_[3]);
+  if (i < std::size(kNames) - (is_fmi2() ? 0 : 1)) return std::string(prefix_) + kNames[i];
+  return fmt::format("{}, a status that FMI {}.0 does not have", static_cast<int>(status),
+                     prefix_[3]);
 }
 
 void FmuInstance::fail(const std::string& message, const std::string& hint) const {
@@ -117,6 +130,16 @@ void FmuInstance::fail(const std::string& message, const std::string& hint) cons
 void FmuInstance::fail_missing(const char* name, const char* capability) const {
   fail(fmt::format("its library does not export {}", name),
        fmt::format("a unit with {} must export it", capability));
+}
+
+std::size_t unfinished_calls(std::span<UnitCall> calls) noexcept {
+  std::size_t count = 0;
+  core::Listed<FmuInstance>::for_each([&](const FmuInstance& instance) {
+    const char* const function = instance.in_call_.load(std::memory_order_relaxed);
+    if (function == nullptr || count == calls.size()) return;
+    calls[count++] = {function, &instance.name_, &instance.options_.where, instance.time_};
+  });
+  return count;
 }
 
 // ---- Messages ----

@@ -21,6 +21,7 @@
 #include "master/importer/shared_library.h"
 #include "master/importer/status.h"
 #include "master/util/error.h"
+#include "master/util/listed.h"
 
 namespace stride::importer {
 
@@ -49,13 +50,25 @@ struct UnitParts {
   std::shared_ptr<const void> fmu;  ///< kept alive as long as the instance
 };
 
+/// A call of a unit in this process that has not returned. The pointers are valid as long as its
+/// instance.
+struct UnitCall {
+  const char* function = nullptr;
+  const std::string* unit = nullptr;
+  const core::Location* where = nullptr;  ///< the component's position in the scenario
+  std::optional<Time> time;
+};
+
 /// Calls functions of a unit, and turns what they answer into results and errors. A status Error or
 /// Fatal, and Discard of any function but those that may answer it, becomes a core::Error of the
-/// kind Run, with the name of the function, the simulated time and the unit's own messages. After
-/// it the instance is freed, and no other function of it is called; after Fatal none of any
-/// instance of the FMU, so they are not freed either, and the library stays loaded.
+/// kind Run, with the name of the function, the simulated time and the unit's own messages; so does
+/// an exception that leaves the unit, which counts as Fatal. After it the instance is freed, and no
+/// other function of it is called; after Fatal none of any instance of the FMU, so they are not
+/// freed either, and the library stays loaded.
 class FmuInstance : public core::Unit, public core::UnitDiagnostics {
  public:
+  friend std::size_t unfinished_calls(std::span<UnitCall> calls) noexcept;
+
   FmuInstance(const FmuInstance&) = delete;
   FmuInstance& operator=(const FmuInstance&) = delete;
 
@@ -85,6 +98,10 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   template <class Function, class... Arguments>
   Status call_discardable(const char* name, Function* function, Arguments... arguments);
 
+  /// What call() returns, which calls this function; an exception is a failure of it.
+  template <class Call>
+  auto guarded(const char* name, Call&& call);
+
   /// To be called before each call, and clear_note() after it has returned. What it throws leaves
   /// the note as it is: where the exception comes from.
   void note_call(const char* name) {
@@ -93,10 +110,12 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   }
   /// For a call that does not count, or goes on.
   void write_note(const char* name) {
+    in_call_.store(name, std::memory_order_relaxed);
     if (call_note_ != nullptr) [[unlikely]]
       call_note_->write(name, time_.value_or(Time{}));
   }
   void clear_note() {
+    in_call_.store(nullptr, std::memory_order_relaxed);
     if (call_note_ != nullptr) [[unlikely]]
       call_note_->clear();
   }
@@ -110,6 +129,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   /// ended.
   Status check_status(const char* name, Status status);
   [[noreturn]] void fail_call(const char* function, Status status);
+  /// Within a handler of what left the unit's function.
+  [[noreturn]] void fail_thrown(const char* function);
   [[noreturn]] void fail(const std::string& message, const std::string& hint = "") const;
   /// Throws what a callback could not throw across the unit's C code.
   void rethrow_callback_failure() {
@@ -161,6 +182,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   void* instance_ = nullptr;         ///< as the unit calls it
   const char* failed_in_ = nullptr;  ///< the function after whose status nothing goes on
   std::uint64_t calls_ = 0;
+  std::atomic<const char*> in_call_{nullptr};  ///< the function that has not returned
   CallNote* const call_note_;
   std::optional<Time> time_;
   const std::atomic<bool>& is_unusable_;  ///< the library
@@ -176,21 +198,38 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   [[noreturn]] void fail_not_callable(const char* name) const;
   [[noreturn]] void fail_missing(const char* name, const char* capability) const;
   std::string status_name(Status status) const;
+  bool is_fmi2() const { return prefix_[3] == '2'; }
 
   const char* prefix_;
   std::shared_ptr<const SharedLibrary> library_;
   std::mutex messages_mutex_;
   std::vector<std::string> messages_;  ///< those of the present call that report a failure
+  core::Listed<FmuInstance> listed_{*this};
 };
+
+/// Such calls, as many as there is space for; returns their number. Each thread has one at most.
+/// Can be called by a signal handler.
+std::size_t unfinished_calls(std::span<UnitCall> calls) noexcept;
+
+template <class Call>
+[[gnu::always_inline]] inline auto FmuInstance::guarded(const char* name, Call&& call) {
+  note_call(name);
+  try {
+    const auto result = call();
+    clear_note();
+    return result;
+  } catch (...) {
+    fail_thrown(name);
+  }
+}
 
 template <class Function, class... Arguments>
 [[gnu::always_inline]] inline Status FmuInstance::call_discardable(const char* name,
                                                                    Function* function,
                                                                    Arguments... arguments) {
   check_callable(name);
-  note_call(name);
-  const auto status = static_cast<Status>(function(instance_, arguments...));
-  clear_note();
+  const auto status =
+      static_cast<Status>(guarded(name, [&] { return function(instance_, arguments...); }));
   const bool is_quiet = !has_messages_.load(std::memory_order_relaxed);
   if (status == Status::Ok && is_quiet) [[likely]]
     return status;

@@ -74,7 +74,26 @@ void OutputFile::write_hex(std::span<const std::uint8_t> bytes) {
   core::write_hex(bytes, [&](char digit) { write(digit); });
 }
 
+void OutputFile::rescue_all() noexcept {
+  Listed<OutputFile>::for_each([](OutputFile& file) { file.rescue(); });
+}
+
+void OutputFile::rescue() noexcept {
+  if (descriptor_ < 0 || has_failed_ || is_flushing_) return;
+  const std::size_t lines = std::string_view(buffer_.get(), used_).rfind('\n') + 1;
+  used_ = 0;
+  for (std::size_t done = 0; done < lines;) {
+    const ssize_t count = ::write(descriptor_, buffer_.get() + done, lines - done);
+    if (count < 0 && errno != EINTR) return;
+    if (count <= 0) continue;
+    done += static_cast<std::size_t>(count);
+    taken_ += count;
+  }
+  line_end_ = taken_;
+}
+
 void OutputFile::flush() {
+  is_flushing_ = true;
   std::size_t done = 0;
   int error = 0;
   while (!has_failed_ && error == 0 && done < used_) {
@@ -89,6 +108,7 @@ void OutputFile::flush() {
   if (last != std::string_view::npos) line_end_ = taken_ + static_cast<std::int64_t>(last) + 1;
   taken_ += static_cast<std::int64_t>(done);
   used_ = 0;
+  is_flushing_ = false;
   if (error != 0) fail(error);
 }
 

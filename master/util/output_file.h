@@ -14,6 +14,8 @@
 
 #include <stride/time.h>
 
+#include "master/util/listed.h"
+
 namespace stride::core {
 
 /// Collects what is written in a buffer and hands it to the system in large pieces. When that fails
@@ -65,11 +67,17 @@ class OutputFile {
   /// Flushes and closes. Does nothing if it was closed, or failed, before.
   void close();
 
+  /// Hands the whole lines of all open files to the system, where the process has to end. For
+  /// signal handlers: throws nothing, allocates nothing and takes no lock. Of a file that is being
+  /// flushed meanwhile nothing is written twice.
+  static void rescue_all() noexcept;
+
  private:
   static constexpr std::size_t kCapacity = std::size_t{1} << 16;
 
   std::size_t room() const { return kCapacity - used_; }
   void write_slowly(std::string_view text);
+  void rescue() noexcept;
   [[noreturn]] void fail(int error);
 
   std::filesystem::path path_;
@@ -81,6 +89,8 @@ class OutputFile {
   std::int64_t taken_ = 0;     ///< bytes that the system has taken
   int descriptor_ = -1;
   bool has_failed_ = false;
+  volatile bool is_flushing_ = false;  ///< for a signal handler
+  Listed<OutputFile> listed_{*this};
 };
 
 }  // namespace stride::core

@@ -20,7 +20,7 @@ std::string line_of(const std::string& table, const std::string& first_cell) {
 std::map<std::string, std::string> files_below(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file() || entry.path().filename() == ".lock") continue;
+    if (!entry.is_regular_file()) continue;
     files[entry.path().string()] = read(entry.path());
   }
   return files;

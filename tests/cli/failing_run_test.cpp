@@ -1,7 +1,9 @@
 // Runs that fail on the way: exit code 1, who failed when and why, and complete results up to
 // there.
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <thread>
 
 #include "tests/cli/failures.h"
 
@@ -85,7 +87,7 @@ TEST_CASE("where all files fail, the first failure is reported") {
 
 TEST_CASE("an interrupted run keeps what it has recorded") {
   const Workspace workspace(two_filters());
-  const int signal = GENERATE(SIGINT, SIGTERM);
+  const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP);
   Process process(stride_command(Workspace::run_arguments({"--stop", "1e6", "--no-trace"})),
                   workspace.scratch().path());
   await_first_results(process, workspace);
@@ -102,6 +104,58 @@ TEST_CASE("an interrupted run keeps what it has recorded") {
   CHECK(signals.number(signals.size() - 1, 0) == run["reached"]);
   CHECK(signals.size() == run["communication_steps"].get<std::size_t>() + 1);
   CHECK(workspace.left_behind().empty());
+}
+
+TEST_CASE("a second signal ends a run that reaches no communication point, with its rows on disk") {
+  const Workspace workspace = beside_a_filter("faulty", "faulty.fmu");
+  Process process(
+      stride_command(Workspace::run_arguments({"--set", "faulty.fault=loop", "--set",
+                                               "faulty.at=0.5", "--set", "faulty.file=looping"})),
+      workspace.scratch().path());
+  while (process.is_running() && !fs::exists(workspace / "looping")) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  process.send(SIGINT);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  CHECK(process.is_running());
+  process.send(SIGINT);
+  CHECK(process.wait().exit_code == -SIGINT);
+  CHECK(last_time(workspace) == "0.499");
+}
+
+TEST_CASE("nothing is written into the results where standard streams are closed") {
+  const Workspace workspace = beside_a_filter("fuse", "thrower.fmu");
+  const std::string streams = GENERATE("<&-", ">&-", "2>&-", "<&- >&- 2>&-");
+  INFO(streams);
+  std::string command;
+  for (const std::string& word : stride_command(
+           Workspace::run_arguments({"--progress", "plain", "--set", "fuse.throw_at=0.5"}))) {
+    command += "'" + word + "' ";
+  }
+  const Outcome outcome =
+      Process({"sh", "-c", "exec " + command + streams}, workspace.scratch().path()).wait();
+  CHECK(outcome.exit_code == 1);
+  CHECK(last_time(workspace) == "0.499");
+  CHECK(workspace.result("signals.csv").find("stride") == std::string::npos);
+  CHECK_THAT(run_json(workspace)["error"].get<std::string>(), Contains("the fuse has blown"));
+}
+
+TEST_CASE("a summary that cannot be printed is an error, after the run is complete") {
+  const Workspace workspace(two_filters());
+  const auto [target, code] =
+      GENERATE(table<std::string, int>({{"> /dev/full", 1}, {"| true", 128 + SIGPIPE}}));
+  INFO(target);
+  std::string command;
+  for (const std::string& word : stride_command(Workspace::run_arguments({}))) {
+    command += "'" + word + "' ";
+  }
+  const Outcome outcome =
+      Process({"bash", "-c", "set -o pipefail; " + command + target}, workspace.scratch().path())
+          .wait();
+  CHECK(outcome.exit_code == code);
+  if (code == 1) CHECK_THAT(outcome.err, Contains("No space left on device"));
+  CHECK(run_json(workspace)["outcome"] == "completed");
+  CHECK(last_time(workspace) == "1");
 }
 
 TEST_CASE("what a killed run leaves goes with the next one") {

@@ -94,13 +94,12 @@ class Workspace {
     return "test.ssd:" + std::to_string(line) + ": ";
   }
 
-  /// What unpacked units have left in TMPDIR; the folder of the user and its lock file stay.
+  /// What unpacked units have left in TMPDIR; the folder of the user stays.
   std::vector<std::string> left_behind() const {
     std::vector<std::string> names;
     for (fs::recursive_directory_iterator it(scratch_ / "tmp"), end; it != end; ++it) {
       const std::string name = it->path().filename().string();
-      const bool stays = it.depth() == 0 ? name.rfind("stride-", 0) == 0 : name == ".lock";
-      if (!stays) names.push_back(name);
+      if (it.depth() > 0 || name.rfind("stride-", 0) != 0) names.push_back(name);
     }
     return names;
   }

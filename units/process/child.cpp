@@ -71,7 +71,8 @@ std::string find_program(const std::string& program) {
 void make_executable(const std::string& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return;
-  if ((status.st_mode & S_IXUSR) == 0) ::chmod(path.c_str(), status.st_mode | S_IXUSR);
+  // no more rights than these: a sandbox denies others
+  if ((status.st_mode & S_IXUSR) == 0) ::chmod(path.c_str(), S_IRWXU);
 }
 
 /// What the child does between fork() and exec(): functions that are safe there, and no memory.

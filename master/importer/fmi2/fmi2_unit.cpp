@@ -25,12 +25,11 @@ Fmi2Unit::Fmi2Unit(std::string name, std::shared_ptr<const Fmi2Library> library,
   const bool may_be_pending = attributes_->can_run_asynchronously;
   callbacks_ = {&on_log, &std::calloc, &std::free, may_be_pending ? &on_step_finished : nullptr,
                 this};
-  note_call("fmi2Instantiate");
-  instance_ =
-      fmi_.Instantiate(name_.c_str(), fmi2CoSimulation,
-                       parts_.description->instantiation_token.c_str(), parts_.resources.c_str(),
-                       &callbacks_, fmi2False, options_.debug_logging ? fmi2True : fmi2False);
-  clear_note();
+  instance_ = guarded("fmi2Instantiate", [&] {
+    return fmi_.Instantiate(
+        name_.c_str(), fmi2CoSimulation, parts_.description->instantiation_token.c_str(),
+        parts_.resources.c_str(), &callbacks_, fmi2False, options_.debug_logging);
+  });
   if (instance_ == nullptr) {
     fail(fmt::format("fmi2Instantiate failed: {}", take_messages("fmi2Instantiate")));
   }

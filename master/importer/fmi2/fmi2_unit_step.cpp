@@ -52,9 +52,10 @@ Status Fmi2Unit::poll_step() {
   note_call("fmi2GetStatus");
   fmi2Status of_step = fmi2Pending;
   const auto answer = static_cast<Status>(fmi_.GetStatus(instance_, fmi2DoStepStatus, &of_step));
-  if (answer == Status::Error || answer == Status::Fatal) fail_call("fmi2GetStatus", answer);
   const bool is_known = answer == Status::Ok || answer == Status::Warning;
-  if (!is_known || of_step == fmi2Pending) return Status::Pending;
+  const bool is_unknown = answer == Status::Discard || answer == Status::Pending;
+  if (!is_known && !is_unknown) fail_call("fmi2GetStatus", answer);
+  if (is_unknown || of_step == fmi2Pending) return Status::Pending;
   asynchronous_.note_polled();
   return static_cast<Status>(of_step);
 }

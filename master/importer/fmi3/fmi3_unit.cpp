@@ -51,13 +51,14 @@ Fmi3Unit::Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library,
   const bool has_resources = !parts_.resources.empty();
   std::vector<core::ValueReference> intermediate;
   if (options_.intermediate_update) intermediate = intermediate_inputs(description);
-  note_call("fmi3InstantiateCoSimulation");
-  instance_ = fmi_.InstantiateCoSimulation(
-      name_.c_str(), description.instantiation_token.c_str(),
-      has_resources ? parts_.resources.c_str() : nullptr, fmi3False, options_.debug_logging,
-      description.has_event_mode, options_.early_return_allowed, intermediate.data(),
-      intermediate.size(), this, &on_log, intermediate.empty() ? nullptr : &on_intermediate_update);
-  clear_note();
+  instance_ = guarded("fmi3InstantiateCoSimulation", [&] {
+    return fmi_.InstantiateCoSimulation(name_.c_str(), description.instantiation_token.c_str(),
+                                        has_resources ? parts_.resources.c_str() : nullptr,
+                                        fmi3False, options_.debug_logging,
+                                        description.has_event_mode, options_.early_return_allowed,
+                                        intermediate.data(), intermediate.size(), this, &on_log,
+                                        intermediate.empty() ? nullptr : &on_intermediate_update);
+  });
   if (instance_ == nullptr) {
     fail(fmt::format("fmi3InstantiateCoSimulation failed: {}",
                      take_messages("fmi3InstantiateCoSimulation")));

@@ -115,6 +115,11 @@ Protections enter_sandbox(std::span<const WritableFolder> writable) {
          lower_limits);
   guard_files(protections, writable);
   put_on(protections, "no network: seccomp", forbid_network);
+  put_on(protections, "no calls that name other processes: seccomp", forbid_reaching_processes);
+  put_on(protections,
+         "no change of owners and times of files, and of modes to private ones only: seccomp",
+         forbid_changing_attributes);
+  put_on(protections, "no system calls newer than Linux 6.4: seccomp", forbid_newer_calls);
   return protections;
 }
 

@@ -30,10 +30,14 @@ struct WritableFolder {
 ///   before the machine does. The number of processes is not limited: the kernel counts those of
 ///   the user, not those of a unit;
 /// - files are only read and executed, but for what is in the folders `writable` and below, and
-///   /dev/null and its like. Nothing is made, removed, renamed, truncated or mounted elsewhere. Not
-///   covered are the owners, modes and times of files, and what is open already (Landlock);
+///   /dev/null and its like. Nothing is made, removed, renamed, truncated or mounted elsewhere.
+///   What is open already is not covered (Landlock);
+/// - owners, times and attributes of files are not changed, wherever they are, and their modes only
+///   to private ones (seccomp);
+/// - no call names another process, and nothing is shared by a key or a name (seccomp);
 /// - signals reach, and debuggers attach to, processes in the same sandbox only;
-/// - no socket but AF_UNIX, and no input into a terminal (seccomp).
+/// - no socket but AF_UNIX, and no input into a terminal (seccomp);
+/// - no system calls newer than Linux 6.4 (seccomp).
 ///
 /// The answer lists what the kernel lacks; the rest is in force. To be called while this
 /// process has one thread. Throws std::system_error if a folder cannot be opened.

@@ -1,12 +1,21 @@
 #include "master/isolation/process/system_calls.h"
 
 #include <cerrno>
+#include <cstddef>
+#include <cstdint>
 #include <initializer_list>
+#include <iterator>
 #include <system_error>
 
 #include <fcntl.h>
+#include <linux/filter.h>
+#include <linux/fs.h>
+#include <linux/ioprio.h>
+#include <linux/seccomp.h>
 #include <seccomp.h>
 #include <sys/ioctl.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 
 namespace stride::isolation {
@@ -75,6 +84,75 @@ void forbid_network() {
   filter.deny(SCMP_SYS(ioctl), {argument(1, SCMP_CMP_MASKED_EQ, kInt, TIOCSTI)});
   filter.deny(SCMP_SYS(ioctl), {argument(1, SCMP_CMP_MASKED_EQ, kInt, TIOCLINUX)});
   filter.load();
+}
+
+void forbid_reaching_processes() {
+  Filter filter;
+  const auto deny_all = [&](std::initializer_list<int> calls) {
+    for (const int call : calls) filter.deny(call);
+  };
+  const auto not_own = [](unsigned index) { return argument(index, SCMP_CMP_NE, 0); };
+  for (const int call : {SCMP_SYS(prlimit64), SCMP_SYS(sched_setaffinity), SCMP_SYS(sched_setattr),
+                         SCMP_SYS(sched_setparam), SCMP_SYS(sched_setscheduler),
+                         SCMP_SYS(move_pages), SCMP_SYS(migrate_pages)}) {
+    filter.deny(call, {not_own(0)});
+  }
+  filter.deny(SCMP_SYS(setpriority), {not_own(1)});
+  filter.deny(SCMP_SYS(setpriority), {argument(0, SCMP_CMP_MASKED_EQ, kInt, PRIO_USER)});
+  filter.deny(SCMP_SYS(ioprio_set), {not_own(1)});
+  filter.deny(SCMP_SYS(ioprio_set), {argument(0, SCMP_CMP_MASKED_EQ, kInt, IOPRIO_WHO_USER)});
+  for (const scmp_datum_t request : {TIOCSPGRP, TIOCSCTTY}) {
+    filter.deny(SCMP_SYS(ioctl), {argument(1, SCMP_CMP_MASKED_EQ, kInt, request)});
+  }
+  deny_all({SCMP_SYS(process_vm_readv), SCMP_SYS(process_vm_writev), SCMP_SYS(process_madvise),
+            SCMP_SYS(process_mrelease), SCMP_SYS(pidfd_getfd), SCMP_SYS(kcmp),
+            SCMP_SYS(perf_event_open), SCMP_SYS(open_by_handle_at)});
+  deny_all({SCMP_SYS(shmget), SCMP_SYS(shmat), SCMP_SYS(shmctl), SCMP_SYS(semget), SCMP_SYS(semop),
+            SCMP_SYS(semtimedop), SCMP_SYS(semtimedop_time64), SCMP_SYS(semctl), SCMP_SYS(msgget),
+            SCMP_SYS(msgsnd), SCMP_SYS(msgrcv), SCMP_SYS(msgctl), SCMP_SYS(ipc)});
+  deny_all({SCMP_SYS(mq_open), SCMP_SYS(mq_unlink)});
+  deny_all({SCMP_SYS(keyctl), SCMP_SYS(add_key), SCMP_SYS(request_key)});
+  filter.load();
+}
+
+void forbid_changing_attributes() {
+  Filter filter;
+  for (const int call :
+       {SCMP_SYS(chown), SCMP_SYS(chown32), SCMP_SYS(fchown), SCMP_SYS(fchown32), SCMP_SYS(lchown),
+        SCMP_SYS(lchown32), SCMP_SYS(fchownat), SCMP_SYS(utime), SCMP_SYS(utimes),
+        SCMP_SYS(futimesat), SCMP_SYS(utimensat), SCMP_SYS(utimensat_time64), SCMP_SYS(setxattr),
+        SCMP_SYS(lsetxattr), SCMP_SYS(fsetxattr), SCMP_SYS(removexattr), SCMP_SYS(lremovexattr),
+        SCMP_SYS(fremovexattr)}) {
+    filter.deny(call);
+  }
+  // a program from an archive without permissions has to become executable
+  constexpr scmp_datum_t kPrivate = 0700;
+  for (scmp_datum_t right = 1; right <= 04000; right <<= 1) {
+    if ((right & kPrivate) != 0) continue;
+    filter.deny(SCMP_SYS(chmod), {argument(1, SCMP_CMP_MASKED_EQ, right, right)});
+    filter.deny(SCMP_SYS(fchmod), {argument(1, SCMP_CMP_MASKED_EQ, right, right)});
+    filter.deny(SCMP_SYS(fchmodat), {argument(2, SCMP_CMP_MASKED_EQ, right, right)});
+  }
+  for (const scmp_datum_t request : {FS_IOC_SETFLAGS, FS_IOC_FSSETXATTR}) {
+    filter.deny(SCMP_SYS(ioctl), {argument(1, SCMP_CMP_MASKED_EQ, kInt, request)});
+  }
+  filter.load();
+}
+
+void forbid_newer_calls() {
+  // libseccomp knows calls by their names only; these have the same numbers on all machines, and
+  // those of x32 are greater
+  constexpr std::uint32_t kFirstOfLinux65 = 451;
+  sock_filter program[] = {
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+      BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, kFirstOfLinux65, 0, 1),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | ENOSYS),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+  };
+  const sock_fprog filter{std::size(program), program};
+  if (::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) != 0) {
+    throw std::system_error(errno, std::generic_category(), "seccomp");
+  }
 }
 
 void forbid_truncation() {

@@ -12,6 +12,21 @@ namespace stride::isolation {
 /// No socket but AF_UNIX, also not by way of io_uring, and no typing into a terminal.
 void forbid_network();
 
+/// No call that names another process (or a thread, by its number), and nothing that is shared with
+/// other processes by a key or a name: limits, priorities, processors, memory and files of others,
+/// the group in a terminal's foreground, System V memory, semaphores and queues, POSIX queues, keys
+/// of the kernel, performance counters. Signals and debuggers are Landlock's matter.
+void forbid_reaching_processes();
+
+/// No system call that is newer than Linux 6.4: the answer is ENOSYS, as of an older kernel. So no
+/// call escapes the other filters because they were made before it was.
+void forbid_newer_calls();
+
+/// No change of owners, times and extended attributes, and of modes only such that give no rights
+/// to others than the owner: neither of the user's files nor of its own, since a filter cannot tell
+/// them apart.
+void forbid_changing_attributes();
+
 /// No cutting off of files by their names, or when they are opened for reading.
 void forbid_truncation();
 

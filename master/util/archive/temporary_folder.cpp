@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include <fcntl.h>
@@ -26,31 +27,44 @@ constexpr const char* kLockSuffix = ".lock";
                  "set TMPDIR to a folder that you may write to and that has room");
 }
 
-/// An open file with flock's lock on it, or -1 if `flags` has LOCK_NB and another process holds it.
-int lock_file(const fs::path& path, int flags) {
-  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
-  if (file < 0) fail(path, "open the lock file");
-  while (::flock(file, LOCK_EX | flags) != 0) {
-    if (errno == EINTR) continue;
-    const bool busy = errno == EWOULDBLOCK;
-    ::close(file);
-    if (!busy) fail(path, "lock");
-    return -1;
-  }
-  return file;
+/// Whether the path still names this open file.
+bool is_at(int file, const fs::path& path) {
+  struct stat opened {};
+  struct stat named {};
+  return ::fstat(file, &opened) == 0 && ::lstat(path.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-/// Held while folders are made and swept, so that none is swept whose lock is not taken yet.
-class ParentLock {
- public:
-  explicit ParentLock(const fs::path& parent) : file_(lock_file(parent / kLockSuffix, 0)) {}
-  ~ParentLock() { ::close(file_); }
-  ParentLock(const ParentLock&) = delete;
-  ParentLock& operator=(const ParentLock&) = delete;
+/// The file, open and locked with flock; -1 if another process has the lock, or the file is gone.
+/// Nothing waits for a lock: whoever can read the file can take it, and keep it.
+int try_lock(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+  if (file < 0) return -1;
+  int result = 0;
+  while ((result = ::flock(file, LOCK_EX | LOCK_NB)) != 0 && errno == EINTR) {
+  }
+  if (result == 0 && is_at(file, path)) return file;
+  ::close(file);
+  return -1;
+}
 
- private:
-  int file_;
-};
+/// Lets the owner change what is in this folder and in those below; without that, a folder that a
+/// unit has closed to itself could not be removed.
+void open_to_owner(const fs::path& folder) {
+  std::error_code ignored;
+  fs::permissions(folder, fs::perms::owner_all, fs::perm_options::add, ignored);
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    if (fs::is_directory(entry.symlink_status(ignored))) open_to_owner(entry.path());
+  }
+}
+
+void remove_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::remove_all(folder, error);
+  if (!error) return;
+  open_to_owner(folder);
+  fs::remove_all(folder, error);
+}
 
 /// In a temporary folder that others write to, no other user may have put this one there.
 void make_private(const fs::path& parent) {
@@ -69,13 +83,28 @@ void sweep(const fs::path& parent) {
   for (const fs::directory_entry& entry : fs::directory_iterator(parent, ignored)) {
     const fs::path& lock = entry.path();
     if (lock.extension() != kLockSuffix) continue;
-    const int file = lock_file(lock, LOCK_NB);
+    const int file = try_lock(lock);
     if (file < 0) continue;
     fs::path folder = lock;
-    fs::remove_all(folder.replace_extension(), ignored);
+    remove_folder(folder.replace_extension());
     fs::remove(lock, ignored);
     ::close(file);
   }
+}
+
+/// The lock file of a name that no folder has, made and locked; the name.
+std::pair<int, fs::path> reserve_name(const fs::path& parent) {
+  constexpr int kTries = 100;  // a sweep may remove the file before it is locked
+  for (int i = 0; i < kTries; ++i) {
+    std::string lock = (parent / fmt::format("unpacked-XXXXXX{}", kLockSuffix)).string();
+    const int made =
+        ::mkostemps(lock.data(), static_cast<int>(std::strlen(kLockSuffix)), O_CLOEXEC);
+    if (made < 0) fail(parent, "make a file in");
+    ::close(made);
+    const int file = try_lock(lock);
+    if (file >= 0) return {file, fs::path(lock).replace_extension()};
+  }
+  fail(parent, "lock a file in");
 }
 
 }  // namespace
@@ -89,12 +118,11 @@ fs::path TemporaryFolder::parent() {
 TemporaryFolder::TemporaryFolder() : owner_(::getpid()) {
   const fs::path parent_folder = parent();
   make_private(parent_folder);
-  const ParentLock parent_lock(parent_folder);
   sweep(parent_folder);
-  std::string name = (parent_folder / "unpacked-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) fail(parent_folder, "make a folder in");
-  path_ = name;
-  lock_ = lock_file(name + kLockSuffix, 0);
+  std::tie(lock_, path_) = reserve_name(parent_folder);
+  if (::mkdir(path_.c_str(), 0700) == 0) return;
+  ::close(lock_);
+  fail(path_, "make the folder");
 }
 
 void TemporaryFolder::sweep_abandoned() noexcept {
@@ -102,19 +130,24 @@ void TemporaryFolder::sweep_abandoned() noexcept {
     const fs::path parent_folder = parent();
     if (!fs::exists(parent_folder)) return;
     make_private(parent_folder);
-    const ParentLock parent_lock(parent_folder);
     sweep(parent_folder);
   } catch (const std::exception&) {  // the next run will try it again
   }
 }
 
 TemporaryFolder::~TemporaryFolder() {
-  if (owner_ == ::getpid()) {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-    fs::remove(path_.string() + kLockSuffix, ignored);
-  }
+  if (owner_ == ::getpid()) remove();
   ::close(lock_);
+}
+
+void TemporaryFolder::remove_all() noexcept {
+  core::Listed<TemporaryFolder>::for_each([](const TemporaryFolder& folder) { folder.remove(); });
+}
+
+void TemporaryFolder::remove() const noexcept {
+  std::error_code ignored;
+  remove_folder(path_);
+  fs::remove(path_.string() + kLockSuffix, ignored);
 }
 
 }  // namespace stride::archive

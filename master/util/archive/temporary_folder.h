@@ -5,13 +5,16 @@
 
 #include <sys/types.h>
 
+#include "master/util/listed.h"
+
 namespace stride::archive {
 
 /// A fresh, empty folder that goes when the object goes.
 ///
 /// It is in `<TMPDIR or /tmp>/stride-<uid>/`, beside a file of the same name with `.lock` that
-/// this process keeps locked (flock), so the kernel frees the lock however the process ends. Each
-/// new folder first sweeps away those whose lock is free: what a crashed run left behind.
+/// this process keeps locked (flock), so the kernel frees the lock however the process ends. The
+/// lock is taken before the folder is made. Each new folder first removes those whose lock is free,
+/// which crashed runs have left. No lock is waited for, so no other process can stop this one.
 class TemporaryFolder {
  public:
   /// Throws core::Error of the kind Run if it cannot be made.
@@ -25,13 +28,19 @@ class TemporaryFolder {
   /// The folder of the folders of this user; it need not exist.
   static std::filesystem::path parent();
 
+  /// Removes all of this process, where no destructors will run; also in a fork of it.
+  static void remove_all() noexcept;
+
   /// Removes what crashed runs of this user have left; what cannot be removed stays.
   static void sweep_abandoned() noexcept;
 
  private:
+  void remove() const noexcept;
+
   std::filesystem::path path_;
   int lock_ = -1;
   pid_t owner_;  ///< a forked child must not remove what its parent uses
+  core::Listed<TemporaryFolder> listed_{*this};
 };
 
 }  // namespace stride::archive

@@ -54,9 +54,7 @@ struct Belongings {
 inline std::vector<fs::path> left_folders(const Scratch& scratch) {
   std::vector<fs::path> found;
   const fs::path parent = scratch / "tmp" / ("stride-" + std::to_string(::getuid()));
-  for (const auto& entry : fs::directory_iterator(parent)) {
-    if (entry.path().filename() != ".lock") found.push_back(entry.path());
-  }
+  for (const auto& entry : fs::directory_iterator(parent)) found.push_back(entry.path());
   return found;
 }
 

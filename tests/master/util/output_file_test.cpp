@@ -115,3 +115,20 @@ TEST_CASE("A line that was begun is cut off, even when an earlier piece of it wa
   file.close();
   CHECK(content(folder / "x") == "whole\n");
 }
+
+TEST_CASE("The whole lines of all open files can be written at any time, and nothing twice") {
+  const TemporaryFolder folder;
+  OutputFile first(folder / "first");
+  OutputFile second(folder / "second");
+  OutputFile closed(folder / "closed");
+  closed.close();
+  first.write("1\n2\n3");
+  second.write("a");
+  OutputFile::rescue_all();
+  CHECK(content(folder / "first") == "1\n2\n");
+  CHECK(content(folder / "second").empty());
+  OutputFile::rescue_all();
+  first.write("4\n");
+  first.close();
+  CHECK(content(folder / "first") == "1\n2\n4\n");  // what was not a whole line is lost
+}

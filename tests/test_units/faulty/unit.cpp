@@ -123,6 +123,7 @@ const std::map<std::string, std::function<void()>> kFaults{
     {"segfault", write_to_nowhere},
     {"abort", abort_aloud},
     {"exit", [] { std::exit(3); }},
+    {"exit with 0", [] { std::exit(0); }},
     {"_exit", [] { ::_exit(4); }},
     {"exit in a thread", exit_in_thread},
     {"throw in a thread", throw_in_thread},

@@ -1,6 +1,7 @@
 /* Complains in each step, as the parameter `mood` has it: 1 with a warning, 3 with fmi2Error, 4
  * with fmi2Fatal, 5 with fmi2Error and without a word, 6 with a message longer than most, 7 with
- * one that must not be formatted. A status of a step's end is returned as it is. */
+ * one that must not be formatted, 77 with no status of FMI. A status of a step's end is returned as
+ * it is. */
 #include "tests/test_units/fmi2/unit.h"
 
 enum { kLevel = FIRST_OTHER };
@@ -30,6 +31,8 @@ static fmi2Status unit_step(Unit* unit, double begin, double size) {
     case 7:
       LOG(unit, fmi2Error, "100%n");
       return fmi2Error;
+    case 77:
+      return (fmi2Status)77;
     default:
       return fmi2OK;
   }

@@ -7,6 +7,8 @@
  *   drifts   its time is a little off          refuses  it cannot be instantiated
  *   arrives  it says early of a step that it made to its end
  *   thirds   its next event is at 1/3 s     needs    it wants Event Mode after each step
+ *   pending  it returns 5, a status of FMI 2.0
+ *   unheard  it returns 77, which is no status
  *   insists  it rejects what is not the next step of raw_step picoseconds by its own count
  */
 #include <math.h>
@@ -142,6 +144,8 @@ fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 point, fmi3Float64 size,
     return fmi3Fatal;
   }
   if (is(instance, "discard")) return fmi3Discard;
+  if (is(instance, "pending")) return (fmi3Status)5;
+  if (is(instance, "unheard")) return (fmi3Status)77;
   return is(instance, "error") ? fmi3Error : fmi3OK;
 }
 #endif

@@ -494,6 +494,14 @@ TEST_CASE("a failure without a word, with a long one and with one that must not 
   CHECK_THAT(run_error([&] { unit.step({}, Time(1s)); }), Contains("fmi2Error: " + expected));
 }
 
+TEST_CASE("a status that FMI 2.0 does not have is an error that contains it") {
+  Fmi2Fixture unit("fmi2_grumbler");
+  unit.set_number("mood", 77);
+  unit.start();
+  CHECK_THAT(run_error([&] { unit.step({}, Time(1s)); }),
+             Contains("fmi2DoStep returned 77, a status that FMI 2.0 does not have"));
+}
+
 TEST_CASE("a warning of an FMI 2.0 unit is logged and the step is accepted") {
   Fmi2Fixture unit("fmi2_grumbler");
   unit.set_number("mood", 1);

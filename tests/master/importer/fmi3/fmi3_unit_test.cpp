@@ -399,6 +399,18 @@ TEST_CASE("a silent error is an error") {
              Contains("fmi3DoStep returned fmi3Error: the unit gives no reason"));
 }
 
+TEST_CASE("a status that FMI 3.0 does not have is an error that contains it", "[here]") {
+  const auto [name, status] =
+      GENERATE(table<std::string, std::string>({{"pending", "5"}, {"unheard", "77"}}));
+  Raw raw(name);
+  CHECK_THAT(run_error([&] {
+               raw.unit->step({{}, Time(1ms)});
+             }),
+             Contains("fmi3DoStep returned " + status + ", a status that FMI 3.0 does not have"));
+  raw.unit.reset();
+  CHECK(raw.global<int>("raw_living") == 0);
+}
+
 TEST_CASE("after fmi3Error the instance is freed, after fmi3Fatal it is not touched again",
           "[here]") {
   Raw error("error");

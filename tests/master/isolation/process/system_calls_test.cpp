@@ -1,11 +1,27 @@
 #include "master/isolation/process/system_calls.h"
 
+#include <functional>
 #include <initializer_list>
+#include <string>
+#include <vector>
 
+#include <linux/fs.h>
 #include <linux/io_uring.h>
+#include <mqueue.h>
+#include <sched.h>
 #include <sys/ioctl.h>
+#include <sys/ipc.h>
+#include <sys/msg.h>
+#include <sys/resource.h>
+#include <sys/sem.h>
+#include <sys/shm.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
+#include <sys/time.h>
+#include <sys/uio.h>
+#include <sys/xattr.h>
+#include <utime.h>
 
 #include "tests/master/isolation/process/sandbox_support.h"
 
@@ -70,6 +86,128 @@ TEST_CASE("no socket comes by way of io_uring, and nothing is typed into a termi
   CHECK(say_filtered(forbid_network, [] {
           return answer(::ioctl(STDIN_FILENO, TIOCGWINSZ, nullptr));
         }) == "ENOTTY");
+}
+
+namespace {
+
+struct Attempt {
+  const char* what;
+  std::function<long()> call;
+};
+
+/// Each is done without the filter, or fails for another reason than a filter's.
+void check_denied(void (*forbid)(), const std::vector<Attempt>& attempts) {
+  for (const Attempt& attempt : attempts) {
+    INFO(attempt.what);
+    const auto work = [&] { return answer(attempt.call()); };
+    CHECK(in_child(work) != "EACCES");
+    CHECK(say_filtered(forbid, work) == "EACCES");
+  }
+}
+
+}  // namespace
+
+TEST_CASE("no other process is reached by its number, a key or a name") {
+  if (lacks_seccomp()) return;
+  const pid_t other = ::getpid();
+  const rlimit limit{RLIM_INFINITY, RLIM_INFINITY};
+  const sched_param parameters{};
+  cpu_set_t all;
+  ::sched_getaffinity(0, sizeof all, &all);
+  char byte = 0;
+  const iovec place{&byte, 1};
+  constexpr int kIdle = 3 << 13;  // a class of priorities for files
+  check_denied(
+      forbid_reaching_processes,
+      {{"limits", [&] { return ::syscall(SYS_prlimit64, other, RLIMIT_CORE, &limit, nullptr); }},
+       {"priority", [&] { return ::setpriority(PRIO_PROCESS, other, 0); }},
+       {"priority of the group", [&] { return ::setpriority(PRIO_PGRP, other, 0); }},
+       {"priority of the user", [] { return ::setpriority(PRIO_USER, 0, 19); }},
+       {"priority for files", [&] { return ::syscall(SYS_ioprio_set, 1, other, kIdle); }},
+       {"the user's for files", [] { return ::syscall(SYS_ioprio_set, 3, 0, kIdle); }},
+       {"processors", [&] { return ::sched_setaffinity(other, sizeof all, &all); }},
+       {"scheduler", [&] { return ::sched_setscheduler(other, SCHED_OTHER, &parameters); }},
+       {"its parameters", [&] { return ::sched_setparam(other, &parameters); }},
+       {"its attributes", [&] { return ::syscall(SYS_sched_setattr, other, nullptr, 0); }},
+       {"read memory", [&] { return ::process_vm_readv(other, &place, 1, &place, 1, 0); }},
+       {"write memory", [&] { return ::process_vm_writev(other, &place, 1, &place, 1, 0); }},
+       {"compare", [&] { return ::syscall(SYS_kcmp, other, other, 0, 0, 0); }},
+       {"move pages",
+        [&] { return ::syscall(SYS_move_pages, other, 0L, nullptr, nullptr, nullptr, 0); }},
+       {"migrate pages", [&] { return ::syscall(SYS_migrate_pages, other, 0L, nullptr, nullptr); }},
+       {"its files", [] { return ::syscall(SYS_pidfd_getfd, -1, 0, 0); }},
+       {"advice", [] { return ::syscall(SYS_process_madvise, -1, nullptr, 0L, 0, 0); }},
+       {"counters", [] { return ::syscall(SYS_perf_event_open, nullptr, 0, -1, -1, ~0UL); }},
+       {"the foreground", [] { return ::tcsetpgrp(STDIN_FILENO, ::getpgrp()); }},
+       {"a terminal", [] { return ::ioctl(STDIN_FILENO, TIOCSCTTY, 0); }},
+       {"System V memory", [] { return ::shmget(0x5712de, 1, 0); }},
+       {"System V memory by number",
+        [] { return reinterpret_cast<long>(::shmat(0x5712de, nullptr, 0)); }},
+       {"System V semaphores", [] { return ::semget(0x5712de, 1, 0); }},
+       {"System V queues", [] { return ::msgget(0x5712de, 0); }},
+       {"POSIX queues", [] { return ::mq_open("/stride-test", O_RDONLY); }},
+       {"keys", [] { return ::syscall(SYS_keyctl, 0, -3, 0); }},
+       {"a file by its handle", [] { return ::syscall(SYS_open_by_handle_at, -1, nullptr, 0); }}});
+}
+
+TEST_CASE("a unit's own limits, priority and processors can be changed") {
+  if (lacks_seccomp()) return;
+  const auto say_of = [](const auto& work) {
+    return say_filtered(forbid_reaching_processes, work);
+  };
+  CHECK(say_of([] {
+          rlimit limit{};
+          ::getrlimit(RLIMIT_CORE, &limit);
+          return answer(::setrlimit(RLIMIT_CORE, &limit));
+        }) == "done");
+  CHECK(say_of([] { return answer(::setpriority(PRIO_PROCESS, 0, 19)); }) == "done");
+  CHECK(say_of([] {
+          cpu_set_t all;
+          ::sched_getaffinity(0, sizeof all, &all);
+          return answer(::sched_setaffinity(0, sizeof all, &all));
+        }) == "done");
+}
+
+TEST_CASE("modes, owners, times and attributes of files stay as they are") {
+  if (lacks_seccomp()) return;
+  const ScratchFolder scratch;
+  const auto path = write_file(scratch / "file", "text");
+  const char* const file = path.c_str();
+  const int open = ::open(file, O_RDONLY | O_CLOEXEC);
+  const uid_t user = ::getuid();
+  const gid_t group = ::getgid();
+  int flags = 0;
+  check_denied(forbid_changing_attributes,
+               {{"chmod", [&] { return ::chmod(file, 0644); }},
+                {"fchmod", [&] { return ::fchmod(open, 01700); }},
+                {"fchmodat", [&] { return ::fchmodat(AT_FDCWD, file, 0602, 0); }},
+                {"chown", [&] { return ::chown(file, user, group); }},
+                {"fchown", [&] { return ::fchown(open, user, group); }},
+                {"lchown", [&] { return ::lchown(file, user, group); }},
+                {"fchownat", [&] { return ::fchownat(AT_FDCWD, file, user, group, 0); }},
+                {"utime", [&] { return ::utime(file, nullptr); }},
+                {"utimes", [&] { return ::utimes(file, nullptr); }},
+                {"futimens", [&] { return ::futimens(open, nullptr); }},
+                {"utimensat", [&] { return ::utimensat(AT_FDCWD, file, nullptr, 0); }},
+                {"setxattr", [&] { return ::setxattr(file, "user.x", "y", 1, 0); }},
+                {"lsetxattr", [&] { return ::lsetxattr(file, "user.x", "y", 1, 0); }},
+                {"fsetxattr", [&] { return ::fsetxattr(open, "user.x", "y", 1, 0); }},
+                {"removexattr", [&] { return ::removexattr(file, "user.x"); }},
+                {"fremovexattr", [&] { return ::fremovexattr(open, "user.x"); }},
+                {"flags", [&] { return ::ioctl(open, FS_IOC_SETFLAGS, &flags); }}});
+  const auto make_private = [&] { return answer(::chmod(file, 0700)); };
+  CHECK(say_filtered(forbid_changing_attributes, make_private) == "done");
+  ::close(open);
+}
+
+TEST_CASE("calls that are newer than the filters do not exist") {
+  if (lacks_seccomp()) return;
+  constexpr long kFchmodat2 = 452;
+  const ScratchFolder scratch;
+  const auto file = write_file(scratch / "file", "text");
+  const auto work = [&] { return answer(::syscall(kFchmodat2, AT_FDCWD, file.c_str(), 0600, 0)); };
+  CHECK(say_filtered(forbid_newer_calls, work) == "ENOSYS");
+  CHECK(say_filtered(forbid_newer_calls, [&] { return content(file); }) == "text");
 }
 
 #ifdef __x86_64__

@@ -1,5 +1,9 @@
 #include "master/util/archive/temporary_folder.h"
 
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -62,6 +66,71 @@ TEST_CASE("a forked child does not remove its parent's folder") {
   int status = 0;
   REQUIRE(waitpid(child, &status, 0) == child);
   CHECK(fs::exists(folder->path()));
+}
+
+TEST_CASE("locks that another process holds stop nobody") {
+  const Scratch scratch;
+  const fs::path parent = TemporaryFolder().path().parent_path();
+  std::vector<int> held;
+  for (const char* name : {".lock", "unpacked-of-it.lock"}) {
+    std::ofstream(parent / name) << "";
+    held.push_back(::open((parent / name).c_str(), O_RDONLY | O_CLOEXEC));
+    REQUIRE(::flock(held.back(), LOCK_EX | LOCK_NB) == 0);
+  }
+  const TemporaryFolder folder;
+  CHECK(fs::is_directory(folder.path()));
+  CHECK(fs::exists(parent / "unpacked-of-it.lock"));
+  for (const int file : held) ::close(file);
+  TemporaryFolder::sweep_abandoned();
+  CHECK_FALSE(fs::exists(parent / "unpacked-of-it.lock"));
+}
+
+TEST_CASE("many processes make folders and remove abandoned ones at a time") {
+  const Scratch scratch;
+  std::vector<pid_t> children;
+  for (int i = 0; i < 4; ++i) {
+    children.push_back(::fork());
+    if (children.back() != 0) continue;
+    bool is_good = true;
+    for (int k = 0; k < 200; ++k) {
+      const TemporaryFolder folder;
+      std::ofstream(folder.path() / "file") << "text";
+      is_good = is_good && fs::exists(folder.path() / "file");
+    }
+    ::_exit(is_good ? 0 : 1);
+  }
+  for (const pid_t child : children) {
+    int status = -1;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    CHECK(status == 0);
+  }
+  CHECK(fs::is_empty(TemporaryFolder::parent()));
+}
+
+TEST_CASE("folders that were closed to their owner are removed") {
+  const Scratch scratch;
+  const pid_t child = ::fork();
+  if (child == 0) {
+    constexpr uid_t kOther = 65534;  // root may enter any folder
+    if (::geteuid() == 0) {
+      for (const fs::path& path : {scratch / ".", scratch / "tmp"}) {
+        if (::chown(path.c_str(), kOther, kOther) != 0) ::_exit(2);
+      }
+      if (::setuid(kOther) != 0) ::_exit(3);
+    }
+    const auto* folder = new TemporaryFolder;
+    fs::create_directories(folder->path() / "a" / "b" / "c");
+    fs::create_directory_symlink(scratch / ".", folder->path() / "a" / "link");
+    fs::permissions(folder->path() / "a" / "b", fs::perms::none);
+    fs::permissions(folder->path() / "a", fs::perms::none);
+    delete folder;
+    ::_exit(0);
+  }
+  int status = -1;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  CHECK(status == 0);
+  REQUIRE(std::distance(fs::directory_iterator(scratch / "tmp"), {}) == 1);
+  CHECK(fs::is_empty(fs::directory_iterator(scratch / "tmp")->path()));
 }
 
 TEST_CASE("a parent folder that others can write to is refused") {

@@ -17,11 +17,11 @@ std::string unpack_error(const fs::path& path, const archive::UnpackLimits& limi
   return input_error([&] { UnpackedArchive(path, kExpected, {"system.ssd", 7}, limits); });
 }
 
-/// Every file below a folder, with its text, but for the lock of the temporary folders.
+/// Every file below a folder, with its text.
 std::map<std::string, std::string> files_in(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file() || entry.path().filename() == ".lock") continue;
+    if (!entry.is_regular_file()) continue;
     files[entry.path().lexically_relative(folder).string()] = read(entry.path());
   }
   return files;

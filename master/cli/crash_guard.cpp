@@ -1,0 +1,196 @@
+#include "master/cli/crash_guard.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <ctime>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "master/importer/fmu_instance.h"
+#include "master/util/archive/temporary_folder.h"
+#include "master/util/error.h"
+#include "master/util/output_file.h"
+
+namespace stride::cli {
+namespace {
+
+constexpr int kRunFailed = 1;
+/// Of virtual memory: the conclusion runs on it.
+constexpr std::size_t kStackSize = std::size_t{8} << 20;
+
+/// What handlers, which have no arguments, have to know.
+struct Guarded {
+  std::atomic<const CrashGuard::Conclusion*> conclusion{nullptr};
+  std::atomic<pid_t> process{0};
+  std::atomic<bool> is_ending{false};
+};
+Guarded guarded;
+
+[[noreturn]] void end_now(int code) {
+  for (;;) ::syscall(SYS_exit_group, code);
+}
+
+/// How the process ends, in words; `signal` 0 is exit() and its like.
+std::string_view describe_end(int signal, std::span<char> text) {
+  const auto end = signal == 0
+                       ? fmt::format_to_n(text.data(), text.size(), "exit() ends stride")
+                       : fmt::format_to_n(text.data(), text.size(), "signal {} (SIG{}) ends stride",
+                                          signal, ::sigabbrev_np(signal));
+  return {text.data(), std::min(end.size, text.size())};
+}
+
+core::Error error_of(std::string_view end, std::span<const importer::UnitCall> calls) {
+  constexpr const char* kHint =
+      "--isolate={} runs it in a process of its own, which cannot damage that of stride";
+  if (calls.size() == 1) {
+    const importer::UnitCall& call = calls.front();
+    return {core::Error::Kind::Run,
+            {.where = *call.where, .unit = *call.unit, .time = call.time},
+            fmt::format("{} in {}", end, call.function),
+            fmt::format(kHint, *call.unit)};
+  }
+  std::string among;
+  for (const importer::UnitCall& call : calls) {
+    among += fmt::format("{}{} of '{}'", among.empty() ? ", in one of " : ", ", call.function,
+                         *call.unit);
+  }
+  return {core::Error::Kind::Run,
+          {},
+          calls.empty() ? fmt::format("{}, in no call of a unit", end)
+                        : fmt::format("{}{}", end, among),
+          "--isolate runs units in processes of their own, which cannot damage that of stride"};
+}
+
+void print(std::string_view text) { (void)!::write(STDERR_FILENO, text.data(), text.size()); }
+
+/// In the fork.
+[[noreturn]] void conclude(int signal, std::span<const importer::UnitCall> calls) {
+  try {
+    std::array<char, 80> text{};
+    const core::Error error = error_of(describe_end(signal, text), calls);
+    print(fmt::format("stride: error: {}\n", error.what()));
+    (*guarded.conclusion.load())(error.what());
+  } catch (...) {  // the rest is lost
+  }
+  archive::TemporaryFolder::remove_all();
+  end_now(kRunFailed);
+}
+
+/// Returns whether the process has ended by itself, and not by a signal.
+bool wait_for(pid_t process) {
+  constexpr timespec kPause{0, 10'000'000};
+  for (int pauses = 0; pauses < 1000; ++pauses) {
+    int status = 0;
+    const pid_t ended = ::waitpid(process, &status, WNOHANG);
+    if (ended == process) return WIFEXITED(status);
+    if (ended < 0 && errno != EINTR) return false;
+    ::nanosleep(&kPause, nullptr);
+  }
+  ::kill(process, SIGKILL);
+  return false;
+}
+
+/// Where the fork could not: without the names, which may be damaged.
+void print_without_names(int signal) {
+  std::array<char, 80> text{};
+  print("stride: error: ");
+  print(describe_end(signal, text));
+  print("; run.json and the report are not complete, the rows up to there are\n");
+}
+
+[[noreturn]] void end_process(int signal) {
+  if (guarded.is_ending.exchange(true)) {
+    for (;;) ::pause();  // another thread does it
+  }
+  core::OutputFile::rescue_all();
+  std::array<importer::UnitCall, 16> found;
+  const std::size_t count = importer::unfinished_calls(found);
+  const pid_t fork = ::_Fork();
+  if (fork == 0) {
+    for (const int other : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}) ::signal(other, SIG_DFL);
+    sigset_t none;
+    ::sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
+    conclude(signal, std::span(found).first(count));
+  }
+  if (fork < 0 || !wait_for(fork)) print_without_names(signal);
+  end_now(kRunFailed);
+}
+
+/// Forks of a guarded process, such as those of hosts, are not guarded.
+bool is_guarded() { return guarded.conclusion.load() != nullptr && guarded.process == ::getpid(); }
+
+void on_signal(int signal) {
+  if (is_guarded()) end_process(signal);
+  ::signal(signal, SIG_DFL);  // it comes again when this returns
+  ::raise(signal);
+}
+
+void on_exit() {
+  if (is_guarded()) end_process(0);
+}
+
+}  // namespace
+}  // namespace stride::cli
+
+// Exported, so that a unit which calls them reaches these.
+extern "C" void _exit(int code) {
+  stride::cli::on_exit();
+  stride::cli::end_now(code);
+}
+extern "C" void _Exit(int code) noexcept { ::_exit(code); }
+
+namespace stride::cli {
+
+CrashGuard::CrashGuard(Conclusion conclusion) : conclusion_(std::move(conclusion)) {
+  stack_ = ::mmap(nullptr, kStackSize, PROT_READ | PROT_WRITE,
+                  MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0);
+  if (stack_ == MAP_FAILED) throw std::system_error(errno, std::generic_category(), "mmap");
+  const stack_t stack{stack_, 0, kStackSize};
+  ::sigaltstack(&stack, &stack_before_);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    action.sa_flags = SA_ONSTACK;
+    ::sigaction(kSignals[i], nullptr, &before_[i]);
+    if (before_[i].sa_handler == SIG_DFL) ::sigaction(kSignals[i], &action, nullptr);
+  }
+  static const int registered = std::atexit(on_exit) + std::at_quick_exit(on_exit);
+  (void)registered;
+  guarded.process = ::getpid();
+  guarded.conclusion = &conclusion_;
+}
+
+CrashGuard::~CrashGuard() {
+  guarded.conclusion = nullptr;
+  for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], &before_[i], nullptr);
+  ::sigaltstack(&stack_before_, nullptr);
+  ::munmap(stack_, kStackSize);
+}
+
+void CrashGuard::set_conclusion(Conclusion conclusion) {
+  guarded.conclusion = nullptr;
+  conclusion_ = std::move(conclusion);
+  guarded.conclusion = &conclusion_;
+}
+
+CrashGuard::Scope::Scope(CrashGuard& guard, Conclusion conclusion)
+    : guard_(guard), before_(guard.conclusion_) {
+  guard.set_conclusion(std::move(conclusion));
+}
+
+CrashGuard::Scope::~Scope() { guard_.set_conclusion(std::move(before_)); }
+
+}  // namespace stride::cli

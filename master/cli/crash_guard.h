@@ -1,0 +1,59 @@
+// The orderly end of a process that a unit in it ends.
+#ifndef STRIDE_MASTER_CLI_CRASH_GUARD_H
+#define STRIDE_MASTER_CLI_CRASH_GUARD_H
+
+#include <array>
+#include <csignal>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace stride::cli {
+
+/// While it lives, a crash of this process (a signal such as SIGSEGV, abort(), std::terminate())
+/// and exit(), _exit() and quick_exit() are not its silent end: the lines that files still hold in
+/// memory are written, the error is printed, with the unit whose function was being called, and the
+/// exit code is 1. There is one at a time. It cannot prevent SIGKILL, and the crash of a unit's own
+/// thread by an overflow of its stack; a process of the unit's own can (docs/hosts.md).
+///
+/// Signals for which there is a handler already are left to it.
+class CrashGuard {
+ public:
+  /// Writes what tells of the end, such as run.json. It is called in a fork of the process, where
+  /// only the thread that crashed goes on, and which is ended if it takes more than some seconds: a
+  /// unit may have damaged anything. It must not call units.
+  using Conclusion = std::function<void(const std::string& error)>;
+
+  explicit CrashGuard(Conclusion conclusion);
+  ~CrashGuard();
+  CrashGuard(const CrashGuard&) = delete;
+  CrashGuard& operator=(const CrashGuard&) = delete;
+
+  /// Another conclusion, for as long as it lives.
+  class Scope {
+   public:
+    Scope(CrashGuard& guard, Conclusion conclusion);
+    ~Scope();
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+   private:
+    CrashGuard& guard_;
+    Conclusion before_;
+  };
+
+ private:
+  void set_conclusion(Conclusion conclusion);
+
+  static constexpr std::array kSignals{SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGSYS};
+
+  Conclusion conclusion_;
+  std::array<struct sigaction, kSignals.size()> before_{};
+  void* stack_ = nullptr;
+  stack_t stack_before_{};
+};
+
+}  // namespace stride::cli
+
+#endif
