@@ -25,7 +25,7 @@ PLACEHOLDER = "Class::function"
 # The functions that the pseudocode leaves out: access to members, measurement of wall time, what an optimisation needs,
 # what only builds or reports an error.
 SHOWN = {
-    "Run": "add_observer statistics suspended_time verdicts count sets_inputs_in_steps finish_suspensions "
+    "Run": "abandon add_observer statistics suspended_time verdicts count sets_inputs_in_steps finish_suspensions "
            "finish_observers notify_observers start_observers make_input_extrapolator make_idle_scheduler "
            "connect_input_updates set should_continue",
     "Stepper": "order result has_requests steps was_parallel make_timed_passes step_on_threads attempt_on_thread "
