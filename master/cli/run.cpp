@@ -39,16 +39,19 @@ struct RunArguments {
   bool quiet = false;
 };
 
-std::filesystem::path make_folder(const RunArguments& arguments,
-                                  const scenario::Scenario& scenario) {
+std::filesystem::path chosen_folder(const RunArguments& arguments,
+                                    const scenario::Scenario& scenario) {
   std::filesystem::path folder =
       arguments.out.empty() ? std::filesystem::path("results") / scenario::stem(scenario.path)
                             : arguments.out;
   recorders::make_results_folder(folder);
+  return folder;
+}
+
+void prepare_folder(const std::filesystem::path& folder, const scenario::Scenario& scenario) {
   recorders::remove_results(folder, scenario.annotation.results);
   // where units put the files that they write themselves
   ::setenv("STRIDE_RESULTS", std::filesystem::absolute(folder).c_str(), 1);
-  return folder;
 }
 
 recorders::ResultFiles chosen_files(const RunArguments& arguments,
@@ -91,7 +94,9 @@ void run(const RunArguments& arguments, TestReport& report, CrashGuard& guard) {
   const Interruption interruption;
   const scenario::LoadedScenario loaded(arguments.scenario);
   const recorders::ResultFiles files = chosen_files(arguments, loaded.scenario());
-  const std::filesystem::path folder = make_folder(arguments, loaded.scenario());
+  const std::filesystem::path folder = chosen_folder(arguments, loaded.scenario());
+  const recorders::ResultsLock lock(folder);
+  prepare_folder(folder, loaded.scenario());
   const core::RunOptions options = run_options(arguments, loaded);
   capture::Capture capture(loaded.system(), loaded.scenario().name, options, captures(arguments));
   auto units = loaded.instantiate(folder);

@@ -2,11 +2,19 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
+#include <fstream>
 #include <iterator>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <system_error>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include "master/util/error.h"
@@ -34,6 +42,26 @@ void remove_films(const fs::path& folder) {
   if (!goes.empty()) goes.push_back(folder / kFilmFolder);
   for (const fs::path& path : goes) fs::remove(path, ignored);
 }
+
+/// The process that has locked the open file, if that is known.
+std::optional<pid_t> lock_holder(int descriptor) {
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0) return std::nullopt;
+  const std::string file = fmt::format("{:02x}:{:02x}:{}", gnu_dev_major(status.st_dev),
+                                       gnu_dev_minor(status.st_dev), status.st_ino);
+  std::ifstream locks("/proc/locks");  // "1: FLOCK  ADVISORY  WRITE 4711 08:01:1234 0 EOF"
+  for (std::string line; std::getline(locks, line);) {
+    std::istringstream words(line);
+    std::string number, type, mode, access, where;
+    pid_t process = 0;
+    words >> number >> type >> mode >> access >> process >> where;
+    if (type == "FLOCK" && where == file && process > 0) return process;
+  }
+  return std::nullopt;
+}
+
+/// A process that a unit of an earlier run has left may still have that run's lock.
+bool has_ended(pid_t process) { return ::kill(process, 0) != 0 && errno == ESRCH; }
 
 }  // namespace
 
@@ -67,6 +95,24 @@ void make_results_folder(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error) fail(error.message());
   if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(std::generic_category().message(errno));
+}
+
+ResultsLock::ResultsLock(const fs::path& folder)
+    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
+    return;
+  }
+  const std::optional<pid_t> holder = lock_holder(descriptor_);
+  if (holder && has_ended(*holder)) return;
+  ::close(descriptor_);
+  core::fail_input({.where = {folder.string(), 0}},
+                   fmt::format("another run writes its results into this folder{}",
+                               holder ? fmt::format(" (process {})", *holder) : ""),
+                   "wait for its end, or choose another results folder with --out");
+}
+
+ResultsLock::~ResultsLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 void remove_results(const fs::path& folder, const ResultFiles& files) {

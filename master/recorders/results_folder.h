@@ -47,6 +47,20 @@ bool is_plain_file_name(const std::string& name);
 /// that is not possible, or if it is not a folder in which files can be written.
 void make_results_folder(const std::filesystem::path& folder);
 
+/// Keeps other runs out of a results folder for as long as it lives, also if the process is killed.
+class ResultsLock {
+ public:
+  /// Throws core::Error (Input), with the number of the process, if another run writes into the
+  /// folder. Where the file system has no locks (flock) there is none.
+  explicit ResultsLock(const std::filesystem::path& folder);
+  ~ResultsLock();
+  ResultsLock(const ResultsLock&) = delete;
+  ResultsLock& operator=(const ResultsLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
 /// The paths of what is in the folder, sorted: none, or not all, where it cannot be read.
 std::vector<std::filesystem::path> folder_entries(const std::filesystem::path& folder);
 

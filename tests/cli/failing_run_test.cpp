@@ -158,6 +158,22 @@ TEST_CASE("a summary that cannot be printed is an error, after the run is comple
   CHECK(last_time(workspace) == "1");
 }
 
+TEST_CASE("a second run into the folder of one that has not ended is refused") {
+  const Workspace workspace(two_filters());
+  Process first(stride_command(Workspace::run_arguments({"--stop", "1e6", "--no-trace"})),
+                workspace.scratch().path());
+  await_first_results(first, workspace);
+  const Outcome second = workspace.run({"--quiet"});
+  CHECK(second.exit_code == 2);
+  CHECK_THAT(second.err,
+             Contains("out: another run writes its results into this folder (process "));
+  CHECK(first.is_running());
+  first.send(SIGINT);
+  CHECK(first.wait().exit_code == 1);
+  CHECK(run_json(workspace)["outcome"] == "interrupted");
+  CHECK(workspace.run({"--quiet"}).exit_code == 0);
+}
+
 TEST_CASE("what a killed run leaves goes with the next one") {
   const Workspace workspace(two_filters());
   {

@@ -1,6 +1,7 @@
 #include "master/recorders/results_folder.h"
 
 #include <catch2/catch.hpp>
+#include <unistd.h>
 
 #include "tests/master/ssp/support.h"
 
@@ -25,6 +26,18 @@ TEST_CASE("What cannot be a results folder is named with the reason") {
   CHECK_THROWS_WITH(make_results_folder(folder / "file/b"), Contains("Not a directory"));
   CHECK_THROWS_WITH(make_results_folder("/proc/stride"), Contains("cannot write results"));
   CHECK_THROWS_WITH(make_results_folder(""), Contains("its name is empty"));
+}
+
+TEST_CASE("Only one run at a time has a results folder") {
+  const TemporaryFolder folder;
+  {
+    const ResultsLock lock(folder / ".");
+    CHECK_THROWS_WITH(ResultsLock(folder / "."),
+                      Contains("another run writes its results into this folder (process " +
+                               std::to_string(::getpid()) + ")") &&
+                          Contains("--out"));
+  }
+  CHECK_NOTHROW(ResultsLock(folder / "."));
 }
 
 TEST_CASE("The files of an earlier run go, and nothing else") {
