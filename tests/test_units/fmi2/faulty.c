@@ -19,11 +19,12 @@ static int recurse(int depth, volatile char* above) {
 
 static fmi2Status unit_step(Unit* unit, double begin, double size) {
   volatile char first = 0;
+  int* volatile nowhere = (int*)16;
   unit->model.real[kY] += size;
   if (begin + size < 0.5) return fmi2OK;
   switch (unit->model.integer[kFault]) {
     case 1:
-      *(int* volatile)16 = 1;
+      *nowhere = 1;
       break;
     case 2:
       abort();
