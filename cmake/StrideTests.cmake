@@ -67,15 +67,17 @@ function(stride_link_test program)
   endif()
   get_target_property(libraries ${program} LINK_LIBRARIES)
   stride_libraries_under_test(libraries ${libraries})
-  foreach(library IN LISTS libraries)
-    target_link_options(${program} PRIVATE
-      "LINKER:--whole-archive" "$<TARGET_FILE:${library}>" "LINKER:--no-whole-archive")
-  endforeach()
+  if(libraries)
+    list(TRANSFORM libraries REPLACE "(.+)" "$<TARGET_FILE:\\1>")
+    list(JOIN libraries "," libraries)
+    target_link_options(${program} PRIVATE "LINKER:--whole-archive,${libraries},--no-whole-archive")
+  endif()
 endfunction()
 
 add_library(stride_test_build STATIC ${CMAKE_CURRENT_SOURCE_DIR}/build.cpp)
 target_compile_definitions(stride_test_build PRIVATE
   STRIDE_BUILD_FOLDER="${CMAKE_BINARY_DIR}" STRIDE_IS_SANITIZED=${stride_is_sanitized})
+stride_unsanitized_code(stride_test_build)
 
 add_library(stride_catch_main STATIC ${CMAKE_CURRENT_SOURCE_DIR}/catch_main.cpp)
 target_link_libraries(stride_catch_main PUBLIC Catch2::Catch2 stride_test_build)
