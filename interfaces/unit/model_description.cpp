@@ -184,7 +184,7 @@ class Writer {
     xml_.close();
   }
 
-  /// Intervals as decimals for everybody, and as counts of the picoseconds that they are.
+  /// Intervals as decimals for all importers, and as counts of the picoseconds that they are.
   void write_timing(const Variable& row) {
     xml_.attribute("intervalVariability", name(row.interval_variability));
     if (!is_time_based(row)) return;

@@ -111,7 +111,7 @@ core::Verdict SignalCheck::lasting_verdict() const {
 core::Verdict SignalCheck::unseen_verdict() const {
   const bool is_known = before_ && after_ && is_good(*before_) && is_good(*after_);
   return make(is_known ? std::optional(true) : std::nullopt,
-              is_known ? "at the communication points before and behind the interval"
+              is_known ? "at the communication points before and after the interval"
                        : "there was no communication point in the interval");
 }
 

@@ -51,7 +51,7 @@ class Tenancy {
                        fmt::format("'{}' can be instantiated only once per process, and an "
                                    "instance of it is there already",
                                    fmu_->path().string()),
-                       fmt::format("give this one a process of its own, <stride:Host "
+                       fmt::format("run this one in a process of its own, <stride:Host "
                                    "components=\"{}\"/>, or use it for one component only",
                                    name));
     }

@@ -127,7 +127,7 @@ void Server::serve() {
 template <core::CapabilityInterface C>
 C& Server::capability() const {
   core::Capability* const found = capabilities_.at(static_cast<std::size_t>(C::kId));
-  if (found == nullptr) throw std::logic_error("a capability was asked for that the unit lacks");
+  if (found == nullptr) throw std::logic_error("a capability was requested that the unit lacks");
   return static_cast<C&>(*found);
 }
 
@@ -216,7 +216,7 @@ void Server::handle(RequestCode request, PacketReader& in, PacketWriter& out) {
     case RequestCode::InputsNotUpdated:
       break;
   }
-  throw std::logic_error(fmt::format("request {} came out of order", static_cast<int>(request)));
+  throw std::logic_error(fmt::format("request {} is out of order", static_cast<int>(request)));
 }
 
 core::Context Server::context() const {

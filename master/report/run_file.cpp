@@ -95,7 +95,7 @@ bool is_run_file(const std::filesystem::path& file) {
 
 RunFile read_run_file(const std::filesystem::path& file) {
   const std::string text = content(file);
-  const char* const hint = "let `stride run` write it anew";
+  const char* const hint = "run the scenario again";
   try {
     RunFile run{Json::parse(text, refuse_depth)};
     if (!run.json.is_object()) {

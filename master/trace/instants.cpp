@@ -88,11 +88,10 @@ void AdvanceTime::update(const Reader& reader, const Entry& change) {
   }
   const auto total = static_cast<std::int64_t>(value);
   if (total < total_) {
-    reader.fail(
-        change.line,
-        fmt::format("{} falls to {} from {} in line {}; what was skipped is never given back",
-                    kAdvanceTime, total, total_, line_),
-        "it is the total that was skipped so far, not the length of the last skip");
+    reader.fail(change.line,
+                fmt::format("{} falls to {} from {} in line {}; skipped time never decreases",
+                            kAdvanceTime, total, total_, line_),
+                "it is the total that was skipped so far, not the length of the last skip");
   }
   total_ = total;
   line_ = change.line;

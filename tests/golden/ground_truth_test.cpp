@@ -144,7 +144,7 @@ TEST_CASE("a measurement of a truth that is no longer recorded is reported, and 
       table.run({"--quiet", "--set", "ground_truth.memory=0.5", "--set",
                  "sensor.adc.offset_error=5", "--set", "ground_truth.minimum_measurements=0"});
   CHECK_THAT(outcome.err, Contains("of which the truth is not remembered; it is not compared"));
-  CHECK_THAT(table.verdict()["text"].get<std::string>(), Contains("4 too old to tell"));
+  CHECK_THAT(table.verdict()["text"].get<std::string>(), Contains("4 too old to be checked"));
 }
 
 TEST_CASE("the judge of another quantity is another file, and units are converted") {

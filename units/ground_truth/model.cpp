@@ -81,7 +81,7 @@ std::string Judge::verdict_text() const {
   if (compared() < parameters_.minimum) {
     text += "; expected at least " + std::to_string(parameters_.minimum);
   }
-  if (s.unknown > 0) text += "; " + std::to_string(s.unknown) + " too old to tell";
+  if (s.unknown > 0) text += "; " + std::to_string(s.unknown) + " too old to be checked";
   if (compared() == 0) return text;
   return text + "; worst error " + quantity_text(s.worst.error, quantity_.difference) + " at " +
          seconds(s.worst.received) + ": " + quantity_text(s.worst.measured, quantity_.unit) +

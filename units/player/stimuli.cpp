@@ -248,7 +248,7 @@ class Reader {
   void read_end() {
     expect_fields(4, "TIME,end,,REASON");
     result_.ending = row()[3];
-    if (!rows_.at_end()) rows_.fail("the file goes on behind its end mark");
+    if (!rows_.at_end()) rows_.fail("the file continues after its end mark");
   }
 
   // ---- Values ----

@@ -227,7 +227,7 @@ std::string AlgebraicLoop::values_text() const {
     const Tear& tear = tears_[unknown.tear];
     const ValueSlice input = tear.links.front().target_value();
     std::string text = fmt::format(
-        "with {}{} = {} it gives back {}", system_.full_name(tear.links.front().target()),
+        "with {}{} = {} the loop returns {}", system_.full_name(tear.links.front().target()),
         tear.result.size() == 1 ? "" : fmt::format("[{}]", unknown.element + 1),
         element_text(*input.block, input.first + unknown.element),
         element_text(tear.result, unknown.element));

@@ -41,7 +41,7 @@ void check_step_policy(const System& system, const RunOptions& options) {
                fmt::format("these units cannot be rolled back: {}; the policy '{}' has to undo "
                            "steps that were too long",
                            quoted(final), policy.name),
-               "let them have processes of their own, whose snapshots take them back, <stride:Host "
+               "run them in processes of their own, whose snapshots roll them back, <stride:Host "
                "components=\"…\" process=\"true\"/>, or use units that can save their state "
                "(canGetAndSetFMUState), or another policy");
   }

@@ -76,7 +76,7 @@ void check_single(const System& system, const std::vector<StepOrderEntry>& order
       fmt::format("'{}' and '{}' may both return early from a step, and neither can be "
                   "rolled back: when one stops, the other may already be too far",
                   names[0], names[1]),
-      fmt::format("let one of them have a process of its own, whose snapshots take it back, "
+      fmt::format("run one of them in a process of its own, whose snapshots roll it back, "
                   "<stride:Host components=\"{0}\" process=\"true\"/>, or make its steps to the "
                   "end, <stride:EarlyReturn components=\"{0}\" allowed=\"false\"/>, or replace it "
                   "by a unit that can save its state (canGetAndSetFMUState)",

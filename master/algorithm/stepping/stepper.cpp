@@ -350,7 +350,7 @@ void Stepper::fail_size(const UnitStep& unit_step, const StepInterval& interval)
           : fmt::format("'{}', which {},", name(*early_stop_.by),
                         early_stop_.is_rejection ? "rejected its step" : "stopped early");
   fail_run({{}, name(unit_step), {}, interval.from},
-           fmt::format("the unit takes steps of one size only, {} s, but {} asks for one of {} s{}",
+           fmt::format("the unit takes steps of one size only, {} s, but {} requires one of {} s{}",
                        to_text(regular_), who, to_text(interval.to - interval.from),
                        reason(early_stop_)),
            hint);
@@ -362,7 +362,7 @@ std::string Stepper::hint_for_final(const UnitStep& stopped) const {
       "use a unit that can save its state in place of one of the two, or a smaller step";
   if (stopped.entry->role == StepRole::CanRollBack) return others;
   return fmt::format(
-      "let '{0}' have a process of its own, whose snapshots take it back, <stride:Host "
+      "run '{0}' in a process of its own, whose snapshots roll it back, <stride:Host "
       "components=\"{0}\" process=\"true\"/>, or {1}",
       name(stopped), others);
 }

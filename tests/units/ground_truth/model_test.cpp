@@ -134,7 +134,8 @@ TEST_CASE("the verdict in words") {
   judge.compare({at(1), 20.0, {}, {}});
   judge.compare({at(1), 20.0, 2s, {}});
   CHECK(judge.verdict_text() ==
-        "1 of 2 measurements right; 1 too old to tell; worst error -1.5 K at 1 s: 20 degC for 21.5 "
+        "1 of 2 measurements right; 1 too old to be checked; worst error -1.5 K at 1 s: 20 degC "
+        "for 21.5 "
         "degC");
 }
 

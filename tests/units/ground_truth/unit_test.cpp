@@ -130,10 +130,10 @@ TEST_CASE("what is wrong is logged with the time, both values and the tolerance"
   CHECK(judge.measure(25, 60) == fmi3OK);
   CHECK(judge.count("unknown") == 1);
   CHECK_THAT(judge.unit().last_message(), Contains("is not compared"));
-  CHECK(
-      judge.text() ==
-      "0 of 1 measurement right; 1 too old to tell; worst error 3.5 K at 1.25 s: 25 degC for 21.5 "
-      "degC");
+  CHECK(judge.text() ==
+        "0 of 1 measurement right; 1 too old to be checked; worst error 3.5 K at 1.25 s: 25 degC "
+        "for 21.5 "
+        "degC");
 }
 
 TEST_CASE("the truth of an instant is the one that the input has there") {

@@ -108,7 +108,7 @@ TEST_CASE("rows that are out of order are reported with their line") {
   CHECK_THAT(mistake_with("999,0,mode", "999,2,mode"),
              Catch::Contains("the event iteration is before that of the line above"));
   CHECK_THAT(mistake_in(example() + "1,,level,1\n"),
-             Catch::Contains("the file goes on behind its end mark"));
+             Catch::Contains("the file continues after its end mark"));
 }
 
 TEST_CASE("a bad row is reported with its line, and what was expected") {

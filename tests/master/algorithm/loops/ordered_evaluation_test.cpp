@@ -301,7 +301,7 @@ TEST_CASE("the error has the whole path, the values, and how to break the loop")
   f.ring("a", "b");
   const std::string text = f.failure();
   CHECK_THAT(text, Contains("at 0 s") && Contains("a.u -> a.y -> b.u -> b.y -> a.u") &&
-                       Contains("evaluations") && Contains("with a.u = 0 it gives back 1") &&
+                       Contains("evaluations") && Contains("with a.u = 0 the loop returns 1") &&
                        Contains("residual of 1") && Contains("breaks the loop"));
   CHECK_THAT(text, !Contains("declare"));
 }
