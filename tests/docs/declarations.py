@@ -11,6 +11,7 @@ CLASS = re.compile(r"\b(?:class|struct|union)\s+(?:alignas\s*\(\w+\)\s*)?(?:\w+:
 NOISE = re.compile(r"\b(?:public|protected|private)\s*:|\[\[.*?\]\]|\bnoexcept\b|\bdecltype\s*\([^()]*\)")
 TEMPLATE_ARGUMENTS = re.compile(r"<[^<>;{}]*>")
 FUNCTION = re.compile(r"^(?P<type>[^()=]*[\w&*>\]])\s*[\s&*](?P<owners>(?:\w+::)*)(?P<name>\w+)\s*\(")
+CALL = re.compile(r"\b(\w+)\s*[(<]")
 NO_TYPE = re.compile(r"^\s*(?:explicit|return|throw|else|new|delete|using|typedef|friend)?\s*$")
 
 
@@ -42,14 +43,14 @@ def matching_brace(text, opening):
 
 
 def scan(text, owner=""):
-    """Yields (class, function) of the text without comments; bodies of functions are left out."""
+    """Yields ((class, function), body) of the text without comments; a declaration has an empty body."""
     begin = place = 0
     while place < len(text):
         character = text[place]
         if character not in ";{":
             place += 1
             continue
-        head = text[begin:place]
+        head, body = text[begin:place], ""
         end = place
         if character == "{":
             end = matching_brace(text, place)
@@ -57,11 +58,23 @@ def scan(text, owner=""):
             if SPACE.match(head) or of_class:
                 yield from scan(text[place + 1:end], of_class[1] if of_class else owner)
                 head = ""
+            else:
+                body = text[place + 1:end]
         declared = function_of(head, owner)
         if declared:
-            yield declared
+            yield declared, body
         begin = place = end + 1
 
 
 def declared_functions(texts):
-    return {declared for text in texts for declared in scan(without_comments(text))}
+    return {declared for text in texts for declared, _ in scan(without_comments(text))}
+
+
+def called_functions(texts):
+    """(class, function) of each definition, with the names that its body calls."""
+    called = {}
+    for text in texts:
+        for declared, body in scan(without_comments(text)):
+            if body:
+                called.setdefault(declared, set()).update(CALL.findall(body))
+    return called

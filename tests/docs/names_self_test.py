@@ -2,6 +2,7 @@
 
 import copy
 import pathlib
+import re
 import sys
 import unittest
 
@@ -46,6 +47,22 @@ class PageTest(unittest.TestCase):
                 self.assertGreater(self.page.count(text), 0)
                 found = names_test.mistakes(self.page.replace(text, other), self.code)
                 self.assertTrue(any(report in mistake for mistake in found), found)
+
+    def test_refuses_functions_in_each_others_place(self):
+        for one, other in [("make_passes", "make_pass"), ("evaluate_loop", "evaluate"), ("attempt", "record"),
+                           ("initialize", "communication_step")]:
+            with self.subTest(f"{one} <-> {other}"):
+                places = {one: other, other: one}
+                page = re.sub(rf"\b({one}|{other})\(", lambda found: places[found[1]] + "(", self.page)
+                found = names_test.mistakes(page, self.code)
+                self.assertTrue(any("does not call" in mistake for mistake in found), found)
+
+    def test_refuses_a_block_that_is_missing(self):
+        for block in names_test.BLOCK.findall(self.page):
+            if "fmi2DoStep" in block:
+                continue
+            with self.subTest(block.split("\n")[0]):
+                self.assertNotEqual(names_test.mistakes(self.page.replace(block, ""), self.code), [])
 
     def test_refuses_a_function_that_the_page_and_the_list_lack(self):
         code = copy.copy(self.code)

@@ -2,6 +2,7 @@
 
 - Each function of the pseudocode is declared or defined in master/algorithm; a qualified one (Class::function) is a
   member of that class.
+- A function calls those that the pseudocode shows in it, itself or by functions that the pseudocode leaves out.
 - Each name in backticks that is written like one of the code (step_order, kStepPolicies, StepPolicy, stride::Time) is
   in a header of master/ or interfaces/, or is one of XML that master/importer or master/scenario reads.
 - Each member function of the classes of SHOWN is in the pseudocode or in the list of those that it leaves out.
@@ -15,6 +16,7 @@ import declarations
 
 BLOCK = re.compile(r"^```text\n(.*?)^```", flags=re.MULTILINE | re.DOTALL)
 ANY_BLOCK = re.compile(r"^```.*?^```", flags=re.MULTILINE | re.DOTALL)
+DEFINITION = re.compile(r"^(?:(\w+)::)?(\w+)\(.*\):(?:\s*#.*)?$")
 CALL = re.compile(r"(?:(\w+)::)?\b([a-z]\w*)\(")
 IN_BACKTICKS = re.compile(r"`((?:\w+::)*[A-Za-z]\w*)(?:\(\))?`")
 LIKE_CODE = re.compile(r"::|_|^k?[A-Z]|[a-z][A-Z]")
@@ -31,9 +33,19 @@ SHOWN = {
     "Stepper": "order result has_requests steps was_parallel make_timed_passes step_on_threads attempt_on_thread "
                "step_plainly attempt_timed report record_time index name rethrow_failure reason hint_for_final "
                "fail_final plan pool",
+    "IdleScheduler": "add_candidate all_suspended_until catch_up_and_report check_promise covers is_disturbed is_suspended "
+                     "is_trivial may_suspend report_suspension report_unfinished suspended_time",
+    "OrderedEvaluation": "check_nan find_direct_inputs is_trivial plan report sweep takes_part value",
+    "AlgebraicLoop": "collect fail has_converged have_held_values_converged hint inputs put sweep values_text",
+    "InputExtrapolator": "sample set_targets signal_of undo_step within_step",
+    "StepPolicy": "",
     "EventHandler": "had_event count description activate activate_announced update_announced notify_observers "
                     "content_of described_by fail_nan fail_ticking fail_sample_loop takes_part find_discontinuities",
 }
+
+
+DEFINED = {"Simulation", "Stepper", "EventHandler", "IdleScheduler", "OrderedEvaluation", "AlgebraicLoop",
+           "InputExtrapolator"}
 
 
 def sources(root, folder, endings=(".h", ".cpp")):
@@ -56,6 +68,54 @@ def unknown_functions(page, functions):
             yield f"{owner} has no function {function}()"
 
 
+def definitions(page):
+    """(class, function, the functions called in it) of the pseudocode."""
+    found = []
+    for block in BLOCK.findall(page):
+        for line in block.split("\n"):
+            definition = DEFINITION.match(line)
+            if definition:
+                found.append((definition[1] or "", definition[2], []))
+            elif found and line.startswith(" "):
+                found[-1][2].extend(name for _, name in CALL.findall(line.split("#")[0]) if not NOT_OURS.match(name))
+    return found
+
+
+def reached(owner, function, shown, called):
+    """What the function calls, itself or by others that are not in `shown`, which maps functions to their classes. A
+    function of the same class is followed, too, where the page shows that of another class."""
+    of_name = {}
+    for declared in called:
+        of_name.setdefault(declared[1], []).append(declared)
+    left = [declared for declared in of_name.get(function, []) if declared[0] == owner or not owner]
+    if owner == "Simulation":
+        left = [("Run", function)]  # behind the public class
+    done, names = set(), set()
+    while left:
+        caller = left.pop()
+        if caller in done:
+            continue
+        done.add(caller)
+        for name in called[caller]:
+            names.add(name)
+            classes = shown.get(name, set())
+            left += [declared for declared in of_name.get(name, [])
+                     if not classes or (declared[0] == caller[0] and not {"", declared[0]} & classes)]
+    return names
+
+
+def wrong_calls(page, called):
+    pseudocode = definitions(page)
+    shown = {}
+    for owner, function, _ in pseudocode:
+        shown.setdefault(function, set()).add(owner)
+    for owner, function, callees in pseudocode:
+        names = reached(owner, function, shown, called)
+        for callee in callees:
+            if callee not in names:
+                yield f"{function}() does not call {callee}()"
+
+
 def unknown_names(page, code):
     owners = {owner for owner, _ in code.members}
     for name in IN_BACKTICKS.findall(ANY_BLOCK.sub("", page)):
@@ -70,6 +130,9 @@ def unknown_names(page, code):
 
 def missing_functions(page, functions):
     shown = {function for _, function in calls(page)}
+    defined = {owner for owner, _, _ in definitions(page)}
+    for owner in DEFINED - defined:
+        yield f"{owner} has no pseudocode"
     for owner, text in SHOWN.items():
         left_out = set(text.split())
         members = {function for of, function in functions if of == owner}
@@ -82,7 +145,7 @@ def missing_functions(page, functions):
 
 
 def mistakes(page, code):
-    return sorted({*unknown_functions(page, code.functions), *unknown_names(page, code),
+    return sorted({*unknown_functions(page, code.functions), *unknown_names(page, code), *wrong_calls(page, code.called),
                    *missing_functions(page, code.functions)})
 
 
@@ -92,6 +155,7 @@ class Code:
 
     def __init__(self, algorithm, headers, readers):
         self.functions = declarations.declared_functions(algorithm)
+        self.called = declarations.called_functions(algorithm)
         self.members = declarations.declared_functions(headers)
         self.words = {word for text in headers for word in re.findall(r"\w+", declarations.without_comments(text))}
         self.words |= {word for text in readers for word in re.findall(r'"(\w+)"', text)}
