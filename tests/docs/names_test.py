@@ -33,8 +33,8 @@ SHOWN = {
     "Stepper": "order result has_requests steps was_parallel make_timed_passes step_on_threads attempt_on_thread "
                "step_plainly attempt_timed report record_time index name rethrow_failure reason hint_for_final "
                "fail_final plan pool",
-    "IdleScheduler": "add_candidate all_suspended_until catch_up_and_report check_promise covers is_disturbed is_suspended "
-                     "is_trivial may_suspend report_suspension report_unfinished suspended_time",
+    "IdleScheduler": "add_candidate all_suspended_until catch_up_and_report check_promise covers is_disturbed "
+                     "is_suspended is_trivial may_suspend report_suspension report_unfinished suspended_time",
     "OrderedEvaluation": "check_nan find_direct_inputs is_trivial plan report sweep takes_part value",
     "AlgebraicLoop": "collect fail has_converged have_held_values_converged hint inputs put sweep values_text",
     "InputExtrapolator": "sample set_targets signal_of undo_step within_step",
@@ -145,8 +145,8 @@ def missing_functions(page, functions):
 
 
 def mistakes(page, code):
-    return sorted({*unknown_functions(page, code.functions), *unknown_names(page, code), *wrong_calls(page, code.called),
-                   *missing_functions(page, code.functions)})
+    return sorted({*unknown_functions(page, code.functions), *unknown_names(page, code),
+                   *wrong_calls(page, code.called), *missing_functions(page, code.functions)})
 
 
 class Code:
