@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Puts pictures of a film side by side, as an SVG picture that contains them:
-docs/plot_film.py results/nfc_approach/film/world 0 14.2 24 > docs/images/film.svg
+docs/plot_film.py results/nfc_approach/units/world/film 0 14.2 24 > docs/images/film.svg
 
 Needs nothing but Python. The numbers are times [s], of which the film must have a picture.
 """

@@ -46,6 +46,9 @@ class IdleSettings;
 struct Setup {
   std::filesystem::path resources;  ///< the FMU's resources folder; empty if it has none
   std::string instance_name;
+  /// The folder for files that this unit writes, absolute; empty if the importer names none
+  /// (<stride/results.h>), so `results / "trace.vcd"` is in the working folder then.
+  std::filesystem::path results{};
 };
 
 enum class Severity { Info, Warning };
@@ -118,6 +121,7 @@ class Unit {
 
   using Logger = std::function<void(Severity, const std::string&)>;
   void set_logger(Logger logger) { logger_ = std::move(logger); }
+  void set_results(std::filesystem::path folder) { results_ = std::move(folder); }
 
  protected:
   Unit() = default;
@@ -169,6 +173,9 @@ class Unit {
   /// throws std::logic_error for any other member.
   double tolerance_of(const double& output) const;
 
+  /// Setup::results, for units that do not keep it; empty in the constructor.
+  const std::filesystem::path& results() const { return results_; }
+
   UnitInfo& describe(std::string text) { return info_.description = std::move(text), info_; }
 
   void log(Severity severity, const std::string& message) const {
@@ -205,6 +212,7 @@ class Unit {
   bool lists_state_ = false;
   std::vector<StateItem> state_items_;
   Logger logger_;
+  std::filesystem::path results_;
 
   friend class kit::IdleSettings;
   /// The tolerance of the elements of one output.

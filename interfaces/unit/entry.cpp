@@ -1,7 +1,9 @@
 // The exported FMI 3.0 entry table. Each function checks that it is legal now, calls the instance,
 // and turns an exception into fmi3Error and a message; none crosses.
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
+#include <filesystem>
 
 #include "interfaces/unit/entry_call.h"
 
@@ -24,6 +26,13 @@ constexpr const char* kNoStructure = "this unit has no structural parameter";
 constexpr const char* kNoDependencies = "this unit does not provide per-element dependencies";
 constexpr const char* kNoDerivatives = "this unit does not provide partial derivatives";
 constexpr const char* kNoEvaluation = "this unit does not provide fmi3EvaluateDiscreteStates";
+
+/// It is read once: for another instance in this process the variable may change.
+std::filesystem::path given_results_folder() {
+  const char* const folder = std::getenv("STRIDE_RESULTS");
+  if (folder == nullptr || *folder == '\0') return {};
+  return std::filesystem::absolute(folder);
+}
 
 fmi3Instance refuse(Function function, const char* why, fmi3InstanceEnvironment environment,
                     fmi3LogMessageCallback log) {
@@ -63,6 +72,7 @@ fmi3Instance fmi3InstantiateCoSimulation(
   try {
     importer.instance_name = name != nullptr ? name : "";
     importer.resources = resources != nullptr ? resources : "";
+    importer.results = given_results_folder();
     importer.intermediate_variables.assign(intermediate, intermediate + intermediate_count);
     std::sort(importer.intermediate_variables.begin(), importer.intermediate_variables.end());
     importer.intermediate_update = intermediate_update;

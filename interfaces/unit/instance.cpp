@@ -97,7 +97,8 @@ void Instance::build() {
   idle_.reset();
   table_.reset();
   unit_.reset();
-  unit_ = unit_factory().make({importer_.resources, importer_.instance_name});
+  unit_ = unit_factory().make({importer_.resources, importer_.instance_name, importer_.results});
+  unit_->set_results(importer_.results);
   unit_->set_logger([this](Severity severity, const std::string& text) {
     const bool warning = severity == Severity::Warning;
     importer_.message(warning ? fmi3Warning : fmi3OK, warning ? LogWarnings : LogEvents, text);

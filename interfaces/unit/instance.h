@@ -34,6 +34,7 @@ Duration duration_of_fraction(std::uint64_t counter, std::uint64_t resolution);
 struct Importer {
   std::string instance_name;
   std::filesystem::path resources;
+  std::filesystem::path results;            ///< as Setup has it
   std::uint8_t log_categories = LogErrors;  ///< those that are enabled
   bool event_mode_used = false;
   bool early_return_allowed = false;

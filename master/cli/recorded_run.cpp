@@ -12,6 +12,7 @@
 #include "master/cli/table.h"
 #include "master/recorders/results_folder.h"
 #include "master/recorders/run_json.h"
+#include "master/recorders/unit_folders.h"
 #include "master/util/error.h"
 #include "master/util/time_text.h"
 
@@ -213,7 +214,8 @@ void RecordedRun::print_summary() const {
   for (const auto& [what, member] : recorders::kResultFiles) {
     if (!(files.*member).empty()) fmt::print(" {}", files.*member);
   }
-  fmt::print("{}\n", std::filesystem::exists(folder / recorders::kFilmFolder) ? " film/" : "");
+  if (recorders::has_unit_files(folder)) fmt::print(" {}/", recorders::kUnitsFolder);
+  fmt::print("\n");
 }
 
 }  // namespace stride::cli

@@ -1,5 +1,4 @@
 // stride run: a scenario from its start to its end.
-#include <cstdlib>
 #include <exception>
 #include <memory>
 #include <optional>
@@ -19,6 +18,7 @@
 #include "master/cli/scenario_options.h"
 #include "master/cli/test_report.h"
 #include "master/recorders/results_folder.h"
+#include "master/recorders/unit_folders.h"
 #include "master/scenario/loaded_scenario.h"
 
 namespace stride::cli {
@@ -46,12 +46,6 @@ std::filesystem::path chosen_folder(const RunArguments& arguments,
                             : arguments.out;
   recorders::make_results_folder(folder);
   return folder;
-}
-
-void prepare_folder(const std::filesystem::path& folder, const scenario::Scenario& scenario) {
-  recorders::remove_results(folder, scenario.annotation.results);
-  // where units put the files that they write themselves
-  ::setenv("STRIDE_RESULTS", std::filesystem::absolute(folder).c_str(), 1);
 }
 
 recorders::ResultFiles chosen_files(const RunArguments& arguments,
@@ -88,17 +82,17 @@ std::vector<capture::CaptureRequest> captures(const RunArguments& arguments) {
   return captures;
 }
 
-/// The units' processes are forked from this one, so all that they inherit is prepared before: the
-/// results folder, and the environment variable that names it.
 void run(const RunArguments& arguments, TestReport& report, CrashGuard& guard) {
   const Interruption interruption;
   const scenario::LoadedScenario loaded(arguments.scenario);
   const recorders::ResultFiles files = chosen_files(arguments, loaded.scenario());
   const std::filesystem::path folder = chosen_folder(arguments, loaded.scenario());
   const recorders::ResultsLock lock(folder);
-  prepare_folder(folder, loaded.scenario());
+  recorders::remove_results(folder, loaded.scenario().annotation.results);
+  recorders::clean_unit_folders(folder);
   const core::RunOptions options = run_options(arguments, loaded);
   capture::Capture capture(loaded.system(), loaded.scenario().name, options, captures(arguments));
+  const recorders::UnitFolders unit_folders(folder, loaded.component_names());
   auto units = loaded.instantiate(folder);
   capture.wrap(units);
   const RunDisplay display{progress_style(arguments), arguments.quiet, arguments.open};
@@ -138,10 +132,9 @@ void add_recording_options(CLI::App& command, RunArguments& arguments) {
       ->allow_extra_args(false);
   // a flag, so that what follows a blank is the scenario; the value of a flag without one is
   // "true", kUnspecifiedFilmInterval
-  command.add_flag(
-      "--film", arguments.scenario.film,
-      "Pictures of the MuJoCo worlds in film/, every 0.1 s of simulated time, or as in "
-      "--film=SECONDS");
+  command.add_flag("--film", arguments.scenario.film,
+                   "Pictures of the MuJoCo worlds in units/COMPONENT/film/, every 0.1 s of "
+                   "simulated time, or as in --film=SECONDS");
   command
       .add_option("--junit", arguments.junit,
                   "Write a test report in the XML of JUnit, with a test case for the run, each "

@@ -1,5 +1,6 @@
 #include "master/importer/fmu.h"
 
+#include <cstdlib>
 #include <set>
 #include <utility>
 
@@ -143,6 +144,8 @@ std::unique_ptr<core::Unit> Fmu::instantiate(const std::string& name, InstanceOp
                             description_->generation_tool.empty() ? "which it does not name"
                                                                   : description_->generation_tool));
   }
+  // also read by the library when it is loaded
+  if (!options.results.empty()) ::setenv("STRIDE_RESULTS", options.results.c_str(), 1);
   load_library();  // whose errors come before those of the instance
   const auto tenancy = std::make_shared<Tenancy>(shared_from_this(), name, options.where);
   UnitParts parts{options.description ? options.description : description_, "", tenancy};

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -37,6 +38,9 @@ struct InstanceOptions {
   std::chrono::milliseconds warn_after = std::chrono::seconds(10);
   LogSink log{};
   core::Location where{};  ///< the component's position in the scenario, for errors
+  /// The folder for files that the unit writes, absolute: $STRIDE_RESULTS while it is instantiated.
+  /// Empty: the variable stays what it is.
+  std::filesystem::path results{};
   /// With the array sizes that its structural parameters give; nothing = as in the FMU.
   std::shared_ptr<const core::UnitDescription> description{};
   /// Where each function is noted while it is called; null = nowhere. Must outlive the instance.

@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <csignal>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -23,25 +22,6 @@ namespace stride::recorders {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_picture(const fs::path& file) {
-  const std::string number = file.stem().string();
-  return file.extension() == ".jpg" && number.find_first_not_of("0123456789") == std::string::npos;
-}
-
-/// Nothing but what a film consists of: the folder may be a user's own.
-void remove_films(const fs::path& folder) {
-  std::error_code ignored;  // what cannot be removed fails where it is to be replaced
-  std::vector<fs::path> goes;
-  for (const fs::path& film : folder_entries(folder / kFilmFolder)) {
-    if (!fs::exists(film / kFilmList, ignored)) continue;
-    std::ranges::copy_if(folder_entries(film), std::back_inserter(goes), is_picture);
-    goes.push_back(film / kFilmList);
-    goes.push_back(film);
-  }
-  if (!goes.empty()) goes.push_back(folder / kFilmFolder);
-  for (const fs::path& path : goes) fs::remove(path, ignored);
-}
 
 /// The process that has locked the open file, if that is known.
 std::optional<pid_t> lock_holder(int descriptor) {
@@ -116,7 +96,6 @@ ResultsLock::~ResultsLock() {
 }
 
 void remove_results(const fs::path& folder, const ResultFiles& files) {
-  remove_films(folder);
   for (const auto& [what, member] : kResultFiles) {
     std::error_code ignored;  // what cannot be removed fails where it is to be replaced
     const fs::path file = folder / (files.*member);

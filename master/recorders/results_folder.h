@@ -36,10 +36,6 @@ struct Plot {
   bool operator==(const Plot&) const = default;
 };
 
-/// Where units put their films, each into a folder of its own, and the list of its pictures there.
-inline constexpr const char* kFilmFolder = "film";
-inline constexpr const char* kFilmList = "frames.csv";
-
 /// Whether it names a file in the results folder itself.
 bool is_plain_file_name(const std::string& name);
 
@@ -64,8 +60,8 @@ class ResultsLock {
 /// The paths of what is in the folder, sorted: none, or not all, where it cannot be read.
 std::vector<std::filesystem::path> folder_entries(const std::filesystem::path& folder);
 
-/// The films and the files of these names that an earlier run has left go before the next one
-/// begins: what that does not write itself, or not before it is killed, would be taken for its own.
+/// The files of these names that an earlier run has left go before the next one begins: what that
+/// does not write itself, or not before it is killed, would be taken for its own.
 void remove_results(const std::filesystem::path& folder, const ResultFiles& files);
 
 }  // namespace stride::recorders

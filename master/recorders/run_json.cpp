@@ -7,7 +7,7 @@
 
 #include "master/recorders/signal_text.h"
 #include "master/util/hex.h"
-#include "master/util/output_file.h"
+#include "master/util/replacement.h"
 
 namespace stride::recorders {
 namespace {
@@ -206,10 +206,10 @@ void write_run_json(const std::filesystem::path& file, const RunRecord& record) 
   run["files"] = file_entries(files);
   run["signals"] = signal_entries(system, options.recorded);
   run["plots"] = plot_entries(plots);
-  core::OutputFile output(file);
-  output.write(run.dump(2, ' ', false, Json::error_handler_t::replace));
-  output.write('\n');
-  output.close();
+  core::Replacement output(file);
+  output.file().write(run.dump(2, ' ', false, Json::error_handler_t::replace));
+  output.file().write('\n');
+  output.commit();
 }
 
 }  // namespace stride::recorders

@@ -28,7 +28,7 @@ struct RunRecord {
 
 /// run.json: what was run, how far it came, what each unit did and cost, and what the other results
 /// hold. Times are in seconds. The wall-clock times differ from run to run, so unlike the other
-/// results this file does, too. Throws core::Error.
+/// results this file does, too. It is there as a whole or not at all. Throws core::Error.
 void write_run_json(const std::filesystem::path& file, const RunRecord& record);
 
 }  // namespace stride::recorders

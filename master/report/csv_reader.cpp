@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <system_error>
 #include <utility>
 
@@ -19,9 +20,10 @@ constexpr std::size_t kLongestRow = std::size_t{1} << 28;
 }  // namespace
 
 CsvReader::CsvReader(std::filesystem::path file)
-    : file_(std::move(file)),
-      stream_(std::fopen(file_.c_str(), "rbe"), &std::fclose),
-      buffer_(kCapacity) {
+    : CsvReader(file, core::FileStream(std::fopen(file.c_str(), "rbe"), &std::fclose)) {}
+
+CsvReader::CsvReader(std::filesystem::path file, core::FileStream stream)
+    : file_(std::move(file)), stream_(std::move(stream)), buffer_(kCapacity) {
   const auto fail_to_open = [&](const std::string& reason) {
     core::fail_input({.where = {file_.string(), 0}},
                      fmt::format("cannot read the file: {}", reason));

@@ -2,12 +2,12 @@
 #ifndef STRIDE_MASTER_REPORT_CSV_READER_H
 #define STRIDE_MASTER_REPORT_CSV_READER_H
 
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "master/util/untrusted_folder.h"
 
 namespace stride::report {
 
@@ -24,6 +24,8 @@ class CsvReader {
 
   /// Throws core::Error (Input) where the file cannot be read or is no regular file.
   explicit CsvReader(std::filesystem::path file);
+  /// Of a file that is open; `file` is what errors name.
+  CsvReader(std::filesystem::path file, core::FileStream stream);
 
   /// Reads the next row; returns whether there is one. Throws core::Error (Input) that names the
   /// line for quotation marks that are out of place, and for a row that is too long to be one.
@@ -48,7 +50,7 @@ class CsvReader {
   bool refill();
 
   std::filesystem::path file_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream_;
+  core::FileStream stream_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0;  ///< what is still to be split
   std::vector<Field> fields_;

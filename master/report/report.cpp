@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,6 +12,7 @@
 #include "master/report/page_data.h"
 #include "master/util/error.h"
 #include "master/util/replacement.h"
+#include "master/util/untrusted_folder.h"
 
 namespace stride::report {
 namespace {
@@ -43,20 +42,21 @@ std::string title(const std::string& component, const Column& column) {
 /// Writes the members of the data, one after the other, so that no two large ones are in memory.
 class DataWriter {
  public:
-  explicit DataWriter(core::OutputFile& file) : file_(file) {}
+  DataWriter(core::OutputFile& file, const Results& results)
+      : file_(file), results_(results), folder_(results.folder) {}
 
-  void write(const Results& results, const std::string& version) {
+  void write(const std::string& version) {
     file_.write(R"(<script type="application/json" id="stride-report">{)");
     file_.write(fmt::format(R"("format":{})", kFormat));
     member("stride", json_text(version));
-    member("run", json_text(results.run.json));
-    member("notes", json_text(results.notes));
-    write(results.signals);
-    member("plots", json_text(plots(results)));
-    list("messages", results.messages, [&](const Message& message) { write(message); });
-    list("activity", results.activities, [&](const Activities& entry) { write(entry); });
-    list("films", results.films, [&](const Film& film) { write(film); });
-    member("diagram", json_text(diagram(results.run)));
+    member("run", json_text(results_.run.json));
+    member("notes", json_text(results_.notes));
+    write(results_.signals);
+    member("plots", json_text(plots(results_)));
+    list("messages", results_.messages, [&](const Message& message) { write(message); });
+    list("activity", results_.activities, [&](const Activities& entry) { write(entry); });
+    list("films", results_.films, [&](const Film& film) { write(film); });
+    member("diagram", json_text(diagram(results_.run)));
     file_.write("}</script>\n");
   }
 
@@ -113,12 +113,14 @@ class DataWriter {
   }
 
   void write_picture(const fs::path& picture) {
-    std::ifstream stream(picture, std::ios::binary);
-    const std::vector<char> bytes(std::istreambuf_iterator<char>(stream), {});
-    if (!stream) core::fail_input({.where = {picture.string(), 0}}, "cannot read the picture");
+    const auto bytes = folder_.read(picture, kLargestPicture);
+    if (!bytes) {
+      core::fail_input({.where = {(results_.folder / picture).string(), 0}},
+                       "cannot read the picture");
+    }
     const bool is_png = picture.extension() == ".png";
     file_.write(is_png ? "\"data:image/png;base64," : "\"data:image/jpeg;base64,");
-    file_.write(base64({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}));
+    file_.write(base64({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()}));
     file_.write('"');
   }
 
@@ -145,6 +147,8 @@ class DataWriter {
   }
 
   core::OutputFile& file_;
+  const Results& results_;
+  const core::UntrustedFolder folder_;
 };
 
 }  // namespace
@@ -170,7 +174,7 @@ void write_report(const fs::path& file, const Results& results, const std::strin
   }
   core::Replacement report(file);
   report.file().write(text.substr(0, mark));
-  DataWriter(report.file()).write(results, version);
+  DataWriter(report.file(), results).write(version);
   report.file().write(text.substr(mark + kDataMark.size()));
   report.commit();
 }

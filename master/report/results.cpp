@@ -1,6 +1,6 @@
 #include "master/report/results.h"
 
-#include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <map>
 #include <system_error>
@@ -9,9 +9,11 @@
 #include <fmt/format.h>
 
 #include "master/recorders/results_folder.h"
+#include "master/recorders/unit_folders.h"
 #include "master/report/notes.h"
 #include "master/report/table.h"
 #include "master/util/error.h"
+#include "master/util/untrusted_folder.h"
 
 namespace stride::report {
 namespace {
@@ -78,42 +80,95 @@ std::vector<Activities> read_activities(const fs::path& file, Notes& notes) {
   return all;
 }
 
-Film read_film(const fs::path& folder, Notes& notes) {
-  Table table(folder / recorders::kFilmList);
-  Film film{folder.filename().string(), {}, {}};
-  if (table.columns().empty()) return film;
-  const std::size_t time = table.place("time");
-  const std::size_t file = table.place("file");
-  std::size_t missing = 0;
-  while (table.next()) {
-    const fs::path picture = folder / fs::path(table.field(file).value()).filename();
-    const std::int64_t at = table.time(time);
-    if (!film.times.empty() && at <= film.times.back()) table.fail(time, "the time does not grow");
-    std::error_code error;
-    if (!fs::is_regular_file(picture, error)) {
-      ++missing;
+/// The pictures of a film that can be shown, and what is wrong with the others.
+class FilmReader {
+ public:
+  /// `path`: of the film in the results folder.
+  FilmReader(const core::UntrustedFolder& results, const fs::path& path, const Limits& limits)
+      : results_(results), path_(path), limits_(limits) {}
+
+  /// The list is open.
+  void read(core::FileStream list, Film& film) {
+    Table table(CsvReader(results_.path() / path_ / recorders::kFilmList, std::move(list)));
+    if (table.columns().empty()) return;
+    const std::size_t time = table.place("time");
+    const std::size_t file = table.place("file");
+    while (table.next()) {
+      const fs::path picture = path_ / fs::path(table.field(file).value()).filename();
+      const std::int64_t at = table.time(time);
+      if (!film.times.empty() && at <= film.times.back()) {
+        table.fail(time, "the time does not grow");
+      }
+      if (is_full()) break;
+      if (!is_shown(picture)) continue;
+      film.times.push_back(at);
+      film.pictures.push_back(picture);
+    }
+    cut_ = table.cut();
+  }
+
+  void report(const Film& film, Notes& notes) const {
+    const fs::path list = results_.path() / path_ / recorders::kFilmList;
+    if (missing_ > 0) notes.add(list, fmt::format("{} of its pictures are missing", missing_));
+    if (refused_ > 0) {
+      notes.add(list, fmt::format("{} of its pictures are left out: they are links, no regular "
+                                  "files, or larger than {} MiB",
+                                  refused_, kLargestPicture >> 20));
+    }
+    if (is_cut_short_) {
+      notes.add(list, fmt::format("the first {} of its pictures are shown", film.times.size()));
+    }
+    notes.add_cut(list, cut_);
+  }
+
+ private:
+  bool is_shown(const fs::path& picture) {
+    const auto size = results_.size(picture);
+    if (size && *size <= kLargestPicture) {
+      bytes_ += *size;
+      return true;
+    }
+    ++(!size && errno == ENOENT ? missing_ : refused_);
+    return false;
+  }
+
+  /// A unit that is alive may write the list without an end.
+  bool is_full() {
+    is_cut_short_ = ++rows_ > limits_.pictures || bytes_ > limits_.picture_bytes;
+    return is_cut_short_;
+  }
+
+  const core::UntrustedFolder& results_;
+  const fs::path path_;
+  const Limits& limits_;
+  std::size_t rows_ = 0;
+  std::size_t missing_ = 0;
+  std::size_t refused_ = 0;
+  std::uintmax_t bytes_ = 0;
+  bool is_cut_short_ = false;
+  std::optional<std::size_t> cut_;
+};
+
+std::vector<Film> read_films(const fs::path& folder, const Limits& limits, Notes& notes) {
+  const core::UntrustedFolder results(folder);
+  std::vector<Film> films;
+  for (const fs::path& unit : recorders::folder_entries(folder / recorders::kUnitsFolder)) {
+    const fs::path name = unit.filename();
+    const fs::path path = recorders::kUnitsFolder / name / recorders::kFilmFolder;
+    core::FileStream list = results.open(path / recorders::kFilmList);
+    if (!list) {
+      // ENOTDIR: of a file in place of one of the folders, as of a link
+      if (errno != ENOENT) {
+        notes.add(folder / path, "left out: it is a link, or its list is no regular file");
+      }
       continue;
     }
-    film.times.push_back(at);
-    film.pictures.push_back(picture);
-  }
-  if (missing > 0) {
-    notes.add(folder / recorders::kFilmList,
-              fmt::format("{} of its pictures are missing", missing));
-  }
-  notes.add_cut(folder / recorders::kFilmList, table.cut());
-  return film;
-}
-
-std::vector<Film> read_films(const fs::path& folder, Notes& notes) {
-  std::vector<fs::path> folders;
-  std::error_code error;
-  for (const fs::path& path : recorders::folder_entries(folder)) {
-    if (fs::exists(path / recorders::kFilmList, error)) folders.push_back(path);
-  }
-  std::vector<Film> films;
-  for (const fs::path& path : folders) {
-    if (Film film = read_film(path, notes); !film.times.empty()) films.push_back(std::move(film));
+    Film film;
+    film.component = recorders::component_of_folder(name.string());
+    FilmReader reader(results, path, limits);
+    reader.read(std::move(list), film);
+    reader.report(film, notes);
+    if (!film.times.empty()) films.push_back(std::move(film));
   }
   return films;
 }
@@ -133,6 +188,7 @@ std::optional<fs::path> present(const fs::path& folder, const std::string& name,
 Results read_results(const fs::path& folder, const recorders::ResultFiles& files,
                      const Limits& limits) {
   Results results;
+  results.folder = folder;
   Notes notes(folder);
   if (const auto file = present(folder, files.statistics, notes)) {
     results.run = read_run_file(*file);
@@ -146,7 +202,7 @@ Results read_results(const fs::path& folder, const recorders::ResultFiles& files
   if (const auto file = present(folder, files.activity, notes)) {
     results.activities = read_activities(*file, notes);
   }
-  results.films = read_films(folder / recorders::kFilmFolder, notes);
+  results.films = read_films(folder, limits, notes);
   results.notes = notes.texts();
   return results;
 }

@@ -36,16 +36,23 @@ struct Activities {
 /// Pictures that a component has made of itself.
 struct Film {
   std::string component;
-  std::vector<std::int64_t> times;  ///< [ps]
-  std::vector<std::filesystem::path> pictures;
+  std::vector<std::int64_t> times;              ///< [ps]
+  std::vector<std::filesystem::path> pictures;  ///< in the results folder
 };
+
+/// A picture may have so many bytes.
+inline constexpr std::size_t kLargestPicture = std::size_t{16} << 20;
 
 struct Limits {
   std::size_t values = 20'000'000;  ///< of signals
   std::size_t messages = 100'000;
+  std::size_t pictures = 100'000;                          ///< of a film
+  std::uintmax_t picture_bytes = std::uintmax_t{1} << 30;  ///< of a film
 };
 
 struct Results {
+  /// Where they are, and the pictures.
+  std::filesystem::path folder;
   RunFile run;
   Signals signals;
   std::vector<Message> messages;
@@ -56,8 +63,9 @@ struct Results {
 };
 
 /// Reads what there is of a run: a folder without run.json, or with files that were cut off when
-/// the run was killed, has results, too. `files`: their names. Throws core::Error (Input) that
-/// names file, line and column, and what was expected there.
+/// the run was killed, has results, too. `files`: their names. What units have written is read as
+/// of an UntrustedFolder, since they may be alive: links are left out. Throws core::Error (Input)
+/// that names file, line and column, and what was expected there.
 Results read_results(const std::filesystem::path& folder, const recorders::ResultFiles& files,
                      const Limits& limits = {});
 

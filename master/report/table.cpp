@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -9,7 +10,7 @@
 
 namespace stride::report {
 
-Table::Table(const std::filesystem::path& file) : reader_(file) {
+Table::Table(CsvReader reader) : reader_(std::move(reader)) {
   if (!reader_.next()) return;
   for (const CsvReader::Field& field : reader_.fields()) columns_.push_back(field.value());
 }

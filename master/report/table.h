@@ -15,7 +15,8 @@ namespace stride::report {
 class Table {
  public:
   /// Reads the header. Throws core::Error (Input), as its functions do.
-  explicit Table(const std::filesystem::path& file);
+  explicit Table(const std::filesystem::path& file) : Table(CsvReader(file)) {}
+  explicit Table(CsvReader reader);
 
   const std::vector<std::string>& columns() const { return columns_; }
   /// The index of a column; nothing, or an error, where there is none of this name.

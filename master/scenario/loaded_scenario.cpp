@@ -10,6 +10,7 @@
 #include "master/algorithm/step_policies/step_policy.h"
 #include "master/checks/checks.h"
 #include "master/isolation/hosted_unit.h"
+#include "master/recorders/unit_folders.h"
 #include "master/scenario/check_selection.h"
 #include "master/scenario/component_selection.h"
 #include "master/scenario/film.h"
@@ -284,7 +285,8 @@ void LoadedScenario::warn_of_internal_steps() const {
   }
 }
 
-importer::InstanceOptions LoadedScenario::instance_options(std::size_t component) const {
+importer::InstanceOptions LoadedScenario::instance_options(
+    std::size_t component, const std::filesystem::path& results) const {
   const core::ComponentDeclaration& declared = scenario_.system.components[component];
   importer::InstanceOptions options;
   options.log = log_message;
@@ -292,6 +294,7 @@ importer::InstanceOptions LoadedScenario::instance_options(std::size_t component
   options.early_return_allowed = declared.early_return_allowed;
   options.intermediate_update = options_.sets_inputs_in_steps();
   options.where = declared.where;
+  if (!results.empty()) options.results = recorders::unit_folder(results, declared.name);
   options.description = system_->components()[component].description;
   return options;
 }
@@ -299,16 +302,22 @@ importer::InstanceOptions LoadedScenario::instance_options(std::size_t component
 std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate(
     const std::filesystem::path& results) const {
   const auto& components = system_->components();
+  // a unit may change the working folder
+  const std::filesystem::path folder =
+      results.empty() ? results : std::filesystem::absolute(results);
   std::vector<std::unique_ptr<core::Unit>> units(components.size());
   // processes first: they are forked from this one, which has loaded no unit's library yet
   for (std::size_t i = 0; i < units.size(); ++i) {
     if (!hostings_[i]) continue;
     isolation::HostOptions host = hostings_[i]->options;
-    if (!results.empty()) host.writable.push_back(std::filesystem::absolute(results));
-    units[i] = isolation::instantiate(fmus_[i], components[i].name, instance_options(i), host);
+    importer::InstanceOptions options = instance_options(i, folder);
+    if (!folder.empty()) host.writable.push_back(options.results);
+    units[i] =
+        isolation::instantiate(fmus_[i], components[i].name, std::move(options), std::move(host));
   }
   for (std::size_t i = 0; i < units.size(); ++i) {
-    if (!units[i]) units[i] = fmus_[i]->instantiate(components[i].name, instance_options(i));
+    if (units[i]) continue;
+    units[i] = fmus_[i]->instantiate(components[i].name, instance_options(i, folder));
   }
   return units;
 }

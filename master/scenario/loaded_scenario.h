@@ -47,13 +47,15 @@ class LoadedScenario {
   /// Likewise; empty for a component without a host.
   const std::vector<std::optional<Hosting>>& hostings() const { return hostings_; }
   const core::RunOptions& options() const { return options_; }
+  std::vector<std::string> component_names() const;
   /// The plots of the scenario, of recorded signals.
   const std::vector<recorders::Plot>& plots() const { return plots_; }
   /// The checks of the scenario; options() watch their signals.
   const std::vector<checks::Definition>& checks() const { return checks_; }
 
-  /// Fresh instances in the order of system().components(). Their messages go to the log. Hosted
-  /// ones may write to the folder `results`, if it is not empty.
+  /// Fresh instances in the order of system().components(). Their messages go to the log. The units
+  /// write their files to their folders in `results`, which exist (recorders::UnitFolders), and
+  /// hosted ones nowhere else; if it is empty, there are none.
   std::vector<std::unique_ptr<core::Unit>> instantiate(
       const std::filesystem::path& results = {}) const;
 
@@ -70,8 +72,8 @@ class LoadedScenario {
   void choose_signals(const ScenarioRequest& request);
   void check_fixed_steps() const;
   void warn_of_internal_steps() const;
-  std::vector<std::string> component_names() const;
-  importer::InstanceOptions instance_options(std::size_t component) const;
+  importer::InstanceOptions instance_options(std::size_t component,
+                                             const std::filesystem::path& results) const;
 
   Scenario scenario_;
   std::vector<std::shared_ptr<importer::Fmu>> fmus_;

@@ -30,10 +30,11 @@ const char* hint_for(int error) {
 
 }  // namespace
 
-OutputFile::OutputFile(std::filesystem::path path, Hints hints)
+OutputFile::OutputFile(std::filesystem::path path, Hints hints, Existing existing)
     : path_(std::move(path)), hints_(hints), buffer_(std::make_unique<char[]>(kCapacity)) {
   constexpr mode_t kEverybodyMayRead = 0666;  // less the umask
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kEverybodyMayRead);
+  const int how = existing == Existing::Emptied ? O_TRUNC : O_EXCL | O_NOFOLLOW;
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | how | O_CLOEXEC, kEverybodyMayRead);
   if (descriptor_ >= 0) return;
   fail_input({.where = {path_.string(), 0}},
              fmt::format("cannot create the file: {}", std::generic_category().message(errno)),

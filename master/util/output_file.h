@@ -29,9 +29,12 @@ class OutputFile {
     const char* write = nullptr;  ///< what suits the error, for results, where there is none
   };
 
+  /// What becomes of a file of this name: a refused one, or a link, is an error.
+  enum class Existing { Emptied, Refused };
+
   /// Creates the file or empties it. Throws Error (Input) if that is not possible.
   explicit OutputFile(std::filesystem::path path) : OutputFile(std::move(path), Hints{}) {}
-  OutputFile(std::filesystem::path path, Hints hints);
+  OutputFile(std::filesystem::path path, Hints hints, Existing existing = Existing::Emptied);
   /// Closes the file; a failure is lost then, so call close() where it matters.
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;

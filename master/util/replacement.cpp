@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 constexpr OutputFile::Hints kHints = {
     "choose a file in a folder in which you may write",
-    "check the disk that this file is on, and that there is room on it; nothing is left of it"};
+    "make room on the disk that this file is on, or check it; nothing is left of it"};
 
 /// Pipes, terminals, and names of what is open already, such as /dev/stdout.
 bool is_device(const fs::path& path) {
@@ -50,9 +50,14 @@ void check(const fs::path& path) {
 
 Replacement::Replacement(const fs::path& path) : target_(target_of(path)) {
   check(target_);
-  const bool at_once = is_device(target_);
-  if (!at_once) fresh_ = target_.string() + ".new";
-  file_.emplace(at_once ? target_ : fresh_, kHints);
+  if (is_device(target_)) {
+    file_.emplace(target_, kHints);
+    return;
+  }
+  fresh_ = target_.string() + ".new";
+  std::error_code ignored;  // what stays fails below
+  fs::remove(fresh_, ignored);
+  file_.emplace(fresh_, kHints, OutputFile::Existing::Refused);
 }
 
 Replacement::~Replacement() {

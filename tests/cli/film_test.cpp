@@ -33,7 +33,7 @@ bool films(const Workspace& workspace, Arguments arguments = {"--film"}) {
 /// All of the film by name; each picture that is listed is there, and the other way round.
 std::map<std::string, std::string> film(const Workspace& workspace,
                                         const std::string& component = "world") {
-  const std::string folder = "film/" + component + "/";
+  const std::string folder = "units/" + component + "/film/";
   std::map<std::string, std::string> files{{"frames.csv", workspace.result(folder + "frames.csv")}};
   const Csv list(workspace / ("out/" + folder + "frames.csv"));
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -52,7 +52,7 @@ std::map<std::string, std::string> film(const Workspace& workspace,
 }
 
 std::vector<double> times(const Workspace& workspace) {
-  return Csv(workspace / "out/film/world/frames.csv").numbers("time");
+  return Csv(workspace / "out/units/world/film/frames.csv").numbers("time");
 }
 
 const std::vector<double> kQuarters{0, 0.25, 0.5, 0.75, 1};
@@ -62,7 +62,7 @@ const std::vector<double> kQuarters{0, 0.25, 0.5, 0.75, 1};
 TEST_CASE("a film has a picture for each tenth of a second, and changes nothing else") {
   const Workspace workspace = pendulum();
   REQUIRE(workspace.run({"--quiet"}).exit_code == 0);
-  CHECK_FALSE(fs::exists(workspace / "out/film"));
+  CHECK_FALSE(fs::exists(workspace / "out/units"));
   const std::string signals = workspace.result("signals.csv");
   if (!films(workspace)) return;
   CHECK(times(workspace) == std::vector<double>{0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1});
@@ -71,11 +71,11 @@ TEST_CASE("a film has a picture for each tenth of a second, and changes nothing 
   CHECK(files.at("00001.jpg") != files.at("00000.jpg"));
 
   CHECK_THAT(workspace.run({"--film=0.5"}).out,
-             Contains("Results in out:") && Contains(" film/\n"));
+             Contains("Results in out:") && Contains(" units/\n"));
 
   // the next run is not taken for one with a film
   REQUIRE(workspace.run({"--quiet"}).exit_code == 0);
-  CHECK_FALSE(fs::exists(workspace / "out/film/world/frames.csv"));
+  CHECK_FALSE(fs::exists(workspace / "out/units/world/film/frames.csv"));
 }
 
 TEST_CASE("the time between pictures is that of --film, or of the scenario, or 0.1 s") {

@@ -1,12 +1,11 @@
 // What a unit in a process of its own may do, and how a user learns of what it may not.
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
-#include "master/isolation/process/landlock.h"
 #include "tests/cli/failures.h"
+#include "tests/cli/landlock.h"
 
 using namespace stride::tests;
 using Catch::Matchers::Contains;
@@ -39,17 +38,6 @@ std::string protections_of(const Workspace& workspace, const std::string& unit) 
   return {};
 }
 
-bool lacks_landlock() {
-  try {
-    stride::isolation::landlock_version();
-    return false;
-  } catch (const std::exception& error) {
-    WARN("skipped: " << error.what());
-    REQUIRE(std::getenv("CI") == nullptr);
-    return true;
-  }
-}
-
 }  // namespace
 
 TEST_CASE("run.json has the protections of a host") {
@@ -57,10 +45,12 @@ TEST_CASE("run.json has the protections of a host") {
   const Workspace workspace = with_a_filter();
   REQUIRE(workspace.run(isolated({"--quiet"})).exit_code == 0);
   const std::string text = protections_of(workspace, "faulty");
-  CHECK_THAT(text, Contains("no new privileges") && Contains("no network: seccomp") &&
-                       Contains("read-only files, but for " + (workspace / "out").string()) &&
-                       Contains("Landlock"));
-  CHECK(protections_of(workspace, "filter") == text);
+  CHECK_THAT(
+      text, Contains("no new privileges") && Contains("no network: seccomp") &&
+                Contains("read-only files, but for " + (workspace / "out/units/faulty").string()) &&
+                Contains("Landlock"));
+  CHECK_THAT(protections_of(workspace, "filter"),
+             Contains("read-only files, but for " + (workspace / "out/units/filter").string()));
 }
 
 TEST_CASE("run.json has the protections of a host of a failed run, too") {
@@ -70,13 +60,13 @@ TEST_CASE("run.json has the protections of a host of a failed run, too") {
   CHECK_THAT(protections_of(workspace, "faulty"), Contains("no new privileges"));
 }
 
-TEST_CASE("a unit writes among the run's results") {
+TEST_CASE("a hosted unit writes among the run's results") {
   const Workspace workspace = with_a_filter();
-  const fs::path file = workspace / "out/notes.txt";
+  const fs::path file = workspace / "out/units/faulty/notes.txt";
   const Outcome outcome = workspace.run(writes(file, {"--quiet"}));
   INFO(outcome.err);
   CHECK(outcome.exit_code == 0);
-  CHECK(workspace.result("notes.txt") == "written\n");
+  CHECK(workspace.result("units/faulty/notes.txt") == "written\n");
 }
 
 TEST_CASE("a unit has a temporary folder, which goes with it") {
@@ -97,7 +87,7 @@ TEST_CASE("a hosted unit cannot write elsewhere, and the error names the cause")
   CHECK_THAT(error, Contains("unit 'faulty', at 0.499 s: ") &&
                         Contains("cannot write " + file.string() + ": Permission denied") &&
                         Contains("hint: it runs in a sandbox") && Contains("--no-sandbox") &&
-                        Contains((workspace / "out").string()));
+                        Contains((workspace / "out/units/faulty").string()));
   CHECK_FALSE(fs::exists(workspace / "notes.txt"));
 }
 

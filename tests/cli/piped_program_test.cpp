@@ -177,7 +177,9 @@ TEST_CASE("a program that fails ends the run, with all results up to there") {
 }
 
 TEST_CASE("no program outlives the run, even if that is killed") {
-  const Workspace workspace(cistern("cistern.fmu"));
+  Parts parts = cistern("cistern.fmu");
+  parts.components += component("other", "minimal.fmu");  // with another STRIDE_RESULTS
+  const Workspace workspace(parts);
   workspace.scratch().write("endless.sh",
                             "#!/bin/sh\necho $$ > $STRIDE_RESULTS/number\nexec sleep 1000\n");
   const bool is_hosted = GENERATE(false, true);
@@ -185,7 +187,7 @@ TEST_CASE("no program outlives the run, even if that is killed") {
       Workspace::run_arguments({"--set", "cistern.process.program=./endless.sh", "--quiet"});
   if (is_hosted) arguments.insert(arguments.end(), {"--isolate"});
   Process run(stride_command(arguments), workspace.scratch().path());
-  const int program = number_in(workspace / "out/number");
+  const int program = number_in(workspace / "out/units/cistern/number");
   CHECK(is_running(program));
   run.send(SIGKILL);
   run.wait();

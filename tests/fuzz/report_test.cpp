@@ -32,7 +32,7 @@ const std::array<File, 5> kFiles{{
     {"events.csv",
      "time,index,component,variable,direction,payload,content\n0.5,0,a,y,sent,00ff,\"set, on\"\n"},
     {"activity.csv", "time,until,component,kind\n0,0,a,event\n0,1,\"b, c\",idle\n"},
-    {"film/world/frames.csv", "time,file\n0,0.jpg\n0.5,1.jpg\n"},
+    {"units/world/film/frames.csv", "time,file\n0,0.jpg\n0.5,1.jpg\n"},
 }};
 
 /// All columns have as many rows as there are times.
@@ -50,9 +50,9 @@ void check(const report::Results& results) {
 
 TEST_CASE("mutated results are read, or refused with the file that is wrong") {
   const tests::TemporaryFolder folder;
-  std::filesystem::create_directories(folder / "film/world");
-  folder.write("film/world/0.jpg", "");
-  folder.write("film/world/1.jpg", "");
+  std::filesystem::create_directories(folder / "units/world/film");
+  folder.write("units/world/film/0.jpg", "");
+  folder.write("units/world/film/1.jpg", "");
   for (const File& file : kFiles) folder.write(file.name, file.text);
   check(report::read_results(folder / "", {}));
   for (const File& file : kFiles) {

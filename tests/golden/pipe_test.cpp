@@ -28,7 +28,7 @@ Arguments options() {
 
 /// The file without its head, in which is the date.
 std::string changes(const ScenarioRun& run) {
-  const std::string text = text_of(run.file("sensor.vcd"));
+  const std::string text = text_of(run.file("units/sensor/sensor.vcd"));
   return text.substr(text.find("$enddefinitions"));
 }
 

@@ -28,8 +28,8 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
       "stride/self_description.h", "master/algorithm", "master/model", "master/util", "fmt"}},
     {"master/isolation",
      {"stride/time.h", "master/importer", "master/algorithm", "master/model", "master/util", "fmt",
-      "dirent.h", "seccomp.h"}},
-    {"master/isolation/process", {"stride/time.h", "master/util", "fmt", "dirent.h", "seccomp.h"}},
+      "seccomp.h"}},
+    {"master/isolation/process", {"stride/time.h", "master/util", "fmt", "seccomp.h"}},
     {"master/ssp", {"stride/time.h", "stride/xml_text.h", "master/model", "master/util", "fmt"}},
     {"master/checks", {"stride/time.h", "master/algorithm", "master/model", "master/util", "fmt"}},
     {"master/recorders",
@@ -90,9 +90,9 @@ bool begins_with(const std::string& header, const std::string& allowed) {
 
 /// Standard headers have no dot and no slash; the system's are those of POSIX and Linux.
 bool is_system(const std::string& header) {
-  static const std::set<std::string> kPosix = {"dlfcn.h",   "unistd.h",  "fcntl.h", "fnmatch.h",
-                                               "poll.h",    "pthread.h", "sched.h", "spawn.h",
-                                               "stdbool.h", "stddef.h",  "stdint.h"};
+  static const std::set<std::string> kPosix = {"dirent.h",  "dlfcn.h",   "unistd.h",  "fcntl.h",
+                                               "fnmatch.h", "poll.h",    "pthread.h", "sched.h",
+                                               "spawn.h",   "stdbool.h", "stddef.h",  "stdint.h"};
   const bool standard = header.find_first_of("./") == std::string::npos;
   return (standard && header != "systemc") || kPosix.count(header) != 0 ||
          begins_with(header, "sys") || begins_with(header, "linux");

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
-#include <stride/results.h>
 #include <stride/unit.h>
 
 #include "units/mujoco_world/film/film.h"
@@ -29,12 +29,23 @@ constexpr double kPositionTolerance = 1e-4;  // [rad], [m], or of a unit vector'
 constexpr double kVelocityTolerance = 1e-3;  // [rad/s], [m/s]
 constexpr double kSensorTolerance = 1e-3;    // in the sensor's unit
 
+/// Alone in the unit's own folder of results; otherwise the worlds have the working folder in
+/// common.
+std::filesystem::path film_folder(const stride::Setup& setup) {
+  if (!setup.results.empty()) return setup.results / "film";
+  std::string name = setup.instance_name;
+  std::replace(name.begin(), name.end(), '/', '_');
+  if (name.find_first_not_of('.') == std::string::npos) name += '_';
+  std::error_code ignored;  // without a working folder, as long as there is no film
+  return std::filesystem::current_path(ignored) / "film" / name;
+}
+
 std::string per_second(const std::string& unit) { return unit.empty() ? unit : unit + "/s"; }
 
 class MujocoWorld : public stride::Unit {
  public:
   explicit MujocoWorld(const stride::Setup& setup)
-      : name_(setup.instance_name), world_(setup.resources) {
+      : film_folder_(film_folder(setup)), world_(setup.resources) {
     auto& info = describe("A MuJoCo world: its actuators in, its joints, sites and sensors out");
     info.fixed_step = world_.timestep();
     info.promises_idle = true;
@@ -102,15 +113,8 @@ class MujocoWorld : public stride::Unit {
     } else if (film_ && film_->settings() == wanted) {
       film_->go_on();
     } else {
-      film_.emplace(world_, wanted, film_folder());
+      film_.emplace(world_, wanted, film_folder_);
     }
-  }
-
-  std::filesystem::path film_folder() const {
-    std::string name = name_;
-    std::replace(name.begin(), name.end(), '/', '_');
-    if (name.find_first_not_of('.') == std::string::npos) name += '_';
-    return stride::results_folder() / "film" / name;
   }
 
   /// As the importer has set it.
@@ -259,7 +263,7 @@ class MujocoWorld : public stride::Unit {
     }
   }
 
-  std::string name_;
+  std::filesystem::path film_folder_;
   World world_;
   double film_interval_ = 0;
   mujoco_world::film::View view_;

@@ -78,9 +78,15 @@ void make_executable(const std::string& path) {
 /// What the child does between fork() and exec(): functions that are safe there, and no memory.
 class Launch {
  public:
-  Launch(const std::string& path, const std::vector<std::string>& command) : path_(path) {
-    for (const std::string& word : command) words_.push_back(const_cast<char*>(word.c_str()));
+  /// The texts must outlive it.
+  Launch(const std::string& path, const std::vector<std::string>& command,
+         const std::vector<std::string>& variables)
+      : path_(path), words_(pointers(command)), environment_(pointers(variables)) {
+    for (char** variable = environ; *variable != nullptr; ++variable) {
+      if (!is_replaced(*variable, variables)) environment_.push_back(*variable);
+    }
     words_.push_back(nullptr);
+    environment_.push_back(nullptr);
   }
 
   /// Returns errno if it could not be done.
@@ -96,13 +102,25 @@ class Launch {
       if (::dup2(standard[static_cast<std::size_t>(i)], i) < 0) return errno;
     }
     ::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);  // what others have left open
-    ::execv(path_.c_str(), words_.data());
+    ::execve(path_.c_str(), words_.data(), environment_.data());
     return errno;
   }
 
  private:
+  static std::vector<char*> pointers(const std::vector<std::string>& texts) {
+    std::vector<char*> pointers;
+    for (const std::string& text : texts) pointers.push_back(const_cast<char*>(text.c_str()));
+    return pointers;
+  }
+  static bool is_replaced(const char* variable, const std::vector<std::string>& by) {
+    return std::any_of(by.begin(), by.end(), [&](const std::string& other) {
+      return std::strncmp(variable, other.c_str(), other.find('=') + 1) == 0;
+    });
+  }
+
   const std::string& path_;
   std::vector<char*> words_;
+  std::vector<char*> environment_;
 };
 
 /// Empty once the program runs, else why it does not.
@@ -141,10 +159,10 @@ void Descriptor::close() {
 
 // ---- Child ----
 
-Child::Child(const std::vector<std::string>& command) {
+Child::Child(const std::vector<std::string>& command, const std::vector<std::string>& variables) {
   const std::string path = find_program(command.front());
   make_executable(path);
-  Launch launch(path, command);
+  Launch launch(path, command, variables);
   Pipe input = make_pipe();
   Pipe output = make_pipe();
   Pipe error = make_pipe();

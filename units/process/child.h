@@ -35,8 +35,10 @@ class Descriptor {
 class Child {
  public:
   /// Starts the program with its arguments; `command.front()` is a path, or a name that is looked
-  /// for in PATH. Throws std::runtime_error with the reason if it cannot be started.
-  explicit Child(const std::vector<std::string>& command);
+  /// for in PATH. `variables` ("NAME=value") replace those of its environment. Throws
+  /// std::runtime_error with the reason if it cannot be started.
+  explicit Child(const std::vector<std::string>& command,
+                 const std::vector<std::string>& variables = {});
   /// Kills it, unless it has ended.
   ~Child();
   Child(const Child&) = delete;

@@ -36,13 +36,15 @@ const char* with_article(Role role) {
 }  // namespace
 
 Session::Session(const Declaration& declaration, std::vector<Value>& values,
-                 const std::vector<std::string>& command, const Limits& limits, Log log)
+                 const std::vector<std::string>& command, const Limits& limits, Log log,
+                 const std::vector<std::string>& variables)
     : declaration_(declaration),
       values_(values),
       told_(values),
       has_come_(values.size()),
       log_(std::move(log)),
-      lines_(command, limits, [this](const std::string& line) { log_(false, line); }) {
+      lines_(
+          command, limits, [this](const std::string& line) { log_(false, line); }, variables) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     places_.emplace(declaration.variables[i].name, i);
     if (declaration.variables[i].role == Role::Input) inputs_.push_back(i);

@@ -49,8 +49,10 @@ class Session {
  public:
   using Log = std::function<void(bool is_warning, const std::string& text)>;
 
+  /// `command` and `variables` are those of Child.
   Session(const Declaration& declaration, std::vector<Value>& values,
-          const std::vector<std::string>& command, const Limits& limits, Log log);
+          const std::vector<std::string>& command, const Limits& limits, Log log,
+          const std::vector<std::string>& variables = {});
 
   /// Sends parameters and inputs; the program answers with its outputs.
   Sync start(const Opening& opening, stride::Time time);

@@ -65,11 +65,11 @@ std::string_view without_blanks(std::string_view text) {
 }  // namespace
 
 ProgramLines::ProgramLines(const std::vector<std::string>& command, const Limits& limits,
-                           Listener listener)
+                           Listener listener, const std::vector<std::string>& variables)
     : name_(std::filesystem::path(command.front()).filename().string()),
       limits_(limits),
       listener_(std::move(listener)),
-      child_(std::make_unique<Child>(command)),
+      child_(std::make_unique<Child>(command, variables)),
       buffer_(2 * kRead) {
   if (command.size() > 1) {
     name_ += " " + std::filesystem::path(command[1]).filename().string();

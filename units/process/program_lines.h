@@ -29,7 +29,9 @@ class ProgramLines {
   /// Receives each line that the program writes to its standard error.
   using Listener = std::function<void(const std::string& line)>;
 
-  ProgramLines(const std::vector<std::string>& command, const Limits& limits, Listener listener);
+  /// `command` and `variables` are those of Child.
+  ProgramLines(const std::vector<std::string>& command, const Limits& limits, Listener listener,
+               const std::vector<std::string>& variables = {});
 
   /// What send() will write: whole lines are appended here.
   std::string& commands() { return commands_; }

@@ -11,7 +11,6 @@
 #include <variant>
 #include <vector>
 
-#include <stride/results.h>
 #include <stride/unit.h>
 
 #include "units/process/model.h"
@@ -39,6 +38,7 @@ class ProcessUnit : public stride::Unit {
   explicit ProcessUnit(const stride::Setup& setup)
       : declaration_(process::load_declaration(setup.resources)),
         resources_(std::filesystem::absolute(setup.resources)),
+        results_(setup.results),
         values_(start_values(declaration_)),
         clocks_(values_.size()) {
     opening_.instance_name = setup.instance_name;
@@ -113,11 +113,19 @@ class ProcessUnit : public stride::Unit {
         declaration_, values_, process::command_line(declaration_, resources_, program_), limits,
         [this](bool is_warning, const std::string& text) {
           log(is_warning ? stride::Severity::Warning : stride::Severity::Info, text);
-        });
+        },
+        environment());
     process::Opening opening = opening_;
-    if (!opening.trace_file.empty())
-      opening.trace_file = (stride::results_folder() / opening.trace_file).string();
+    if (!opening.trace_file.empty()) {
+      opening.trace_file = std::filesystem::absolute(results_ / opening.trace_file).string();
+    }
     sync_ = in_session([&](process::Session& session) { return session.start(opening, start); });
+  }
+
+  /// What the program gets, whatever the variable names in this process by then.
+  std::vector<std::string> environment() const {
+    if (results_.empty()) return {};
+    return {"STRIDE_RESULTS=" + results_.string()};
   }
 
   bool is_same(const Beginning& one, const Beginning& other) const {
@@ -178,7 +186,7 @@ class ProcessUnit : public stride::Unit {
         .description("how many bytes it may write until it has answered");
     if (!declaration_.has_trace) return;
     parameter("trace.file", opening_.trace_file)
-        .description("file of a trace, in the results folder; none if empty");
+        .description("file of a trace, in the unit's own folder of results; none if empty");
     parameter("trace.signals", opening_.trace_signals)
         .description("which signals: patterns with * and ?, separated by spaces");
   }
@@ -235,6 +243,7 @@ class ProcessUnit : public stride::Unit {
 
   process::Declaration declaration_;
   std::filesystem::path resources_;
+  std::filesystem::path results_;
   std::vector<Value> values_;                           ///< whose alternatives stay what they are
   std::vector<std::unique_ptr<stride::Clock>> clocks_;  ///< of messages
   process::Opening opening_{"", "", "", "*"};

@@ -11,7 +11,6 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <stride/results.h>
 #include <stride/systemc/trace.h>
 
 namespace stride::systemc {
@@ -24,7 +23,7 @@ constexpr const char* kAdvanceTime = "advanceTime";
 
 /// Absolute, and the same however a file is named.
 std::string without_extension(const std::string& path) {
-  fs::path file = fs::weakly_canonical(results_folder() / path);
+  fs::path file = fs::weakly_canonical(fs::absolute(path));
   if (file.extension() == kExtension) file.replace_extension();
   return file.string();
 }

@@ -58,27 +58,6 @@ TEST_CASE("The files of an earlier run go, and nothing else") {
   CHECK(std::filesystem::is_symlink(folder / "run.json"));
 }
 
-TEST_CASE("Of a film of an earlier run nothing else goes") {
-  const TemporaryFolder folder;
-  for (const char* file :
-       {"film/world/frames.csv", "film/world/00000.jpg", "film/arm/frames.csv",
-        "film/arm/00000.jpg", "film/arm/notes.jpg", "film/mine/00001.jpg", "signals.csv"}) {
-    std::filesystem::create_directories((folder / file).parent_path());
-    folder.write(file, "");
-  }
-  remove_results(folder / "", {});
-  CHECK_FALSE(std::filesystem::exists(folder / "film/world"));
-  CHECK_FALSE(std::filesystem::exists(folder / "film/arm/frames.csv"));
-  CHECK_FALSE(std::filesystem::exists(folder / "film/arm/00000.jpg"));
-  CHECK(std::filesystem::exists(folder / "film/arm/notes.jpg"));
-  CHECK(std::filesystem::exists(folder / "film/mine/00001.jpg"));
-  CHECK_FALSE(std::filesystem::exists(folder / "signals.csv"));
-  std::filesystem::remove_all(folder / "film/arm");
-  std::filesystem::remove_all(folder / "film/mine");
-  folder.write("film/x", "");
-  CHECK_NOTHROW(remove_results(folder / "", {}));
-}
-
 TEST_CASE("What is in a folder comes sorted, and a folder that is none has nothing") {
   const TemporaryFolder folder;
   folder.write("b", "");

@@ -37,8 +37,10 @@ Results sample(const TemporaryFolder& folder) {
       column({"a.on", "", ValueType::Boolean, false}, {"true", "false"})};
   results.messages = {{14'200'358'702'064, 1, "a", "y", "sent", "00e8", "</script><!--\xff"}};
   results.activities = {{"a", "idle", {0, 5}, {4, 9}}};
-  results.films = {
-      {"world", {0, 7}, {folder.write("0.jpg", "zero"), folder.write("1.png", "one")}}};
+  folder.write("0.jpg", "zero");
+  folder.write("1.png", "one");
+  results.folder = folder / "";
+  results.films = {{"world", {0, 7}, {"0.jpg", "1.png"}}};
   return results;
 }
 
@@ -142,7 +144,7 @@ TEST_CASE("where it fails the page before stays, and no part of a new one") {
   const TemporaryFolder folder;
   folder.write("report.html", "old");
   Results results = sample(folder);
-  results.films[0].pictures[1] = folder / "gone.jpg";
+  results.films[0].pictures[1] = "gone.jpg";
   CHECK_THAT(error_of([&] { write_report(folder / "report.html", results, ""); }),
              Contains("gone.jpg: cannot read the picture"));
   CHECK(content(folder / "report.html") == "old");

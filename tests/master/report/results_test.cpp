@@ -41,10 +41,10 @@ struct Folder {
     return read_results(folder / "", recorders::ResultFiles(), limits);
   }
   void film(const std::string& list) const {
-    std::filesystem::create_directories(folder / "film/world");
-    folder.write("film/world/frames.csv", list);
-    folder.write("film/world/0.jpg", "zero");
-    folder.write("film/world/1.jpg", "one");
+    std::filesystem::create_directories(folder / "units/world/film");
+    folder.write("units/world/film/frames.csv", list);
+    folder.write("units/world/film/0.jpg", "zero");
+    folder.write("units/world/film/1.jpg", "one");
   }
   std::string refusal() const {
     return error_of([&] { read(); });
@@ -83,7 +83,8 @@ TEST_CASE("messages without the column content have none") {
   CHECK(f.read().messages.at(0).content.empty());
 }
 
-TEST_CASE("pictures are found in film/, with their instants; a missing one is reported") {
+TEST_CASE(
+    "pictures are found in the folders of units, with their instants; a missing one is reported") {
   const Folder f;
   f.film("time,file\n0,0.jpg\n0.001,gone.jpg\n0.002,1.jpg\n");
   const Results results = f.read();
@@ -92,13 +93,70 @@ TEST_CASE("pictures are found in film/, with their instants; a missing one is re
   CHECK(results.films[0].times == Times{0, 2 * kMillisecond});
   CHECK(results.films[0].pictures[1].filename() == "1.jpg");
   REQUIRE(results.notes.size() == 1);
-  CHECK(results.notes[0] == "film/world/frames.csv: 1 of its pictures are missing");
+  CHECK(results.notes[0] == "units/world/film/frames.csv: 1 of its pictures are missing");
 }
 
 TEST_CASE("a picture is of the film's own folder, whatever its name says") {
   const Folder f;
   f.film("time,file\n0,../../1.jpg\n");
-  CHECK(f.read().films.at(0).pictures.at(0) == f.folder / "film/world/1.jpg");
+  CHECK(f.read().films.at(0).pictures.at(0) == "units/world/film/1.jpg");
+}
+
+TEST_CASE("a film has the name of the component whose folder it is in") {
+  const Folder f;
+  f.film("time,file\n0,0.jpg\n");
+  std::filesystem::rename(f.folder / "units/world", f.folder / "units/50%25%2Fx");
+  CHECK(f.read().films.at(0).component == "50%/x");
+}
+
+TEST_CASE("no link below the folder is followed to a film") {
+  const Folder f;
+  f.film("time,file\n0,0.jpg\n1,1.jpg\n");
+  const tests::TemporaryFolder outside;
+  const char* const refused = ": left out: it is a link, or its list is no regular file";
+  SECTION("a picture") {
+    std::filesystem::remove(f.folder / "units/world/film/1.jpg");
+    std::filesystem::create_symlink(outside.write("1.jpg", "secret"),
+                                    f.folder / "units/world/film/1.jpg");
+    const Results results = f.read();
+    CHECK(results.films.at(0).times == Times{0});
+    CHECK_THAT(results.notes.at(0),
+               Equals("units/world/film/frames.csv: 1 of its pictures are left out: they are "
+                      "links, no regular files, or larger than 16 MiB"));
+  }
+  SECTION("the list") {
+    std::filesystem::rename(f.folder / "units/world/film/frames.csv", outside / "frames.csv");
+    std::filesystem::create_symlink(outside / "frames.csv",
+                                    f.folder / "units/world/film/frames.csv");
+    const Results results = f.read();
+    CHECK(results.films.empty());
+    CHECK_THAT(results.notes.at(0), Equals(std::string("units/world/film") + refused));
+  }
+  SECTION("the film, the unit's folder, or that of all units") {
+    const std::string link = GENERATE("units/world/film", "units/world", "units");
+    std::filesystem::rename(f.folder / link, outside / "there");
+    std::filesystem::create_symlink(outside / "there", f.folder / link);
+    const Results results = f.read();
+    CHECK(results.films.empty());
+    CHECK_THAT(results.notes.at(0), Equals(std::string("units/world/film") + refused));
+  }
+}
+
+TEST_CASE("a film that is too long for a page is cut") {
+  const Folder f;
+  f.film("time,file\n0,0.jpg\n1,1.jpg\n2,0.jpg\n");
+  const char* const note = "units/world/film/frames.csv: the first 2 of its pictures are shown";
+  SECTION("by the number of its pictures") {
+    const Results results = f.read({.pictures = 2});
+    CHECK(results.films.at(0).times.size() == 2);
+    CHECK_THAT(results.notes.at(0), Equals(note));
+  }
+  SECTION("by their size") {
+    const Results results = f.read({.picture_bytes = 6});
+    CHECK(results.films.at(0).times.size() == 2);
+    CHECK_THAT(results.notes.at(0), Equals(note));
+  }
+  CHECK(f.read({.pictures = 3, .picture_bytes = 11}).notes.empty());
 }
 
 TEST_CASE("a folder without run.json has results, too") {

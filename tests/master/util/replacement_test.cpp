@@ -67,6 +67,22 @@ TEST_CASE("A link stays, and the file that it leads to is replaced") {
   CHECK(files_in(folder / "there") == 1);
 }
 
+TEST_CASE("What is in the place of the new file is removed, and no link there is followed") {
+  const TemporaryFolder folder;
+  folder.write("other", "other");
+  folder.write("x", "old");
+  fs::create_symlink(folder / "other", folder / "x.new");
+  replace(folder / "x", "new");
+  folder.write("x.new", "left by a killed process");
+  replace(folder / "x", "newer");
+  CHECK(content(folder / "x") == "newer");
+  CHECK(content(folder / "other") == "other");
+  CHECK(files_in(folder / "") == 2);
+  fs::create_directories(folder / "x.new/full");
+  CHECK_THAT(error_of([&] { replace(folder / "x", ""); }),
+             Contains("x.new: cannot create the file: File exists"));
+}
+
 TEST_CASE("What is not a regular file is written, not replaced") {
   const TemporaryFolder folder;
   const fs::path pipe = folder / "pipe";

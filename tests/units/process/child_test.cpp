@@ -70,6 +70,16 @@ TEST_CASE("lines go to the program and come from it") {
   CHECK_FALSE(child.has_succeeded());
 }
 
+TEST_CASE("the program has the variables that it is given, and those of this process") {
+  ::setenv("STRIDE_TEST_A", "old", 1);
+  ::setenv("STRIDE_TEST_AB", "kept", 1);
+  Child child(shell("echo \"$STRIDE_TEST_A $STRIDE_TEST_AB $STRIDE_TEST_B\""),
+              {"STRIDE_TEST_A=new", "STRIDE_TEST_B=b=c"});
+  ::unsetenv("STRIDE_TEST_A");
+  ::unsetenv("STRIDE_TEST_AB");
+  CHECK(line_of(child.output().number()) == "new kept b=c\n");
+}
+
 TEST_CASE("the error has the signal that ended the program") {
   Child child(shell("kill -SEGV $$"));
   REQUIRE(child.wait(kLong));

@@ -222,11 +222,10 @@ TEST_CASE("a trace that cannot be made is an error at initialization") {
 
 TEST_CASE("a trace is among the run's results, if the importer gives their folder") {
   const UnitFolder folder;
-  ::setenv("STRIDE_RESULTS", folder.path.c_str(), 1);
   MeterDriver unit;
+  unit.unit().set_results(folder.path);
   unit.value<std::string>("trace.file") = "meter";
   unit.initialize();
-  ::unsetenv("STRIDE_RESULTS");
   CHECK(fs::exists(folder.path / "meter.vcd"));
 }
 

@@ -66,8 +66,7 @@ class SignalList {
 };
 
 struct TraceOptions {
-  /// Its path, relative to the folder $STRIDE_RESULTS or, without that, to the working folder;
-  /// `.vcd` is added where it is missing.
+  /// Its path; `.vcd` is added where it is missing.
   std::string file;
   std::string signals = "*";  ///< patterns of fnmatch(3), separated by spaces
 };

@@ -38,7 +38,8 @@ namespace stride::systemc {
 /// The device's own time starts at zero where the simulation starts. A device that calls sc_pause
 /// asks for a communication point at that instant, and gets it if the master allows early return.
 ///
-/// Every device has the parameters `trace.file` and `trace.signals`; see trace.h. One that declares
+/// Every device has the parameters `trace.file`, relative to the unit's own folder of results
+/// (stride::Setup), and `trace.signals`; see trace.h. One that declares
 /// what idle means has its idle time skipped where the importer enables it, and can be suspended
 /// while its outputs keep their tangents; see <stride/idle.h> and idle.h.
 ///
@@ -200,7 +201,8 @@ class DeviceUnit : public Unit {
   void open_trace() {
     SignalList signals;
     device_->within([&](Module& module) { list_signals(module, signals); });
-    trace_.emplace(device_->kernel(), trace_options_, signals);
+    const std::string file = (results() / trace_options_.file).string();
+    trace_.emplace(device_->kernel(), TraceOptions{file, trace_options_.signals}, signals);
   }
 
   void report_skips() {

@@ -1,0 +1,115 @@
+#include "master/recorders/unit_folders.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "master/recorders/results_folder.h"
+#include "master/util/error.h"
+#include "master/util/untrusted_folder.h"
+
+namespace stride::recorders {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::pair<char, std::string_view>, 3> kCodes{
+    {{'%', "%25"}, {'/', "%2F"}, {'.', "%2E"}}};
+constexpr const char* kNoName = "%";
+
+bool is_picture(const fs::path& file) {
+  const std::string number = file.stem().string();
+  return file.extension() == ".jpg" && number.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// Nothing but what a film consists of: the folder may be a user's own.
+void remove_film(const fs::path& unit) {
+  std::error_code ignored;  // what cannot be removed fails where it is to be replaced
+  const fs::path film = unit / kFilmFolder;
+  if (!fs::exists(film / kFilmList, ignored)) return;
+  std::vector<fs::path> goes;
+  std::ranges::copy_if(folder_entries(film), std::back_inserter(goes), is_picture);
+  goes.insert(goes.end(), {film / kFilmList, film});
+  for (const fs::path& path : goes) fs::remove(path, ignored);
+  ::rmdir(unit.c_str());  // where nothing else is in it
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directory(folder, error);
+  if (!error) return;
+  core::fail_input({.where = {folder.string(), 0}},
+                   fmt::format("cannot make this folder for files of a unit: {}", error.message()),
+                   "choose another results folder");
+}
+
+}  // namespace
+
+std::string unit_folder_name(std::string_view component) {
+  if (component.empty()) return kNoName;
+  const bool is_special = component == "." || component == "..";
+  std::string name;
+  for (const char c : component) {
+    const auto* const code = std::ranges::find(kCodes, c, &decltype(kCodes)::value_type::first);
+    if (code == kCodes.end() || (c == '.' && !is_special)) {
+      name += c;
+    } else {
+      name += code->second;
+    }
+  }
+  return name;
+}
+
+std::string component_of_folder(std::string_view name) {
+  if (name == kNoName) return "";
+  std::string component;
+  while (!name.empty()) {
+    const auto* const code =
+        std::ranges::find_if(kCodes, [&](const auto& c) { return name.starts_with(c.second); });
+    const bool is_coded = code != kCodes.end();
+    component += is_coded ? code->first : name.front();
+    name.remove_prefix(is_coded ? code->second.size() : 1);
+  }
+  return component;
+}
+
+fs::path unit_folder(const fs::path& results, std::string_view component) {
+  return results / kUnitsFolder / unit_folder_name(component);
+}
+
+bool has_unit_files(const fs::path& results) {
+  const std::vector<fs::path> units = folder_entries(results / kUnitsFolder);
+  return std::ranges::any_of(units, [](const fs::path& unit) {
+    std::error_code ignored;
+    return fs::directory_iterator(unit, ignored) != fs::directory_iterator();
+  });
+}
+
+void clean_unit_folders(const fs::path& results) {
+  const fs::path units = results / kUnitsFolder;
+  core::UntrustedFolder(units).remove_special_files();
+  for (const fs::path& unit : folder_entries(units)) remove_film(unit);
+  ::rmdir(units.c_str());
+}
+
+UnitFolders::UnitFolders(const fs::path& results, std::span<const std::string> components) {
+  const fs::path absolute = fs::absolute(results);  // a unit may change the working folder
+  folders_.push_back(absolute / kUnitsFolder);
+  make_folder(folders_.back());
+  for (const std::string& component : components) {
+    folders_.push_back(unit_folder(absolute, component));
+    make_folder(folders_.back());
+  }
+}
+
+UnitFolders::~UnitFolders() {
+  std::ranges::for_each(folders_.rbegin(), folders_.rend(),
+                        [](const fs::path& folder) { ::rmdir(folder.c_str()); });
+}
+
+}  // namespace stride::recorders

@@ -1,0 +1,54 @@
+// Where units put files of their own: a folder for each component, among the results of a run.
+#ifndef STRIDE_MASTER_RECORDERS_UNIT_FOLDERS_H
+#define STRIDE_MASTER_RECORDERS_UNIT_FOLDERS_H
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stride::recorders {
+
+/// The folder in the results folder that contains those of the components. A unit may be able to
+/// write to its own folder and to nothing else, so what is outside of that can be trusted.
+inline constexpr const char* kUnitsFolder = "units";
+
+/// Where a unit puts its film, in its own folder, and the list of the pictures there.
+inline constexpr const char* kFilmFolder = "film";
+inline constexpr const char* kFilmList = "frames.csv";
+
+/// The name of a component's folder. Different components have different ones: "%" and "/" are
+/// "%25" and "%2F", "." and ".." are "%2E" and "%2E%2E", an empty name is "%".
+std::string unit_folder_name(std::string_view component);
+/// The component that has the folder of this name.
+std::string component_of_folder(std::string_view name);
+
+/// The folder of a component.
+std::filesystem::path unit_folder(const std::filesystem::path& results, std::string_view component);
+
+/// Whether there is anything in a component's folder.
+bool has_unit_files(const std::filesystem::path& results);
+
+/// Links, FIFOs and the like in these folders, which units of an earlier run have left, are
+/// removed, and then their films. Files and folders stay: they may be the user's. Throws
+/// core::Error (Input).
+void clean_unit_folders(const std::filesystem::path& results);
+
+/// The folders of a run's components, from before the first unit is instantiated until the last one
+/// is destroyed; those that are empty then are removed.
+class UnitFolders {
+ public:
+  /// Makes them, where they do not exist. Throws core::Error (Input).
+  UnitFolders(const std::filesystem::path& results, std::span<const std::string> components);
+  ~UnitFolders();
+  UnitFolders(const UnitFolders&) = delete;
+  UnitFolders& operator=(const UnitFolders&) = delete;
+
+ private:
+  std::vector<std::filesystem::path> folders_;
+};
+
+}  // namespace stride::recorders
+
+#endif
