@@ -89,7 +89,7 @@ void run(const RunArguments& arguments, TestReport& report, CrashGuard& guard) {
   const std::filesystem::path folder = chosen_folder(arguments, loaded.scenario());
   const recorders::ResultsLock lock(folder);
   recorders::remove_results(folder, loaded.scenario().annotation.results);
-  recorders::clean_unit_folders(folder);
+  recorders::clean_unit_folders(folder, loaded.component_names());
   const core::RunOptions options = run_options(arguments, loaded);
   capture::Capture capture(loaded.system(), loaded.scenario().name, options, captures(arguments));
   const recorders::UnitFolders unit_folders(folder, loaded.component_names());

@@ -31,6 +31,9 @@ bool is_picture(const fs::path& file) {
 void remove_film(const fs::path& unit) {
   std::error_code ignored;  // what cannot be removed fails where it is to be replaced
   const fs::path film = unit / kFilmFolder;
+  for (const fs::path& folder : {unit, film}) {  // links lead to what is not a film
+    if (!fs::is_directory(fs::symlink_status(folder, ignored))) return;
+  }
   if (!fs::exists(film / kFilmList, ignored)) return;
   std::vector<fs::path> goes;
   std::ranges::copy_if(folder_entries(film), std::back_inserter(goes), is_picture);
@@ -90,9 +93,11 @@ bool has_unit_files(const fs::path& results) {
   });
 }
 
-void clean_unit_folders(const fs::path& results) {
+void clean_unit_folders(const fs::path& results, std::span<const std::string> components) {
   const fs::path units = results / kUnitsFolder;
-  core::UntrustedFolder(units).remove_special_files();
+  for (const std::string& component : components) {
+    core::UntrustedFolder(unit_folder(results, component)).remove_special_files();
+  }
   for (const fs::path& unit : folder_entries(units)) remove_film(unit);
   ::rmdir(units.c_str());
 }

@@ -30,10 +30,11 @@ std::filesystem::path unit_folder(const std::filesystem::path& results, std::str
 /// Whether there is anything in a component's folder.
 bool has_unit_files(const std::filesystem::path& results);
 
-/// Links, FIFOs and the like in these folders, which units of an earlier run have left, are
-/// removed, and then their films. Files and folders stay: they may be the user's. Throws
-/// core::Error (Input).
-void clean_unit_folders(const std::filesystem::path& results);
+/// Links, FIFOs and the like in the folders of these components, which units of an earlier run have
+/// left, are removed, and then the films of all. Other files and folders stay: they may be the
+/// user's. Throws core::Error (Input).
+void clean_unit_folders(const std::filesystem::path& results,
+                        std::span<const std::string> components);
 
 /// The folders of a run's components, from before the first unit is instantiated until the last one
 /// is destroyed; those that are empty then are removed.

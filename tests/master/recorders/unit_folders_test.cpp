@@ -78,7 +78,7 @@ TEST_CASE("Of a film of an earlier run nothing else goes") {
         "units/arm/film/00000.jpg", "units/arm/film/notes.jpg", "units/mine/film/00001.jpg"}) {
     write(folder, file);
   }
-  clean_unit_folders(folder / "");
+  clean_unit_folders(folder / "", {});
   CHECK_FALSE(fs::exists(folder / "units/world"));
   CHECK_FALSE(fs::exists(folder / "units/arm/film/frames.csv"));
   CHECK_FALSE(fs::exists(folder / "units/arm/film/00000.jpg"));
@@ -93,12 +93,18 @@ TEST_CASE("Links of an earlier run go before its films, and are not followed") {
   write(folder, "units/world/trace.vcd");
   fs::create_symlink(folder / "album", folder / "units/world/film");
   fs::create_symlink(folder / "album", folder / "units/link");
+  fs::create_directory(folder / "units/mine");
+  fs::create_symlink(folder / "album", folder / "units/mine/film");
   REQUIRE(::mkfifo((folder / "units/world/fifo").c_str(), 0600) == 0);
-  clean_unit_folders(folder / "");
+  const std::vector<std::string> components{"world"};
+  clean_unit_folders(folder / "", components);
   CHECK(fs::exists(folder / "album/00000.jpg"));
   CHECK(fs::exists(folder / "album/frames.csv"));
   CHECK(fs::exists(folder / "units/world/trace.vcd"));
-  for (const char* file : {"units/world/film", "units/link", "units/world/fifo"}) {
+  for (const char* file : {"units/world/film", "units/world/fifo"}) {
     CHECK_FALSE(fs::exists(fs::symlink_status(folder / file)));
+  }
+  for (const char* file : {"units/link", "units/mine/film"}) {  // of no unit of this run
+    CHECK(fs::exists(fs::symlink_status(folder / file)));
   }
 }
