@@ -78,21 +78,15 @@ void make_results_folder(const fs::path& folder) {
 }
 
 ResultsLock::ResultsLock(const fs::path& folder)
-    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
-    return;
-  }
-  const std::optional<pid_t> holder = lock_holder(descriptor_);
+    : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  const int open = folder_.number();
+  if (open < 0 || ::flock(open, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  const std::optional<pid_t> holder = lock_holder(open);
   if (holder && has_ended(*holder)) return;
-  ::close(descriptor_);
   core::fail_input({.where = {folder.string(), 0}},
                    fmt::format("another run writes its results into this folder{}",
                                holder ? fmt::format(" (process {})", *holder) : ""),
                    "wait for its end, or choose another results folder with --out");
-}
-
-ResultsLock::~ResultsLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 void remove_results(const fs::path& folder, const ResultFiles& files) {

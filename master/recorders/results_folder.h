@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "master/util/descriptor.h"
+
 namespace stride::recorders {
 
 /// File names inside the results folder; empty = not written.
@@ -49,12 +51,9 @@ class ResultsLock {
   /// Throws core::Error (Input), with the number of the process, if another run writes into the
   /// folder. Where the file system has no locks (flock) there is none.
   explicit ResultsLock(const std::filesystem::path& folder);
-  ~ResultsLock();
-  ResultsLock(const ResultsLock&) = delete;
-  ResultsLock& operator=(const ResultsLock&) = delete;
 
  private:
-  int descriptor_;
+  core::Descriptor folder_;
 };
 
 /// The paths of what is in the folder, sorted: none, or not all, where it cannot be read.

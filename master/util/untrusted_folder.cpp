@@ -20,43 +20,23 @@ namespace fs = std::filesystem;
 
 constexpr int kSearch = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
 
-/// Closes its file; errno stays what it is.
-class OpenFile {
- public:
-  explicit OpenFile(int number) : number_(number) {}
-  ~OpenFile() {
-    const int reason = errno;
-    if (number_ >= 0) ::close(number_);
-    errno = reason;
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-
-  int number() const { return number_; }
-  int release() { return std::exchange(number_, -1); }
-  void reset(int number) { OpenFile(std::exchange(number_, number)); }
-
- private:
-  int number_;
-};
-
 bool is_plain(const fs::path& part) { return !part.empty() && part != "." && part != ".."; }
 
 /// Part by part, since openat2() is missing before Linux 5.6 and in some containers. A FIFO does
 /// not block.
-int open_below(int folder, const fs::path& file) {
+Descriptor open_below(const Descriptor& folder, const fs::path& file) {
   constexpr int kFolder = O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
   constexpr int kFile = O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
   errno = EINVAL;
-  OpenFile within(-1);
+  Descriptor within;
   for (auto part = file.begin(), next = part; part != file.end(); part = next) {
-    const int parent = part == file.begin() ? folder : within.number();
+    const int parent = part == file.begin() ? folder.number() : within.number();
     const bool is_last = ++next == file.end();
-    if (!is_plain(*part)) return -1;
-    within.reset(::openat(parent, part->c_str(), is_last ? kFile : kFolder));
-    if (within.number() < 0) return -1;
+    if (!is_plain(*part)) return Descriptor();
+    within = Descriptor(::openat(parent, part->c_str(), is_last ? kFile : kFolder));
+    if (!within.is_open()) break;
   }
-  return within.release();
+  return within;
 }
 
 /// Removes what is neither a folder nor a regular file.
@@ -121,16 +101,12 @@ class Cleaner {
 UntrustedFolder::UntrustedFolder(fs::path path)
     : path_(std::move(path)), folder_(::open(path_.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC)) {}
 
-UntrustedFolder::~UntrustedFolder() {
-  if (folder_ >= 0) ::close(folder_);
-}
-
 FileStream UntrustedFolder::open(const fs::path& file) const {
   FileStream none(nullptr, &std::fclose);
   errno = ENOENT;
-  if (folder_ < 0) return none;
-  OpenFile opened(open_below(folder_, file));
-  if (opened.number() < 0) return none;
+  if (!folder_.is_open()) return none;
+  Descriptor opened = open_below(folder_, file);
+  if (!opened.is_open()) return none;
   struct stat status {};
   if (::fstat(opened.number(), &status) != 0) return none;
   errno = EINVAL;
@@ -165,8 +141,8 @@ std::optional<std::string> UntrustedFolder::read(const fs::path& file, std::size
 }
 
 void UntrustedFolder::remove_special_files() const {
-  if (folder_ < 0) return;
-  const int folder = ::openat(folder_, ".", kSearch);
+  if (!folder_.is_open()) return;
+  const int folder = ::openat(folder_.number(), ".", kSearch);
   if (folder >= 0) return Cleaner(path_).clean(folder);
   fail_input({.where = {path_.string(), 0}},
              fmt::format("cannot search the folder: {}", std::generic_category().message(errno)));

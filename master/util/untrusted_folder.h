@@ -10,6 +10,8 @@
 #include <optional>
 #include <string>
 
+#include "master/util/descriptor.h"
+
 namespace stride::core {
 
 using FileStream = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
@@ -21,9 +23,6 @@ class UntrustedFolder {
  public:
   /// Where there is no such folder, there are no files.
   explicit UntrustedFolder(std::filesystem::path path);
-  ~UntrustedFolder();
-  UntrustedFolder(const UntrustedFolder&) = delete;
-  UntrustedFolder& operator=(const UntrustedFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
 
@@ -41,7 +40,7 @@ class UntrustedFolder {
 
  private:
   std::filesystem::path path_;
-  int folder_ = -1;
+  Descriptor folder_;
 };
 
 }  // namespace stride::core

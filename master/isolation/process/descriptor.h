@@ -1,32 +1,18 @@
-// Open files that close themselves.
+// Pipes, and what is read from and written to open files.
 #ifndef STRIDE_MASTER_ISOLATION_PROCESS_DESCRIPTOR_H
 #define STRIDE_MASTER_ISOLATION_PROCESS_DESCRIPTOR_H
 
 #include <cstddef>
 #include <string>
-#include <utility>
+
+#include "master/util/descriptor.h"
 
 namespace stride::isolation {
 
 /// Throws std::system_error of errno: "what: No such file or directory".
 [[noreturn]] void fail(const char* what);
 
-/// A file descriptor, closed with the object.
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  ~Descriptor() { close(); }
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  /// Closes its own file first.
-  Descriptor& operator=(Descriptor&& other) noexcept;
-
-  int number() const { return number_; }
-  bool is_open() const { return number_ >= 0; }
-  void close();
-
- private:
-  int number_;
-};
+using core::Descriptor;
 
 /// Closed at an exec; reading does not wait. Throws std::system_error if there can be none.
 struct Pipe {

@@ -35,17 +35,16 @@ bool is_at(int file, const fs::path& path) {
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-/// The file, open and locked with flock; -1 if another process has the lock, or the file is gone.
+/// The file, locked with flock; not open if another process has the lock, or the file is gone.
 /// Nothing waits for a lock: whoever can read the file can take it, and keep it.
-int try_lock(const fs::path& path) {
-  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
-  if (file < 0) return -1;
+core::Descriptor try_lock(const fs::path& path) {
+  core::Descriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW));
+  if (!file.is_open()) return file;
   int result = 0;
-  while ((result = ::flock(file, LOCK_EX | LOCK_NB)) != 0 && errno == EINTR) {
+  while ((result = ::flock(file.number(), LOCK_EX | LOCK_NB)) != 0 && errno == EINTR) {
   }
-  if (result == 0 && is_at(file, path)) return file;
-  ::close(file);
-  return -1;
+  if (result != 0 || !is_at(file.number(), path)) file.close();
+  return file;
 }
 
 /// Lets the owner change what is in this folder and in those below; without that, a folder that a
@@ -83,17 +82,16 @@ void sweep(const fs::path& parent) {
   for (const fs::directory_entry& entry : fs::directory_iterator(parent, ignored)) {
     const fs::path& lock = entry.path();
     if (lock.extension() != kLockSuffix) continue;
-    const int file = try_lock(lock);
-    if (file < 0) continue;
+    const core::Descriptor file = try_lock(lock);
+    if (!file.is_open()) continue;
     fs::path folder = lock;
     remove_folder(folder.replace_extension());
     fs::remove(lock, ignored);
-    ::close(file);
   }
 }
 
 /// The lock file of a name that no folder has, made and locked; the name.
-std::pair<int, fs::path> reserve_name(const fs::path& parent) {
+std::pair<core::Descriptor, fs::path> reserve_name(const fs::path& parent) {
   constexpr int kTries = 100;  // a sweep may remove the file before it is locked
   for (int i = 0; i < kTries; ++i) {
     std::string lock = (parent / fmt::format("unpacked-XXXXXX{}", kLockSuffix)).string();
@@ -101,8 +99,8 @@ std::pair<int, fs::path> reserve_name(const fs::path& parent) {
         ::mkostemps(lock.data(), static_cast<int>(std::strlen(kLockSuffix)), O_CLOEXEC);
     if (made < 0) fail(parent, "make a file in");
     ::close(made);
-    const int file = try_lock(lock);
-    if (file >= 0) return {file, fs::path(lock).replace_extension()};
+    core::Descriptor file = try_lock(lock);
+    if (file.is_open()) return {std::move(file), fs::path(lock).replace_extension()};
   }
   fail(parent, "lock a file in");
 }
@@ -120,9 +118,7 @@ TemporaryFolder::TemporaryFolder() : owner_(::getpid()) {
   make_private(parent_folder);
   sweep(parent_folder);
   std::tie(lock_, path_) = reserve_name(parent_folder);
-  if (::mkdir(path_.c_str(), 0700) == 0) return;
-  ::close(lock_);
-  fail(path_, "make the folder");
+  if (::mkdir(path_.c_str(), 0700) != 0) fail(path_, "make the folder");
 }
 
 void TemporaryFolder::sweep_abandoned() noexcept {
@@ -137,7 +133,6 @@ void TemporaryFolder::sweep_abandoned() noexcept {
 
 TemporaryFolder::~TemporaryFolder() {
   if (owner_ == ::getpid()) remove();
-  ::close(lock_);
 }
 
 void TemporaryFolder::remove_all() noexcept {

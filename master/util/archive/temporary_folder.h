@@ -5,6 +5,7 @@
 
 #include <sys/types.h>
 
+#include "master/util/descriptor.h"
 #include "master/util/listed.h"
 
 namespace stride::archive {
@@ -38,7 +39,7 @@ class TemporaryFolder {
   void remove() const noexcept;
 
   std::filesystem::path path_;
-  int lock_ = -1;
+  core::Descriptor lock_;
   pid_t owner_;  ///< a forked child must not remove what its parent uses
   core::Listed<TemporaryFolder> listed_{*this};
 };
