@@ -51,6 +51,18 @@ class Filter {
                                      static_cast<unsigned>(arguments.size()), arguments.begin()));
   }
 
+  /// All of these calls, with any arguments.
+  void deny_all(std::initializer_list<int> calls) {
+    for (const int call : calls) deny(call);
+  }
+
+  /// The requests to a device, whatever else ioctl() gets.
+  void deny_requests(std::initializer_list<scmp_datum_t> requests) {
+    for (const scmp_datum_t request : requests) {
+      deny(SCMP_SYS(ioctl), {argument(1, SCMP_CMP_MASKED_EQ, kInt, request)});
+    }
+  }
+
   void load() {
     // it is no filter between secrets, so memory accesses need not be slowed down for it
     ::seccomp_attr_set(context_, SCMP_FLTATR_CTL_SSB, 1);
@@ -81,16 +93,12 @@ void forbid_network() {
   filter.deny(SCMP_SYS(socketcall), {argument(0, SCMP_CMP_EQ, kSocket)});
   filter.deny(SCMP_SYS(io_uring_setup));  // makes sockets, too
   // the shell that stride was started from would take it for the user's
-  filter.deny(SCMP_SYS(ioctl), {argument(1, SCMP_CMP_MASKED_EQ, kInt, TIOCSTI)});
-  filter.deny(SCMP_SYS(ioctl), {argument(1, SCMP_CMP_MASKED_EQ, kInt, TIOCLINUX)});
+  filter.deny_requests({TIOCSTI, TIOCLINUX});
   filter.load();
 }
 
 void forbid_reaching_processes() {
   Filter filter;
-  const auto deny_all = [&](std::initializer_list<int> calls) {
-    for (const int call : calls) filter.deny(call);
-  };
   const auto not_own = [](unsigned index) { return argument(index, SCMP_CMP_NE, 0); };
   for (const int call : {SCMP_SYS(prlimit64), SCMP_SYS(sched_setaffinity), SCMP_SYS(sched_setattr),
                          SCMP_SYS(sched_setparam), SCMP_SYS(sched_setscheduler),
@@ -101,30 +109,27 @@ void forbid_reaching_processes() {
   filter.deny(SCMP_SYS(setpriority), {argument(0, SCMP_CMP_MASKED_EQ, kInt, PRIO_USER)});
   filter.deny(SCMP_SYS(ioprio_set), {not_own(1)});
   filter.deny(SCMP_SYS(ioprio_set), {argument(0, SCMP_CMP_MASKED_EQ, kInt, IOPRIO_WHO_USER)});
-  for (const scmp_datum_t request : {TIOCSPGRP, TIOCSCTTY}) {
-    filter.deny(SCMP_SYS(ioctl), {argument(1, SCMP_CMP_MASKED_EQ, kInt, request)});
-  }
-  deny_all({SCMP_SYS(process_vm_readv), SCMP_SYS(process_vm_writev), SCMP_SYS(process_madvise),
-            SCMP_SYS(process_mrelease), SCMP_SYS(pidfd_getfd), SCMP_SYS(kcmp),
-            SCMP_SYS(perf_event_open), SCMP_SYS(open_by_handle_at)});
-  deny_all({SCMP_SYS(shmget), SCMP_SYS(shmat), SCMP_SYS(shmctl), SCMP_SYS(semget), SCMP_SYS(semop),
-            SCMP_SYS(semtimedop), SCMP_SYS(semtimedop_time64), SCMP_SYS(semctl), SCMP_SYS(msgget),
-            SCMP_SYS(msgsnd), SCMP_SYS(msgrcv), SCMP_SYS(msgctl), SCMP_SYS(ipc)});
-  deny_all({SCMP_SYS(mq_open), SCMP_SYS(mq_unlink)});
-  deny_all({SCMP_SYS(keyctl), SCMP_SYS(add_key), SCMP_SYS(request_key)});
+  filter.deny_requests({TIOCSPGRP, TIOCSCTTY});
+  filter.deny_all({SCMP_SYS(process_vm_readv), SCMP_SYS(process_vm_writev),
+                   SCMP_SYS(process_madvise), SCMP_SYS(process_mrelease), SCMP_SYS(pidfd_getfd),
+                   SCMP_SYS(kcmp), SCMP_SYS(perf_event_open), SCMP_SYS(open_by_handle_at)});
+  filter.deny_all({SCMP_SYS(shmget), SCMP_SYS(shmat), SCMP_SYS(shmctl), SCMP_SYS(semget),
+                   SCMP_SYS(semop), SCMP_SYS(semtimedop), SCMP_SYS(semtimedop_time64),
+                   SCMP_SYS(semctl), SCMP_SYS(msgget), SCMP_SYS(msgsnd), SCMP_SYS(msgrcv),
+                   SCMP_SYS(msgctl), SCMP_SYS(ipc)});
+  filter.deny_all({SCMP_SYS(mq_open), SCMP_SYS(mq_unlink)});
+  filter.deny_all({SCMP_SYS(keyctl), SCMP_SYS(add_key), SCMP_SYS(request_key)});
   filter.load();
 }
 
 void forbid_changing_attributes() {
   Filter filter;
-  for (const int call :
-       {SCMP_SYS(chown), SCMP_SYS(chown32), SCMP_SYS(fchown), SCMP_SYS(fchown32), SCMP_SYS(lchown),
-        SCMP_SYS(lchown32), SCMP_SYS(fchownat), SCMP_SYS(utime), SCMP_SYS(utimes),
-        SCMP_SYS(futimesat), SCMP_SYS(utimensat), SCMP_SYS(utimensat_time64), SCMP_SYS(setxattr),
-        SCMP_SYS(lsetxattr), SCMP_SYS(fsetxattr), SCMP_SYS(removexattr), SCMP_SYS(lremovexattr),
-        SCMP_SYS(fremovexattr)}) {
-    filter.deny(call);
-  }
+  filter.deny_all({SCMP_SYS(chown), SCMP_SYS(chown32), SCMP_SYS(fchown), SCMP_SYS(fchown32),
+                   SCMP_SYS(lchown), SCMP_SYS(lchown32), SCMP_SYS(fchownat), SCMP_SYS(utime),
+                   SCMP_SYS(utimes), SCMP_SYS(futimesat), SCMP_SYS(utimensat),
+                   SCMP_SYS(utimensat_time64), SCMP_SYS(setxattr), SCMP_SYS(lsetxattr),
+                   SCMP_SYS(fsetxattr), SCMP_SYS(removexattr), SCMP_SYS(lremovexattr),
+                   SCMP_SYS(fremovexattr)});
   // a program from an archive without permissions has to become executable
   constexpr scmp_datum_t kPrivate = 0700;
   for (scmp_datum_t right = 1; right <= 04000; right <<= 1) {
@@ -133,9 +138,7 @@ void forbid_changing_attributes() {
     filter.deny(SCMP_SYS(fchmod), {argument(1, SCMP_CMP_MASKED_EQ, right, right)});
     filter.deny(SCMP_SYS(fchmodat), {argument(2, SCMP_CMP_MASKED_EQ, right, right)});
   }
-  for (const scmp_datum_t request : {FS_IOC_SETFLAGS, FS_IOC_FSSETXATTR}) {
-    filter.deny(SCMP_SYS(ioctl), {argument(1, SCMP_CMP_MASKED_EQ, kInt, request)});
-  }
+  filter.deny_requests({FS_IOC_SETFLAGS, FS_IOC_FSSETXATTR});
   filter.load();
 }
 
