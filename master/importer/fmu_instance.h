@@ -154,6 +154,9 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   /// before it.
   template <class Function>
   void reset_by(const char* name, Function* function);
+  /// Frees a kept state by the unit's function, if it has one; whether it has been called.
+  template <class Function>
+  bool free_by(const char* name, Function* function, void*& state);
   /// The unit's functions that write a kept state as bytes.
   template <class Answer, class Byte>
   struct Serialization {
@@ -255,6 +258,15 @@ void FmuInstance::reset_by(const char* name, Function* function) {
   call(name, function);
   time_.reset();
   rejection_reason_.clear();
+}
+
+template <class Function>
+bool FmuInstance::free_by(const char* name, Function* function, void*& state) {
+  if (state == nullptr || is_unusable_ || function == nullptr) return false;
+  write_note(name);
+  if (static_cast<Status>(function(instance_, &state)) == Status::Fatal) mark_unusable();
+  clear_note();
+  return true;
 }
 
 template <class Answer, class Byte>

@@ -35,11 +35,7 @@ void Fmi2Unit::restore(const SavedState& saved) {
 }
 
 void Fmi2Unit::free_state(SavedState& saved) {
-  if (saved.state == nullptr || is_unusable_ || fmi_.FreeFMUstate == nullptr) return;
-  write_note("fmi2FreeFMUstate");
-  if (fmi_.FreeFMUstate(instance_, &saved.state) == fmi2Fatal) mark_unusable();
-  clear_note();
-  saved = {};
+  if (free_by("fmi2FreeFMUstate", fmi_.FreeFMUstate, saved.state)) saved = {};
 }
 
 void Fmi2Unit::select_state(std::size_t slot) {

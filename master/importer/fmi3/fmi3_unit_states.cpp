@@ -25,11 +25,7 @@ void Fmi3Unit::restore_state() {
 }
 
 void Fmi3Unit::free_state(SavedState& saved) {
-  if (saved.state == nullptr || is_unusable_ || fmi_.FreeFMUState == nullptr) return;
-  write_note("fmi3FreeFMUState");
-  if (fmi_.FreeFMUState(instance_, &saved.state) == fmi3Fatal) mark_unusable();
-  clear_note();
-  saved = {};
+  if (free_by("fmi3FreeFMUState", fmi_.FreeFMUState, saved.state)) saved = {};
 }
 
 void Fmi3Unit::select_state(std::size_t slot) { states_.choose(slot); }
