@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #include "master/importer/fmu_instance.h"
+#include "master/isolation/process/child.h"
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/error.h"
 #include "master/util/output_file.h"
@@ -46,8 +47,8 @@ Guarded guarded;
 std::string_view describe_end(int signal, std::span<char> text) {
   const auto end = signal == 0
                        ? fmt::format_to_n(text.data(), text.size(), "exit() ends stride")
-                       : fmt::format_to_n(text.data(), text.size(), "signal {} (SIG{}) ends stride",
-                                          signal, ::sigabbrev_np(signal));
+                       : fmt::format_to_n(text.data(), text.size(), "signal {} ({}) ends stride",
+                                          signal, isolation::signal_name(signal));
   return {text.data(), std::min(end.size, text.size())};
 }
 
@@ -119,7 +120,7 @@ void print_without_names(int signal) {
   const std::size_t count = importer::unfinished_calls(found);
   const pid_t fork = ::_Fork();
   if (fork == 0) {
-    for (const int other : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}) ::signal(other, SIG_DFL);
+    for (const int other : kCrashes) ::signal(other, SIG_DFL);
     sigset_t none;
     ::sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -160,12 +161,12 @@ CrashGuard::CrashGuard(Conclusion conclusion) : conclusion_(std::move(conclusion
   if (stack_ == MAP_FAILED) throw std::system_error(errno, std::generic_category(), "mmap");
   const stack_t stack{stack_, 0, kStackSize};
   ::sigaltstack(&stack, &stack_before_);
-  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+  for (std::size_t i = 0; i < kCrashes.size(); ++i) {
     struct sigaction action {};
     action.sa_handler = on_signal;
     action.sa_flags = SA_ONSTACK;
-    ::sigaction(kSignals[i], nullptr, &before_[i]);
-    if (before_[i].sa_handler == SIG_DFL) ::sigaction(kSignals[i], &action, nullptr);
+    ::sigaction(kCrashes[i], nullptr, &before_[i]);
+    if (before_[i].sa_handler == SIG_DFL) ::sigaction(kCrashes[i], &action, nullptr);
   }
   static const int registered = std::atexit(on_exit) + std::at_quick_exit(on_exit);
   (void)registered;
@@ -175,7 +176,7 @@ CrashGuard::CrashGuard(Conclusion conclusion) : conclusion_(std::move(conclusion
 
 CrashGuard::~CrashGuard() {
   guarded.conclusion = nullptr;
-  for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], &before_[i], nullptr);
+  for (std::size_t i = 0; i < kCrashes.size(); ++i) ::sigaction(kCrashes[i], &before_[i], nullptr);
   ::sigaltstack(&stack_before_, nullptr);
   ::munmap(stack_, kStackSize);
 }

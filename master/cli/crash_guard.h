@@ -11,6 +11,9 @@
 
 namespace stride::cli {
 
+/// The signals by which a process ends that has damaged itself.
+inline constexpr std::array kCrashes{SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGSYS};
+
 /// While it lives, a crash of this process (a signal such as SIGSEGV, abort(), std::terminate())
 /// and exit(), _exit() and quick_exit() are not its silent end: the lines that files still hold in
 /// memory are written, the error is printed, with the unit whose function was being called, and the
@@ -46,10 +49,8 @@ class CrashGuard {
  private:
   void set_conclusion(Conclusion conclusion);
 
-  static constexpr std::array kSignals{SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGSYS};
-
   Conclusion conclusion_;
-  std::array<struct sigaction, kSignals.size()> before_{};
+  std::array<struct sigaction, kCrashes.size()> before_{};
   void* stack_ = nullptr;
   stack_t stack_before_{};
 };

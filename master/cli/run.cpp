@@ -89,10 +89,11 @@ void run(const RunArguments& arguments, TestReport& report, CrashGuard& guard) {
   const std::filesystem::path folder = chosen_folder(arguments, loaded.scenario());
   const recorders::ResultsLock lock(folder);
   recorders::remove_results(folder, loaded.scenario().annotation.results);
-  recorders::clean_unit_folders(folder, loaded.component_names());
+  const std::vector<std::string> components = loaded.component_names();
+  recorders::clean_unit_folders(folder, components);
   const core::RunOptions options = run_options(arguments, loaded);
   capture::Capture capture(loaded.system(), loaded.scenario().name, options, captures(arguments));
-  const recorders::UnitFolders unit_folders(folder, loaded.component_names());
+  const recorders::UnitFolders unit_folders(folder, components);
   auto units = loaded.instantiate(folder);
   capture.wrap(units);
   const RunDisplay display{progress_style(arguments), arguments.quiet, arguments.open};
