@@ -21,6 +21,15 @@ Workspace beside_a_filter(const std::string& name, const std::string& source,
       Parts{component("filter", "minimal.fmu") + component(name, source), connections});
 }
 
+/// `stride run` with these arguments, as a shell reads it.
+std::string shell_command(const Arguments& further) {
+  std::string command;
+  for (const std::string& word : stride_command(Workspace::run_arguments(further))) {
+    command += "'" + word + "' ";
+  }
+  return command;
+}
+
 }  // namespace
 
 TEST_CASE("a unit that throws is named, with the time and its message") {
@@ -127,11 +136,7 @@ TEST_CASE("nothing is written into the results where standard streams are closed
   const Workspace workspace = beside_a_filter("fuse", "thrower.fmu");
   const std::string streams = GENERATE("<&-", ">&-", "2>&-", "<&- >&- 2>&-");
   INFO(streams);
-  std::string command;
-  for (const std::string& word : stride_command(
-           Workspace::run_arguments({"--progress", "plain", "--set", "fuse.throw_at=0.5"}))) {
-    command += "'" + word + "' ";
-  }
+  const std::string command = shell_command({"--progress", "plain", "--set", "fuse.throw_at=0.5"});
   const Outcome outcome =
       Process({"sh", "-c", "exec " + command + streams}, workspace.scratch().path()).wait();
   CHECK(outcome.exit_code == 1);
@@ -145,10 +150,7 @@ TEST_CASE("a summary that cannot be printed is an error, after the run is comple
   const auto [target, code] =
       GENERATE(table<std::string, int>({{"> /dev/full", 1}, {"| true", 128 + SIGPIPE}}));
   INFO(target);
-  std::string command;
-  for (const std::string& word : stride_command(Workspace::run_arguments({}))) {
-    command += "'" + word + "' ";
-  }
+  const std::string command = shell_command({});
   const Outcome outcome =
       Process({"bash", "-c", "set -o pipefail; " + command + target}, workspace.scratch().path())
           .wait();
