@@ -39,7 +39,8 @@ std::string host_table(const scenario::LoadedScenario& loaded) {
                {"call limit [s]", Table::Align::Right},
                {"memory limit [MiB]", Table::Align::Right},
                {"sandbox"},
-               {"why"}});
+               {"why"},
+               {"snapshots"}});
   for (std::size_t i = 0; i < loaded.hostings().size(); ++i) {
     const std::optional<scenario::Hosting>& hosting = loaded.hostings()[i];
     if (!hosting) continue;
@@ -47,7 +48,7 @@ std::string host_table(const scenario::LoadedScenario& loaded) {
     table.add({loaded.system().components()[i].name,
                options.call_limit ? seconds(*options.call_limit) : "none",
                options.memory_limit ? std::to_string(*options.memory_limit >> 20) : "none",
-               options.is_sandboxed ? "yes" : "no", hosting->reason});
+               options.is_sandboxed ? "yes" : "no", hosting->reason, hosting->snapshots});
   }
   return table.size() == 0 ? "" : "\nProcesses of their own\n" + table.text();
 }

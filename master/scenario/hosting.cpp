@@ -31,18 +31,31 @@ void add_rules(const HostRequest& request, std::vector<HostRule>& rules) {
   if (request.no_sandbox) rules.push_back({{"*", {"--no-sandbox", 0}}, {.sandbox = false}});
 }
 
+core::SnapshotProcess snapshot_process(const HostSettings& settings) {
+  if (!settings.snapshots.value_or(true)) return core::SnapshotProcess::None;
+  if (!settings.process) return core::SnapshotProcess::New;
+  return *settings.process ? core::SnapshotProcess::Own : core::SnapshotProcess::None;
+}
+
 std::string text(const core::Location& where) {
   return where.line == 0 ? where.file : fmt::format("{}:{}", where.file, where.line);
 }
 
-isolation::HostOptions host_options(const core::UnitDescription& unit,
-                                    const HostSettings& settings) {
-  isolation::HostOptions options;
-  options.call_limit = settings.call_limit;
-  options.memory_limit = settings.memory_limit;
-  options.is_sandboxed = settings.sandbox.value_or(true);
-  options.takes_snapshots = !unit.can_save_state && settings.snapshots.value_or(true);
-  return options;
+std::string snapshots_text(const core::UnitDescription& unit, const HostSettings& settings) {
+  if (unit.can_save_state) return "no: it saves its own state";
+  if (!settings.snapshots) return "no: it need not be rolled back";
+  return fmt::format("{0}: snapshots=\"{1}\"", *settings.snapshots ? "yes" : "no",
+                     *settings.snapshots);
+}
+
+Hosting make_hosting(std::string reason, const core::UnitDescription& unit,
+                     const HostSettings& settings) {
+  Hosting hosting{std::move(reason), snapshots_text(unit, settings), {}};
+  hosting.options.call_limit = settings.call_limit;
+  hosting.options.memory_limit = settings.memory_limit;
+  hosting.options.is_sandboxed = settings.sandbox.value_or(true);
+  hosting.options.takes_snapshots = !unit.can_save_state && settings.snapshots.value_or(false);
+  return hosting;
 }
 
 }  // namespace
@@ -58,20 +71,24 @@ std::vector<std::optional<Hosting>> choose_hostings(
     std::span<const HostSettings> settings) {
   std::vector<core::ComponentDeclaration> declared(components.begin(), components.end());
   std::vector<std::optional<Hosting>> hostings(declared.size());
-  std::vector<bool> may_have;
+  std::vector<core::SnapshotProcess> processes;
   for (std::size_t i = 0; i < declared.size(); ++i) {
-    may_have.push_back(settings[i].process.value_or(true) && settings[i].snapshots.value_or(true));
+    processes.push_back(snapshot_process(settings[i]));
     if (!settings[i].process.value_or(false)) continue;
-    hostings[i] = {text(settings[i].where), host_options(*declared[i].description, settings[i])};
+    hostings[i] = make_hosting(text(settings[i].where), *declared[i].description, settings[i]);
     declared[i].has_snapshots = hostings[i]->options.takes_snapshots;
   }
-  for (const std::size_t i : core::missing_snapshots(declared, policy, may_have)) {
+  for (const std::size_t i : core::missing_snapshots(declared, policy, processes)) {
     const char* reason = policy.controls_error
                              ? "steps that were too long are undone, and it cannot save its state"
                              : "it may return early, as others may, and cannot save its state";
-    spdlog::info("unit '{}' has a process of its own, whose snapshots roll it back: {}",
-                 declared[i].name, reason);
-    hostings[i] = {reason, host_options(*declared[i].description, settings[i])};
+    if (!hostings[i]) {
+      spdlog::info("unit '{}' has a process of its own, whose snapshots roll it back: {}",
+                   declared[i].name, reason);
+      hostings[i] = make_hosting("for its snapshots", *declared[i].description, settings[i]);
+    }
+    hostings[i]->snapshots = fmt::format("yes: {}", reason);
+    hostings[i]->options.takes_snapshots = true;
   }
   return hostings;
 }

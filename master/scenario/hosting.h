@@ -23,7 +23,8 @@ struct HostRequest {
 
 /// The host of a component.
 struct Hosting {
-  std::string reason;  ///< human-readable
+  std::string reason;     ///< human-readable
+  std::string snapshots;  ///< why it takes snapshots, or why it takes none, likewise
   isolation::HostOptions options;
 };
 
@@ -33,7 +34,8 @@ std::vector<HostSettings> host_settings(std::span<const std::string> components,
                                         const HostRequest& request);
 
 /// The hosts that the settings require and, where they leave it open, those whose snapshots a run
-/// with this policy needs; the latter are logged.
+/// with this policy needs; the latter are logged. A host takes snapshots where these are needed, or
+/// where the settings demand them.
 std::vector<std::optional<Hosting>> choose_hostings(
     std::span<const core::ComponentDeclaration> components, const core::StepPolicyType& policy,
     std::span<const HostSettings> settings);

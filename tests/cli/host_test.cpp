@@ -113,11 +113,12 @@ TEST_CASE("check shows the units with a host, their settings and the reason") {
   CHECK(outcome.err == "");
   CHECK_THAT(outcome.out,
              Contains("\nProcesses of their own\n"
-                      "  component  call limit [s]  memory limit [MiB]  sandbox  why\n") &&
+                      "  component  call limit [s]  memory limit [MiB]  sandbox  why              "
+                      "snapshots\n") &&
                  Contains("  first                none                none  yes      "
-                          "--isolate=first\n") &&
+                          "--isolate=first  no: it saves its own state\n") &&
                  Contains("  second                0.5                 512  no       " +
-                          workspace.at("<stride:Host").substr(0, 11) + "\n"));
+                          workspace.at("<stride:Host").substr(0, 11)));
   CHECK_THAT(workspace.stride({"check", "test.ssd", "--isolate", "--unit-timeout", "3"}).out,
              Contains("  second                  3 "));
   const Workspace plain(two_filters());
@@ -157,8 +158,40 @@ TEST_CASE("a unit that has to be rolled back, and has no state, has a process") 
     CHECK_NOTHROW(signals.row_at(instant));
   }
   CHECK_THAT(workspace.stride({"check", "test.ssd"}).out,
-             Contains("it may return early, as others may") &&
+             Contains("for its snapshots  yes: it may return early, as others may") &&
                  Contains("a snapshot of its process is taken before each step"));
+}
+
+namespace {
+
+/// The components of which the process has taken snapshots.
+Names saved(const Workspace& workspace, const Arguments& options) {
+  REQUIRE(hosted(workspace, options) == Names{"a", "b"});
+  Names names;
+  for (const auto& unit : run_json(workspace)["units"]) {
+    if (unit["host"].contains("snapshots")) names.push_back(unit["name"]);
+  }
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("a host takes snapshots only where a unit may have to be rolled back") {
+  const Arguments isolated{"--isolate", "--stop", "0.1"};
+  CHECK(saved(Workspace(two_that_stop()), isolated) == Names{"b"});
+  const Parts one_stops = with(two_that_stop(),
+                               "<stride:Step size=\"0.01\"/>\n"
+                               "<stride:EarlyReturn components=\"b\" allowed=\"false\"/>\n");
+  const Workspace none(one_stops);
+  CHECK(saved(none, isolated).empty());
+  CHECK_THAT(none.stride({"check", "test.ssd", "--isolate"}).out,
+             Contains("--isolate  no: it need not be rolled back"));
+  CHECK(saved(none, isolated + Arguments{"--policy", "error-controlled"}) == Names{"a", "b"});
+  const Workspace demanded(with(
+      one_stops, one_stops.annotation + "<stride:Host components=\"*\" snapshots=\"true\"/>\n"));
+  CHECK(saved(demanded, isolated) == Names{"b"});
+  CHECK_THAT(demanded.stride({"check", "test.ssd", "--isolate"}).out,
+             Contains("yes: snapshots=\"true\""));
 }
 
 TEST_CASE("error-controlled steps give hosts to units without a state") {

@@ -152,6 +152,6 @@ TEST_CASE("two sensors that may have no process are refused, with what to write"
   CHECK_THAT(
       outcome.err,
       Catch::Contains("'sensor_left' and 'sensor_right' may both return early") &&
-          Catch::Contains("<stride:Host components=\"sensor_right\" process=\"true\"/>") &&
+          Catch::Contains("<stride:Host components=\"sensor_right\" snapshots=\"true\"/>") &&
           Catch::Contains("<stride:EarlyReturn components=\"sensor_right\" allowed=\"false\"/>"));
 }

@@ -174,7 +174,7 @@ TEST_CASE("a unit without a state cannot follow one that is discarded after it")
   CHECK_THROWS_WITH(run(system, 100ms, Time(400ms)),
                     Contains("unit 'b', at 0.25 s: the unit stopped here, but 'a' is at 0.3 s "
                              "already and cannot be rolled back") &&
-                        Contains("<stride:Host components=\"b\" process=\"true\"/>"));
+                        Contains("<stride:Host components=\"b\" snapshots=\"true\"/>"));
 }
 
 TEST_CASE("derivatives of inputs raise the order with the degree of the extrapolation") {

@@ -77,7 +77,7 @@ void check_single(const System& system, const std::vector<StepOrderEntry>& order
                   "rolled back: when one stops, the other may already be too far",
                   names[0], names[1]),
       fmt::format("run one of them in a process of its own, whose snapshots roll it back, "
-                  "<stride:Host components=\"{0}\" process=\"true\"/>, or make its steps to the "
+                  "<stride:Host components=\"{0}\" snapshots=\"true\"/>, or make its steps to the "
                   "end, <stride:EarlyReturn components=\"{0}\" allowed=\"false\"/>, or replace it "
                   "by a unit that can save its state (canGetAndSetFMUState)",
                   names[1]));
@@ -184,7 +184,7 @@ std::vector<StepOrderEntry> step_order(const System& system, const StepPolicyTyp
 
 std::vector<std::size_t> missing_snapshots(std::span<const ComponentDeclaration> components,
                                            const StepPolicyType& policy,
-                                           const std::vector<bool>& may_have) {
+                                           std::span<const SnapshotProcess> processes) {
   const bool all_go_back = policy.controls_error;
   std::vector<std::size_t> lacking;
   for (std::size_t i = 0; i < components.size(); ++i) {
@@ -193,12 +193,11 @@ std::vector<std::size_t> missing_snapshots(std::span<const ComponentDeclaration>
     if (!all_go_back && !may_return) continue;
     if (!unit.can_save_state && !components[i].has_snapshots) lacking.push_back(i);
   }
-  const auto must_do_without = [&](std::size_t i) { return !may_have[i]; };
   if (!all_go_back && !lacking.empty()) {
-    const auto found = std::find_if(lacking.begin(), lacking.end(), must_do_without);
-    lacking.erase(found == lacking.end() ? lacking.begin() : found);
+    lacking.erase(
+        std::ranges::min_element(lacking, {}, [&](std::size_t i) { return processes[i]; }));
   }
-  std::erase_if(lacking, must_do_without);
+  std::erase_if(lacking, [&](std::size_t i) { return processes[i] == SnapshotProcess::None; });
   return lacking;
 }
 

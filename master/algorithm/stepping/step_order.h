@@ -52,13 +52,20 @@ struct StepOrderEntry {
 std::vector<StepOrderEntry> step_order(const System& system, const StepPolicyType& policy,
                                        Coupling coupling);
 
+/// The process whose snapshots could roll a unit back. The later, the cheaper.
+enum class SnapshotProcess {
+  None,  ///< the unit may have no snapshots
+  New,   ///< the unit is in the process of stride
+  Own,   ///< the unit has a process of its own
+};
+
 /// The units that need snapshots, in the order of the file: of the units that may return early and
 /// have neither a state nor snapshots all but one; with error-controlled steps all that have
-/// neither. `may_have`: by component, whether it may have snapshots. A unit that may not is not
-/// returned, and is preferred as the one that needs none.
+/// neither. `processes`: by component. The one that needs none is, if possible, one with None, else
+/// with New. A unit with None is not returned.
 std::vector<std::size_t> missing_snapshots(std::span<const ComponentDeclaration> components,
                                            const StepPolicyType& policy,
-                                           const std::vector<bool>& may_have);
+                                           std::span<const SnapshotProcess> processes);
 
 }  // namespace stride::core
 

@@ -356,14 +356,14 @@ void Stepper::fail_size(const UnitStep& unit_step, const StepInterval& interval)
            hint);
 }
 
-/// A unit in a process of its own can be rolled back, so it steps before the others are too far.
+/// A unit with snapshots can be rolled back, so it steps before the others are too far.
 std::string Stepper::hint_for_final(const UnitStep& stopped) const {
   const std::string others =
       "use a unit that can save its state in place of one of the two, or a smaller step";
   if (stopped.entry->role == StepRole::CanRollBack) return others;
   return fmt::format(
       "run '{0}' in a process of its own, whose snapshots roll it back, <stride:Host "
-      "components=\"{0}\" process=\"true\"/>, or {1}",
+      "components=\"{0}\" snapshots=\"true\"/>, or {1}",
       name(stopped), others);
 }
 

@@ -178,32 +178,38 @@ TEST_CASE("the reason has which unit needs a snapshot and which does not") {
 }
 
 TEST_CASE("the units that need snapshots") {
-  const auto missing = [](const std::vector<Hosted>& units, std::vector<bool> may_have,
+  using enum SnapshotProcess;
+  const auto missing = [](const std::vector<Hosted>& units,
+                          const std::array<SnapshotProcess, 3>& processes,
                           const StepPolicyType& policy = kFixedSteps) {
     std::string text;
-    for (const std::size_t i : missing_snapshots(declare(units).components, policy, may_have)) {
+    for (const std::size_t i : missing_snapshots(declare(units).components, policy, processes)) {
       text += static_cast<char>('a' + i);
     }
     return text;
   };
-  const std::vector<bool> all(3, true);
+  const std::array all{New, New, New};
   CHECK(missing({{early()}, {rollback()}, {unknown()}}, all) == "");
   CHECK(missing({{early()}, {early()}, {unknown()}}, all) == "b");
   CHECK(missing({{early()}, {early()}, {early()}}, all) == "bc");
   CHECK(missing({{early()}, {early(), kSnapshots}, {early()}}, all) == "c");
   CHECK(missing({{early()}, {rollback().may_return_early()}, {early()}}, all) == "c");
-  CHECK(missing({{early()}, {early()}, {obedient()}}, {true, false, true}) == "a");
-  CHECK(missing({{early()}, {early()}, {early()}}, {true, false, false}) == "a");
+  CHECK(missing({{early()}, {early()}, {obedient()}}, {New, None, New}) == "a");
+  CHECK(missing({{early()}, {early()}, {early()}}, {New, None, None}) == "a");
+  CHECK(missing({{early()}, {early()}, {early()}}, {Own, New, Own}) == "ac");
+  CHECK(missing({{early()}, {early()}, {unknown()}}, {Own, Own, Own}) == "b");
+  CHECK(missing({{early()}, {unknown()}, {unknown()}}, {Own, Own, Own}) == "");
   CHECK(missing({{early()}, {obedient()}, {follower()}}, all, kErrorControlledSteps) == "ab");
-  CHECK(missing({{early()}, {obedient(), kSnapshots}, {unknown()}}, {true, true, false},
+  CHECK(missing({{early()}, {obedient(), kSnapshots}, {unknown()}}, {New, New, None},
                 kErrorControlledSteps) == "a");
 }
 
 TEST_CASE("a system with the missing snapshots has a step order") {
   std::vector<Hosted> units = {{early()}, {unknown()}, {early()}, {early()}, {obedient()}};
-  const std::vector<bool> may_have = {true, true, false, true, true};
+  using enum SnapshotProcess;
+  const std::array processes{New, New, None, New, New};
   CHECK_THROWS_AS(order_of(units), Error);
-  for (const std::size_t i : missing_snapshots(declare(units).components, kFixedSteps, may_have)) {
+  for (const std::size_t i : missing_snapshots(declare(units).components, kFixedSteps, processes)) {
     units[i].has_snapshots = true;
   }
   CHECK(order_of(units) == "a*d*|c|b|e");
@@ -212,7 +218,9 @@ TEST_CASE("a system with the missing snapshots has a step order") {
 TEST_CASE("a unit that is not allowed to return early needs no snapshots") {
   SystemDeclaration declaration = declare({{early()}, {early()}});
   declaration.components[1].early_return_allowed = false;
-  CHECK(missing_snapshots(declaration.components, kFixedSteps, {true, true}).empty());
+  CHECK(missing_snapshots(declaration.components, kFixedSteps,
+                          std::array{SnapshotProcess::New, SnapshotProcess::New})
+            .empty());
 }
 
 TEST_CASE("two units that stop early and cannot go back are refused by name") {
@@ -223,7 +231,7 @@ TEST_CASE("two units that stop early and cannot go back are refused by name") {
     CHECK(error.kind() == Error::Kind::Input);
     CHECK_THAT(error.what(), Contains("'a' and 'c'"));
     CHECK_THAT(error.what(), Contains("<stride:EarlyReturn components=\"c\" allowed=\"false\"/>") &&
-                                 Contains("<stride:Host components=\"c\" process=\"true\"/>") &&
+                                 Contains("<stride:Host components=\"c\" snapshots=\"true\"/>") &&
                                  Contains("canGetAndSetFMUState"));
   }
 }
