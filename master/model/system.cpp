@@ -102,9 +102,8 @@ void System::add_components(const SystemDeclaration& declaration, Diagnostics& d
   if (declaration.components.empty()) {
     fail_input({}, "the system has no component, so there is nothing to simulate");
   }
-  std::set<std::string> names;
   for (const ComponentDeclaration& component : declaration.components) {
-    if (!names.insert(component.name).second) {
+    if (!names_.add(component.name, component.description)) {
       fail_input({component.where}, fmt::format("two components are named '{}'", component.name),
                  "give one of them another name");
     }
@@ -121,7 +120,7 @@ void System::check_connector(const SystemDeclaration& declaration,
                              const ComponentDeclaration& component,
                              const ConnectorDeclaration& connector) {
   const Context context{connector.where, component.name, connector.name, {}};
-  const auto found = component.description->find(connector.name);
+  const auto found = names_.variable(components_.size(), connector.name);
   if (!found) {
     fail_unknown_variable(context, *component.description, &declaration);
   }
@@ -158,11 +157,9 @@ void System::check_clocks(const ComponentDeclaration& component) const {
 }
 
 std::size_t System::find_component(const std::string& name, const Location& where) const {
+  if (const auto found = names_.component(name)) return *found;
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < components_.size(); ++i) {
-    if (components_[i].name == name) return i;
-    names.push_back(components_[i].name);
-  }
+  for (const Component& component : components_) names.push_back(component.name);
   fail_input({where}, fmt::format("there is no component '{}'", name), suggestion(name, names));
 }
 
@@ -171,7 +168,7 @@ VariableId System::find_variable(const std::string& component, const std::string
                                  const Location& where, const SystemDeclaration* expecting) const {
   const std::size_t index = find_component(component, where);
   const UnitDescription& description = *components_[index].description;
-  if (const auto found = description.find(variable)) return {index, *found};
+  if (const auto found = names_.variable(index, variable)) return {index, *found};
   fail_unknown_variable({where, component, variable, {}}, description, expecting);
 }
 
@@ -212,7 +209,7 @@ std::vector<System::Target> System::find_targets(const SystemDeclaration& declar
   std::set<std::size_t> found_groups;
   for (const StartDeclaration& wanted : declaration.start_values) {
     const std::size_t component = find_component(wanted.component, wanted.where);
-    const auto place = components_[component].description->find(wanted.variable);
+    const auto place = names_.variable(component, wanted.variable);
     if (!place) {
       missing.push_back(&wanted);
       continue;

@@ -11,6 +11,7 @@
 
 #include "master/model/conversion.h"
 #include "master/model/description.h"
+#include "master/model/name_index.h"
 #include "master/model/system_declaration.h"
 #include "master/model/values.h"
 #include "master/model/variable_id.h"
@@ -126,6 +127,7 @@ class System {
 
   std::string name_;
   std::vector<Component> components_;
+  NameIndex names_;
   std::vector<Connection> connections_;
   std::vector<StartValue> start_values_;
   std::vector<SystemOutput> outputs_;

@@ -87,11 +87,9 @@ void System::check_message(const ConnectionDeclaration& wanted,
   if (is_sampled(connection.to)) return;
   const auto from_clocks = clocks_of(*this, connection.from);
   for (const VariableId to_clock : clocks_of(*this, connection.to)) {
-    const bool wired = std::any_of(connections_.begin(), connections_.end(), [&](const auto& c) {
-      return c.to == to_clock &&
-             std::find(from_clocks.begin(), from_clocks.end(), c.from) != from_clocks.end();
-    });
-    if (wired) continue;
+    const auto clock = std::ranges::lower_bound(connections_, to_clock, {}, &Connection::to);
+    const bool is_connected = clock != connections_.end() && clock->to == to_clock;
+    if (is_connected && std::ranges::count(from_clocks, clock->from) > 0) continue;
     fail_input({wanted.where, wanted.to_component, wanted.to_connector, {}},
                fmt::format("its clock '{}' is not connected to the clock of '{}'",
                            full_name(to_clock), full_name(connection.from)),

@@ -112,10 +112,9 @@ bool is_message_variable(const core::UnitDescription& unit, const core::Variable
 }  // namespace
 
 VcdScope& VcdScope::scope(std::string_view name) {
-  const std::string wanted = word(name);
-  const auto found = std::find_if(scopes_.begin(), scopes_.end(),
-                                  [&](const VcdScope& scope) { return scope.name_ == wanted; });
-  return found != scopes_.end() ? *found : scopes_.emplace_back(wanted);
+  const auto [place, is_new] = places_.emplace(word(name), scopes_.size());
+  if (is_new) scopes_.emplace_back(place->first);
+  return scopes_[place->second];
 }
 
 void VcdScope::add(std::string_view structured_name, ValueType type, std::string_view code) {

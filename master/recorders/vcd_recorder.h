@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,6 +31,7 @@ class VcdScope {
  private:
   std::string name_;
   std::vector<VcdScope> scopes_;
+  std::map<std::string, std::size_t> places_;  ///< of the scopes, by name
   std::vector<std::string> variables_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -22,19 +24,18 @@ namespace fs = std::filesystem;
 constexpr int kFormat = 1;
 
 /// Components of nested systems have points in their names, so the longest one counts.
-std::string component_of(const std::string& signal,
-                         std::span<const RunFile::Component> components) {
-  std::string_view longest;
-  for (const auto& [name, model] : components) {
-    const bool is_before = signal.starts_with(name) && signal.substr(name.size()).starts_with('.');
-    if (is_before && name.size() > longest.size()) longest = name;
+std::string_view component_of(std::string_view signal,
+                              const std::set<std::string_view>& components) {
+  if (components.empty()) return signal.substr(0, signal.find('.'));
+  for (std::size_t dot = signal.rfind('.'); dot != signal.npos && dot > 0;
+       dot = signal.rfind('.', dot - 1)) {
+    if (components.contains(signal.substr(0, dot))) return signal.substr(0, dot);
   }
-  if (!components.empty()) return std::string(longest);
-  return signal.substr(0, std::min(signal.find('.'), signal.size()));
+  return "";
 }
 
-std::string title(const std::string& component, const Column& column) {
-  const std::string whose = component.empty() ? "outputs" : component;
+std::string title(std::string_view component, const Column& column) {
+  const std::string whose(component.empty() ? "outputs" : component);
   if (!core::is_real(column.type())) return fmt::format("{}: states and counts", whose);
   return column.unit().empty() ? whose : fmt::format("{} [{}]", whose, column.unit());
 }
@@ -156,12 +157,14 @@ class DataWriter {
 std::vector<recorders::Plot> default_plots(std::span<const Column> columns,
                                            std::span<const RunFile::Component> components) {
   std::vector<recorders::Plot> plots;
+  std::map<std::string, std::size_t> places;  // by title
+  std::set<std::string_view> names;
+  for (const RunFile::Component& component : components) names.insert(component.name);
   for (const Column& column : columns) {
-    const std::string wanted = title(component_of(column.name(), components), column);
-    auto plot = std::find_if(plots.begin(), plots.end(),
-                             [&](const recorders::Plot& p) { return p.title == wanted; });
-    if (plot == plots.end()) plot = plots.insert(plot, {wanted, {}});
-    plot->signals.push_back(column.name());
+    const std::string wanted = title(component_of(column.name(), names), column);
+    const auto [place, is_new] = places.emplace(wanted, plots.size());
+    if (is_new) plots.push_back({wanted, {}});
+    plots[place->second].signals.push_back(column.name());
   }
   return plots;
 }

@@ -194,7 +194,7 @@ Results read_results(const fs::path& folder, const recorders::ResultFiles& files
     results.run = read_run_file(*file);
   }
   if (const auto file = present(folder, files.signals, notes)) {
-    results.signals = read_signals(*file, results.run.signals, limits.values, notes);
+    results.signals = read_signals(*file, results.run.signals, limits.signals, notes);
   }
   if (const auto file = present(folder, files.events, notes)) {
     results.messages = read_messages(*file, limits.messages, notes);

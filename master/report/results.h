@@ -44,7 +44,7 @@ struct Film {
 inline constexpr std::size_t kLargestPicture = std::size_t{16} << 20;
 
 struct Limits {
-  std::size_t values = 20'000'000;  ///< of signals
+  SignalLimits signals{};
   std::size_t messages = 100'000;
   std::size_t pictures = 100'000;                          ///< of a film
   std::uintmax_t picture_bytes = std::uintmax_t{1} << 30;  ///< of a film

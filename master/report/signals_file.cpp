@@ -58,13 +58,15 @@ std::size_t count_rows(const std::filesystem::path& file, std::size_t limit) {
 class SignalsReader {
  public:
   SignalsReader(const std::filesystem::path& file, std::span<const SignalInfo> infos,
-                std::size_t limit)
+                const SignalLimits& limits)
       : table_(file) {
     if (table_.columns().empty()) return;
     const std::span<const std::string> headings = table_.columns();
     if (headings[0] != "time") table_.fail(0, "expected the column 'time'");
-    signals_.columns = make_columns(headings.subspan(1), infos);
-    thinner_ = Thinner(count_rows(file, limit), signals_.columns.size(), limit);
+    const std::size_t count = std::min(headings.size() - 1, limits.columns);
+    signals_.columns = make_columns(headings.subspan(1, count), infos);
+    signals_.left_out = headings.size() - 1 - count;
+    thinner_ = Thinner(count_rows(file, limits.values), count, limits.values);
     signals_.thinned = thinner_.block();
   }
 
@@ -110,10 +112,15 @@ class SignalsReader {
 }  // namespace
 
 Signals read_signals(const std::filesystem::path& file, std::span<const SignalInfo> infos,
-                     std::size_t limit, Notes& notes) {
-  SignalsReader reader(file, infos, limit);
+                     const SignalLimits& limits, Notes& notes) {
+  SignalsReader reader(file, infos, limits);
   Signals signals = reader.read();
   notes.add_cut(file, reader.cut());
+  if (signals.left_out > 0) {
+    notes.add(file, fmt::format("the first {} signals are shown, {} are left out; record fewer to "
+                                "choose which",
+                                signals.columns.size(), signals.left_out));
+  }
   if (signals.thinned) {
     notes.add(file, fmt::format("there are too many values to show them all; of each {} rows those "
                                 "with a least or a greatest value are shown",

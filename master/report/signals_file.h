@@ -19,16 +19,22 @@ namespace stride::report {
 struct Signals {
   std::vector<std::int64_t> times;
   std::vector<Column> columns;
+  std::size_t left_out = 0;            ///< columns behind these, which were not read
   std::optional<std::size_t> thinned;  ///< rows of each block of which only the extremes were kept
 };
 
+struct SignalLimits {
+  std::size_t columns = 10'000;
+  std::size_t values = 20'000'000;
+};
+
 /// Reads signals.csv. `infos`: what run.json contains about its columns; of others the type follows
-/// from their fields. More than `limit` values are thinned while they are read, so that there are
-/// never more than three times as many in memory, however long the file is; where the extremes of
-/// all columns alone, with their rows, are more than the limit, twice those. Adds to the notes what
-/// was cut off. Throws core::Error (Input).
+/// from their fields. Columns above the limit are not read. More values than the limit are thinned
+/// while they are read, so that there are never more than three times as many in memory, however
+/// long the file is; where the extremes of all columns alone, with their rows, are more than the
+/// limit, twice those. Adds to the notes what was cut off or left out. Throws core::Error (Input).
 Signals read_signals(const std::filesystem::path& file, std::span<const SignalInfo> infos,
-                     std::size_t limit, Notes& notes);
+                     const SignalLimits& limits, Notes& notes);
 
 }  // namespace stride::report
 

@@ -61,6 +61,19 @@ spdlog::level::level_enum level(importer::Status status) {
   }
 }
 
+/// Each element of an array is a column.
+void check_column_count(const core::System& system, std::span<const core::VariableId> recorded) {
+  constexpr std::size_t kMostColumns = 1'000'000;
+  std::size_t columns = 0;
+  for (const core::VariableId id : recorded) columns += system.variable(id).size;
+  if (columns <= kMostColumns) return;
+  core::fail_input({},
+                   fmt::format("the recorded signals have {} columns, an element of an array each, "
+                               "and {} at most are possible",
+                               columns, kMostColumns),
+                   "choose fewer signals, with <stride:Record signals=\"…\"/> or --signals");
+}
+
 void log_message(const std::string& unit, importer::Status status, const std::string& category,
                  const std::string& message) {
   spdlog::log(level(status), "unit '{}'{}: {}", unit,
@@ -79,16 +92,19 @@ std::pair<std::string, std::string> split_option(const std::string& option, cons
 }
 
 std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario) {
-  std::map<std::filesystem::path, std::shared_ptr<importer::Fmu>> loaded;
+  std::map<std::filesystem::path, std::shared_ptr<importer::Fmu>> by_source, by_path;
   std::vector<std::shared_ptr<importer::Fmu>> fmus;
   for (std::size_t i = 0; i < scenario.sources.size(); ++i) {
     const core::Location& where = scenario.system.components[i].where;
     const std::filesystem::path& source = scenario.sources[i];
-    const std::filesystem::path path =
-        find_unit_shown_as(source, scenario.files->shown(source), where);
-    auto& fmu = loaded[path];
-    if (!fmu) fmu = importer::Fmu::load(path, where);
-    fmus.push_back(fmu);
+    auto& named = by_source[source];
+    if (!named) {
+      const auto path = find_unit_shown_as(source, scenario.files->shown(source), where);
+      auto& fmu = by_path[path];
+      if (!fmu) fmu = importer::Fmu::load(path, where);
+      named = fmu;
+    }
+    fmus.push_back(named);
   }
   return fmus;
 }
@@ -245,15 +261,12 @@ void LoadedScenario::choose_idle_skips(const ScenarioRequest& request) {
 
 void LoadedScenario::choose_signals(const ScenarioRequest& request) {
   const ScenarioAnnotation& chosen = scenario_.annotation;
-  if (request.signals.empty()) {
-    options_.recorded = select_signals(*system_, chosen.record);
-    plots_ = select_plots(*system_, options_.recorded, chosen.plots);
-    return;
-  }
   std::vector<SignalPattern> patterns;
   for (const std::string& text : request.signals) patterns.push_back({text, {"--signals", 0}});
-  options_.recorded = select_signals(*system_, patterns);
-  plots_ = remaining_plots(*system_, options_.recorded, chosen.plots);
+  options_.recorded = select_signals(*system_, patterns.empty() ? chosen.record : patterns);
+  check_column_count(*system_, options_.recorded);
+  plots_ = patterns.empty() ? select_plots(*system_, options_.recorded, chosen.plots)
+                            : remaining_plots(*system_, options_.recorded, chosen.plots);
 }
 
 void LoadedScenario::check_fixed_steps() const {

@@ -115,17 +115,20 @@ class Flattener {
       apply(value, port->second);
       is_found = true;
     }
-    for (const ElementNode& element : node.elements) {
-      if (!name.starts_with(element.name + ".")) continue;
-      const std::string rest = name.substr(element.name.size() + 1);
-      if (element.system) {
-        is_found |= apply(value, *element.system, rest);
-      } else if (element.dictionary.empty()) {
-        add_start(value, graph_.component(element), rest);
-        is_found = true;
-      }
+    const auto& elements = graph_.elements(node);
+    for (std::size_t dot = name.find('.'); dot != name.npos; dot = name.find('.', dot + 1)) {
+      const auto element = elements.find(std::string_view(name).substr(0, dot));
+      if (element == elements.end()) continue;
+      is_found |= apply(value, *element->second, name.substr(dot + 1));
     }
     return is_found;
+  }
+
+  bool apply(const ParameterValue& value, const ElementNode& element, const std::string& name) {
+    if (element.system) return apply(value, *element.system, name);
+    if (!element.dictionary.empty()) return false;
+    add_start(value, graph_.component(element), name);
+    return true;
   }
 
   /// Values that one name is for.

@@ -45,6 +45,7 @@ void PortGraph::add_system(const SystemNode& node, const std::string& prefix,
     ports_.push_back(std::move(port));
   }
   for (const ElementNode& element : node.elements) {
+    system.elements.emplace(element.name, &element);
     const std::string path = joined(prefix, element.name);
     if (element.system) {
       add_system(*element.system, path, &node);
@@ -119,11 +120,9 @@ std::pair<std::size_t, PortGraph::Role> PortGraph::find_end(const SystemNode& no
                            : flow == Flow::Out ? Role::Sink
                                                : Role::Either};
   }
-  const auto element =
-      std::find_if(node.elements.begin(), node.elements.end(),
-                   [&](const ElementNode& other) { return other.name == end.element; });
-  if (element == node.elements.end()) fail_no_element(node, end.element, where);
-  const std::size_t port = find_port(*element, system, end.connector, where);
+  const auto element = system.elements.find(end.element);
+  if (element == system.elements.end()) fail_no_element(node, end.element, where);
+  const std::size_t port = find_port(*element->second, system, end.connector, where);
   const Flow flow = ports_[port].flow;
   return {port, flow == Flow::In ? Role::Sink : flow == Flow::Out ? Role::Source : Role::Either};
 }

@@ -59,6 +59,9 @@ class PortGraph {
     return systems_.at(&system).ports;
   }
 
+  using Elements = std::map<std::string, const ElementNode*, std::less<>>;  ///< by name
+  const Elements& elements(const SystemNode& system) const { return systems_.at(&system).elements; }
+
   using Way = std::vector<std::size_t>;  ///< connections, one behind the other
   /// Calls `found` with the way to each component's connector behind the port.
   void follow(std::size_t port, const std::function<void(const Way&)>& found) const;
@@ -72,6 +75,7 @@ class PortGraph {
     std::string prefix;
     const SystemNode* around = nullptr;
     std::map<std::string, std::size_t> ports;  ///< of its connectors
+    Elements elements{};
   };
 
   void add_system(const SystemNode& node, const std::string& prefix, const SystemNode* around);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -109,13 +110,13 @@ class SystemReader {
   void read_elements(const xml::Element& elements, SystemNode& system) {
     elements.allow_children(
         {{kSsd, "Component"}, {kSsd, "SignalDictionaryReference"}, {kSsd, "System"}});
+    std::map<std::string, int> lines;  // by name
     for (const xml::Element& element : elements.children()) {
       ElementNode node = read_element(element);
-      const auto twin = std::find_if(system.elements.begin(), system.elements.end(),
-                                     [&](const auto& other) { return other.name == node.name; });
-      if (twin != system.elements.end()) {
+      const auto [first, is_new] = lines.emplace(node.name, node.where.line);
+      if (!is_new) {
         element.fail(fmt::format("two components are named '{}'; the first is in line {}",
-                                 node.name, twin->where.line),
+                                 node.name, first->second),
                      "give one of them another name");
       }
       system.elements.push_back(std::move(node));
@@ -232,20 +233,21 @@ class SystemReader {
   /// A system in this file, used once more: source="#id".
   SystemNode read_own_system(const xml::Element& component) {
     const std::string id = component.required("source").substr(1);
-    const auto found = find_system(root_, id);
-    if (!found) {
+    if (own_systems_.empty()) collect_systems(root_);
+    const auto found = own_systems_.find(id);
+    if (found == own_systems_.end()) {
       component.fail(fmt::format("no <ssd:System> of this file has the id '{}'", id),
                      "write the id of a system behind the '#'");
     }
-    return read_system(*found);
+    return read_system(found->second);
   }
 
-  static std::optional<xml::Element> find_system(const xml::Element& below, const std::string& id) {
+  void collect_systems(const xml::Element& below) {
     for (const xml::Element& child : below.children()) {
-      if (child.is(kSsd, "System") && child.attribute("id") == id) return child;
-      if (const auto found = find_system(child, id)) return found;
+      const auto id = child.attribute("id");
+      if (id && child.is(kSsd, "System")) own_systems_.emplace(*id, child);
+      collect_systems(child);
     }
-    return std::nullopt;
   }
 
   SystemNode read_other_file(const xml::Element& component) {
@@ -288,6 +290,7 @@ class SystemReader {
   std::filesystem::path folder_;
   SspFile file_;
   Reading& reading_;
+  std::map<std::string, xml::Element> own_systems_;  ///< by id, when one of them was referred to
 };
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -26,32 +28,32 @@ void read_linear(const xml::Element& element, Transformation& transformation) {
   transformation.linear = {finite(element, "factor", 1), finite(element, "offset", 0)};
 }
 
-/// Refuses a second entry for one source.
+/// Refuses a second entry for one source. `sources`: those of the entries so far, as text.
 template <class Entries, class Source, class Target>
-void add_entry(const xml::Element& element, Entries& entries, Source source, Target target) {
-  const auto twin = std::find_if(entries.begin(), entries.end(),
-                                 [&](const auto& entry) { return entry.first == source; });
-  if (twin != entries.end()) {
+void add_entry(const xml::Element& element, std::set<std::string>& sources, Entries& entries,
+               Source source, Target target) {
+  if (!sources.insert(fmt::format("{}", source)).second) {
     element.fail(fmt::format("the source \"{}\" is mapped twice", element.given("source")),
                  "keep one of the two entries");
   }
   entries.emplace_back(std::move(source), std::move(target));
 }
 
-void read_entry(const xml::Element& element, Transformation& transformation) {
+void read_entry(const xml::Element& element, std::set<std::string>& sources,
+                Transformation& transformation) {
   element.allow_attributes({"source", "target"});
   switch (transformation.kind) {
     case TransformationKind::BooleanMapping:
       element.given("source");
       element.given("target");
-      return add_entry(element, transformation.numbers, std::int64_t{element.flag("source")},
-                       std::int64_t{element.flag("target")});
+      return add_entry(element, sources, transformation.numbers,
+                       std::int64_t{element.flag("source")}, std::int64_t{element.flag("target")});
     case TransformationKind::IntegerMapping:
-      return add_entry(element, transformation.numbers,
+      return add_entry(element, sources, transformation.numbers,
                        element.required_number<std::int64_t>("source"),
                        element.required_number<std::int64_t>("target"));
     default:
-      return add_entry(element, transformation.names, element.given("source"),
+      return add_entry(element, sources, transformation.names, element.given("source"),
                        element.given("target"));
   }
 }
@@ -59,7 +61,8 @@ void read_entry(const xml::Element& element, Transformation& transformation) {
 void read_mapping(const xml::Element& element, Transformation& transformation) {
   element.allow_attributes({});
   element.allow_children({{kSsc, "MapEntry"}});
-  for (const xml::Element& entry : element.children()) read_entry(entry, transformation);
+  std::set<std::string> sources;
+  for (const xml::Element& entry : element.children()) read_entry(entry, sources, transformation);
   std::sort(transformation.numbers.begin(), transformation.numbers.end());
   if (transformation.numbers.empty() && transformation.names.empty()) {
     element.fail(fmt::format("{} holds no <MapEntry>", element.tag()),

@@ -49,8 +49,10 @@ void Diagnostics::raise() const {
   const std::vector<Error> sorted = by_unit(kept_);
   const std::string& unit = sorted.front().context().unit;
   const bool is_of_one_unit = sorted.back().context().unit == unit && !unit.empty();
-  std::string text = is_of_one_unit ? fmt::format("{} things do not fit:", sorted.size())
-                                    : fmt::format("there are {} mistakes:", sorted.size());
+  const char* at_least = sorted.size() < kMostKept ? "" : "at least ";
+  std::string text = is_of_one_unit
+                         ? fmt::format("{}{} things do not fit:", at_least, sorted.size())
+                         : fmt::format("there are {}{} mistakes:", at_least, sorted.size());
   std::map<std::string, int> hint_uses;
   for (const Error& mistake : sorted) ++hint_uses[mistake.hint()];
   for (std::size_t i = 0; i < std::min(sorted.size(), kMostLines); ++i) {

@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_UTIL_DIAGNOSTICS_H
 #define STRIDE_MASTER_UTIL_DIAGNOSTICS_H
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,8 +14,11 @@ namespace stride::core {
 /// Collects what is wrong with the input while the rest of it is checked.
 class Diagnostics {
  public:
+  /// So that the work for a file of mistakes only is bounded.
+  static constexpr std::size_t kMostKept = 1000;
+
   /// Calls `check`, and keeps the Error of the kind Input that it throws. Returns whether it threw
-  /// none.
+  /// none. Throws as raise() does when there are kMostKept.
   template <class Check>
   bool attempt(Check&& check) {
     try {
@@ -23,8 +27,9 @@ class Diagnostics {
     } catch (const Error& mistake) {
       if (mistake.kind() != Error::Kind::Input) throw;
       kept_.push_back(mistake);
-      return false;
     }
+    if (kept_.size() == kMostKept) raise();
+    return false;
   }
 
   bool any() const { return !kept_.empty(); }

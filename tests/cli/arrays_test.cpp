@@ -1,4 +1,5 @@
 // Arrays whose sizes structural parameters give.
+#include "master/importer/unpacked_fmu.h"
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;
@@ -64,4 +65,18 @@ TEST_CASE("values are as many as the size that was set, which is within its boun
              Contains("17 is out of range, expected at most 16"));
   CHECK_THAT(input_error_of(workspace.run(with({"first.n=-1"}))),
              Contains("expected a UInt64 number"));
+}
+
+TEST_CASE("more columns than a table can have are refused before the run") {
+  const Workspace workspace(Parts{component("large", "unit")});
+  const stride::importer::UnpackedFmu unpacked(test_fmu("resizable"));
+  fs::copy(unpacked.folder(), workspace / "unit", fs::copy_options::recursive);
+  std::string text = read(unpacked.folder() / "modelDescription.xml");
+  const std::string bound = "max=\"16\"";
+  workspace.scratch().write("unit/modelDescription.xml",
+                            text.replace(text.find(bound), bound.size(), "max=\"2000000\""));
+  CHECK_THAT(
+      input_error_of(workspace.run(with({"large.n=1000001"}))),
+      Contains("have 1000001 columns") && Contains("1000000 at most") && Contains("--signals"));
+  CHECK_FALSE(fs::exists(workspace / "out"));
 }

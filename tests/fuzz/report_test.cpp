@@ -62,7 +62,7 @@ TEST_CASE("mutated results are read, or refused with the file that is wrong") {
     for (int i = 0; i < 400; ++i) {
       folder.write(file.name, mutator.mutate(file.text));
       try {
-        check(report::read_results(folder / "", {}, {.values = 20, .messages = 3}));
+        check(report::read_results(folder / "", {}, {.signals = {.values = 20}, .messages = 3}));
         ++accepted;
       } catch (const core::Error& error) {
         ++refused;

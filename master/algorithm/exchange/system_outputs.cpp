@@ -30,8 +30,7 @@ void SystemOutputs::update() {
 
 Signal SystemOutputs::signal(VariableId id, Exchange& exchange) const {
   if (!system_.is_output(id)) return exchange.signal(id);
-  const auto found =
-      std::ranges::find_if(outputs_, [&](const Output& output) { return output.id == id; });
+  const auto found = std::ranges::lower_bound(outputs_, id, {}, &Output::id);
   return {id, &found->block, 0};
 }
 

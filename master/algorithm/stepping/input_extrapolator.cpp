@@ -12,14 +12,15 @@ InputExtrapolator::InputExtrapolator(RunContext& context)
       steps_(context.units.size()),
       feeds_(context.units.size()) {
   SignalIndices indices;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> places;  // of feeds, by their ends
   for (const ContinuousLink& link : exchange_.continuous_links()) {
     std::vector<Feed>& feeds = feeds_[link.to.component];
-    auto feed = std::find_if(feeds.begin(), feeds.end(),
-                             [&](const Feed& f) { return f.source == link.from.component; });
-    if (feed == feeds.end()) feed = feeds.insert(feed, {link.from.component, {}});
-    feed->inputs.push_back({signal_of(link, indices),
-                            context.system.variable(link.to).intermediate_update, link.target,
-                            link.conversion});
+    const std::pair ends(link.from.component, link.to.component);
+    const auto [place, is_new] = places.emplace(ends, feeds.size());
+    if (is_new) feeds.push_back({link.from.component, {}});
+    feeds[place->second].inputs.push_back({signal_of(link, indices),
+                                           context.system.variable(link.to).intermediate_update,
+                                           link.target, link.conversion});
   }
   for (Source& source : sources_) {
     source.history =

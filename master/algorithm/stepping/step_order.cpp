@@ -155,15 +155,13 @@ std::vector<StepOrderEntry> step_order(const System& system, const StepPolicyTyp
                                        Coupling coupling) {
   const auto& components = system.components();
   const std::optional<std::size_t> final = first_final(components);
+  const std::ptrdiff_t stopping = std::ranges::count_if(components, may_stop);
   std::vector<StepOrderEntry> order;
   for (std::size_t i = 0; i < components.size(); ++i) {
     const UnitDescription& unit = *components[i].description;
     const StepRole role = role_of(components[i], i == final, policy);
-    bool another_may_stop = policy.controls_error;
-    for (std::size_t k = 0; k < components.size(); ++k) {
-      another_may_stop |= k != i && may_stop(components[k]);
-    }
-    const bool saves_state = role == StepRole::CanRollBack && another_may_stop;
+    const std::ptrdiff_t others = stopping - (may_stop(components[i]) ? 1 : 0);
+    const bool saves_state = role == StepRole::CanRollBack && (policy.controls_error || others > 0);
     order.push_back(
         {i, role, unit.can_vary_step, saves_state, reason(components[i], role, saves_state), 0});
   }

@@ -30,7 +30,8 @@ Read read(const std::string& text, std::size_t limit = kNoLimit,
           std::span<const SignalInfo> infos = kInfos) {
   const TemporaryFolder folder;
   Notes notes(folder / "");
-  Signals signals = read_signals(folder.write("signals.csv", text), infos, limit, notes);
+  Signals signals =
+      read_signals(folder.write("signals.csv", text), infos, {.values = limit}, notes);
   return {std::move(signals), notes.texts()};
 }
 
@@ -151,4 +152,17 @@ TEST_CASE("of texts only those are kept whose rows are") {
     CHECK(texts.distinct()[static_cast<std::size_t>(texts.indices()[row])] ==
           fmt::format("name {}", found.signals.times[row] / 1'000'000'000'000));
   }
+}
+
+TEST_CASE("columns above the limit are left out, and a note says how many") {
+  const TemporaryFolder folder;
+  Notes notes(folder / "");
+  const Signals signals =
+      read_signals(folder.write("signals.csv", kHeader + "0,1.5,true,\"a\"\n1,2,false,\"b\"\n"),
+                   kInfos, {.columns = 1}, notes);
+  REQUIRE(signals.columns.size() == 1);
+  CHECK(doubles(signals.columns[0]) == std::vector<double>{1.5, 2});
+  CHECK(signals.left_out == 2);
+  REQUIRE(notes.texts().size() == 1);
+  CHECK_THAT(notes.texts()[0], Contains("the first 1 signals are shown, 2 are left out"));
 }

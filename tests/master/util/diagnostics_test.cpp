@@ -81,3 +81,14 @@ TEST_CASE("only what the user gave is kept") {
   CHECK_THROWS_AS(diagnostics.attempt([] { throw std::logic_error("a bug"); }), std::logic_error);
   CHECK_FALSE(diagnostics.any());
 }
+
+TEST_CASE("the work for mistakes only is bounded") {
+  Diagnostics diagnostics;
+  for (std::size_t i = 1; i < Diagnostics::kMostKept; ++i) {
+    keep(diagnostics, {{"a.ssd", 7}, {}, {}, {}}, "wrong");
+  }
+  CHECK_THROWS_WITH(diagnostics.attempt([] {
+    fail_input({{"a.ssd", 7}, {}, {}, {}}, "wrong");
+  }),
+                    Contains("at least 1000 mistakes"));
+}

@@ -1,0 +1,41 @@
+#include "master/model/name_index.h"
+
+#include <utility>
+
+namespace stride::core {
+namespace {
+
+/// Of several variables of one name, the first is kept.
+std::map<std::string_view, std::size_t> names_of(const UnitDescription& description) {
+  std::map<std::string_view, std::size_t> names;
+  for (std::size_t i = 0; i < description.variables.size(); ++i) {
+    names.emplace(description.variables[i].name, i);
+    for (const std::string& alias : description.variables[i].aliases) names.emplace(alias, i);
+  }
+  return names;
+}
+
+}  // namespace
+
+bool NameIndex::add(const std::string& component,
+                    std::shared_ptr<const UnitDescription> description) {
+  const auto [entry, is_new] = descriptions_.try_emplace(std::move(description));
+  if (is_new) entry->second = std::make_shared<const Variables>(names_of(*entry->first));
+  const std::size_t number = variables_.size();
+  variables_.push_back(entry->second);
+  return components_.emplace(component, number).second;
+}
+
+std::optional<std::size_t> NameIndex::component(const std::string& name) const {
+  const auto found = components_.find(name);
+  if (found == components_.end()) return std::nullopt;
+  return found->second;
+}
+
+std::optional<std::size_t> NameIndex::variable(std::size_t component, std::string_view name) const {
+  const auto found = variables_[component]->find(name);
+  if (found == variables_[component]->end()) return std::nullopt;
+  return found->second;
+}
+
+}  // namespace stride::core
