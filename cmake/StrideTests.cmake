@@ -79,9 +79,15 @@ target_compile_definitions(stride_test_build PRIVATE
   STRIDE_BUILD_FOLDER="${CMAKE_BINARY_DIR}" STRIDE_IS_SANITIZED=${stride_is_sanitized})
 stride_unsanitized_code(stride_test_build)
 
-add_library(stride_catch_main STATIC ${CMAKE_CURRENT_SOURCE_DIR}/catch_main.cpp)
-target_link_libraries(stride_catch_main PUBLIC Catch2::Catch2 stride_test_build)
-stride_unsanitized_code(stride_catch_main)
+# Debian has Catch2's own code compiled; where it is a header alone, compiling it takes as long as a folder of tests
+if(TARGET Catch2::Catch2WithMain)
+  add_library(stride_catch_main INTERFACE)
+  target_link_libraries(stride_catch_main INTERFACE Catch2::Catch2WithMain stride_test_build)
+else()
+  add_library(stride_catch_main STATIC ${CMAKE_CURRENT_SOURCE_DIR}/catch_main.cpp)
+  target_link_libraries(stride_catch_main PUBLIC Catch2::Catch2 stride_test_build)
+  stride_unsanitized_code(stride_catch_main)
+endif()
 
 include(StrideTestHeaders)
 
