@@ -9,7 +9,9 @@
 # stride_add_test(NAME SOURCES file... ...)
 #
 # The same for a test that needs a program of its own: one entry of ctest, which has the program's name.
+include(CheckLinkerFlag)
 find_package(Catch2 2.13 REQUIRED)
+check_linker_flag(CXX -fuse-ld=mold STRIDE_HAS_MOLD)  # links a test in a third of the time
 
 set(stride_is_sanitized false)
 if(STRIDE_SANITIZE)
@@ -62,6 +64,9 @@ endfunction()
 # stride_link_test(PROGRAM): of an inline function that a test and a library both have, the linker takes the copy that it
 # sees first. That is to be the library's, with sanitizers.
 function(stride_link_test program)
+  if(STRIDE_HAS_MOLD)
+    target_link_options(${program} PRIVATE -fuse-ld=mold)
+  endif()
   if(NOT STRIDE_SANITIZE MATCHES address)
     return()
   endif()
@@ -79,9 +84,15 @@ target_compile_definitions(stride_test_build PRIVATE
   STRIDE_BUILD_FOLDER="${CMAKE_BINARY_DIR}" STRIDE_IS_SANITIZED=${stride_is_sanitized})
 stride_unsanitized_code(stride_test_build)
 
-add_library(stride_catch_main STATIC ${CMAKE_CURRENT_SOURCE_DIR}/catch_main.cpp)
-target_link_libraries(stride_catch_main PUBLIC Catch2::Catch2 stride_test_build)
-stride_unsanitized_code(stride_catch_main)
+# Debian has Catch2's own code compiled; where it is a header alone, compiling it takes as long as a folder of tests
+if(TARGET Catch2::Catch2WithMain)
+  add_library(stride_catch_main INTERFACE)
+  target_link_libraries(stride_catch_main INTERFACE Catch2::Catch2WithMain stride_test_build)
+else()
+  add_library(stride_catch_main STATIC ${CMAKE_CURRENT_SOURCE_DIR}/catch_main.cpp)
+  target_link_libraries(stride_catch_main PUBLIC Catch2::Catch2 stride_test_build)
+  stride_unsanitized_code(stride_catch_main)
+endif()
 
 include(StrideTestHeaders)
 
