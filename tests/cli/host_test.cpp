@@ -168,7 +168,8 @@ namespace {
 Names saved(const Workspace& workspace, const Arguments& options) {
   REQUIRE(hosted(workspace, options) == Names{"a", "b"});
   Names names;
-  for (const auto& unit : run_json(workspace)["units"]) {
+  const nlohmann::json run = run_json(workspace);
+  for (const auto& unit : run["units"]) {
     if (unit["host"].contains("snapshots")) names.push_back(unit["name"]);
   }
   return names;
