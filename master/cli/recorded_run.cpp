@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "master/cli/output.h"
 #include "master/cli/report_page.h"
 #include "master/cli/table.h"
 #include "master/recorders/results_folder.h"
@@ -209,13 +210,13 @@ void RecordedRun::require_end() const {
 
 void RecordedRun::print_summary() const {
   const auto& [folder, files] = setup_.results;
-  fmt::print("\n{}{}\nResults in {}:", summary_.text(simulation_.statistics()),
+  print_text("\n{}{}\nResults in {}:", summary_.text(simulation_.statistics()),
              verdict_table(verdicts_), folder.string());
   for (const auto& [what, member] : recorders::kResultFiles) {
-    if (!(files.*member).empty()) fmt::print(" {}", files.*member);
+    if (!(files.*member).empty()) print_text(" {}", files.*member);
   }
-  if (recorders::has_unit_files(folder)) fmt::print(" {}/", recorders::kUnitsFolder);
-  fmt::print("\n");
+  if (recorders::has_unit_files(folder)) print_text(" {}/", recorders::kUnitsFolder);
+  print_text("\n");
 }
 
 }  // namespace stride::cli
