@@ -112,13 +112,13 @@ RecordedRun::RecordedRun(RunSetup setup, std::vector<std::unique_ptr<core::Unit>
 void RecordedRun::run() {
   try {
     simulation_.run();
+    setup_.capture.end(name(simulation_.statistics().end));
   } catch (const std::exception& failure) {
     conclude_failure(failure.what());
     throw;
   }
   const core::RunEnd end = simulation_.statistics().end;
   progress_.end(name(end));
-  setup_.capture.end(name(end));
   collect_verdicts(end == core::RunEnd::EndedByUnit ||
                    (end == core::RunEnd::Completed && !is_cut_short()));
   write_statistics(std::nullopt);
@@ -179,8 +179,20 @@ void RecordedRun::warn_of_verdicts() const {
   if (!failures.empty()) spdlog::warn("checks have failed before the end of the run:{}", failures);
 }
 
-void RecordedRun::write_statistics(const std::optional<std::string>& error) {
+/// Where one of the two files cannot be written, the other one contains that.
+void RecordedRun::write_statistics(std::optional<std::string> error) {
+  std::exception_ptr failure;
+  try {
+    write_run_file(error);
+  } catch (const std::exception& mistake) {
+    failure = std::current_exception();
+    if (!error) error = mistake.what();
+  }
   setup_.test_report.write(setup_.options, simulation_.statistics(), verdicts_, error);
+  if (failure) std::rethrow_exception(failure);
+}
+
+void RecordedRun::write_run_file(const std::optional<std::string>& error) const {
   if (setup_.results.files.statistics.empty()) return;
   recorders::write_run_json(setup_.results.folder / setup_.results.files.statistics,
                             {.scenario = setup_.loaded.scenario().path,
