@@ -86,11 +86,16 @@ class ZipWriter {
 
   void check(int status) const {
     if (status >= ARCHIVE_WARN) return;
-    const char* reason = archive_error_string(writer_.get());
-    core::fail_run({},
-                   fmt::format("cannot write '{}': {}", target_.string(),
-                               reason != nullptr ? reason : "no reason is known"),
+    core::fail_run({}, fmt::format("cannot write '{}': {}", target_.string(), reason()),
                    "choose a file in a folder in which you may write, on a disk that has room");
+  }
+
+  /// That of the system, if there is one: libarchive's own names the temporary file.
+  std::string reason() const {
+    const int error = archive_errno(writer_.get());
+    if (error > 0) return std::generic_category().message(error);
+    const char* const known = archive_error_string(writer_.get());
+    return known != nullptr ? known : "no reason is known";
   }
 
   fs::path target_;
