@@ -11,6 +11,7 @@
 #include "master/algorithm/loops/evaluation_order.h"
 #include "master/algorithm/stepping/step_order.h"
 #include "master/cli/commands.h"
+#include "master/cli/output.h"
 #include "master/cli/scenario_options.h"
 #include "master/cli/table.h"
 #include "master/scenario/loaded_scenario.h"
@@ -190,16 +191,16 @@ void check(const scenario::ScenarioRequest& request) {
   loaded.instantiate();
   const core::System& system = loaded.system();
   const core::RunOptions& options = loaded.options();
-  fmt::print("{}: {} components, {} connections, {} recorded signals\n", system.name(),
+  print_text("{}: {} components, {} connections, {} recorded signals\n", system.name(),
              system.components().size(), system.connections().size(), options.recorded.size());
-  fmt::print("from {} s to {} s, {}\n", core::to_text(options.start), core::to_text(options.stop),
+  print_text("from {} s to {} s, {}\n", core::to_text(options.start), core::to_text(options.stop),
              steps(options));
-  fmt::print("\nUnits\n{}{}\nConnections\n{}", unit_table(loaded), host_table(loaded),
+  print_text("\nUnits\n{}{}\nConnections\n{}", unit_table(loaded), host_table(loaded),
              connection_table(system));
-  fmt::print("{}", check_table(loaded.checks()));
-  fmt::print("\nStep order\n{}", order_table(loaded));
-  fmt::print("\nOrder of the initial values\n{}", initial_order_text(system));
-  fmt::print("\nAlgebraic loops\n{}", loops_text(system));
+  print_text("{}", check_table(loaded.checks()));
+  print_text("\nStep order\n{}", order_table(loaded));
+  print_text("\nOrder of the initial values\n{}", initial_order_text(system));
+  print_text("\nAlgebraic loops\n{}", loops_text(system));
 }
 
 }  // namespace

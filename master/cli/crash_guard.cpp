@@ -23,6 +23,7 @@
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/error.h"
 #include "master/util/output_file.h"
+#include "master/util/readable_text.h"
 
 namespace stride::cli {
 namespace {
@@ -81,7 +82,7 @@ void print(std::string_view text) { (void)!::write(STDERR_FILENO, text.data(), t
   try {
     std::array<char, 80> text{};
     const core::Error error = error_of(describe_end(signal, text), calls);
-    print(fmt::format("stride: error: {}\n", error.what()));
+    print(core::terminal_text(fmt::format("stride: error: {}\n", error.what())));
     (*guarded.conclusion.load())(error.what());
   } catch (...) {  // the rest is lost
   }

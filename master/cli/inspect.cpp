@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "master/cli/commands.h"
+#include "master/cli/output.h"
 #include "master/cli/table.h"
 #include "master/importer/fmu.h"
 #include "master/scenario/unit_path.h"
@@ -78,18 +79,18 @@ std::string meaning(const core::Variable& variable) {
 void inspect(const std::filesystem::path& file) {
   const auto fmu = importer::Fmu::load(scenario::find_unit(file, {}));
   const core::UnitDescription& unit = *fmu->description();
-  fmt::print("{}: FMI {} Co-Simulation{}\n", unit.model_name, unit.fmi_version,
+  print_text("{}: FMI {} Co-Simulation{}\n", unit.model_name, unit.fmi_version,
              unit.generation_tool.empty() ? "" : ", made with " + unit.generation_tool);
-  if (!unit.description.empty()) fmt::print("{}\n", unit.description);
-  if (const std::string can = capabilities(unit); !can.empty()) fmt::print("{}\n", can);
-  fmt::print("{}", verdict(unit));
+  if (!unit.description.empty()) print_text("{}\n", unit.description);
+  if (const std::string can = capabilities(unit); !can.empty()) print_text("{}\n", can);
+  print_text("{}", verdict(unit));
   Table table({{"variable"}, {"causality"}, {"type"}, {"unit"}, {"start"}, {"range"}, {"meaning"}});
   for (const core::Variable& variable : unit.variables) {
     table.add({variable.name, core::name(variable.causality),
                type(variable) + clock_names(unit, variable), variable.unit, variable.start,
                range(variable), meaning(variable)});
   }
-  fmt::print("\n{}", table.text());
+  print_text("\n{}", table.text());
 }
 
 }  // namespace

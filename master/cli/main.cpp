@@ -2,7 +2,9 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
+#include <new>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -10,25 +12,19 @@
 #include <CLI/CLI.hpp>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include "master/cli/commands.h"
+#include "master/cli/output.h"
 #include "master/util/error.h"
+#include "master/util/readable_text.h"
 #include "master/util/suggest.h"
 
 namespace {
 
 constexpr int kRunFailed = 1;
 constexpr int kWrongInput = 2;
-
-void set_up_log() {
-  auto log = spdlog::stderr_color_mt("stride");
-  log->set_pattern("%^%l%$: %v");
-  log->set_level(spdlog::level::warn);
-  spdlog::set_default_logger(log);
-}
 
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
@@ -51,7 +47,7 @@ std::string full_name(const CLI::App* app) {
 }
 
 /// The mistake in the command line; with the whole help only if there is no command at all.
-std::string explain(const CLI::App* app, const CLI::Error& mistake) {
+std::string explanation(const CLI::App* app, const CLI::Error& mistake) {
   const CLI::App* command = innermost(app);
   const std::vector<std::string> names = command_names(*command);
   const std::vector<std::string> rest = command->remaining();
@@ -63,6 +59,10 @@ std::string explain(const CLI::App* app, const CLI::Error& mistake) {
   if (command == app) return fmt::format("stride: error: {}\n\n{}", mistake.what(), app->help());
   return fmt::format("stride: error: {}\n  hint: '{} --help' lists its options\n", mistake.what(),
                      full_name(command));
+}
+
+std::string explain(const CLI::App* app, const CLI::Error& mistake) {
+  return stride::core::terminal_text(explanation(app, mistake));
 }
 
 int parse(CLI::App& app, int argc, char** argv) {
@@ -90,18 +90,29 @@ void flush_standard_output() {
                                          std::generic_category().message(errno)));
 }
 
+/// Of an exception of the standard library, whose own text is for programmers.
+std::string in_words(const std::exception& error) {
+  if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error)) {
+    const std::string path = file->path1().string();
+    return fmt::format("{}: {}", path.empty() ? "the working folder" : path,
+                       file->code().message());
+  }
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return "there is not enough memory";
+  return error.what();
+}
+
 int execute(CLI::App& app, int argc, char** argv) {
   try {
     const int code = parse(app, argc, argv);
     flush_standard_output();
     return code;
   } catch (const stride::core::Error& error) {
-    fmt::print(stderr, "stride: error: {}\n", error.what());
+    stride::cli::print_error(error.what());
     return error.kind() == stride::core::Error::Kind::Input ? kWrongInput : kRunFailed;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "stride: error: {}\n", error.what());
+    stride::cli::print_error(in_words(error));
   } catch (...) {
-    fmt::print(stderr, "stride: error: something that is not a std::exception was thrown\n");
+    stride::cli::print_error("something that is not a std::exception was thrown");
   }
   return kRunFailed;
 }
@@ -110,7 +121,7 @@ int execute(CLI::App& app, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   open_missing_standard_files();
-  set_up_log();
+  stride::cli::set_up_log();
   std::signal(SIGXFSZ, SIG_IGN);  // then writing fails with an error; the signal would kill
   CLI::App app(
       "stride couples simulators: it loads FMI 3.0 and FMI 2.0 units as plug-ins and\n"

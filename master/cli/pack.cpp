@@ -16,6 +16,7 @@
 #include "master/ssp/package.h"
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/archive/zip.h"
+#include "master/util/input_file.h"
 
 namespace stride::cli {
 namespace {
@@ -28,7 +29,7 @@ class FmuArchives {
   fs::path operator()(const fs::path& source, const core::Location& where) {
     const fs::path unit = scenario::find_unit(source, where);
     const bool is_library = unit.extension() == ".so";
-    if (!is_library && !fs::is_directory(unit)) return unit;
+    if (!is_library && !core::is_folder(unit)) return unit;
     const fs::path made = folder_.path() / fmt::format("{}.fmu", ++count_);
     if (is_library) {
       importer::pack({unit, {}, {}, made});
@@ -46,7 +47,7 @@ class FmuArchives {
 };
 
 bool is_scenario(const fs::path& path) {
-  return fs::is_directory(path) || path.extension() == ".ssd" || path.extension() == ".ssp";
+  return core::is_folder(path) || path.extension() == ".ssd" || path.extension() == ".ssp";
 }
 
 void pack_scenario(const importer::PackRequest& request) {

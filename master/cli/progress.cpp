@@ -139,7 +139,7 @@ void Progress::show_json(const State& state, const std::string* outcome) const {
                                    {"skipped", state.skipped},  {"left", nullptr}};
   if (state.left) object["left"] = *state.left;
   if (outcome != nullptr) object["outcome"] = *outcome;
-  put(object.dump() + "\n");
+  put(object.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace stride::cli

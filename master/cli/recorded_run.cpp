@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "master/cli/output.h"
 #include "master/cli/report_page.h"
 #include "master/cli/table.h"
 #include "master/recorders/results_folder.h"
@@ -111,13 +112,13 @@ RecordedRun::RecordedRun(RunSetup setup, std::vector<std::unique_ptr<core::Unit>
 void RecordedRun::run() {
   try {
     simulation_.run();
+    setup_.capture.end(name(simulation_.statistics().end));
   } catch (const std::exception& failure) {
     conclude_failure(failure.what());
     throw;
   }
   const core::RunEnd end = simulation_.statistics().end;
   progress_.end(name(end));
-  setup_.capture.end(name(end));
   collect_verdicts(end == core::RunEnd::EndedByUnit ||
                    (end == core::RunEnd::Completed && !is_cut_short()));
   write_statistics(std::nullopt);
@@ -178,8 +179,20 @@ void RecordedRun::warn_of_verdicts() const {
   if (!failures.empty()) spdlog::warn("checks have failed before the end of the run:{}", failures);
 }
 
-void RecordedRun::write_statistics(const std::optional<std::string>& error) {
+/// Where one of the two files cannot be written, the other one contains that.
+void RecordedRun::write_statistics(std::optional<std::string> error) {
+  std::exception_ptr failure;
+  try {
+    write_run_file(error);
+  } catch (const std::exception& mistake) {
+    failure = std::current_exception();
+    if (!error) error = mistake.what();
+  }
   setup_.test_report.write(setup_.options, simulation_.statistics(), verdicts_, error);
+  if (failure) std::rethrow_exception(failure);
+}
+
+void RecordedRun::write_run_file(const std::optional<std::string>& error) const {
   if (setup_.results.files.statistics.empty()) return;
   recorders::write_run_json(setup_.results.folder / setup_.results.files.statistics,
                             {.scenario = setup_.loaded.scenario().path,
@@ -209,13 +222,13 @@ void RecordedRun::require_end() const {
 
 void RecordedRun::print_summary() const {
   const auto& [folder, files] = setup_.results;
-  fmt::print("\n{}{}\nResults in {}:", summary_.text(simulation_.statistics()),
+  print_text("\n{}{}\nResults in {}:", summary_.text(simulation_.statistics()),
              verdict_table(verdicts_), folder.string());
   for (const auto& [what, member] : recorders::kResultFiles) {
-    if (!(files.*member).empty()) fmt::print(" {}", files.*member);
+    if (!(files.*member).empty()) print_text(" {}", files.*member);
   }
-  if (recorders::has_unit_files(folder)) fmt::print(" {}/", recorders::kUnitsFolder);
-  fmt::print("\n");
+  if (recorders::has_unit_files(folder)) print_text(" {}/", recorders::kUnitsFolder);
+  print_text("\n");
 }
 
 }  // namespace stride::cli

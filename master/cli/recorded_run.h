@@ -82,7 +82,8 @@ class RecordedRun {
   void conclude_failure(const std::string& error);
   void conclude();
   void collect_verdicts(bool is_complete);
-  void write_statistics(const std::optional<std::string>& error);
+  void write_statistics(std::optional<std::string> error);
+  void write_run_file(const std::optional<std::string>& error) const;
   void write_page() const;
   void print_summary() const;
   void require_end() const;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "master/cli/commands.h"
+#include "master/cli/output.h"
 #include "master/cli/reference/command_tree.h"
 #include "master/cli/reference/writers.h"
 #include "master/scenario/scenario.h"
@@ -37,7 +38,7 @@ void write_pages(const CLI::App& app, const std::filesystem::path& folder) {
 void print_components(const std::filesystem::path& file) {
   const scenario::Scenario scenario = scenario::read_scenario(file, {scenario::find_unit, {}});
   for (const core::ComponentDeclaration& component : scenario.system.components) {
-    fmt::print("{}\n", component.name);
+    print_text("{}\n", component.name);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <spdlog/spdlog.h>
 
 #include "master/cli/commands.h"
+#include "master/cli/output.h"
 #include "master/cli/report_page.h"
 #include "master/report/results.h"
 
@@ -27,7 +28,7 @@ void make_report(const ReportArguments& arguments) {
   for (const std::string& note : write_report(arguments.folder, files, file)) {
     spdlog::warn("{}", note);
   }
-  fmt::print("Report in {}\n", file.string());
+  print_text("Report in {}\n", file.string());
   if (arguments.open) open_in_browser(file);
 }
 

@@ -39,13 +39,17 @@ struct RunArguments {
   bool quiet = false;
 };
 
-std::filesystem::path chosen_folder(const RunArguments& arguments,
-                                    const scenario::Scenario& scenario) {
-  std::filesystem::path folder =
-      arguments.out.empty() ? std::filesystem::path("results") / scenario::stem(scenario.path)
-                            : arguments.out;
-  recorders::make_results_folder(folder);
-  return folder;
+std::filesystem::path results_folder(const RunArguments& arguments) {
+  if (!arguments.out.empty()) return arguments.out;
+  return std::filesystem::path("results") / scenario::stem(arguments.scenario.scenario);
+}
+
+/// A unit could put a link there, which would be followed.
+void refuse_unit_folders(const RunArguments& arguments, const std::string& option,
+                         const std::filesystem::path& file) {
+  if (file.empty() || !recorders::is_in_unit_folders(results_folder(arguments), file)) return;
+  core::fail_input({}, fmt::format("{}: the file is in the folder of the files of units", option),
+                   "choose a file elsewhere; units write to that folder");
 }
 
 recorders::ResultFiles chosen_files(const RunArguments& arguments,
@@ -77,6 +81,7 @@ std::vector<capture::CaptureRequest> captures(const RunArguments& arguments) {
   for (const std::string& text : arguments.captures) {
     auto [component, file] = scenario::split_option("--capture", text, "COMPONENT=FILE");
     if (file.empty()) core::fail_input({}, fmt::format("--capture {}: no file is named", text));
+    refuse_unit_folders(arguments, "--capture " + text, file);
     captures.push_back({std::move(component), std::move(file)});
   }
   return captures;
@@ -86,7 +91,8 @@ void run(const RunArguments& arguments, TestReport& report, CrashGuard& guard) {
   const Interruption interruption;
   const scenario::LoadedScenario loaded(arguments.scenario);
   const recorders::ResultFiles files = chosen_files(arguments, loaded.scenario());
-  const std::filesystem::path folder = chosen_folder(arguments, loaded.scenario());
+  const std::filesystem::path folder = results_folder(arguments);
+  recorders::make_results_folder(folder);
   const recorders::ResultsLock lock(folder);
   recorders::remove_results(folder, loaded.scenario().annotation.results);
   const std::vector<std::string> components = loaded.component_names();
@@ -105,6 +111,8 @@ void run(const RunArguments& arguments, TestReport& report, CrashGuard& guard) {
 
 /// Whatever ends the command, the test report contains it.
 void run_and_report(const RunArguments& arguments) {
+  refuse_unit_folders(arguments, fmt::format("--junit {}", arguments.junit.string()),
+                      arguments.junit);
   TestReport report(arguments.junit, arguments.scenario.scenario);
   CrashGuard guard([&](const std::string& error) { report.write(error); });
   try {

@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include "master/cli/commands.h"
+#include "master/cli/output.h"
 #include "master/cli/table.h"
 #include "master/trace/compress.h"
 #include "master/trace/expand.h"
@@ -73,12 +74,12 @@ std::string gaps(const trace::Info& info) {
 void show(const TraceArguments& arguments) {
   const trace::Info info = trace::info(arguments.from, arguments.min_gap, arguments.cut_off());
   warn_of(arguments.from, info.cut);
-  fmt::print("{}: {}\n{}", arguments.from.string(),
+  print_text("{}: {}\n{}", arguments.from.string(),
              info.has_advance_time ? "idle time is left out (advanceTime)"
                                    : "no advanceTime, so its time is true",
              facts(info));
   if (info.longest.empty()) return;
-  fmt::print("\nLongest gaps\n{}", gaps(info));
+  print_text("\nLongest gaps\n{}", gaps(info));
 }
 
 void expand(const TraceArguments& arguments) {

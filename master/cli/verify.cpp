@@ -13,6 +13,7 @@
 
 #include "master/cli/commands.h"
 #include "master/cli/interruption.h"
+#include "master/cli/output.h"
 #include "master/cli/table.h"
 #include "master/scenario/unit_path.h"
 #include "master/util/error.h"
@@ -67,7 +68,7 @@ void run(const Options& options) {
     json.emplace(options.json, core::OutputFile::Hints{"name a file where you may write"});
   }
   const core::UnitDescription& unit = tested.description();
-  fmt::print("{}: FMI {}, steps of {} s to {} s, seed {}\n\n", unit.model_name, unit.fmi_version,
+  print_text("{}: FMI {}, steps of {} s to {} s, seed {}\n\n", unit.model_name, unit.fmi_version,
              core::to_text(tested.step()), core::to_text(tested.point(tested.steps())),
              tested.request().seed);
   std::fflush(stdout);
@@ -75,7 +76,7 @@ void run(const Options& options) {
   const auto results =
       verify::verify(tested, {.on_begin = show_progress, .interrupted = &Interruption::flag()});
   if (::isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K");
-  fmt::print("{}\n{}\n", table_text(results), conclusion(results));
+  print_text("{}\n{}\n", table_text(results), conclusion(results));
   if (json) {
     json->write(verify::json_text(tested, results));
     json->close();

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "master/util/input_file.h"
+
 #if !defined(__linux__)
 #error "FMI platform names: add those of this operating system (FMI 3.0, 2.5.1.1; FMI 2.0, 2.3)"
 #endif
@@ -32,8 +34,9 @@ namespace fs = std::filesystem;
 std::vector<std::string> folder_names(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    if (entry.is_directory()) names.push_back(entry.path().filename().string());
+  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+       entry.increment(ignored)) {
+    if (core::is_folder(entry->path())) names.push_back(entry->path().filename().string());
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -74,9 +77,9 @@ fs::path find_library(const fs::path& fmu_folder, const std::string& fmi_version
   const char* const name = is_fmi2 ? fmi2_platform() : platform();
   const std::string relative = fmt::format("binaries/{}/{}.so", name, model_identifier);
   const fs::path library = fmu_folder / relative;
-  if (fs::is_regular_file(library)) return library;
+  if (core::is_file(library)) return library;
   const core::Context context{.where = where, .unit = model_identifier};
-  if (fs::is_directory(library.parent_path())) {
+  if (core::is_folder(library.parent_path())) {
     core::fail_input(context, fmt::format("the FMU's library '{}' is missing", relative),
                      "its name must be the modelIdentifier of the model description");
   }
@@ -87,7 +90,7 @@ fs::path find_library(const fs::path& fmu_folder, const std::string& fmi_version
         fmt::format("the FMU has no binaries for {}; it has {}", name, fmt::join(others, ", ")),
         how_to_export(others));
   }
-  const bool has_sources = fs::is_directory(fmu_folder / "sources");
+  const bool has_sources = core::is_folder(fmu_folder / "sources");
   core::fail_input(
       context,
       fmt::format("the FMU has no binaries for {}; it has {}", name,

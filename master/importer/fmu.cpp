@@ -11,6 +11,7 @@
 #include "master/importer/fmi3/fmi3_unit.h"
 #include "master/importer/idle_manifest.h"
 #include "master/importer/model_description.h"
+#include "master/util/input_file.h"
 
 namespace stride::importer {
 namespace {
@@ -73,7 +74,7 @@ class Tenancy {
 
 std::shared_ptr<Fmu> Fmu::load(const fs::path& path, const core::Location& where) {
   const std::shared_ptr<Fmu> fmu(new Fmu(path, where));
-  if (path.extension() == ".so" && fs::is_regular_file(path)) {
+  if (path.extension() == ".so" && core::is_file(path)) {
     fmu->read_bare_library();
   } else {
     fmu->read_folder();
@@ -90,7 +91,7 @@ void Fmu::read_folder() {
   auto description = std::make_shared<ModelDescription>(
       read_model_description(unpacked_->folder() / "modelDescription.xml", shown_as));
   const fs::path manifest = unpacked_->folder() / STRIDE_IDLE_MANIFEST;
-  if (!description->fmi2 && fs::exists(manifest)) {  // its functions are in terms of FMI 3.0
+  if (!description->fmi2 && core::path_exists(manifest)) {  // its functions are in terms of FMI 3.0
     read_idle_manifest(manifest, (path_ / STRIDE_IDLE_MANIFEST).string(), *description);
   }
   description_ = std::move(description);

@@ -14,6 +14,7 @@
 #include "master/importer/unpacked_fmu.h"
 #include "master/util/archive/zip.h"
 #include "master/util/error.h"
+#include "master/util/input_file.h"
 
 namespace stride::importer {
 namespace {
@@ -26,6 +27,7 @@ class Preloaded {
  public:
   explicit Preloaded(const std::vector<fs::path>& libraries) {
     for (const fs::path& library : libraries) {
+      core::open_input(library);  // the loader would wait for a FIFO
       void* const handle = ::dlopen(fs::absolute(library).c_str(), RTLD_NOW | RTLD_LOCAL);
       if (handle == nullptr) {
         core::fail_input({},
@@ -41,6 +43,7 @@ class Preloaded {
 
 archive::Contents collect(const PackRequest& request) {
   const Preloaded bundled(request.bundled);
+  core::open_input(request.library);
   const Fmi3Library library(request.library);
   const std::string xml = library.describe(request.resources);
   auto description = parse_model_description(xml, request.library.string());
@@ -72,8 +75,10 @@ PackRequest with_library_of(const fs::path& fmu, PackRequest request) {
   const auto description = read_model_description(fmu / "modelDescription.xml");
   request.library = find_library(fmu, description.fmi_version, description.model_identifier);
   std::vector<fs::path> beside;
-  for (const fs::directory_entry& entry : fs::directory_iterator(request.library.parent_path())) {
-    if (entry.path() != request.library) beside.push_back(entry.path());
+  std::error_code ignored;  // the library has been found there
+  for (fs::directory_iterator entry(request.library.parent_path(), ignored), end;
+       !ignored && entry != end; entry.increment(ignored)) {
+    if (entry->path() != request.library) beside.push_back(entry->path());
   }
   std::sort(beside.begin(), beside.end());  // the order in which they are loaded
   request.bundled.insert(request.bundled.begin(), beside.begin(), beside.end());

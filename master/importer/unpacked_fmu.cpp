@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "master/util/input_file.h"
+
 namespace stride::importer {
 namespace {
 
@@ -10,12 +12,13 @@ namespace fs = std::filesystem;
 /// A frequent mistake: the folder was packed, not what is in it.
 std::string missing_description_hint(const fs::path& folder) {
   std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    if (!fs::exists(entry.path() / "modelDescription.xml")) continue;
+  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+       entry.increment(ignored)) {
+    if (!core::path_exists(entry->path() / "modelDescription.xml")) continue;
     return fmt::format(
         "it is in the folder '{0}' there; the contents of '{0}' belong at the "
         "top",
-        entry.path().filename().string());
+        entry->path().filename().string());
   }
   return "expected an FMU; an SSP package or another kind of archive cannot be used as a unit";
 }
@@ -25,7 +28,7 @@ std::string missing_description_hint(const fs::path& folder) {
 UnpackedFmu::UnpackedFmu(const fs::path& path, const core::Location& where)
     : archive_(path, "an FMU: a .fmu archive (zip), or the folder that such an archive unpacks to",
                where) {
-  if (fs::is_regular_file(folder() / "modelDescription.xml")) return;
+  if (core::path_exists(folder() / "modelDescription.xml")) return;  // reading it checks the rest
   core::fail_input({.where = where},
                    fmt::format("'{}' has no modelDescription.xml at its top", path.string()),
                    missing_description_hint(folder()));

@@ -1,9 +1,12 @@
 #include "master/importer/variable_attributes.h"
 
 #include <cmath>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "master/model/values.h"
 
 namespace stride::importer {
 namespace {
@@ -120,6 +123,39 @@ double read_nominal(const xml::Element& element, ValueType type,
   const auto own = element.number<double>("nominal");
   const auto nominal = own || !declared ? own : declared->number<double>("nominal");
   return std::isfinite(nominal.value_or(0)) ? std::abs(nominal.value_or(0)) : 0;
+}
+
+void check_start(const xml::Element& element, const core::Variable& variable,
+                 std::size_t elements) {
+  const bool is_text = variable.type == ValueType::String || variable.type == ValueType::Binary;
+  const std::size_t count = is_text ? elements : xml::split(variable.start).size();
+  if (variable.start.empty() || variable.type == ValueType::Clock) return;
+  if (count != 1 && count != variable.size) {
+    element.fail(fmt::format("the start value of '{}' has {} elements, the variable has {}",
+                             variable.name, count, variable.size),
+                 "give one value for each element, separated by blanks");
+  }
+  if (variable.type == ValueType::String) return;
+  core::Variable form;  // what an element has to be
+  form.type = variable.type == ValueType::Enumeration ? ValueType::Int64 : variable.type;
+  try {
+    for (const std::string_view word : xml::split(variable.start)) {
+      core::parse(form, std::string(word));
+    }
+  } catch (const std::invalid_argument& mistake) {
+    element.fail(fmt::format("the start value of '{}': {}", variable.name, mistake.what()));
+  }
+}
+
+void check_limits(const xml::Element& element, const core::Variable& variable) {
+  const auto check = [&](const char* attribute, const std::string& text) {
+    const auto words = xml::split(text);
+    if (text.empty() || (words.size() == 1 && xml::to_number<double>(words.front()))) return;
+    element.fail(
+        fmt::format("{}=\"{}\" of '{}': expected a number", attribute, text, variable.name));
+  };
+  check("min", variable.min);
+  check("max", variable.max);
 }
 
 std::vector<std::pair<std::string, std::int64_t>> read_items(const xml::Element& type) {

@@ -22,6 +22,7 @@
 #include "master/isolation/process/process_memory.h"
 #include "master/isolation/process/surroundings.h"
 #include "master/isolation/sandbox_hint.h"
+#include "master/util/input_file.h"
 
 namespace stride::isolation {
 namespace {
@@ -44,7 +45,7 @@ std::vector<WritableFolder> writable_folders(const HostedUnitSpec& spec) {
   for (const std::filesystem::path& folder : spec.host.writable) {
     folders.push_back({folder, folder.string()});
   }
-  if (std::filesystem::is_directory(spec.fmu->resources())) {
+  if (core::is_folder(spec.fmu->resources())) {
     folders.push_back({spec.fmu->resources(), "its resources"});
   }
   folders.push_back({spec.temporary->path(), "a temporary folder"});

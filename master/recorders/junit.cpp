@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "master/util/error.h"
-#include "master/util/output_file.h"
+#include "master/util/replacement.h"
 #include "master/util/time_text.h"
 #include "master/util/xml/writer.h"
 
@@ -119,9 +119,9 @@ class JunitWriter {
 }  // namespace
 
 void write_junit(const std::filesystem::path& file, const JunitReport& report) {
-  core::OutputFile output(file, {.create = "choose a folder in which you may write"});
-  output.write(JunitWriter(report).document());
-  output.close();
+  core::Replacement output(file);
+  output.file().write(JunitWriter(report).document());
+  output.commit();
 }
 
 }  // namespace stride::recorders

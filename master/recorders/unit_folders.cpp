@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <iterator>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
+
+#include <stride/value_text.h>
 
 #include "master/recorders/results_folder.h"
 #include "master/util/error.h"
@@ -21,6 +24,46 @@ namespace fs = std::filesystem;
 constexpr std::array<std::pair<char, std::string_view>, 3> kCodes{
     {{'%', "%25"}, {'/', "%2F"}, {'.', "%2E"}}};
 constexpr const char* kNoName = "%";
+/// No code, so no other name has it.
+constexpr std::string_view kShortened = "%~";
+constexpr std::size_t kHashDigits = 16;
+
+/// FNV-1a, http://www.isthe.com/chongo/tech/comp/fnv/
+std::uint64_t hash(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return hash;
+}
+
+/// The same name if a file system allows it.
+std::string shortened(const std::string& name) {
+  constexpr std::size_t kLongest = 255;
+  if (name.size() <= kLongest) return name;
+  const std::size_t kept = whole_characters(name, kLongest - kShortened.size() - kHashDigits);
+  return fmt::format("{}{}{:0{}x}", std::string_view(name).substr(0, kept), kShortened, hash(name),
+                     kHashDigits);
+}
+
+bool is_shortened(std::string_view name) {
+  return name.size() > kHashDigits &&
+         name.substr(0, name.size() - kHashDigits).ends_with(kShortened);
+}
+
+bool is_below(const fs::path& path, const fs::path& folder) {
+  const auto [end, ignored] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+  return end == folder.end();
+}
+
+/// Also of a link to what does not exist yet.
+fs::path resolved(fs::path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
+    path = path.parent_path() / fs::read_symlink(path, error);
+  }
+  const fs::path target = fs::weakly_canonical(path, error);
+  return error ? path : target;
+}
 
 bool is_picture(const fs::path& file) {
   const std::string number = file.stem().string();
@@ -65,11 +108,13 @@ std::string unit_folder_name(std::string_view component) {
       name += code->second;
     }
   }
-  return name;
+  return shortened(name);
 }
 
 std::string component_of_folder(std::string_view name) {
   if (name == kNoName) return "";
+  const bool is_cut = is_shortened(name);
+  if (is_cut) name.remove_suffix(kShortened.size() + kHashDigits);
   std::string component;
   while (!name.empty()) {
     const auto* const code =
@@ -78,19 +123,24 @@ std::string component_of_folder(std::string_view name) {
     component += is_coded ? code->first : name.front();
     name.remove_prefix(is_coded ? code->second.size() : 1);
   }
-  return component;
+  return is_cut ? component + "…" : component;
 }
 
 fs::path unit_folder(const fs::path& results, std::string_view component) {
   return results / kUnitsFolder / unit_folder_name(component);
 }
 
+bool is_in_unit_folders(const fs::path& results, const fs::path& file) {
+  const fs::path units = fs::absolute(results / kUnitsFolder).lexically_normal();
+  const fs::path named = fs::absolute(file).lexically_normal();
+  return is_below(named, units) || is_below(resolved(named), resolved(units)) ||
+         is_below(resolved(named.parent_path()), resolved(units));
+}
+
 bool has_unit_files(const fs::path& results) {
   const std::vector<fs::path> units = folder_entries(results / kUnitsFolder);
-  return std::ranges::any_of(units, [](const fs::path& unit) {
-    std::error_code ignored;
-    return fs::directory_iterator(unit, ignored) != fs::directory_iterator();
-  });
+  return std::ranges::any_of(units,
+                             [](const fs::path& unit) { return !folder_entries(unit).empty(); });
 }
 
 void clean_unit_folders(const fs::path& results, std::span<const std::string> components) {

@@ -19,13 +19,18 @@ inline constexpr const char* kFilmFolder = "film";
 inline constexpr const char* kFilmList = "frames.csv";
 
 /// The name of a component's folder. Different components have different ones: "%" and "/" are
-/// "%25" and "%2F", "." and ".." are "%2E" and "%2E%2E", an empty name is "%".
+/// "%25" and "%2F", "." and ".." are "%2E" and "%2E%2E", an empty name is "%". What would be longer
+/// than a file system allows ends in "%~" and a hash of the whole name instead.
 std::string unit_folder_name(std::string_view component);
-/// The component that has the folder of this name.
+/// The component that has the folder of this name; of a name that was too long its begin and "…".
 std::string component_of_folder(std::string_view name);
 
 /// The folder of a component.
 std::filesystem::path unit_folder(const std::filesystem::path& results, std::string_view component);
+
+/// Whether a path leads into the folder of all units, as it is written or by links. A unit can put
+/// a link in the place of a file there, so nothing else may write to it.
+bool is_in_unit_folders(const std::filesystem::path& results, const std::filesystem::path& file);
 
 /// Whether there is anything in a component's folder.
 bool has_unit_files(const std::filesystem::path& results);

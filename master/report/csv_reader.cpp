@@ -7,9 +7,9 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include "master/util/error.h"
+#include "master/util/input_file.h"
 
 namespace stride::report {
 namespace {
@@ -17,23 +17,22 @@ namespace {
 constexpr std::size_t kCapacity = std::size_t{1} << 16;
 constexpr std::size_t kLongestRow = std::size_t{1} << 28;
 
+core::FileStream open_stream(const std::filesystem::path& file) {
+  core::Descriptor opened = core::open_input(file);
+  core::FileStream stream(::fdopen(opened.number(), "rb"), &std::fclose);
+  if (stream) opened.release();
+  return stream;
+}
+
 }  // namespace
 
-CsvReader::CsvReader(std::filesystem::path file)
-    : CsvReader(file, core::FileStream(std::fopen(file.c_str(), "rbe"), &std::fclose)) {}
+CsvReader::CsvReader(std::filesystem::path file) : CsvReader(file, open_stream(file)) {}
 
 CsvReader::CsvReader(std::filesystem::path file, core::FileStream stream)
     : file_(std::move(file)), stream_(std::move(stream)), buffer_(kCapacity) {
-  const auto fail_to_open = [&](const std::string& reason) {
-    core::fail_input({.where = {file_.string(), 0}},
-                     fmt::format("cannot read the file: {}", reason));
-  };
-  if (!stream_) fail_to_open(std::generic_category().message(errno));
-  struct stat status {};
-  // a device may have no end
-  if (::fstat(::fileno(stream_.get()), &status) != 0 || !S_ISREG(status.st_mode)) {
-    fail_to_open("it is not a regular file");
-  }
+  if (stream_) return;
+  core::fail_input({.where = {file_.string(), 0}},
+                   fmt::format("cannot read the file: {}", std::generic_category().message(errno)));
 }
 
 std::string CsvReader::Field::value() const {

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "master/util/error.h"
+
 namespace stride::report {
 
 /// What is missing, cut off or left out of results: "signals.csv:7: TEXT". Files go by their names
@@ -19,6 +21,12 @@ class Notes {
 
   void add(const std::filesystem::path& file, const std::string& text) {
     texts_.push_back(fmt::format("{}: {}", name(file), text));
+  }
+  /// Of a file that is left out, since it has a mistake.
+  void add_unread(const std::filesystem::path& file, const core::Error& mistake) {
+    const int line = mistake.context().where.line;
+    texts_.push_back(fmt::format("{}{}: {}; the report is without what it holds", name(file),
+                                 line > 0 ? fmt::format(":{}", line) : "", mistake.message()));
   }
   /// Of a file whose last line, if any, was cut off.
   void add_cut(const std::filesystem::path& file, std::optional<std::size_t> line) {

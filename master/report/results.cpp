@@ -149,7 +149,17 @@ class FilmReader {
   std::optional<std::size_t> cut_;
 };
 
-std::vector<Film> read_films(const fs::path& folder, const Limits& limits, Notes& notes) {
+/// A folder's name may be too long to contain all of it.
+std::string component_of(const std::string& unit_folder,
+                         const std::vector<RunFile::Component>& components) {
+  for (const auto& [name, model] : components) {
+    if (recorders::unit_folder_name(name) == unit_folder) return name;
+  }
+  return recorders::component_of_folder(unit_folder);
+}
+
+std::vector<Film> read_films(const fs::path& folder, const RunFile& run, const Limits& limits,
+                             Notes& notes) {
   const core::UntrustedFolder results(folder);
   std::vector<Film> films;
   for (const fs::path& unit : recorders::folder_entries(folder / recorders::kUnitsFolder)) {
@@ -164,7 +174,7 @@ std::vector<Film> read_films(const fs::path& folder, const Limits& limits, Notes
       continue;
     }
     Film film;
-    film.component = recorders::component_of_folder(name.string());
+    film.component = component_of(name.string(), run.components);
     FilmReader reader(results, path, limits);
     reader.read(std::move(list), film);
     reader.report(film, notes);
@@ -183,6 +193,29 @@ std::optional<fs::path> present(const fs::path& folder, const std::string& name,
   return std::nullopt;
 }
 
+/// Empty where it cannot be read, which is noted: the other files are whole without it.
+RunFile read_run(const fs::path& folder, const std::string& name, Notes& notes) {
+  const auto file = present(folder, name, notes);
+  if (!file) return {};
+  try {
+    return read_run_file(*file);
+  } catch (const core::Error& mistake) {
+    notes.add_unread(*file, mistake);
+    return {};
+  }
+}
+
+/// Those that run.json names, if it can be read.
+recorders::ResultFiles named_files(const fs::path& run) {
+  recorders::ResultFiles files;
+  try {
+    files = read_run_file(run).files;
+  } catch (const core::Error&) {  // noted where the results are read
+  }
+  files.statistics = run.filename().string();
+  return files;
+}
+
 }  // namespace
 
 Results read_results(const fs::path& folder, const recorders::ResultFiles& files,
@@ -190,9 +223,7 @@ Results read_results(const fs::path& folder, const recorders::ResultFiles& files
   Results results;
   results.folder = folder;
   Notes notes(folder);
-  if (const auto file = present(folder, files.statistics, notes)) {
-    results.run = read_run_file(*file);
-  }
+  results.run = read_run(folder, files.statistics, notes);
   if (const auto file = present(folder, files.signals, notes)) {
     results.signals = read_signals(*file, results.run.signals, limits.signals, notes);
   }
@@ -202,7 +233,7 @@ Results read_results(const fs::path& folder, const recorders::ResultFiles& files
   if (const auto file = present(folder, files.activity, notes)) {
     results.activities = read_activities(*file, notes);
   }
-  results.films = read_films(folder, limits, notes);
+  results.films = read_films(folder, results.run, limits, notes);
   results.notes = notes.texts();
   return results;
 }
@@ -213,11 +244,7 @@ recorders::ResultFiles result_files(const fs::path& folder) {
     core::fail_input({.where = {folder.string(), 0}}, "this is not a folder",
                      "name a folder with the results of `stride run`");
   }
-  if (const fs::path run = find_run_file(folder); !run.empty()) {
-    recorders::ResultFiles files = read_run_file(run).files;
-    files.statistics = run.filename().string();
-    return files;
-  }
+  if (const fs::path run = find_run_file(folder); !run.empty()) return named_files(run);
   const recorders::ResultFiles usual;
   for (const auto& [what, member] : recorders::kResultFiles) {
     if (what != std::string_view("report") && fs::exists(folder / (usual.*member), error)) {

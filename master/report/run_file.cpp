@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
+#include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "master/recorders/results_folder.h"
 #include "master/util/error.h"
+#include "master/util/input_file.h"
 
 namespace stride::report {
 namespace {
@@ -23,16 +25,79 @@ core::ValueType type_of(const std::string& text) {
   return core::ValueType::String;
 }
 
-const Json& entries(const Json& json, const char* name) {
-  static const Json kNone = Json::array();
-  const auto found = json.find(name);
-  return found == json.end() ? kNone : *found;
-}
+/// An object of the file, whose members have the types that stride gives them. Throws
+/// std::invalid_argument, which names the place of what is missing or has another type.
+class Object {
+ public:
+  Object(const Json& json, std::string place) : json_(json), place_(std::move(place)) {
+    require(json.is_object(), json, place_, "an object");
+  }
 
-void read_files(const Json& json, recorders::ResultFiles& files) {
-  if (!json.contains("files")) return;
+  std::string text(const char* name) const {
+    const Json* const found = find(name);
+    if (found != nullptr) return text_of(*found, member(name));
+    throw std::invalid_argument(fmt::format("'{}' is missing", member(name)));
+  }
+  std::string text_or(const char* name, const char* otherwise) const {
+    const Json* const found = find(name);
+    return found == nullptr ? otherwise : text_of(*found, member(name));
+  }
+  std::vector<std::string> texts(const char* name) const {
+    std::vector<std::string> texts;
+    for_each_entry(name, [&](const Json& entry, const std::string& place) {
+      texts.push_back(text_of(entry, place));
+    });
+    return texts;
+  }
+  /// Calls visit(Object) for each entry of a list; there is none where the list is missing.
+  template <class Visit>
+  void for_each(const char* name, Visit&& visit) const {
+    for_each_entry(
+        name, [&](const Json& entry, const std::string& place) { visit(Object(entry, place)); });
+  }
+  std::optional<Object> object(const char* name) const {
+    const Json* const found = find(name);
+    return found == nullptr ? std::nullopt : std::optional(Object(*found, member(name)));
+  }
+
+ private:
+  static void require(bool is_good, const Json& found, const std::string& place,
+                      const char* expected) {
+    if (is_good) return;
+    throw std::invalid_argument(fmt::format("{} is of the type {}, expected {}",
+                                            place.empty() ? "its root" : fmt::format("'{}'", place),
+                                            found.type_name(), expected));
+  }
+  static std::string text_of(const Json& json, const std::string& place) {
+    require(json.is_string(), json, place, "a text");
+    return json.get<std::string>();
+  }
+  template <class Visit>
+  void for_each_entry(const char* name, Visit&& visit) const {
+    const Json* const found = find(name);
+    if (found == nullptr) return;
+    require(found->is_array(), *found, member(name), "a list");
+    for (std::size_t i = 0; i < found->size(); ++i) {
+      visit((*found)[i], fmt::format("{}[{}]", member(name), i));
+    }
+  }
+  const Json* find(const char* name) const {
+    const auto found = json_.find(name);
+    return found == json_.end() ? nullptr : &*found;
+  }
+  std::string member(const char* name) const {
+    return place_.empty() ? name : fmt::format("{}.{}", place_, name);
+  }
+
+  const Json& json_;
+  std::string place_;
+};
+
+void read_files(const Object& run, recorders::ResultFiles& files) {
+  const std::optional<Object> names = run.object("files");
+  if (!names) return;
   for (const auto& [what, member] : recorders::kResultFiles) {
-    const std::string name = json["files"].value(what, std::string());
+    const std::string name = names->text_or(what, "");
     if (!recorders::is_plain_file_name(name)) {
       throw std::invalid_argument(fmt::format("'{}' is not a file of this folder", name));
     }
@@ -41,20 +106,22 @@ void read_files(const Json& json, recorders::ResultFiles& files) {
 }
 
 void read_entries(RunFile& run) {
-  read_files(run.json, run.files);
-  for (const Json& entry : entries(run.json, "signals")) {
-    run.signals.push_back({entry.at("name"), entry.at("unit"), type_of(entry.at("type")),
-                           entry.at("variability") == core::name(core::Variability::Continuous)});
-  }
-  for (const Json& entry : entries(run.json, "units")) {
-    run.components.push_back({entry.at("name"), entry.at("model")});
-  }
-  for (const Json& entry : entries(run.json, "connections")) {
-    run.connections.push_back({entry.at("from"), entry.at("to"), entry.value("kind", "value")});
-  }
-  for (const Json& entry : entries(run.json, "plots")) {
-    run.plots.push_back({entry.at("title"), entry.at("signals")});
-  }
+  const Object root(run.json, "");
+  read_files(root, run.files);
+  root.for_each("signals", [&](const Object& entry) {
+    run.signals.push_back({entry.text("name"), entry.text("unit"), type_of(entry.text("type")),
+                           entry.text("variability") == core::name(core::Variability::Continuous)});
+  });
+  root.for_each("units", [&](const Object& entry) {
+    run.components.push_back({entry.text("name"), entry.text("model")});
+  });
+  root.for_each("connections", [&](const Object& entry) {
+    run.connections.push_back(
+        {entry.text("from"), entry.text("to"), entry.text_or("kind", "value")});
+  });
+  root.for_each("plots", [&](const Object& entry) {
+    run.plots.push_back({entry.text("title"), entry.texts("signals")});
+  });
 }
 
 /// What is nested any deeper was not written by stride, and would take its stack.
@@ -64,24 +131,34 @@ bool refuse_depth(int depth, Json::parse_event_t, Json&) {
   return true;
 }
 
+/// The library's words without its own mark, "[json.exception.parse_error.101] parse error at line
+/// 1, column 2: ", since the place is given otherwise.
+std::string reason_of(const Json::exception& mistake) {
+  std::string_view text = mistake.what();
+  text.remove_prefix(std::min(text.size(), text.find("] ") + 2));
+  if (!text.starts_with("parse error at line")) return std::string(text);
+  text.remove_prefix(std::min(text.size(), text.find(": ") + 2));
+  return std::string(text);
+}
+
+[[noreturn]] void fail(const std::filesystem::path& file, std::ptrdiff_t line,
+                       const std::string& message) {
+  core::fail_input({.where = {file.string(), static_cast<int>(line)}}, message,
+                   "run the scenario again");
+}
+
+[[noreturn]] void fail_syntax(const std::filesystem::path& file, const std::string& text,
+                              const Json::parse_error& mistake) {
+  if (text.empty()) fail(file, 1, "this is not JSON: the file is empty");
+  const std::string_view before = std::string_view(text).substr(0, mistake.byte);
+  const std::size_t begin = before.rfind('\n') + 1;  // 0 in the first line
+  fail(
+      file, 1 + std::count(before.begin(), before.end(), '\n'),
+      fmt::format("this is not JSON, in column {}: {}", before.size() - begin, reason_of(mistake)));
+}
+
 /// Thousands of signals take a few MiB.
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 20;
-
-std::string content(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    core::fail_input({.where = {file.string(), 0}},
-                     "cannot read the file: it is not a regular file");
-  }
-  if (std::filesystem::file_size(file, error) > kMostBytes && !error) {
-    core::fail_input({.where = {file.string(), 0}},
-                     "this is not what `stride run` writes: it has more than 64 MiB");
-  }
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(stream), {});
-  if (!stream) core::fail_input({.where = {file.string(), 0}}, "cannot read the file");
-  return text;
-}
 
 bool is_run_file(const std::filesystem::path& file) {
   try {
@@ -94,27 +171,18 @@ bool is_run_file(const std::filesystem::path& file) {
 }  // namespace
 
 RunFile read_run_file(const std::filesystem::path& file) {
-  const std::string text = content(file);
-  const char* const hint = "run the scenario again";
+  constexpr const char* kOther = "this is not what `stride run` writes: {}";
+  const std::string text = core::read_input(file, "", kMostBytes);
   try {
     RunFile run{Json::parse(text, refuse_depth)};
-    if (!run.json.is_object()) {
-      core::fail_input({.where = {file.string(), 0}}, "this is not a JSON object", hint);
-    }
     read_entries(run);
     return run;
-  } catch (const Json::parse_error& error) {
-    const std::size_t end = std::min(error.byte, text.size());
-    const auto line =
-        1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
-    core::fail_input({.where = {file.string(), static_cast<int>(line)}},
-                     fmt::format("this is not JSON: {}", error.what()), hint);
-  } catch (const std::logic_error& error) {
-    core::fail_input({.where = {file.string(), 0}},
-                     fmt::format("this is not what `stride run` writes: {}", error.what()), hint);
-  } catch (const Json::exception& error) {
-    core::fail_input({.where = {file.string(), 0}},
-                     fmt::format("this is not what `stride run` writes: {}", error.what()), hint);
+  } catch (const Json::parse_error& mistake) {
+    fail_syntax(file, text, mistake);
+  } catch (const Json::exception& mistake) {  // a number out of range
+    fail(file, 0, fmt::format(kOther, reason_of(mistake)));
+  } catch (const std::logic_error& mistake) {
+    fail(file, 0, fmt::format(kOther, mistake.what()));
   }
 }
 

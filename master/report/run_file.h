@@ -32,7 +32,7 @@ struct RunFile {
 };
 
 /// What there is of it: an older program wrote less. Throws core::Error (Input) that names the
-/// file, and the line for what is no JSON.
+/// file, the line for what is no JSON, and the member that is missing or has another type.
 RunFile read_run_file(const std::filesystem::path& file);
 
 /// That of a results folder: run.json, or the file that contains it under another name.

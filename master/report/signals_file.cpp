@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <map>
 #include <stdexcept>
 #include <system_error>
@@ -11,6 +10,7 @@
 
 #include "master/report/table.h"
 #include "master/report/thinning.h"
+#include "master/util/input_file.h"
 
 namespace stride::report {
 namespace {
@@ -44,13 +44,15 @@ std::size_t count_rows(const std::filesystem::path& file, std::size_t limit) {
   constexpr std::size_t kLeastValue = 2;  // a digit and a comma
   std::error_code error;
   if (std::filesystem::file_size(file, error) < kLeastValue * limit || error) return 0;
-  std::ifstream stream(file, std::ios::binary);
+  const core::Descriptor opened = core::open_input(file);
   std::vector<char> piece(std::size_t{1} << 16);
   std::size_t lines = 0;
-  while (stream) {
-    stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-    lines +=
-        static_cast<std::size_t>(std::count(piece.begin(), piece.begin() + stream.gcount(), '\n'));
+  try {
+    while (const std::size_t count = core::read_from(opened, piece.data(), piece.size())) {
+      const auto end = piece.begin() + static_cast<std::ptrdiff_t>(count);
+      lines += static_cast<std::size_t>(std::count(piece.begin(), end, '\n'));
+    }
+  } catch (const std::system_error&) {  // an error where the rows are read
   }
   return std::max<std::size_t>(lines, 1) - 1;
 }

@@ -1,8 +1,8 @@
 #include "master/scenario/file_units.h"
 
-#include <fstream>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -11,6 +11,8 @@
 #include "master/scenario/unit_path.h"
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/error.h"
+#include "master/util/input_file.h"
+#include "master/util/output_file.h"
 #include "master/util/xml/document.h"
 
 namespace stride::scenario {
@@ -55,7 +57,7 @@ void add_file(ProgramFiles& files, const xml::Element& element, const fs::path& 
   const auto named = element.attribute("file");
   if (!named) return;
   const fs::path path = (folder / *named).lexically_normal();
-  if (!fs::is_regular_file(path)) {
+  if (!core::is_file(path)) {
     element.fail(fmt::format("file=\"{}\": there is no file {}", *named, path.string()),
                  "name it relative to this declaration");
   }
@@ -90,17 +92,15 @@ ProgramFiles program_files(const fs::path& declaration) {
 }  // namespace
 
 bool is_stimuli(const fs::path& path) {
-  constexpr const char* kBegin = "stride stimuli,";
-  std::string line;
-  std::getline(std::ifstream(path), line);
-  return path.extension() == ".csv" || line.rfind(kBegin, 0) == 0;
+  constexpr std::string_view kBegin = "stride stimuli,";
+  return path.extension() == ".csv" || core::head_of(path, kBegin.size()) == kBegin;
 }
 
 void pack_stimuli(const importer::PackRequest& request) {
   require_no_resources(request, "stimuli are", "player");
   const archive::TemporaryFolder resources;
   const fs::path copy = resources.path() / "stimuli.csv";
-  fs::copy_file(request.library, copy);
+  core::copy_input(request.library, copy);
   pack_unit("player", resources.path(), copy, request);
 }
 
@@ -110,13 +110,15 @@ void pack_program(const importer::PackRequest& request) {
   require_no_resources(request, "a program is", "process");
   const ProgramFiles files = program_files(request.library);
   const archive::TemporaryFolder resources;
-  for (const auto& [name, path] : files.packed) fs::copy_file(path, resources.path() / name);
+  for (const auto& [name, path] : files.packed) core::copy_input(path, resources.path() / name);
   if (files.has_outside) {
-    std::ofstream(resources.path() / "origin.txt")
-        << fs::absolute(request.library).lexically_normal().parent_path().string() << '\n';
+    core::OutputFile origin(resources.path() / "origin.txt");
+    origin.write(fs::absolute(request.library).lexically_normal().parent_path().string());
+    origin.write('\n');
+    origin.close();
   }
   const fs::path copy = resources.path() / "process.xml";
-  fs::copy_file(request.library, copy);
+  core::copy_input(request.library, copy);
   pack_unit("process", resources.path(), copy, request);
 }
 

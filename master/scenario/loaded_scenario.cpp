@@ -112,6 +112,9 @@ std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario) 
 LoadedScenario::LoadedScenario(const ScenarioRequest& request)
     : scenario_(read_scenario(request.scenario, {find_unit, set_values(request.sets)})) {
   for (const std::string& text : request.swaps) swap(text);
+  if (scenario_.system.components.empty()) {
+    core::fail_input(of_file(), "the system has no component, so there is nothing to simulate");
+  }
   load_units();
   if (!request.film.empty()) switch_film_on(scenario_.system, request.film);
   choose_early_returns();
@@ -129,6 +132,8 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
       select_components(component_names(), scenario_.annotation.main_thread);
   choose_checks(request);
 }
+
+core::Context LoadedScenario::of_file() const { return {.where = {scenario_.path.string(), 0}}; }
 
 std::vector<std::string> LoadedScenario::component_names() const {
   std::vector<std::string> names;
@@ -181,12 +186,13 @@ void LoadedScenario::choose_times(const ScenarioRequest& request) {
   } else if (unit_stop) {
     options_.stop = *unit_stop;
   } else {
-    core::fail_input({{scenario_.path.string(), 0}, {}, {}, {}}, "the scenario has no stop time",
+    core::fail_input(of_file(), "the scenario has no stop time",
                      "use --stop SECONDS, or write <ssd:DefaultExperiment stopTime=\"…\"/>");
   }
   if (options_.stop < options_.start) {
-    core::fail_input({}, fmt::format("the stop time {} s is before the start time {} s",
-                                     core::to_text(options_.stop), core::to_text(options_.start)));
+    core::fail_input(of_file(),
+                     fmt::format("the stop time {} s is before the start time {} s",
+                                 core::to_text(options_.stop), core::to_text(options_.start)));
   }
 }
 
@@ -201,13 +207,13 @@ void LoadedScenario::choose_steps(const StepSettings& request) {
   scenario_.annotation.step.apply(options_);
   request.apply(options_);
   if (options_.step.maximum && *options_.step.maximum < options_.step.minimum) {
-    core::fail_input({}, fmt::format("the maximum step of {} s is below the minimum of {} s",
-                                     core::to_text(*options_.step.maximum),
-                                     core::to_text(options_.step.minimum)));
+    core::fail_input(of_file(), fmt::format("the maximum step of {} s is below the minimum of {} s",
+                                            core::to_text(*options_.step.maximum),
+                                            core::to_text(options_.step.minimum)));
   }
   const core::StepOptions& step = options_.step;
   if (step.policy->controls_error && step.relative_tolerance == 0 && step.absolute_tolerance == 0) {
-    core::fail_input({}, "both tolerances are 0, so no step is good enough",
+    core::fail_input(of_file(), "both tolerances are 0, so no step is good enough",
                      "give a relative or an absolute tolerance above 0");
   }
 }

@@ -60,6 +60,8 @@ class LoadedScenario {
       const std::filesystem::path& results = {}) const;
 
  private:
+  /// For mistakes that concern the scenario as a whole.
+  core::Context of_file() const;
   void swap(const std::string& text);
   void load_units();
   void choose_early_returns();

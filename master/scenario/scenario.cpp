@@ -44,7 +44,9 @@ void read_default_experiment(const xml::Element& root, Scenario& scenario) {
 
 std::string stem(const std::filesystem::path& path) {
   if (std::error_code error; !std::filesystem::is_directory(path, error)) return path.stem();
-  return std::filesystem::canonical(path).filename();
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::canonical(path, error);
+  return (error ? path : folder).filename();
 }
 
 Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& options) {

@@ -1,13 +1,13 @@
 #include "master/ssp/files.h"
 
 #include <algorithm>
-#include <fstream>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "master/util/input_file.h"
 #include "master/util/suggest.h"
 
 namespace stride::ssp {
@@ -22,16 +22,17 @@ constexpr std::size_t kMostNames = 20;  // in a message
 
 /// As zip archives do.
 bool begins_as_archive(const fs::path& path) {
-  char head[4] = {};
-  std::ifstream(path, std::ios::binary).read(head, sizeof head);
-  return std::string_view(head, sizeof head) == std::string_view("PK\x03\x04", 4);
+  constexpr std::string_view kBegin("PK\x03\x04", 4);
+  return core::head_of(path, kBegin.size()) == kBegin;
 }
 
 std::vector<std::string> files_in(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code ignored;
-  for (const auto& entry : fs::recursive_directory_iterator(folder, ignored)) {
-    if (entry.is_regular_file()) names.push_back(entry.path().lexically_relative(folder).string());
+  for (fs::recursive_directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+       entry.increment(ignored)) {
+    if (!core::is_file(entry->path())) continue;
+    names.push_back(entry->path().lexically_relative(folder).string());
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -54,14 +55,13 @@ std::vector<std::string> files_in(const fs::path& folder) {
 Files::Files(UnitFinder find_unit) : find_unit_(std::move(find_unit)) {}
 
 fs::path Files::system_file(const fs::path& path, const core::Location& where) {
-  std::error_code error;
-  if (fs::is_directory(path, error)) return system_file(path, kSystemFile, where);
-  if (fs::is_regular_file(path, error)) {
+  if (core::is_folder(path)) return system_file(path, kSystemFile, where);
+  if (core::is_file(path)) {
     return begins_as_archive(path) ? system_file(path, kSystemFile, where) : path;
   }
   for (fs::path package = path.parent_path(); package.has_filename();
        package = package.parent_path()) {
-    if (!fs::is_regular_file(package, error) || !begins_as_archive(package)) continue;
+    if (!core::is_file(package) || !begins_as_archive(package)) continue;
     return system_file(package, path.lexically_relative(package).string(), where);
   }
   return path;  // reading it fails if it is not there
@@ -75,15 +75,15 @@ fs::path Files::system_file(const fs::path& package, const std::string& name,
                                  shown(package), name),
                      "name a .ssd at the top level of the package");
   }
-  const fs::path folder = fs::is_directory(package) ? package : unpack(package, kPackage, where);
+  const fs::path folder = core::is_folder(package) ? package : unpack(package, kPackage, where);
   const fs::path file = folder / name;
-  if (!fs::is_regular_file(file)) fail_without_file(folder, shown(package), name, where);
+  if (!core::is_file(file)) fail_without_file(folder, shown(package), name, where);
   return file;
 }
 
 fs::path Files::unit_folder(const fs::path& source, const core::Location& where) {
   const fs::path path = find_unit_ ? find_unit_(source, where) : source;
-  if (fs::is_directory(path)) return path;
+  if (core::is_folder(path)) return path;
   return unpack(path, "an FMU (.fmu, zip)", where);
 }
 

@@ -3,12 +3,14 @@
 #include <map>
 #include <set>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "master/ssp/ssp.h"
 #include "master/ssp/uri.h"
+#include "master/util/input_file.h"
 #include "master/util/xml/document.h"
 #include "master/util/xml/editor.h"
 
@@ -36,12 +38,19 @@ Kind kind_of(const xml::Element& element, const fs::path& source) {
   return source.extension() == ".ssp" ? Kind::File : Kind::Fmu;
 }
 
+/// The same for each way to name the file, as far as it can be resolved.
+fs::path identity(const fs::path& file) {
+  std::error_code error;
+  fs::path path = fs::weakly_canonical(file, error);
+  return error ? file : path;
+}
+
 class Packer {
  public:
   Packer(Files& files, const FmuMaker& make_fmu) : files_(files), make_fmu_(make_fmu) {}
 
   archive::Contents run(const fs::path& system) {
-    names_.emplace(fs::weakly_canonical(system), "SystemStructure.ssd");
+    names_.emplace(identity(system), "SystemStructure.ssd");
     contents_["SystemStructure.ssd"].text = packed(system, "resources/");
     return std::move(contents_);
   }
@@ -71,11 +80,11 @@ class Packer {
 
   /// Its name in the package's resources.
   std::string add(const xml::Element& element, const fs::path& source) {
-    const auto [entry, is_new] = names_.try_emplace(fs::weakly_canonical(source));
+    const auto [entry, is_new] = names_.try_emplace(identity(source));
     if (!is_new) return entry->second;
     const Kind kind = kind_of(element, source);
     const fs::path file = kind == Kind::Fmu ? make_fmu_(source, element.where()) : source;
-    if (!fs::is_regular_file(file)) {
+    if (!core::is_file(file)) {
       element.fail(fmt::format("the file '{}' does not exist", files_.shown(source)),
                    "its path is relative to this file");
     }

@@ -12,6 +12,7 @@
 #include "master/ssp/ssp.h"
 #include "master/ssp/transformation.h"
 #include "master/ssp/uri.h"
+#include "master/util/input_file.h"
 #include "master/util/xml/document.h"
 
 namespace stride::ssp {
@@ -131,7 +132,11 @@ xml::Document open(const xml::Element& owner, const BindingContext& context, con
     folder = context.files.unit_folder(context.component, owner.where());
   }
   const std::filesystem::path path = source_path(owner, folder);
-  if (std::error_code error; !std::filesystem::exists(path, error)) {
+  if (const std::string reason = core::why_unreachable(path); !reason.empty()) {
+    owner.fail(fmt::format("cannot reach the {} '{}': {}", what, context.files.shown(path), reason),
+               "check its path");
+  }
+  if (!core::path_exists(path)) {
     owner.fail(fmt::format("the {} '{}' does not exist", what, context.files.shown(path)),
                base == "SSD" ? "its path is relative to this file"
                              : "its path is relative to the top of the component's FMU");

@@ -15,6 +15,7 @@
 #include "master/ssp/ssp.h"
 #include "master/ssp/transformation.h"
 #include "master/ssp/uri.h"
+#include "master/util/input_file.h"
 #include "master/util/suggest.h"
 #include "master/util/xml/document.h"
 
@@ -252,7 +253,7 @@ class SystemReader {
 
   SystemNode read_other_file(const xml::Element& component) {
     const auto [source, variant] = source_of(component, folder_);
-    if (!std::filesystem::exists(source)) {
+    if (!core::path_exists(source)) {
       component.fail(fmt::format("the system '{}' does not exist", reading_.files.shown(source)),
                      "its path is relative to this file");
     }

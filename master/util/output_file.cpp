@@ -36,9 +36,12 @@ OutputFile::OutputFile(std::filesystem::path path, Hints hints, Existing existin
   const int how = existing == Existing::Emptied ? O_TRUNC : O_EXCL | O_NOFOLLOW;
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | how | O_CLOEXEC, kEverybodyMayRead);
   if (descriptor_ >= 0) return;
-  fail_input({.where = {path_.string(), 0}},
-             fmt::format("cannot create the file: {}", std::generic_category().message(errno)),
-             hints_.create);
+  const int error = errno;
+  const Context where{.where = {path_.string(), 0}};
+  const std::string message =
+      fmt::format("cannot create the file: {}", std::generic_category().message(error));
+  if (error == ENOSPC || error == EDQUOT) fail_run(where, message, "make room on the disk");
+  fail_input(where, message, hints_.create);
 }
 
 OutputFile::~OutputFile() {

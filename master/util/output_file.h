@@ -32,7 +32,8 @@ class OutputFile {
   /// What becomes of a file of this name: a refused one, or a link, is an error.
   enum class Existing { Emptied, Refused };
 
-  /// Creates the file or empties it. Throws Error (Input) if that is not possible.
+  /// Creates the file or empties it. Throws Error (Input) if that is not possible, and Error (Run)
+  /// if the disk is full.
   explicit OutputFile(std::filesystem::path path) : OutputFile(std::move(path), Hints{}) {}
   OutputFile(std::filesystem::path path, Hints hints, Existing existing = Existing::Emptied);
   /// Closes the file; a failure is lost then, so call close() where it matters.

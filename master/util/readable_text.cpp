@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include <fmt/format.h>
 #include <utf8.h>
 
 namespace stride::core {
@@ -9,12 +10,22 @@ namespace {
 
 constexpr std::string_view kEllipsis = "…";
 
-/// C0 and C1, DEL, and the separators of lines and paragraphs.
+bool is_between(char32_t first, char32_t code, char32_t last) {
+  return first <= code && code <= last;
+}
+
+/// C0 and C1, DEL, the separators of lines and paragraphs, and what changes the direction of text
+/// (Bidi_Control of Unicode).
 bool is_control(std::string_view character) {
-  const auto first = static_cast<std::uint8_t>(character[0]);
-  if (character.size() == 1) return first < 0x20 || first == 0x7F;
-  if (character.size() == 2) return character >= "\u0080" && character < "\u00A0";
-  return character == "\u2028" || character == "\u2029";
+  const char32_t code = utf8::unchecked::peek_next(character.begin());
+  return code < 0x20 || is_between(0x7F, code, 0x9F) || code == 0x061C || code == 0x200E ||
+         code == 0x200F || is_between(0x2028, code, 0x202E) || is_between(0x2066, code, 0x2069);
+}
+
+void append_escaped(std::string& text, std::string_view character) {
+  const char32_t code = utf8::unchecked::peek_next(character.begin());
+  const auto number = static_cast<std::uint32_t>(code);
+  text += code < 0x80 ? fmt::format("\\x{:02x}", number) : fmt::format("\\u{:04x}", number);
 }
 
 }  // namespace
@@ -43,6 +54,23 @@ std::string readable_text(std::string_view text, std::size_t most) {
     readable += is_control(character) ? " " : character;
   }
   return readable;
+}
+
+std::string terminal_text(std::string_view text) {
+  std::string safe;
+  safe.reserve(text.size());
+  while (!text.empty()) {
+    const char first = text.front();
+    const std::string_view character = take_character(text);
+    if (character.data() == kReplacement.data()) {  // of a byte
+      safe += fmt::format("\\x{:02x}", static_cast<std::uint8_t>(first));
+    } else if (first != '\n' && first != '\t' && is_control(character)) {
+      append_escaped(safe, character);
+    } else {
+      safe += character;
+    }
+  }
+  return safe;
 }
 
 }  // namespace stride::core

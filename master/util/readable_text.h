@@ -16,12 +16,18 @@ inline constexpr std::string_view kReplacement = "\uFFFD";
 std::string_view take_character(std::string_view& text);
 
 /// A text from elsewhere, made fit to be shown in a line: `most` characters at most, the last of
-/// which is "…" where there were more; control characters are blanks, and each byte that is not of
-/// a character of UTF-8 is U+FFFD.
+/// which is "…" where there were more; control characters, and those that change the direction of
+/// text, are blanks, and each byte that is not of a character of UTF-8 is U+FFFD.
 std::string readable_text(std::string_view text, std::size_t most);
 
 /// Whether the text is so already.
 inline bool is_readable(std::string_view text) { return readable_text(text, text.size()) == text; }
+
+/// A text made fit for a terminal or a log, where it stays as it is but for what could control the
+/// terminal or hide what is written: "\\x1b" for a control character of ASCII other than a line
+/// feed or a tab, "\\u202e" for another one and for those that change the direction of text,
+/// "\\xff" for a byte that is not of a character of UTF-8.
+std::string terminal_text(std::string_view text);
 
 }  // namespace stride::core
 

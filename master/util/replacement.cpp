@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "master/util/error.h"
+#include "master/util/input_file.h"
 
 namespace stride::core {
 namespace {
@@ -20,7 +21,7 @@ constexpr OutputFile::Hints kHints = {
 bool is_device(const fs::path& path) {
   const std::string folder = fs::absolute(path).lexically_normal().parent_path();
   return folder == "/dev" || folder == "/dev/fd" || folder.starts_with("/proc/") ||
-         (fs::exists(path) && !fs::is_regular_file(path));
+         (path_exists(path) && !is_file(path));
 }
 
 /// The file that is to be replaced.
@@ -37,13 +38,16 @@ fs::path target_of(const fs::path& path) {
 
 void check(const fs::path& path) {
   const Context where{.where = {path.string(), 0}};
-  if (fs::is_directory(path)) {
+  if (is_folder(path)) {
     fail_input(where, "this is a folder; expected a file to write to");
   }
-  if (!path.parent_path().empty() && !fs::is_directory(path.parent_path())) {
-    fail_input(where, "the folder of this file does not exist",
-               "make the folder, or choose another output file");
-  }
+  const fs::path folder = path.parent_path();
+  if (folder.empty() || is_folder(folder)) return;
+  const std::string reason = why_unreachable(folder);
+  fail_input(where,
+             reason.empty() ? "the folder of this file does not exist"
+                            : fmt::format("cannot reach the folder of this file: {}", reason),
+             "make the folder, or choose another output file");
 }
 
 }  // namespace

@@ -28,9 +28,16 @@ std::string to_text(const Finding& finding) {
   return dump({static_cast<int>(finding.verdict), finding.seen, finding.notes});
 }
 
+/// The unit may write to the pipe, too.
+constexpr const char* kUnreadable = "the answer of its process is unreadable";
+
 Finding finding_from_text(const std::string& text) {
-  const OrderedJson json = OrderedJson::parse(text);
-  return {static_cast<Verdict>(json[0].get<int>()), json[1], json[2]};
+  try {
+    const OrderedJson json = OrderedJson::parse(text);
+    return {static_cast<Verdict>(json.at(0).get<int>()), json.at(1), json.at(2)};
+  } catch (const OrderedJson::exception&) {
+    return failed(kUnreadable);
+  }
 }
 
 void check_names(const std::vector<std::string>& wanted) {
@@ -58,6 +65,8 @@ Finding run_isolated(const UnitCheck& check, const TestedUnit& tested, const Hoo
       return to_text(failed(failure.what()));
     } catch (const core::Error& error) {
       return to_text(failed(error.what()));
+    } catch (const OrderedJson::exception&) {
+      return to_text(failed(kUnreadable));
     }
   };
   const isolation::ChildOutcome outcome = isolation::run_in_child(

@@ -199,7 +199,7 @@ TEST_CASE("--junit: where there was no run, the report says why") {
 TEST_CASE("--junit: a file that cannot be written is reported before the run") {
   const Workspace workspace = watched(kGood);
   CHECK_THAT(input_error_of(run(workspace, {"--junit", "test.ssd/report.xml"})),
-             Contains("test.ssd/report.xml") && Contains("in which you may write"));
+             Contains("test.ssd/report.xml") && Contains("the folder of this file does not exist"));
   CHECK_FALSE(fs::exists(workspace / "out"));
 }
 

@@ -191,3 +191,23 @@ TEST_CASE("what cannot be a unit's folder is named") {
              Contains("out/units: cannot make this folder for files of a unit: Not a directory") ||
                  Contains("out/units: cannot make this folder for files of a unit: File exists"));
 }
+
+TEST_CASE("no file of the master's is written to the folders of units") {
+  const Workspace workspace(two_filters());
+  fs::create_directories(workspace / "out/units");
+  fs::create_directory_symlink("out/units/first", workspace / "link");
+  const std::string path = GENERATE("out/units/first/x", "out/units/x", "link/x");
+  for (const Arguments& options : {Arguments{"--junit", path}, {"--capture", "first=" + path}}) {
+    const Outcome outcome = workspace.run(options);
+    CHECK_THAT(input_error_of(outcome),
+               Contains(options[0] + " " + options[1] +
+                        ": the file is in the folder of the files of units"));
+    CHECK_FALSE(fs::exists(workspace / path));
+  }
+}
+
+TEST_CASE("a component with a name that is too long for a folder has one") {
+  const std::string name(400, 'n');
+  const Workspace workspace(Parts{component(name, "minimal.fmu")});
+  CHECK(workspace.run({"--quiet", "--isolate"}).exit_code == 0);
+}

@@ -33,7 +33,8 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"master/ssp", {"stride/time.h", "stride/xml_text.h", "master/model", "master/util", "fmt"}},
     {"master/checks", {"stride/time.h", "master/algorithm", "master/model", "master/util", "fmt"}},
     {"master/recorders",
-     {"stride/time.h", "master/algorithm", "master/model", "master/util", "fmt", "nlohmann"}},
+     {"stride/time.h", "stride/value_text.h", "master/algorithm", "master/model", "master/util",
+      "fmt", "nlohmann"}},
     {"master/scenario",
      {"stride/time.h", "master/ssp", "master/checks", "master/recorders", "master/isolation",
       "master/importer", "master/algorithm", "master/model", "master/util", "fmt", "spdlog"}},
@@ -53,7 +54,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"units/xml", {"stride/time.h", "stride/value_text.h", "tinyxml2.h"}},
     {"units/systemc", {"stride", "systemc", "sanitizer", "cxxabi.h"}},
     {"units/sensor", {"stride", "systemc", "units/nfc", "units/systemc"}},
-    {"units/mujoco_world", {"stride", "mujoco", "jpeglib.h", "tinyxml2.h", "CLI"}},
+    {"units/mujoco_world", {"stride", "units/xml", "mujoco", "jpeglib.h", "tinyxml2.h", "CLI"}},
     {"units/channel", {"stride", "Eigen", "units/nfc", "units/xml"}},
     {"units/nfc_channel", {"stride", "Eigen", "units/channel", "units/nfc"}},
     {"units/rf_channel", {"stride", "Eigen", "units/channel", "units/nfc"}},
@@ -61,7 +62,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"units/reader", {"stride", "units/nfc", "units/xml"}},
     {"units/environment", {"stride"}},
     {"units/ground_truth", {"stride", "units/xml"}},
-    {"units/player", {"stride"}},
+    {"units/player", {"stride", "units/xml"}},
     {"units/process", {"stride", "units/xml"}},
 };
 

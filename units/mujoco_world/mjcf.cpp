@@ -8,6 +8,7 @@
 #include <string>
 
 #include "units/mujoco_world/hooks.h"
+#include "units/xml/file.h"
 
 namespace mujoco_world {
 namespace {
@@ -197,6 +198,7 @@ ModelPointer load_model(const fs::path& file) {
     throw std::runtime_error("built for MuJoCo " + std::to_string(mjVERSION_HEADER) + ", but " +
                              std::to_string(mj_version()) + " was loaded: install the former");
   }
+  xml::require_file(file.string(), "an MJCF");
   // MuJoCo's parser keeps the last model in a global variable
   static std::mutex parser;
   const std::lock_guard lock(parser);

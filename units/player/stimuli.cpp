@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <map>
 #include <sstream>
 #include <stdexcept>
 
 #include "units/player/csv.h"
+#include "units/xml/file.h"
 
 namespace player {
 namespace {
@@ -304,13 +304,7 @@ Stimuli parse_stimuli(const std::string& text, const std::string& file) {
 }
 
 Stimuli load_stimuli(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (stream) text << stream.rdbuf();
-  if (!stream) {
-    throw std::runtime_error(file + ": cannot be read; expected what stride run --capture wrote");
-  }
-  return parse_stimuli(text.str(), file);
+  return parse_stimuli(xml::read_file(file, "what stride run --capture wrote"), file);
 }
 
 }  // namespace player

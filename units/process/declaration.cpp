@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <iterator>
 #include <set>
 #include <sstream>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "units/xml/document.h"
+#include "units/xml/file.h"
 
 namespace process {
 namespace {
@@ -233,8 +233,12 @@ class Reader {
 };
 
 fs::path origin_of(const fs::path& resources) {
+  const fs::path file = resources / kOrigin;
   std::string folder;
-  std::getline(std::ifstream(resources / kOrigin), folder);
+  if (fs::exists(file)) {
+    folder = xml::read_file(file.string(), "the path of a folder, as stride pack writes it");
+    folder.resize(std::min(folder.find('\n'), folder.size()));
+  }
   return folder.empty() ? fs::absolute(resources) : fs::path(folder);
 }
 

@@ -5,16 +5,13 @@
 
 #include <tinyxml2.h>
 
+#include "units/xml/file.h"
+
 namespace xml {
 namespace {
 
 void require_well_formed(const tinyxml2::XMLDocument& document, const std::string& name,
                          const std::string& root) {
-  const tinyxml2::XMLError error = document.ErrorID();
-  if (error == tinyxml2::XML_ERROR_FILE_NOT_FOUND ||
-      error == tinyxml2::XML_ERROR_FILE_COULD_NOT_BE_OPENED) {
-    throw std::runtime_error(name + ": cannot be read: expected a file with <" + root + "> in it");
-  }
   if (document.Error()) {
     throw std::runtime_error(name + ":" + std::to_string(document.ErrorLineNum()) +
                              ": expected well-formed XML: " + document.ErrorName());
@@ -28,9 +25,8 @@ void require_well_formed(const tinyxml2::XMLDocument& document, const std::strin
 
 Document Document::load(const std::string& path, const std::string& root,
                         const std::vector<std::string>& attributes) {
-  auto document = std::make_unique<tinyxml2::XMLDocument>();
-  document->LoadFile(path.c_str());
-  return Document(std::move(document), path, root, attributes);
+  const std::string text = read_file(path, "a file with <" + root + "> in it");
+  return parse(text, path, root, attributes);
 }
 
 Document Document::parse(const std::string& text, const std::string& name, const std::string& root,

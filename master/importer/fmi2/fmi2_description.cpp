@@ -95,10 +95,12 @@ class Variables {
     variable.variability = variability(element, variable);
     variable.initial = read_initial(element, variable);
     variable.start = typed.attribute_or("start");
+    check_start(typed, variable);
     const auto declared = declared_type(typed);
     variable.unit = inherited(typed, declared, "unit");
     variable.min = inherited(typed, declared, "min");
     variable.max = inherited(typed, declared, "max");
+    check_limits(typed, variable);
     variable.nominal = read_nominal(typed, variable.type, declared);
     variable.intermediate_update = unit_.provides_intermediate_update &&
                                    variable.causality == Causality::Input &&

@@ -97,6 +97,10 @@ class Linker {
       check_clocks(i);
       read_dimensions(i);
     }
+    for (std::size_t i = 0; i < variables_.size(); ++i) {
+      check_start(elements_[i], variables_[i], elements_[i].children("Start").size());
+      check_limits(elements_[i], variables_[i]);
+    }
     return std::move(index_);
   }
 

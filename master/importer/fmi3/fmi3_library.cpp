@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "master/util/input_file.h"
+
 namespace stride::importer {
 namespace {
 
@@ -117,7 +119,7 @@ void Fmi3Library::require_idle_functions(const core::Location& where) const {
 std::string resource_path(const fs::path& resources) {
   if (resources.empty()) return "";
   const fs::path folder = fs::absolute(resources / "").lexically_normal();
-  return fs::is_directory(folder) ? folder.string() : "";
+  return core::is_folder(folder) ? folder.string() : "";
 }
 
 }  // namespace stride::importer

@@ -124,7 +124,7 @@ TemporaryFolder::TemporaryFolder() : owner_(::getpid()) {
 void TemporaryFolder::sweep_abandoned() noexcept {
   try {
     const fs::path parent_folder = parent();
-    if (!fs::exists(parent_folder)) return;
+    if (std::error_code ignored; !fs::exists(parent_folder, ignored)) return;
     make_private(parent_folder);
     sweep(parent_folder);
   } catch (const std::exception&) {  // the next run will try it again

@@ -4,7 +4,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <memory>
 #include <string>
 
@@ -13,6 +12,8 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
+
+#include "master/util/input_file.h"
 
 namespace stride::archive {
 namespace {
@@ -112,11 +113,9 @@ class Extraction {
   }
 
   void open() {
-    if (::access(archive_.c_str(), R_OK) != 0) {
-      fail(fmt::format("cannot be read: {}", std::strerror(errno)));
-    }
+    file_ = core::open_input(archive_, where_);
     archive_read_support_format_zip(reader_.get());
-    if (archive_read_open_filename(reader_.get(), archive_.c_str(), kPiece) != ARCHIVE_OK) {
+    if (archive_read_open_fd(reader_.get(), file_.number(), kPiece) != ARCHIVE_OK) {
       fail("is not a zip archive", expected_);
     }
   }
@@ -159,8 +158,8 @@ class Extraction {
   void make_folder(const fs::path& path) const {
     std::error_code error;
     fs::create_directories(path, error);
-    if (fs::is_directory(path)) return;
-    if (fs::exists(path)) fail_entry("but also a file in the place of one of its folders");
+    if (core::is_folder(path)) return;
+    if (core::path_exists(path)) fail_entry("but also a file in the place of one of its folders");
     errno = error.value();
     fail_writing(path);
   }
@@ -179,14 +178,14 @@ class Extraction {
 
   /// Some tools pack a folder twice, which does no harm.
   void compare(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
+    bool is_same = core::is_file(path);
+    const core::Descriptor file = is_same ? core::open_input(path) : core::Descriptor();
     std::array<char, kPiece> first;
-    bool is_same = fs::is_regular_file(path);
     while (const std::size_t size = read_piece()) {
-      is_same = is_same && file.read(first.data(), static_cast<std::streamsize>(size)) &&
+      is_same = is_same && core::read_from(file, first.data(), size) == size &&
                 std::equal(first.data(), first.data() + size, buffer_.data());
     }
-    is_same = is_same && file.peek() == std::ifstream::traits_type::eof();
+    is_same = is_same && core::read_from(file, first.data(), 1) == 0;
     if (!is_same) fail_entry("which it holds twice, with different contents");
   }
 
@@ -209,6 +208,7 @@ class Extraction {
   std::string expected_;
   core::Location where_;
   UnpackLimits limits_;
+  core::Descriptor file_;  ///< open as long as it is read
   std::unique_ptr<::archive, decltype(&archive_read_free)> reader_;
   archive_entry* entry_ = nullptr;
   std::string name_;
@@ -220,11 +220,15 @@ class Extraction {
 
 UnpackedArchive::UnpackedArchive(const fs::path& path, const std::string& expected,
                                  const core::Location& where, const UnpackLimits& limits) {
-  if (!fs::exists(path)) {
+  if (const std::string reason = core::why_unreachable(path); !reason.empty()) {
+    core::fail_input({.where = where}, fmt::format("cannot reach '{}': {}", path.string(), reason),
+                     "check its path");
+  }
+  if (!core::path_exists(path)) {
     core::fail_input({.where = where}, fmt::format("there is no file '{}'", path.string()),
                      "relative names are taken from the folder of the file that names them");
   }
-  if (fs::is_directory(path)) {
+  if (core::is_folder(path)) {
     folder_ = fs::absolute(path);
   } else {
     temporary_.emplace();

@@ -23,9 +23,10 @@ struct UnpackLimits {
 class UnpackedArchive {
  public:
   /// Throws core::Error of the kind Input, located at `where` (the line that names the archive),
-  /// for what is no zip archive, is larger than the limits, or holds an entry that could reach out
-  /// of the folder: an absolute path, `..`, a link or a device. Nothing is ever written outside of
-  /// the folder. `expected`: what the file should have been: "an FMU: a .fmu archive (zip), …".
+  /// for what is no regular file or no zip archive, is larger than the limits, or holds an entry
+  /// that could reach out of the folder: an absolute path, `..`, a link or a device. Nothing is
+  /// ever written outside of the folder. `expected`: what the file should have been: "an FMU: a
+  /// .fmu archive (zip), …".
   UnpackedArchive(const std::filesystem::path& path, const std::string& expected,
                   const core::Location& where = {}, const UnpackLimits& limits = {});
 

@@ -22,7 +22,8 @@ void add_file(Contents& contents, const std::string& name, const std::filesystem
               bool executable);
 
 /// All files in a folder and below, with `prefix` before their names ("resources/"); what the
-/// file system has as executable stays it. Throws core::Error (Input) for what is no folder.
+/// file system has as executable stays it. Throws core::Error (Input) for what is no folder,
+/// and for one that holds a link to itself.
 void add_folder(Contents& contents, const std::string& prefix, const std::filesystem::path& folder);
 
 /// The archive depends on the contents alone: no time, no owner. It replaces a file that is there

@@ -2,32 +2,15 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstdio>
-#include <system_error>
 
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
+#include "master/util/input_file.h"
 #include "master/util/xml/editor.h"
 
 namespace stride::xml {
 namespace {
-
-std::string content_of(const std::filesystem::path& path, std::error_code& error) {
-  std::string content;
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                             &std::fclose);
-  if (file != nullptr) {
-    char piece[4096];
-    while (const std::size_t count = std::fread(piece, 1, sizeof piece, file.get())) {
-      content.append(piece, count);
-    }
-    if (std::ferror(file.get()) == 0) return content;
-  }
-  error.assign(errno, std::generic_category());
-  return content;
-}
 
 /// The encoding that the XML declaration names, in small letters; UTF-8 if it names none.
 std::string declared_encoding(const std::string& text) {
@@ -70,21 +53,6 @@ const char* words_for(tinyxml2::XMLError error) {
   core::fail_input({.where = {file, 0}}, message, hint);
 }
 
-std::string read(const std::filesystem::path& path, const std::string& shown_as) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) fail(shown_as, "the file does not exist", "check its path");
-  if (std::filesystem::is_directory(status)) {
-    fail(shown_as, "this is a folder, expected a file", "name the file inside it");
-  }
-  std::string text = content_of(path, error);
-  if (error) {
-    fail(shown_as, fmt::format("cannot read the file: {}", error.message()),
-         "check that it is a file that you may read");
-  }
-  return text;
-}
-
 void check_encoding(const std::string& text, const std::string& file) {
   if (text.starts_with("PK\x03\x04")) {
     fail(file, "this is a packed archive (such as .ssp or .fmu), expected an XML file",
@@ -120,8 +88,8 @@ struct Document::Content {
 };
 
 Document::Document(const std::filesystem::path& path, const std::string& shown_as)
-    : Document(parse(read(path, shown_as.empty() ? path.string() : shown_as),
-                     shown_as.empty() ? path.string() : shown_as)) {}
+    : Document(
+          parse(core::read_input(path, shown_as), shown_as.empty() ? path.string() : shown_as)) {}
 
 Document::Document(std::unique_ptr<Content> content) : content_(std::move(content)) {}
 Document::~Document() = default;

@@ -13,7 +13,8 @@ namespace stride::xml {
 class Document {
  public:
   /// Reads a file; complaints call it `shown_as`, or by its path. Throws core::Error (Input) that
-  /// names file and line for what is missing, not readable, not in UTF-8 or not well-formed.
+  /// names file and line for what is missing, no regular file, not readable, too large, not in
+  /// UTF-8 or not well-formed.
   explicit Document(const std::filesystem::path& path, const std::string& shown_as = "");
   /// The same from the document's text.
   static Document parse(std::string text, const std::string& shown_as);

@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include <fmt/format.h>
 
+#include "master/util/input_file.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {
@@ -148,12 +147,6 @@ class Examination {
   std::set<std::string> said_units_;
 };
 
-std::string read_file(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 /// A library of the unit kit knows its description; the one in the archive must be the same.
 void compare_with_library(const Trial& trial, std::vector<std::string>& mistakes) {
   const auto library = trial.tested.fmu().load_fmi3_library();
@@ -161,10 +154,9 @@ void compare_with_library(const Trial& trial, std::vector<std::string>& mistakes
   const std::filesystem::path folder = trial.tested.fmu().folder();
   const std::filesystem::path resources = folder / "resources";
   trial.note.write("strideModelDescription");
-  const std::string own =
-      library->describe(std::filesystem::is_directory(resources) ? resources : "");
+  const std::string own = library->describe(core::is_folder(resources) ? resources : "");
   trial.note.clear();
-  const std::string packed = read_file(folder / "modelDescription.xml");
+  const std::string packed = core::read_input(folder / "modelDescription.xml");
   if (own == packed) return;
   const auto place = std::mismatch(own.begin(), own.end(), packed.begin(), packed.end()).first;
   mistakes.push_back(fmt::format(

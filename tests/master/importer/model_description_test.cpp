@@ -528,3 +528,39 @@ TEST_CASE("a description with more elements than memory holds is refused") {
                         "<Dimension start=\"100000\"/><Dimension start=\"100000\"/>"),
              Contains("variable 'field' has more than"));
 }
+
+TEST_CASE("a start value is of the variable's type, and as long as the variable or one element") {
+  CHECK_THAT(error_with("start=\"20\"", "start=\"abc\""),
+             Contains("unit.xml:25: the start value of 'temperature': 'abc' is not a value for it, "
+                      "expected a Float64 number"));
+  CHECK_THAT(error_with("start=\"20\"", "start=\"20 21\""),
+             Contains("unit.xml:25: the start value of 'temperature' has 2 elements, the variable "
+                      "has 1"));
+  CHECK_THAT(error_with("start=\"7\"", "start=\"on\""), Contains("the start value of 'mode'"));
+  CHECK_THAT(error_with("<Start value=\"00ff\"/>", "<Start value=\"0f0\"/>"),
+             Contains("the start value of 'frame'") && Contains("an even number"));
+  CHECK_THAT(error_with("<Start value=\"two\"/>", "<Start value=\"two\"/><Start value=\"three\"/>"),
+             Contains("the start value of 'words' has 3 elements, the variable has 2"));
+  CHECK_THAT(error_with("valueReference=\"8\"/>", "valueReference=\"8\" start=\"yes\"/>"),
+             Contains("the start value of 'on'") && Contains("true or false"));
+  const auto field = [](const std::string& start) {
+    std::string text = kComplete;
+    const std::string place = "name=\"field\" valueReference=\"2\"";
+    return text.insert(text.find(place) + place.size(), " start=\"" + start + "\"");
+  };
+  const auto read = [&](const std::string& start) {
+    importer::parse_model_description(field(start), "unit.xml");
+  };
+  CHECK_NOTHROW(read("1 2 3\n4 5 6"));
+  CHECK_NOTHROW(read("1"));  // for each element
+  CHECK_NOTHROW(read("INF"));
+  CHECK_THAT(input_error([&] { read("1 2 3 4 5"); }),
+             Contains("the start value of 'field' has 5 elements, the variable has 6"));
+}
+
+TEST_CASE("a least or greatest value is a number") {
+  CHECK_THAT(error_with("max=\"100\"", "max=\"much\""),
+             Contains("unit.xml:25: max=\"much\" of 'temperature': expected a number"));
+  CHECK_THAT(error_with("min=\"-273.15\"", "min=\"1 2\""),
+             Contains("min=\"1 2\" of 'temperature'"));
+}

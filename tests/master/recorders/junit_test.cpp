@@ -88,5 +88,5 @@ TEST_CASE("a run that did not come to its end is an error, whose first line is t
 
 TEST_CASE("a file that cannot be written is an error of the option that names it") {
   CHECK_THAT(error_of([] { write_junit("/nowhere/junit.xml", report()); }),
-             Contains("/nowhere/junit.xml") && Contains("in which you may write"));
+             Contains("/nowhere/junit.xml") && Contains("the folder of this file does not exist"));
 }

@@ -108,3 +108,37 @@ TEST_CASE("Links of an earlier run go before its films, and are not followed") {
     CHECK(fs::exists(fs::symlink_status(folder / file)));
   }
 }
+
+TEST_CASE("A name that is too long for a folder is shortened, differently for each") {
+  const std::string longest(255, 'n');
+  CHECK(unit_folder_name(longest) == longest);
+  const std::string one = longest + "a", other = longest + "b";
+  CHECK(unit_folder_name(one).size() == 255);
+  CHECK(unit_folder_name(one) != unit_folder_name(other));
+  CHECK(unit_folder_name(one) == unit_folder_name(one));
+  CHECK_THAT(component_of_folder(unit_folder_name(one)),
+             Catch::StartsWith("nnn") && Catch::EndsWith("n…"));
+  const TemporaryFolder folder;
+  const std::vector<std::string> components{one, std::string(200, '/'), std::string(200, '%')};
+  const UnitFolders folders(folder / "", components);
+  for (const std::string& component : components) {
+    CHECK(fs::is_directory(unit_folder(folder / "", component)));
+  }
+}
+
+TEST_CASE("A path into the folders of units is recognized, also through links") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "out/units/a");
+  fs::create_directory_symlink(folder / "out/units/a", folder / "link");
+  fs::create_symlink(folder / "out/units/a/x", folder / "file");
+  const fs::path out = folder / "out";
+  for (const char* inside : {"out/units/a/x", "out/units/b/x", "out/units",
+                             "out/./units/../units/x", "link/x", "file"}) {
+    INFO(inside);
+    CHECK(is_in_unit_folders(out, folder / inside));
+  }
+  for (const char* outside : {"out/x", "out/unitsx", "out/units/../x", "x", "other/units/x"}) {
+    INFO(outside);
+    CHECK_FALSE(is_in_unit_folders(out, folder / outside));
+  }
+}

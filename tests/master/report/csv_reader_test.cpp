@@ -68,9 +68,9 @@ TEST_CASE("a quotation mark out of place is an error with its line") {
 TEST_CASE("what cannot be read is named") {
   const TemporaryFolder folder;
   CHECK_THAT(error_of([&] { CsvReader(folder / "none.csv"); }),
-             Contains("none.csv: cannot read the file: No such file"));
+             Contains("none.csv: the file does not exist"));
   CHECK_THAT(error_of([&] { CsvReader("/dev/zero"); }),
-             Contains("/dev/zero: cannot read the file: it is not a regular file"));
+             Contains("/dev/zero: this is a device, not a regular file"));
 }
 
 TEST_CASE("what the recorders write comes back, across all borders of the buffer") {

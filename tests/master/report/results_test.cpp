@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "master/recorders/unit_folders.h"
 #include "tests/master/report/support.h"
 
 using namespace stride;
@@ -166,6 +167,36 @@ TEST_CASE("a folder without run.json has results, too") {
   CHECK(results.run.json.is_null());
   CHECK(results.signals.times.size() == 2);
   CHECK_THAT(results.notes.at(0), Equals("run.json: this file is missing"));
+}
+
+TEST_CASE("with a broken run.json the rest is shown, and the mistake is reported") {
+  const Folder f;
+  const auto [text, note] = GENERATE(table<std::string, std::string>({
+      {"", "run.json:1: this is not JSON: the file is empty"},
+      {"{\"outcome\": \"comp", "run.json:1: this is not JSON, in column "},
+      {"{\"units\": 1}", "run.json: this is not what `stride run` writes: 'units' is of the type"},
+  }));
+  f.folder.write("run.json", text);
+  const recorders::ResultFiles files = result_files(f.folder / "");
+  CHECK(files.statistics == "run.json");
+  const Results results = read_results(f.folder / "", files);
+  CHECK(results.run.json.is_null());
+  CHECK(results.signals.times.size() == 2);
+  CHECK(results.messages.size() == 1);
+  REQUIRE(results.notes.size() == 1);
+  CHECK_THAT(results.notes[0], Contains(note) && Contains("the report is without what it holds"));
+}
+
+TEST_CASE("a film in a folder whose name is shortened has the whole name of its component") {
+  const Folder f;
+  const std::string name(300, 'n');
+  f.film("time,file\n0,0.jpg\n");
+  std::filesystem::rename(f.folder / "units/world",
+                          f.folder / ("units/" + recorders::unit_folder_name(name)));
+  f.folder.write("run.json", R"({"units": [{"name": ")" + name + R"(", "model": "A"}]})");
+  CHECK(f.read().films.at(0).component == name);
+  f.folder.write("run.json", "{}");
+  CHECK_THAT(f.read().films.at(0).component, Catch::StartsWith("nnn") && Catch::EndsWith("n…"));
 }
 
 TEST_CASE("the results of a killed run are shown, and what was cut off is reported") {

@@ -55,14 +55,29 @@ TEST_CASE("what is not a run.json is refused") {
   const auto refusal = [&](const std::string& text) {
     return error_of([&] { read_run_file(folder.write("run.json", text)); });
   };
-  CHECK_THAT(refusal("{\n\"a\": 1,\n\"b\""), Contains("run.json:3: this is not JSON"));
-  CHECK_THAT(refusal(""), Contains("run.json:1: this is not JSON"));
-  CHECK_THAT(refusal("[]"), Contains("this is not a JSON object"));
+  const std::string other = "run.json: this is not what `stride run` writes: ";
+  CHECK_THAT(refusal("{\n\"a\": 1,\n\"b\""),
+             Contains("run.json:3: this is not JSON, in column 3: syntax error"));
+  CHECK_THAT(refusal(""), Contains("run.json:1: this is not JSON: the file is empty"));
+  CHECK_THAT(refusal("[]"), Contains(other + "its root is of the type array, expected an object"));
   CHECK_THAT(refusal(R"({"signals": [{"name": 1}]})"),
-             Contains("run.json: this is not what `stride run` writes: "));
-  CHECK_THAT(refusal(R"({"plots": 3})"), Contains("this is not what `stride run` writes: "));
+             Contains(other + "'signals[0].name' is of the type number, expected a text"));
+  CHECK_THAT(refusal(R"({"plots": 3})"),
+             Contains(other + "'plots' is of the type number, expected a list"));
+  CHECK_THAT(refusal(R"({"units": [{"name": "a"}]})"),
+             Contains(other + "'units[0].model' is missing"));
+  CHECK_THAT(refusal(R"({"plots": [{"title": "x", "signals": ["a", 3]}]})"),
+             Contains(other + "'plots[0].signals[1]' is of the type number, expected a text"));
+  CHECK_THAT(refusal(R"({"files": []})"), Contains(other + "'files' is of the type array"));
+  CHECK_THAT(refusal(R"({"files": {"signals": "../x"}})"),
+             Contains("'../x' is not a file of this"));
+  CHECK_THAT(refusal(R"({"stop": 1e999})"), Contains(other + "number overflow"));
+  for (const char* text : {"", "{\"a\":\xff}", "{\"a\": 1e999}", "{\"signals\": 1}", "[1"}) {
+    CHECK_THAT(refusal(text), !Contains("json.exception") && !Contains("parse_error"));
+  }
   CHECK_THAT(refusal("{\"a\":" + std::string(100'000, '[')), Contains("nested too deeply"));
-  CHECK_THAT(error_of([&] { read_run_file(folder / "none.json"); }), Contains("none.json: cannot"));
+  CHECK_THAT(error_of([&] { read_run_file(folder / "none.json"); }),
+             Contains("none.json: the file does not exist"));
 }
 
 TEST_CASE("a run file is found under another name, by its content") {
@@ -85,5 +100,5 @@ TEST_CASE("what is too large to be one is not read") {
   padded.close();
   CHECK(find_run_file(folder / "").empty());
   CHECK_THAT(error_of([&] { read_run_file(file); }),
-             Contains("a.json: this is not what") && Contains("more than 64 MiB"));
+             Contains("a.json: the file has more than 67108864 bytes"));
 }

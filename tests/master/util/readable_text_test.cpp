@@ -6,6 +6,7 @@
 
 using stride::core::is_readable;
 using stride::core::readable_text;
+using stride::core::terminal_text;
 
 TEST_CASE("a text of whole characters stays what it is") {
   for (const char* text : {"", "set_led 1", "21.49 °C", "\u00A0\u07FF\u0800\uD7FF\uE000\uFFFD",
@@ -20,6 +21,7 @@ TEST_CASE("control characters become blanks, each byte that is of no character U
       {"a\nb\tc\x7F", "a b c "},
       {std::string("a\0b", 3), "a b"},
       {"\u0085\u2028\u2029", "   "},
+      {"a\u202Eb\u2066c\u200F\u061C", "a b c  "},
       {"a\xFF", "a\uFFFD"},
       {"\xC3", "\uFFFD"},                                // broken off
       {"\x80x", "\uFFFDx"},                              // in the middle of one
@@ -54,5 +56,28 @@ TEST_CASE("what comes out is readable, whatever goes in") {
     const std::string readable = readable_text(text, most);
     CHECK(is_readable(readable));
     CHECK(readable_text(readable, most) == readable);
+  }
+}
+
+TEST_CASE("a text for a terminal stays as it is, but for what could control it") {
+  const std::pair<std::string, std::string> cases[] = {
+      {"", ""},
+      {"a\tb\nc °", "a\tb\nc °"},
+      {"\x1b[2J", "\\x1b[2J"},
+      {std::string("a\0b", 3), "a\\x00b"},
+      {"10 %\r 99 %\b\x7f", "10 %\\x0d 99 %\\x08\\x7f"},
+      {"\u0080\u009b31m\u009f\u00a0", "\\u0080\\u009b31m\\u009f\u00a0"},
+      {"\x9b\x31m", "\\x9b1m"},  // C1 in Latin-1
+      {"\u202a\u202b\u202c\u202d\u202e", "\\u202a\\u202b\\u202c\\u202d\\u202e"},
+      {"\u2066\u2067\u2068\u2069", "\\u2066\\u2067\\u2068\\u2069"},
+      {"\u200e\u200f\u061c\u2028", "\\u200e\\u200f\\u061c\\u2028"},
+      {"\u2065\u206a\uFFFD", "\u2065\u206a\uFFFD"},
+      {"\xc3(", "\\xc3("},
+      {"\xef\xbf", "\\xef\\xbf"},
+  };
+  for (const auto& [text, expected] : cases) {
+    CAPTURE(expected);
+    CHECK(terminal_text(text) == expected);
+    CHECK(terminal_text(expected) == expected);
   }
 }

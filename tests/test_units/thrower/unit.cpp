@@ -1,5 +1,6 @@
 // Fails in the first step that ends at `throw_at` or later.
 #include <stdexcept>
+#include <string>
 
 #include <stride/unit.h>
 
@@ -10,6 +11,7 @@ class Thrower : public stride::Unit {
   Thrower() {
     parameter("throw_at", throw_at_).unit("s").description("instant from which a step fails");
     parameter("odd", odd_).description("throw something that is not a std::exception");
+    parameter("message", message_).description("what is thrown");
     output("steps", steps_).exact().depends_on({}).description("steps made");
     state();
   }
@@ -17,7 +19,7 @@ class Thrower : public stride::Unit {
   void step(stride::Step& step) override {
     if (stride::to_seconds(step.to()) >= throw_at_) {
       if (odd_) throw 42;
-      throw std::runtime_error("the fuse has blown");
+      throw std::runtime_error(message_);
     }
     ++steps_;
   }
@@ -25,6 +27,7 @@ class Thrower : public stride::Unit {
  private:
   double throw_at_ = 0;
   bool odd_ = false;
+  std::string message_ = "the fuse has blown";
   std::int32_t steps_ = 0;
 };
 

@@ -8,11 +8,14 @@
 
 #include <tinyxml2.h>
 
+#include "units/xml/file.h"
+
 namespace mujoco_world {
 
 /// Throws std::runtime_error with the file and what is wrong with it, also if it has no element.
 inline tinyxml2::XMLElement& read_xml(tinyxml2::XMLDocument& document,
                                       const std::filesystem::path& file) {
+  xml::require_file(file.string(), "an XML file");
   if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS || !document.RootElement()) {
     throw std::runtime_error("cannot read '" + file.string() + "': " + document.ErrorStr());
   }

@@ -240,3 +240,18 @@ TEST_CASE("a unit for Model Exchange only is refused by name") {
              Contains("no Co-Simulation interface") && Contains("it has ModelExchange only") &&
                  Contains("hint: export the unit for Co-Simulation"));
 }
+
+TEST_CASE("a start value of FMI 2.0 is of the variable's type") {
+  const auto [from, to, message] = GENERATE(table<std::string, std::string, std::string>({
+      {"start=\"0.5\"", "start=\"abc\"",
+       "'inflow[1]': 'abc' is not a value for it, expected a Float64"},
+      {"start=\"0.5\"", "start=\"1 2\"", "'inflow[1]' has 2 elements, the variable has 1"},
+      {"start=\"true\"", "start=\"2\"", "'on': '2' is not a value for it, expected true or false"},
+      {"start=\"7\"", "start=\"on\"", "'mode': 'on' is not a value for it"},
+      {"<Integer/>", "<Integer start=\"99999999999\"/>", "'count': "},
+  }));
+  std::string text = kTank;
+  text.replace(text.find(from), from.size(), to);
+  CHECK_THAT(input_error([&] { importer::parse_model_description(text, "unit.xml"); }),
+             Contains("unit.xml:") && Contains("the start value of " + message));
+}

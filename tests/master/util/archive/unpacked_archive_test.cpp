@@ -1,5 +1,7 @@
 #include "master/util/archive/unpacked_archive.h"
 
+#include <sys/stat.h>
+
 #include "tests/master/util/archive/support.h"
 
 using namespace stride;
@@ -165,4 +167,15 @@ TEST_CASE("no folder is left when unpacking fails") {
     left += entry.is_directory() ? 1 : 0;
   }
   CHECK(left == 0);
+}
+
+TEST_CASE("what is no regular file is refused and not waited for") {
+  const Scratch scratch;
+  REQUIRE(::mkfifo((scratch / "fifo.fmu").c_str(), 0600) == 0);
+  fs::create_symlink("loop.fmu", scratch / "loop.fmu");
+  CHECK_THAT(unpack_error(scratch / "fifo.fmu"),
+             Contains("system.ssd:7: ") && Contains("fifo.fmu': this is a FIFO, not a"));
+  CHECK_THAT(unpack_error("/dev/zero"), Contains("'/dev/zero': this is a device"));
+  CHECK_THAT(unpack_error(scratch / "loop.fmu"), Contains("cannot reach '"));
+  CHECK_THAT(unpack_error(scratch / std::string(300, 'n')), Contains("File name too long"));
 }

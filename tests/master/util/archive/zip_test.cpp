@@ -1,5 +1,7 @@
 #include "master/util/archive/zip.h"
 
+#include <sys/stat.h>
+
 #include "master/util/archive/unpacked_archive.h"
 #include "tests/master/util/archive/support.h"
 
@@ -48,4 +50,38 @@ TEST_CASE("what cannot be packed is an error") {
   archive::add_file(contents, "a", scratch.write("a", "text"), false);
   CHECK_THAT(input_error([&] { archive::add_file(contents, "a", scratch / "a", false); }),
              Contains("two files would be 'a'"));
+}
+
+TEST_CASE("a folder that a link in it leads back to is refused, one that is there twice is not") {
+  const Scratch scratch;
+  scratch.write("folder/a/x.txt", "x");
+  fs::create_symlink("a", scratch / "folder/b");
+  archive::Contents contents;
+  archive::add_folder(contents, "", scratch / "folder");
+  CHECK(contents.size() == 2);
+  fs::create_symlink("..", scratch / "folder/a/up");
+  CHECK_THAT(input_error([&] { archive::add_folder(contents, "", scratch / "folder"); }),
+             Contains("/up: this link leads to a folder that it is in itself"));
+}
+
+TEST_CASE("a FIFO or a loop of links is not packed") {
+  const Scratch scratch;
+  fs::create_directory(scratch / "folder");
+  const bool is_fifo = GENERATE(true, false);
+  if (is_fifo) {
+    REQUIRE(::mkfifo((scratch / "folder/x").c_str(), 0600) == 0);
+  } else {
+    fs::create_symlink("x", scratch / "folder/x");
+  }
+  archive::Contents contents;
+  CHECK_THAT(input_error([&] { archive::add_folder(contents, "", scratch / "folder"); }),
+             Contains("folder/x' is not a file that can be packed"));
+}
+
+TEST_CASE("an archive that cannot be written is named as the user knows it") {
+  const Scratch scratch;
+  archive::Contents contents;
+  contents["x"].text = "x";
+  CHECK_THAT(run_error([&] { archive::write_zip(scratch / "none/x.zip", contents); }),
+             Contains("cannot write '" + (scratch / "none/x.zip").string() + "': "));
 }

@@ -21,7 +21,7 @@ TEST_CASE("A file that cannot be read is named, with the reason") {
   CHECK_THAT(error_of([&] { xml::Document document(missing); }),
              Contains(missing.string() + ": the file does not exist"));
   CHECK_THAT(error_of([&] { xml::Document document("/"); }),
-             Contains("this is a folder, expected a file"));
+             Contains("this is a folder, not a regular file"));
   CHECK_THAT(error_of([&] { xml::Document document("/proc/self/mem"); }),
              Contains("/proc/self/mem: cannot read the file"));
 }

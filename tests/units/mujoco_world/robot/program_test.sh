@@ -40,7 +40,7 @@ says 2 "subcommand is required"
 says 2 "MODEL is required" show
 says 2 "--output is required" convert world/scene.xml
 says 2 "stride-robot: error: --mount lift: expected BODY=FILE" convert world/scene.xml -o out.xml --mount lift
-says 2 "stride-robot: error: cannot read 'absent.urdf'" show absent.urdf
+says 2 "stride-robot: error: absent.urdf: cannot be read" show absent.urdf
 says 2 "stride-robot: error: no folder 'nowhere'" reach nowhere --distance 0.1
 says 2 "stride-robot: error: Could not convert: --distance = near" reach world --distance near
 says 0 "joint up, -1 … 1 m" show world

@@ -1,0 +1,30 @@
+// What is printed: texts of units, files and scenarios cannot control the terminal.
+#ifndef STRIDE_MASTER_CLI_OUTPUT_H
+#define STRIDE_MASTER_CLI_OUTPUT_H
+
+#include <cstdio>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace stride::cli {
+
+/// Writes core::terminal_text() of it.
+void put(std::FILE* stream, std::string_view text);
+
+/// To the standard output.
+template <class... Values>
+void print_text(fmt::format_string<Values...> format, Values&&... values) {
+  put(stdout, fmt::format(format, std::forward<Values>(values)...));
+}
+
+/// "stride: error: TEXT", to the standard error stream.
+void print_error(std::string_view text);
+
+/// The log goes to the standard error stream, likewise.
+void set_up_log();
+
+}  // namespace stride::cli
+
+#endif

@@ -1,0 +1,62 @@
+// Files that others have made: none of them can block stride, fill its memory or be a device.
+#ifndef STRIDE_MASTER_UTIL_INPUT_FILE_H
+#define STRIDE_MASTER_UTIL_INPUT_FILE_H
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "master/util/descriptor.h"
+#include "master/util/error.h"
+
+namespace stride::core {
+
+/// A text, such as XML or JSON, may have so many bytes.
+inline constexpr std::uintmax_t kMostText = std::uintmax_t{256} << 20;
+
+/// Opens a regular file to read it; links that lead to one are followed. Throws Error (Input), at
+/// the file, which complaints call `shown_as`, or by its path, for what is missing, not readable or
+/// something else: a folder, a FIFO, a socket, a device. None of these is waited for.
+Descriptor open_input(const std::filesystem::path& file, const std::string& shown_as = "");
+/// Likewise; the error is at the line that names the file.
+Descriptor open_input(const std::filesystem::path& file, const Location& where);
+
+/// The whole content of such a file. Throws Error (Input) also for more than `most` bytes, whether
+/// the file has them already or grows meanwhile.
+std::string read_input(const std::filesystem::path& file, const std::string& shown_as = "",
+                       std::uintmax_t most = kMostText);
+
+/// The first bytes, fewer where there are fewer; none where the file cannot be read.
+std::string head_of(const std::filesystem::path& file, std::size_t count);
+
+/// Copies such a file to a new one. Throws Error (Input) where it cannot be read, and Error (Run)
+/// where the copy cannot be written.
+void copy_input(const std::filesystem::path& file, const std::filesystem::path& copy);
+
+/// Reads up to `count` bytes; fewer only at the end of the file. Throws std::system_error.
+std::size_t read_from(const Descriptor& file, char* bytes, std::size_t count);
+
+/// What a path leads to, without exceptions: where it cannot be examined, there is nothing.
+inline bool is_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored);
+}
+inline bool is_folder(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(path, ignored);
+}
+inline bool path_exists(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
+}
+
+/// Why there is nothing at a path, if that is not simply so: "File name too long", "Too many levels
+/// of symbolic links", "Permission denied"; otherwise empty.
+std::string why_unreachable(const std::filesystem::path& path);
+
+}  // namespace stride::core
+
+#endif
