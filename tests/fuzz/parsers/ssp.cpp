@@ -55,21 +55,21 @@ const std::string kBound = ssd(R"(<ssd:System name="root"><ssd:ParameterBindings
     </ssd:ParameterBinding></ssd:ParameterBindings>
   <ssd:Elements><ssd:Component name="a" source="a.fmu"/></ssd:Elements></ssd:System>)");
 
-void read_bound() {
-  static const auto file = write_file("bound/x.ssd", kBound);
+void read_bound(const std::string& folder) {
+  const auto file = write_file(folder + "/x.ssd", kBound);
   refusing_input("", [&] { read_scenario(file); });
 }
 
 void read_ssv(const std::string& bytes) {
-  copy_seed("ssm/both.ssm", "bound/map.ssm");
-  write_file("bound/values.ssv", bytes);
-  read_bound();
+  copy_seed("ssm/both.ssm", "values/map.ssm");
+  write_file("values/values.ssv", bytes);
+  read_bound("values");
 }
 
 void read_ssm(const std::string& bytes) {
-  copy_seed("ssv/values.ssv", "bound/values.ssv");
-  write_file("bound/map.ssm", bytes);
-  read_bound();
+  copy_seed("ssv/values.ssv", "mapping/values.ssv");
+  write_file("mapping/map.ssm", bytes);
+  read_bound("mapping");
 }
 
 void read_ssb(const std::string& bytes) {
