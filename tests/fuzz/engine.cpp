@@ -5,6 +5,7 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <random>
 #include <typeinfo>
 
 #include <sys/mman.h>
@@ -22,20 +23,21 @@ namespace {
 class Inputs {
  public:
   Inputs(const Parser& parser, unsigned seed)
-      : seeds_(seeds_of(parser)), alphabet_(parser.alphabet), seed_(seed) {
+      : seeds_(seeds_of(parser)), alphabet_(parser.alphabet), seed_(std::mt19937(seed)()) {
     if (seeds_.empty()) throw std::invalid_argument("'" + parser.name + "' has no seeds");
   }
 
   std::string operator[](std::size_t i) const {
     if (i < seeds_.size()) return seeds_[i];
     Mutator mutator(seed_ + static_cast<unsigned>(i), alphabet_);
-    return mutator.mutate(seeds_[i % seeds_.size()]);
+    const std::string& text = seeds_[i % seeds_.size()];
+    return i / seeds_.size() % 2 == 0 ? mutator.mutate(text) : mutator.replace_quoted(text);
   }
 
  private:
   std::vector<std::string> seeds_;
   std::string alphabet_;
-  unsigned seed_;
+  unsigned seed_;  // far from that of the next night
 };
 
 /// What a worker has done, in memory that outlives it.
