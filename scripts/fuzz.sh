@@ -44,14 +44,14 @@ guided() {
   "$folder/fuzz" seeds "$1" "$corpus/$1"
   if STRIDE_FUZZ_PARSER=$1 "$folder/fuzz_guided" -runs="$inputs" -seed="$seed" -timeout=10 -rss_limit_mb=2048 \
     -malloc_limit_mb=1024 -max_len=20000 -artifact_prefix="$findings/$1-" "$corpus/$1" >"$findings/$1.log" 2>&1; then
-    echo "$1: $(grep -c . <(ls "$corpus/$1")) inputs of the corpus, no findings"
+    echo "$1: no findings"
     rm "$findings/$1.log"
     return
   fi
   echo "$1: finding, see $findings/$1.log"
   local file
   for file in "$findings/$1"-*; do
-    [[ $file == *.txt ]] || echo "$PWD/$folder/fuzz read $1 $file" | tee "$file.txt"
+    [[ ! -e $file || $file == *.txt ]] || echo "$PWD/$folder/fuzz read $1 $file" | tee "$file.txt"
   done
   return 1
 }
