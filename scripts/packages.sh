@@ -10,6 +10,7 @@ packages_test=(
   binutils catch2 chromium chromium-driver clang-format-14 fish fonts-dejavu-core gtkwave libbenchmark-dev
   libpython3.11 libxml2-utils mandoc mold python3 python3-venv python3-pip unzip zip zsh
 )
+packages_fuzz=(clang-14 libclang-rt-14-dev)
 
 # Node.js of another origin brings an npm of its own, beside which Debian's cannot be installed.
 command -v npm >/dev/null || packages_build+=(npm)

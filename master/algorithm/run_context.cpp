@@ -10,7 +10,7 @@ std::vector<VariableId> observed_variables(const RunOptions& options) {
   std::vector<VariableId> ids = options.recorded;
   ids.insert(ids.end(), options.watched.begin(), options.watched.end());
   std::ranges::sort(ids);
-  ids.erase(std::ranges::unique(ids).begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;
 }
 

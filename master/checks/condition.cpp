@@ -151,6 +151,7 @@ std::string Condition::value_text(const ValueBlock& block, std::size_t element) 
     if (item != variable_.items.end()) return item->first;
   }
   const std::string text = core::element_text(block, element);
+  if (text.empty()) return "no bytes";
   return variable_.unit.empty() ? text : text + " " + variable_.unit;
 }
 

@@ -37,7 +37,7 @@ class Condition {
   Truth holds(const core::ValueBlock& block, std::size_t element) const;
   /// ">= 1.8 V and <= 5 V", "= true"
   const std::string& text() const { return text_; }
-  /// A human-readable value: "1.79 V", "charging", "'on'".
+  /// A human-readable value: "1.79 V", "charging", "'on'", "no bytes".
   std::string value_text(const core::ValueBlock& block, std::size_t element) const;
 
  private:

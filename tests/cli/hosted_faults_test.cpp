@@ -1,5 +1,5 @@
-// Units that harm their processes, or those around them: exit code 1, an error that reports what
-// happened, complete results up to there, and nothing left behind.
+// Units in processes of their own that harm these, or those around them, and processes that are
+// killed from outside. How a unit may end its process is in faults_test.cpp.
 #include <csignal>
 #include <functional>
 #include <utility>
@@ -80,62 +80,6 @@ std::string said_by(const Workspace& workspace, const Arguments& options, Argume
 }
 
 }  // namespace
-
-TEST_CASE("a unit that ends its process is an error with the call, the time and the signal") {
-  const Workspace workspace = hosted_beside_a_filter();
-  const auto [fault, end, words] = GENERATE(table<std::string, std::string, std::string>({
-      {"segfault", "SIGSEGV", ""},
-      {"stack overflow", "SIGSEGV", ""},
-      {"abort", "SIGABRT", "the model is inconsistent"},
-      {"throw in a thread", "SIGABRT", "nobody catches this"},
-      {"kill", "SIGKILL", ""},
-      {"exit", "exit code 3", ""},
-      {"_exit", "exit code 4", ""},
-      {"exit in a thread", "exit code 5", ""},
-  }));
-  INFO(fault);
-  CHECK_THAT(error_of(workspace, does(fault)),
-             Contains(workspace.at("faulty.fmu") + "unit 'faulty', at 0.499 s: ") &&
-                 Contains(end) && Contains("in fmi3DoStep") &&
-                 Contains("it printed: now comes: " + fault) && Contains(words));
-}
-
-TEST_CASE("the end of a host is an error in every call") {
-  const Workspace workspace = hosted_beside_a_filter();
-  const auto [call, function, last] = GENERATE(table<std::string, std::string, std::string>({
-      {"initialize", "fmi3ExitInitializationMode", ""},
-      {"event", "fmi3UpdateDiscreteStates", ""},
-      {"terminate", "fmi3Terminate", "1"},
-  }));
-  INFO(call);
-  const Leftovers leftovers;
-  const Outcome outcome =
-      workspace.run({"--quiet", "--set", "faulty.fault=segfault", "--set", "faulty.call=" + call});
-  CHECK(outcome.exit_code == 1);
-  CHECK_THAT(outcome.err, Contains("unit 'faulty'") && Contains("SIGSEGV") && Contains(function));
-  CHECK(leftovers.all() == std::vector<std::string>{});
-  CHECK(workspace.left_behind().empty());
-  if (!last.empty()) CHECK(last_time(workspace) == last);
-}
-
-TEST_CASE("a unit that crashes when it is made") {
-  const Workspace workspace = hosted_beside_a_filter("dies_at_birth");
-  const Leftovers leftovers;
-  const Outcome outcome = workspace.run({"--quiet"});
-  CHECK(outcome.exit_code == 1);
-  CHECK_THAT(outcome.err, Contains(workspace.at("faulty.fmu") + "unit 'dies_at_birth'") &&
-                              Contains("SIGABRT") && Contains("fmi3InstantiateCoSimulation"));
-  CHECK(leftovers.all() == std::vector<std::string>{});
-  CHECK(workspace.left_behind().empty());
-}
-
-TEST_CASE("an exception that leaves a unit's function") {
-  const Workspace workspace = hosted_beside_a_filter("throws", "raw_throwing");
-  make_raw_fmu(workspace.scratch(), "raw_throwing");
-  CHECK_THAT(error_of(workspace, {}, "0"), Contains("unit 'throws', at 0 s: ") &&
-                                               Contains("fmi3DoStep") &&
-                                               Contains("thrown across the C interface"));
-}
 
 TEST_CASE("a unit that takes too long is ended") {
   const Workspace workspace = hosted_beside_a_filter();

@@ -120,6 +120,8 @@ TEST_CASE("in words, with the unit of measure") {
   ValueBlock text(ValueType::String, 1);
   text.strings()[0] = "a";
   CHECK(Condition(variable(ValueType::String), equals("b")).value_text(text, 0) == "'a'");
+  const Condition bytes(variable(ValueType::Binary), equals("00"));
+  CHECK(bytes.value_text(ValueBlock(ValueType::Binary, 1), 0) == "no bytes");
 }
 
 TEST_CASE("what makes no sense is refused") {

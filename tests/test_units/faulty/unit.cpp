@@ -1,149 +1,16 @@
 // Harms its process, or those around it, in the first call of a kind that comes at `at` or later.
-#include <algorithm>
 #include <cerrno>
-#include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <functional>
-#include <map>
 #include <stdexcept>
 #include <string>
-#include <thread>
-#include <vector>
-
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <stride/unit.h>
 
+#include "tests/test_units/faults/faults.h"
+
 namespace {
-
-[[noreturn]] void sleep_for_ever() {
-  for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
-}
-
-[[noreturn]] void fail(const std::string& what) {
-  throw std::runtime_error(what + ": " + std::strerror(errno));
-}
-
-void write_to_nowhere() {
-  int* volatile nowhere = reinterpret_cast<int*>(16);
-  *nowhere = 1;
-}
-
-void abort_aloud() {
-  std::fputs("the model is inconsistent\n", stderr);
-  std::abort();
-}
-
-void exit_in_thread() {
-  std::thread([] { std::exit(5); }).join();
-}
-
-void throw_in_thread() {
-  std::thread([] { throw std::runtime_error("nobody catches this"); }).join();
-}
-
-/// Deeper than any stack; the frames are looked at, so none is left out.
-int recurse(int depth, volatile char* above) {
-  volatile char frame[4096];
-  frame[0] = *above;
-  return depth == 0 ? 0 : recurse(depth - 1, frame) + frame[0];
-}
-
-void overflow_the_stack() {
-  volatile char first = 0;
-  recurse(1 << 30, &first);
-}
-
-[[noreturn]] void loop() {
-  for (volatile unsigned i = 0;; i = i + 1) {
-  }
-}
-
-void allocate() {
-  constexpr std::size_t kPiece = 1 << 20;
-  std::vector<std::vector<char>> pieces;
-  for (;;) pieces.emplace_back(kPiece, 'x');
-}
-
-/// A megabyte, and goes on as if nothing was.
-void print() {
-  for (int i = 0; i < 16384; ++i) std::printf("line %5d: %s\n", i, std::string(50, '.').c_str());
-  std::fflush(stdout);
-}
-
-void close_all_files() {
-  for (int file = 0; file < 1024; ++file) ::close(file);
-}
-
-void kill_parent() {
-  if (::kill(::getppid(), SIGKILL) != 0) fail("cannot kill the parent");
-}
-
-/// Leaves its group and its parent, as a service does.
-void start_daemon() {
-  if (::fork() == 0) {
-    ::setsid();
-    if (::fork() == 0) sleep_for_ever();
-    ::_exit(0);
-  }
-}
-
-/// What it shares with other processes, whatever that is.
-void overwrite_shared_memory() {
-  std::ifstream maps("/proc/self/maps");
-  for (std::string line; std::getline(maps, line);) {
-    unsigned long begin = 0, end = 0;
-    char mode[5] = "";
-    if (std::sscanf(line.c_str(), "%lx-%lx %4s", &begin, &end, mode) != 3) continue;
-    if (std::string(mode) != "rw-s") continue;
-    std::memset(reinterpret_cast<void*>(begin), 0xee, end - begin);
-  }
-}
-
-void write_temporary() {
-  std::string name = std::string(std::getenv("TMPDIR")) + "/notes-XXXXXX";
-  const int file = ::mkstemp(name.data());
-  if (file < 0) fail("cannot make " + name);
-  ::close(file);
-}
-
-void connect() {
-  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
-  if (socket < 0) fail("cannot make a socket");
-  ::close(socket);
-}
-
-const std::map<std::string, std::function<void()>> kFaults{
-    {"segfault", write_to_nowhere},
-    {"abort", abort_aloud},
-    {"exit", [] { std::exit(3); }},
-    {"exit with 0", [] { std::exit(0); }},
-    {"_exit", [] { ::_exit(4); }},
-    {"exit in a thread", exit_in_thread},
-    {"throw in a thread", throw_in_thread},
-    {"stack overflow", overflow_the_stack},
-    {"loop", loop},
-    {"stop", [] { std::raise(SIGSTOP); }},
-    {"kill", [] { std::raise(SIGKILL); }},
-    {"kill parent", kill_parent},
-    {"allocate", allocate},
-    {"print", print},
-    {"print for ever",
-     [] {
-       for (;;) print();
-     }},
-    {"close files", close_all_files},
-    {"daemon", start_daemon},
-    {"overwrite", overwrite_shared_memory},
-    {"connect", connect},
-    {"write temporary", write_temporary},
-};
 
 class Faulty : public stride::Unit {
  public:
@@ -151,7 +18,7 @@ class Faulty : public stride::Unit {
     describe("Harms its process, or those around it");
     input("u", u_);
     output("y", y_).exact().depends_on({});
-    parameter("fault", fault_).description("what it does: " + names());
+    parameter("fault", fault_).description("what it does: " + stride::tests::fault_names());
     parameter("call", call_).description("in which call: initialize, step, event or terminate");
     parameter("at", at_).unit("s").description("the first end of a step at which it does so");
     parameter("file", file_).description("a file that it writes instead");
@@ -171,24 +38,19 @@ class Faulty : public stride::Unit {
   void terminate() override { act("terminate", stride::Time::max()); }
 
  private:
-  static std::string names() {
-    std::string names;
-    for (const auto& [name, fault] : kFaults) names += (names.empty() ? "" : ", ") + name;
-    return names;
-  }
-
   void act(const std::string& call, stride::Time now) {
     if (call != call_ || now < stride::time_from_seconds(at_) || has_acted_) return;
     has_acted_ = true;
     if (!file_.empty()) write_file();
     if (fault_.empty()) return;
-    std::fprintf(stderr, "now comes: %s\n", fault_.c_str());
-    kFaults.at(fault_)();
+    stride::tests::commit_fault(fault_);
   }
 
   void write_file() const {
     std::FILE* const file = std::fopen(file_.c_str(), "w");
-    if (file == nullptr) fail("cannot write " + file_);
+    if (file == nullptr) {
+      throw std::runtime_error("cannot write " + file_ + ": " + std::strerror(errno));
+    }
     std::fputs("written\n", file);
     std::fclose(file);
   }

@@ -24,6 +24,14 @@
 #define END() ((void)0)
 #endif
 
+/* For units that fail: a status of their own that a call returns, or 0. */
+#ifndef FAULT
+#define FAULT(call) 0
+#endif
+#define RETURN_FAULT(call)       \
+  const int fault = FAULT(call); \
+  if (fault != 0) return (fmi2Status)fault;
+
 #define EXPORT __attribute__((visibility("default")))
 #define FIRST_INPUT 0
 #define FIRST_OTHER 10 /* value references below are those of inputs */
@@ -115,7 +123,7 @@ EXPORT fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n,
 EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid,
                                      fmi2String resources, const fmi2CallbackFunctions* call,
                                      fmi2Boolean visible, fmi2Boolean logging) {
-  (void)visible;
+  (void)visible, (void)FAULT("instantiate");
   Unit* unit = units;
   while (unit->is_used) {
     if (++unit == units + kInstances) return NULL;
@@ -136,6 +144,7 @@ EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String 
 }
 
 EXPORT void fmi2FreeInstance(fmi2Component c) {
+  (void)FAULT("free");
   END();
   ((Unit*)c)->is_used = false;
   --fmi2_living_units;
@@ -156,12 +165,14 @@ EXPORT fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
 }
 EXPORT fmi2Status fmi2ExitInitializationMode(fmi2Component c) {
   ALLOW("fmi2ExitInitializationMode", unit->mode == kInitialization)
+  RETURN_FAULT("initialize")
   unit_outputs(unit);
   unit->mode = kStepComplete;
   return fmi2OK;
 }
 EXPORT fmi2Status fmi2Terminate(fmi2Component c) {
   ALLOW("fmi2Terminate", unit->mode == kStepComplete || unit->mode == kStepFailed)
+  RETURN_FAULT("terminate")
   unit->mode = kTerminated;
   return fmi2OK;
 }
@@ -195,12 +206,14 @@ static bool may_get(Unit* unit) {
   EXPORT fmi2Status fmi2Get##T(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, \
                                fmi2##T value[]) {                                          \
     ALLOW("fmi2Get" #T, may_get(unit))                                                     \
+    RETURN_FAULT("get")                                                                    \
     for (size_t i = 0; i < nvr; ++i) value[i] = unit->model.field[vr[i]];                  \
     return fmi2OK;                                                                         \
   }                                                                                        \
   EXPORT fmi2Status fmi2Set##T(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, \
                                const fmi2##T value[]) {                                    \
     ALLOW("fmi2Set" #T, may_set(unit, vr, nvr))                                            \
+    RETURN_FAULT("set")                                                                    \
     unit->is_set = unit->mode == kStepComplete;                                            \
     for (size_t i = 0; i < nvr; ++i) {                                                     \
       store(unit->model.field[vr[i]], value[i]);                                           \
@@ -230,6 +243,7 @@ EXPORT fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueRe
 #ifndef WITHOUT_STATE
 EXPORT fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate* state) {
   ALLOW("fmi2GetFMUstate", unit->mode != kStepInProgress)
+  RETURN_FAULT("get state")
   if (*state == NULL) {
     *state = unit->call.allocateMemory(1, sizeof(Unit));
     ++fmi2_living_states;
@@ -276,6 +290,7 @@ EXPORT fmi2Status fmi2DoStep(fmi2Component c, fmi2Real point, fmi2Real size,
   fmi2_step_begin = point;
   fmi2_step_size = size;
   fmi2_no_restore = no_restore;
+  RETURN_FAULT("step")
   LOCK();
   unit->finished = fmi2Pending;
   const fmi2Status status = unit_step(unit, point, size);

@@ -10,6 +10,9 @@
  *   pending  it returns 5, a status of FMI 2.0
  *   unheard  it returns 77, which is no status
  *   insists  it rejects what is not the next step of raw_step picoseconds by its own count
+ *
+ * With WITH_FAULTS it commits a fault of faults/faults.h, in any call, and has a state, without
+ * content.
  */
 #include <math.h>
 #include <string.h>
@@ -43,9 +46,16 @@ extern void stride_test_nobody_has_this(void);
 #ifdef WITH_MISSING_LIBRARY
 extern int stride_test_absent(void);
 #endif
-#ifdef WITH_THROW
-extern void stride_test_throw(void);
+#ifdef WITH_FAULTS
+#include "tests/test_units/faults/faults.h"
+#define FAULT(call) stride_test_fault(call, raw_point + raw_size)
+#else
+#define FAULT(call) 0
 #endif
+/* A status of the fault's. */
+#define RETURN_FAULT(call)       \
+  const int fault = FAULT(call); \
+  if (fault != 0) return (fmi3Status)fault;
 
 static bool is(const Instance* instance, const char* name) {
   return strcmp(instance->name, name) == 0;
@@ -61,7 +71,7 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
                                          fmi3LogMessageCallback log,
                                          fmi3IntermediateUpdateCallback update) {
   (void)token, (void)visible, (void)logging, (void)event_mode, (void)early_return;
-  (void)required, (void)n_required, (void)update;
+  (void)required, (void)n_required, (void)update, (void)FAULT("instantiate");
 #ifdef WITH_UNDEFINED_SYMBOL
   stride_test_nobody_has_this();
 #endif
@@ -88,6 +98,7 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
 }
 
 void fmi3FreeInstance(fmi3Instance instance) {
+  (void)FAULT("free");
   ((Instance*)instance)->is_used = false;
   --raw_living;
 }
@@ -98,16 +109,34 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance i, fmi3Boolean d, fmi3Float6
   return fmi3OK;
 }
 
-#define TRANSITION(Name)                         \
+#define TRANSITION(Name, call)                   \
   fmi3Status fmi3##Name(fmi3Instance instance) { \
     (void)instance;                              \
+    RETURN_FAULT(call)                           \
     return fmi3OK;                               \
   }
-TRANSITION(ExitInitializationMode)
-TRANSITION(EnterEventMode)
-TRANSITION(EnterStepMode)
-TRANSITION(Terminate)
-TRANSITION(Reset)
+TRANSITION(ExitInitializationMode, "initialize")
+TRANSITION(EnterEventMode, "enter event mode")
+TRANSITION(EnterStepMode, "enter step mode")
+TRANSITION(Terminate, "terminate")
+TRANSITION(Reset, "reset")
+
+#ifdef WITH_FAULTS
+fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState* state) {
+  RETURN_FAULT("get state")
+  *state = instance;
+  return fmi3OK;
+}
+fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state) {
+  (void)instance, (void)state;
+  return fmi3OK;
+}
+fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState* state) {
+  (void)instance;
+  *state = NULL;
+  return fmi3OK;
+}
+#endif
 
 #ifndef WITHOUT_DO_STEP
 /* Whether the step begins at the double nearest to steps * raw_step, and has that size. */
@@ -126,9 +155,7 @@ fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 point, fmi3Float64 size,
   raw_no_restore = no_restore;
   if (is(instance, "insists") && !is_next_step(instance, point, size)) return fmi3Discard;
   ++instance->steps;
-#ifdef WITH_THROW
-  stride_test_throw();
-#endif
+  RETURN_FAULT("step")
   *terminate = false;
   *event = is(instance, "needs");
   *early = is(instance, "early") || is(instance, "arrives");
@@ -153,6 +180,7 @@ fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 point, fmi3Float64 size,
 fmi3Status fmi3UpdateDiscreteStates(fmi3Instance i, fmi3Boolean* update, fmi3Boolean* terminate,
                                     fmi3Boolean* nominals, fmi3Boolean* values,
                                     fmi3Boolean* defined, fmi3Float64* next) {
+  RETURN_FAULT("event")
   *update = *terminate = *nominals = *values = false;
   *defined = true;
   *next = is(i, "thirds") ? 1.0 / 3 : 1e300;
@@ -163,12 +191,14 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance i, fmi3Boolean* update, fmi3Boo
   fmi3Status fmi3Get##T(fmi3Instance i, const fmi3ValueReference r[], size_t n, fmi3##T values[], \
                         size_t size) {                                                            \
     (void)i, (void)r, (void)n;                                                                    \
+    RETURN_FAULT("get")                                                                           \
     for (size_t k = 0; k < size; ++k) values[k] = 0;                                              \
     return fmi3OK;                                                                                \
   }                                                                                               \
   fmi3Status fmi3Set##T(fmi3Instance i, const fmi3ValueReference r[], size_t n,                   \
                         const fmi3##T values[], size_t size) {                                    \
     (void)i, (void)r, (void)n, (void)values, (void)size;                                          \
+    RETURN_FAULT("set")                                                                           \
     return fmi3OK;                                                                                \
   }
 ACCESS(Float32)

@@ -1,0 +1,243 @@
+// Each way in which a unit may fail, in each call, for both versions of FMI, in the process of
+// stride and in one of the unit's own: exit code 1, the unit, the function, the simulated time and
+// the way, complete results up to there, and nothing left behind.
+#include <array>
+#include <cstdlib>
+
+#include "tests/build.h"
+#include "tests/cli/failures.h"
+#include "tests/cli/leftovers.h"
+
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr const char* kCompletes = "";
+
+/// What the error contains; FUNCTION is the one that was called.
+struct Fault {
+  const char* name;        ///< of tests/test_units/faults
+  const char* in_process;  ///< or kCompletes; null: this is not tried
+  const char* hosted;      ///< likewise, in a process of the unit's own
+};
+
+/// In the step that ends at 0.5 s.
+constexpr Fault kFaults[] = {
+    {"segfault", "signal 11 (SIGSEGV) ends stride in FUNCTION",
+     "its process was ended by signal 11 (SIGSEGV) in FUNCTION"},
+    {"stack overflow", "signal 11 (SIGSEGV) ends stride in FUNCTION",
+     "its process was ended by signal 11 (SIGSEGV) in FUNCTION"},
+    {"abort", "signal 6 (SIGABRT) ends stride in FUNCTION",
+     "its process was ended by signal 6 (SIGABRT) in FUNCTION"},
+    {"throw in a thread", "signal 6 (SIGABRT) ends stride in FUNCTION",
+     "its process was ended by signal 6 (SIGABRT) in FUNCTION"},
+    {"SIGFPE", "signal 8 (SIGFPE) ends stride in FUNCTION",
+     "its process was ended by signal 8 (SIGFPE) in FUNCTION"},
+    {"SIGILL", "signal 4 (SIGILL) ends stride in FUNCTION",
+     "its process was ended by signal 4 (SIGILL) in FUNCTION"},
+    {"SIGBUS", "signal 7 (SIGBUS) ends stride in FUNCTION",
+     "its process was ended by signal 7 (SIGBUS) in FUNCTION"},
+    {"SIGSYS", "signal 31 (SIGSYS) ends stride in FUNCTION",
+     "its process was ended by signal 31 (SIGSYS) in FUNCTION"},
+    {"SIGTERM", nullptr, "its process was ended by signal 15 (SIGTERM) in FUNCTION"},
+    {"SIGINT", nullptr, "its process was ended by signal 2 (SIGINT) in FUNCTION"},
+    {"SIGUSR1", nullptr, "its process was ended by signal 10 (SIGUSR1) in FUNCTION"},
+    {"kill", nullptr, "its process was ended by signal 9 (SIGKILL) in FUNCTION"},
+    {"exit with 0", "exit() ends stride in FUNCTION",
+     "it ended its process with exit code 0 in FUNCTION"},
+    {"exit", "exit() ends stride in FUNCTION", "it ended its process with exit code 3 in FUNCTION"},
+    {"_exit", "exit() ends stride in FUNCTION",
+     "it ended its process with exit code 4 in FUNCTION"},
+    {"exit in a thread", "exit() ends stride in FUNCTION",
+     "it ended its process with exit code 5 in FUNCTION"},
+    {"throw int", "FUNCTION threw something that is not a std::exception",
+     "FUNCTION threw something that is not a std::exception"},
+    {"throw bad_alloc", "FUNCTION threw std::bad_alloc", "FUNCTION threw std::bad_alloc"},
+    {"throw exception", "FUNCTION threw the fuse has blown", "FUNCTION threw the fuse has blown"},
+    {"status 77", "FUNCTION returned 77, a status that", "FUNCTION returned 77, a status that"},
+    {"limit parent", nullptr, "cannot limit the parent: Permission denied"},
+    {"close streams", kCompletes, kCompletes},
+    {"close files", nullptr, kCompletes},
+    {"change folder", nullptr, kCompletes},
+    {"change umask", nullptr, kCompletes},
+    {"block signals", nullptr, kCompletes},
+    {"ignore SIGINT", nullptr, kCompletes},
+    {"limit resources", nullptr, kCompletes},
+    {"round up", nullptr, kCompletes},
+    {"flush to zero", nullptr, kCompletes},
+};
+
+struct Call {
+  const char* name;                       ///< as a fault unit knows it
+  const char* at;                         ///< the first end of a step at which it fails [s]
+  std::array<const char*, 2> functions;   ///< of FMI 2.0, which may have none such, and 3.0
+  const char* last;                       ///< row of the results; null: there are no results
+  const char* neighbour = "minimal.fmu";  ///< which lets it be called
+};
+
+constexpr Call kStep{"step", "0.5", {"fmi2DoStep", "fmi3DoStep"}, "0.375"};
+constexpr Call kInstantiate{
+    "instantiate", "0", {"fmi2Instantiate", "fmi3InstantiateCoSimulation"}, nullptr};
+constexpr Call kFree{"free", "0", {"fmi2FreeInstance", "fmi3FreeInstance"}, "1"};
+/// The other ones.
+constexpr Call kCalls[] = {
+    {"initialize", "0", {"fmi2ExitInitializationMode", "fmi3ExitInitializationMode"}, nullptr},
+    {"event", "0", {nullptr, "fmi3UpdateDiscreteStates"}, nullptr},
+    {"get", "0.5", {"fmi2GetReal", "fmi3GetFloat64"}, "0.375"},
+    {"set", "0.5", {"fmi2SetReal", "fmi3SetFloat64"}, "0.5"},
+    {"get state", "0.5", {"fmi2GetFMUstate", "fmi3GetFMUState"}, "0.5", "early.fmu"},
+    {"terminate", "0", {"fmi2Terminate", "fmi3Terminate"}, "1"},
+};
+
+/// How the unit is used. AddressSanitizer has handlers of its own in the process of stride.
+struct Setting {
+  int version;
+  bool is_hosted;
+
+  std::string unit() const { return "fmi" + std::to_string(version) + "_faulty.fmu"; }
+  const char* function(const Call& call) const { return call.functions[version - 2]; }
+  const char* end(const Fault& fault) const { return is_hosted ? fault.hosted : fault.in_process; }
+};
+
+std::vector<Setting> settings() {
+  std::vector<Setting> all{{2, true}, {3, true}};
+  if (!kSanitized) all.insert(all.end(), {{2, false}, {3, false}});
+  return all;
+}
+
+/// For the units of the runs that are started while it exists.
+class Order {
+ public:
+  Order(const char* fault, const Call& call) {
+    ::setenv("STRIDE_TEST_FAULT", fault, 1);
+    ::setenv("STRIDE_TEST_CALL", call.name, 1);
+    ::setenv("STRIDE_TEST_AT", call.at, 1);
+  }
+  ~Order() { ::unsetenv("STRIDE_TEST_FAULT"); }
+  Order(const Order&) = delete;
+  Order& operator=(const Order&) = delete;
+};
+
+Workspace workspace_for(const Setting& setting, const Call& call) {
+  return Workspace(Parts{component("first", call.neighbour) + component("faulty", setting.unit()),
+                         connection("first.y", "faulty.u")});
+}
+
+/// A run whose unit commits the fault; nothing is left of it.
+Outcome run(const Workspace& workspace, const Setting& setting, const char* fault,
+            const Call& call) {
+  const Leftovers leftovers;
+  const Order order(fault, call);
+  Arguments arguments{"--quiet", "--step", "0.125", "--junit", (workspace / "junit.xml").string()};
+  if (setting.is_hosted) arguments.push_back("--isolate");
+  const Outcome outcome = workspace.run(arguments);
+  CHECK(leftovers.all() == std::vector<std::string>{});
+  CHECK(workspace.left_behind().empty());
+  return outcome;
+}
+
+std::string with_function(std::string text, const std::string& function) {
+  const std::string kWord = "FUNCTION";
+  const std::size_t at = text.find(kWord);
+  return at == std::string::npos ? text : text.replace(at, kWord.size(), function);
+}
+
+/// The error is on the standard error stream and in the report for tests.
+void check_error(const Workspace& workspace, const Outcome& outcome, const std::string& end) {
+  CHECK(outcome.exit_code == 1);
+  CHECK(outcome.out == "");
+  CHECK_THAT(outcome.err, Contains("stride: error: " + workspace.at("_faulty.fmu")) &&
+                              Contains("unit 'faulty'") && Contains(end));
+  CHECK_THAT(read(workspace / "junit.xml"),
+             Contains("unit &apos;faulty&apos;") || Contains("unit 'faulty'"));
+}
+
+/// Likewise in run.json, and all rows up to there are in the results.
+void check_results(const Workspace& workspace, const Outcome& outcome, const char* last) {
+  const nlohmann::json run = run_json(workspace);
+  CHECK(run["outcome"] == "failed");
+  CHECK_THAT(outcome.err, Contains("stride: error: " + run["error"].get<std::string>()));
+  if (last != nullptr) CHECK(last_time(workspace) == last);
+}
+
+void check_completed(const Workspace& workspace, const Outcome& outcome) {
+  CHECK(outcome.exit_code == 0);
+  CHECK(last_time(workspace) == "1");
+  CHECK(run_json(workspace)["outcome"] == "completed");
+}
+
+/// A crash, and an answer that means nothing.
+constexpr Fault kCrash = kFaults[0];
+constexpr Fault kStatus{"status 77", "FUNCTION returned 77, a status that",
+                        "FUNCTION returned 77, a status that"};
+
+}  // namespace
+
+TEST_CASE("a unit that fails in a step is named, with the function, the time and the way") {
+  for (const Setting& setting : settings()) {
+    const Workspace workspace = workspace_for(setting, kStep);
+    for (const Fault& fault : kFaults) {
+      INFO("FMI " << setting.version << (setting.is_hosted ? ", hosted: " : ": ") << fault.name);
+      if (setting.end(fault) == nullptr) continue;
+      const Outcome outcome = run(workspace, setting, fault.name, kStep);
+      INFO(outcome.err);
+      const std::string end = with_function(setting.end(fault), setting.function(kStep));
+      if (end == kCompletes) {
+        check_completed(workspace, outcome);
+        continue;
+      }
+      check_error(workspace, outcome, "unit 'faulty', at 0.375 s: ");
+      check_error(workspace, outcome, end);
+      check_results(workspace, outcome, kStep.last);
+    }
+  }
+}
+
+TEST_CASE("a status that the unit's version of FMI does not have is an error with its number") {
+  for (const Setting& setting : settings()) {
+    if (setting.version == 2) continue;  // where 5 is fmi2Pending
+    const Workspace workspace = workspace_for(setting, kStep);
+    const Outcome outcome = run(workspace, setting, "status 5", kStep);
+    check_error(workspace, outcome, "fmi3DoStep returned 5, a status that FMI 3.0 does not have");
+    check_results(workspace, outcome, kStep.last);
+  }
+}
+
+TEST_CASE("a unit that fails in another call") {
+  for (const Setting& setting : settings()) {
+    for (const Call& call : kCalls) {
+      if (setting.function(call) == nullptr) continue;
+      const Workspace workspace = workspace_for(setting, call);
+      for (const Fault& fault : {kCrash, kStatus}) {
+        INFO("FMI " << setting.version << (setting.is_hosted ? ", hosted: " : ": ") << fault.name
+                    << " in " << call.name);
+        const Outcome outcome = run(workspace, setting, fault.name, call);
+        INFO(outcome.err);
+        check_error(workspace, outcome, with_function(setting.end(fault), setting.function(call)));
+        check_results(workspace, outcome, call.last);
+      }
+    }
+  }
+}
+
+TEST_CASE("a unit that crashes when it is made has no results") {
+  for (const Setting& setting : settings()) {
+    INFO("FMI " << setting.version << (setting.is_hosted ? ", hosted" : ""));
+    const Workspace workspace = workspace_for(setting, kInstantiate);
+    const Outcome outcome = run(workspace, setting, kCrash.name, kInstantiate);
+    check_error(workspace, outcome,
+                with_function(setting.end(kCrash), setting.function(kInstantiate)));
+  }
+}
+
+TEST_CASE("a unit that crashes at its end has all results") {
+  for (const Setting& setting : settings()) {
+    if (setting.is_hosted) continue;
+    INFO("FMI " << setting.version);
+    const Workspace workspace = workspace_for(setting, kFree);
+    const Outcome outcome = run(workspace, setting, kCrash.name, kFree);
+    check_error(workspace, outcome, with_function(setting.end(kCrash), setting.function(kFree)));
+    CHECK(last_time(workspace) == kFree.last);
+  }
+}

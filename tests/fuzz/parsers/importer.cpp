@@ -1,0 +1,67 @@
+// What an FMU consists of.
+#include "master/importer/fmu.h"
+#include "master/importer/idle_manifest.h"
+#include "master/importer/model_description.h"
+#include "master/util/archive/zip.h"
+#include "tests/fuzz/core_errors.h"
+#include "tests/fuzz/parser.h"
+#include "tests/fuzz/working_folder.h"
+
+namespace stride::tests {
+namespace {
+
+void read_model_description(const std::string& bytes) {
+  refusing_input("x.xml", [&] {
+    const auto read = importer::parse_model_description(bytes, "x.xml");
+    if (!read.fmi2) return;
+    ensure(read.fmi2->references.size() == read.variables.size(), "each variable has a reference");
+  });
+}
+
+void read_idle_manifest(const std::string& bytes) {
+  static const core::UnitDescription unit = importer::read_model_description(
+      copy_seed("model_description/idler.xml", "idler/modelDescription.xml"));
+  refusing_input("x.xml", [&] {
+    core::UnitDescription read = unit;
+    importer::parse_idle_manifest(bytes, "x.xml", read);
+    ensure(read.promises_idle, "a manifest is a promise");
+    for (const core::Variable& variable : read.variables) {
+      ensure(variable.deadband >= 0, "a deadband is not negative");
+      ensure(variable.tolerance.value_or(1) > 0, "a tolerance is above 0");
+    }
+  });
+}
+
+std::string fmu_bytes() {
+  const auto file = working_path("seed.fmu");
+  archive::Contents contents;
+  contents["modelDescription.xml"].file =
+      copy_seed("model_description/fmi2_relaxation.xml", "relaxation.xml");
+  contents["binaries/linux64/fmi2_relaxation.so"] = {"not a library", {}, true};
+  contents["resources/table.csv"].text = std::string(2000, '7');
+  archive::write_zip(file, contents);
+  return content_of(file);
+}
+
+void read_fmu(const std::string& bytes) {
+  refusing_input("", [&] { importer::Fmu::load(write_file("x.fmu", bytes)); });
+  ensure(is_tidy(), "archives leave nothing behind");
+}
+
+const Registration kImporterParsers(
+    "importer", {
+                    {.name = "model_description",
+                     .read = read_model_description,
+                     .seed_files = {"tests/fuzz/seeds/model_description",
+                                    "tests/test_units/resizable/modelDescription.xml"}},
+                    {.name = "idle_manifest",
+                     .read = read_idle_manifest,
+                     .seed_files = {"tests/fuzz/seeds/idle_manifest"}},
+                    {.name = "fmu_archive",
+                     .read = read_fmu,
+                     .make_seed = fmu_bytes,
+                     .alphabet = std::string("PK\x01\x02\x03\x04\x05\x06/.\0\xff", 12)},
+                });
+
+}  // namespace
+}  // namespace stride::tests

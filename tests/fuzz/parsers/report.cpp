@@ -1,0 +1,78 @@
+// What a report is made of.
+#include "master/report/results.h"
+#include "tests/fuzz/core_errors.h"
+#include "tests/fuzz/parser.h"
+#include "tests/fuzz/working_folder.h"
+
+namespace stride::tests {
+namespace {
+
+struct File {
+  const char* name;
+  const char* seed;
+};
+
+constexpr File kFiles[] = {{"run.json", "run_json/run.json"},
+                           {"signals.csv", "signals/signals.csv"},
+                           {"events.csv", "events/events.csv"},
+                           {"activity.csv", "activity/activity.csv"},
+                           {"units/world/film/frames.csv", "film/frames.csv"}};
+
+/// A folder of results in which this file is another one.
+std::filesystem::path results_with(const std::string& name, const std::string& bytes) {
+  const std::string folder = "results/" + name + "/";
+  for (const File& file : kFiles) {
+    if (file.name != name) copy_seed(file.seed, folder + file.name);
+  }
+  for (const char* picture : {"0.jpg", "1.jpg"}) {
+    write_file(folder + "units/world/film/" + picture, "");
+  }
+  write_file(folder + name, bytes);
+  return working_path(folder);
+}
+
+template <std::size_t file>
+void read_results(const std::string& bytes) {
+  const auto folder = results_with(kFiles[file].name, bytes);
+  refusing<core::Error>((folder / kFiles[file].name).string() + ":", [&] {
+    const report::Results results =
+        report::read_results(folder, {}, {.signals = {.values = 20}, .messages = 3});
+    for (const report::Column& column : results.signals.columns) {
+      ensure(column.size() == results.signals.times.size(), "columns have a value for each time");
+    }
+    for (const report::Activities& activities : results.activities) {
+      ensure(activities.from.size() == activities.until.size(), "what begins has an end");
+    }
+    for (const report::Film& film : results.films) {
+      ensure(film.times.size() == film.pictures.size(), "pictures have times");
+    }
+  });
+}
+
+constexpr const char* kResultsAlphabet = ",\"\n.0123456789-e[]{}:truefalsn";
+
+const Registration kReportParsers("report", {
+                                                {.name = "run_json",
+                                                 .read = read_results<0>,
+                                                 .seed_files = {"tests/fuzz/seeds/run_json"},
+                                                 .alphabet = kResultsAlphabet},
+                                                {.name = "signals",
+                                                 .read = read_results<1>,
+                                                 .seed_files = {"tests/fuzz/seeds/signals"},
+                                                 .alphabet = kResultsAlphabet},
+                                                {.name = "events",
+                                                 .read = read_results<2>,
+                                                 .seed_files = {"tests/fuzz/seeds/events"},
+                                                 .alphabet = kResultsAlphabet},
+                                                {.name = "activity",
+                                                 .read = read_results<3>,
+                                                 .seed_files = {"tests/fuzz/seeds/activity"},
+                                                 .alphabet = kResultsAlphabet},
+                                                {.name = "film",
+                                                 .read = read_results<4>,
+                                                 .seed_files = {"tests/fuzz/seeds/film"},
+                                                 .alphabet = kResultsAlphabet},
+                                            });
+
+}  // namespace
+}  // namespace stride::tests

@@ -1,0 +1,254 @@
+#include "tests/test_units/faults/faults.h"
+
+#include <cerrno>
+#include <cfenv>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <new>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include <netinet/in.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <stride/results.h>
+
+namespace stride::tests {
+namespace {
+
+[[noreturn]] void sleep_for_ever() {
+  for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
+}
+
+[[noreturn]] void fail(const std::string& what) {
+  throw std::runtime_error(what + ": " + std::strerror(errno));
+}
+
+void write_to_nowhere() {
+  int* volatile nowhere = reinterpret_cast<int*>(16);
+  *nowhere = 1;
+}
+
+void abort_aloud() {
+  std::fputs("the model is inconsistent\n", stderr);
+  std::abort();
+}
+
+void exit_in_thread() {
+  std::thread([] { std::exit(5); }).join();
+}
+
+void throw_in_thread() {
+  std::thread([] { throw std::runtime_error("nobody catches this"); }).join();
+}
+
+/// Deeper than any stack; the frames are looked at, so none is left out.
+int recurse(int depth, volatile char* above) {
+  volatile char frame[4096];
+  frame[0] = *above;
+  return depth == 0 ? 0 : recurse(depth - 1, frame) + frame[0];
+}
+
+void overflow_the_stack() {
+  volatile char first = 0;
+  recurse(1 << 30, &first);
+}
+
+[[noreturn]] void loop() {
+  for (volatile unsigned i = 0;; i = i + 1) {
+  }
+}
+
+void allocate() {
+  constexpr std::size_t kPiece = 1 << 20;
+  std::vector<std::vector<char>> pieces;
+  for (;;) pieces.emplace_back(kPiece, 'x');
+}
+
+/// A megabyte, and goes on as if nothing was.
+void print() {
+  for (int i = 0; i < 16384; ++i) std::printf("line %5d: %s\n", i, std::string(50, '.').c_str());
+  std::fflush(stdout);
+}
+
+void close_all_files() {
+  for (int file = 0; file < 1024; ++file) ::close(file);
+}
+
+void kill_parent() {
+  if (::kill(::getppid(), SIGKILL) != 0) fail("cannot kill the parent");
+}
+
+/// Leaves its group and its parent, as a service does.
+void start_daemon() {
+  if (::fork() == 0) {
+    ::setsid();
+    if (::fork() == 0) sleep_for_ever();
+    ::_exit(0);
+  }
+}
+
+/// What it shares with other processes, whatever that is.
+void overwrite_shared_memory() {
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    unsigned long begin = 0, end = 0;
+    char mode[5] = "";
+    if (std::sscanf(line.c_str(), "%lx-%lx %4s", &begin, &end, mode) != 3) continue;
+    if (std::string(mode) != "rw-s") continue;
+    std::memset(reinterpret_cast<void*>(begin), 0xee, end - begin);
+  }
+}
+
+void write_temporary() {
+  std::string name = std::string(std::getenv("TMPDIR")) + "/notes-XXXXXX";
+  const int file = ::mkstemp(name.data());
+  if (file < 0) fail("cannot make " + name);
+  ::close(file);
+}
+
+void connect() {
+  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+  if (socket < 0) fail("cannot make a socket");
+  ::close(socket);
+}
+
+/// Does not go on where the signal does not end the process.
+template <int signal>
+void raise_signal() {
+  std::raise(signal);
+}
+
+void block_signals() {
+  sigset_t all;
+  ::sigfillset(&all);
+  ::sigprocmask(SIG_BLOCK, &all, nullptr);
+}
+
+void limit_resources() {
+  const rlimit few{8, 8};
+  ::setrlimit(RLIMIT_NOFILE, &few);
+  const rlimit short_files{64, 64};
+  ::setrlimit(RLIMIT_FSIZE, &short_files);
+}
+
+void limit_parent() {
+  const rlimit none{0, 0};
+  if (::prlimit(::getppid(), RLIMIT_CPU, &none, nullptr) != 0) fail("cannot limit the parent");
+}
+
+/// Denormal numbers become 0, as in a library that is linked with -ffast-math.
+void flush_to_zero() {
+#ifdef __SSE2__
+  constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x40;
+  __builtin_ia32_ldmxcsr(__builtin_ia32_stmxcsr() | kFlushToZero | kDenormalsAreZero);
+#endif
+}
+
+void close_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::close(stream);
+}
+
+/// Where the unit's files belong.
+std::string own_file(const char* name) { return stride::results_folder() / name; }
+
+void plant_link() {
+  if (::symlink("/etc/passwd", own_file("signals.csv").c_str()) != 0) fail("cannot make a link");
+}
+
+void plant_fifo() {
+  if (::mkfifo(own_file("signals.csv").c_str(), 0600) != 0) fail("cannot make a FIFO");
+}
+
+const std::map<std::string, std::function<void()>> kFaults{
+    {"segfault", write_to_nowhere},
+    {"abort", abort_aloud},
+    {"exit", [] { std::exit(3); }},
+    {"exit with 0", [] { std::exit(0); }},
+    {"_exit", [] { ::_exit(4); }},
+    {"exit in a thread", exit_in_thread},
+    {"throw in a thread", throw_in_thread},
+    {"stack overflow", overflow_the_stack},
+    {"loop", loop},
+    {"stop", [] { std::raise(SIGSTOP); }},
+    {"kill", [] { std::raise(SIGKILL); }},
+    {"kill parent", kill_parent},
+    {"allocate", allocate},
+    {"print", print},
+    {"print for ever",
+     [] {
+       for (;;) print();
+     }},
+    {"close files", close_all_files},
+    {"daemon", start_daemon},
+    {"overwrite", overwrite_shared_memory},
+    {"connect", connect},
+    {"write temporary", write_temporary},
+    {"SIGFPE", raise_signal<SIGFPE>},
+    {"SIGILL", raise_signal<SIGILL>},
+    {"SIGBUS", raise_signal<SIGBUS>},
+    {"SIGSYS", raise_signal<SIGSYS>},
+    {"SIGTERM", raise_signal<SIGTERM>},
+    {"SIGINT", raise_signal<SIGINT>},
+    {"SIGUSR1", raise_signal<SIGUSR1>},
+    {"throw int", [] { throw 42; }},
+    {"throw bad_alloc", [] { throw std::bad_alloc(); }},
+    {"throw exception", [] { throw std::runtime_error("the fuse has blown"); }},
+    {"change folder",
+     [] {
+       if (::chdir("/") != 0) fail("cannot change the folder");
+     }},
+    {"change umask", [] { ::umask(0777); }},
+    {"block signals", block_signals},
+    {"ignore SIGINT", [] { std::signal(SIGINT, SIG_IGN); }},
+    {"limit resources", limit_resources},
+    {"limit parent", limit_parent},
+    {"round up", [] { std::fesetround(FE_UPWARD); }},
+    {"flush to zero", flush_to_zero},
+    {"close streams", close_streams},
+    {"link", plant_link},
+    {"FIFO", plant_fifo},
+};
+
+const char* setting(const char* name) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+}  // namespace
+
+std::string fault_names() {
+  std::string names;
+  for (const auto& [name, fault] : kFaults) names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
+void commit_fault(const std::string& name) {
+  std::fprintf(stderr, "now comes: %s\n", name.c_str());
+  kFaults.at(name)();
+}
+
+}  // namespace stride::tests
+
+extern "C" int stride_test_fault(const char* call, double time) {
+  using stride::tests::setting;
+  static bool has_acted = false;
+  const std::string fault = setting("STRIDE_TEST_FAULT");
+  const bool is_due = !fault.empty() && std::strcmp(call, setting("STRIDE_TEST_CALL")) == 0 &&
+                      time >= std::atof(setting("STRIDE_TEST_AT"));
+  if (!is_due || has_acted) return 0;
+  has_acted = true;
+  int status = 0;
+  if (std::sscanf(fault.c_str(), "status %d", &status) != 1) stride::tests::commit_fault(fault);
+  return status;
+}
