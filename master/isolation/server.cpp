@@ -252,6 +252,7 @@ void Server::instantiate(PacketWriter& out) {
 
 void Server::free() {
   diagnostics_ = nullptr;
+  if (unit_) unit_->free();
   unit_.reset();
   std::fflush(nullptr);
   is_over_ = true;

@@ -38,11 +38,17 @@ core::Capability* UnitProxy::find_capability(core::CapabilityId id) {
 
 UnitProxy::~UnitProxy() {
   try {
-    if (!client_->has_failed()) call(RequestCode::Free);
+    UnitProxy::free();
   } catch (const std::exception& failure) {
     client_->log(importer::Status::Warning, "stride",
                  fmt::format("its end failed: {}", failure.what()));
   }
+  client_->finish();
+}
+
+void UnitProxy::free() {
+  if (std::exchange(is_freed_, true) || client_->has_failed()) return;
+  call(RequestCode::Free);
   client_->finish();
 }
 
