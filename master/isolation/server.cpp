@@ -100,8 +100,9 @@ RequestCode Server::requested() const {
 }
 
 void Server::serve() {
-  link_.packets.follow(memory_.request.size);
-  PacketReader in({link_.packets.data(), memory_.request.size});
+  const std::size_t size = memory_.request.size;
+  link_.packets.follow(size);
+  PacketReader in({link_.packets.data(), size});
   PacketWriter out(link_.packets);
   ReplyCode what = ReplyCode::Done;
   const auto fail = [&](const std::exception& error) {
@@ -184,15 +185,12 @@ void Server::handle(RequestCode request, PacketReader& in, PacketWriter& out) {
       return put_events(out, unit_->update_discrete_states());
     case RequestCode::EnterStepMode:
       return unit_->enter_step_mode();
-    case RequestCode::GetClockInterval: {
-      const core::ClockInterval given = capability<core::ClockIntervals>().clock_interval(
-          variable(in.take<core::ValueReference>()));
-      out.put(given.state);
-      return out.put(given.interval);
-    }
+    case RequestCode::GetClockInterval:
+      return put_clock(out, capability<core::ClockIntervals>().clock_interval(
+                                variable(in.take<core::ValueReference>())));
     case RequestCode::GetClockShift:
-      return out.put(capability<core::ClockIntervals>().clock_shift(
-          variable(in.take<core::ValueReference>())));
+      return put_interval(out, capability<core::ClockIntervals>().clock_shift(
+                                   variable(in.take<core::ValueReference>())));
     case RequestCode::GetDirectionalDerivative:
       return get_directional_derivative(in, out);
     case RequestCode::SetInputUpdate:
