@@ -60,6 +60,7 @@ TEST_CASE("a unit that ends the process in another call") {
       {"initialize", "fmi3ExitInitializationMode"},
       {"event", "fmi3UpdateDiscreteStates"},
       {"terminate", "fmi3Terminate"},
+      {"free", "fmi3FreeInstance"},
   }));
   const Outcome outcome =
       workspace.run({"--quiet", "--set", "faulty.fault=segfault", "--set", "faulty.call=" + call});
@@ -86,4 +87,54 @@ TEST_CASE("an exception that leaves a unit's function names the unit") {
   make_raw_fmu(workspace.scratch(), "raw_throwing");
   CHECK_THAT(failure_of(workspace, {}, "0"),
              Contains("unit 'throws', at 0 s: fmi3DoStep threw thrown across the C interface"));
+}
+
+TEST_CASE("a unit that ends the process when it is freed is an error of a run with all its rows") {
+  if (kSanitized) return;
+  const Workspace workspace = beside_a_filter("faulty.fmu");
+  for (const char* fault : {"abort", "exit with 0", "_exit"}) {
+    INFO(fault);
+    const std::string error = failure_of(
+        workspace, {"--set", std::string("faulty.fault=") + fault, "--set", "faulty.call=free"},
+        "1");
+    CHECK_THAT(error,
+               Contains("unit 'faulty', at 1 s: ") && Contains("ends stride in fmi3FreeInstance"));
+  }
+}
+
+TEST_CASE("a library that ends the process when it is unloaded, or after the run, is an error") {
+  if (kSanitized) return;
+  const Workspace workspace = beside_a_filter("faulty.fmu");
+  const auto [call, place] = GENERATE(table<std::string, std::string>({
+      {"unload", " in the unloading of '"},
+      {"exit", " in a destructor or an exit function of a library, after the command"},
+  }));
+  const auto [fault, end] = GENERATE(table<std::string, std::string>({
+      {"abort", "signal 6 (SIGABRT) ends stride"},
+      {"segfault", "signal 11 (SIGSEGV) ends stride"},
+      {"_exit", "exit() ends stride"},
+  }));
+  const Outcome outcome =
+      workspace.run({"--quiet", "--set", "faulty.fault=" + fault, "--set", "faulty.call=" + call});
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("stride: error: " + end + place));
+  CHECK(last_time(workspace) == "1");
+  CHECK(workspace.left_behind().empty());
+}
+
+TEST_CASE("a library that calls exit(0) after the run does not change the exit code") {
+  const Workspace workspace(
+      Parts{component("faulty", "faulty.fmu") + component("fuse", "thrower.fmu")});
+  const Arguments options{"--quiet", "--set", "faulty.fault=exit with 0", "--set",
+                          "faulty.call=exit"};
+  const auto run = [&](const std::string& throw_at) {
+    Arguments arguments = options;
+    arguments.insert(arguments.end(), {"--set", "fuse.throw_at=" + throw_at});
+    return workspace.run(arguments);
+  };
+  CHECK(run("10").exit_code == 0);
+  const Outcome outcome = run("0.5");
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("the fuse has blown"));
 }
