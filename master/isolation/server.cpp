@@ -1,7 +1,9 @@
 #include "master/isolation/server.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -39,16 +41,9 @@ void on_exit_called(int status, void*) {
   ::_exit(status);
 }
 
-std::vector<WritableFolder> writable_folders(const HostedUnitSpec& spec) {
-  std::vector<WritableFolder> folders;
-  for (const std::filesystem::path& folder : spec.host.writable) {
-    folders.push_back({folder, folder.string()});
-  }
-  if (std::filesystem::is_directory(spec.fmu->resources())) {
-    folders.push_back({spec.fmu->resources(), "its resources"});
-  }
-  folders.push_back({spec.temporary->path(), "a temporary folder"});
-  return folders;
+void add(Protections& protections, Protections&& further) {
+  std::ranges::move(further.in_force, std::back_inserter(protections.in_force));
+  std::ranges::move(further.missing, std::back_inserter(protections.missing));
 }
 
 }  // namespace
@@ -78,10 +73,17 @@ void Server::run() {
 }
 
 Protections Server::prepare() {
-  if (spec_.host.memory_limit) limit_memory(*spec_.host.memory_limit);
-  if (!spec_.host.is_sandboxed) return {};
+  Protections protections;
+  if (spec_.host.memory_limit) {
+    limit_memory(*spec_.host.memory_limit);
+    protections.in_force.push_back(fmt::format(
+        "at most {} MiB of memory: RLIMIT_DATA for each process, a watch over the sum of all",
+        *spec_.host.memory_limit >> 20));
+  }
+  if (!spec_.host.is_sandboxed) return protections;
   ::setenv("TMPDIR", spec_.temporary->path().c_str(), 1);
-  return enter_sandbox(writable_folders(spec_));
+  add(protections, enter_sandbox(writable_folders(spec_)));
+  return protections;
 }
 
 // ---- Requests and replies ----
