@@ -36,6 +36,7 @@ class ForwardingUnit : public Unit {
   EventResult update_discrete_states() override { return unit_->update_discrete_states(); }
   void enter_step_mode() override { unit_->enter_step_mode(); }
   void terminate() override { unit_->terminate(); }
+  void free() override { unit_->free(); }
 
  protected:
   explicit ForwardingUnit(std::unique_ptr<Unit> unit) : unit_(std::move(unit)) {}

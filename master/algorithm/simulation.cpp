@@ -72,13 +72,8 @@ class Simulation::Run {
       failure = std::current_exception();
     }
     statistics_.wall_time = WallClock::Source::now() - began_;
-    for (std::size_t i = 0; i < count(); ++i) {
-      auto* const diagnostics = units_[i]->capability<UnitDiagnostics>();
-      auto* const process = units_[i]->capability<HostDiagnostics>();
-      if (diagnostics != nullptr) statistics_.units[i].calls = diagnostics->calls();
-      if (process != nullptr) statistics_.units[i].host = process->host_statistics();
-      statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].suspensions;
-    }
+    collect_unit_statistics();
+    free_units(failure);
     finish_suspensions(failure);
     finish_observers(failure);
     if (!failure) return;
@@ -95,6 +90,26 @@ class Simulation::Run {
  private:
   std::size_t count() const { return units_.size(); }
   bool sets_inputs_in_steps() const { return options_.sets_inputs_in_steps(); }
+
+  void collect_unit_statistics() {
+    for (std::size_t i = 0; i < count(); ++i) {
+      auto* const diagnostics = units_[i]->capability<UnitDiagnostics>();
+      auto* const process = units_[i]->capability<HostDiagnostics>();
+      if (diagnostics != nullptr) statistics_.units[i].calls = diagnostics->calls();
+      if (process != nullptr) statistics_.units[i].host = process->host_statistics();
+      statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].suspensions;
+    }
+  }
+
+  /// After a failure the destructors do so, since a second failure is of no interest.
+  void free_units(std::exception_ptr& failure) {
+    if (failure) return;
+    try {
+      for (auto& unit : units_) unit->free();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }
 
   void finish_suspensions(std::exception_ptr& failure) {
     if (!idle_ || !failure) return;

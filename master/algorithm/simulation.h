@@ -31,8 +31,8 @@ class Simulation {
   void add_observer(Observer& observer, std::vector<VariableId> signals);
 
   /// From initialisation to the stop time, or until a unit ends the simulation or it is
-  /// interrupted. Throws Error; the observers' on_finish() has been called then, and the statistics
-  /// are those up to the failure.
+  /// interrupted. Then terminates and frees the units. Throws Error; the observers' on_finish() has
+  /// been called then, and the statistics are those up to the failure.
   void run();
 
   /// Calls the observers' on_finish(), and no unit, where run() cannot go on: for a process that a

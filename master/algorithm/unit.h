@@ -77,7 +77,7 @@ struct EventResult {
 ///
 ///   set (start values), enter_initialization, {get, set}, exit_initialization, then
 ///   {events: {get, set, update_discrete_states}, enter_step_mode, {get, set, step},
-///   enter_event_mode}, terminate.
+///   enter_event_mode}, terminate, free.
 ///
 /// With has_event_mode the unit is in Event Mode after exit_initialization, without in Step Mode.
 /// Each function throws core::Error that names the unit. An object is used by one thread at a time.
@@ -108,6 +108,10 @@ class Unit {
   virtual void enter_step_mode() = 0;
 
   virtual void terminate() = 0;
+
+  /// Frees what the unit has of its own. No other call may follow. The destructor does so, too,
+  /// where it has not been called; only this function can report a failure.
+  virtual void free() {}
 
   /// The unit's implementation of the capability, or null. It never changes, so it is requested
   /// once per run.

@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #include "master/importer/fmu_instance.h"
+#include "master/importer/shared_library.h"
 #include "master/isolation/process/child.h"
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/error.h"
@@ -37,6 +38,8 @@ struct Guarded {
   std::atomic<const CrashGuard::Conclusion*> conclusion{nullptr};
   std::atomic<pid_t> process{0};
   std::atomic<bool> is_ending{false};
+  std::atomic<bool> is_leaving{false};  ///< the command is over
+  std::atomic<int> code{0};             ///< of the command
 };
 Guarded guarded;
 
@@ -51,6 +54,15 @@ std::string_view describe_end(int signal, std::span<char> text) {
                        : fmt::format_to_n(text.data(), text.size(), "signal {} ({}) ends stride",
                                           signal, isolation::signal_name(signal));
   return {text.data(), std::min(end.size, text.size())};
+}
+
+/// What the process does while it calls no unit.
+std::string outside_of_calls() {
+  if (const char* const library = importer::unfinished_unloading()) {
+    return fmt::format(" in the unloading of '{}'", library);
+  }
+  return guarded.is_leaving ? " in a destructor or an exit function of a library, after the command"
+                            : ", in no call of a unit";
 }
 
 core::Error error_of(std::string_view end, std::span<const importer::UnitCall> calls) {
@@ -70,7 +82,7 @@ core::Error error_of(std::string_view end, std::span<const importer::UnitCall> c
   }
   return {core::Error::Kind::Run,
           {},
-          calls.empty() ? fmt::format("{}, in no call of a unit", end)
+          calls.empty() ? fmt::format("{}{}", end, outside_of_calls())
                         : fmt::format("{}{}", end, among),
           "--isolate runs units in processes of their own, which cannot damage that of stride"};
 }
@@ -144,6 +156,35 @@ void on_exit() {
   if (is_guarded()) end_process(0);
 }
 
+void on_exit_functions() {
+  if (!guarded.is_leaving) on_exit();
+}
+
+/// The last of the exit functions: the code with which one before it has called exit() does not
+/// count.
+void keep_code(int code, void*) {
+  if (!guarded.is_leaving || guarded.process != ::getpid() || code == guarded.code) return;
+  std::fflush(nullptr);
+  end_now(guarded.code);
+}
+
+/// Before any library of a unit is loaded, so that its exit functions come first.
+void register_exit_functions() {
+  static const int registered =
+      ::on_exit(keep_code, nullptr) + std::atexit(on_exit_functions) + std::at_quick_exit(on_exit);
+  (void)registered;
+}
+
+void set_handlers(int flags, std::array<struct sigaction, kCrashes.size()>& before) {
+  for (std::size_t i = 0; i < kCrashes.size(); ++i) {
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    action.sa_flags = flags;
+    ::sigaction(kCrashes[i], nullptr, &before[i]);
+    if (before[i].sa_handler == SIG_DFL) ::sigaction(kCrashes[i], &action, nullptr);
+  }
+}
+
 }  // namespace
 }  // namespace stride::cli
 
@@ -162,15 +203,8 @@ CrashGuard::CrashGuard(Conclusion conclusion) : conclusion_(std::move(conclusion
   if (stack_ == MAP_FAILED) throw std::system_error(errno, std::generic_category(), "mmap");
   const stack_t stack{stack_, 0, kStackSize};
   ::sigaltstack(&stack, &stack_before_);
-  for (std::size_t i = 0; i < kCrashes.size(); ++i) {
-    struct sigaction action {};
-    action.sa_handler = on_signal;
-    action.sa_flags = SA_ONSTACK;
-    ::sigaction(kCrashes[i], nullptr, &before_[i]);
-    if (before_[i].sa_handler == SIG_DFL) ::sigaction(kCrashes[i], &action, nullptr);
-  }
-  static const int registered = std::atexit(on_exit) + std::at_quick_exit(on_exit);
-  (void)registered;
+  set_handlers(SA_ONSTACK, before_);
+  register_exit_functions();
   guarded.process = ::getpid();
   guarded.conclusion = &conclusion_;
 }
@@ -186,6 +220,18 @@ void CrashGuard::set_conclusion(Conclusion conclusion) {
   guarded.conclusion = nullptr;
   conclusion_ = std::move(conclusion);
   guarded.conclusion = &conclusion_;
+}
+
+int leave_with(int code) {
+  if (guarded.process != ::getpid()) return code;
+  // never destroyed, since destructors of libraries come later
+  static const auto& nothing = *new CrashGuard::Conclusion([](const std::string&) {});
+  std::array<struct sigaction, kCrashes.size()> ignored{};
+  set_handlers(0, ignored);
+  guarded.code = code;
+  guarded.is_leaving = true;
+  guarded.conclusion = &nothing;
+  return code;
 }
 
 CrashGuard::Scope::Scope(CrashGuard& guard, Conclusion conclusion)

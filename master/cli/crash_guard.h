@@ -55,6 +55,11 @@ class CrashGuard {
   stack_t stack_before_{};
 };
 
+/// What main() returns after the last CrashGuard: from here on libraries of units that are still
+/// loaded call their destructors and exit functions. A crash or _exit() there is an error with the
+/// exit code 1, and exit() does not change the code.
+int leave_with(int code);
+
 }  // namespace stride::cli
 
 #endif

@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "master/cli/commands.h"
+#include "master/cli/crash_guard.h"
 #include "master/cli/output.h"
 #include "master/util/error.h"
 #include "master/util/readable_text.h"
@@ -145,5 +146,5 @@ int main(int argc, char** argv) {
   stride::cli::add_pack(app);
   stride::cli::add_trace(app);
   stride::cli::add_reference(app);
-  return execute(app, argc, argv);
+  return stride::cli::leave_with(execute(app, argc, argv));
 }

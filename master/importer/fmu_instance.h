@@ -157,6 +157,12 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   /// Frees a kept state by the unit's function, if it has one; whether it has been called.
   template <class Function>
   bool free_by(const char* name, Function* function, void*& state);
+  /// Frees the instance by the unit's function, unless the library is unusable.
+  template <class Function>
+  void free_instance_by(const char* name, Function* function);
+  /// For a destructor, which can throw nothing: calls free(), and warns if it fails.
+  template <class Free>
+  void free_or_warn(Free&& free) noexcept;
   /// The unit's functions that write a kept state as bytes.
   template <class Answer, class Byte>
   struct Serialization {
@@ -267,6 +273,25 @@ bool FmuInstance::free_by(const char* name, Function* function, void*& state) {
   if (static_cast<Status>(function(instance_, &state)) == Status::Fatal) mark_unusable();
   clear_note();
   return true;
+}
+
+template <class Function>
+void FmuInstance::free_instance_by(const char* name, Function* function) {
+  void* const instance = std::exchange(instance_, nullptr);
+  if (is_unusable_) return;
+  guarded(name, [&] {
+    function(instance);
+    return true;
+  });
+}
+
+template <class Free>
+void FmuInstance::free_or_warn(Free&& free) noexcept {
+  try {
+    free();
+  } catch (const std::exception& failure) {
+    warn(failure.what());
+  }
 }
 
 template <class Answer, class Byte>

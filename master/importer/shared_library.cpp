@@ -64,6 +64,8 @@ bool is_of_python(std::string_view symbol) {
                    fmt::format("expected a shared library for {}", platform()));
 }
 
+std::atomic<const char*> unloaded_now{nullptr};
+
 /// One flag per library in the process: dlopen gives the same handle however often it is opened.
 /// Kept as long as the process exists, as an unusable library is.
 std::atomic<bool>& unusable_flag(void* handle) {
@@ -85,8 +87,16 @@ SharedLibrary::SharedLibrary(const fs::path& path, const core::Location& where)
 }
 
 SharedLibrary::~SharedLibrary() {
-  if (is_unusable()) static_cast<void>(handle_.release());
+  if (is_unusable()) {
+    static_cast<void>(handle_.release());
+    return;
+  }
+  unloaded_now.store(path_.c_str());
+  handle_.reset();
+  unloaded_now.store(nullptr);
 }
+
+const char* unfinished_unloading() noexcept { return unloaded_now.load(); }
 
 void* SharedLibrary::address(const std::string& symbol) const {
   return ::dlsym(handle_.get(), symbol.c_str());

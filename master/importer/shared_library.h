@@ -53,6 +53,10 @@ class SharedLibrary {
   std::atomic<bool>* is_unusable_ = nullptr;
 };
 
+/// The path of the library that is being unloaded, which calls its destructors and exit functions;
+/// null if there is none. Can be called by a signal handler.
+const char* unfinished_unloading() noexcept;
+
 /// A list of function names, for compile time.
 template <std::size_t kSize>
 constexpr bool contains(const std::string_view (&names)[kSize], std::string_view name) {

@@ -1,5 +1,7 @@
 #include "master/isolation/codec.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <type_traits>
 
@@ -10,8 +12,19 @@ constexpr bool is_number(core::ValueType type) {
   return type != core::ValueType::String && type != core::ValueType::Binary;
 }
 
+constexpr bool is_truth(core::ValueType type) {
+  return type == core::ValueType::Boolean || type == core::ValueType::Clock;
+}
+
 std::size_t byte_count(const core::ValueBlock& values) {
   return values.size() * core::element_size(values.type());
+}
+
+/// A bool of another byte than 0 and 1 has no value in C++.
+void make_true_or_false(core::ValueBlock& values) {
+  std::byte* const bytes = values.bytes();
+  std::transform(bytes, bytes + byte_count(values), bytes,
+                 [](std::byte byte) { return std::byte{byte != std::byte{0}}; });
 }
 
 }  // namespace
@@ -31,7 +44,11 @@ void put_values(PacketWriter& to, const core::ValueBlock& values) {
 }
 
 void take_values(PacketReader& from, core::ValueBlock& values) {
-  if (is_number(values.type())) return from.take_into(values.bytes(), byte_count(values));
+  if (is_number(values.type())) {
+    from.take_into(values.bytes(), byte_count(values));
+    if (is_truth(values.type())) make_true_or_false(values);
+    return;
+  }
   core::visit(values, [&]<class T>(std::span<T> elements) {
     if constexpr (!std::is_arithmetic_v<T>) {
       using Element = typename T::value_type;
@@ -81,13 +98,16 @@ void put_step(PacketWriter& to, const core::StepResult& result) {
   to.put(result.reached.time_since_epoch().count());
 }
 
-core::StepResult take_step(PacketReader& from) {
+core::StepResult take_step(PacketReader& from, const core::StepInterval& interval) {
   const auto flags = from.take<std::uint8_t>();
-  return {.rejected = (flags & kRejected) != 0,
+  const Time reached{Duration(from.take<Duration::rep>())};
+  const bool is_rejected = (flags & kRejected) != 0;
+  if (!is_rejected && (reached < interval.from || reached > interval.to)) throw BadPacket();
+  return {.rejected = is_rejected,
           .early_return = (flags & kEarlyReturn) != 0,
           .event_handling_needed = (flags & kEventNeeded) != 0,
           .terminate_simulation = (flags & kTerminate) != 0,
-          .reached = Time(Duration(from.take<Duration::rep>()))};
+          .reached = reached};
 }
 
 void put_events(PacketWriter& to, const core::EventResult& result) {
@@ -101,7 +121,34 @@ core::EventResult take_events(PacketReader& from) {
   result.discrete_states_need_update = from.take<bool>();
   result.terminate_simulation = from.take<bool>();
   result.next_event_time = take_time(from);
+  // no unit can give a later one, and with these a sum does not overflow
+  const double seconds = to_seconds(result.next_event_time.value_or(Time{}));
+  if (std::abs(seconds) > kMaxSeconds + 1) throw BadPacket();
   return result;
+}
+
+// ---- Clocks ----
+
+void put_interval(PacketWriter& to, const core::Interval& interval) { to.put(interval); }
+
+core::Interval take_interval(PacketReader& from) {
+  const auto interval = from.take<core::Interval>();
+  if (!interval.is_fraction()) throw BadPacket();
+  return interval;
+}
+
+void put_clock(PacketWriter& to, const core::ClockInterval& clock) {
+  to.put(clock.state);
+  put_interval(to, clock.interval);
+}
+
+core::ClockInterval take_clock(PacketReader& from) {
+  const auto state = from.take<core::ClockInterval::State>();
+  if (state < core::ClockInterval::State::NotYetKnown ||
+      state > core::ClockInterval::State::Changed) {
+    throw BadPacket();
+  }
+  return {state, take_interval(from)};
 }
 
 // ---- Errors ----
@@ -125,6 +172,7 @@ void put_error(PacketWriter& to, const std::exception& error, const core::Contex
 
 void throw_error(PacketReader& from) {
   const auto kind = from.take<core::Error::Kind>();
+  if (kind != core::Error::Kind::Input && kind != core::Error::Kind::Run) throw BadPacket();
   const bool is_consequent = from.take<bool>();
   core::Context context;
   context.where.file = from.take_text();

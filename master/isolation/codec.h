@@ -1,10 +1,12 @@
-// core's types in packets.
+// core's types in packets. What a unit's process may write there is checked in the copy that is
+// taken, since it may write on: a value that does not exist throws BadPacket.
 #ifndef STRIDE_MASTER_ISOLATION_CODEC_H
 #define STRIDE_MASTER_ISOLATION_CODEC_H
 
 #include <bitset>
 #include <optional>
 
+#include "master/algorithm/capabilities/clock_intervals.h"
 #include "master/algorithm/unit.h"
 #include "master/isolation/packet.h"
 #include "master/isolation/process/sandbox.h"
@@ -22,13 +24,20 @@ void put_shape(PacketWriter& to, const core::ValueBlock& values);
 core::ValueBlock take_shape(PacketReader& from);
 
 void put_step(PacketWriter& to, const core::StepResult& result);
-core::StepResult take_step(PacketReader& from);
+/// Of a step of this interval.
+core::StepResult take_step(PacketReader& from, const core::StepInterval& interval);
 
 void put_events(PacketWriter& to, const core::EventResult& result);
 core::EventResult take_events(PacketReader& from);
 
 void put_time(PacketWriter& to, std::optional<Time> time);
 std::optional<Time> take_time(PacketReader& from);
+
+void put_interval(PacketWriter& to, const core::Interval& interval);
+core::Interval take_interval(PacketReader& from);
+
+void put_clock(PacketWriter& to, const core::ClockInterval& clock);
+core::ClockInterval take_clock(PacketReader& from);
 
 /// With all its parts; what is no core::Error becomes one of this unit. `hint` is for an error that
 /// has none.

@@ -22,11 +22,21 @@ double seconds(std::chrono::milliseconds time) {
   return std::chrono::duration<double>(time).count();
 }
 
+MemoryAllowance memory_allowance(const HostedUnitSpec& spec) {
+  MemoryAllowance allowance{spec.host.memory_limit, {}};
+  if (!allowance.limit) return allowance;
+  for (const WritableFolder& folder : writable_folders(spec)) {
+    allowance.folders.push_back(folder.path);
+  }
+  return allowance;
+}
+
 }  // namespace
 
 HostClient::HostClient(const HostedUnitSpec& spec)
     : spec_(spec),
-      process_(link_, [&](pid_t supervisor) { serve(link_, spec, supervisor); }),
+      process_(link_, memory_allowance(spec),
+               [&](pid_t supervisor) { serve(link_, spec, supervisor); }),
       log_(*link_.memory) {}
 
 // ---- To and fro ----

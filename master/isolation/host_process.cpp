@@ -16,11 +16,16 @@
 #include <unistd.h>
 
 #include "master/isolation/process/child.h"
+#include "master/isolation/process/children.h"
 
 namespace stride::isolation {
 namespace {
 
 using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+/// For the supervisor, which forwards what was printed for a second at most.
+constexpr std::chrono::seconds kLongestEnd{5};
 
 struct ControlSocket {
   Descriptor ours, theirs;
@@ -46,8 +51,9 @@ void flush_standard_files() {
 
 }  // namespace
 
-HostProcess::HostProcess(HostLink& link, const std::function<void(pid_t)>& serve)
-    : link_(*link.memory) {
+HostProcess::HostProcess(HostLink& link, MemoryAllowance memory,
+                         const std::function<void(pid_t)>& serve)
+    : link_(*link.memory), memory_(std::move(memory)) {
   ControlSocket control;
   flush_standard_files();
   const pid_t master = ::getpid();
@@ -55,7 +61,7 @@ HostProcess::HostProcess(HostLink& link, const std::function<void(pid_t)>& serve
   if (supervisor_ < 0) fail("fork");
   if (supervisor_ == 0) {
     control.ours.close();
-    supervise(link, std::move(control.theirs), master, serve);
+    supervise(link, std::move(control.theirs), master, memory_, serve);
   }
   ::setpgid(supervisor_, supervisor_);  // in both processes, in whichever order
   control_ = std::move(control.ours);
@@ -65,7 +71,10 @@ HostProcess::HostProcess(HostLink& link, const std::function<void(pid_t)>& serve
 
 bool HostProcess::look_for_end() {
   if (has_ended()) return true;
-  if (!is_supervisor_gone()) return false;
+  if (!is_supervisor_gone()) {
+    continue_supervisor();
+    return false;
+  }
   ::kill(-supervisor_, SIGKILL);
   is_supervisor_lost_ = true;
   link_.end = HostEnd::Killed;
@@ -84,11 +93,14 @@ void HostProcess::finish(const std::function<void()>& meanwhile) {
   if (supervisor_ <= 0) return;
   send(Command::Finish);
   control_.close();
-  while (!is_supervisor_gone()) {
+  const auto enough = Clock::now() + kLongestEnd;
+  while (!is_supervisor_gone() && Clock::now() < enough) {
+    continue_supervisor();
     const std::uint32_t rings = link_.reply.doorbell.rings();
     meanwhile();
     link_.reply.doorbell.sleep(rings, 1ms);
   }
+  if (!is_supervisor_gone()) force_end();
   ::kill(-supervisor_, SIGKILL);  // in vain, unless something has ended the supervisor
   int status = 0;
   while (::waitpid(supervisor_, &status, 0) < 0 && errno == EINTR) {
@@ -104,6 +116,23 @@ bool HostProcess::is_supervisor_gone() const {
          info.si_pid == supervisor_;
 }
 
+/// Has no effect on one that runs. Nothing is done about a unit's process that was stopped: it may
+/// have been stopped to be looked at, and the limit of a call ends it.
+void HostProcess::continue_supervisor() const {
+  siginfo_t info{};
+  ::waitid(P_PID, static_cast<id_t>(supervisor_), &info, WSTOPPED | WNOHANG);
+  if (info.si_pid == supervisor_) ::kill(supervisor_, SIGCONT);
+}
+
+/// The processes of the unit, and then the supervisor, whose children they all become one after the
+/// other. It is stopped, so it waits for none of them, and their numbers stay theirs.
+void HostProcess::force_end() const {
+  ::kill(supervisor_, SIGSTOP);
+  const auto enough = Clock::now() + kLongestEnd;
+  while (kill_children_of(supervisor_) && Clock::now() < enough) std::this_thread::sleep_for(1ms);
+  ::kill(supervisor_, SIGKILL);
+}
+
 void HostProcess::send(Command command) const {
   ::send(control_.number(), &command, sizeof command, MSG_NOSIGNAL);
 }
@@ -117,6 +146,11 @@ std::string HostProcess::how_it_ended() const {
       return fmt::format("its process cannot be started: {}", std::strerror(code));
     case HostEnd::Exited:
       return fmt::format("it ended its process with exit code {}", code);
+    case HostEnd::OverLimit:
+      return fmt::format(
+          "its processes took {} MiB of memory together, which is above the limit of {} MiB, so "
+          "they were ended",
+          code, memory_.limit.value_or(0) >> 20);
     case HostEnd::Killed:
     case HostEnd::None:
       break;

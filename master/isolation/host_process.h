@@ -18,7 +18,7 @@ class HostProcess {
  public:
   /// Forks. `serve` is called in the unit's process, with the process id of its parent; that
   /// process ends when it returns. Throws std::system_error if there can be no process.
-  HostProcess(HostLink& link, const std::function<void(pid_t)>& serve);
+  HostProcess(HostLink& link, MemoryAllowance memory, const std::function<void(pid_t)>& serve);
   ~HostProcess() {
     finish([] {});
   }
@@ -27,12 +27,13 @@ class HostProcess {
 
   /// Whether the unit has no active process any longer. Cheap.
   bool has_ended() const { return link_.end.load(std::memory_order_acquire) != HostEnd::None; }
-  /// Likewise; also looks whether the supervisor runs, and ends the unit's process if it does not.
+  /// Likewise; also looks whether the supervisor runs: if it was stopped it is continued, and if it
+  /// was ended the unit's process is, too.
   bool look_for_end();
   /// Ends the unit's process.
   void kill();
   /// Ends everything and waits for it; calls `meanwhile` again and again, which may read what is
-  /// printed.
+  /// printed. A supervisor that does not end in time is killed, with all that it supervises.
   void finish(const std::function<void()>& meanwhile);
 
   /// "its process was killed by SIGSEGV (signal 11)"
@@ -41,8 +42,11 @@ class HostProcess {
  private:
   void send(Command command) const;
   bool is_supervisor_gone() const;
+  void continue_supervisor() const;
+  void force_end() const;
 
   HostLinkMemory& link_;
+  const MemoryAllowance memory_;
   Descriptor control_;
   pid_t supervisor_ = 0;
   bool is_supervisor_lost_ = false;

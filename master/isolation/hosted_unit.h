@@ -18,9 +18,9 @@ namespace stride::isolation {
 /// The instance behaves as one of fmu->instantiate(), with the same errors. Beyond those, a call of
 /// a unit whose process ends, or which takes longer than its limit, throws core::Error of the kind
 /// Run with the call, the simulated time, how the process ended and the unit's last lines, and so
-/// does each call after it but terminate(), which does nothing then. `options.warn_after` is also
-/// how long a call may take before it is logged. Nothing of the process stays when the unit is
-/// destroyed, or when this process ends, however it does.
+/// does each call after it but terminate() and free(), which do nothing then. `options.warn_after`
+/// is also how long a call may take before it is logged. Nothing of the process stays when the unit
+/// is destroyed, or when this process ends, however it does.
 std::unique_ptr<core::Unit> instantiate(std::shared_ptr<importer::Fmu> fmu, const std::string& name,
                                         importer::InstanceOptions options, HostOptions host);
 

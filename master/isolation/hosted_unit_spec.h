@@ -3,9 +3,11 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "master/importer/fmu.h"
 #include "master/isolation/host_options.h"
+#include "master/isolation/process/sandbox.h"
 #include "master/util/archive/temporary_folder.h"
 
 namespace stride::isolation {
@@ -22,6 +24,9 @@ struct HostedUnitSpec {
   /// Whether its states are snapshots of its process.
   bool has_snapshots() const { return host.takes_snapshots && !fmu->description()->can_save_state; }
 };
+
+/// Where the unit may change files: in a sandbox nowhere else.
+std::vector<WritableFolder> writable_folders(const HostedUnitSpec& spec);
 
 }  // namespace stride::isolation
 

@@ -16,7 +16,7 @@ struct LogMessage {
 };
 
 /// In the unit's process; any of its threads may use it. Where there is no room it waits until the
-/// master has read.
+/// master has read. Texts are cut off after 64 MiB.
 class LogWriter {
  public:
   explicit LogWriter(HostLinkMemory& link) : link_(link) {}

@@ -1,7 +1,9 @@
 #include "master/isolation/server.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -22,7 +24,6 @@
 #include "master/isolation/process/process_memory.h"
 #include "master/isolation/process/surroundings.h"
 #include "master/isolation/sandbox_hint.h"
-#include "master/util/input_file.h"
 
 namespace stride::isolation {
 namespace {
@@ -40,16 +41,9 @@ void on_exit_called(int status, void*) {
   ::_exit(status);
 }
 
-std::vector<WritableFolder> writable_folders(const HostedUnitSpec& spec) {
-  std::vector<WritableFolder> folders;
-  for (const std::filesystem::path& folder : spec.host.writable) {
-    folders.push_back({folder, folder.string()});
-  }
-  if (core::is_folder(spec.fmu->resources())) {
-    folders.push_back({spec.fmu->resources(), "its resources"});
-  }
-  folders.push_back({spec.temporary->path(), "a temporary folder"});
-  return folders;
+void add(Protections& protections, Protections&& further) {
+  std::ranges::move(further.in_force, std::back_inserter(protections.in_force));
+  std::ranges::move(further.missing, std::back_inserter(protections.missing));
 }
 
 }  // namespace
@@ -79,10 +73,17 @@ void Server::run() {
 }
 
 Protections Server::prepare() {
-  if (spec_.host.memory_limit) limit_memory(*spec_.host.memory_limit);
-  if (!spec_.host.is_sandboxed) return {};
+  Protections protections;
+  if (spec_.host.memory_limit) {
+    limit_memory(*spec_.host.memory_limit);
+    protections.in_force.push_back(fmt::format(
+        "at most {} MiB of memory: RLIMIT_DATA for each process, a watch over the sum of all",
+        *spec_.host.memory_limit >> 20));
+  }
+  if (!spec_.host.is_sandboxed) return protections;
   ::setenv("TMPDIR", spec_.temporary->path().c_str(), 1);
-  return enter_sandbox(writable_folders(spec_));
+  add(protections, enter_sandbox(writable_folders(spec_)));
+  return protections;
 }
 
 // ---- Requests and replies ----
@@ -101,8 +102,9 @@ RequestCode Server::requested() const {
 }
 
 void Server::serve() {
-  link_.packets.follow(memory_.request.size);
-  PacketReader in({link_.packets.data(), memory_.request.size});
+  const std::size_t size = memory_.request.size;
+  link_.packets.follow(size);
+  PacketReader in({link_.packets.data(), size});
   PacketWriter out(link_.packets);
   ReplyCode what = ReplyCode::Done;
   const auto fail = [&](const std::exception& error) {
@@ -185,15 +187,12 @@ void Server::handle(RequestCode request, PacketReader& in, PacketWriter& out) {
       return put_events(out, unit_->update_discrete_states());
     case RequestCode::EnterStepMode:
       return unit_->enter_step_mode();
-    case RequestCode::GetClockInterval: {
-      const core::ClockInterval given = capability<core::ClockIntervals>().clock_interval(
-          variable(in.take<core::ValueReference>()));
-      out.put(given.state);
-      return out.put(given.interval);
-    }
+    case RequestCode::GetClockInterval:
+      return put_clock(out, capability<core::ClockIntervals>().clock_interval(
+                                variable(in.take<core::ValueReference>())));
     case RequestCode::GetClockShift:
-      return out.put(capability<core::ClockIntervals>().clock_shift(
-          variable(in.take<core::ValueReference>())));
+      return put_interval(out, capability<core::ClockIntervals>().clock_shift(
+                                   variable(in.take<core::ValueReference>())));
     case RequestCode::GetDirectionalDerivative:
       return get_directional_derivative(in, out);
     case RequestCode::SetInputUpdate:
@@ -253,6 +252,7 @@ void Server::instantiate(PacketWriter& out) {
 
 void Server::free() {
   diagnostics_ = nullptr;
+  if (unit_) unit_->free();
   unit_.reset();
   std::fflush(nullptr);
   is_over_ = true;

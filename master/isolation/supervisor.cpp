@@ -4,7 +4,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <fstream>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -19,6 +19,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "master/isolation/process/children.h"
 #include "master/isolation/process/surroundings.h"
 #include "master/util/archive/temporary_folder.h"
 
@@ -26,6 +27,7 @@ namespace stride::isolation {
 namespace {
 
 using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
 
 /// How often is looked whether the master has made room for printed lines.
 constexpr int kNoRoomPause = 5;  // [ms]
@@ -40,22 +42,20 @@ Descriptor watch_children() {
 }
 
 /// Those that are its own, and those whose parents have ended.
-std::vector<pid_t> children() {
-  const std::string self = std::to_string(::getpid());
-  std::ifstream file("/proc/self/task/" + self + "/children");
-  if (!file) ::kill(0, SIGKILL);  // without /proc: the whole group, this one with it
-  std::vector<pid_t> found;
-  for (pid_t child = 0; file >> child;) found.push_back(child);
-  return found;
+std::vector<pid_t> own_children() {
+  const std::optional<std::vector<pid_t>> found = children_of(::getpid());
+  if (!found) ::kill(0, SIGKILL);  // without /proc: the whole group, this one with it
+  return *found;
 }
 
 class Supervisor {
  public:
-  Supervisor(HostLinkMemory& link, Descriptor control, Descriptor output)
+  Supervisor(HostLinkMemory& link, Descriptor control, Descriptor output, MemoryWatch& memory)
       : link_(link),
         control_(std::move(control)),
         output_(std::move(output)),
-        ends_(watch_children()) {}
+        ends_(watch_children()),
+        memory_(memory) {}
 
   /// Returns true when the master requests the end, false when the master has ended.
   bool run() {
@@ -63,6 +63,7 @@ class Supervisor {
       wait();
       forward_output();
       reap();
+      watch_memory();
       char command = 0;
       const ssize_t size = ::recv(control_.number(), &command, 1, MSG_DONTWAIT);
       if (size < 0 && (errno == EAGAIN || errno == EINTR)) continue;
@@ -72,19 +73,18 @@ class Supervisor {
     }
   }
 
-  /// What has been printed so far, if the master makes room for it in time.
+  /// What has been printed so far, if the master makes room for it in time; others may print on.
   void forward_all_output(std::chrono::milliseconds time_limit) {
-    while (forward_output() && time_limit > 0ms) {
-      if (pending_.empty()) continue;
-      std::this_thread::sleep_for(1ms);
-      time_limit -= 1ms;
+    const auto enough = Clock::now() + time_limit;
+    while (forward_output() && Clock::now() < enough) {
+      if (!pending_.empty()) std::this_thread::sleep_for(1ms);
     }
   }
 
   /// Those of them that have children of their own leave these to this process.
   void kill_children() {
     for (;;) {
-      const std::vector<pid_t> found = children();
+      const std::vector<pid_t> found = own_children();
       if (found.empty()) return;
       for (const pid_t child : found) ::kill(child, SIGKILL);
       for (const pid_t child : found) {
@@ -103,7 +103,26 @@ class Supervisor {
     std::array<pollfd, 3> files{{{control_.number(), POLLIN, 0},
                                  {ends_.number(), POLLIN, 0},
                                  {has_room ? output_.number() : -1, POLLIN, 0}}};
-    ::poll(files.data(), files.size(), has_room ? -1 : kNoRoomPause);
+    const int look = has_ended_ ? -1 : memory_.pause();
+    const bool looks_first = has_room || (look >= 0 && look < kNoRoomPause);
+    ::poll(files.data(), files.size(), looks_first ? look : kNoRoomPause);
+  }
+
+  void watch_memory() {
+    if (has_ended_) return;
+    const std::optional<std::uint64_t> used = memory_.excess();
+    if (!used) return;
+    has_ended_ = true;  // by this, and not by the signal
+    kill_children();
+    tell_end(HostEnd::OverLimit, static_cast<int>(*used >> 20));
+  }
+
+  void tell_end(HostEnd how, int code) {
+    has_ended_ = true;
+    forward_all_output(100ms);  // its output comes first
+    link_.end_code = code;
+    link_.end = how;
+    link_.reply.doorbell.ring();
   }
 
   /// What the unit has printed, a piece of it; returns whether there was something.
@@ -128,16 +147,18 @@ class Supervisor {
   void note_end(pid_t child, int status, const rusage& usage) {
     raise_to(link_.most_memory, static_cast<std::uint64_t>(usage.ru_maxrss) * 1024);
     link_.snapshots.note_end(child);
-    if (child != link_.active || link_.end != HostEnd::None) return;
-    forward_all_output(100ms);  // its output comes first
-    link_.end_code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
-    link_.end = WIFSIGNALED(status) ? HostEnd::Killed : HostEnd::Exited;
-    link_.reply.doorbell.ring();
+    if (has_ended_) return;
+    // the unit may have overwritten which one is active
+    if (child != link_.active && !own_children().empty()) return;
+    if (WIFSIGNALED(status)) return tell_end(HostEnd::Killed, WTERMSIG(status));
+    tell_end(HostEnd::Exited, WEXITSTATUS(status));
   }
 
   HostLinkMemory& link_;
   Descriptor control_, output_, ends_;
-  std::string pending_;  ///< printed, and there was no room for it
+  MemoryWatch& memory_;
+  bool has_ended_ = false;  ///< not in shared memory, where the unit could write it
+  std::string pending_;     ///< printed, and there was no room for it
 };
 
 /// The master's locks are free when it is no longer there at all.
@@ -169,7 +190,7 @@ void note_start(HostLinkMemory& link, pid_t server, int error) {
 
 }  // namespace
 
-void supervise(HostLink& link, Descriptor control, pid_t master,
+void supervise(HostLink& link, Descriptor control, pid_t master, const MemoryAllowance& memory,
                const std::function<void(pid_t)>& serve) noexcept {
   ::setpgid(0, 0);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
@@ -179,12 +200,13 @@ void supervise(HostLink& link, Descriptor control, pid_t master,
   redirect_standard_files(nowhere.number());
   close_other_files({control.number(), link.packets.file().number()});
   Pipe output;
+  MemoryWatch watch(memory);
   const pid_t self = ::getpid();
   const pid_t server = ::fork();
   if (server == 0) run_server(link, output, self, serve);
   note_start(*link.memory, server, errno);
   output.write.close();
-  Supervisor supervisor(*link.memory, std::move(control), std::move(output.read));
+  Supervisor supervisor(*link.memory, std::move(control), std::move(output.read), watch);
   const bool is_wanted = supervisor.run();
   supervisor.kill_children();
   if (is_wanted) {

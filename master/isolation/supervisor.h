@@ -6,6 +6,7 @@
 #include <sys/types.h>
 
 #include "master/isolation/host_link.h"
+#include "master/isolation/memory_watch.h"
 #include "master/isolation/process/descriptor.h"
 
 namespace stride::isolation {
@@ -18,11 +19,13 @@ enum class Command : char {
 };
 
 /// Supervises a unit's process, which it forks: it passes on what that process prints, notes how it
-/// ends, and ends it with all its children when the master is gone, whose temporary folders it then
-/// removes. To be called in a fresh fork of the master.
+/// ends, ends it with all its children when together they take more memory than `memory` allows, or
+/// when the master is gone, whose temporary folders it then removes. To be called in a fresh fork
+/// of the master.
 ///
 /// `serve` is called in the unit's process, with the supervisor's process id.
 [[noreturn]] void supervise(HostLink& link, Descriptor control, pid_t master,
+                            const MemoryAllowance& memory,
                             const std::function<void(pid_t)>& serve) noexcept;
 
 }  // namespace stride::isolation

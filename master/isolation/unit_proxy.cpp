@@ -38,11 +38,17 @@ core::Capability* UnitProxy::find_capability(core::CapabilityId id) {
 
 UnitProxy::~UnitProxy() {
   try {
-    if (!client_->has_failed()) call(RequestCode::Free);
+    UnitProxy::free();
   } catch (const std::exception& failure) {
     client_->log(importer::Status::Warning, "stride",
                  fmt::format("its end failed: {}", failure.what()));
   }
+  client_->finish();
+}
+
+void UnitProxy::free() {
+  if (std::exchange(is_freed_, true) || client_->has_failed()) return;
+  call(RequestCode::Free);
   client_->finish();
 }
 
@@ -197,7 +203,7 @@ core::StepResult UnitProxy::step(const core::StepInterval& interval,
         for (const core::BoundValues& input : values.inputs) put_values(to, *input.block);
       },
       [&](PacketReader& from) {
-        result = take_step(from);
+        result = take_step(from, interval);
         if (result.rejected) {
           rejection_reason_ = from.take_text();
         } else {
@@ -264,10 +270,7 @@ core::ClockInterval UnitProxy::clock_interval(const core::Variable& clock) {
   core::ClockInterval given;
   call(
       RequestCode::GetClockInterval, [&](PacketWriter& to) { to.put(clock.reference); },
-      [&](PacketReader& from) {
-        given.state = from.take<core::ClockInterval::State>();
-        given.interval = from.take<core::Interval>();
-      });
+      [&](PacketReader& from) { given = take_clock(from); });
   return given;
 }
 
@@ -275,7 +278,7 @@ core::Interval UnitProxy::clock_shift(const core::Variable& clock) {
   core::Interval shift;
   call(
       RequestCode::GetClockShift, [&](PacketWriter& to) { to.put(clock.reference); },
-      [&](PacketReader& from) { shift = from.take<core::Interval>(); });
+      [&](PacketReader& from) { shift = take_interval(from); });
   return shift;
 }
 

@@ -73,6 +73,7 @@ class UnitProxy final
   void get_derivatives(References outputs, std::span<double> derivatives) override;
   std::string describe_message(core::ValueReference variable, const core::Binary& value) override;
   void terminate() override;
+  void free() override;
   std::uint64_t calls() const override { return client_->calls(); }
   core::HostStatistics host_statistics() const override;
 
@@ -100,6 +101,7 @@ class UnitProxy final
   core::InputUpdate input_update_;
   std::exception_ptr callback_failure_;
   std::string rejection_reason_;
+  bool is_freed_ = false;
 };
 
 }  // namespace stride::isolation

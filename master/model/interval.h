@@ -24,6 +24,8 @@ class Interval {
   static Interval from_duration(Duration duration);
 
   bool operator==(const Interval&) const = default;
+  /// Whether it is none that was read from damaged memory: all others are fractions.
+  bool is_fraction() const { return denominator_ != 0; }
   bool is_zero() const { return numerator_ == 0; }
   bool is_below_picosecond() const { return numerator_ < denominator_; }
   /// The nearest double, for display [s].

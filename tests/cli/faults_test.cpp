@@ -233,11 +233,48 @@ TEST_CASE("a unit that crashes when it is made has no results") {
 
 TEST_CASE("a unit that crashes at its end has all results") {
   for (const Setting& setting : settings()) {
-    if (setting.is_hosted) continue;
-    INFO("FMI " << setting.version);
+    INFO("FMI " << setting.version << (setting.is_hosted ? ", hosted" : ""));
     const Workspace workspace = workspace_for(setting, kFree);
     const Outcome outcome = run(workspace, setting, kCrash.name, kFree);
     check_error(workspace, outcome, with_function(setting.end(kCrash), setting.function(kFree)));
     CHECK(last_time(workspace) == kFree.last);
   }
+}
+
+TEST_CASE("a library that ends the process when it is unloaded, or after the run, is an error") {
+  if (kSanitized) return;
+  const Workspace workspace(
+      Parts{component("filter", "minimal.fmu") + component("faulty", "faulty.fmu")});
+  const auto [call, place] = GENERATE(table<std::string, std::string>({
+      {"unload", " in the unloading of '"},
+      {"exit", " in a destructor or an exit function of a library, after the command"},
+  }));
+  const auto [fault, end] = GENERATE(table<std::string, std::string>({
+      {"abort", "signal 6 (SIGABRT) ends stride"},
+      {"segfault", "signal 11 (SIGSEGV) ends stride"},
+      {"_exit", "exit() ends stride"},
+  }));
+  const Outcome outcome =
+      workspace.run({"--quiet", "--set", "faulty.fault=" + fault, "--set", "faulty.call=" + call});
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("stride: error: " + end + place));
+  CHECK(last_time(workspace) == "1");
+  CHECK(workspace.left_behind().empty());
+}
+
+TEST_CASE("a library that calls exit(0) after the run does not change the exit code") {
+  const Workspace workspace(
+      Parts{component("faulty", "faulty.fmu") + component("fuse", "thrower.fmu")});
+  const Arguments options{"--quiet", "--set", "faulty.fault=exit with 0", "--set",
+                          "faulty.call=exit"};
+  const auto run = [&](const std::string& throw_at) {
+    Arguments arguments = options;
+    arguments.insert(arguments.end(), {"--set", "fuse.throw_at=" + throw_at});
+    return workspace.run(arguments);
+  };
+  CHECK(run("10").exit_code == 0);
+  const Outcome outcome = run("0.5");
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("the fuse has blown"));
 }

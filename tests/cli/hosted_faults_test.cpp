@@ -1,6 +1,7 @@
 // Units in processes of their own that harm these, or those around them, and processes that are
 // killed from outside. How a unit may end its process is in faults_test.cpp.
 #include <csignal>
+#include <cstdlib>
 #include <functional>
 #include <utility>
 
@@ -81,6 +82,21 @@ std::string said_by(const Workspace& workspace, const Arguments& options, Argume
 
 }  // namespace
 
+TEST_CASE(
+    "a unit that ends its process, or hangs, when it is freed is an error of a complete run") {
+  const Workspace workspace = hosted_beside_a_filter();
+  const auto [fault, says] = GENERATE(table<std::string, std::string>({
+      {"abort", "its process was ended by signal 6 (SIGABRT) in fmi3FreeInstance"},
+      {"exit with 0", "it ended its process with exit code 0 in fmi3FreeInstance"},
+      {"_exit", "it ended its process with exit code 4 in fmi3FreeInstance"},
+      {"loop", "it took longer than 0.5 s in fmi3FreeInstance"},
+      {"stop", "it took longer than 0.5 s in fmi3FreeInstance"},
+  }));
+  const Arguments options{"--unit-timeout", "0.5", "--set", "faulty.call=free"};
+  CHECK_THAT(error_of(workspace, does(fault, options), "1"),
+             Contains("unit 'faulty', at 1 s: " + says));
+}
+
 TEST_CASE("a unit that takes too long is ended") {
   const Workspace workspace = hosted_beside_a_filter();
   const std::string fault = GENERATE("loop", "stop");
@@ -95,6 +111,49 @@ TEST_CASE("a unit that allocates without end gets the memory that it is allowed"
       "faulty", "faulty.fmu", "<stride:Host components=\"*\" memoryLimit=\"64\"/>\n");
   CHECK_THAT(error_of(workspace, does("allocate")),
              Contains("unit 'faulty', at 0.499 s: ") && Contains("std::bad_alloc"));
+}
+
+TEST_CASE("memory that the limit of a process does not cover counts, too") {
+  if (kSanitized) return;
+  const Workspace workspace = hosted_beside_a_filter(
+      "faulty", "faulty.fmu", "<stride:Host components=\"*\" memoryLimit=\"64\"/>\n");
+  const auto fault =
+      GENERATE(as<std::string>(), "allocate shared", "allocate in children", "write nameless file");
+  INFO(fault);
+  CHECK_THAT(error_of(workspace, does(fault, {"--unit-timeout", "20"})),
+             Contains("unit 'faulty', at 0.499 s: its processes took ") &&
+                 Contains(" MiB of memory together, which is above the limit of 64 MiB, so they "
+                          "were ended in fmi3DoStep"));
+}
+
+TEST_CASE("files in memory that a unit writes count") {
+  const Workspace workspace = hosted_beside_a_filter(
+      "faulty", "faulty.fmu", "<stride:Host components=\"*\" memoryLimit=\"64\"/>\n");
+  std::string folder = "/dev/shm/stride-test-XXXXXX";
+  if (::mkdtemp(folder.data()) == nullptr) return;  // there is no such folder
+  ::setenv("TMPDIR", folder.c_str(), 1);            // of the workspace, which sets it back
+  const Outcome outcome =
+      workspace.run(does("write temporary file", {"--quiet", "--unit-timeout", "20"}));
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("above the limit of 64 MiB"));
+  fs::remove_all(folder);
+}
+
+TEST_CASE("run.json tells how memory is limited") {
+  const Workspace workspace = hosted_beside_a_filter(
+      "faulty", "faulty.fmu",
+      "<stride:Host components=\"faulty\" memoryLimit=\"2000\" sandbox=\"false\"/>\n");
+  REQUIRE(workspace.run({"--quiet", "--stop", "0.01"}).exit_code == 0);
+  const nlohmann::json host = run_json(workspace)["units"][1]["host"];
+  CHECK_THAT(host["protections"].dump(),
+             Contains("at most 2000 MiB of memory: RLIMIT_DATA for each process, a watch over the "
+                      "sum of all"));
+}
+
+TEST_CASE("a process of the unit that prints for ever does not hide that the unit has crashed") {
+  const Workspace workspace = hosted_beside_a_filter();
+  CHECK_THAT(error_of(workspace, does("die while another prints")),
+             Contains("unit 'faulty', at 0.499 s: its process was ended by signal 11 (SIGSEGV)"));
 }
 
 TEST_CASE("what a unit prints is in the log, and holds nothing up") {

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 #include <thread>
 
 #include <unistd.h>
@@ -16,9 +16,11 @@ namespace fs = std::filesystem;
 
 constexpr const char* kVariable = "STRIDE_TEST_RUN";
 
+/// Empty for a process that ends meanwhile.
 std::string content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
 }
 
 /// The names in a folder, of which files may go meanwhile.

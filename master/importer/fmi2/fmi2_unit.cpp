@@ -36,12 +36,14 @@ Fmi2Unit::Fmi2Unit(std::string name, std::shared_ptr<const Fmi2Library> library,
 }
 
 Fmi2Unit::~Fmi2Unit() {
+  free_or_warn([this] { Fmi2Unit::free(); });
+}
+
+void Fmi2Unit::free() {
   if (instance_ == nullptr) return;
   free_state(before_step_);
   for (SavedState& saved : states_) free_state(saved);
-  note_call("fmi2FreeInstance");
-  if (!is_unusable_) fmi_.FreeInstance(instance_);
-  clear_note();
+  free_instance_by("fmi2FreeInstance", fmi_.FreeInstance);
 }
 
 core::Capability* Fmi2Unit::find_capability(core::CapabilityId id) {

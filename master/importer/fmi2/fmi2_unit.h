@@ -81,6 +81,7 @@ class Fmi2Unit final
   void enter_step_mode() override;
   void set_input_update(core::InputUpdate update) override { input_update_ = std::move(update); }
   void terminate() override;
+  void free() override;
 
  private:
   core::Capability* find_capability(core::CapabilityId id) override;

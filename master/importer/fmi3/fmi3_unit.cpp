@@ -66,11 +66,13 @@ Fmi3Unit::Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library,
 }
 
 Fmi3Unit::~Fmi3Unit() {
+  free_or_warn([this] { Fmi3Unit::free(); });
+}
+
+void Fmi3Unit::free() {
   if (instance_ == nullptr || is_unusable_) return;
   for (SavedState& saved : states_) free_state(saved);
-  note_call("fmi3FreeInstance");
-  if (!is_unusable_) fmi_.FreeInstance(instance_);
-  clear_note();
+  free_instance_by("fmi3FreeInstance", fmi_.FreeInstance);
 }
 
 core::Capability* Fmi3Unit::find_capability(core::CapabilityId id) {

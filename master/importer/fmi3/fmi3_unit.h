@@ -83,6 +83,7 @@ class Fmi3Unit final
   /// Of kLongestDescription bytes at most.
   std::string describe_message(core::ValueReference variable, const core::Binary& value) override;
   void terminate() override;
+  void free() override;
 
   static constexpr std::size_t kLongestDescription = 1024;
 

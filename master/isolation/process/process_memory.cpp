@@ -39,6 +39,16 @@ std::uint64_t data_memory(pid_t process) {
   return sum_of({"VmData:", "VmStk:"}, process, "status");
 }
 
+std::optional<std::uint64_t> proportional_memory(pid_t process) {
+  const std::uint64_t bytes =
+      sum_of({"Pss_Anon:", "Private_Hugetlb:", "Shared_Hugetlb:"}, process, "smaps_rollup");
+  return bytes > 0 ? std::optional(bytes) : std::nullopt;
+}
+
+std::uint64_t unshared_bound(pid_t process) {
+  return sum_of({"RssAnon:", "RssShmem:", "VmSwap:", "HugetlbPages:"}, process, "status");
+}
+
 void limit_memory(std::uint64_t bytes) {
   const rlim_t most = data_memory(::getpid()) + bytes;
   const rlimit limit{most, most};

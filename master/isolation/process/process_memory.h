@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_ISOLATION_PROCESS_PROCESS_MEMORY_H
 
 #include <cstdint>
+#include <optional>
 
 #include <sys/types.h>
 
@@ -17,6 +18,14 @@ std::uint64_t private_memory(pid_t process);
 
 /// What it has allocated, and may write to alone, resident or not [byte]; 0 if it is not known.
 std::uint64_t data_memory(pid_t process);
+
+/// What is resident of its private memory, with a page that n processes share as one nth of it, and
+/// of its huge pages [byte]; nothing if this process must not look. It goes through all pages.
+std::optional<std::uint64_t> proportional_memory(pid_t process);
+
+/// All of it that is resident or swapped out, but for pages of files [byte]; 0 if it is not known.
+/// Shared pages count as private ones do. Cheap.
+std::uint64_t unshared_bound(pid_t process);
 
 /// Lets this process have so many bytes of data more than it has now: heap, stacks of threads, and
 /// other private memory that can be written to (RLIMIT_DATA). Beyond that there is no memory.

@@ -48,7 +48,7 @@ void SharedMemory::hide_from_children() { ::madvise(data_, size_, MADV_DONTFORK)
 GrowingMemory::GrowingMemory(const char* name, std::size_t size)
     : file_(::memfd_create(name, MFD_CLOEXEC | MFD_ALLOW_SEALING)) {
   if (!file_.is_open()) fail("memfd_create");
-  ::fcntl(file_.number(), F_ADD_SEALS, F_SEAL_SHRINK);
+  ::fcntl(file_.number(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_SEAL);
   grow(size);
 }
 
@@ -75,7 +75,9 @@ bool GrowingMemory::follow(std::size_t size) {
   struct stat status {};
   if (::fstat(file_.number(), &status) != 0) fail("fstat");
   const auto there = static_cast<std::size_t>(status.st_size);
-  if (there < size) return false;
+  // a file with holes may seem to be of any size
+  const auto allocated = static_cast<std::size_t>(status.st_blocks) * 512;
+  if (there < size || allocated < there) return false;
   map(there);
   return true;
 }

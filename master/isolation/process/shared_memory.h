@@ -63,7 +63,8 @@ class GrowingMemory {
   /// Makes room for at least `size` bytes and sees it; data() may be another afterwards. Throws
   /// std::system_error if there is no memory.
   void grow(std::size_t size);
-  /// Sees at least `size` bytes, if another process has made room for them; false if none has.
+  /// Sees at least `size` bytes, if another process has made room for them by grow(); false if none
+  /// has.
   bool follow(std::size_t size);
   /// Processes that this one forks from now on do not see it.
   void hide_from_children();

@@ -110,6 +110,8 @@ void forbid_reaching_processes() {
   filter.deny(SCMP_SYS(ioprio_set), {not_own(1)});
   filter.deny(SCMP_SYS(ioprio_set), {argument(0, SCMP_CMP_MASKED_EQ, kInt, IOPRIO_WHO_USER)});
   filter.deny_requests({TIOCSPGRP, TIOCSCTTY});
+  // hides the process from its supervisor
+  filter.deny(SCMP_SYS(prctl), {argument(0, SCMP_CMP_MASKED_EQ, kInt, PR_SET_DUMPABLE)});
   filter.deny_all({SCMP_SYS(process_vm_readv), SCMP_SYS(process_vm_writev),
                    SCMP_SYS(process_madvise), SCMP_SYS(process_mrelease), SCMP_SYS(pidfd_getfd),
                    SCMP_SYS(kcmp), SCMP_SYS(perf_event_open), SCMP_SYS(open_by_handle_at)});

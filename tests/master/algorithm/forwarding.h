@@ -56,6 +56,7 @@ class CompleteUnit final : public core::Unit,
   }
   void enter_step_mode() override { note("enter_step_mode"); }
   void terminate() override { note("terminate"); }
+  void free() override { note("free"); }
 
   void enter_configuration_mode() override { note("enter_configuration_mode"); }
   void exit_configuration_mode() override { note("exit_configuration_mode"); }
@@ -161,9 +162,11 @@ inline void check_functions(core::Unit& decorator, CompleteUnit::Calls& calls) {
   decorator.enter_event_mode();
   decorator.get({}, none);
   decorator.terminate();
+  decorator.free();
   CHECK(calls == CompleteUnit::Calls{"set", "enter_initialization", "exit_initialization",
                                      "update_discrete_states", "enter_step_mode", "step",
-                                     "step with values", "enter_event_mode", "get", "terminate"});
+                                     "step with values", "enter_event_mode", "get", "terminate",
+                                     "free"});
 }
 
 /// Likewise those of the capabilities that a decorator has an implementation of its own of.

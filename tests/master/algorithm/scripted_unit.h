@@ -184,6 +184,7 @@ class ScriptedUnit : public Unit,
       [](ScriptedUnit&, ValueReference, const Binary&) { return std::string(); };
   std::optional<Duration> max_skip;  ///< as it was enabled
   /// Keeps or brings back what the script holds beside the values.
+  std::function<void(ScriptedUnit&)> on_free = [](ScriptedUnit&) {};
   std::function<void(bool save)> on_state = [](bool) {};
   std::optional<HostStatistics> host;  ///< about its process
   Calls calls;
@@ -292,6 +293,7 @@ class ScriptedUnit : public Unit,
     return on_describe(*this, variable, value);
   }
   void terminate() override { calls.push_back("terminate"); }
+  void free() override { on_free(*this); }
   HostStatistics host_statistics() const override { return host.value(); }
 
  private:

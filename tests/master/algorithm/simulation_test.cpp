@@ -435,6 +435,31 @@ TEST_CASE("a unit can end the simulation") {
   CHECK(a.calls.back() == "terminate");
 }
 
+TEST_CASE("the units are freed when all are terminated, and a failure there is one of the run") {
+  Fixture f;
+  auto& a = f.add("a", one_in_one_out());
+  auto& b = f.add("b", one_in_one_out());
+  bool is_b_terminated = false;
+  a.on_free = [&](ScriptedUnit&) { is_b_terminated = b.calls.back() == "terminate"; };
+  b.on_free = [](ScriptedUnit&) { fail_run({.unit = "b"}, "it cannot be freed"); };
+  Seen seen;
+  f.build(0.002, 1ms).add_observer(seen);
+  CHECK_THROWS_WITH(f.simulation->run(), Contains("unit 'b': it cannot be freed"));
+  CHECK(is_b_terminated);
+  CHECK(seen.finished == 1);
+  CHECK(f.simulation->statistics().reached == time_from_seconds(0.002));
+}
+
+TEST_CASE("units of a run that has failed are not freed by it") {
+  Fixture f;
+  auto& a = f.add("a", one_in_one_out());
+  bool is_freed = false;
+  a.on_free = [&](ScriptedUnit&) { is_freed = true; };
+  a.on_step = [](ScriptedUnit&, Time, Time) -> StepResult { fail_run({.unit = "a"}, "no"); };
+  CHECK_THROWS_AS(f.build(1, 1ms).run(), Error);
+  CHECK_FALSE(is_freed);
+}
+
 TEST_CASE("the diagnostics of a host are in the statistics, also if the run fails") {
   const bool fails = GENERATE(false, true);
   Fixture f;

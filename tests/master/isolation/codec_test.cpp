@@ -1,5 +1,8 @@
 #include "master/isolation/codec.h"
 
+#include <array>
+#include <cstddef>
+
 #include <catch2/catch.hpp>
 
 using namespace stride;
@@ -69,7 +72,7 @@ TEST_CASE("results of steps and events come over") {
                                   .reached = Time(Duration(flags - 5))};
     const There there([&](PacketWriter& to) { put_step(to, result); });
     PacketReader from = there.read();
-    const core::StepResult copy = take_step(from);
+    const core::StepResult copy = take_step(from, {Time(Duration(-9)), Time(Duration(19))});
     CHECK(copy.rejected == result.rejected);
     CHECK(copy.early_return == result.early_return);
     CHECK(copy.event_handling_needed == result.event_handling_needed);
@@ -115,4 +118,42 @@ TEST_CASE("what is not an error of core's becomes one of the unit, and consequen
   });
   from = consequent.read();
   CHECK_THROWS_AS(throw_error(from), core::ConsequentError);
+}
+
+TEST_CASE("values that do not exist are refused, whatever the other process has written") {
+  const auto refused = [](auto&& put, auto&& take) {
+    const There there(put);
+    PacketReader from = there.read();
+    CHECK_THROWS_AS(take(from), BadPacket);
+  };
+  const core::StepInterval interval{Time(Duration(5)), Time(Duration(9))};
+  for (const int reached : {4, 10}) {
+    refused([&](PacketWriter& to) { put_step(to, {.reached = Time(Duration(reached))}); },
+            [&](PacketReader& from) { take_step(from, interval); });
+  }
+  for (const Time next : {Time::min(), Time::max()}) {
+    refused([&](PacketWriter& to) { put_events(to, {.next_event_time = next}); }, take_events);
+  }
+  refused(
+      [](PacketWriter& to) {
+        put_clock(to, {static_cast<core::ClockInterval::State>(77), {}});
+      },
+      take_clock);
+  refused(
+      [](PacketWriter& to) {
+        const std::array<std::byte, sizeof(core::Interval)> zeros{};
+        to.put_bytes(zeros.data(), zeros.size());
+      },
+      take_interval);
+  refused([](PacketWriter& to) { to.put(77); }, throw_error);
+}
+
+TEST_CASE("a truth value of any byte is true or false") {
+  const There there([](PacketWriter& to) { to.put(std::array<std::uint8_t, 3>{0, 1, 0xee}); });
+  PacketReader from = there.read();
+  ValueBlock values(ValueType::Boolean, 3);
+  take_values(from, values);
+  CHECK(std::to_integer<int>(values.bytes()[0]) == 0);
+  CHECK(std::to_integer<int>(values.bytes()[1]) == 1);
+  CHECK(std::to_integer<int>(values.bytes()[2]) == 1);
 }

@@ -2,7 +2,10 @@
 #include <array>
 #include <csignal>
 
+#include <sys/ptrace.h>
+
 #include "master/isolation/process/child.h"
+#include "master/isolation/process/children.h"
 #include "master/isolation/process/shared_memory.h"
 #include "tests/build.h"
 #include "tests/master/isolation/support.h"
@@ -116,6 +119,37 @@ TEST_CASE("without its supervisor a unit's process ends, and the master notices"
                }),
                Contains("something has ended its supervisor"));
     CHECK(has_ended(server));
+  }
+  CHECK(Belongings() == before);
+}
+
+TEST_CASE("a supervisor that was stopped goes on when it is needed") {
+  const Belongings before;
+  {
+    Fixture unit("faulty");
+    unit.start({{"fault", "abort"}});
+    ::kill(Fixture::supervisor(), SIGSTOP);
+    CHECK_THAT(run_error([&] { unit.step(0, 1); }), Contains("signal 6 (SIGABRT)"));
+    ::kill(Fixture::supervisor(), SIGSTOP);
+  }
+  CHECK(Belongings() == before);
+}
+
+TEST_CASE("a supervisor that cannot be continued does not hold the end up") {
+  const Belongings before;
+  {
+    Fixture unit("faulty");
+    unit.start({{"fault", "daemon"}});
+    unit.step(0, 1);
+    const pid_t supervisor = Fixture::supervisor();
+    std::vector<pid_t> supervised;
+    while (supervised.size() < 2) supervised = isolation::descendants_of(supervisor);
+    // stopped by a debugger it does not obey SIGCONT
+    if (::ptrace(PTRACE_SEIZE, supervisor, nullptr, nullptr) != 0) return;
+    ::ptrace(PTRACE_INTERRUPT, supervisor, nullptr, nullptr);
+    ::waitpid(supervisor, nullptr, __WALL);
+    unit.destroy();
+    for (const pid_t process : supervised) CHECK(has_ended(process));
   }
   CHECK(Belongings() == before);
 }

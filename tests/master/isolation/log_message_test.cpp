@@ -1,5 +1,7 @@
 #include "master/isolation/log_message.h"
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <thread>
 
@@ -62,4 +64,16 @@ TEST_CASE("an invalid status is refused, and a message without an end takes no m
   link->logged.write(std::string(16, '\xff'));
   link->logged.write(std::string(1000, 'x'));
   CHECK(read(reader).empty());
+}
+
+TEST_CASE("a message that would be longer than any is dropped, and not waited for") {
+  const isolation::Shared<HostLinkMemory> link;
+  LogReader reader(*link);
+  const std::array<std::uint64_t, 2> head{0, std::uint64_t{1} << 40};
+  link->logged.write({reinterpret_cast<const char*>(head.data()), sizeof head});
+  CHECK(read(reader).empty());
+  LogWriter(*link).write({importer::Status::Ok, "", "the next"});
+  const auto messages = read(reader);
+  REQUIRE(messages.size() == 1);
+  CHECK(messages[0].text == "the next");
 }

@@ -15,7 +15,9 @@
 #include <thread>
 #include <vector>
 
+#include <fcntl.h>
 #include <netinet/in.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -70,9 +72,62 @@ void overflow_the_stack() {
 }
 
 void allocate() {
-  constexpr std::size_t kPiece = 1 << 20;
   std::vector<std::vector<char>> pieces;
-  for (;;) pieces.emplace_back(kPiece, 'x');
+  for (;;) pieces.emplace_back(std::size_t{1} << 20, 'x');
+}
+
+/// Of memory that the limit of a process does not cover, so that a machine without any other limit
+/// bears it.
+constexpr int kPieces = 512;
+constexpr std::size_t kPiece = std::size_t{1} << 20;
+
+[[noreturn]] void allocate_shared() {
+  for (int i = 0; i < kPieces; ++i) {
+    void* const piece =
+        ::mmap(nullptr, kPiece, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (piece == MAP_FAILED) fail("mmap");
+    std::memset(piece, 'x', kPiece);
+  }
+  sleep_for_ever();
+}
+
+void write_pieces(int file) {
+  const std::string piece(kPiece, 'x');
+  for (int i = 0; i < kPieces; ++i) {
+    if (::write(file, piece.data(), kPiece) != static_cast<ssize_t>(kPiece)) fail("write");
+  }
+}
+
+[[noreturn]] void write_nameless_file() {
+  write_pieces(::memfd_create("pieces", 0));
+  sleep_for_ever();
+}
+
+[[noreturn]] void write_temporary_file() {
+  const std::string name = std::string(std::getenv("TMPDIR")) + "/pieces";
+  const int file = ::open(name.c_str(), O_WRONLY | O_CREAT, 0600);
+  if (file < 0) fail(name);
+  write_pieces(file);
+  ::close(file);
+  sleep_for_ever();
+}
+
+/// Each of them within its limit.
+[[noreturn]] void allocate_in_children() {
+  for (int i = 0; i < 8; ++i) {
+    if (::fork() != 0) continue;
+    const std::string pieces(32 * kPiece, 'x');
+    sleep_for_ever();
+  }
+  sleep_for_ever();
+}
+
+/// Says so by a file, and goes on as if nothing was.
+void doze() {
+  if (const char* const results = std::getenv("STRIDE_RESULTS")) {
+    std::ofstream(std::string(results) + "/dozes") << "now";
+  }
+  std::this_thread::sleep_for(std::chrono::seconds(1));
 }
 
 /// A megabyte, and goes on as if nothing was.
@@ -96,6 +151,14 @@ void start_daemon() {
     if (::fork() == 0) sleep_for_ever();
     ::_exit(0);
   }
+}
+
+/// Another process goes on printing what it has begun.
+void die_while_another_prints() {
+  if (::fork() == 0) {
+    for (;;) print();
+  }
+  write_to_nowhere();
 }
 
 /// What it shares with other processes, whatever that is.
@@ -191,6 +254,12 @@ const std::map<std::string, std::function<void()>> kFaults{
      }},
     {"close files", close_all_files},
     {"daemon", start_daemon},
+    {"die while another prints", die_while_another_prints},
+    {"doze", doze},
+    {"allocate shared", allocate_shared},
+    {"allocate in children", allocate_in_children},
+    {"write nameless file", write_nameless_file},
+    {"write temporary file", write_temporary_file},
     {"overwrite", overwrite_shared_memory},
     {"connect", connect},
     {"write temporary", write_temporary},

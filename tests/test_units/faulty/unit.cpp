@@ -6,11 +6,30 @@
 #include <stdexcept>
 #include <string>
 
+#include <dlfcn.h>
+
 #include <stride/unit.h>
 
 #include "tests/test_units/faults/faults.h"
 
 namespace {
+
+/// Until the process ends.
+void keep_library() {
+  Dl_info self{};
+  if (::dladdr(reinterpret_cast<void*>(&keep_library), &self) == 0 ||
+      ::dlopen(self.dli_fname, RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE) == nullptr) {
+    throw std::runtime_error("the library cannot be kept");
+  }
+}
+
+/// Acts when the library is unloaded.
+struct Unloading {
+  std::string fault;
+  ~Unloading() {
+    if (!fault.empty()) stride::tests::commit_fault(fault);
+  }
+} unloading;
 
 class Faulty : public stride::Unit {
  public:
@@ -19,11 +38,18 @@ class Faulty : public stride::Unit {
     input("u", u_);
     output("y", y_).exact().depends_on({});
     parameter("fault", fault_).description("what it does: " + stride::tests::fault_names());
-    parameter("call", call_).description("in which call: initialize, step, event or terminate");
+    parameter("call", call_)
+        .description("in which call: initialize, step, event, terminate, free, unload or exit");
     parameter("at", at_).unit("s").description("the first end of a step at which it does so");
     parameter("file", file_).description("a file that it writes instead");
     state(has_acted_);
     if (setup.instance_name == "dies_at_birth") std::abort();
+    if (setup.instance_name == "dozes_at_birth") stride::tests::commit_fault("doze");
+  }
+  ~Faulty() override {
+    if (call_ == "unload" || call_ == "exit") unloading.fault = fault_;
+    if (call_ == "exit") keep_library();
+    act("free", stride::Time::max());
   }
 
   void initialize(stride::Time) override {

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include <catch2/catch.hpp>
+#include <unistd.h>
 
 #include "master/isolation/process/child.h"
 
@@ -46,4 +47,13 @@ TEST_CASE("what there is no memory for is an error, and changes nothing") {
     CHECK_THROWS_AS(memory.grow(std::size_t{1} << bits), std::system_error);
   }
   CHECK(memory.data()[0] == std::byte{1});
+}
+
+TEST_CASE("a file that only seems to be large is not seen") {
+  GrowingMemory memory("test", 100);
+  const std::size_t large = std::size_t{1} << 40;
+  REQUIRE(::ftruncate(memory.file().number(), static_cast<off_t>(large)) == 0);
+  CHECK_FALSE(memory.follow(large));
+  CHECK_FALSE(memory.follow(memory.size() + 1));
+  CHECK(::ftruncate(memory.file().number(), 0) != 0);
 }

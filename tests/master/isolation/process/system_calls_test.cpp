@@ -138,6 +138,7 @@ TEST_CASE("no other process is reached by its number, a key or a name") {
        {"its files", [] { return ::syscall(SYS_pidfd_getfd, -1, 0, 0); }},
        {"advice", [] { return ::syscall(SYS_process_madvise, -1, nullptr, 0L, 0, 0); }},
        {"counters", [] { return ::syscall(SYS_perf_event_open, nullptr, 0, -1, -1, ~0UL); }},
+       {"hiding", [] { return ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0); }},
        {"the foreground", [] { return ::tcsetpgrp(STDIN_FILENO, ::getpgrp()); }},
        {"a terminal", [] { return ::ioctl(STDIN_FILENO, TIOCSCTTY, 0); }},
        {"System V memory", [] { return ::shmget(0x5712de, 1, 0); }},

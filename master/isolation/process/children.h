@@ -1,0 +1,25 @@
+// The children of any process, as the kernel lists them.
+#ifndef STRIDE_MASTER_ISOLATION_PROCESS_CHILDREN_H
+#define STRIDE_MASTER_ISOLATION_PROCESS_CHILDREN_H
+
+#include <optional>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace stride::isolation {
+
+/// Those that any of its threads has started or adopted, with those that have ended and have not
+/// been waited for. Nothing if there is no such process, or no such list.
+std::optional<std::vector<pid_t>> children_of(pid_t process);
+
+/// Its children, theirs, and so on, without the process itself.
+std::vector<pid_t> descendants_of(pid_t process);
+
+/// Sends SIGKILL to its children; returns whether one of them had not ended. To be called again
+/// until it returns false: a subreaper adopts the children of those that end.
+bool kill_children_of(pid_t process);
+
+}  // namespace stride::isolation
+
+#endif
