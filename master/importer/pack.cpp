@@ -14,6 +14,7 @@
 #include "master/importer/unpacked_fmu.h"
 #include "master/util/archive/zip.h"
 #include "master/util/error.h"
+#include "master/util/process/process_state.h"
 
 namespace stride::importer {
 namespace {
@@ -25,6 +26,7 @@ namespace fs = std::filesystem;
 class Preloaded {
  public:
   explicit Preloaded(const std::vector<fs::path>& libraries) {
+    const core::ProcessState before;
     for (const fs::path& library : libraries) {
       void* const handle = ::dlopen(fs::absolute(library).c_str(), RTLD_NOW | RTLD_LOCAL);
       if (handle == nullptr) {
@@ -33,6 +35,7 @@ class Preloaded {
       }
       handles_.emplace_back(handle, &::dlclose);
     }
+    before.restore();
   }
 
  private:
