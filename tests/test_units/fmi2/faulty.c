@@ -1,5 +1,7 @@
 /* Ends its process, as the parameter `fault` has it, in the first step that ends at 0.5 s or later:
- * 1 by a null pointer, 2 by abort(), 3 by exit(0), 4 by an overflow of the stack. */
+ * 1 by a null pointer, 2 by abort(), 3 by exit(0), 4 by an overflow of the stack.
+ * 5 does not end it, and leaves another direction of rounding behind. */
+#include <fenv.h>
 #include <stdlib.h>
 
 #include "tests/test_units/fmi2/unit.h"
@@ -32,6 +34,9 @@ static fmi2Status unit_step(Unit* unit, double begin, double size) {
       exit(0);
     case 4:
       recurse(1 << 30, &first);
+      break;
+    case 5:
+      fesetround(FE_UPWARD);
   }
   return fmi2OK;
 }
