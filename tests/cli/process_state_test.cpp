@@ -120,6 +120,22 @@ TEST_CASE("what a unit changes in its steps is put back at the end, the numbers'
   CHECK(numbers(workspace) == expected);
 }
 
+TEST_CASE("inputs within a step are computed in the mode of stride, and the unit keeps its own") {
+  const Workspace workspace(
+      Parts{component("filter", "minimal.fmu") + component("meddler", "meddler.fmu"),
+            connection("filter.y", "meddler.u")});
+  // the step is a power of 2, so the unit's own times are the same in any mode
+  const Arguments options{"--quiet", "--set",  "filter.u=0.1", "--extrapolation",
+                          "linear",  "--step", "0.0009765625"};
+  REQUIRE(workspace.run(options).err == "");
+  const std::string expected = numbers(workspace);
+  const Meddling meddling("within rounding");
+  const Outcome outcome = workspace.run(options);
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err == "");
+  CHECK(numbers(workspace) == expected);
+}
+
 TEST_CASE("the only unit without a host is the one that has changed the process") {
   const Workspace workspace = beside_others("meddler.fmu");
   const Outcome outcome = run_with(workspace, "step folder",

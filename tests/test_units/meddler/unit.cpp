@@ -9,6 +9,7 @@
 #include <locale>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 #include <sys/resource.h>
@@ -88,7 +89,8 @@ class Meddler : public stride::Unit {
  public:
   Meddler() {
     describe("Changes what all code in its process shares");
-    input("u", u_);
+    input("u", u_).intermediate();
+    output("seen", seen_).exact().depends_on({}).description("the last input within a step");
     output("sum", sum_).exact().depends_on({});
     output("tiny", tiny_).exact().depends_on({});
     state();
@@ -97,6 +99,8 @@ class Meddler : public stride::Unit {
 
   void initialize(stride::Time) override { act("initialize"); }
   void step(stride::Step& step) override {
+    update_inputs_in_own_mode(step);
+    seen_ = u_;
     sum_ += (u_ + 0.1) * stride::to_seconds(step.size());
     tiny_ = sum_ * 1e-310;
     act("step");
@@ -105,7 +109,17 @@ class Meddler : public stride::Unit {
   void terminate() override { act("terminate"); }
 
  private:
+  /// What it may do: the mode is put back before it returns.
+  static void update_inputs_in_own_mode(const stride::Step& step) {
+    act("within");
+    const int rounding = std::fegetround();
+    step.update_inputs(stride::to_seconds(step.size()) / 4);
+    if (std::fegetround() != rounding) throw std::runtime_error("the mode has not come back");
+    std::fesetround(FE_TONEAREST);
+  }
+
   double u_ = 0;
+  double seen_ = 0;
   double sum_ = 0;
   double tiny_ = 0;
 };
