@@ -79,6 +79,7 @@ TEST_CASE("what a unit changes until the end of the initialization is put back")
   CHECK_THAT(here.err, Contains("unit 'meddler': " + where + " changed "));
   for (const std::string& name : kNames) CHECK_THAT(here.err, Contains(name));
   CHECK_THAT(here.err, Contains("rounding upward"));
+  if (!kSanitized) CHECK_THAT(here.err, Contains("the handler of SIGSEGV"));
   CHECK(numbers(workspace) == expected);
   CHECK(workspace.left_behind().empty());
   const Outcome hosted =

@@ -30,7 +30,7 @@ int FloatingPointMode::rounding() const noexcept {
 bool FloatingPointMode::flushes_to_zero() const noexcept { return (sse_ & 0x8040) != 0; }
 
 void FloatingPointMode::set() const noexcept {
-  _mm_setcsr((_mm_getcsr() & kFlags) | sse_);
+  __builtin_ia32_ldmxcsr((__builtin_ia32_stmxcsr() & kFlags) | sse_);
   asm volatile("fldcw %0" : : "m"(x87_));
 }
 

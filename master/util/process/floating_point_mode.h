@@ -6,10 +6,6 @@
 #include <cstdint>
 #include <string>
 
-#if defined(__x86_64__)
-#include <xmmintrin.h>
-#endif
-
 namespace stride::core {
 
 /// The direction of rounding, whether subnormal numbers become 0, which exceptions raise a signal,
@@ -21,7 +17,7 @@ class FloatingPointMode {
   static FloatingPointMode present() noexcept {
     FloatingPointMode mode;
 #if defined(__x86_64__)
-    mode.sse_ = _mm_getcsr() & ~kFlags;
+    mode.sse_ = __builtin_ia32_stmxcsr() & ~kFlags;
     asm volatile("fnstcw %0" : "=m"(mode.x87_));
 #elif defined(__aarch64__)
     asm volatile("mrs %0, fpcr" : "=r"(mode.control_));

@@ -28,6 +28,11 @@ std::string number_text() {
   return text.str();
 }
 
+locale_t other_locale() {
+  static const locale_t locale = ::newlocale(LC_ALL_MASK, "C.UTF-8", nullptr);
+  return locale;
+}
+
 mode_t present_mask() {
   const mode_t mask = ::umask(0);
   ::umask(mask);
@@ -77,7 +82,7 @@ TEST_CASE("each change is put back once, and named") {
       {[] { ::setenv("STRIDE_TEST_NEW", "", 1); }, "the environment variable STRIDE_TEST_NEW"},
       {[] { std::setlocale(LC_ALL, "C.UTF-8"); }, "the locale"},
       {[] { std::locale::global(std::locale(std::locale(), new Comma)); }, "the locale"},
-      {[] { ::uselocale(::newlocale(LC_ALL_MASK, "C.UTF-8", nullptr)); }, "the locale"},
+      {[] { ::uselocale(other_locale()); }, "the locale"},
       {[] { std::signal(SIGINT, SIG_IGN); }, "the handler of SIGINT"},
       {[] { std::signal(SIGCHLD, handle); }, "the handler of SIGCHLD"},
       {[] { std::signal(SIGABRT, SIG_IGN); }, "the handler of SIGABRT"},
