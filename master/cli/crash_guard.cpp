@@ -29,6 +29,8 @@
 namespace stride::cli {
 namespace {
 
+using core::kCrashes;
+
 constexpr int kRunFailed = 1;
 /// Of virtual memory: the conclusion runs on it.
 constexpr std::size_t kStackSize = std::size_t{8} << 20;

@@ -9,10 +9,9 @@
 #include <memory>
 #include <string>
 
-namespace stride::cli {
+#include "master/util/process/signal_state.h"
 
-/// The signals by which a process ends that has damaged itself.
-inline constexpr std::array kCrashes{SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGSYS};
+namespace stride::cli {
 
 /// While it lives, a crash of this process (a signal such as SIGSEGV, abort(), std::terminate())
 /// and exit(), _exit() and quick_exit() are not its silent end: the lines that files still hold in
@@ -50,7 +49,7 @@ class CrashGuard {
   void set_conclusion(Conclusion conclusion);
 
   Conclusion conclusion_;
-  std::array<struct sigaction, kCrashes.size()> before_{};
+  std::array<struct sigaction, core::kCrashes.size()> before_{};
   void* stack_ = nullptr;
   stack_t stack_before_{};
 };

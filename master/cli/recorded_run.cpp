@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include "master/cli/output.h"
@@ -28,6 +29,16 @@ void warn_of_failure(Work&& work) {
   } catch (const std::exception& failure) {
     spdlog::warn("{}", failure.what());
   }
+}
+
+/// "unit 'X'" if there is only one.
+std::string unit_without_host(const scenario::LoadedScenario& loaded) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < loaded.hostings().size(); ++i) {
+    if (!loaded.hostings()[i]) names.push_back(loaded.system().components()[i].name);
+  }
+  return names.size() == 1 ? fmt::format("unit '{}'", names.front())
+                           : "one of the units without a host";
 }
 
 // ---- Verdicts ----
@@ -114,9 +125,11 @@ void RecordedRun::run() {
     simulation_.run();
     setup_.capture.end(name(simulation_.statistics().end));
   } catch (const std::exception& failure) {
+    restore_process();
     conclude_failure(failure.what());
     throw;
   }
+  restore_process();
   const core::RunEnd end = simulation_.statistics().end;
   progress_.end(name(end));
   collect_verdicts(end == core::RunEnd::EndedByUnit ||
@@ -126,8 +139,19 @@ void RecordedRun::run() {
 }
 
 void RecordedRun::abandon(const std::string& error) {
+  setup_.loaded.process().restore();
   simulation_.abandon();
   conclude_failure(error);
+}
+
+/// Files are written from here on, some of them named relative to the working folder.
+void RecordedRun::restore_process() const {
+  const std::vector<std::string> changes = setup_.loaded.process().restore();
+  if (changes.empty()) return;
+  spdlog::warn(
+      "{} has changed {} in the course of the run, which all code in the process of stride shares; "
+      "it is put back now, and would change nothing for others in a process of its own (--isolate)",
+      unit_without_host(setup_.loaded), fmt::join(changes, ", "));
 }
 
 /// The failure of the run is the error to report, so later failures are warnings.

@@ -79,6 +79,7 @@ class RecordedRun {
   void abandon(const std::string& error);
 
  private:
+  void restore_process() const;
   void conclude_failure(const std::string& error);
   void conclude();
   void collect_verdicts(bool is_complete);

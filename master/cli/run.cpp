@@ -20,6 +20,7 @@
 #include "master/recorders/results_folder.h"
 #include "master/recorders/unit_folders.h"
 #include "master/scenario/loaded_scenario.h"
+#include "master/util/process/process_state.h"
 
 namespace stride::cli {
 namespace {
@@ -87,6 +88,12 @@ std::vector<capture::CaptureRequest> captures(const RunArguments& arguments) {
   return captures;
 }
 
+/// The units end before it, and what is done then needs the working folder.
+struct RestoredAtEnd {
+  const core::ProcessState& process;
+  ~RestoredAtEnd() { process.restore(); }
+};
+
 void run(const RunArguments& arguments, TestReport& report, CrashGuard& guard) {
   const Interruption interruption;
   const scenario::LoadedScenario loaded(arguments.scenario);
@@ -100,6 +107,7 @@ void run(const RunArguments& arguments, TestReport& report, CrashGuard& guard) {
   const core::RunOptions options = run_options(arguments, loaded);
   capture::Capture capture(loaded.system(), loaded.scenario().name, options, captures(arguments));
   const recorders::UnitFolders unit_folders(folder, components);
+  const RestoredAtEnd restored{loaded.process()};
   auto units = loaded.instantiate(folder);
   capture.wrap(units);
   const RunDisplay display{progress_style(arguments), arguments.quiet, arguments.open};
@@ -113,11 +121,16 @@ void run(const RunArguments& arguments, TestReport& report, CrashGuard& guard) {
 void run_and_report(const RunArguments& arguments) {
   refuse_unit_folders(arguments, fmt::format("--junit {}", arguments.junit.string()),
                       arguments.junit);
+  const core::ProcessState process;
   TestReport report(arguments.junit, arguments.scenario.scenario);
-  CrashGuard guard([&](const std::string& error) { report.write(error); });
+  CrashGuard guard([&](const std::string& error) {
+    process.restore();
+    report.write(error);
+  });
   try {
     run(arguments, report, guard);
   } catch (const std::exception& failure) {
+    process.restore();
     if (!report.is_written()) report.write(failure.what());
     throw;
   }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "master/importer/binaries.h"
 #include "master/importer/fmi2/fmi2_unit.h"
@@ -17,6 +18,9 @@ namespace stride::importer {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Instances of one FMU behave alike, and there may be 100,000 of them.
+constexpr std::size_t kMostWatched = 64;
 
 /// The units in use that allow one instance per process only, by their instantiation token: two
 /// copies of the same archive are the same unit.
@@ -138,6 +142,17 @@ std::shared_ptr<const Fmi3Library> Fmu::load_fmi3_library() {
   return fmi3_library_;
 }
 
+/// Of the process, when the library was loaded.
+void Fmu::warn_of_changes(const std::string& name, const InstanceOptions& options) {
+  const std::vector<std::string>& changes = load_library()->changes();
+  if (changes.empty() || !options.log || has_warned_of_changes_.exchange(true)) return;
+  options.log(name, Status::Warning, "stride",
+              fmt::format("the loading of its library changed {}, which all code in the process "
+                          "shares; it is put back: link the unit without -ffast-math, and let "
+                          "its initialization leave the rest as it was",
+                          fmt::join(changes, ", ")));
+}
+
 std::unique_ptr<core::Unit> Fmu::instantiate(const std::string& name, InstanceOptions options) {
   if (description_->needs_execution_tool && options.log) {
     options.log(name, Status::Ok, "stride",
@@ -147,7 +162,9 @@ std::unique_ptr<core::Unit> Fmu::instantiate(const std::string& name, InstanceOp
   }
   // also read by the library when it is loaded
   if (!options.results.empty()) ::setenv("STRIDE_RESULTS", options.results.c_str(), 1);
+  if (++instances_ > kMostWatched) options.process = nullptr;
   load_library();  // whose errors come before those of the instance
+  warn_of_changes(name, options);
   const auto tenancy = std::make_shared<Tenancy>(shared_from_this(), name, options.where);
   UnitParts parts{options.description ? options.description : description_, "", tenancy};
   if (description_->fmi2) {

@@ -1,6 +1,8 @@
 #ifndef STRIDE_MASTER_IMPORTER_FMU_H
 #define STRIDE_MASTER_IMPORTER_FMU_H
 
+#include <atomic>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -56,6 +58,7 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   Fmu(std::filesystem::path path, core::Location where);
   void read_folder();
   void read_bare_library();
+  void warn_of_changes(const std::string& name, const InstanceOptions& options);
   std::filesystem::path library_path() const;
 
   std::filesystem::path path_;
@@ -66,6 +69,8 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   std::mutex library_mutex_;
   std::shared_ptr<const Fmi2Library> fmi2_library_;
   std::shared_ptr<const Fmi3Library> fmi3_library_;
+  std::atomic<bool> has_warned_of_changes_ = false;
+  std::atomic<std::size_t> instances_ = 0;  ///< made so far
 };
 
 }  // namespace stride::importer

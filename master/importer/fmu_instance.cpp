@@ -110,9 +110,33 @@ void FmuInstance::fail_thrown(const char* function) {
   } catch (...) {  // it has no text
   }
   failed_in_ = function;
+  if (!mode_.is_present()) restore_mode();
   in_call_.store(nullptr, std::memory_order_relaxed);
   mark_unusable();
   fail(fmt::format("{} threw {}", function, what), "a function of FMI returns a status instead");
+}
+
+// ---- What calls change of the process ----
+
+void FmuInstance::restore_mode() {
+  const core::FloatingPointMode left = core::FloatingPointMode::present();
+  mode_.set();
+  if (std::exchange(has_mode_warning_, true)) return;
+  warn(
+      fmt::format("{} left another floating-point mode behind ({}); it is put back, here and after "
+                  "later calls, since the numbers of all units depend on it: a function has to "
+                  "restore it before it returns",
+                  in_call_.load(std::memory_order_relaxed), mode_.differences(left)));
+}
+
+void FmuInstance::restore_process(const char* function) {
+  if (options_.process == nullptr) return;
+  const std::vector<std::string> changes = options_.process->restore();
+  if (changes.empty()) return;
+  warn(
+      fmt::format("{} changed {}, which all code in the process shares; it is put back: a function "
+                  "has to leave that as it was",
+                  function, fmt::join(changes, ", ")));
 }
 
 std::string FmuInstance::status_name(Status status) const {

@@ -23,6 +23,8 @@
 #include "master/importer/status.h"
 #include "master/util/error.h"
 #include "master/util/listed.h"
+#include "master/util/process/floating_point_mode.h"
+#include "master/util/process/process_state.h"
 
 namespace stride::importer {
 
@@ -43,6 +45,10 @@ struct InstanceOptions {
   std::filesystem::path results{};
   /// With the array sizes that its structural parameters give; nothing = as in the FMU.
   std::shared_ptr<const core::UnitDescription> description{};
+  /// What is put back after the instantiation and after the calls that change the mode, until the
+  /// end of the initialization; null = nothing. The floating-point mode is put back after each call
+  /// of any function. Only the first instances of an FMU are watched so.
+  std::shared_ptr<const core::ProcessState> process{};
   /// Where each function is noted while it is called; null = nowhere. Must outlive the instance.
   CallNote* call_note = nullptr;
 };
@@ -69,6 +75,10 @@ struct UnitCall {
 /// an exception that leaves the unit, which counts as Fatal. After it the instance is freed, and no
 /// other function of it is called; after Fatal none of any instance of the FMU, so they are not
 /// freed either, and the library stays loaded.
+///
+/// What a function has changed of the floating-point mode is put back when it returns, and, until
+/// the end of the initialization, what it has changed of the process. A warning names the unit and
+/// the function.
 class FmuInstance : public core::Unit, public core::UnitDiagnostics {
  public:
   friend std::size_t unfinished_calls(std::span<UnitCall> calls) noexcept;
@@ -98,7 +108,10 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   /// Calls function(instance, arguments...).
   template <class Function, class... Arguments>
   void call(const char* name, Function* function, Arguments... arguments);
-  /// Likewise one that may answer Discard, or Pending.
+  /// Likewise; what it has changed of the process is put back.
+  template <class Function, class... Arguments>
+  void call_and_restore(const char* name, Function* function, Arguments... arguments);
+  /// As call(), one that may answer Discard, or Pending.
   template <class Function, class... Arguments>
   Status call_discardable(const char* name, Function* function, Arguments... arguments);
 
@@ -106,7 +119,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   template <class Call>
   auto guarded(const char* name, Call&& call);
 
-  /// To be called before each call, and clear_note() after it has returned. What it throws leaves
+  /// To be called before each call, and end_call() after it has returned. What it throws leaves
   /// the note as it is: where the exception comes from.
   void note_call(const char* name) {
     ++calls_;
@@ -118,11 +131,15 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
     if (call_note_ != nullptr) [[unlikely]]
       call_note_->write(name, time_.value_or(Time{}));
   }
-  void clear_note() {
+  void end_call() {
+    if (!mode_.is_present()) [[unlikely]]
+      restore_mode();
     in_call_.store(nullptr, std::memory_order_relaxed);
     if (call_note_ != nullptr) [[unlikely]]
       call_note_->clear();
   }
+  /// After a call of this function: see InstanceOptions::process.
+  void restore_process(const char* function);
   void check_callable(const char* name) const {
     if (failed_in_ != nullptr || is_unusable_.load(std::memory_order_relaxed)) [[unlikely]]
       fail_not_callable(name);
@@ -197,6 +214,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   std::uint64_t calls_ = 0;
   std::atomic<const char*> in_call_{nullptr};  ///< the function that has not returned
   CallNote* const call_note_;
+  const core::FloatingPointMode mode_ = core::FloatingPointMode::present();
   std::optional<Time> time_;
   const std::atomic<bool>& is_unusable_;  ///< the library
   std::atomic<bool> has_messages_ = false;
@@ -210,6 +228,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
  private:
   [[noreturn]] void fail_not_callable(const char* name) const;
   [[noreturn]] void fail_missing(const char* name, const char* capability) const;
+  void restore_mode();
   std::string status_name(Status status) const;
   bool is_fmi2() const { return prefix_[3] == '2'; }
 
@@ -217,6 +236,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   std::shared_ptr<const SharedLibrary> library_;
   std::mutex messages_mutex_;
   std::vector<std::string> messages_;  ///< those of the present call that report a failure
+  bool has_mode_warning_ = false;
   core::Listed<FmuInstance> listed_{*this};
 };
 
@@ -229,7 +249,7 @@ template <class Call>
   note_call(name);
   try {
     const auto result = call();
-    clear_note();
+    end_call();
     return result;
   } catch (...) {
     fail_thrown(name);
@@ -257,6 +277,12 @@ template <class Function, class... Arguments>
     fail_call(name, status);
 }
 
+template <class Function, class... Arguments>
+void FmuInstance::call_and_restore(const char* name, Function* function, Arguments... arguments) {
+  call(name, function, arguments...);
+  restore_process(name);
+}
+
 template <class Function>
 void FmuInstance::reset_by(const char* name, Function* function) {
   if (function == nullptr) fail(std::string("its library does not export ") + name);
@@ -271,7 +297,7 @@ bool FmuInstance::free_by(const char* name, Function* function, void*& state) {
   if (state == nullptr || is_unusable_ || function == nullptr) return false;
   write_note(name);
   if (static_cast<Status>(function(instance_, &state)) == Status::Fatal) mark_unusable();
-  clear_note();
+  end_call();
   return true;
 }
 

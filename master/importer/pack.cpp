@@ -15,6 +15,7 @@
 #include "master/util/archive/zip.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
+#include "master/util/process/process_state.h"
 
 namespace stride::importer {
 namespace {
@@ -26,6 +27,7 @@ namespace fs = std::filesystem;
 class Preloaded {
  public:
   explicit Preloaded(const std::vector<fs::path>& libraries) {
+    const core::ProcessState before;
     for (const fs::path& library : libraries) {
       core::open_input(library);  // the loader would wait for a FIFO
       void* const handle = ::dlopen(fs::absolute(library).c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -35,6 +37,7 @@ class Preloaded {
       }
       handles_.emplace_back(handle, &::dlclose);
     }
+    before.restore();
   }
 
  private:

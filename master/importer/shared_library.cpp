@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "master/importer/binaries.h"
+#include "master/util/process/process_state.h"
 
 namespace stride::importer {
 namespace {
@@ -81,7 +82,9 @@ void SharedLibrary::Closer::operator()(void* handle) const { ::dlclose(handle); 
 
 SharedLibrary::SharedLibrary(const fs::path& path, const core::Location& where)
     : path_(fs::absolute(path)) {
+  const core::ProcessState before;
   handle_.reset(::dlopen(path_.c_str(), RTLD_NOW | RTLD_LOCAL));
+  changes_ = before.restore();
   if (!handle_) fail_to_load(path_, ::dlerror(), where);
   is_unusable_ = &unusable_flag(handle_.get());
 }

@@ -25,6 +25,8 @@ class SharedLibrary {
   SharedLibrary& operator=(const SharedLibrary&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  /// What its initialization has changed of the process (core::ProcessState). It is put back.
+  const std::vector<std::string>& changes() const { return changes_; }
 
   /// To be called when an instance has returned the status Fatal: after it no function of any
   /// instance may be called (FMI 3.0, 2.2.3; FMI 2.0, 2.1.3). Holds for all objects of the same
@@ -49,6 +51,7 @@ class SharedLibrary {
   void* address(const std::string& symbol) const;
 
   std::filesystem::path path_;
+  std::vector<std::string> changes_;
   std::unique_ptr<void, Closer> handle_;
   std::atomic<bool>* is_unusable_ = nullptr;
 };

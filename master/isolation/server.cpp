@@ -24,6 +24,7 @@
 #include "master/isolation/process/process_memory.h"
 #include "master/isolation/process/surroundings.h"
 #include "master/isolation/sandbox_hint.h"
+#include "master/util/process/process_state.h"
 
 namespace stride::isolation {
 namespace {
@@ -235,6 +236,7 @@ void Server::instantiate(PacketWriter& out) {
   put_protections(out, prepare());
   importer::InstanceOptions options = spec_.options;
   options.call_note = &memory_.call_note;
+  options.process = std::make_shared<core::ProcessState>(core::ProcessState::Extent::Numbers);
   options.log = [this](const std::string&, importer::Status status, const std::string& category,
                        const std::string& text) {
     log_.write({status, category, text});

@@ -336,7 +336,9 @@ std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate(
   }
   for (std::size_t i = 0; i < units.size(); ++i) {
     if (units[i]) continue;
-    units[i] = fmus_[i]->instantiate(components[i].name, instance_options(i, folder));
+    importer::InstanceOptions options = instance_options(i, folder);
+    options.process = process_;
+    units[i] = fmus_[i]->instantiate(components[i].name, std::move(options));
   }
   return units;
 }

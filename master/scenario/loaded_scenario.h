@@ -16,6 +16,7 @@
 #include "master/scenario/hosting.h"
 #include "master/scenario/scenario.h"
 #include "master/scenario/signal_selection.h"
+#include "master/util/process/process_state.h"
 
 namespace stride::scenario {
 
@@ -53,6 +54,9 @@ class LoadedScenario {
   /// The checks of the scenario; options() watch their signals.
   const std::vector<checks::Definition>& checks() const { return checks_; }
 
+  /// As it was before the first unit was loaded.
+  const core::ProcessState& process() const { return *process_; }
+
   /// Fresh instances in the order of system().components(). Their messages go to the log. The units
   /// write their files to their folders in `results`, which exist (recorders::UnitFolders), and
   /// hosted ones nowhere else; if it is empty, there are none.
@@ -77,6 +81,7 @@ class LoadedScenario {
   importer::InstanceOptions instance_options(std::size_t component,
                                              const std::filesystem::path& results) const;
 
+  std::shared_ptr<const core::ProcessState> process_ = std::make_shared<core::ProcessState>();
   Scenario scenario_;
   std::vector<std::shared_ptr<importer::Fmu>> fmus_;
   std::optional<core::System> system_;

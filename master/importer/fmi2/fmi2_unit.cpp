@@ -30,6 +30,7 @@ Fmi2Unit::Fmi2Unit(std::string name, std::shared_ptr<const Fmi2Library> library,
         name_.c_str(), fmi2CoSimulation, parts_.description->instantiation_token.c_str(),
         parts_.resources.c_str(), &callbacks_, fmi2False, options_.debug_logging);
   });
+  restore_process("fmi2Instantiate");
   if (instance_ == nullptr) {
     fail(fmt::format("fmi2Instantiate failed: {}", take_messages("fmi2Instantiate")));
   }
@@ -53,15 +54,15 @@ core::Capability* Fmi2Unit::find_capability(core::CapabilityId id) {
 
 void Fmi2Unit::enter_initialization(Time start, std::optional<Time> stop) {
   time_ = start;
-  call("fmi2SetupExperiment", fmi_.SetupExperiment, fmi2False, 0.0, to_seconds(start),
-       stop ? fmi2True : fmi2False, to_seconds(stop.value_or(Time{})));
-  call("fmi2EnterInitializationMode", fmi_.EnterInitializationMode);
+  call_and_restore("fmi2SetupExperiment", fmi_.SetupExperiment, fmi2False, 0.0, to_seconds(start),
+                   stop ? fmi2True : fmi2False, to_seconds(stop.value_or(Time{})));
+  call_and_restore("fmi2EnterInitializationMode", fmi_.EnterInitializationMode);
   is_instantiated_only_ = false;
   for (const auto& [references, values] : std::exchange(kept_inputs_, {})) set(references, values);
 }
 
 void Fmi2Unit::exit_initialization() {
-  call("fmi2ExitInitializationMode", fmi_.ExitInitializationMode);
+  call_and_restore("fmi2ExitInitializationMode", fmi_.ExitInitializationMode);
 }
 
 void Fmi2Unit::terminate() {

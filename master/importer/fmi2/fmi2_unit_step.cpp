@@ -42,7 +42,7 @@ Status Fmi2Unit::wait_for_step() {
                     "waits for it",
                     core::to_text(*time_), pending_text()));
   }
-  clear_note();
+  end_call();
   return check_status("fmi2DoStep", status);
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "master/util/input_file.h"
+#include "master/util/process/process_state.h"
 
 namespace stride::importer {
 namespace {
@@ -93,7 +94,9 @@ std::string Fmi3Library::text_from(strideModelDescriptionTYPE* function, const f
                                    const core::Location& where) const {
   const std::string folder = resource_path(resources);
   const char* error = nullptr;
+  const core::ProcessState before;
   const char* text = function(folder.empty() ? nullptr : folder.c_str(), &error);
+  before.restore();
   if (text != nullptr) return text;
   core::fail_input({.where = where},
                    fmt::format("the unit in '{}' cannot describe itself: {}",

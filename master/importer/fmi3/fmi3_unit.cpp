@@ -59,6 +59,7 @@ Fmi3Unit::Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library,
                                         intermediate.data(), intermediate.size(), this, &on_log,
                                         intermediate.empty() ? nullptr : &on_intermediate_update);
   });
+  restore_process("fmi3InstantiateCoSimulation");
   if (instance_ == nullptr) {
     fail(fmt::format("fmi3InstantiateCoSimulation failed: {}",
                      take_messages("fmi3InstantiateCoSimulation")));
@@ -85,21 +86,21 @@ void Fmi3Unit::enter_configuration_mode() {
   const char* const capability = "structural parameters";
   require("fmi3EnterConfigurationMode", fmi_.EnterConfigurationMode, capability);
   require("fmi3ExitConfigurationMode", fmi_.ExitConfigurationMode, capability);
-  call("fmi3EnterConfigurationMode", fmi_.EnterConfigurationMode);
+  call_and_restore("fmi3EnterConfigurationMode", fmi_.EnterConfigurationMode);
 }
 
 void Fmi3Unit::exit_configuration_mode() {
-  call("fmi3ExitConfigurationMode", fmi_.ExitConfigurationMode);
+  call_and_restore("fmi3ExitConfigurationMode", fmi_.ExitConfigurationMode);
 }
 
 void Fmi3Unit::enter_initialization(Time start, std::optional<Time> stop) {
   time_ = start;
-  call("fmi3EnterInitializationMode", fmi_.EnterInitializationMode, fmi3False, 0.0,
-       to_seconds(start), stop.has_value(), to_seconds(stop.value_or(Time{})));
+  call_and_restore("fmi3EnterInitializationMode", fmi_.EnterInitializationMode, fmi3False, 0.0,
+                   to_seconds(start), stop.has_value(), to_seconds(stop.value_or(Time{})));
 }
 
 void Fmi3Unit::exit_initialization() {
-  call("fmi3ExitInitializationMode", fmi_.ExitInitializationMode);
+  call_and_restore("fmi3ExitInitializationMode", fmi_.ExitInitializationMode);
 }
 
 void Fmi3Unit::terminate() {
@@ -287,6 +288,7 @@ void Fmi3Unit::on_intermediate_update(fmi3InstanceEnvironment environment, fmi3F
 /// Nothing may cross the unit's C code: step() throws what goes wrong here.
 void Fmi3Unit::update_inputs(double time) noexcept {
   if (!input_update_ || callback_failure_) return;
+  const core::FloatingPointScope mode(mode_);  // the unit may have one for its step
   try {
     input_update_(time - step_point_);
   } catch (...) {

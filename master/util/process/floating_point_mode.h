@@ -1,0 +1,68 @@
+// How a thread rounds, and what it does with the smallest numbers.
+#ifndef STRIDE_MASTER_UTIL_PROCESS_FLOATING_POINT_MODE_H
+#define STRIDE_MASTER_UTIL_PROCESS_FLOATING_POINT_MODE_H
+
+#include <cfenv>
+#include <cstdint>
+#include <string>
+
+namespace stride::core {
+
+/// The direction of rounding, whether subnormal numbers become 0, which exceptions raise a signal,
+/// and the precision of the x87 unit. Each thread has its own; a new one begins with that of the
+/// thread that starts it. Flags of exceptions that have occurred are no part of it.
+class FloatingPointMode {
+ public:
+  /// That of the calling thread.
+  static FloatingPointMode present() noexcept {
+    FloatingPointMode mode;
+#if defined(__x86_64__)
+    mode.sse_ = __builtin_ia32_stmxcsr() & ~kFlags;
+    asm volatile("fnstcw %0" : "=m"(mode.x87_));
+#elif defined(__aarch64__)
+    asm volatile("mrs %0, fpcr" : "=r"(mode.control_));
+#else
+    mode.rounding_ = std::fegetround();
+#endif
+    return mode;
+  }
+
+  /// Whether the calling thread has it: some nanoseconds.
+  bool is_present() const noexcept { return present() == *this; }
+  /// Gives it to the calling thread.
+  void set() const noexcept;
+  /// What another mode does differently, in words: "rounding upward".
+  std::string differences(const FloatingPointMode& other) const;
+
+  bool operator==(const FloatingPointMode&) const = default;
+
+ private:
+  int rounding() const noexcept;
+  bool flushes_to_zero() const noexcept;
+
+#if defined(__x86_64__)
+  static constexpr std::uint32_t kFlags = 0x3f;
+  std::uint32_t sse_ = 0;
+  std::uint16_t x87_ = 0;
+#elif defined(__aarch64__)
+  std::uint64_t control_ = 0;
+#else
+  int rounding_ = FE_TONEAREST;
+#endif
+};
+
+/// Gives the calling thread this mode, for as long as it lives.
+class FloatingPointScope {
+ public:
+  explicit FloatingPointScope(const FloatingPointMode& mode) noexcept { mode.set(); }
+  ~FloatingPointScope() { before_.set(); }
+  FloatingPointScope(const FloatingPointScope&) = delete;
+  FloatingPointScope& operator=(const FloatingPointScope&) = delete;
+
+ private:
+  const FloatingPointMode before_ = FloatingPointMode::present();
+};
+
+}  // namespace stride::core
+
+#endif

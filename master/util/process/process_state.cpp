@@ -1,0 +1,82 @@
+#include "master/util/process/process_state.h"
+
+#include <algorithm>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace stride::core {
+namespace {
+
+/// It can be read by a change only. A file that another thread makes meanwhile is for the user
+/// alone.
+mode_t present_mask() {
+  constexpr mode_t kPrivate = 077;
+  const mode_t mask = ::umask(kPrivate);
+  ::umask(mask);
+  return mask;
+}
+
+bool is_working_folder(const Descriptor& folder) {
+  struct stat there {
+  }, here{};
+  return ::fstat(folder.number(), &there) == 0 && ::stat(".", &here) == 0 &&
+         there.st_dev == here.st_dev && there.st_ino == here.st_ino;
+}
+
+constexpr const char* kNotPutBack = ", which cannot be put back";
+
+}  // namespace
+
+ProcessState::ProcessState(Extent extent) {
+  if (extent == Extent::Everything) rest_.emplace();
+}
+
+std::vector<std::string> ProcessState::restore() const {
+  std::vector<std::string> changes;
+  const FloatingPointMode now = FloatingPointMode::present();
+  if (now != mode_) {
+    mode_.set();
+    changes.push_back("the floating-point mode (" + mode_.differences(now) + ")");
+  }
+  locale_.restore(changes);
+  if (rest_) rest_->restore(changes);
+  return changes;
+}
+
+ProcessState::Rest::Rest()
+    : folder(::open(".", O_PATH | O_DIRECTORY | O_CLOEXEC)), mask(present_mask()) {
+  for (std::size_t i = 0; i < kLimits.size(); ++i) ::getrlimit(kLimits[i], &limits[i]);
+}
+
+void ProcessState::Rest::restore(std::vector<std::string>& changes) const {
+  restore_folder(changes);
+  if (present_mask() != mask) {
+    ::umask(mask);
+    changes.emplace_back("the mask of files' modes (umask)");
+  }
+  environment.restore(changes);
+  signals.restore(changes);
+  restore_limits(changes);
+}
+
+void ProcessState::Rest::restore_folder(std::vector<std::string>& changes) const {
+  if (!folder.is_open() || is_working_folder(folder)) return;
+  const bool is_back = ::fchdir(folder.number()) == 0;
+  changes.push_back(std::string("the working folder") + (is_back ? "" : kNotPutBack));
+}
+
+void ProcessState::Rest::restore_limits(std::vector<std::string>& changes) const {
+  for (std::size_t i = 0; i < kLimits.size(); ++i) {
+    const rlimit& before = limits[i];
+    rlimit now{};
+    ::getrlimit(kLimits[i], &now);
+    if (now.rlim_cur >= before.rlim_cur && now.rlim_max >= before.rlim_max) continue;
+    const rlimit possible{std::min(before.rlim_cur, now.rlim_max), now.rlim_max};
+    const bool is_back = ::setrlimit(kLimits[i], &before) == 0;
+    if (!is_back) ::setrlimit(kLimits[i], &possible);
+    changes.push_back(std::string("a resource limit") + (is_back ? "" : kNotPutBack));
+  }
+}
+
+}  // namespace stride::core

@@ -1,0 +1,83 @@
+#include "master/util/process/floating_point_mode.h"
+
+#include <limits>
+#include <thread>
+
+#include <catch2/catch.hpp>
+
+using stride::core::FloatingPointMode;
+using stride::core::FloatingPointScope;
+
+namespace {
+
+/// Not known to the compiler.
+double third() {
+  volatile double one = 1, three = 3;
+  return one / three;
+}
+
+}  // namespace
+
+TEST_CASE("a mode is put back, and what another one does is said") {
+  const FloatingPointMode usual = FloatingPointMode::present();
+  const double expected = third();
+  CHECK(usual.is_present());
+  std::fesetround(FE_UPWARD);
+  const FloatingPointMode upward = FloatingPointMode::present();
+  CHECK_FALSE(usual.is_present());
+  CHECK(third() != expected);
+  usual.set();
+  CHECK(usual.is_present());
+  CHECK(third() == expected);
+  CHECK(std::fegetround() == FE_TONEAREST);
+  CHECK(usual.differences(upward) == "rounding upward");
+  CHECK(upward.differences(usual) == "rounding to nearest");
+  CHECK(usual.differences(usual).empty());
+}
+
+#if defined(__x86_64__)
+TEST_CASE("flushing of subnormal numbers, exceptions and the precision of x87 are parts of it") {
+  const FloatingPointMode usual = FloatingPointMode::present();
+  const unsigned bit = GENERATE(0x8000U, 0x0040U, 0x0200U);
+  __builtin_ia32_ldmxcsr(__builtin_ia32_stmxcsr() | bit);
+  const FloatingPointMode flushing = FloatingPointMode::present();
+  const bool is_present = usual.is_present();
+  usual.set();
+  CHECK(is_present == (bit == 0x0200U));  // that exception raises no signal as it is
+  if (bit != 0x0200U) {
+    CHECK(usual.differences(flushing) ==
+          "subnormal numbers become 0, as after linking with -ffast-math");
+  }
+  const unsigned short single_precision = 0x007f;
+  asm volatile("fldcw %0" : : "m"(single_precision));
+  const FloatingPointMode single = FloatingPointMode::present();
+  usual.set();
+  CHECK(usual.differences(single) == "other exceptions or another precision");
+  ::feenableexcept(FE_DIVBYZERO);
+  CHECK_FALSE(usual.is_present());
+  usual.set();
+  CHECK(::fegetexcept() == 0);
+}
+#endif
+
+TEST_CASE("exceptions that have occurred are no part of it, and stay noted") {
+  std::feclearexcept(FE_ALL_EXCEPT);
+  const FloatingPointMode usual = FloatingPointMode::present();
+  third();
+  CHECK(usual.is_present());
+  usual.set();
+  CHECK(std::fetestexcept(FE_INEXACT) != 0);
+}
+
+TEST_CASE("a scope gives a mode to its thread and no other") {
+  const FloatingPointMode usual = FloatingPointMode::present();
+  std::fesetround(FE_DOWNWARD);
+  {
+    const FloatingPointScope scope(usual);
+    CHECK(std::fegetround() == FE_TONEAREST);
+  }
+  CHECK(std::fegetround() == FE_DOWNWARD);
+  usual.set();
+  std::thread([] { std::fesetround(FE_UPWARD); }).join();
+  CHECK(usual.is_present());
+}
