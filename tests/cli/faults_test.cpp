@@ -190,6 +190,9 @@ TEST_CASE("a unit that fails in a step is named, with the function, the time and
       check_error(workspace, outcome, "unit 'faulty', at 0.375 s: ");
       check_error(workspace, outcome, end);
       check_results(workspace, outcome, kStep.last);
+      CHECK(fs::exists(workspace / "out/report.html"));
+      if (end.find("ends stride") != end.npos)
+        CHECK_THAT(outcome.err, Contains("--isolate=faulty"));
     }
   }
 }
