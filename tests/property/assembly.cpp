@@ -75,7 +75,8 @@ class ValueRecorder : public core::Observer {
 std::shared_ptr<importer::Fmu> test_unit(const std::string& name) {
   static std::map<std::string, std::shared_ptr<importer::Fmu>> loaded;
   std::shared_ptr<importer::Fmu>& fmu = loaded[name];
-  if (!fmu) fmu = importer::Fmu::load(test_fmu(name));
+  const bool is_of_kit = !name.starts_with("fmi2_");
+  if (!fmu) fmu = importer::Fmu::load(is_of_kit ? unit_library(name) : test_fmu(name));
   return fmu;
 }
 

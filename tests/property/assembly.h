@@ -17,7 +17,8 @@
 
 namespace stride::tests {
 
-/// A unit made for tests, loaded once.
+/// A unit made for tests, loaded once: of the kit's units the library itself, of the others
+/// NAME.fmu.
 std::shared_ptr<importer::Fmu> test_unit(const std::string& name);
 
 class Assembly {

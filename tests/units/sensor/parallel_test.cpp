@@ -88,7 +88,7 @@ void add_sensor(ScriptedSystem& system, importer::Fmu& fmu, const std::string& n
 }
 
 Trace run(std::size_t sensors, bool may_stop, ThreadOptions threads) {
-  const auto fmu = importer::Fmu::load(tests::unit_folder() / "sensor.fmu");
+  const auto fmu = importer::Fmu::load(tests::unit_library("sensor"));
   ScriptedSystem system;
   add_reader(system, "reader");
   std::vector<VariableId> recorded;
