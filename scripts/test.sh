@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds stride and runs all tests, then the same under the address and undefined-behaviour sanitizers, and those with
 # several threads under the thread sanitizer.
-#   --quick   leaves the sanitizers and MuJoCo 3 out
+#   --quick   the master and the kit only: no units of units/, no scenarios, no other tools, no sanitizers, no MuJoCo 3
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/packages.sh
@@ -25,22 +25,27 @@ build_and_test() {
 section "Format"
 scripts/format.sh --check
 
+if [ "$quick" = yes ]; then
+  section "Release build of the master and the kit, their tests"
+  build_and_test quick
+  section "Not tested by --quick: units/, scenarios/, documentation, installation, other tools, sanitizers, MuJoCo 3"
+  exit
+fi
+
 section "Release build, all tests"
 build_and_test release
 
-if [ "$quick" = no ]; then
-  section "Address and undefined-behaviour sanitizers"
-  build_and_test asan
+section "Address and undefined-behaviour sanitizers"
+build_and_test asan
 
-  section "Thread sanitizer, the tests with several threads"
-  cmake --preset tsan --log-level=WARNING -DSTRIDE_WARNINGS_AS_ERRORS=ON -DSTRIDE_BUILD_TESTS=ON
-  cmake --build --preset tsan --target parallel_tests
-  ctest --preset tsan --label-regex parallel --no-tests=error
+section "Thread sanitizer, the tests with several threads"
+cmake --preset tsan --log-level=WARNING -DSTRIDE_WARNINGS_AS_ERRORS=ON -DSTRIDE_BUILD_TESTS=ON
+cmake --build --preset tsan --target parallel_tests
+ctest --preset tsan --label-regex parallel --no-tests=error
 
-  section "MuJoCo 3"
-  scripts/fetch_mujoco3.sh build/mujoco3
-  cmake --preset release -B build/release-mujoco3 --log-level=WARNING -DSTRIDE_WARNINGS_AS_ERRORS=ON \
-    -DMuJoCo_ROOT="$PWD/build/mujoco3/mujoco"
-  cmake --build build/release-mujoco3 --target mujoco_tests
-  ctest --test-dir build/release-mujoco3 --output-on-failure --label-regex mujoco --no-tests=error --parallel "$parallel"
-fi
+section "MuJoCo 3"
+scripts/fetch_mujoco3.sh build/mujoco3
+cmake --preset release -B build/release-mujoco3 --log-level=WARNING -DSTRIDE_WARNINGS_AS_ERRORS=ON \
+  -DMuJoCo_ROOT="$PWD/build/mujoco3/mujoco"
+cmake --build build/release-mujoco3 --target mujoco_tests
+ctest --test-dir build/release-mujoco3 --output-on-failure --label-regex mujoco --no-tests=error --parallel "$parallel"
