@@ -42,4 +42,10 @@ if(STRIDE_SANITIZE)
   add_link_options(-fsanitize=${STRIDE_SANITIZE})
 endif()
 
+# stride_brief_code(TARGET): what runs for moments, such as reading a command line or a system file. It is compiled with
+# -Og, which takes little more than half of the time of -O2.
+function(stride_brief_code target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo,Release>:-Og>)
+endfunction()
+
 include_directories(${PROJECT_SOURCE_DIR})
