@@ -9,7 +9,9 @@
 # stride_add_test(NAME SOURCES file... ...)
 #
 # The same for a test that needs a program of its own: one entry of ctest, which has the program's name.
+include(CheckLinkerFlag)
 find_package(Catch2 2.13 REQUIRED)
+check_linker_flag(CXX -fuse-ld=mold STRIDE_HAS_MOLD)  # links a test in a third of the time
 
 set(stride_is_sanitized false)
 if(STRIDE_SANITIZE)
@@ -62,6 +64,9 @@ endfunction()
 # stride_link_test(PROGRAM): of an inline function that a test and a library both have, the linker takes the copy that it
 # sees first. That is to be the library's, with sanitizers.
 function(stride_link_test program)
+  if(STRIDE_HAS_MOLD)
+    target_link_options(${program} PRIVATE -fuse-ld=mold)
+  endif()
   if(NOT STRIDE_SANITIZE MATCHES address)
     return()
   endif()

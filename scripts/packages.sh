@@ -8,7 +8,7 @@ packages_build=(
 )
 packages_test=(
   binutils catch2 chromium chromium-driver clang-format-14 fish fonts-dejavu-core gtkwave libbenchmark-dev
-  libpython3.11 libxml2-utils mandoc python3 python3-venv python3-pip unzip zip zsh
+  libpython3.11 libxml2-utils mandoc mold python3 python3-venv python3-pip unzip zip zsh
 )
 
 # Node.js of another origin brings an npm of its own, beside which Debian's cannot be installed.
