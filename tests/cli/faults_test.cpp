@@ -59,13 +59,13 @@ constexpr Fault kFaults[] = {
     {"limit parent", nullptr, "cannot limit the parent: Permission denied"},
     {"close streams", kCompletes, kCompletes},
     {"close files", nullptr, kCompletes},
-    {"change folder", nullptr, kCompletes},
-    {"change umask", nullptr, kCompletes},
-    {"block signals", nullptr, kCompletes},
-    {"ignore SIGINT", nullptr, kCompletes},
-    {"limit resources", nullptr, kCompletes},
-    {"round up", nullptr, kCompletes},
-    {"flush to zero", nullptr, kCompletes},
+    {"change folder", kCompletes, kCompletes},
+    {"change umask", kCompletes, kCompletes},
+    {"block signals", kCompletes, kCompletes},
+    {"ignore SIGINT", kCompletes, kCompletes},
+    {"limit resources", kCompletes, kCompletes},
+    {"round up", kCompletes, kCompletes},
+    {"flush to zero", kCompletes, kCompletes},
 };
 
 struct Call {

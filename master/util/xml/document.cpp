@@ -69,6 +69,19 @@ void check_encoding(const std::string& text, const std::string& file) {
   }
 }
 
+/// The time of tinyxml2 is quadratic in their number.
+void check_attributes(const std::string& text, const std::string& file) {
+  constexpr std::size_t kMostAttributes = 1000;
+  for (TagScanner tags(text); tags.next();) {
+    if (tags.quoted() <= kMostAttributes) continue;
+    const auto line =
+        1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(tags.begin()), '\n');
+    core::fail_input({.where = {file, static_cast<int>(line)}},
+                     fmt::format("an element with {} attributes; {} at most are read",
+                                 tags.quoted(), kMostAttributes));
+  }
+}
+
 /// tinyxml2 takes </a/> for an element, so it finds more of them than there are.
 std::size_t count_elements(const tinyxml2::XMLNode& node) {
   std::size_t count = node.ToElement() != nullptr ? 1 : 0;
@@ -98,6 +111,7 @@ Document& Document::operator=(Document&&) noexcept = default;
 
 Document Document::parse(std::string text, const std::string& shown_as) {
   check_encoding(text, shown_as);
+  check_attributes(text, shown_as);
   auto content = std::make_unique<Content>();
   content->file = shown_as;
   content->text = std::move(text);

@@ -11,46 +11,53 @@ namespace {
 constexpr const char* kBlanks = " \t\r\n";
 
 /// The end of what begins at `at` and is no element: a comment, a CDATA section, a declaration.
-std::size_t markup_end(const std::string& text, std::size_t at) {
+std::size_t markup_end(std::string_view text, std::size_t at) {
   struct Kind {
     std::string_view begin, end;
   };
   constexpr Kind kKinds[] = {{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}, {"<!", ">"}};
   for (const Kind& kind : kKinds) {
-    if (text.compare(at, kind.begin.size(), kind.begin) != 0) continue;
+    if (!text.substr(at).starts_with(kind.begin)) continue;
     const std::size_t end = text.find(kind.end, at + kind.begin.size());
     return end == std::string::npos ? text.size() : end + kind.end.size();
   }
   return at;
 }
 
-std::size_t tag_end(const std::string& text, std::size_t at) {
+}  // namespace
+
+bool TagScanner::next() {
+  while ((begin_ = text_.find('<', end_)) != text_.npos) {
+    end_ = markup_end(text_, begin_);
+    if (end_ != begin_) continue;
+    find_end();
+    return true;
+  }
+  return false;
+}
+
+void TagScanner::find_end() {
   char quote = 0;
-  for (; at < text.size(); ++at) {
-    const char c = text[at];
+  quoted_ = 0;
+  while (end_ < text_.size()) {
+    const char c = text_[end_++];
     if (quote != 0) {
       if (c == quote) quote = 0;
     } else if (c == '"' || c == '\'') {
       quote = c;
+      ++quoted_;
     } else if (c == '>') {
-      return at + 1;
+      return;
     }
   }
-  return at;
 }
-
-}  // namespace
 
 std::vector<ElementPlace> element_places(const std::string& text) {
   std::vector<ElementPlace> places;
   std::vector<std::size_t> open;
-  std::size_t at = 0;
-  while ((at = text.find('<', at)) != std::string::npos) {
-    if (const std::size_t end = markup_end(text, at); end != at) {
-      at = end;
-      continue;
-    }
-    const std::size_t end = tag_end(text, at);
+  TagScanner tags(text);
+  while (tags.next()) {
+    const std::size_t at = tags.begin(), end = tags.end();
     if (text.compare(at, 2, "</") == 0) {
       if (open.empty()) break;
       places[open.back()].end_tag = at;
@@ -61,7 +68,6 @@ std::vector<ElementPlace> element_places(const std::string& text) {
       if (!is_empty) open.push_back(places.size());
       places.push_back({at, end, end, end, is_empty});
     }
-    at = end;
   }
   return places;
 }

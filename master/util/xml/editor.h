@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stride::xml {
@@ -15,6 +16,24 @@ struct ElementPlace {
   std::size_t end_tag = 0;        ///< where the end tag begins; of an empty-element tag: its end
   std::size_t end = 0;            ///< behind the element
   bool is_empty_tag = false;      ///< <a/>
+};
+
+/// The start and end tags of a text, in order. A text that is not well-formed may end within one.
+class TagScanner {
+ public:
+  explicit TagScanner(std::string_view text) : text_(text) {}
+
+  /// Goes on to the next tag; returns whether there is one.
+  bool next();
+  std::size_t begin() const { return begin_; }
+  std::size_t end() const { return end_; }        ///< behind its '>'
+  std::size_t quoted() const { return quoted_; }  ///< how many texts in quotation marks are in it
+
+ private:
+  void find_end();
+
+  std::string_view text_;
+  std::size_t begin_ = 0, end_ = 0, quoted_ = 0;
 };
 
 /// The places of all elements in document order. The text must be well-formed.

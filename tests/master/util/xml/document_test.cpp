@@ -62,3 +62,16 @@ TEST_CASE("an end tag is not an element") {
                     Contains("x.xml: this is not well-formed XML") && Contains("'/' at its end"));
   CHECK_NOTHROW(xml::Document::parse("<a><!-- </b/> --><![CDATA[</c/>]]><d/></a>", "x.xml"));
 }
+
+TEST_CASE("An element has a limited number of attributes") {
+  const auto element = [](int attributes, const std::string& text) {
+    std::string tag = "<a>\n<!-- <c x='1' -->\n<b";
+    for (int i = 0; i < attributes; ++i) tag += " x" + std::to_string(i) + "=\"'<>'\"";
+    return tag + ">" + text + "</b></a>";
+  };
+  std::string quotes;
+  for (int i = 0; i < 3000; ++i) quotes += "it's ";
+  CHECK(xml::Document::parse(element(1000, quotes), "x.ssd").root().children().size() == 1);
+  CHECK_THAT(error_in(element(1001, "")),
+             Contains("x.ssd:3: an element with 1001 attributes; 1000 at most are read"));
+}
