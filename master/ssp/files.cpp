@@ -26,11 +26,14 @@ bool begins_as_archive(const fs::path& path) {
   return core::head_of(path, kBegin.size()) == kBegin;
 }
 
+/// Some of them, where the folder is none of a package but a disk.
 std::vector<std::string> files_in(const fs::path& folder) {
+  constexpr int kMostEntries = 1000;
   std::vector<std::string> names;
   std::error_code ignored;
-  for (fs::recursive_directory_iterator entry(folder, ignored), end; !ignored && entry != end;
-       entry.increment(ignored)) {
+  int entries = 0;
+  for (fs::recursive_directory_iterator entry(folder, ignored), end;
+       !ignored && entry != end && entries < kMostEntries; entry.increment(ignored), ++entries) {
     if (!core::is_file(entry->path())) continue;
     names.push_back(entry->path().lexically_relative(folder).string());
   }
