@@ -27,7 +27,9 @@ void take_block(PacketReader& from) {
 
 /// The parts of replies, as isolation/unit_proxy.cpp takes them.
 constexpr void (*kParts[])(PacketReader&) = {
-    [](PacketReader& from) { take_step(from); },
+    [](PacketReader& from) {
+      take_step(from, core::StepInterval(Time{}, Time(std::chrono::seconds(1))));
+    },
     [](PacketReader& from) { take_events(from); },
     [](PacketReader& from) { take_time(from); },
     take_error,
