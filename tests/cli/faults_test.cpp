@@ -63,7 +63,7 @@ constexpr Fault kFaults[] = {
     {"change umask", kCompletes, kCompletes},
     {"block signals", kCompletes, kCompletes},
     {"ignore SIGINT", kCompletes, kCompletes},
-    {"limit resources", kCompletes, kCompletes},
+    {"limit resources", nullptr, kCompletes},
     {"round up", kCompletes, kCompletes},
     {"flush to zero", kCompletes, kCompletes},
 };

@@ -188,8 +188,10 @@ TEST_CASE("a host takes snapshots only where a unit may have to be rolled back")
   CHECK_THAT(none.stride({"check", "test.ssd", "--isolate"}).out,
              Contains("--isolate  no: it need not be rolled back"));
   CHECK(saved(none, isolated + Arguments{"--policy", "error-controlled"}) == Names{"a", "b"});
-  const Workspace demanded(with(
-      one_stops, one_stops.annotation + "<stride:Host components=\"*\" snapshots=\"true\"/>\n"));
+  const std::string both =
+      component("a", "rejecter_without_state.fmu") + component("b", "rejecter_without_state.fmu");
+  CHECK(saved(Workspace(Parts{both}), isolated).empty());
+  const Workspace demanded(Parts{both, "", "<stride:Host components=\"*\" snapshots=\"true\"/>\n"});
   CHECK(saved(demanded, isolated) == Names{"b"});
   CHECK_THAT(demanded.stride({"check", "test.ssd", "--isolate"}).out,
              Contains("yes: snapshots=\"true\""));

@@ -24,12 +24,23 @@ std::string wanted_kind() {
   return wanted != nullptr ? wanted : "";
 }
 
-/// Mesa draws in the calling thread then, so that the process can be forked, and leaves no files
-/// behind. What the user has set stays.
-void set_up_mesa() {
-  ::setenv("LP_NUM_THREADS", "0", 0);
-  ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
-}
+/// A setting for the process as long as this object lives, unless the user has made it.
+class Setting {
+ public:
+  Setting(const char* name, const char* value)
+      : name_(name), is_new_(std::getenv(name) == nullptr) {
+    if (is_new_) ::setenv(name, value, 1);
+  }
+  ~Setting() {
+    if (is_new_) ::unsetenv(name_);
+  }
+  Setting(const Setting&) = delete;
+  Setting& operator=(const Setting&) = delete;
+
+ private:
+  const char* name_;
+  bool is_new_;
+};
 
 std::unique_ptr<OffScreen> find(const Kind*& found) {
   const std::string wanted = wanted_kind();
@@ -58,8 +69,10 @@ std::unique_ptr<OffScreen> make_off_screen() {
   static std::mutex mutex;
   static const Kind* chosen = nullptr;
   const std::lock_guard lock(mutex);
+  // Mesa draws in the calling thread, so that the process can be forked, and leaves no files behind
+  const Setting threads("LP_NUM_THREADS", "0");
+  const Setting cache("MESA_SHADER_CACHE_DISABLE", "true");
   if (chosen != nullptr) return chosen->make();
-  set_up_mesa();
   return find(chosen);
 }
 
