@@ -63,7 +63,6 @@ HostProcess::HostProcess(HostLink& link, MemoryAllowance memory,
     control.ours.close();
     supervise(link, std::move(control.theirs), master, memory_, serve);
   }
-  ::setpgid(supervisor_, supervisor_);  // in both processes, in whichever order
   control_ = std::move(control.ours);
   link.memory.hide_from_children();
   link.packets.hide_from_children();

@@ -192,7 +192,7 @@ void note_start(HostLinkMemory& link, pid_t server, int error) {
 
 void supervise(HostLink& link, Descriptor control, pid_t master, const MemoryAllowance& memory,
                const std::function<void(pid_t)>& serve) noexcept {
-  ::setpgid(0, 0);
+  ::setsid();  // without a terminal, and in a group of its own
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
   ::prctl(PR_SET_NAME, "unit-supervisor");
   forget_signal_handlers();

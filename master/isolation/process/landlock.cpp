@@ -30,8 +30,8 @@ constexpr std::uint64_t kChangesOfFolders =
     LANDLOCK_ACCESS_FS_MAKE_FIFO | LANDLOCK_ACCESS_FS_MAKE_BLOCK | LANDLOCK_ACCESS_FS_MAKE_SYM;
 
 /// Without a disk behind them; dri is for rendering.
-constexpr const char* kDevices[] = {"/dev/null",    "/dev/zero", "/dev/full", "/dev/random",
-                                    "/dev/urandom", "/dev/tty",  "/dev/dri"};
+constexpr const char* kDevices[] = {"/dev/null",   "/dev/zero",    "/dev/full",
+                                    "/dev/random", "/dev/urandom", "/dev/dri"};
 
 std::uint64_t changes_of_files(int version) {
   return LANDLOCK_ACCESS_FS_WRITE_FILE | (version >= kLandlockTruncates ? kTruncate : 0);
