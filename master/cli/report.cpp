@@ -8,6 +8,7 @@
 
 #include "master/cli/commands.h"
 #include "master/cli/output.h"
+#include "master/cli/output_paths.h"
 #include "master/cli/report_page.h"
 #include "master/report/results.h"
 
@@ -20,11 +21,20 @@ struct ReportArguments {
   bool open = false;
 };
 
+/// The page of the run may be replaced, and no other file of its results.
+void check_output_path(const ReportArguments& arguments, recorders::ResultFiles files) {
+  const OutputPath output{"--output " + arguments.out.string(), arguments.out};
+  files.report.clear();
+  refuse_unit_folders(arguments.folder, output);
+  refuse_kept_paths({&output, 1}, kept_results(arguments.folder, files));
+}
+
 void make_report(const ReportArguments& arguments) {
   const recorders::ResultFiles files = report::result_files(arguments.folder);
   const std::string& name = files.report.empty() ? recorders::ResultFiles().report : files.report;
   const std::filesystem::path file =
       arguments.out.empty() ? arguments.folder / name : arguments.out;
+  if (!arguments.out.empty()) check_output_path(arguments, files);
   for (const std::string& note : write_report(arguments.folder, files, file)) {
     spdlog::warn("{}", note);
   }

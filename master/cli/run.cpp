@@ -13,6 +13,7 @@
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/interruption.h"
+#include "master/cli/output_paths.h"
 #include "master/cli/recorded_run.h"
 #include "master/cli/report_page.h"
 #include "master/cli/scenario_options.h"
@@ -45,12 +46,31 @@ std::filesystem::path results_folder(const RunArguments& arguments) {
   return std::filesystem::path("results") / scenario::stem(arguments.scenario.scenario);
 }
 
-/// A unit could put a link there, which would be followed.
-void refuse_unit_folders(const RunArguments& arguments, const std::string& option,
-                         const std::filesystem::path& file) {
-  if (file.empty() || !recorders::is_in_unit_folders(results_folder(arguments), file)) return;
-  core::fail_input({}, fmt::format("{}: the file is in the folder of the files of units", option),
-                   "choose a file elsewhere; units write to that folder");
+/// The files that the command line names, without what is no name: that is reported later.
+std::vector<OutputPath> output_paths(const RunArguments& arguments) {
+  std::vector<OutputPath> outputs;
+  for (const std::string& text : arguments.captures) {
+    const std::size_t at = text.find('=');
+    const std::string file = at == std::string::npos ? "" : text.substr(at + 1);
+    if (!file.empty()) outputs.push_back({"--capture " + text, file});
+  }
+  if (!arguments.junit.empty()) {
+    outputs.push_back({"--junit " + arguments.junit.string(), arguments.junit});
+  }
+  return outputs;
+}
+
+/// Throws core::Error (Input), before anything is written.
+void check_output_paths(const RunArguments& arguments) {
+  const std::vector<OutputPath> outputs = output_paths(arguments);
+  if (outputs.empty()) return;
+  const std::filesystem::path folder = results_folder(arguments);
+  for (const OutputPath& output : outputs) refuse_unit_folders(folder, output);
+  const ScenarioFiles files =
+      files_of_scenario(arguments.scenario.scenario, arguments.scenario.swaps);
+  refuse_kept_paths(outputs, files.inputs);
+  refuse_kept_paths(outputs, kept_results(folder, files.results));
+  refuse_shared_paths(outputs);
 }
 
 recorders::ResultFiles chosen_files(const RunArguments& arguments,
@@ -82,7 +102,6 @@ std::vector<capture::CaptureRequest> captures(const RunArguments& arguments) {
   for (const std::string& text : arguments.captures) {
     auto [component, file] = scenario::split_option("--capture", text, "COMPONENT=FILE");
     if (file.empty()) core::fail_input({}, fmt::format("--capture {}: no file is named", text));
-    refuse_unit_folders(arguments, "--capture " + text, file);
     captures.push_back({std::move(component), std::move(file)});
   }
   return captures;
@@ -119,8 +138,7 @@ void run(const RunArguments& arguments, TestReport& report, CrashGuard& guard) {
 
 /// Whatever ends the command, the test report contains it.
 void run_and_report(const RunArguments& arguments) {
-  refuse_unit_folders(arguments, fmt::format("--junit {}", arguments.junit.string()),
-                      arguments.junit);
+  check_output_paths(arguments);
   const core::ProcessState process;
   TestReport report(arguments.junit, arguments.scenario.scenario);
   CrashGuard guard([&](const std::string& error) {
@@ -158,9 +176,14 @@ void add_recording_options(CLI::App& command, RunArguments& arguments) {
                    "Pictures of the MuJoCo worlds in units/COMPONENT/film/, every 0.1 s of "
                    "simulated time, or as in --film=SECONDS");
   command
-      .add_option("--junit", arguments.junit,
-                  "Write a test report in the XML of JUnit, with a test case for the run, each "
-                  "check and each unit's verdict")
+      .add_option_function<std::string>(
+          "--junit",
+          [&](const std::string& file) {
+            if (file.empty()) core::fail_input({}, "--junit: no file is named");
+            arguments.junit = file;
+          },
+          "Write a test report in the XML of JUnit, with a test case for the run, each "
+          "check and each unit's verdict")
       ->type_name("FILE");
   command.add_flag("--no-trace", arguments.no_trace, "Write no signals.vcd");
 }

@@ -60,6 +60,22 @@ bool is_plain_file_name(const std::string& name) {
   return name != "." && name != ".." && name.find('/') == std::string::npos;
 }
 
+bool is_below(const fs::path& path, const fs::path& folder) {
+  const auto [end, ignored] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+  return end == folder.end();
+}
+
+fs::path resolved(fs::path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code error;
+  if (const fs::path absolute = fs::absolute(path, error); !error) path = absolute;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
+    path = path.parent_path() / fs::read_symlink(path, error);
+  }
+  const fs::path target = fs::weakly_canonical(path, error);
+  return error ? path : target;
+}
+
 void make_results_folder(const fs::path& folder) {
   const auto fail = [&](const std::string& reason) {
     core::fail_input({.where = {folder.string(), 0}},

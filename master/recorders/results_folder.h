@@ -41,6 +41,13 @@ struct Plot {
 /// Whether it names a file in the results folder itself.
 bool is_plain_file_name(const std::string& name);
 
+/// Whether a path is this folder or in it, as both are written.
+bool is_below(const std::filesystem::path& path, const std::filesystem::path& folder);
+
+/// Where a path leads to, as an absolute path without links; also that of a link to what does not
+/// exist yet. As it is written where it cannot be examined.
+std::filesystem::path resolved(std::filesystem::path path);
+
 /// Makes the folder, and those above it, where they do not exist. Throws core::Error (Input) if
 /// that is not possible, or if it is not a folder in which files can be written.
 void make_results_folder(const std::filesystem::path& folder);

@@ -49,22 +49,6 @@ bool is_shortened(std::string_view name) {
          name.substr(0, name.size() - kHashDigits).ends_with(kShortened);
 }
 
-bool is_below(const fs::path& path, const fs::path& folder) {
-  const auto [end, ignored] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
-  return end == folder.end();
-}
-
-/// Also of a link to what does not exist yet.
-fs::path resolved(fs::path path) {
-  constexpr int kMostLinks = 40;
-  std::error_code error;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
-    path = path.parent_path() / fs::read_symlink(path, error);
-  }
-  const fs::path target = fs::weakly_canonical(path, error);
-  return error ? path : target;
-}
-
 bool is_picture(const fs::path& file) {
   const std::string number = file.stem().string();
   return file.extension() == ".jpg" && number.find_first_not_of("0123456789") == std::string::npos;

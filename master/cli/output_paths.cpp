@@ -1,0 +1,148 @@
+#include "master/cli/output_paths.h"
+
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/recorders/unit_folders.h"
+#include "master/scenario/annotation.h"
+#include "master/scenario/unit_path.h"
+#include "master/ssp/files.h"
+#include "master/ssp/ssp.h"
+#include "master/ssp/uri.h"
+#include "master/util/error.h"
+#include "master/util/input_file.h"
+#include "master/util/xml/document.h"
+
+namespace stride::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_device_or_pipe(const fs::path& path) {
+  return core::path_exists(path) && !core::is_file(path) && !core::is_folder(path);
+}
+
+bool is_same_file(const fs::path& one, const fs::path& other) {
+  if (is_device_or_pipe(one) || is_device_or_pipe(other)) return false;
+  std::error_code error;  // where one of them does not exist
+  if (fs::equivalent(one, other, error) && !error) return true;
+  return recorders::resolved(one) == recorders::resolved(other);
+}
+
+bool is_kept(const fs::path& output, const fs::path& kept) {
+  if (is_same_file(output, kept)) return true;
+  return core::is_folder(kept) && !is_device_or_pipe(output) &&
+         recorders::is_below(recorders::resolved(output), recorders::resolved(kept));
+}
+
+/// Collects what a scenario reads, each file once.
+class SourceReader {
+ public:
+  void add_scenario(const fs::path& scenario) {
+    if (core::is_file(scenario)) keep(scenario, kTheScenario);
+    try {
+      const fs::path file = files_.system_file(scenario);
+      const auto package = files_.archive_of(file);
+      keep(package ? package->path : file, kTheScenario);
+      known_.insert(file);
+      const xml::Document document(file);
+      add_sources(document.root(), file.parent_path());
+      found_.results = scenario::read_annotation(document.root()).results;
+    } catch (const core::Error&) {  // reported where the scenario is read
+    }
+  }
+
+  void add_unit(const fs::path& source) {
+    try {
+      keep(scenario::find_unit(source, {}), "a unit of the scenario");
+    } catch (const core::Error&) {  // likewise
+    }
+  }
+
+  ScenarioFiles found() && { return std::move(found_); }
+
+ private:
+  void keep(const fs::path& path, const std::string& what) {
+    if (core::path_exists(path)) found_.inputs.push_back({path, what});
+  }
+
+  void add_sources(const xml::Element& element, const fs::path& folder) {
+    if (!element.attribute_or("source").empty()) add_source(element, folder);
+    for (const xml::Element& child : element.children()) add_sources(child, folder);
+  }
+
+  void add_source(const xml::Element& element, const fs::path& folder) {
+    try {
+      const fs::path file = ssp::source_of(element, folder).path;
+      if (!known_.insert(file).second) return;
+      const bool is_system = file.extension() == ".ssd" || file.extension() == ".ssp";
+      const bool is_component = element.is(ssp::kSsd, "Component") && !is_system;
+      if (is_component || file.extension() == ".fmu") return add_unit(file);
+      keep(file, "a file of the scenario");
+      if (file.extension() != ".ssd") return;
+      const xml::Document document(file);
+      add_sources(document.root(), file.parent_path());
+    } catch (const core::Error&) {  // likewise
+    }
+  }
+
+  ssp::Files files_;
+  std::set<fs::path> known_;
+  ScenarioFiles found_;
+};
+
+}  // namespace
+
+ScenarioFiles files_of_scenario(const fs::path& scenario, std::span<const std::string> swaps) {
+  SourceReader reader;
+  reader.add_scenario(scenario);
+  for (const std::string& swap : swaps) {
+    const std::size_t at = swap.find('=');
+    if (at != std::string::npos) reader.add_unit(swap.substr(at + 1));
+  }
+  return std::move(reader).found();
+}
+
+std::vector<KeptPath> kept_results(const fs::path& folder, const recorders::ResultFiles& files) {
+  std::vector<KeptPath> kept;
+  for (const auto& [what, member] : recorders::kResultFiles) {
+    const std::string& name = files.*member;
+    if (!name.empty()) kept.push_back({folder / name, "a file of the results of this run"});
+  }
+  return kept;
+}
+
+void refuse_kept_paths(std::span<const OutputPath> outputs, std::span<const KeptPath> kept) {
+  for (const OutputPath& output : outputs) {
+    for (const KeptPath& input : kept) {
+      if (!is_kept(output.file, input.path)) continue;
+      core::fail_input({},
+                       fmt::format("{}: this is {}{}", output.option,
+                                   core::is_folder(input.path) ? "in " : "", input.what),
+                       "choose another file, which may be overwritten");
+    }
+  }
+}
+
+void refuse_shared_paths(std::span<const OutputPath> outputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!is_same_file(outputs[i].file, outputs[j].file)) continue;
+      core::fail_input(
+          {}, fmt::format("{} and {} name the same file", outputs[j].option, outputs[i].option),
+          "name another file for one of them; as it is, the file is written twice");
+    }
+  }
+}
+
+void refuse_unit_folders(const fs::path& results, const OutputPath& output) {
+  if (!recorders::is_in_unit_folders(results, output.file)) return;
+  core::fail_input(
+      {}, fmt::format("{}: the file is in the folder of the files of units", output.option),
+      "choose a file elsewhere; units write to that folder");
+}
+
+}  // namespace stride::cli

@@ -1,0 +1,154 @@
+// Outputs that the command line names replace neither inputs nor results.
+#include <map>
+
+#include "tests/build.h"
+#include "tests/cli/scenarios.h"
+
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string kParameters =
+    "<ssv:ParameterSet version=\"2.0\" name=\"p\"\n"
+    " xmlns:ssv=\"http://ssp-standard.org/SSP1/SystemStructureParameterValues\">\n"
+    "<ssv:Parameters><ssv:Parameter name=\"first.time_constant\"><ssv:Real value=\"2\"/>"
+    "</ssv:Parameter></ssv:Parameters></ssv:ParameterSet>\n";
+
+/// Two filters, the first one from a file beside the scenario, with parameters in p.ssv.
+std::string scenario_of_files() {
+  std::string text =
+      scenario_text({component("first", "mine.fmu") + component("second", "minimal.fmu"),
+                     connection("first.y", "second.u")});
+  return text.insert(text.find("<ssd:Connections>"),
+                     "<ssd:ParameterBindings><ssd:ParameterBinding source=\"p.ssv\"/>"
+                     "</ssd:ParameterBindings>\n");
+}
+
+struct FilesWorkspace : Workspace {
+  FilesWorkspace() : Workspace(scenario_of_files()) {
+    scratch().write("p.ssv", kParameters);
+    const Outcome packed = stride({"pack", unit_library("minimal").string(), "-o", "mine.fmu"});
+    REQUIRE(packed.exit_code == 0);
+  }
+};
+
+/// What is in the scratch folder, apart from temporary files.
+std::map<std::string, std::string> contents(const Workspace& workspace) {
+  std::map<std::string, std::string> contents;
+  const fs::path folder = workspace.scratch().path();
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().lexically_relative(folder).string();
+    if (name.rfind("tmp", 0) == 0) continue;
+    contents[name] = entry.is_regular_file() ? read(entry.path()) : "";
+  }
+  return contents;
+}
+
+/// The message of a command that changes nothing.
+std::string refusal_of(const Workspace& workspace, const Arguments& command) {
+  const auto before = contents(workspace);
+  const std::string message = input_error_of(workspace.stride(command));
+  CHECK(contents(workspace) == before);
+  return message;
+}
+
+}  // namespace
+
+TEST_CASE("a run writes no capture and no test report over what it reads") {
+  const FilesWorkspace workspace;
+  fs::create_symlink("test.ssd", workspace / "link.xml");
+  fs::create_hard_link(workspace / "test.ssd", workspace / "twin.xml");
+  const std::map<std::string, std::string> files{
+      {"test.ssd", "the scenario"},           {"./tmp/../test.ssd", "the scenario"},
+      {"link.xml", "the scenario"},           {"twin.xml", "the scenario"},
+      {"mine.fmu", "a unit of the scenario"}, {"p.ssv", "a file of the scenario"}};
+  for (const auto& [file, what] : files) {
+    CAPTURE(file);
+    for (const Arguments& option : {Arguments{"--junit", file}, {"--capture", "first=" + file}}) {
+      CHECK_THAT(
+          refusal_of(workspace, Workspace::run_arguments(option)),
+          Contains(option[0] + " " + option[1] + ": this is " + what) && Contains("hint: choose"));
+    }
+  }
+}
+
+TEST_CASE("nor over the unit that replaces one of the scenario's") {
+  const FilesWorkspace workspace;
+  fs::copy_file(workspace / "mine.fmu", workspace / "other.fmu");
+  CHECK_THAT(refusal_of(workspace, Workspace::run_arguments(
+                                       {"--swap", "second=other.fmu", "--junit", "other.fmu"})),
+             Contains("--junit other.fmu: this is a unit of the scenario"));
+}
+
+TEST_CASE("nor over a scenario that cannot be read") {
+  const Workspace workspace(std::string("<no scenario"));
+  CHECK_THAT(refusal_of(workspace, Workspace::run_arguments({"--junit", "test.ssd"})),
+             Contains("--junit test.ssd: this is the scenario"));
+}
+
+TEST_CASE("nor over its results, whether they exist or not") {
+  Parts parts = two_filters();
+  parts.annotation = "<stride:Results signals=\"values.csv\"/>";
+  const Workspace workspace(parts);
+  const bool is_repeated = GENERATE(false, true);
+  if (is_repeated) REQUIRE(workspace.run({"--quiet"}).exit_code == 0);
+  for (const std::string name : {"run.json", "values.csv", "report.html", "../out/run.json"}) {
+    CAPTURE(name);
+    const std::string file = "out/" + name;
+    for (const Arguments& option : {Arguments{"--junit", file}, {"--capture", "first=" + file}}) {
+      CHECK_THAT(refusal_of(workspace, Workspace::run_arguments(option)),
+                 Contains(option[0] + " " + option[1] + ": this is a file of the results"));
+    }
+  }
+}
+
+TEST_CASE("a capture and the test report are different files") {
+  const Workspace workspace(two_filters());
+  CHECK_THAT(
+      refusal_of(workspace, Workspace::run_arguments({"--capture", "first=x", "--junit", "./x"})),
+      Contains("--capture first=x and --junit ./x name the same file") && Contains("hint:"));
+  fs::create_symlink("x", workspace / "y");
+  CHECK_THAT(refusal_of(workspace, Workspace::run_arguments(
+                                       {"--capture", "first=x", "--capture", "second=y"})),
+             Contains("--capture first=x and --capture second=y name the same file"));
+}
+
+TEST_CASE("a device may be named for several outputs, and an earlier output again") {
+  const Workspace workspace(two_filters());
+  CHECK(workspace.run({"--quiet", "--capture", "first=/dev/null", "--junit", "/dev/null"})
+            .exit_code == 0);
+  for (int i = 0; i < 2; ++i) {
+    const Outcome outcome =
+        workspace.run({"--quiet", "--capture", "first=out/first.csv", "--junit", "out/junit.xml"});
+    CHECK(outcome.exit_code == 0);
+    CHECK(outcome.err == "");
+  }
+}
+
+TEST_CASE("--junit needs the name of a file") {
+  const Workspace workspace(two_filters());
+  CHECK_THAT(refusal_of(workspace, Workspace::run_arguments({"--junit", ""})),
+             Contains("--junit: no file is named"));
+}
+
+TEST_CASE("complete replaces the scenario at most") {
+  const FilesWorkspace workspace;
+  CHECK_THAT(refusal_of(workspace, {"complete", "test.ssd", "-o", "p.ssv"}),
+             Contains("--output p.ssv: this is a file of the scenario"));
+  CHECK_THAT(refusal_of(workspace, {"complete", "test.ssd", "-o", "mine.fmu"}),
+             Contains("--output mine.fmu: this is a unit of the scenario"));
+  CHECK(workspace.stride({"complete", "test.ssd", "-o", "test.ssd"}).exit_code == 0);
+  CHECK_THAT(read(workspace / "test.ssd"), Contains("<ssd:Connector name=\"u\""));
+}
+
+TEST_CASE("report replaces the page at most") {
+  const Workspace workspace(two_filters());
+  REQUIRE(workspace.run({"--quiet"}).exit_code == 0);
+  for (const std::string name : {"signals.csv", "run.json"}) {
+    CHECK_THAT(refusal_of(workspace, {"report", "out", "-o", "out/" + name}),
+               Contains("--output out/" + name + ": this is a file of the results"));
+  }
+  CHECK_THAT(refusal_of(workspace, {"report", "out", "-o", "out/units/first/page.html"}),
+             Contains("the file is in the folder of the files of units"));
+}
