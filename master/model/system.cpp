@@ -16,6 +16,12 @@
 namespace stride::core {
 namespace {
 
+/// Warnings about values that are ignored.
+constexpr std::size_t kMostShown = 60;
+/// Hints at near names: each compares a name with those of all variables of a unit. They are enough
+/// for all warnings and for the mistakes that Diagnostics shows.
+constexpr std::size_t kMostHints = 120;
+
 /// Only what FMI calls initial = exact or approx can be set before the start.
 void check_settable(const Variable& variable, const Context& context) {
   const bool exact = variable.initial == Initial::Exact || variable.initial == Initial::Approx;
@@ -122,7 +128,7 @@ void System::check_connector(const SystemDeclaration& declaration,
   const Context context{connector.where, component.name, connector.name, {}};
   const auto found = names_.variable(components_.size(), connector.name);
   if (!found) {
-    fail_unknown_variable(context, *component.description, &declaration);
+    fail_unknown(context, *component.description, &declaration);
   }
   const Variable& variable = component.description->variables[*found];
   if (connector.causality && *connector.causality != variable.causality) {
@@ -165,11 +171,17 @@ std::size_t System::find_component(const std::string& name, const Location& wher
 
 /// If it is not there, the error contains what the declaration expects.
 VariableId System::find_variable(const std::string& component, const std::string& variable,
-                                 const Location& where, const SystemDeclaration* expecting) const {
+                                 const Location& where, const SystemDeclaration* expecting) {
   const std::size_t index = find_component(component, where);
   const UnitDescription& description = *components_[index].description;
   if (const auto found = names_.variable(index, variable)) return {index, *found};
-  fail_unknown_variable({where, component, variable, {}}, description, expecting);
+  fail_unknown({where, component, variable, {}}, description, expecting);
+}
+
+void System::fail_unknown(const Context& context, const UnitDescription& description,
+                          const SystemDeclaration* expecting) {
+  const bool has_hint = ++unknown_variables_ <= kMostHints;
+  fail_unknown_variable(context, description, expecting, has_hint);
 }
 
 /// In the unit that the variable has, or else in the one that its connector declares.
@@ -221,9 +233,16 @@ std::vector<System::Target> System::find_targets(const SystemDeclaration& declar
       targets.push_back({&wanted, id});
     });
   }
+  std::size_t ignored = 0;
   for (const StartDeclaration* wanted : missing) {
     if (wanted->group != 0 && found_groups.contains(wanted->group)) continue;
+    if (wanted->is_optional && ++ignored > kMostShown) continue;
     diagnostics.attempt([&] { note_missing(*wanted); });
+  }
+  if (ignored > kMostShown) {
+    warnings_.push_back(
+        fmt::format("… and {} more values of variables that are not there, which are ignored, too",
+                    ignored - kMostShown));
   }
   return targets;
 }

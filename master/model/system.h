@@ -104,8 +104,9 @@ class System {
               std::size_t size);
   std::size_t find_component(const std::string& name, const Location& where) const;
   VariableId find_variable(const std::string& component, const std::string& variable,
-                           const Location& where,
-                           const SystemDeclaration* expecting = nullptr) const;
+                           const Location& where, const SystemDeclaration* expecting = nullptr);
+  [[noreturn]] void fail_unknown(const Context& context, const UnitDescription& description,
+                                 const SystemDeclaration* expecting);
   void check_connector(const SystemDeclaration& declaration, const ComponentDeclaration& component,
                        const ConnectorDeclaration& connector);
   void check_clocks(const ComponentDeclaration& component) const;
@@ -115,8 +116,7 @@ class System {
   void check_message(const ConnectionDeclaration& declaration, const Connection& connection) const;
   using Ends = std::pair<VariableId, VariableId>;
   std::optional<Ends> find_ends(const SystemDeclaration& declaration,
-                                const ConnectionDeclaration& wanted,
-                                Diagnostics& diagnostics) const;
+                                const ConnectionDeclaration& wanted, Diagnostics& diagnostics);
   static void check_only(const ConnectionDeclaration& declaration,
                          const ConnectionDeclaration* first);
   Connection connect(const ConnectionDeclaration& declaration, const Ends& ends) const;
@@ -134,6 +134,7 @@ class System {
   std::vector<StartValue> structural_values_;
   std::vector<std::string> warnings_;
   std::map<VariableId, UnitOfMeasure> connector_units_;  ///< those that connectors declare
+  std::size_t unknown_variables_ = 0;                    ///< reported so far
 };
 
 }  // namespace stride::core

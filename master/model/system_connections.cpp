@@ -58,7 +58,7 @@ void System::add_connections(const SystemDeclaration& declaration, Diagnostics& 
 /// Both, if they are there and nothing is wrong with them so far.
 std::optional<System::Ends> System::find_ends(const SystemDeclaration& declaration,
                                               const ConnectionDeclaration& wanted,
-                                              Diagnostics& diagnostics) const {
+                                              Diagnostics& diagnostics) {
   const auto find = [&](const std::string& component, const std::string& connector) {
     std::optional<VariableId> end;
     if (diagnostics.mentions(component, connector)) return end;

@@ -70,11 +70,9 @@ class Wanted {
   std::vector<std::string> ends_;
 };
 
-}  // namespace
-
-/// The component is in the context; a swapped one is another model than its name lets expect.
-void fail_unknown_variable(const Context& context, const UnitDescription& description,
-                           const SystemDeclaration* system) {
+/// Where a connector is expected, connectors are shown if no name is near.
+std::string hint(const std::string& unknown, const UnitDescription& description,
+                 bool is_connector_expected) {
   std::vector<std::string> names, connectors;
   for (const Variable& variable : description.variables) {
     names.push_back(variable.name);
@@ -82,13 +80,21 @@ void fail_unknown_variable(const Context& context, const UnitDescription& descri
         variable.causality == Causality::Input || variable.causality == Causality::Output;
     if (is_connector) connectors.push_back(variable.name);
   }
-  const bool is_near = !nearest(context.variable, names).empty();
+  const bool is_near = !nearest(unknown, names).empty();
+  return suggestion(unknown, is_connector_expected && !is_near ? connectors : names);
+}
+
+}  // namespace
+
+/// The component is in the context; a swapped one is another model than its name lets expect.
+void fail_unknown_variable(const Context& context, const UnitDescription& description,
+                           const SystemDeclaration* system, bool has_hint) {
   std::string message = fmt::format("its model '{}' has no such variable", description.model_name);
   if (system != nullptr) {
     message += "; expected " + Wanted(*system, context.unit, context.variable).text();
   }
   fail_input(context, message,
-             suggestion(context.variable, system != nullptr && !is_near ? connectors : names));
+             has_hint ? hint(context.variable, description, system != nullptr) : "");
 }
 
 }  // namespace stride::core

@@ -9,9 +9,11 @@ namespace stride::core {
 
 /// Throws Error (Input): the component in the context has no such variable. With `system` the
 /// message includes what its connections expect there: "an input Float64 in m, fed by
-/// 'world.height'".
+/// 'world.height'". Without `has_hint` no near name is looked for, which takes the most time by
+/// far.
 [[noreturn]] void fail_unknown_variable(const Context& context, const UnitDescription& description,
-                                        const SystemDeclaration* system = nullptr);
+                                        const SystemDeclaration* system = nullptr,
+                                        bool has_hint = true);
 
 }  // namespace stride::core
 

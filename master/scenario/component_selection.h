@@ -2,8 +2,10 @@
 #define STRIDE_MASTER_SCENARIO_COMPONENT_SELECTION_H
 
 #include <cstddef>
+#include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "master/util/error.h"
@@ -14,6 +16,20 @@ namespace stride::scenario {
 struct ComponentPattern {
   std::string text;
   core::Location where{};
+};
+
+/// Finds components by patterns; a name without special characters is looked up in an index. The
+/// names must outlive this object.
+class ComponentSelector {
+ public:
+  explicit ComponentSelector(std::span<const std::string> names);
+
+  /// As select_components() does with this pattern alone.
+  std::vector<std::size_t> select(const ComponentPattern& pattern) const;
+
+ private:
+  std::span<const std::string> names_;
+  std::map<std::string_view, std::vector<std::size_t>> places_;
 };
 
 /// The components, by their indices in `names` and in that order, whose names match a pattern.

@@ -164,8 +164,9 @@ void LoadedScenario::load_units() {
 
 void LoadedScenario::choose_early_returns() {
   const std::vector<std::string> names = component_names();
+  const ComponentSelector selector(names);
   for (const EarlyReturnRule& rule : scenario_.annotation.early_return) {
-    for (const std::size_t i : select_components(names, {&rule.components, 1})) {
+    for (const std::size_t i : selector.select(rule.components)) {
       scenario_.system.components[i].early_return_allowed = rule.allowed;
     }
   }

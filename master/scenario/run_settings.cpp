@@ -78,9 +78,10 @@ std::vector<std::optional<Duration>> max_skips(const std::vector<IdleRule>& rule
   std::vector<std::string> names;
   for (const core::Component& component : system.components()) names.push_back(component.name);
   std::vector<std::optional<Duration>> skips(names.size(), kDefault);
+  const ComponentSelector selector(names);
   for (const IdleRule& rule : rules) {
     check(rule, step);
-    for (const std::size_t i : select_components(names, {&rule.components, 1})) {
+    for (const std::size_t i : selector.select(rule.components)) {
       skips[i].reset();
       if (rule.enabled) skips[i] = rule.max_skip.value_or(kDefault);
     }
@@ -131,8 +132,9 @@ void HostSettings::override_with(const HostSettings& other) {
 
 std::vector<HostSettings> HostRules::settings(std::span<const std::string> components) const {
   std::vector<HostSettings> settings(components.size());
+  const ComponentSelector selector(components);
   for (const HostRule& rule : rules) {
-    for (const std::size_t i : select_components(components, {&rule.components, 1})) {
+    for (const std::size_t i : selector.select(rule.components)) {
       settings[i].override_with(rule.settings);
     }
   }

@@ -27,6 +27,24 @@ bool is_same(const core::BaseUnitOfMeasure& a, const core::BaseUnitOfMeasure& b)
 /// The namespace prefix, ready to be put before a name: "ssc:" or nothing.
 std::string head(const std::string& prefix) { return prefix.empty() ? "" : prefix + ":"; }
 
+/// The number of elements that it consists of, itself included.
+std::size_t count(const xml::Element& element) {
+  std::size_t elements = 1;
+  for (const xml::Element& child : element.children()) elements += count(child);
+  return elements;
+}
+
+/// The index of a child that is there, from that of its parent: Element::index() counts from the
+/// beginning of the file, which takes too long for each of many components.
+std::size_t index_within(const xml::Element& parent, std::size_t parent_index, const char* name) {
+  std::size_t index = parent_index + 1;
+  for (const xml::Element& child : parent.children()) {
+    if (child.is(kSsd, name)) break;
+    index += count(child);
+  }
+  return index;
+}
+
 class Completion {
  public:
   Completion(const xml::Document& document, const Descriptions& descriptions)
@@ -43,7 +61,7 @@ class Completion {
 
   std::string result() {
     const xml::Element system = *root_.child({kSsd, "System"});
-    complete_elements(system, "");
+    complete_elements(system, system.index(), "");
     add_list("Enumerations", new_enumerations_);
     add_list("Units", new_units_);
     return editor_.result();
@@ -68,20 +86,23 @@ class Completion {
     return ssc_;
   }
 
-  void complete_elements(const xml::Element& system, const std::string& prefix) {
+  /// `index` is that of the system.
+  void complete_elements(const xml::Element& system, std::size_t index, const std::string& prefix) {
     const auto elements = system.child({kSsd, "Elements"});
     if (!elements) return;
+    index = index_within(system, index, "Elements") + 1;
     for (const xml::Element& element : elements->children()) {
       const std::string path = prefix + element.required("name");
       if (element.is(kSsd, "System")) {
-        complete_elements(element, path + ".");
+        complete_elements(element, index, path + ".");
       } else if (const auto found = descriptions_.find(path); found != descriptions_.end()) {
-        complete_component(element, path, *found->second);
+        complete_component(element, index, path, *found->second);
       }
+      index += count(element);
     }
   }
 
-  void complete_component(const xml::Element& component, const std::string& path,
+  void complete_component(const xml::Element& component, std::size_t index, const std::string& path,
                           const core::UnitDescription& description) {
     const auto connectors = component.child({kSsd, "Connectors"});
     std::set<std::string> declared;
@@ -97,10 +118,12 @@ class Completion {
       added.push_back(connector(component, path, description, variable));
     }
     if (added.empty()) return;
-    if (connectors) return editor_.append_children(connectors->index(), added);
+    if (connectors) {
+      return editor_.append_children(index_within(component, index, "Connectors"), added);
+    }
     std::string list = fmt::format("<{}Connectors>", ssd_);
     for (const std::string& piece : added) list += "\n\t" + piece;
-    editor_.prepend_children(component.index(), {list + fmt::format("\n</{}Connectors>", ssd_)});
+    editor_.prepend_children(index, {list + fmt::format("\n</{}Connectors>", ssd_)});
   }
 
   std::string connector(const xml::Element& component, const std::string& path,

@@ -13,6 +13,8 @@ namespace {
 
 using core::ViaDeclaration;
 
+constexpr std::size_t kMostShown = 60;  // warnings of one kind
+
 class Flattener {
  public:
   Flattener(const SystemNode& root, std::vector<std::string>& warnings)
@@ -34,6 +36,11 @@ class Flattener {
       graph_.follow(i, [&](const PortGraph::Way& found) { add_connection(found); });
     }
     add_parameters(root_);
+    if (unmatched_ > kMostShown) {
+      warnings_.push_back(
+          fmt::format("… and {} more parameters that belong to no component, and are ignored, too",
+                      unmatched_ - kMostShown));
+    }
     add_outputs();
     return std::move(flat_);
   }
@@ -226,7 +233,9 @@ class Flattener {
     }
   }
 
+  /// After some, others are only counted: each would be compared with the names of all elements.
   void report_unmatched(const ParameterValue& value, const SystemNode& node) {
+    if (!value.is_required && ++unmatched_ > kMostShown) return;
     const auto [at, rest] = descend(node, value.name);
     std::vector<std::string> names;
     for (const auto& [name, port] : graph_.connectors(*at)) names.push_back(name);
@@ -250,6 +259,7 @@ class Flattener {
   std::vector<std::string>& warnings_;
   FlatSystem flat_;
   std::size_t groups_ = 0;
+  std::size_t unmatched_ = 0;  ///< parameters that belong to no component
 };
 
 }  // namespace

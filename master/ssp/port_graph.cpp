@@ -68,6 +68,9 @@ void PortGraph::add_component(const ElementNode& element, const std::string& pat
                      "components in systems are named by their paths, and a name may hold dots, "
                      "too; give one of them another name");
   }
+  for (const Connector& connector : element.connectors) {
+    declared_flows_[{&element, connector.declared.name}] = connector.flow;
+  }
   places_[&element] = components_.size();
   components_.push_back({&element, path});
 }
@@ -140,9 +143,8 @@ std::size_t PortGraph::find_port(const ElementNode& element, const System& syste
   const auto [entry, is_new] = shared_.try_emplace({&element, connector}, ports_.size());
   if (!is_new) return entry->second;
   Port port{joined(path, connector), Flow::Unsaid, places_.at(&element), connector, {}};
-  for (const Connector& declared : element.connectors) {
-    if (declared.declared.name == connector) port.flow = declared.flow;
-  }
+  const auto declared = declared_flows_.find({&element, connector});
+  if (declared != declared_flows_.end()) port.flow = declared->second;
   ports_.push_back(std::move(port));
   return entry->second;
 }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -101,6 +102,8 @@ class PortGraph {
   std::vector<PortConnection> connections_;
   std::map<std::string, core::Location> names_;  ///< of the components
   std::map<const ElementNode*, std::size_t> places_;
+  /// Of the connectors that components declare.
+  std::map<std::pair<const ElementNode*, std::string_view>, Flow> declared_flows_;
   std::map<const SystemNode*, System> systems_;
   std::map<const ElementNode*, const SignalDictionary*> dictionaries_;
   /// Of components' connectors and of the signals of dictionaries.

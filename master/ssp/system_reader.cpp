@@ -181,9 +181,8 @@ class SystemReader {
 
   /// FMI has no such variables.
   static void check_kinds(const xml::Element& component, const ElementNode& node) {
-    const auto connectors = component.child({kSsd, "Connectors"});
-    for (std::size_t i = 0; i < node.connectors.size(); ++i) {
-      const xml::Element connector = connectors->children()[i];
+    if (node.connectors.empty()) return;
+    for (const xml::Element& connector : component.child({kSsd, "Connectors"})->children()) {
       if (connector.required("kind") != "inout") continue;
       connector.fail("no variable of an FMU is of the kind 'inout'", "write input or output");
     }

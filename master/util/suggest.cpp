@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -9,7 +10,18 @@
 namespace stride::core {
 namespace {
 
-std::size_t edit_distance(const std::string& a, const std::string& b) {
+/// The edit distance (Levenshtein), or some number that is not below `limit` if it is not either.
+std::size_t edit_distance(std::string_view a, std::string_view b, std::size_t limit) {
+  const std::size_t least = a.size() < b.size() ? b.size() - a.size() : a.size() - b.size();
+  if (least >= limit) return least;
+  while (!a.empty() && !b.empty() && a.front() == b.front()) {
+    a.remove_prefix(1);
+    b.remove_prefix(1);
+  }
+  while (!a.empty() && !b.empty() && a.back() == b.back()) {
+    a.remove_suffix(1);
+    b.remove_suffix(1);
+  }
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -20,6 +32,8 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
       diagonal = row[j];
       row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
     }
+    const std::size_t lowest = *std::min_element(row.begin(), row.end());
+    if (lowest >= limit) return lowest;  // the rows below have no smaller number
   }
   return row.back();
 }
@@ -30,7 +44,7 @@ std::string nearest(const std::string& word, std::span<const std::string> candid
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(word, candidate);
+    const std::size_t distance = edit_distance(word, candidate, best_distance);
     if (distance < best_distance) {
       best = candidate;
       best_distance = distance;

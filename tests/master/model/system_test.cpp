@@ -1,6 +1,7 @@
 #include "master/model/system.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "tests/master/algorithm/scripted_unit.h"
 
@@ -259,6 +260,19 @@ TEST_CASE("wrong start values are reported together") {
                                  Contains("s.ssd:5: unit 'alpha', variable 'gain'") &&
                                  Contains("s.ssd:6: unit 'alpha', variable 'ranged'") &&
                                  Contains("s.ssd:7: unit 'beta', variable 'y'"));
+}
+
+TEST_CASE("of many start values without a variable, the first ones are named") {
+  auto system = declaration();
+  for (int i = 0; i < 1100; ++i) {
+    StartDeclaration start{"alpha", fmt::format("gain{}", i), "1", {}, {"s.ssd", 5}};
+    start.is_optional = true;
+    system.start_values.push_back(start);
+  }
+  const std::vector<std::string> warnings = System{system}.warnings();
+  REQUIRE(warnings.size() == 61);
+  CHECK_THAT(warnings[59], Contains("variable 'gain59'") && Contains("did you mean 'gain'?"));
+  CHECK_THAT(warnings[60], StartsWith("… and 1040 more values"));
 }
 
 TEST_CASE("start values are converted, parsed and refused where they cannot be set") {

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "master/recorders/run_json.h"
 #include "tests/master/report/support.h"
@@ -48,6 +49,18 @@ TEST_CASE("a file of an older program has less") {
   const RunFile run = read_run_file(folder.write("run.json", R"({"outcome": "completed"})"));
   CHECK(run.signals.empty());
   CHECK(run.files.signals == "signals.csv");
+}
+
+TEST_CASE("brackets in texts are not nested, and neither are those behind each other") {
+  const TemporaryFolder folder;
+  const std::string title = "\\\"" + std::string(100, '[') + "\\\\";
+  std::string plots;
+  for (int i = 0; i < 100; ++i) {
+    plots += (i == 0 ? "" : ",") + fmt::format(R"({{"title": "{}", "signals": []}})", title);
+  }
+  const RunFile run = read_run_file(folder.write("run.json", "{\"plots\": [" + plots + "]}"));
+  REQUIRE(run.plots.size() == 100);
+  CHECK(run.plots[0].title == "\"" + std::string(100, '[') + "\\");
 }
 
 TEST_CASE("what is not a run.json is refused") {

@@ -16,6 +16,14 @@ TEST_CASE("the nearest name is suggested, and only if it is near") {
   CHECK(suggestion("x", {}) == "there are none");
 }
 
+TEST_CASE("the nearest of several near names is suggested, and the first of the equally near") {
+  const std::vector<std::string> names = {"speed_max", "speed_min", "speeds", "speed2", "steed"};
+  CHECK(nearest("speed", names) == "speeds");
+  CHECK(nearest("speed_mix", names) == "speed_max");
+  CHECK(nearest("seed2", names) == "speed2");
+  CHECK(nearest("speed_min", names) == "speed_min");
+}
+
 TEST_CASE("a long list is shortened") {
   const std::vector<std::string> names(20, "abcdefgh");
   CHECK(suggestion("zzzzzzzzzzzzzzzzzzz", names).find("…") != std::string::npos);
