@@ -11,6 +11,7 @@
 #include "master/algorithm/loops/evaluation_order.h"
 #include "master/algorithm/stepping/step_order.h"
 #include "master/cli/commands.h"
+#include "master/cli/crash_guard.h"
 #include "master/cli/output.h"
 #include "master/cli/scenario_options.h"
 #include "master/cli/table.h"
@@ -187,6 +188,7 @@ std::string loops_text(const core::System& system) {
 }
 
 void check(const scenario::ScenarioRequest& request) {
+  const CrashGuard guard;
   const scenario::LoadedScenario loaded(request);
   loaded.instantiate();
   const core::System& system = loaded.system();

@@ -2,11 +2,14 @@
 #include "master/ssp/complete.h"
 
 #include <memory>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "master/cli/commands.h"
+#include "master/cli/crash_guard.h"
+#include "master/cli/output_paths.h"
 #include "master/scenario/loaded_scenario.h"
 #include "master/scenario/unit_path.h"
 #include "master/util/archive/zip.h"
@@ -29,7 +32,18 @@ void write_package(const CompleteArguments& arguments, const ssp::Files::Archive
   archive::write_zip(arguments.output.empty() ? package.path : arguments.output, contents);
 }
 
+/// The scenario itself may be replaced, and nothing else that it consists of.
+void check_output_path_of(const CompleteArguments& arguments) {
+  if (arguments.output.empty()) return;
+  const OutputPath output{"--output " + arguments.output.string(), arguments.output};
+  std::vector<KeptPath> kept = files_of_scenario(arguments.scenario).inputs;
+  std::erase_if(kept, [](const KeptPath& path) { return path.what == kTheScenario; });
+  refuse_kept_paths({&output, 1}, kept);
+}
+
 void complete(const CompleteArguments& arguments) {
+  check_output_path_of(arguments);
+  const CrashGuard guard;
   const scenario::Scenario scenario =
       scenario::read_scenario(arguments.scenario, {scenario::find_unit, {}});
   ssp::Descriptions descriptions;

@@ -12,6 +12,8 @@
 #include <system_error>
 #include <utility>
 
+#include <dirent.h>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
@@ -39,7 +41,7 @@ constexpr std::size_t kStackSize = std::size_t{8} << 20;
 struct Guarded {
   std::atomic<const CrashGuard::Conclusion*> conclusion{nullptr};
   std::atomic<pid_t> process{0};
-  std::atomic<bool> is_ending{false};
+  std::atomic<pid_t> ending{0};         ///< the thread that ends the process
   std::atomic<bool> is_leaving{false};  ///< the command is over
   std::atomic<int> code{0};             ///< of the command
 };
@@ -60,6 +62,9 @@ std::string_view describe_end(int signal, std::span<char> text) {
 
 /// What the process does while it calls no unit.
 std::string outside_of_calls() {
+  if (const char* const library = importer::unfinished_loading()) {
+    return fmt::format(" in the loading of '{}'", library);
+  }
   if (const char* const library = importer::unfinished_unloading()) {
     return fmt::format(" in the unloading of '{}'", library);
   }
@@ -67,11 +72,13 @@ std::string outside_of_calls() {
                             : ", in no call of a unit";
 }
 
+/// `calls`: those that have not returned. If this thread makes none of them, a unit has started it.
 core::Error error_of(std::string_view end, std::span<const importer::UnitCall> calls) {
   constexpr const char* kHint =
       "--isolate={} runs it in a process of its own, which cannot damage that of stride";
-  if (calls.size() == 1) {
-    const importer::UnitCall& call = calls.front();
+  const auto own = std::ranges::find_if(calls, &importer::UnitCall::is_by_this_thread);
+  if (own != calls.end()) {
+    const importer::UnitCall& call = *own;
     return {core::Error::Kind::Run,
             {.where = *call.where, .unit = *call.unit, .time = call.time},
             fmt::format("{} in {}", end, call.function),
@@ -79,8 +86,9 @@ core::Error error_of(std::string_view end, std::span<const importer::UnitCall> c
   }
   std::string among;
   for (const importer::UnitCall& call : calls) {
-    among += fmt::format("{}{} of '{}'", among.empty() ? ", in one of " : ", ", call.function,
-                         *call.unit);
+    among += fmt::format("{}{} of '{}'",
+                         among.empty() ? " in a thread that a unit has started, during " : ", ",
+                         call.function, *call.unit);
   }
   return {core::Error::Kind::Run,
           {},
@@ -126,10 +134,40 @@ void print_without_names(int signal) {
   print("; run.json and the report are not complete, the rows up to there are\n");
 }
 
-[[noreturn]] void end_process(int signal) {
-  if (guarded.is_ending.exchange(true)) {
-    for (;;) ::pause();  // another thread does it
+[[noreturn]] void wait_for_end() {
+  for (;;) ::pause();
+}
+
+/// So that the results do not go on meanwhile. Their handlers call end_process().
+void stop_other_threads(pid_t self) {
+  constexpr timespec kUntilTheyHaveStopped{0, 2'000'000};
+  const int tasks = ::open("/proc/self/task", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (tasks < 0) return;
+  alignas(dirent64) std::array<char, 4096> entries{};
+  for (long size = 0;
+       (size = ::syscall(SYS_getdents64, tasks, entries.data(), entries.size())) > 0;) {
+    for (long at = 0; at < size;) {
+      const auto& entry = *reinterpret_cast<const dirent64*>(entries.data() + at);
+      const pid_t thread = std::atoi(entry.d_name);
+      if (thread > 0 && thread != self) ::syscall(SYS_tgkill, ::getpid(), thread, SIGABRT);
+      at += entry.d_reclen;
+    }
   }
+  ::close(tasks);
+  ::nanosleep(&kUntilTheyHaveStopped, nullptr);
+}
+
+[[noreturn]] void end_process(int signal) {
+  sigset_t all;
+  ::sigfillset(&all);
+  ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
+  pid_t nobody = 0;
+  const pid_t self = ::gettid();
+  if (!guarded.ending.compare_exchange_strong(nobody, self)) {
+    if (nobody == self) end_now(kRunFailed);  // what it does to end has ended it
+    wait_for_end();
+  }
+  stop_other_threads(self);
   core::OutputFile::rescue_all();
   std::array<importer::UnitCall, 16> found;
   const std::size_t count = importer::unfinished_calls(found);
@@ -225,6 +263,7 @@ void CrashGuard::set_conclusion(Conclusion conclusion) {
 }
 
 int leave_with(int code) {
+  if (guarded.ending != 0 && guarded.process == ::getpid()) wait_for_end();
   if (guarded.process != ::getpid()) return code;
   // never destroyed, since destructors of libraries come later
   static const auto& nothing = *new CrashGuard::Conclusion([](const std::string&) {});

@@ -27,6 +27,8 @@ class CrashGuard {
   /// unit may have damaged anything. It must not call units.
   using Conclusion = std::function<void(const std::string& error)>;
 
+  /// Nothing tells of the end but the error.
+  CrashGuard() : CrashGuard([](const std::string&) {}) {}
   explicit CrashGuard(Conclusion conclusion);
   ~CrashGuard();
   CrashGuard(const CrashGuard&) = delete;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "master/cli/commands.h"
+#include "master/cli/crash_guard.h"
 #include "master/cli/output.h"
 #include "master/cli/table.h"
 #include "master/importer/fmu.h"
@@ -77,6 +78,7 @@ std::string meaning(const core::Variable& variable) {
 }
 
 void inspect(const std::filesystem::path& file) {
+  const CrashGuard guard;
   const auto fmu = importer::Fmu::load(scenario::find_unit(file, {}));
   const core::UnitDescription& unit = *fmu->description();
   print_text("{}: FMI {} Co-Simulation{}\n", unit.model_name, unit.fmi_version,

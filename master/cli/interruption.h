@@ -6,7 +6,8 @@
 
 namespace stride::cli {
 
-/// During its lifetime the first SIGINT, SIGTERM or SIGHUP only sets flag(). A second one ends the
+/// During its lifetime the first signal that asks for the end only sets flag(): SIGINT, SIGTERM,
+/// SIGHUP, and what batch systems, timers and limits of processor time send. A second one ends the
 /// process, after the lines that files hold in memory were written. SIGPIPE does not end it:
 /// writing fails instead.
 class Interruption {
@@ -24,7 +25,14 @@ class Interruption {
     int signal;
     struct sigaction before;
   };
-  std::array<Handled, 4> handled_{{{SIGINT, {}}, {SIGTERM, {}}, {SIGHUP, {}}, {SIGPIPE, {}}}};
+  std::array<Handled, 8> handled_{{{SIGINT, {}},
+                                   {SIGTERM, {}},
+                                   {SIGHUP, {}},
+                                   {SIGXCPU, {}},
+                                   {SIGUSR1, {}},
+                                   {SIGUSR2, {}},
+                                   {SIGALRM, {}},
+                                   {SIGPIPE, {}}}};
 };
 
 }  // namespace stride::cli

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "master/cli/commands.h"
+#include "master/cli/crash_guard.h"
 #include "master/scenario/file_units.h"
 #include "master/scenario/scenario.h"
 #include "master/scenario/unit_path.h"
@@ -97,6 +98,7 @@ void add_pack(CLI::App& app) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   command->callback([request] {
+    const CrashGuard guard;
     request->library = scenario::find_unit(request->library, {});
     if (is_scenario(request->library)) return pack_scenario(*request);
     if (scenario::is_stimuli(request->library)) return scenario::pack_stimuli(*request);

@@ -134,8 +134,8 @@ void FmuInstance::restore_process(const char* function) {
   const std::vector<std::string> changes = options_.process->restore();
   if (changes.empty()) return;
   warn(
-      fmt::format("{} changed {}, which all code in the process shares; it is put back: a function "
-                  "has to leave that as it was",
+      fmt::format("{} changed {}, which all code in the process shares: a function has to leave "
+                  "that as it was",
                   function, fmt::join(changes, ", ")));
 }
 
@@ -161,7 +161,8 @@ std::size_t unfinished_calls(std::span<UnitCall> calls) noexcept {
   core::Listed<FmuInstance>::for_each([&](const FmuInstance& instance) {
     const char* const function = instance.in_call_.load(std::memory_order_relaxed);
     if (function == nullptr || count == calls.size()) return;
-    calls[count++] = {function, &instance.name_, &instance.options_.where, instance.time_};
+    calls[count++] = {function, &instance.name_, &instance.options_.where, instance.time_,
+                      instance.caller_.load(std::memory_order_relaxed) == &this_thread};
   });
   return count;
 }

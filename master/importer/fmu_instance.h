@@ -67,7 +67,11 @@ struct UnitCall {
   const std::string* unit = nullptr;
   const core::Location* where = nullptr;  ///< the component's position in the scenario
   std::optional<Time> time;
+  bool is_by_this_thread = false;
 };
+
+/// Its address identifies a thread.
+inline thread_local char this_thread = 0;
 
 /// Calls functions of a unit, and turns what they answer into results and errors. A status Error or
 /// Fatal, and Discard of any function but those that may answer it, becomes a core::Error of the
@@ -127,6 +131,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   }
   /// For a call that does not count, or goes on.
   void write_note(const char* name) {
+    caller_.store(&this_thread, std::memory_order_relaxed);
     in_call_.store(name, std::memory_order_relaxed);
     if (call_note_ != nullptr) [[unlikely]]
       call_note_->write(name, time_.value_or(Time{}));
@@ -213,6 +218,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   const char* failed_in_ = nullptr;  ///< the function after whose status nothing goes on
   std::uint64_t calls_ = 0;
   std::atomic<const char*> in_call_{nullptr};  ///< the function that has not returned
+  std::atomic<const char*> caller_{nullptr};   ///< the thread that has called it
   CallNote* const call_note_;
   const core::FloatingPointMode mode_ = core::FloatingPointMode::present();
   std::optional<Time> time_;

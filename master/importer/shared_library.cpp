@@ -65,6 +65,7 @@ bool is_of_python(std::string_view symbol) {
                    fmt::format("expected a shared library for {}", platform()));
 }
 
+std::atomic<const char*> loaded_now{nullptr};
 std::atomic<const char*> unloaded_now{nullptr};
 
 /// One flag per library in the process: dlopen gives the same handle however often it is opened.
@@ -83,7 +84,9 @@ void SharedLibrary::Closer::operator()(void* handle) const { ::dlclose(handle); 
 SharedLibrary::SharedLibrary(const fs::path& path, const core::Location& where)
     : path_(fs::absolute(path)) {
   const core::ProcessState before;
+  loaded_now.store(path_.c_str());
   handle_.reset(::dlopen(path_.c_str(), RTLD_NOW | RTLD_LOCAL));
+  loaded_now.store(nullptr);
   changes_ = before.restore();
   if (!handle_) fail_to_load(path_, ::dlerror(), where);
   is_unusable_ = &unusable_flag(handle_.get());
@@ -100,6 +103,7 @@ SharedLibrary::~SharedLibrary() {
 }
 
 const char* unfinished_unloading() noexcept { return unloaded_now.load(); }
+const char* unfinished_loading() noexcept { return loaded_now.load(); }
 
 void* SharedLibrary::address(const std::string& symbol) const {
   return ::dlsym(handle_.get(), symbol.c_str());

@@ -59,6 +59,8 @@ class SharedLibrary {
 /// The path of the library that is being unloaded, which calls its destructors and exit functions;
 /// null if there is none. Can be called by a signal handler.
 const char* unfinished_unloading() noexcept;
+/// Likewise, of the library that is being loaded.
+const char* unfinished_loading() noexcept;
 
 /// A list of function names, for compile time.
 template <std::size_t kSize>

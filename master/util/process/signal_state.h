@@ -10,7 +10,7 @@
 namespace stride::core {
 
 /// The signals by which a process ends that has damaged itself.
-inline constexpr std::array kCrashes{SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGSYS};
+inline constexpr std::array kCrashes{SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGSYS, SIGTRAP};
 
 /// Those that end or interrupt a run, that a write may raise, and that the end of a child does.
 inline constexpr std::array kNotices{SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ, SIGCHLD};
