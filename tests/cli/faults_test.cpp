@@ -30,8 +30,7 @@ constexpr Fault kFaults[] = {
      "its process was ended by signal 11 (SIGSEGV) in FUNCTION"},
     {"abort", "signal 6 (SIGABRT) ends stride in FUNCTION",
      "its process was ended by signal 6 (SIGABRT) in FUNCTION"},
-    {"throw in a thread", "signal 6 (SIGABRT) ends stride in FUNCTION",
-     "its process was ended by signal 6 (SIGABRT) in FUNCTION"},
+    {"throw in a thread", nullptr, "its process was ended by signal 6 (SIGABRT) in FUNCTION"},
     {"SIGFPE", "signal 8 (SIGFPE) ends stride in FUNCTION",
      "its process was ended by signal 8 (SIGFPE) in FUNCTION"},
     {"SIGILL", "signal 4 (SIGILL) ends stride in FUNCTION",
@@ -49,8 +48,7 @@ constexpr Fault kFaults[] = {
     {"exit", "exit() ends stride in FUNCTION", "it ended its process with exit code 3 in FUNCTION"},
     {"_exit", "exit() ends stride in FUNCTION",
      "it ended its process with exit code 4 in FUNCTION"},
-    {"exit in a thread", "exit() ends stride in FUNCTION",
-     "it ended its process with exit code 5 in FUNCTION"},
+    {"exit in a thread", nullptr, "it ended its process with exit code 5 in FUNCTION"},
     {"throw int", "FUNCTION threw something that is not a std::exception",
      "FUNCTION threw something that is not a std::exception"},
     {"throw bad_alloc", "FUNCTION threw std::bad_alloc", "FUNCTION threw std::bad_alloc"},
@@ -280,4 +278,49 @@ TEST_CASE("a library that calls exit(0) after the run does not change the exit c
   const Outcome outcome = run("0.5");
   CHECK(outcome.exit_code == 1);
   CHECK_THAT(outcome.err, Contains("the fuse has blown"));
+}
+
+TEST_CASE("a thread that a unit has started is not taken for the unit whose function is called") {
+  if (kSanitized) return;
+  const Setting setting{3, false};
+  const Workspace workspace = workspace_for(setting, kStep);
+  for (const char* fault : {"throw in a thread", "exit in a thread"}) {
+    INFO(fault);
+    const Outcome outcome = run(workspace, setting, fault, kStep);
+    INFO(outcome.err);
+    CHECK(outcome.exit_code == 1);
+    CHECK_THAT(outcome.err, Contains(" ends stride in a thread that a unit has started, during "
+                                     "fmi3DoStep of 'faulty'"));
+    check_results(workspace, outcome, kStep.last);
+  }
+}
+
+TEST_CASE("a unit cannot end other commands with the exit code 0, or without a word") {
+  if (kSanitized) return;
+  const Setting setting = GENERATE(Setting{2, false}, Setting{3, false});
+  const Workspace workspace = workspace_for(setting, kInstantiate);
+  for (const char* fault : {"exit with 0", "_exit", "segfault"}) {
+    INFO("FMI " << setting.version << ": " << fault);
+    const Order order(fault, kInstantiate);
+    const Outcome outcome = workspace.stride({"check", "test.ssd"});
+    CHECK(outcome.exit_code == 1);
+    CHECK_THAT(outcome.err, Contains("unit 'faulty'") && Contains(" ends stride in ") &&
+                                Contains(setting.function(kInstantiate)));
+  }
+}
+
+TEST_CASE("a hosted unit has no terminal") {
+  const auto [hosting, code] = GENERATE(table<std::string, int>({{"", 0}, {" '--isolate'", 1}}));
+  const Workspace workspace = workspace_for({3, false}, kStep);
+  const Order order("use terminal", kStep);
+  std::string command;
+  for (const std::string& word : stride_command(Workspace::run_arguments({"--step", "0.125"}))) {
+    command += "'" + word + "' ";
+  }
+  const Outcome outcome =
+      Process({"script", "-qec", command + hosting, "/dev/null"}, workspace.scratch().path())
+          .wait();
+  INFO(outcome.out);
+  CHECK(outcome.exit_code == code);
+  if (code == 1) CHECK_THAT(outcome.out, Contains("there is no terminal: "));
 }

@@ -70,7 +70,8 @@ std::vector<std::string> Leftovers::all() const {
     found.push_back("process " + id + " " + name_of("/proc/" + id));
   }
   for (const std::string& name : names_in("/dev/shm")) {
-    if (shared_memory_.count(name) == 0) found.push_back("/dev/shm/" + name);
+    const bool is_of_another_test = name.rfind("stride-test-", 0) == 0;
+    if (shared_memory_.count(name) == 0 && !is_of_another_test) found.push_back("/dev/shm/" + name);
   }
   return found;
 }

@@ -218,6 +218,12 @@ void flush_to_zero() {
 #endif
 }
 
+void use_terminal() {
+  const int terminal = ::open("/dev/tty", O_RDWR);
+  if (terminal < 0) fail("there is no terminal");
+  ::close(terminal);
+}
+
 void close_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::close(stream);
 }
@@ -286,6 +292,7 @@ const auto& kFaults = *new std::map<std::string, std::function<void()>>{
     {"round up", [] { std::fesetround(FE_UPWARD); }},
     {"flush to zero", flush_to_zero},
     {"close streams", close_streams},
+    {"use terminal", use_terminal},
     {"link", plant_link},
     {"FIFO", plant_fifo},
 };
