@@ -263,8 +263,8 @@ void CrashGuard::set_conclusion(Conclusion conclusion) {
 }
 
 int leave_with(int code) {
-  if (guarded.ending != 0 && guarded.process == ::getpid()) wait_for_end();
   if (guarded.process != ::getpid()) return code;
+  if (guarded.ending != 0) wait_for_end();
   // never destroyed, since destructors of libraries come later
   static const auto& nothing = *new CrashGuard::Conclusion([](const std::string&) {});
   std::array<struct sigaction, kCrashes.size()> ignored{};

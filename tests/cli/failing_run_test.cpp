@@ -21,15 +21,6 @@ Workspace beside_a_filter(const std::string& name, const std::string& source,
       Parts{component("filter", "minimal.fmu") + component(name, source), connections});
 }
 
-/// `stride run` with these arguments, as a shell reads it.
-std::string shell_command(const Arguments& further) {
-  std::string command;
-  for (const std::string& word : stride_command(Workspace::run_arguments(further))) {
-    command += "'" + word + "' ";
-  }
-  return command;
-}
-
 }  // namespace
 
 TEST_CASE("a unit that throws is named, with the time and its message") {

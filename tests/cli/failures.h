@@ -3,6 +3,7 @@
 #define STRIDE_TESTS_CLI_FAILURES_H
 
 #include <chrono>
+#include <cstdlib>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -52,6 +53,29 @@ inline void await_first_results(Process& process, const Workspace& workspace) {
   }
   FAIL("the run ended by itself: " << process.wait().err);
 }
+
+/// `stride run` with these arguments, as a shell reads it.
+inline std::string shell_command(const Arguments& further) {
+  std::string command;
+  for (const std::string& word : stride_command(Workspace::run_arguments(further))) {
+    command += "'" + word + "' ";
+  }
+  return command;
+}
+
+/// What the units of tests/test_units/faults do in the runs that are started while it exists: the
+/// fault, in the first call of this kind at this time [s] or later.
+class FaultOrder {
+ public:
+  FaultOrder(const char* fault, const char* call, const char* at) {
+    ::setenv("STRIDE_TEST_FAULT", fault, 1);
+    ::setenv("STRIDE_TEST_CALL", call, 1);
+    ::setenv("STRIDE_TEST_AT", at, 1);
+  }
+  ~FaultOrder() { ::unsetenv("STRIDE_TEST_FAULT"); }
+  FaultOrder(const FaultOrder&) = delete;
+  FaultOrder& operator=(const FaultOrder&) = delete;
+};
 
 }  // namespace stride::tests
 

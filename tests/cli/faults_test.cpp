@@ -2,7 +2,6 @@
 // stride and in one of the unit's own: exit code 1, the unit, the function, the simulated time and
 // the way, complete results up to there, and nothing left behind.
 #include <array>
-#include <cstdlib>
 
 #include "tests/build.h"
 #include "tests/cli/failures.h"
@@ -104,19 +103,6 @@ std::vector<Setting> settings() {
   return all;
 }
 
-/// For the units of the runs that are started while it exists.
-class Order {
- public:
-  Order(const char* fault, const Call& call) {
-    ::setenv("STRIDE_TEST_FAULT", fault, 1);
-    ::setenv("STRIDE_TEST_CALL", call.name, 1);
-    ::setenv("STRIDE_TEST_AT", call.at, 1);
-  }
-  ~Order() { ::unsetenv("STRIDE_TEST_FAULT"); }
-  Order(const Order&) = delete;
-  Order& operator=(const Order&) = delete;
-};
-
 Workspace workspace_for(const Setting& setting, const Call& call) {
   return Workspace(Parts{component("first", call.neighbour) + component("faulty", setting.unit()),
                          connection("first.y", "faulty.u")});
@@ -126,7 +112,7 @@ Workspace workspace_for(const Setting& setting, const Call& call) {
 Outcome run(const Workspace& workspace, const Setting& setting, const char* fault,
             const Call& call) {
   const Leftovers leftovers;
-  const Order order(fault, call);
+  const FaultOrder order(fault, call.name, call.at);
   Arguments arguments{"--quiet", "--step", "0.125", "--junit", (workspace / "junit.xml").string()};
   if (setting.is_hosted) arguments.push_back("--isolate");
   const Outcome outcome = workspace.run(arguments);
@@ -301,7 +287,7 @@ TEST_CASE("a unit cannot end other commands with the exit code 0, or without a w
   const Workspace workspace = workspace_for(setting, kInstantiate);
   for (const char* fault : {"exit with 0", "_exit", "segfault"}) {
     INFO("FMI " << setting.version << ": " << fault);
-    const Order order(fault, kInstantiate);
+    const FaultOrder order(fault, kInstantiate.name, kInstantiate.at);
     const Outcome outcome = workspace.stride({"check", "test.ssd"});
     CHECK(outcome.exit_code == 1);
     CHECK_THAT(outcome.err, Contains("unit 'faulty'") && Contains(" ends stride in ") &&
@@ -312,13 +298,10 @@ TEST_CASE("a unit cannot end other commands with the exit code 0, or without a w
 TEST_CASE("a hosted unit has no terminal") {
   const auto [hosting, code] = GENERATE(table<std::string, int>({{"", 0}, {" '--isolate'", 1}}));
   const Workspace workspace = workspace_for({3, false}, kStep);
-  const Order order("use terminal", kStep);
-  std::string command;
-  for (const std::string& word : stride_command(Workspace::run_arguments({"--step", "0.125"}))) {
-    command += "'" + word + "' ";
-  }
+  const FaultOrder order("use terminal", kStep.name, kStep.at);
   const Outcome outcome =
-      Process({"script", "-qec", command + hosting, "/dev/null"}, workspace.scratch().path())
+      Process({"script", "-qec", shell_command({"--step", "0.125"}) + hosting, "/dev/null"},
+              workspace.scratch().path())
           .wait();
   INFO(outcome.out);
   CHECK(outcome.exit_code == code);

@@ -151,11 +151,8 @@ TEST_CASE("FMI 2.0: a floating-point mode that a step leaves behind") {
   const Workspace workspace = beside_others("fmi2_faulty.fmu");
   REQUIRE(run_without_meddling(workspace).exit_code == 0);
   const std::string expected = numbers(workspace);
-  ::setenv("STRIDE_TEST_FAULT", "round up", 1);
-  ::setenv("STRIDE_TEST_CALL", "step", 1);
-  ::setenv("STRIDE_TEST_AT", "0.5", 1);
+  const FaultOrder order("round up", "step", "0.5");
   const Outcome outcome = run_without_meddling(workspace);
-  ::unsetenv("STRIDE_TEST_FAULT");
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.err, Contains("fmi2DoStep left another floating-point mode behind"));
   CHECK(numbers(workspace) == expected);
