@@ -1,5 +1,6 @@
 #include "tests/test_units/faults/faults.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cfenv>
 #include <chrono>
@@ -8,8 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <functional>
-#include <map>
+#include <iterator>
 #include <new>
 #include <stdexcept>
 #include <thread>
@@ -239,8 +239,13 @@ void plant_fifo() {
   if (::mkfifo(own_file("signals.csv").c_str(), 0600) != 0) fail("cannot make a FIFO");
 }
 
-/// Never destroyed: some faults come when libraries are unloaded.
-const auto& kFaults = *new std::map<std::string, std::function<void()>>{
+struct Fault {
+  const char* name;
+  void (*commit)();
+};
+
+/// Without a destructor: some faults come when libraries are unloaded.
+constexpr Fault kFaults[] = {
     {"segfault", write_to_nowhere},
     {"abort", abort_aloud},
     {"exit", [] { std::exit(3); }},
@@ -306,13 +311,16 @@ const char* setting(const char* name) {
 
 std::string fault_names() {
   std::string names;
-  for (const auto& [name, fault] : kFaults) names += (names.empty() ? "" : ", ") + name;
+  for (const Fault& fault : kFaults) names += (names.empty() ? "" : ", ") + std::string(fault.name);
   return names;
 }
 
 void commit_fault(const std::string& name) {
   std::fprintf(stderr, "now comes: %s\n", name.c_str());
-  kFaults.at(name)();
+  const auto named = [&](const Fault& fault) { return fault.name == name; };
+  const auto fault = std::find_if(std::begin(kFaults), std::end(kFaults), named);
+  if (fault == std::end(kFaults)) throw std::out_of_range("there is no fault '" + name + "'");
+  fault->commit();
 }
 
 }  // namespace stride::tests
