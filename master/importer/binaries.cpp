@@ -33,12 +33,9 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> folder_names(const fs::path& folder) {
   std::vector<std::string> names;
-  std::error_code ignored;
-  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
-       entry.increment(ignored)) {
-    if (core::is_folder(entry->path())) names.push_back(entry->path().filename().string());
+  for (const fs::path& entry : core::folder_entries(folder)) {
+    if (core::is_folder(entry)) names.push_back(entry.filename().string());
   }
-  std::sort(names.begin(), names.end());
   return names;
 }
 

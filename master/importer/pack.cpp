@@ -1,6 +1,5 @@
 #include "master/importer/pack.h"
 
-#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -77,13 +76,9 @@ PackRequest with_library_of(const fs::path& fmu, PackRequest request) {
   }
   const auto description = read_model_description(fmu / "modelDescription.xml");
   request.library = find_library(fmu, description.fmi_version, description.model_identifier);
-  std::vector<fs::path> beside;
-  std::error_code ignored;  // the library has been found there
-  for (fs::directory_iterator entry(request.library.parent_path(), ignored), end;
-       !ignored && entry != end; entry.increment(ignored)) {
-    if (entry->path() != request.library) beside.push_back(entry->path());
-  }
-  std::sort(beside.begin(), beside.end());  // the order in which they are loaded
+  // sorted: the order in which they are loaded
+  std::vector<fs::path> beside = core::folder_entries(request.library.parent_path());
+  std::erase(beside, request.library);
   request.bundled.insert(request.bundled.begin(), beside.begin(), beside.end());
   return request;
 }

@@ -11,14 +11,12 @@ namespace fs = std::filesystem;
 
 /// A frequent mistake: the folder was packed, not what is in it.
 std::string missing_description_hint(const fs::path& folder) {
-  std::error_code ignored;
-  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
-       entry.increment(ignored)) {
-    if (!core::path_exists(entry->path() / "modelDescription.xml")) continue;
+  for (const fs::path& entry : core::folder_entries(folder)) {
+    if (!core::path_exists(entry / "modelDescription.xml")) continue;
     return fmt::format(
         "it is in the folder '{0}' there; the contents of '{0}' belong at the "
         "top",
-        entry->path().filename().string());
+        entry.filename().string());
   }
   return "expected an FMU; an SSP package or another kind of archive cannot be used as a unit";
 }

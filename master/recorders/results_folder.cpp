@@ -1,6 +1,5 @@
 #include "master/recorders/results_folder.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <fstream>
@@ -44,17 +43,6 @@ std::optional<pid_t> lock_holder(int descriptor) {
 bool has_ended(pid_t process) { return ::kill(process, 0) != 0 && errno == ESRCH; }
 
 }  // namespace
-
-std::vector<fs::path> folder_entries(const fs::path& folder) {
-  std::vector<fs::path> paths;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    paths.push_back(entry->path());
-  }
-  std::ranges::sort(paths);
-  return paths;
-}
 
 bool is_plain_file_name(const std::string& name) {
   return name != "." && name != ".." && name.find('/') == std::string::npos;

@@ -63,9 +63,6 @@ class ResultsLock {
   core::Descriptor folder_;
 };
 
-/// The paths of what is in the folder, sorted: none, or not all, where it cannot be read.
-std::vector<std::filesystem::path> folder_entries(const std::filesystem::path& folder);
-
 /// The files of these names that an earlier run has left go before the next one begins: what that
 /// does not write itself, or not before it is killed, would be taken for its own.
 void remove_results(const std::filesystem::path& folder, const ResultFiles& files);

@@ -14,6 +14,7 @@
 
 #include "master/recorders/results_folder.h"
 #include "master/util/error.h"
+#include "master/util/input_file.h"
 #include "master/util/untrusted_folder.h"
 
 namespace stride::recorders {
@@ -63,7 +64,7 @@ void remove_film(const fs::path& unit) {
   }
   if (!fs::exists(film / kFilmList, ignored)) return;
   std::vector<fs::path> goes;
-  std::ranges::copy_if(folder_entries(film), std::back_inserter(goes), is_picture);
+  std::ranges::copy_if(core::folder_entries(film), std::back_inserter(goes), is_picture);
   goes.insert(goes.end(), {film / kFilmList, film});
   for (const fs::path& path : goes) fs::remove(path, ignored);
   ::rmdir(unit.c_str());  // where nothing else is in it
@@ -122,9 +123,9 @@ bool is_in_unit_folders(const fs::path& results, const fs::path& file) {
 }
 
 bool has_unit_files(const fs::path& results) {
-  const std::vector<fs::path> units = folder_entries(results / kUnitsFolder);
-  return std::ranges::any_of(units,
-                             [](const fs::path& unit) { return !folder_entries(unit).empty(); });
+  const std::vector<fs::path> units = core::folder_entries(results / kUnitsFolder);
+  return std::ranges::any_of(
+      units, [](const fs::path& unit) { return !core::folder_entries(unit).empty(); });
 }
 
 void clean_unit_folders(const fs::path& results, std::span<const std::string> components) {
@@ -132,7 +133,7 @@ void clean_unit_folders(const fs::path& results, std::span<const std::string> co
   for (const std::string& component : components) {
     core::UntrustedFolder(unit_folder(results, component)).remove_special_files();
   }
-  for (const fs::path& unit : folder_entries(units)) remove_film(unit);
+  for (const fs::path& unit : core::folder_entries(units)) remove_film(unit);
   ::rmdir(units.c_str());
 }
 

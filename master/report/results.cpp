@@ -13,6 +13,7 @@
 #include "master/report/notes.h"
 #include "master/report/table.h"
 #include "master/util/error.h"
+#include "master/util/input_file.h"
 #include "master/util/untrusted_folder.h"
 
 namespace stride::report {
@@ -162,7 +163,7 @@ std::vector<Film> read_films(const fs::path& folder, const RunFile& run, const L
                              Notes& notes) {
   const core::UntrustedFolder results(folder);
   std::vector<Film> films;
-  for (const fs::path& unit : recorders::folder_entries(folder / recorders::kUnitsFolder)) {
+  for (const fs::path& unit : core::folder_entries(folder / recorders::kUnitsFolder)) {
     const fs::path name = unit.filename();
     const fs::path path = recorders::kUnitsFolder / name / recorders::kFilmFolder;
     core::FileStream list = results.open(path / recorders::kFilmList);

@@ -202,7 +202,7 @@ std::filesystem::path find_run_file(const std::filesystem::path& folder) {
   std::error_code error;
   const std::filesystem::path usual = folder / recorders::ResultFiles().statistics;
   if (std::filesystem::exists(usual, error)) return usual;
-  for (const std::filesystem::path& other : recorders::folder_entries(folder)) {
+  for (const std::filesystem::path& other : core::folder_entries(folder)) {
     if (other.extension() == ".json" && is_run_file(other)) return other;
   }
   return {};

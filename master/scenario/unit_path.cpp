@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "master/util/input_file.h"
 #include "master/util/suggest.h"
 
 namespace stride::scenario {
@@ -15,9 +16,8 @@ namespace fs = std::filesystem;
 std::vector<std::string> known_units(const std::vector<fs::path>& folders) {
   std::vector<std::string> names;
   for (const fs::path& folder : folders) {
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-      names.push_back(entry.path().filename().string());
+    for (const fs::path& unit : core::folder_entries(folder)) {
+      names.push_back(unit.filename().string());
     }
   }
   return names;
@@ -51,8 +51,7 @@ fs::path find_unit(const fs::path& path, const core::Location& where) {
 
 fs::path find_unit_shown_as(const fs::path& path, const std::string& shown_as,
                             const core::Location& where) {
-  std::error_code unreadable;
-  if (fs::exists(path, unreadable)) return path;
+  if (core::path_exists(path)) return path;
   if (path.filename().empty()) {
     core::fail_input({where, {}, {}, {}}, fmt::format("there is no unit '{}'", shown_as));
   }
@@ -60,7 +59,7 @@ fs::path find_unit_shown_as(const fs::path& path, const std::string& shown_as,
   std::string searched;
   for (const fs::path& folder : folders) {
     const fs::path candidate = folder / path.filename();
-    if (fs::exists(candidate, unreadable)) return candidate;
+    if (core::path_exists(candidate)) return candidate;
     searched += fmt::format("\n    {}", folder.string());
   }
   const std::vector<std::string> known = known_units(folders);

@@ -142,6 +142,17 @@ std::size_t read_from(const Descriptor& file, char* bytes, std::size_t count) {
   return done;
 }
 
+std::vector<fs::path> folder_entries(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    paths.push_back(entry->path());
+  }
+  std::ranges::sort(paths);
+  return paths;
+}
+
 std::string why_unreachable(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "master/util/descriptor.h"
 #include "master/util/error.h"
@@ -52,6 +53,9 @@ inline bool path_exists(const std::filesystem::path& path) {
   std::error_code ignored;
   return std::filesystem::exists(path, ignored);
 }
+
+/// The paths of what is in the folder, sorted: none, or not all, where it cannot be read.
+std::vector<std::filesystem::path> folder_entries(const std::filesystem::path& folder);
 
 /// Why there is nothing at a path, if that is not simply so: "File name too long", "Too many levels
 /// of symbolic links", "Permission denied"; otherwise empty.

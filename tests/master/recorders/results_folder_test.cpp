@@ -57,12 +57,3 @@ TEST_CASE("The files of an earlier run go, and nothing else") {
   remove_results(folder / "", files);
   CHECK(std::filesystem::is_symlink(folder / "run.json"));
 }
-
-TEST_CASE("What is in a folder comes sorted, and a folder that is none has nothing") {
-  const TemporaryFolder folder;
-  folder.write("b", "");
-  folder.write("a", "");
-  CHECK(folder_entries(folder / "") ==
-        std::vector<std::filesystem::path>{folder / "a", folder / "b"});
-  CHECK(folder_entries(folder / "none").empty());
-}

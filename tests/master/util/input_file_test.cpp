@@ -109,3 +109,11 @@ TEST_CASE("a copy is the same, or fails with the file's name") {
              Contains("/dev/full: cannot write the file"));
   CHECK_THAT(error_of([&] { copy_input("/dev/zero", folder / "y"); }), Contains("a device"));
 }
+
+TEST_CASE("what is in a folder comes sorted, and a folder that is none has nothing") {
+  const ScratchFolder folder;
+  write(folder, "b", "");
+  write(folder, "a", "");
+  CHECK(folder_entries(folder / "") == std::vector{folder / "a", folder / "b"});
+  CHECK(folder_entries(folder / "none").empty());
+}
