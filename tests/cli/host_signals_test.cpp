@@ -99,7 +99,7 @@ TEST_CASE("a run with snapshots ends, whichever process is killed or stopped") {
   // two that may stop early and have no state: one of them is saved before each step
   const Workspace workspace(
       Parts{component("a", "early_without_state.fmu") + component("b", "early_without_state.fmu")});
-  const Arguments options{"--quiet", "--unit-timeout", "1", "--stop", "1e6", "--no-trace"};
+  const Arguments options{"--quiet", "--unit-timeout", "4", "--stop", "1e6", "--no-trace"};
   Process stride(stride_command(Workspace::run_arguments(options)), workspace.scratch().path());
   await_first_results(stride, workspace);
   std::vector<pid_t> found;
