@@ -15,11 +15,13 @@ namespace {
             "export the unit as FMI 3.0 or FMI 2.0 Co-Simulation");
 }
 
-ModelDescription read(const xml::Element& root) {
+ModelDescription read(const xml::Document& document) {
+  const xml::Element root = document.root();
   if (root.name().local != "fmiModelDescription") {
     root.fail(fmt::format("the document is a {}; expected <fmiModelDescription>", root.tag()));
   }
   ModelDescription unit;
+  if (!document.warning().empty()) unit.warnings.push_back(document.warning());
   unit.fmi_version = root.required("fmiVersion");
   const bool is_fmi2 = unit.fmi_version.starts_with("2.");
   if (!is_fmi2 && !unit.fmi_version.starts_with("3.")) fail_version(root, unit.fmi_version);
@@ -36,12 +38,12 @@ ModelDescription read(const xml::Element& root) {
 }  // namespace
 
 ModelDescription parse_model_description(const std::string& text, const std::string& shown_as) {
-  return read(xml::Document::parse(text, shown_as).root());
+  return read(xml::Document::parse(text, shown_as));
 }
 
 ModelDescription read_model_description(const std::filesystem::path& file,
                                         const std::string& shown_as) {
-  return read(xml::Document(file, shown_as).root());
+  return read(xml::Document(file, shown_as));
 }
 
 }  // namespace stride::importer

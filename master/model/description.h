@@ -173,6 +173,8 @@ struct UnitDescription {
   std::optional<Duration> maximum_step;  ///< no step may be longer
   std::optional<Duration> default_step;  ///< DefaultExperiment
   std::optional<Time> default_stop;
+  std::optional<double> default_tolerance;  ///< relative, of the unit's own solver
+  std::vector<std::string> warnings;        ///< of what is odd in the description, but no mistake
 
   /// The variable's index in `variables`, if there is one of that name or alias.
   std::optional<std::size_t> find(const std::string& variable_name) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -157,8 +158,12 @@ void LoadedScenario::swap(const std::string& text) {
 
 void LoadedScenario::load_units() {
   fmus_ = load_fmus(scenario_);
+  std::set<std::string> known;
   for (std::size_t i = 0; i < fmus_.size(); ++i) {
     scenario_.system.components[i].description = fmus_[i]->description();
+    for (const std::string& warning : fmus_[i]->description()->warnings) {
+      if (known.insert(warning).second) scenario_.warnings.push_back(warning);
+    }
   }
 }
 

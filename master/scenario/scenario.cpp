@@ -54,7 +54,7 @@ Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& opt
   scenario.path = path;
   scenario.files = std::make_shared<ssp::Files>(options.find_unit);
   const std::filesystem::path file = scenario.files->system_file(path);
-  const xml::Document document(file, scenario.files->shown(file));
+  const xml::Document document = scenario.files->read(file);
   const xml::Element root = document.root();
   ssp::check_system_description(root);
   scenario.name = root.required("name");
@@ -65,6 +65,8 @@ Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& opt
   ssp::FlatSystem flat = ssp::flatten(system, scenario.warnings);
   scenario.system = std::move(flat.declaration);
   scenario.sources = std::move(flat.sources);
+  const std::vector<std::string>& of_files = scenario.files->warnings();
+  scenario.warnings.insert(scenario.warnings.begin(), of_files.begin(), of_files.end());
   read_default_experiment(root, scenario);
   scenario.annotation = read_annotation(root);
   return scenario;

@@ -112,4 +112,10 @@ std::string Files::shown(const fs::path& path) const {
   return shown(archive->path) + "/" + path.lexically_relative(archive->folder).string();
 }
 
+xml::Document Files::read(const fs::path& path) {
+  xml::Document document(path, shown(path));
+  if (!document.warning().empty()) warnings_.push_back(document.warning());
+  return document;
+}
+
 }  // namespace stride::ssp

@@ -8,9 +8,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "master/util/archive/unpacked_archive.h"
 #include "master/util/error.h"
+#include "master/util/xml/document.h"
 
 namespace stride::ssp {
 
@@ -44,12 +46,18 @@ class Files {
   /// A path as its reader knows it: within an archive, "FILE.ssp/resources/a.ssv".
   std::string shown(const std::filesystem::path& path) const;
 
+  /// Reads a file of the scenario, which is shown so in messages.
+  xml::Document read(const std::filesystem::path& path);
+  /// Of what is odd in the files that were read, but no mistake.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
  private:
   const std::filesystem::path& unpack(const std::filesystem::path& archive,
                                       const std::string& expected, const core::Location& where);
 
   UnitFinder find_unit_;
   std::map<std::filesystem::path, std::unique_ptr<archive::UnpackedArchive>> archives_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace stride::ssp

@@ -1,29 +1,16 @@
 #include "master/util/xml/document.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
 #include "master/util/input_file.h"
 #include "master/util/xml/editor.h"
+#include "master/util/xml/encoding.h"
 
 namespace stride::xml {
 namespace {
-
-/// The encoding that the XML declaration names, in small letters; UTF-8 if it names none.
-std::string declared_encoding(const std::string& text) {
-  const std::string_view head = std::string_view(text).substr(0, text.find("?>"));
-  const std::size_t name = head.find("encoding");
-  const std::size_t begin = name == head.npos ? head.npos : head.find_first_of("'\"", name);
-  if (!head.starts_with("<?xml") || begin == head.npos) return "utf-8";
-  const std::size_t end = head.find(head[begin], begin + 1);
-  std::string encoding(head.substr(begin + 1, end == head.npos ? end : end - begin - 1));
-  std::transform(encoding.begin(), encoding.end(), encoding.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return encoding;
-}
 
 const char* words_for(tinyxml2::XMLError error) {
   switch (error) {
@@ -53,20 +40,17 @@ const char* words_for(tinyxml2::XMLError error) {
   core::fail_input({.where = {file, 0}}, message, hint);
 }
 
-void check_encoding(const std::string& text, const std::string& file) {
-  if (text.starts_with("PK\x03\x04")) {
+DecodedText decode_text(std::string bytes, const std::string& file) {
+  if (bytes.starts_with("PK\x03\x04")) {
     fail(file, "this is a packed archive (such as .ssp or .fmu), expected an XML file",
          "unpack it, and name the SystemStructure.ssd inside it");
   }
-  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") ||
-      text.find('\0') != std::string::npos) {
-    fail(file, "this is not valid UTF-8 text", "save it as XML with the encoding UTF-8");
-  }
-  const std::string encoding = declared_encoding(text);
-  if (encoding != "utf-8" && encoding != "us-ascii") {
-    fail(file, fmt::format("the encoding '{}' is not read", encoding),
+  DecodedText decoded = decode(std::move(bytes), file);
+  if (decoded.text.find('\0') != std::string::npos) {
+    fail(file, "there is a NUL character in it, which no XML file has",
          "save it as XML with the encoding UTF-8");
   }
+  return decoded;
 }
 
 /// The time of tinyxml2 is quadratic in their number.
@@ -96,7 +80,7 @@ std::size_t count_elements(const tinyxml2::XMLNode& node) {
 
 struct Document::Content {
   std::string file;
-  std::string text;
+  DecodedText decoded;
   tinyxml2::XMLDocument document;
 };
 
@@ -109,14 +93,14 @@ Document::~Document() = default;
 Document::Document(Document&&) noexcept = default;
 Document& Document::operator=(Document&&) noexcept = default;
 
-Document Document::parse(std::string text, const std::string& shown_as) {
-  check_encoding(text, shown_as);
-  check_attributes(text, shown_as);
+Document Document::parse(std::string bytes, const std::string& shown_as) {
   auto content = std::make_unique<Content>();
   content->file = shown_as;
-  content->text = std::move(text);
+  content->decoded = decode_text(std::move(bytes), shown_as);
+  const std::string& text = content->decoded.text;
+  check_attributes(text, shown_as);
   tinyxml2::XMLDocument& document = content->document;
-  if (document.Parse(content->text.data(), content->text.size()) != tinyxml2::XML_SUCCESS) {
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     core::fail_input({.where = {shown_as, document.ErrorLineNum()}},
                      fmt::format("this is not well-formed XML: {}", words_for(document.ErrorID())),
                      "look for a missing end tag or quotation mark in or above this line");
@@ -126,14 +110,16 @@ Document Document::parse(std::string text, const std::string& shown_as) {
   if (const auto* second = root->NextSiblingElement()) {
     Element(*second, shown_as).fail(fmt::format("a second root element <{}>", second->Name()));
   }
-  if (count_elements(document) != element_places(content->text).size()) {
+  if (count_elements(document) != element_places(text).size()) {
     fail(shown_as, "this is not well-formed XML: there is an end tag with a '/' at its end",
          "write </name> to end an element, and <name/> for an empty one");
   }
   return Document(std::move(content));
 }
 
-const std::string& Document::text() const { return content_->text; }
+const std::string& Document::text() const { return content_->decoded.text; }
+
+const std::string& Document::warning() const { return content_->decoded.warning; }
 
 Element Document::root() const { return {*content_->document.RootElement(), content_->file}; }
 

@@ -95,7 +95,8 @@ Finding check_load(const Trial& trial) {
                               description.fmi_version));
   }
   return passed(fmt::format("FMI {}, {} variables, {}", version, description.variables.size(),
-                            library->path().filename().string()));
+                            library->path().filename().string()),
+                description.warnings);
 }
 
 }  // namespace stride::verify
