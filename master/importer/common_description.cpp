@@ -35,6 +35,20 @@ std::string read_model_identifier(const xml::Element& co_simulation) {
   return identifier;
 }
 
+/// One that no solver can have is ignored.
+void read_tolerance(const xml::Element& experiment, core::UnitDescription& unit) {
+  const auto tolerance = experiment.number<double>("tolerance");
+  if (!tolerance) return;
+  if (std::isfinite(*tolerance) && *tolerance > 0) {
+    unit.default_tolerance = tolerance;
+    return;
+  }
+  const core::Location where = experiment.where();
+  unit.warnings.push_back(
+      fmt::format("{}:{}: tolerance=\"{}\" of {} is ignored: expected a positive number",
+                  where.file, where.line, *experiment.attribute("tolerance"), experiment.tag()));
+}
+
 }  // namespace
 
 xml::Element find_co_simulation(const xml::Element& root) {
@@ -84,6 +98,7 @@ void read_default_experiment(const xml::Element& root, core::UnitDescription& un
   const auto experiment = root.child("DefaultExperiment");
   if (!experiment) return;
   unit.default_step = read_step_size(*experiment, "stepSize");
+  read_tolerance(*experiment, unit);
   const Duration start = read_seconds(*experiment, "startTime").value_or(Duration{});
   const auto seconds = experiment->number<double>("stopTime");
   // such an experiment cannot be run to its end, but the unit can be used in others

@@ -39,7 +39,11 @@ FmuInstance::FmuInstance(const char* prefix, std::shared_ptr<const SharedLibrary
       parts_(std::move(parts)),
       options_(std::move(options)),
       prefix_(prefix),
-      library_(std::move(library)) {}
+      library_(std::move(library)) {
+  begin_receiving();
+}
+
+FmuInstance::~FmuInstance() { end_receiving(); }
 
 bool FmuInstance::declares(core::CapabilityId id) const {
   using core::CapabilityId;

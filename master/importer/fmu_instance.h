@@ -19,6 +19,7 @@
 #include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/unit.h"
 #include "master/importer/call_note.h"
+#include "master/importer/callback_receiver.h"
 #include "master/importer/shared_library.h"
 #include "master/importer/status.h"
 #include "master/util/error.h"
@@ -83,7 +84,7 @@ inline thread_local char this_thread = 0;
 /// What a function has changed of the floating-point mode is put back when it returns, and, until
 /// the end of the initialization, what it has changed of the process. A warning names the unit and
 /// the function.
-class FmuInstance : public core::Unit, public core::UnitDiagnostics {
+class FmuInstance : public core::Unit, public core::UnitDiagnostics, public CallbackReceiver {
  public:
   friend std::size_t unfinished_calls(std::span<UnitCall> calls) noexcept;
 
@@ -97,13 +98,18 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics {
   std::string rejection_reason() const override { return rejection_reason_; }
   std::uint64_t calls() const override { return calls_; }
 
+  bool is_in_call() const final { return in_call_.load(std::memory_order_relaxed) != nullptr; }
+  bool is_called_by_this_thread() const final {
+    return is_in_call() && caller_.load(std::memory_order_relaxed) == &this_thread;
+  }
+
  protected:
   using References = std::span<const core::ValueReference>;
 
   /// `prefix` of what has a name in the unit's version: "fmi2", "fmi3".
   FmuInstance(const char* prefix, std::shared_ptr<const SharedLibrary> library, std::string name,
               UnitParts parts, InstanceOptions options);
-  ~FmuInstance() override = default;
+  ~FmuInstance() override;
 
   /// Whether the description promises the capability; of MessageText only the library knows.
   bool declares(core::CapabilityId id) const;

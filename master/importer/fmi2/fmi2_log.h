@@ -1,18 +1,13 @@
-// The messages of FMI 2.0 units: printf's, with references to variables.
+// References to variables in the messages of FMI 2.0 units.
 #ifndef STRIDE_MASTER_IMPORTER_FMI2_FMI2_LOG_H
 #define STRIDE_MASTER_IMPORTER_FMI2_FMI2_LOG_H
 
-#include <cstdarg>
 #include <functional>
 #include <string>
 
 #include <stride/fmi2.h>
 
 namespace stride::importer {
-
-/// The text of a message and what follows it in a call of the logger. What cannot be formatted is
-/// given as it is: what vsnprintf refuses, and what has %n, which would write to memory.
-std::string format_message(const char* message, std::va_list arguments);
 
 /// The name of a variable of this type ('r', 'i', 'b', 's') with this value reference; empty if
 /// there is none.

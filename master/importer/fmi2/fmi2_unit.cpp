@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "master/importer/fmi2/fmi2_log.h"
+#include "master/importer/fmi2/printf_text.h"
 
 namespace stride::importer {
 
@@ -24,7 +25,7 @@ Fmi2Unit::Fmi2Unit(std::string name, std::shared_ptr<const Fmi2Library> library,
   check_callable("fmi2Instantiate");
   const bool may_be_pending = attributes_->can_run_asynchronously;
   callbacks_ = {&on_log, &std::calloc, &std::free, may_be_pending ? &on_step_finished : nullptr,
-                this};
+                environment()};
   instance_ = guarded("fmi2Instantiate", [&] {
     return fmi_.Instantiate(
         name_.c_str(), fmi2CoSimulation, parts_.description->instantiation_token.c_str(),
@@ -52,12 +53,18 @@ core::Capability* Fmi2Unit::find_capability(core::CapabilityId id) {
   return id == core::UnitDiagnostics::kId ? diagnostics() : implemented(id);
 }
 
+/// Start values come after fmi2SetupExperiment, as in other importers: some units reset them there.
 void Fmi2Unit::enter_initialization(Time start, std::optional<Time> stop) {
   time_ = start;
-  call_and_restore("fmi2SetupExperiment", fmi_.SetupExperiment, fmi2False, 0.0, to_seconds(start),
-                   stop ? fmi2True : fmi2False, to_seconds(stop.value_or(Time{})));
-  call_and_restore("fmi2EnterInitializationMode", fmi_.EnterInitializationMode);
+  const auto tolerance = parts_.description->default_tolerance;
+  call_and_restore("fmi2SetupExperiment", fmi_.SetupExperiment, tolerance ? fmi2True : fmi2False,
+                   tolerance.value_or(0), to_seconds(start), stop ? fmi2True : fmi2False,
+                   to_seconds(stop.value_or(Time{})));
   is_instantiated_only_ = false;
+  for (const auto& [references, values] : std::exchange(kept_parameters_, {})) {
+    set(references, values);
+  }
+  call_and_restore("fmi2EnterInitializationMode", fmi_.EnterInitializationMode);
   for (const auto& [references, values] : std::exchange(kept_inputs_, {})) set(references, values);
 }
 
@@ -82,18 +89,21 @@ void Fmi2Unit::enter_step_mode() { fail("FMI 2.0 Co-Simulation has no Event Mode
 
 void Fmi2Unit::on_log(fmi2ComponentEnvironment environment, fmi2String, fmi2Status status,
                       fmi2String category, fmi2String message, ...) {
-  if (environment == nullptr) return;  // some units do not pass on what they were given
   std::va_list arguments;
   va_start(arguments, message);
   try {
-    Fmi2Unit& unit = *static_cast<Fmi2Unit*>(environment);
-    const std::string text = name_variables(
-        format_message(message, arguments),
-        [&](char type, fmi2ValueReference r) { return unit.variable_name(type, r); });
-    unit.receive(static_cast<Status>(status), category, text.c_str());
+    const std::string text = message != nullptr ? printf_text(message, arguments) : "";
+    with_receiver<Fmi2Unit>(environment, [&](Fmi2Unit& unit) {
+      unit.receive(static_cast<Status>(status), category, unit.with_names(text).c_str());
+    });
   } catch (...) {  // nothing may cross the unit's C code
   }
   va_end(arguments);
+}
+
+std::string Fmi2Unit::with_names(const std::string& message) const {
+  return name_variables(message,
+                        [&](char type, fmi2ValueReference r) { return variable_name(type, r); });
 }
 
 /// The first of them, if there are aliases.
@@ -161,7 +171,7 @@ void Fmi2Unit::get(References references, core::ValueBlock& values) {
 }
 
 void Fmi2Unit::set(References references, const core::ValueBlock& values) {
-  if (is_instantiated_only_ && is_kept(references, values)) return;
+  if (is_instantiated_only_) return keep(references, values);
   is_as_saved_ = false;
   switch (values.type()) {
     case core::ValueType::Float64:
@@ -184,15 +194,13 @@ void Fmi2Unit::set(References references, const core::ValueBlock& values) {
   }
 }
 
-/// Whether there is an input among them, so that they have to wait for Initialization Mode
-/// (FMI 2.0, 4.2.4).
-bool Fmi2Unit::is_kept(References references, const core::ValueBlock& values) {
-  const auto is_input = [&](core::ValueReference r) {
+/// Inputs have to wait for Initialization Mode (FMI 2.0, 4.2.4).
+void Fmi2Unit::keep(References references, const core::ValueBlock& values) {
+  const bool has_input = std::ranges::any_of(references, [&](core::ValueReference r) {
     return parts_.description->variables[r].causality == core::Causality::Input;
-  };
-  if (std::none_of(references.begin(), references.end(), is_input)) return false;
-  kept_inputs_.emplace_back(std::vector(references.begin(), references.end()), values);
-  return true;
+  });
+  auto& kept = has_input ? kept_inputs_ : kept_parameters_;
+  kept.emplace_back(std::vector(references.begin(), references.end()), values);
 }
 
 void Fmi2Unit::get_enumerations(References references, std::span<std::int64_t> values) {

@@ -27,8 +27,9 @@ namespace stride::importer {
 /// See core::Unit for the order of calls, and FmuInstance for failures; terminate() does nothing
 /// after one. Such a unit has neither Event Mode nor clocks.
 ///
-/// Types: Real is Float64, Integer Int32, Enumeration core's Enumeration. Start values of inputs
-/// are kept until Initialization Mode, since FMI 2.0 allows them no earlier.
+/// Types: Real is Float64, Integer Int32, Enumeration core's Enumeration. Start values
+/// are kept until fmi2SetupExperiment has been called, where some units reset them, and those of
+/// inputs until Initialization Mode, since FMI 2.0 allows them no earlier.
 ///
 /// fmi2Discard means that the unit completed a part of the step (docs/stepping.md):
 ///
@@ -96,6 +97,7 @@ class Fmi2Unit final
   static void on_log(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status,
                      fmi2String category, fmi2String message, ...);
   static void on_step_finished(fmi2ComponentEnvironment environment, fmi2Status status);
+  std::string with_names(const std::string& message) const;
   std::string variable_name(char type, fmi2ValueReference reference) const;
 
   const fmi2ValueReference* own(References references) { return own(references, own_); }
@@ -108,7 +110,7 @@ class Fmi2Unit final
   void set_booleans(References references, std::span<const bool> values);
   void get_strings(References references, std::span<std::string> values);
   void set_strings(References references, std::span<const std::string> values);
-  bool is_kept(References references, const core::ValueBlock& values);
+  void keep(References references, const core::ValueBlock& values);
 
   void set_input_derivatives(double size);
   void save(SavedState& saved);
@@ -147,7 +149,8 @@ class Fmi2Unit final
   InputDerivatives input_derivatives_;
 
   bool is_instantiated_only_ = true;
-  std::vector<std::pair<std::vector<core::ValueReference>, core::ValueBlock>> kept_inputs_;
+  using KeptValues = std::vector<std::pair<std::vector<core::ValueReference>, core::ValueBlock>>;
+  KeptValues kept_parameters_, kept_inputs_;  ///< until fmi2SetupExperiment, Initialization Mode
 
   std::vector<fmi2ValueReference> own_, own_knowns_;
   std::vector<fmi2Integer> integers_;

@@ -66,6 +66,7 @@ void Fmi2Unit::reset() {
   reset_by("fmi2Reset", fmi_.Reset);
   is_as_saved_ = has_discard_warning_ = has_slow_step_warning_ = false;
   is_instantiated_only_ = true;
+  kept_parameters_.clear();
   kept_inputs_.clear();
 }
 

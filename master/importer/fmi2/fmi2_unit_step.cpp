@@ -20,7 +20,8 @@ Status Fmi2Unit::do_step(const core::StepInterval& interval, double size) {
 // ---- Asynchronous steps ----
 
 void Fmi2Unit::on_step_finished(fmi2ComponentEnvironment environment, fmi2Status status) {
-  static_cast<Fmi2Unit*>(environment)->asynchronous_.finish(static_cast<Status>(status));
+  with_receiver<Fmi2Unit>(
+      environment, [&](Fmi2Unit& unit) { unit.asynchronous_.finish(static_cast<Status>(status)); });
 }
 
 /// Polls with growing pauses, since not every unit calls back.

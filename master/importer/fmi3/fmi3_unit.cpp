@@ -52,12 +52,12 @@ Fmi3Unit::Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library,
   std::vector<core::ValueReference> intermediate;
   if (options_.intermediate_update) intermediate = intermediate_inputs(description);
   instance_ = guarded("fmi3InstantiateCoSimulation", [&] {
-    return fmi_.InstantiateCoSimulation(name_.c_str(), description.instantiation_token.c_str(),
-                                        has_resources ? parts_.resources.c_str() : nullptr,
-                                        fmi3False, options_.debug_logging,
-                                        description.has_event_mode, options_.early_return_allowed,
-                                        intermediate.data(), intermediate.size(), this, &on_log,
-                                        intermediate.empty() ? nullptr : &on_intermediate_update);
+    return fmi_.InstantiateCoSimulation(
+        name_.c_str(), description.instantiation_token.c_str(),
+        has_resources ? parts_.resources.c_str() : nullptr, fmi3False, options_.debug_logging,
+        description.has_event_mode, options_.early_return_allowed, intermediate.data(),
+        intermediate.size(), environment(), &on_log,
+        intermediate.empty() ? nullptr : &on_intermediate_update);
   });
   restore_process("fmi3InstantiateCoSimulation");
   if (instance_ == nullptr) {
@@ -95,8 +95,10 @@ void Fmi3Unit::exit_configuration_mode() {
 
 void Fmi3Unit::enter_initialization(Time start, std::optional<Time> stop) {
   time_ = start;
-  call_and_restore("fmi3EnterInitializationMode", fmi_.EnterInitializationMode, fmi3False, 0.0,
-                   to_seconds(start), stop.has_value(), to_seconds(stop.value_or(Time{})));
+  const auto tolerance = parts_.description->default_tolerance;
+  call_and_restore("fmi3EnterInitializationMode", fmi_.EnterInitializationMode,
+                   tolerance.has_value(), tolerance.value_or(0), to_seconds(start),
+                   stop.has_value(), to_seconds(stop.value_or(Time{})));
 }
 
 void Fmi3Unit::exit_initialization() {
@@ -131,7 +133,9 @@ std::string Fmi3Unit::describe_message(core::ValueReference variable, const core
 
 void Fmi3Unit::on_log(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category,
                       fmi3String message) {
-  static_cast<Fmi3Unit*>(environment)->receive(static_cast<Status>(status), category, message);
+  with_receiver<Fmi3Unit>(environment, [&](Fmi3Unit& unit) {
+    unit.receive(static_cast<Status>(status), category, message);
+  });
 }
 
 // ---- Values ----
@@ -282,7 +286,8 @@ void Fmi3Unit::on_intermediate_update(fmi3InstanceEnvironment environment, fmi3F
                                       fmi3Boolean, fmi3Boolean* early_return_requested,
                                       fmi3Float64*) {
   if (early_return_requested != nullptr) *early_return_requested = fmi3False;
-  if (set_requested) static_cast<Fmi3Unit*>(environment)->update_inputs(time);
+  if (!set_requested) return;
+  if (auto* const unit = find_caller<Fmi3Unit>(environment)) unit->update_inputs(time);
 }
 
 /// Nothing may cross the unit's C code: step() throws what goes wrong here.

@@ -1,7 +1,13 @@
 /* Complains in each step, as the parameter `mood` has it: 1 with a warning, 3 with fmi2Error, 4
  * with fmi2Fatal, 5 with fmi2Error and without a word, 6 with a message longer than most, 7 with
  * one that must not be formatted, 77 with no status of FMI. A status of a step's end is returned as
- * it is. */
+ * it is.
+ *
+ * 8 to 11 with messages as careless generators write them: with a pointer of its own for the
+ * environment, with null for whatever may be a pointer, from another thread, without arguments for
+ * its conversions. */
+#include <pthread.h>
+
 #include "tests/test_units/fmi2/unit.h"
 
 enum { kLevel = FIRST_OTHER };
@@ -9,6 +15,30 @@ enum { kMood = FIRST_OTHER };
 
 static void unit_start(Unit* unit) { unit->model.real[kLevel] = 0.5; }
 static void unit_outputs(Unit* unit) { (void)unit; }
+
+static void* log_in_thread(void* unit) {
+  ((Unit*)unit)->call.logger(unit, "", fmi2Warning, "logStatus", "it gets hot");
+  return NULL;
+}
+
+static void log_carelessly(Unit* unit, int mood) {
+  const fmi2CallbackLogger logger = unit->call.logger;
+  pthread_t thread;
+  switch (mood) {
+    case 8:
+      logger(unit, unit->name, fmi2Warning, "logStatus", "it gets hot");
+      break;
+    case 9:
+      logger(NULL, NULL, fmi2Warning, NULL, "it gets hot");
+      logger(NULL, NULL, fmi2Warning, NULL, NULL);
+      break;
+    case 10:
+      if (pthread_create(&thread, NULL, log_in_thread, unit) == 0) pthread_join(thread, NULL);
+      break;
+    default:
+      logger(unit, unit->name, fmi2Warning, "logStatus", "it gets hot: %s %s %s %s %s %s %s %s");
+  }
+}
 
 static fmi2Status unit_step(Unit* unit, double begin, double size) {
   const int mood = unit->model.integer[kMood];
@@ -31,6 +61,12 @@ static fmi2Status unit_step(Unit* unit, double begin, double size) {
     case 7:
       LOG(unit, fmi2Error, "100%n");
       return fmi2Error;
+    case 8:
+    case 9:
+    case 10:
+    case 11:
+      log_carelessly(unit, mood);
+      return fmi2OK;
     case 77:
       return (fmi2Status)77;
     default:

@@ -91,6 +91,8 @@ EXPORT int fmi2_saved_states = 0;
 EXPORT double fmi2_step_begin = 0;
 EXPORT double fmi2_step_size = 0;
 EXPORT fmi2Boolean fmi2_no_restore = fmi2False;
+EXPORT double fmi2_tolerance = 0;
+EXPORT fmi2CallbackFunctions fmi2_callbacks; /* of the last instance */
 
 #define LOG(unit, status, ...)                                                              \
   (unit)->call.logger((unit)->call.componentEnvironment, (unit)->name, status, "logStatus", \
@@ -132,6 +134,7 @@ EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String 
   strncpy(unit->name, name, sizeof unit->name - 1);
   strncpy(unit->resources, resources, sizeof unit->resources - 1);
   unit->call = *call;
+  fmi2_callbacks = *call;
   unit->is_logging = logging;
   if (strcmp(guid, "{" UNIT_NAME "}") != 0 || type != fmi2CoSimulation) {
     LOG(unit, fmi2Error, "the GUID is %s, and the type %d", guid, (int)type);
@@ -153,9 +156,12 @@ EXPORT void fmi2FreeInstance(fmi2Component c) {
 EXPORT fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined,
                                       fmi2Real tolerance, fmi2Real start, fmi2Boolean stop_defined,
                                       fmi2Real stop) {
-  (void)tolerance_defined, (void)tolerance, (void)stop_defined, (void)stop;
+  (void)stop_defined, (void)stop;
   ALLOW("fmi2SetupExperiment", unit->mode == kInstantiated)
+  memset(&unit->model, 0, sizeof unit->model);
+  unit_start(unit); /* as the units of some tools do: what was set before is lost */
   unit->model.time = start;
+  fmi2_tolerance = tolerance_defined ? tolerance : 0;
   return fmi2OK;
 }
 EXPORT fmi2Status fmi2EnterInitializationMode(fmi2Component c) {

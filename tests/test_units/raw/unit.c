@@ -163,7 +163,8 @@ fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 point, fmi3Float64 size,
   if (is(instance, "lies") || is(instance, "early")) *reached = point + size / 2;
   if (is(instance, "drifts")) *reached = point + size * (1 + 1e-9);
   if (is(instance, "warning")) {
-    instance->log(instance->environment, fmi3Warning, "logStatusWarning", "it gets hot");
+    /* a pointer of its own, as some generators give it for the environment */
+    instance->log(instance, fmi3Warning, "logStatusWarning", "it gets hot");
     return fmi3Warning;
   }
   if (is(instance, "fatal")) {

@@ -6,14 +6,6 @@ using namespace stride;
 
 namespace {
 
-std::string format(const char* message, ...) {
-  std::va_list arguments;
-  va_start(arguments, message);
-  const std::string text = importer::format_message(message, arguments);
-  va_end(arguments);
-  return text;
-}
-
 std::string named(const std::string& message) {
   return importer::name_variables(message,
                                   [](char type, fmi2ValueReference reference) -> std::string {
@@ -25,22 +17,6 @@ std::string named(const std::string& message) {
 }
 
 }  // namespace
-
-TEST_CASE("messages are formatted as printf does") {
-  CHECK(format("plain") == "plain");
-  CHECK(format("%d of %s: %.2f %%", 3, "ten", 0.25) == "3 of ten: 0.25 %");
-  CHECK(format("%5000d", 1).size() == 5000);
-  CHECK(format("%s", std::string(511, 'x').c_str()) == std::string(511, 'x'));
-  CHECK(format("%s", std::string(512, 'x').c_str()) == std::string(512, 'x'));
-  CHECK(format(nullptr).empty());
-}
-
-TEST_CASE("a message that would write to memory is left as it is") {
-  CHECK(format("100%n") == "100%n");
-  CHECK(format("%d %-5.3hhn", 1) == "%d %-5.3hhn");
-  CHECK(format("%%n %d", 1) == "%n 1");
-  CHECK(format("%") == "%");
-}
 
 TEST_CASE("references to variables become their names") {
   CHECK(named("#r1365# must be larger than zero (used in IO channel ##4)") ==

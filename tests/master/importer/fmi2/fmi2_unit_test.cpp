@@ -13,6 +13,7 @@ using namespace stride;
 using namespace stride::tests;
 using namespace std::chrono_literals;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 using core::ValueBlock;
 using core::ValueReference;
 using core::ValueType;
@@ -512,6 +513,39 @@ TEST_CASE("a warning of an FMI 2.0 unit is logged and the step is accepted") {
   CHECK(unit.lines[0].status == importer::Status::Warning);
   CHECK(unit.lines[0].category == "logStatus");
   CHECK(unit.lines[0].message == "tank.level is 0.5 m, 50 %");
+}
+
+TEST_CASE("a message is the unit's, whatever it gives for its environment and on which thread") {
+  const int mood = GENERATE(8, 9, 10, 11);
+  Fmi2Fixture unit("fmi2_grumbler");
+  unit.set_number("mood", mood);
+  unit.start();
+  CHECK(unit.step({}, Time(1s)).reached_without_request(Time(1s)));
+  REQUIRE(unit.lines.size() == (mood == 9 ? 2 : 1));
+  CHECK(unit.lines[0].unit == "u1");
+  CHECK(unit.lines[0].category == (mood == 9 ? "" : "logStatus"));
+  CHECK_THAT(unit.lines[0].message, StartsWith("it gets hot"));
+  if (mood == 9) CHECK(unit.lines[1].message.empty());
+}
+
+TEST_CASE("a message of a unit that is gone is lost, and no more", "[here]") {
+  const auto fmu = importer::Fmu::load(test_fmu("fmi2_relaxation"));
+  Fmi2Fixture unit(fmu);
+  const auto callbacks = unit.global<fmi2CallbackFunctions>("fmi2_callbacks");
+  unit.free();
+  callbacks.logger(callbacks.componentEnvironment, "u1", fmi2Warning, "logStatus", "%s", "late");
+  callbacks.logger(nullptr, nullptr, fmi2Warning, nullptr, nullptr);
+  CHECK(unit.lines.empty());
+}
+
+TEST_CASE("the relative tolerance is the one of the unit's default experiment", "[here]") {
+  const auto tolerance = [](const char* name) {
+    Fmi2Fixture unit(name);
+    unit.start();
+    return unit.global<double>("fmi2_tolerance");
+  };
+  CHECK(tolerance("fmi2_relaxation") == 1e-6);
+  CHECK(tolerance("fmi2_grumbler") == 0);
 }
 
 TEST_CASE("a call that the unit does not allow is a failure") {
