@@ -1,7 +1,8 @@
 #include "master/importer/binaries.h"
 
 #include <algorithm>
-#include <cstring>
+#include <cctype>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -63,23 +64,39 @@ std::string how_to_export(const std::vector<std::string>& others) {
   return "export the unit for this platform";
 }
 
-}  // namespace
+std::vector<fs::path> libraries_in(const fs::path& folder) {
+  std::vector<fs::path> libraries = core::folder_entries(folder);
+  std::erase_if(libraries, [](const fs::path& path) { return path.extension() != ".so"; });
+  return libraries;
+}
 
-const char* platform() { return STRIDE_PLATFORM; }
-const char* fmi2_platform() { return STRIDE_FMI2_PLATFORM; }
+std::vector<std::string> file_names(const std::vector<fs::path>& paths) {
+  std::vector<std::string> names;
+  for (const fs::path& path : paths) names.push_back(path.filename().string());
+  return names;
+}
 
-fs::path find_library(const fs::path& fmu_folder, const std::string& fmi_version,
-                      const std::string& model_identifier, const core::Location& where) {
-  const bool is_fmi2 = fmi_version.starts_with("2.");
-  const char* const name = is_fmi2 ? fmi2_platform() : platform();
-  const std::string relative = fmt::format("binaries/{}/{}.so", name, model_identifier);
-  const fs::path library = fmu_folder / relative;
-  if (core::is_file(library)) return library;
-  const core::Context context{.where = where, .unit = model_identifier};
-  if (core::is_folder(library.parent_path())) {
-    core::fail_input(context, fmt::format("the FMU's library '{}' is missing", relative),
-                     "its name must be the modelIdentifier of the model description");
+std::string lower_case(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+/// That of these libraries which is the unit's: of its name, also by another case, or the only one.
+std::optional<fs::path> find_misnamed(const std::vector<fs::path>& libraries,
+                                      const std::string& model_identifier) {
+  const std::string wanted = lower_case(model_identifier);
+  const auto has_name = [&](const fs::path& path) {
+    return lower_case(path.stem().string()) == wanted;
+  };
+  if (std::ranges::count_if(libraries, has_name) == 1) {
+    return *std::ranges::find_if(libraries, has_name);
   }
+  return libraries.size() == 1 ? std::optional(libraries.front()) : std::nullopt;
+}
+
+[[noreturn]] void fail_without_library(const fs::path& fmu_folder, bool is_fmi2,
+                                       const std::string& expected, const core::Context& context) {
+  const char* const name = is_fmi2 ? fmi2_platform() : platform();
   const auto others = folder_names(fmu_folder / "binaries");
   if (!others.empty()) {
     core::fail_input(
@@ -92,7 +109,40 @@ fs::path find_library(const fs::path& fmu_folder, const std::string& fmi_version
       context,
       fmt::format("the FMU has no binaries for {}; it has {}", name,
                   has_sources ? "its source code only" : "none at all"),
-      has_sources ? how_to_compile(is_fmi2, relative) : "export the unit for this platform");
+      has_sources ? how_to_compile(is_fmi2, expected) : "export the unit for this platform");
+}
+
+}  // namespace
+
+const char* platform() { return STRIDE_PLATFORM; }
+const char* fmi2_platform() { return STRIDE_FMI2_PLATFORM; }
+
+FoundLibrary find_library(const fs::path& fmu_folder, const std::string& fmi_version,
+                          const std::string& model_identifier, const core::Location& where) {
+  const bool is_fmi2 = fmi_version.starts_with("2.");
+  const std::vector<std::string> names =
+      is_fmi2 ? std::vector<std::string>{fmi2_platform(), platform()}
+              : std::vector<std::string>{platform(), fmi2_platform()};
+  const std::string expected = fmt::format("binaries/{}/{}.so", names.front(), model_identifier);
+  if (core::is_file(fmu_folder / expected)) return {fmu_folder / expected, ""};
+  const core::Context context{.where = where, .unit = model_identifier};
+  for (const std::string& name : names) {
+    const fs::path folder = fs::path("binaries") / name;
+    const std::vector<fs::path> libraries = libraries_in(fmu_folder / folder);
+    if (libraries.empty()) continue;
+    const auto other = find_misnamed(libraries, model_identifier);
+    if (!other) {
+      core::fail_input(context, fmt::format("the FMU's library '{}' is missing", expected),
+                       fmt::format("its name must be the modelIdentifier of the model description; "
+                                   "there are {}",
+                                   core::quoted(file_names(libraries))));
+    }
+    return {*other,
+            fmt::format("its library is '{}'; expected '{}', by the modelIdentifier of its model "
+                        "description and the platform's name",
+                        (folder / other->filename()).string(), expected)};
+  }
+  fail_without_library(fmu_folder, is_fmi2, expected, context);
 }
 
 }  // namespace stride::importer

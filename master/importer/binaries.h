@@ -14,13 +14,18 @@ const char* platform();
 /// Likewise that of FMI 2.0 ("linux64"), which knows the tuple where it has no name of its own.
 const char* fmi2_platform();
 
-/// The path of the library of this name in an unpacked FMU of this version, "2.0" or "3.0". Throws
+struct FoundLibrary {
+  std::filesystem::path path;
+  std::string warning;  ///< if it is not named as the standard wants it
+};
+
+/// The library in an unpacked FMU of this version, "2.0" or "3.0". It is the one of this name in
+/// the folder of this platform; if there is none, the one of the name in another case, or the only
+/// one, there or in the folder that has the platform's name of the other version. Throws
 /// core::Error of the kind Input that lists the platforms that there are, if it is not built for
 /// this one, and states how to get such a library.
-std::filesystem::path find_library(const std::filesystem::path& fmu_folder,
-                                   const std::string& fmi_version,
-                                   const std::string& model_identifier,
-                                   const core::Location& where = {});
+FoundLibrary find_library(const std::filesystem::path& fmu_folder, const std::string& fmi_version,
+                          const std::string& model_identifier, const core::Location& where = {});
 
 }  // namespace stride::importer
 

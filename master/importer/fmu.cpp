@@ -76,8 +76,9 @@ class Tenancy {
 
 }  // namespace
 
-std::shared_ptr<Fmu> Fmu::load(const fs::path& path, const core::Location& where) {
-  const std::shared_ptr<Fmu> fmu(new Fmu(path, where));
+std::shared_ptr<Fmu> Fmu::load(const fs::path& path, const core::Location& where,
+                               const fs::path& shown_as) {
+  const std::shared_ptr<Fmu> fmu(new Fmu(path, where, shown_as.empty() ? path : shown_as));
   if (path.extension() == ".so" && core::is_file(path)) {
     fmu->read_bare_library();
   } else {
@@ -86,17 +87,18 @@ std::shared_ptr<Fmu> Fmu::load(const fs::path& path, const core::Location& where
   return fmu;
 }
 
-Fmu::Fmu(fs::path path, core::Location where) : path_(std::move(path)), where_(std::move(where)) {}
+Fmu::Fmu(fs::path path, core::Location where, fs::path shown_as)
+    : path_(std::move(path)), shown_as_(std::move(shown_as)), where_(std::move(where)) {}
 
 void Fmu::read_folder() {
   unpacked_.emplace(path_, where_);
   resources_ = unpacked_->folder() / "resources";
-  const std::string shown_as = (path_ / "modelDescription.xml").string();
+  const std::string shown_as = (shown_as_ / "modelDescription.xml").string();
   auto description = std::make_shared<ModelDescription>(
       read_model_description(unpacked_->folder() / "modelDescription.xml", shown_as));
   const fs::path manifest = unpacked_->folder() / STRIDE_IDLE_MANIFEST;
   if (!description->fmi2 && core::path_exists(manifest)) {  // its functions are in terms of FMI 3.0
-    read_idle_manifest(manifest, (path_ / STRIDE_IDLE_MANIFEST).string(), *description);
+    read_idle_manifest(manifest, (shown_as_ / STRIDE_IDLE_MANIFEST).string(), *description);
   }
   description_ = std::move(description);
 }
@@ -106,17 +108,19 @@ void Fmu::read_bare_library() {
   resources_ = fs::absolute(path_).parent_path() / "resources";
   const std::string text = fmi3_library_->describe(resources_, where_);
   auto description = std::make_shared<ModelDescription>(
-      parse_model_description(text, path_.string() + ": its own description"));
+      parse_model_description(text, shown_as_.string() + ": its own description"));
   const std::string manifest = fmi3_library_->idle_manifest(resources_, where_);
   if (!manifest.empty()) {
-    parse_idle_manifest(manifest, path_.string() + ": its own idle manifest", *description);
+    parse_idle_manifest(manifest, shown_as_.string() + ": its own idle manifest", *description);
   }
   description_ = std::move(description);
 }
 
-fs::path Fmu::library_path() const {
-  return find_library(unpacked_->folder(), description_->fmi_version,
-                      description_->model_identifier, where_);
+fs::path Fmu::library_path() {
+  const FoundLibrary found = find_library(unpacked_->folder(), description_->fmi_version,
+                                          description_->model_identifier, where_);
+  library_warning_ = found.warning;
+  return found.path;
 }
 
 std::shared_ptr<const SharedLibrary> Fmu::load_library() {
@@ -142,10 +146,12 @@ std::shared_ptr<const Fmi3Library> Fmu::load_fmi3_library() {
   return fmi3_library_;
 }
 
-/// Of the process, when the library was loaded.
-void Fmu::warn_of_changes(const std::string& name, const InstanceOptions& options) {
+/// Of its name, and of what its loading has changed of the process.
+void Fmu::warn_of_library(const std::string& name, const InstanceOptions& options) {
   const std::vector<std::string>& changes = load_library()->changes();
-  if (changes.empty() || !options.log || has_warned_of_changes_.exchange(true)) return;
+  if (!options.log || has_warned_of_library_.exchange(true)) return;
+  if (!library_warning_.empty()) options.log(name, Status::Warning, "stride", library_warning_);
+  if (changes.empty()) return;
   options.log(name, Status::Warning, "stride",
               fmt::format("the loading of its library changed {}, which all code in the process "
                           "shares; it is put back: link the unit without -ffast-math, and let "
@@ -155,16 +161,17 @@ void Fmu::warn_of_changes(const std::string& name, const InstanceOptions& option
 
 std::unique_ptr<core::Unit> Fmu::instantiate(const std::string& name, InstanceOptions options) {
   if (description_->needs_execution_tool && options.log) {
-    options.log(name, Status::Ok, "stride",
-                fmt::format("'{}' needs the tool that made it ({}) on this machine", path_.string(),
-                            description_->generation_tool.empty() ? "which it does not name"
-                                                                  : description_->generation_tool));
+    options.log(
+        name, Status::Ok, "stride",
+        fmt::format("'{}' needs the tool that made it ({}) on this machine", shown_as_.string(),
+                    description_->generation_tool.empty() ? "which it does not name"
+                                                          : description_->generation_tool));
   }
   // also read by the library when it is loaded
   if (!options.results.empty()) ::setenv("STRIDE_RESULTS", options.results.c_str(), 1);
   if (++instances_ > kMostWatched) options.process = nullptr;
   load_library();  // whose errors come before those of the instance
-  warn_of_changes(name, options);
+  warn_of_library(name, options);
   const auto tenancy = std::make_shared<Tenancy>(shared_from_this(), name, options.where);
   UnitParts parts{options.description ? options.description : description_, "", tenancy};
   if (description_->fmi2) {

@@ -28,11 +28,13 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
  public:
   /// Reads the description; the library of an archive or folder is not loaded yet, so units of
   /// other platforms can be inspected. Throws core::Error of the kind Input; `where` is the place
-  /// that names the unit.
+  /// that names the unit, and `shown_as` its path in messages, if that is another one.
   static std::shared_ptr<Fmu> load(const std::filesystem::path& path,
-                                   const core::Location& where = {});
+                                   const core::Location& where = {},
+                                   const std::filesystem::path& shown_as = {});
 
-  const std::filesystem::path& path() const { return path_; }
+  /// As it is shown in messages.
+  const std::filesystem::path& path() const { return shown_as_; }
   std::shared_ptr<const core::UnitDescription> description() const { return description_; }
 
   /// Where its files are: the unpacked archive, or the folder itself. Empty for a bare library.
@@ -55,13 +57,14 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   std::unique_ptr<core::Unit> instantiate(const std::string& name, InstanceOptions options = {});
 
  private:
-  Fmu(std::filesystem::path path, core::Location where);
+  Fmu(std::filesystem::path path, core::Location where, std::filesystem::path shown_as);
   void read_folder();
   void read_bare_library();
-  void warn_of_changes(const std::string& name, const InstanceOptions& options);
-  std::filesystem::path library_path() const;
+  void warn_of_library(const std::string& name, const InstanceOptions& options);
+  std::filesystem::path library_path();
 
   std::filesystem::path path_;
+  std::filesystem::path shown_as_;
   core::Location where_;
   std::optional<UnpackedFmu> unpacked_;
   std::filesystem::path resources_;
@@ -69,7 +72,8 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   std::mutex library_mutex_;
   std::shared_ptr<const Fmi2Library> fmi2_library_;
   std::shared_ptr<const Fmi3Library> fmi3_library_;
-  std::atomic<bool> has_warned_of_changes_ = false;
+  std::string library_warning_;  ///< when it is loaded
+  std::atomic<bool> has_warned_of_library_ = false;
   std::atomic<std::size_t> instances_ = 0;  ///< made so far
 };
 

@@ -21,7 +21,7 @@ ModelDescription read(const xml::Document& document) {
     root.fail(fmt::format("the document is a {}; expected <fmiModelDescription>", root.tag()));
   }
   ModelDescription unit;
-  if (!document.warning().empty()) unit.warnings.push_back(document.warning());
+  unit.warnings = document.warnings();
   unit.fmi_version = root.required("fmiVersion");
   const bool is_fmi2 = unit.fmi_version.starts_with("2.");
   if (!is_fmi2 && !unit.fmi_version.starts_with("3.")) fail_version(root, unit.fmi_version);

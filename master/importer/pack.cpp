@@ -75,7 +75,7 @@ PackRequest with_library_of(const fs::path& fmu, PackRequest request) {
                      "name the folder that it is to be packed again with: --resources FOLDER");
   }
   const auto description = read_model_description(fmu / "modelDescription.xml");
-  request.library = find_library(fmu, description.fmi_version, description.model_identifier);
+  request.library = find_library(fmu, description.fmi_version, description.model_identifier).path;
   // sorted: the order in which they are loaded
   std::vector<fs::path> beside = core::folder_entries(request.library.parent_path());
   std::erase(beside, request.library);

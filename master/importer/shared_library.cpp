@@ -38,6 +38,20 @@ bool is_of_python(std::string_view symbol) {
   return symbol.size() > 2 && symbol.substr(0, 2) == "Py" && is_upper(symbol[2]);
 }
 
+std::string hint_for(const std::string& reason) {
+  const auto says = [&](const char* words) { return reason.find(words) != std::string::npos; };
+  if (says("executable stack")) {
+    return "this system allows none; if the unit does not need it, which is usual, clear the flag "
+           "(patchelf --clear-execstack), or compile the unit with -z noexecstack";
+  }
+  if (says("version `") && says("not found")) {
+    return "the unit was built on a newer system than this one; build it here, or run stride on "
+           "such a system";
+  }
+  if (says("wrong ELF class")) return "it is not for as many bits as this program";
+  return fmt::format("expected a shared library for {}", platform());
+}
+
 /// Turns the loader's message (glibc's dlerror) into what is missing and how to get it.
 [[noreturn]] void fail_to_load(const fs::path& path, const std::string& reason,
                                const core::Location& where) {
@@ -61,8 +75,7 @@ bool is_of_python(std::string_view symbol) {
                                  head, symbol),
                      is_of_python(symbol) ? kPythonHint : kSymbolHint);
   }
-  core::fail_input(context, head + reason,
-                   fmt::format("expected a shared library for {}", platform()));
+  core::fail_input(context, head + reason, hint_for(reason));
 }
 
 std::atomic<const char*> loaded_now{nullptr};

@@ -39,8 +39,10 @@ void pack_unit(const std::string& unit, const fs::path& resources, const fs::pat
                const importer::PackRequest& request) {
   const importer::UnpackedFmu unpacked(find_unit(unit + ".fmu", {}));
   try {
-    importer::pack(
-        {importer::find_library(unpacked.folder(), "3.0", unit), resources, {}, request.output});
+    importer::pack({importer::find_library(unpacked.folder(), "3.0", unit).path,
+                    resources,
+                    {},
+                    request.output});
   } catch (const core::Error& failure) {
     core::fail_input({}, shown(failure.what(), file, request.library));
   }

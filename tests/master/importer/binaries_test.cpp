@@ -21,13 +21,41 @@ TEST_CASE("the library of an FMU is in the folder of this platform, by its versi
   const std::string fmi3 = std::string("binaries/") + importer::platform() + "/tank.so";
   const std::string fmi2 = std::string("binaries/") + importer::fmi2_platform() + "/tank.so";
   scratch.write(fmi3, "");
-  CHECK_THAT(find_error(scratch, "2.0"),
-             Contains("no binaries for " + std::string(importer::fmi2_platform())));
   scratch.write(fmi2, "");
-  CHECK(importer::find_library(scratch.path(), "3.0", "tank") == scratch / fmi3);
-  CHECK(importer::find_library(scratch.path(), "2.0", "tank") == scratch / fmi2);
+  for (const auto& [version, path] : {std::pair("3.0", fmi3), std::pair("2.0", fmi2)}) {
+    const importer::FoundLibrary found = importer::find_library(scratch.path(), version, "tank");
+    CHECK(found.path == scratch / path);
+    CHECK(found.warning.empty());
+  }
+}
+
+TEST_CASE("a library that is not named as it should be is found where it cannot be another one") {
+  const auto [folder, name] =
+      GENERATE(table<std::string, std::string>({{importer::platform(), "Tank.so"},
+                                                {importer::platform(), "tank-2.so"},
+                                                {importer::fmi2_platform(), "tank.so"},
+                                                {importer::fmi2_platform(), "TANK.so"}}));
+  const Scratch scratch;
+  const std::string path = "binaries/" + folder + "/" + name;
+  scratch.write(path, "");
+  scratch.write("binaries/" + folder + "/notes.txt", "");
+  const importer::FoundLibrary found = importer::find_library(scratch.path(), "3.0", "tank");
+  CHECK(found.path == scratch / path);
+  CHECK_THAT(found.warning,
+             Contains("its library is '" + path + "'") &&
+                 Contains("expected 'binaries/" + std::string(importer::platform()) + "/tank.so'"));
+}
+
+TEST_CASE("of several libraries the one of the name is the unit's, or none") {
+  const Scratch scratch;
+  const std::string folder = std::string("binaries/") + importer::platform() + "/";
+  scratch.write(folder + "helper.so", "");
+  scratch.write(folder + "TANK.so", "");
+  CHECK(importer::find_library(scratch.path(), "3.0", "tank").path ==
+        scratch / (folder + "TANK.so"));
   CHECK_THAT(input_error([&] { importer::find_library(scratch.path(), "3.0", "other"); }),
-             Contains("other.so' is missing") && Contains("modelIdentifier"));
+             Contains("other.so' is missing") && Contains("modelIdentifier") &&
+                 Contains("there are 'TANK.so', 'helper.so'"));
 }
 
 TEST_CASE("the error of an FMU for other platforms lists them") {
