@@ -1,5 +1,7 @@
 #include "master/model/unit_of_measure.h"
 
+#include <string_view>
+
 #include "master/util/xml/element.h"
 
 namespace stride::core {
@@ -14,10 +16,21 @@ BaseUnitOfMeasure read_base_unit(const xml::Element& element) {
   return unit;
 }
 
+namespace {
+
+/// Some tools write [m] for m.
+std::string_view without_brackets(std::string_view name) {
+  const bool has_brackets = name.starts_with('[') && name.ends_with(']');
+  return has_brackets ? name.substr(1, name.size() - 2) : name;
+}
+
+}  // namespace
+
 std::optional<LinearConversion> convert(const UnitOfMeasure& from, const UnitOfMeasure& to) {
   if (from.name.empty() || to.name.empty()) return LinearConversion{};
   if (!from.meaning || !to.meaning) {
-    return from.name == to.name ? std::optional(LinearConversion{}) : std::nullopt;
+    const bool is_same = without_brackets(from.name) == without_brackets(to.name);
+    return is_same ? std::optional(LinearConversion{}) : std::nullopt;
   }
   const BaseUnitOfMeasure& a = *from.meaning;
   const BaseUnitOfMeasure& b = *to.meaning;

@@ -27,7 +27,7 @@ inline constexpr std::array<const char*, 8> kBaseUnits{"kg", "m",   "s",  "A",
 BaseUnitOfMeasure read_base_unit(const xml::Element& element);
 
 /// A unit of measure by its name; an empty name: none is declared. Without a meaning it equals
-/// those of the same name only.
+/// those of the same name only, which may be in brackets.
 struct UnitOfMeasure {
   std::string name{};
   std::optional<BaseUnitOfMeasure> meaning{};

@@ -21,8 +21,10 @@ namespace {
 constexpr const char* kType = "org.stride";
 
 void collect(const xml::Element& element, std::vector<xml::Element>& found) {
-  if (element.is(ssp::kSsc, "Annotation") && element.attribute("type") == kType) {
-    found.push_back(element);
+  if (element.local_name() == "Annotation") {  // those of other tools may hold anything
+    if (element.is(ssp::kSsc, "Annotation") && element.attribute("type") == kType) {
+      found.push_back(element);
+    }
     return;
   }
   for (const xml::Element& child : element.children()) collect(child, found);

@@ -102,7 +102,7 @@ std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario) 
     if (!named) {
       const auto path = find_unit_shown_as(source, scenario.files->shown(source), where);
       auto& fmu = by_path[path];
-      if (!fmu) fmu = importer::Fmu::load(path, where);
+      if (!fmu) fmu = importer::Fmu::load(path, where, scenario.files->shown(path));
       named = fmu;
     }
     fmus.push_back(named);
@@ -195,6 +195,10 @@ void LoadedScenario::choose_times(const ScenarioRequest& request) {
     core::fail_input(of_file(), "the scenario has no stop time",
                      "use --stop SECONDS, or write <ssd:DefaultExperiment stopTime=\"…\"/>");
   }
+  if (options_.stop == options_.start) {
+    spdlog::warn("the run ends where it starts, at {} s, so it has initial values only",
+                 core::to_text(options_.start));
+  }
   if (options_.stop < options_.start) {
     core::fail_input(of_file(),
                      fmt::format("the stop time {} s is before the start time {} s",
@@ -210,6 +214,15 @@ void LoadedScenario::choose_steps(const StepSettings& request) {
     if (step) unit_step = std::min(unit_step.value_or(*step), *step);
   }
   options_.step.size = unit_step.value_or(kDefaultStep);
+  const auto& vendor = scenario_.vendor_step;
+  const bool has_own_step = scenario_.annotation.step.size || request.size;
+  if (vendor && !has_own_step) {
+    options_.step.size = vendor->size;
+    spdlog::warn(
+        "{}:{}: the step is {} s, as {} of another tool has it; <stride:Step size=\"…\"/> "
+        "or --step sets another one",
+        vendor->where.file, vendor->where.line, core::to_text(vendor->size), vendor->tag);
+  }
   scenario_.annotation.step.apply(options_);
   request.apply(options_);
   if (options_.step.maximum && *options_.step.maximum < options_.step.minimum) {

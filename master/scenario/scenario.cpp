@@ -69,6 +69,7 @@ Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& opt
   scenario.warnings.insert(scenario.warnings.begin(), of_files.begin(), of_files.end());
   read_default_experiment(root, scenario);
   scenario.annotation = read_annotation(root);
+  scenario.vendor_step = find_vendor_step(root);
   return scenario;
 }
 

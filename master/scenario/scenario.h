@@ -12,6 +12,7 @@
 
 #include "master/model/system.h"
 #include "master/scenario/annotation.h"
+#include "master/scenario/vendor_step.h"
 #include "master/ssp/files.h"
 #include "master/ssp/system_tree.h"
 
@@ -28,8 +29,9 @@ struct Scenario {
   std::optional<Time> start;  ///< of the DefaultExperiment
   std::optional<Time> stop;
   ScenarioAnnotation annotation;
-  std::vector<std::string> warnings;  ///< of what is odd, but no mistake
-  std::shared_ptr<ssp::Files> files;  ///< holds the folders that packages are unpacked to
+  std::vector<std::string> warnings;      ///< of what is odd, but no mistake
+  std::optional<VendorStep> vendor_step;  ///< of another tool
+  std::shared_ptr<ssp::Files> files;      ///< holds the folders that packages are unpacked to
 };
 
 /// A name for the results of a scenario: that of its file, or of its folder.

@@ -17,7 +17,9 @@ std::vector<std::string> known_units(const std::vector<fs::path>& folders) {
   std::vector<std::string> names;
   for (const fs::path& folder : folders) {
     for (const fs::path& unit : core::folder_entries(folder)) {
-      names.push_back(unit.filename().string());
+      const bool is_unit = unit.extension() == ".fmu" || unit.extension() == ".so" ||
+                           core::path_exists(unit / "modelDescription.xml");
+      if (is_unit) names.push_back(unit.filename().string());
     }
   }
   return names;

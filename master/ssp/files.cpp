@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "master/ssp/ssp.h"
 #include "master/util/input_file.h"
 #include "master/util/suggest.h"
 
@@ -113,8 +114,8 @@ std::string Files::shown(const fs::path& path) const {
 }
 
 xml::Document Files::read(const fs::path& path) {
-  xml::Document document(path, shown(path));
-  if (!document.warning().empty()) warnings_.push_back(document.warning());
+  xml::Document document(path, shown(path), kPrefixes);
+  warnings_.insert(warnings_.end(), document.warnings().begin(), document.warnings().end());
   return document;
 }
 

@@ -267,13 +267,20 @@ std::vector<ParameterValue> read_binding(const xml::Element& binding,
 std::vector<ParameterValue> read_parameters(const xml::Element& owner,
                                             const BindingContext& context) {
   std::vector<ParameterValue> values;
-  const auto bindings = owner.child({kSsd, "ParameterBindings"});
-  if (!bindings) return values;
-  bindings->allow_children({{kSsd, "ParameterBinding"}});
-  for (const xml::Element& binding : bindings->children()) {
-    std::vector<ParameterValue> read = read_binding(binding, context);
-    values.insert(values.end(), std::make_move_iterator(read.begin()),
-                  std::make_move_iterator(read.end()));
+  const std::vector<xml::Element> lists = owner.children({kSsd, "ParameterBindings"});
+  for (const xml::Element& bindings : lists) {
+    bindings.allow_children({{kSsd, "ParameterBinding"}});
+    for (const xml::Element& binding : bindings.children()) {
+      std::vector<ParameterValue> read = read_binding(binding, context);
+      values.insert(values.end(), std::make_move_iterator(read.begin()),
+                    std::make_move_iterator(read.end()));
+    }
+  }
+  if (lists.size() > 1) {
+    const core::Location where = lists[1].where();
+    context.warnings.push_back(
+        fmt::format("{}:{}: a second {} in {}: both are used, though SSP allows one only",
+                    where.file, where.line, lists[1].tag(), owner.tag()));
   }
   return values;
 }

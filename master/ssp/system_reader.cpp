@@ -188,6 +188,11 @@ class SystemReader {
     }
   }
 
+  void warn(const xml::Element& element, const std::string& message) {
+    const core::Location where = element.where();
+    reading_.warnings.push_back(fmt::format("{}:{}: {}", where.file, where.line, message));
+  }
+
   static std::string type_of(const xml::Element& component) {
     if (const auto type = component.attribute("type")) return *type;
     const std::string source = component.required("source");
@@ -201,7 +206,7 @@ class SystemReader {
     return type == kSystemType || type == kPackageType;
   }
 
-  static void check_implementation(const xml::Element& component) {
+  void check_implementation(const xml::Element& component) {
     const std::string type = type_of(component);
     if (type != kFmuType) {
       component.fail_unsupported(fmt::format("components of the type '{}'", type),
@@ -209,10 +214,11 @@ class SystemReader {
                                              kSystemType, kPackageType));
     }
     const std::string implementation = component.attribute_or("implementation", "any");
-    if (implementation != "any" && implementation != "CoSimulation") {
-      component.fail_unsupported(fmt::format("FMUs for '{}'", implementation),
-                                 "only FMUs for Co-Simulation are run");
-    }
+    if (implementation == "any" || implementation == "CoSimulation") return;
+    warn(component,
+         fmt::format("the FMU is meant for '{}'; stride uses its Co-Simulation interface, "
+                     "if it has one",
+                     implementation));
   }
 
   SystemNode read_component_system(const xml::Element& component) {

@@ -1,11 +1,14 @@
 #include "master/ssp/uri.h"
 
+#include <algorithm>
 #include <cctype>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "master/util/hex.h"
+#include "master/util/input_file.h"
 
 namespace stride::ssp {
 namespace {
@@ -41,19 +44,55 @@ std::string percent_decoded(std::string_view text, const xml::Element& element) 
   return decoded;
 }
 
+using FoundFile = std::optional<std::filesystem::path>;
+
+/// What this path leads to, as it is written.
+FoundFile if_there(const std::filesystem::path& path) {
+  return core::path_exists(path) ? FoundFile(path.lexically_normal()) : std::nullopt;
+}
+
+/// Where tools mean a file that is not where the path leads to: with the separators of Windows, and
+/// in the folder of a package's resources.
+FoundFile find_elsewhere(std::string path, const std::filesystem::path& folder) {
+  if (core::path_exists(folder / path)) return std::nullopt;
+  std::ranges::replace(path, '\\', '/');
+  if (const FoundFile found = if_there(folder / path)) return found;
+  return if_there(folder / "resources" / path);
+}
+
+[[noreturn]] void fail_scheme(const xml::Element& element, const std::string& source,
+                              const std::string& scheme) {
+  if (scheme == "proxyfmu") {
+    element.fail(
+        fmt::format("source=\"{}\": this asks for a server, proxy-fmu, that runs an FMU in another "
+                    "process",
+                    source),
+        "name the FMU itself, and give it a process of its own with <stride:Host "
+        "components=\"…\"/> "
+        "or --isolate");
+  }
+  if (scheme.size() == 1) {
+    element.fail(fmt::format("source=\"{}\" is a path of Windows", source),
+                 "name the file relative to this one");
+  }
+  element.fail(fmt::format("source=\"{}\": only files can be read, not '{}:'", source, scheme),
+               "download it, and name the file relative to this one");
+}
+
 }  // namespace
 
 Source source_of(const xml::Element& element, const std::filesystem::path& folder) {
   const std::string source = element.required("source");
+  if (source.find_first_of("%?#:") != source.npos) {
+    if (const FoundFile literal = if_there(folder / source)) return {*literal, ""};
+  }
   std::string_view rest = source;
   const std::string scheme = take_scheme(rest);
-  if (!scheme.empty() && scheme != "file") {
-    element.fail(fmt::format("source=\"{}\": only files can be read, not '{}:'", source, scheme),
-                 "download it, and name the file relative to this one");
-  }
+  if (!scheme.empty() && scheme != "file") fail_scheme(element, source, scheme);
   if (rest.substr(0, 2) == "//") {
     const std::size_t path = rest.find('/', 2);
     const std::string_view host = rest.substr(2, path - 2);
+    if (const FoundFile relative = if_there(folder / rest.substr(2))) return {*relative, ""};
     if (path == std::string_view::npos || (!host.empty() && host != "localhost")) {
       element.fail(fmt::format("source=\"{}\" names a file on another machine", source),
                    "write file:///path for a file on this one");
@@ -67,7 +106,8 @@ Source source_of(const xml::Element& element, const std::filesystem::path& folde
     element.fail(fmt::format("source=\"{}\" has a query", source),
                  "write %3F if the file's name has a '?'");
   }
-  return {(folder / percent_decoded(rest, element)).lexically_normal(),
+  const std::string path = percent_decoded(rest, element);
+  return {find_elsewhere(path, folder).value_or((folder / path).lexically_normal()),
           percent_decoded(fragment, element)};
 }
 

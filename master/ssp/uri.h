@@ -15,8 +15,10 @@ struct Source {
   std::string fragment;  ///< what is behind a '#', a part of the file
 };
 
-/// A URI (RFC 3986) relative to `folder`, or with the scheme file. Throws core::Error (Input) for
-/// any other scheme, a query or a malformed escape.
+/// A URI (RFC 3986) relative to `folder`, or with the scheme file. What is no such URI, and names a
+/// file as it is written, is this file; a path that leads to none is also looked for with '\\' as
+/// its separator, and in the folder `resources`. Throws core::Error (Input) for any other scheme, a
+/// query or a malformed escape.
 Source source_of(const xml::Element& element, const std::filesystem::path& folder);
 
 /// Likewise, where a fragment is refused, too.

@@ -76,28 +76,59 @@ std::size_t count_elements(const tinyxml2::XMLNode& node) {
   return count;
 }
 
+/// The first element whose name begins so, and that is in none with this attribute.
+const tinyxml2::XMLElement* find_undeclared(const tinyxml2::XMLElement& below,
+                                            const std::string& begin,
+                                            const std::string& attribute) {
+  if (below.Attribute(attribute.c_str()) != nullptr) return nullptr;
+  if (std::string_view(below.Name()).starts_with(begin)) return &below;
+  for (const auto* child = below.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    if (const auto* found = find_undeclared(*child, begin, attribute)) return found;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 struct Document::Content {
   std::string file;
-  DecodedText decoded;
+  std::string text;
+  std::vector<std::string> warnings;
   tinyxml2::XMLDocument document;
 };
 
-Document::Document(const std::filesystem::path& path, const std::string& shown_as)
-    : Document(
-          parse(core::read_input(path, shown_as), shown_as.empty() ? path.string() : shown_as)) {}
+/// Where it is used without a declaration, the root gets one.
+void Document::declare(const Prefix& prefix, tinyxml2::XMLElement& root, Content& content) {
+  const std::string attribute = fmt::format("xmlns:{}", prefix.name);
+  if (root.Attribute(attribute.c_str()) != nullptr) return;
+  const std::string begin = fmt::format("{}:", prefix.name);
+  const auto* const user = find_undeclared(root, begin, attribute);
+  if (user == nullptr) return;
+  content.warnings.push_back(
+      fmt::format("{}:{}: the prefix '{}' of <{}> is not declared; it is taken for {}",
+                  content.file, user->GetLineNum(), prefix.name, user->Name(), prefix.name_space));
+  root.SetAttribute(attribute.c_str(), prefix.name_space);
+}
+
+Document::Document(const std::filesystem::path& path, const std::string& shown_as,
+                   std::span<const Prefix> known)
+    : Document(parse(core::read_input(path, shown_as), shown_as.empty() ? path.string() : shown_as,
+                     known)) {}
 
 Document::Document(std::unique_ptr<Content> content) : content_(std::move(content)) {}
 Document::~Document() = default;
 Document::Document(Document&&) noexcept = default;
 Document& Document::operator=(Document&&) noexcept = default;
 
-Document Document::parse(std::string bytes, const std::string& shown_as) {
+Document Document::parse(std::string bytes, const std::string& shown_as,
+                         std::span<const Prefix> known) {
   auto content = std::make_unique<Content>();
   content->file = shown_as;
-  content->decoded = decode_text(std::move(bytes), shown_as);
-  const std::string& text = content->decoded.text;
+  DecodedText decoded = decode_text(std::move(bytes), shown_as);
+  if (!decoded.warning.empty()) content->warnings.push_back(std::move(decoded.warning));
+  content->text = std::move(decoded.text);
+  const std::string& text = content->text;
   check_attributes(text, shown_as);
   tinyxml2::XMLDocument& document = content->document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
@@ -105,7 +136,7 @@ Document Document::parse(std::string bytes, const std::string& shown_as) {
                      fmt::format("this is not well-formed XML: {}", words_for(document.ErrorID())),
                      "look for a missing end tag or quotation mark in or above this line");
   }
-  const tinyxml2::XMLElement* root = document.RootElement();
+  tinyxml2::XMLElement* const root = document.RootElement();
   if (root == nullptr) fail(shown_as, "the file holds no XML element");
   if (const auto* second = root->NextSiblingElement()) {
     Element(*second, shown_as).fail(fmt::format("a second root element <{}>", second->Name()));
@@ -114,12 +145,13 @@ Document Document::parse(std::string bytes, const std::string& shown_as) {
     fail(shown_as, "this is not well-formed XML: there is an end tag with a '/' at its end",
          "write </name> to end an element, and <name/> for an empty one");
   }
+  for (const Prefix& prefix : known) declare(prefix, *root, *content);
   return Document(std::move(content));
 }
 
-const std::string& Document::text() const { return content_->decoded.text; }
+const std::string& Document::text() const { return content_->text; }
 
-const std::string& Document::warning() const { return content_->decoded.warning; }
+const std::vector<std::string>& Document::warnings() const { return content_->warnings; }
 
 Element Document::root() const { return {*content_->document.RootElement(), content_->file}; }
 

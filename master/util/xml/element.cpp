@@ -62,6 +62,8 @@ Name Element::name() const {
   return {uri.value_or(std::string_view{}), local(qualified)};
 }
 
+std::string_view Element::local_name() const { return local(element_->Name()); }
+
 std::string Element::tag() const { return fmt::format("<{}>", element_->Name()); }
 
 core::Location Element::where() const { return {*file_, element_->GetLineNum()}; }

@@ -53,6 +53,8 @@ class Element {
   bool is(std::string_view name_space, std::string_view local) const {
     return name() == Name(name_space, local);
   }
+  /// Without its prefix, which may be one that is not declared.
+  std::string_view local_name() const;
   /// As it is written: "<ssd:Component>".
   std::string tag() const;
   core::Location where() const;

@@ -48,7 +48,7 @@ TEST_CASE("texts of wide characters are read, with a byte order mark or without"
   const std::string bytes = wide(size, little_endian, mark);
   CHECK(xml::decode(bytes, "x.xml").text == kText);
   const auto document = xml::Document::parse(bytes, "x.xml");
-  CHECK(document.warning().empty());
+  CHECK(document.warnings().empty());
   const xml::Element b = *document.root().child("b");
   CHECK(b.required("name") == kName);
   CHECK(b.where().line == 4);
@@ -82,7 +82,7 @@ TEST_CASE("wrongly declared bytes are taken for Windows-1252, with a warning for
       "<?xml version='1.0' encoding='UTF-8'?>\n<a\nname='\u00f6 \xf6 \x80 \x81'/>";
   const auto document = xml::Document::parse(bytes, "x.xml");
   CHECK(document.root().required("name") == "\u00f6 \u00f6 \u20ac \ufffd");
-  CHECK_THAT(document.warning(),
+  CHECK_THAT(document.warnings().at(0),
              Contains("x.xml:3: ") && Contains("no UTF-8") && Contains("taken for Windows-1252"));
 }
 
@@ -90,7 +90,7 @@ TEST_CASE("bytes that are none of the declared encoding are replaced, with a war
   const auto document =
       xml::Document::parse(declared("Shift_JIS", "\x83\x82 \xff\xff \x83\x66"), "x.xml");
   CHECK(document.root().required("name") == "\u30e2 \ufffd\ufffd \u30c7");
-  CHECK_THAT(document.warning(), Contains("x.xml:2: ") && Contains("shift_jis"));
+  CHECK_THAT(document.warnings().at(0), Contains("x.xml:2: ") && Contains("shift_jis"));
   const std::string half = wide(2, true, true) + "x";
   CHECK_THAT(xml::decode(half, "x.xml").warning, Contains("x.xml:4: ") && Contains("UTF-16LE"));
   const std::string lone_surrogate = "<\0a\0\0\xd8/\0>\0"s;

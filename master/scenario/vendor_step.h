@@ -1,0 +1,28 @@
+// What the annotations of other tools say of the communication step.
+#ifndef STRIDE_MASTER_SCENARIO_VENDOR_STEP_H
+#define STRIDE_MASTER_SCENARIO_VENDOR_STEP_H
+
+#include <optional>
+#include <string>
+
+#include <stride/time.h>
+
+#include "master/util/error.h"
+#include "master/util/xml/element.h"
+
+namespace stride::scenario {
+
+struct VendorStep {
+  Duration size{};
+  std::string tag;  ///< of the element that gives it
+  core::Location where;
+};
+
+/// The fixed step of a <ssd:SystemStructureDescription>: the attribute baseStepSize of a
+/// FixedStepAlgorithm (Open Simulation Platform), or stepSize of a FixedStepMaster (OMSimulator),
+/// the first one in any annotation. One that is no step is ignored.
+std::optional<VendorStep> find_vendor_step(const xml::Element& root);
+
+}  // namespace stride::scenario
+
+#endif
