@@ -62,12 +62,8 @@ std::string_view describe_end(int signal, std::span<char> text) {
 
 /// What the process does while it calls no unit.
 std::string outside_of_calls() {
-  if (const char* const library = importer::unfinished_loading()) {
-    return fmt::format(" in the loading of '{}'", library);
-  }
-  if (const char* const library = importer::unfinished_unloading()) {
-    return fmt::format(" in the unloading of '{}'", library);
-  }
+  const auto [work, library] = importer::unfinished_library_work();
+  if (library != nullptr) return fmt::format(" in the {} of '{}'", work, library);
   return guarded.is_leaving ? " in a destructor or an exit function of a library, after the command"
                             : ", in no call of a unit";
 }
