@@ -1,7 +1,9 @@
 #include "master/cli/crash_error.h"
 
 #include <algorithm>
+#include <csignal>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,6 +12,14 @@
 
 namespace stride::cli {
 namespace {
+
+template <class... Arguments>
+std::string_view format_into(std::span<char> text, fmt::format_string<Arguments...> format,
+                             Arguments&&... arguments) {
+  const auto end =
+      fmt::format_to_n(text.data(), text.size(), format, std::forward<Arguments>(arguments)...);
+  return {text.data(), std::min(end.size, text.size())};
+}
 
 /// What the process does while it calls no unit.
 std::string outside_of_calls(bool is_leaving) {
@@ -22,11 +32,9 @@ std::string outside_of_calls(bool is_leaving) {
 }  // namespace
 
 std::string_view describe_end(int signal, std::span<char> text) {
-  const auto end = signal == 0
-                       ? fmt::format_to_n(text.data(), text.size(), "exit() ends stride")
-                       : fmt::format_to_n(text.data(), text.size(), "signal {} ({}) ends stride",
-                                          signal, isolation::signal_name(signal));
-  return {text.data(), std::min(end.size, text.size())};
+  if (signal == 0) return "exit() ends stride";
+  if (signal == SIGALRM) return format_into(text, "stride has not ended for {} s", kLongestEnd);
+  return format_into(text, "signal {} ({}) ends stride", signal, isolation::signal_name(signal));
 }
 
 core::Error error_of(std::string_view end, std::span<const importer::UnitCall> calls,

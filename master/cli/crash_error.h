@@ -10,7 +10,11 @@
 
 namespace stride::cli {
 
-/// How the process ends, in words; `signal` 0 is exit() and its like.
+/// How long the process may take to end when all units are freed [s].
+inline constexpr unsigned kLongestEnd = 10;
+
+/// How the process ends: by a signal, where SIGALRM is the end of its time, or by exit() and its
+/// like, which is 0. Allocates nothing but what signal_name() does; the result is in `text`.
 std::string_view describe_end(int signal, std::span<char> text);
 
 /// `end` is how the process ends, `calls` are those of units that have not returned. If this thread

@@ -203,6 +203,7 @@ CrashGuard::CrashGuard(Conclusion conclusion) : conclusion_(std::move(conclusion
 }
 
 CrashGuard::~CrashGuard() {
+  ::alarm(0);
   guarded.conclusion = nullptr;
   for (std::size_t i = 0; i < kCrashes.size(); ++i) ::sigaction(kCrashes[i], &before_[i], nullptr);
   ::sigaltstack(&stack_before_, nullptr);
@@ -225,7 +226,18 @@ int leave_with(int code) {
   guarded.code = code;
   guarded.is_leaving = true;
   guarded.conclusion = &nothing;
+  limit_end();
   return code;
+}
+
+void limit_end() {
+  if (!is_guarded()) return;
+  std::signal(SIGALRM, on_signal);
+  sigset_t awaited;
+  ::sigemptyset(&awaited);
+  ::sigaddset(&awaited, SIGALRM);
+  ::pthread_sigmask(SIG_UNBLOCK, &awaited, nullptr);
+  ::alarm(kLongestEnd);
 }
 
 CrashGuard::Scope::Scope(CrashGuard& guard, Conclusion conclusion)

@@ -142,6 +142,12 @@ std::shared_ptr<const Fmi3Library> Fmu::load_fmi3_library() {
   return fmi3_library_;
 }
 
+void Fmu::unload_library() {
+  const std::lock_guard lock(library_mutex_);
+  fmi2_library_.reset();
+  fmi3_library_.reset();
+}
+
 /// Of the process, when the library was loaded.
 void Fmu::warn_of_changes(const std::string& name, const InstanceOptions& options) {
   const std::vector<std::string>& changes = load_library()->changes();

@@ -256,6 +256,8 @@ void Server::free() {
   diagnostics_ = nullptr;
   if (unit_) unit_->free();
   unit_.reset();
+  memory_.call_note.write("the unloading of its library");
+  spec_.fmu->unload_library();
   std::fflush(nullptr);
   is_over_ = true;
 }
