@@ -83,7 +83,7 @@ Protections Server::prepare() {
   }
   if (!spec_.host.is_sandboxed) return protections;
   ::setenv("TMPDIR", spec_.temporary->path().c_str(), 1);
-  add(protections, enter_sandbox(writable_folders(spec_)));
+  add(protections, enter_sandbox(writable_folders(spec_), spec_.host.memory_limit.has_value()));
   return protections;
 }
 
