@@ -103,6 +103,38 @@ void write_pieces(int file) {
   sleep_for_ever();
 }
 
+/// Through a socket, where nobody receives it.
+void send_file(int socket, int file) {
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof file)] = {};
+  char byte = 0;
+  iovec content{&byte, 1};
+  msghdr message{};
+  message.msg_iov = &content;
+  message.msg_iovlen = 1;
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
+  cmsghdr* const head = CMSG_FIRSTHDR(&message);
+  head->cmsg_level = SOL_SOCKET;
+  head->cmsg_type = SCM_RIGHTS;
+  head->cmsg_len = CMSG_LEN(sizeof file);
+  std::memcpy(CMSG_DATA(head), &file, sizeof file);
+  if (::sendmsg(socket, &message, MSG_DONTWAIT) < 0) fail("cannot send a file");
+}
+
+/// No process has them open while they are on their way.
+[[noreturn]] void send_nameless_files() {
+  int ends[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0) fail("socketpair");
+  const std::string piece(kPiece, 'x');
+  for (int i = 0; i < 256; ++i) {
+    const int file = ::memfd_create("piece", 0);
+    if (::write(file, piece.data(), kPiece) != static_cast<ssize_t>(kPiece)) fail("write");
+    send_file(ends[0], file);
+    ::close(file);
+  }
+  sleep_for_ever();
+}
+
 [[noreturn]] void write_temporary_file() {
   const std::string name = std::string(std::getenv("TMPDIR")) + "/pieces";
   const int file = ::open(name.c_str(), O_WRONLY | O_CREAT, 0600);
@@ -205,6 +237,13 @@ void limit_resources() {
   ::setrlimit(RLIMIT_FSIZE, &short_files);
 }
 
+/// No file can be opened from then on.
+void limit_open_files() {
+  const rlimit none{3, 3};
+  if (::setrlimit(RLIMIT_NOFILE, &none) != 0) fail("cannot limit the open files");
+  if (::prlimit(0, RLIMIT_NOFILE, &none, nullptr) != 0) fail("cannot limit the open files");
+}
+
 void limit_parent() {
   const rlimit none{0, 0};
   if (::prlimit(::getppid(), RLIMIT_CPU, &none, nullptr) != 0) fail("cannot limit the parent");
@@ -255,6 +294,7 @@ constexpr Fault kFaults[] = {
     {"throw in a thread", throw_in_thread},
     {"stack overflow", overflow_the_stack},
     {"loop", loop},
+    {"sleep", sleep_for_ever},
     {"stop", [] { std::raise(SIGSTOP); }},
     {"kill", [] { std::raise(SIGKILL); }},
     {"kill parent", kill_parent},
@@ -293,6 +333,9 @@ constexpr Fault kFaults[] = {
     {"block signals", block_signals},
     {"ignore SIGINT", [] { std::signal(SIGINT, SIG_IGN); }},
     {"limit resources", limit_resources},
+    {"limit open files", limit_open_files},
+    {"fork", [] { ::fork(); }},
+    {"send nameless files", send_nameless_files},
     {"limit parent", limit_parent},
     {"round up", [] { std::fesetround(FE_UPWARD); }},
     {"flush to zero", flush_to_zero},
