@@ -25,6 +25,7 @@
 #include "master/scenario/loaded_scenario.h"
 #include "master/util/input_file.h"
 #include "master/util/process/process_state.h"
+#include "master/util/process/spare_files.h"
 
 namespace stride::cli {
 namespace {
@@ -115,6 +116,7 @@ std::vector<capture::CaptureRequest> captures(const RunArguments& arguments) {
 struct EndOfUnits {
   const core::ProcessState& process;
   ~EndOfUnits() {
+    core::SpareFiles::release_all();
     process.restore();
     limit_end();
   }
@@ -179,7 +181,9 @@ void run_and_report(const RunArguments& arguments) {
   check_output_paths(arguments);
   const core::ProcessState process;
   Records records{{arguments.junit, arguments.scenario.scenario}};
+  const core::SpareFiles spare;
   CrashGuard guard([&](const std::string& error) {
+    core::SpareFiles::release_all();
     process.restore();
     records.add(error);
   });

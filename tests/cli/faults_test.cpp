@@ -290,6 +290,26 @@ TEST_CASE("a unit cannot end other commands with the exit code 0, or without a w
   }
 }
 
+TEST_CASE("a unit that opens all files that it can leaves some for the results") {
+  const std::string hosting = GENERATE("", " '--isolate'");
+  const Workspace workspace = workspace_for({3, false}, kStep);
+  for (const char* fault : {"open all files", "open all files and crash"}) {
+    INFO(fault << hosting);
+    if (kSanitized && hosting.empty()) continue;
+    const bool crashes = std::string(fault) != "open all files";
+    const FaultOrder order(fault, kStep.name, kStep.at);
+    const std::string command = shell_command({"--quiet", "--step", "0.125"}) + hosting;
+    const Outcome outcome =
+        Process({"sh", "-c", "ulimit -n 128; exec " + command}, workspace.scratch().path()).wait();
+    INFO(outcome.err);
+    CHECK(outcome.exit_code == (crashes ? 1 : 0));
+    CHECK(run_json(workspace)["outcome"] == (crashes ? "failed" : "completed"));
+    CHECK(last_time(workspace) == (crashes ? kStep.last : "1"));
+    CHECK(fs::exists(workspace / "out/report.html"));
+    CHECK(workspace.left_behind().empty());
+  }
+}
+
 TEST_CASE("a hosted unit has no terminal") {
   const auto [hosting, code] = GENERATE(table<std::string, int>({{"", 0}, {" '--isolate'", 1}}));
   const Workspace workspace = workspace_for({3, false}, kStep);

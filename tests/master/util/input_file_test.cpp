@@ -11,7 +11,7 @@
 
 #include "master/util/error.h"
 #include "tests/error_of.h"
-#include "tests/master/util/no_open_files.h"
+#include "tests/master/util/open_file_limit.h"
 #include "tests/scratch_folder.h"
 
 using namespace stride::core;
@@ -97,7 +97,7 @@ TEST_CASE("a file of more bytes than are read is refused") {
 TEST_CASE("a process that has too many open files is no mistake of the user") {
   const ScratchFolder folder;
   const fs::path file = write(folder, "x", "text");
-  const NoOpenFiles limit;
+  const OpenFileLimit limit(0);
   try {
     open_input(file);
     FAIL("it was opened");

@@ -1,21 +1,21 @@
-#ifndef STRIDE_TESTS_MASTER_UTIL_NO_OPEN_FILES_H
-#define STRIDE_TESTS_MASTER_UTIL_NO_OPEN_FILES_H
+#ifndef STRIDE_TESTS_MASTER_UTIL_OPEN_FILE_LIMIT_H
+#define STRIDE_TESTS_MASTER_UTIL_OPEN_FILE_LIMIT_H
 
 #include <sys/resource.h>
 
 namespace stride::tests {
 
-/// This process can open no file while an object of this class lives.
-class NoOpenFiles {
+/// This process can open no file beyond the first so many while an object of this class lives.
+class OpenFileLimit {
  public:
-  NoOpenFiles() {
+  explicit OpenFileLimit(rlim_t files) {
     ::getrlimit(RLIMIT_NOFILE, &before_);
-    const rlimit none{0, before_.rlim_max};
-    ::setrlimit(RLIMIT_NOFILE, &none);
+    const rlimit limit{files, before_.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &limit);
   }
-  ~NoOpenFiles() { ::setrlimit(RLIMIT_NOFILE, &before_); }
-  NoOpenFiles(const NoOpenFiles&) = delete;
-  NoOpenFiles& operator=(const NoOpenFiles&) = delete;
+  ~OpenFileLimit() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+  OpenFileLimit(const OpenFileLimit&) = delete;
+  OpenFileLimit& operator=(const OpenFileLimit&) = delete;
 
  private:
   rlimit before_{};

@@ -8,7 +8,7 @@
 #include "master/util/time_text.h"
 #include "tests/master/ssp/support.h"
 #include "tests/master/util/file_size_limit.h"
-#include "tests/master/util/no_open_files.h"
+#include "tests/master/util/open_file_limit.h"
 
 using namespace stride;
 using namespace stride::core;
@@ -108,7 +108,7 @@ TEST_CASE("After a failure the file ends with its last whole line") {
 
 TEST_CASE("Too many open files are no mistake of the user") {
   const TemporaryFolder folder;
-  const NoOpenFiles limit;
+  const OpenFileLimit limit(0);
   try {
     OutputFile file(folder / "x");
     FAIL("it was created");

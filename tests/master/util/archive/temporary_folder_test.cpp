@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "tests/master/util/archive/support.h"
-#include "tests/master/util/no_open_files.h"
+#include "tests/master/util/open_file_limit.h"
 
 using namespace stride;
 using namespace stride::tests;
@@ -76,7 +76,7 @@ TEST_CASE("a folder that cannot be removed keeps its lock's file, and is swept l
     auto folder = std::make_unique<TemporaryFolder>();
     const fs::path path = folder->path();
     std::ofstream(path / "file") << "text";
-    const NoOpenFiles limit;
+    const OpenFileLimit limit(0);
     folder.reset();
     ::_exit(fs::exists(path) && fs::exists(path.string() + ".lock") ? 0 : 1);
   }
