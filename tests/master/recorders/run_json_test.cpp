@@ -224,7 +224,7 @@ TEST_CASE("An error is recorded, also when the run never began") {
 
 TEST_CASE("An error can be added once, after the run") {
   const TemporaryFolder folder;
-  folder.write("run.json", written({}));
+  folder.write("run.json", written(core::RunStatistics{}));
   CHECK(add_error(folder / "run.json", "it broke"));
   CHECK_THAT(content(folder / "run.json"),
              Contains("\"outcome\": \"failed\"") && Contains("\"error\": \"it broke\""));
