@@ -20,9 +20,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "master/cli/crash_error.h"
 #include "master/importer/fmu_instance.h"
-#include "master/importer/shared_library.h"
-#include "master/isolation/process/child.h"
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/error.h"
 #include "master/util/output_file.h"
@@ -51,59 +50,13 @@ Guarded guarded;
   for (;;) ::syscall(SYS_exit_group, code);
 }
 
-/// How the process ends, in words; `signal` 0 is exit() and its like.
-std::string_view describe_end(int signal, std::span<char> text) {
-  const auto end = signal == 0
-                       ? fmt::format_to_n(text.data(), text.size(), "exit() ends stride")
-                       : fmt::format_to_n(text.data(), text.size(), "signal {} ({}) ends stride",
-                                          signal, isolation::signal_name(signal));
-  return {text.data(), std::min(end.size, text.size())};
-}
-
-/// What the process does while it calls no unit.
-std::string outside_of_calls() {
-  if (const char* const library = importer::unfinished_loading()) {
-    return fmt::format(" in the loading of '{}'", library);
-  }
-  if (const char* const library = importer::unfinished_unloading()) {
-    return fmt::format(" in the unloading of '{}'", library);
-  }
-  return guarded.is_leaving ? " in a destructor or an exit function of a library, after the command"
-                            : ", in no call of a unit";
-}
-
-/// `calls`: those that have not returned. If this thread makes none of them, a unit has started it.
-core::Error error_of(std::string_view end, std::span<const importer::UnitCall> calls) {
-  constexpr const char* kHint =
-      "--isolate={} runs it in a process of its own, which cannot damage that of stride";
-  const auto own = std::ranges::find_if(calls, &importer::UnitCall::is_by_this_thread);
-  if (own != calls.end()) {
-    const importer::UnitCall& call = *own;
-    return {core::Error::Kind::Run,
-            {.where = *call.where, .unit = *call.unit, .time = call.time},
-            fmt::format("{} in {}", end, call.function),
-            fmt::format(kHint, *call.unit)};
-  }
-  std::string among;
-  for (const importer::UnitCall& call : calls) {
-    among += fmt::format("{}{} of '{}'",
-                         among.empty() ? " in a thread that a unit has started, during " : ", ",
-                         call.function, *call.unit);
-  }
-  return {core::Error::Kind::Run,
-          {},
-          calls.empty() ? fmt::format("{}{}", end, outside_of_calls())
-                        : fmt::format("{}{}", end, among),
-          "--isolate runs units in processes of their own, which cannot damage that of stride"};
-}
-
 void print(std::string_view text) { (void)!::write(STDERR_FILENO, text.data(), text.size()); }
 
 /// In the fork.
 [[noreturn]] void conclude(int signal, std::span<const importer::UnitCall> calls) {
   try {
     std::array<char, 80> text{};
-    const core::Error error = error_of(describe_end(signal, text), calls);
+    const core::Error error = error_of(describe_end(signal, text), calls, guarded.is_leaving);
     print(core::terminal_text(fmt::format("stride: error: {}\n", error.what())));
     (*guarded.conclusion.load())(error.what());
   } catch (...) {  // the rest is lost
@@ -250,6 +203,7 @@ CrashGuard::CrashGuard(Conclusion conclusion) : conclusion_(std::move(conclusion
 }
 
 CrashGuard::~CrashGuard() {
+  ::alarm(0);
   guarded.conclusion = nullptr;
   for (std::size_t i = 0; i < kCrashes.size(); ++i) ::sigaction(kCrashes[i], &before_[i], nullptr);
   ::sigaltstack(&stack_before_, nullptr);
@@ -272,7 +226,18 @@ int leave_with(int code) {
   guarded.code = code;
   guarded.is_leaving = true;
   guarded.conclusion = &nothing;
+  limit_end();
   return code;
+}
+
+void limit_end() {
+  if (!is_guarded()) return;
+  std::signal(SIGALRM, on_signal);
+  sigset_t awaited;
+  ::sigemptyset(&awaited);
+  ::sigaddset(&awaited, SIGALRM);
+  ::pthread_sigmask(SIG_UNBLOCK, &awaited, nullptr);
+  ::alarm(kLongestEnd);
 }
 
 CrashGuard::Scope::Scope(CrashGuard& guard, Conclusion conclusion)

@@ -56,9 +56,15 @@ class CrashGuard {
   stack_t stack_before_{};
 };
 
+/// To be called when all units are freed, and their libraries are about to be unloaded: if one of
+/// these takes longer than kLongestEnd, that is an error which ends the process. Holds until the
+/// guard's end; does nothing without one.
+void limit_end();
+
 /// What main() returns after the last CrashGuard: from here on libraries of units that are still
 /// loaded call their destructors and exit functions. A crash or _exit() there is an error with the
-/// exit code 1, and exit() does not change the code.
+/// exit code 1, as is an end that takes longer than kLongestEnd, and exit() does not change the
+/// code.
 int leave_with(int code);
 
 }  // namespace stride::cli

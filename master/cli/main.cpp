@@ -17,6 +17,7 @@
 
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
+#include "master/cli/hard_limits.h"
 #include "master/cli/output.h"
 #include "master/util/error.h"
 #include "master/util/readable_text.h"
@@ -122,6 +123,7 @@ int execute(CLI::App& app, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   open_missing_standard_files();
+  stride::cli::keep_hard_limits();
   stride::cli::set_up_log();
   std::signal(SIGXFSZ, SIG_IGN);  // then writing fails with an error; the signal would kill
   CLI::App app(

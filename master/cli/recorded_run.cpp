@@ -16,6 +16,7 @@
 #include "master/recorders/run_json.h"
 #include "master/recorders/unit_folders.h"
 #include "master/util/error.h"
+#include "master/util/process/spare_files.h"
 #include "master/util/time_text.h"
 
 namespace stride::cli {
@@ -139,6 +140,7 @@ void RecordedRun::run() {
 }
 
 void RecordedRun::abandon(const std::string& error) {
+  core::SpareFiles::release_all();
   setup_.loaded.process().restore();
   simulation_.abandon();
   conclude_failure(error);
@@ -146,6 +148,7 @@ void RecordedRun::abandon(const std::string& error) {
 
 /// Files are written from here on, some of them named relative to the working folder.
 void RecordedRun::restore_process() const {
+  core::SpareFiles::release_all();
   const std::vector<std::string> changes = setup_.loaded.process().restore();
   if (changes.empty()) return;
   spdlog::warn(

@@ -13,15 +13,19 @@
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/interruption.h"
+#include "master/cli/output.h"
 #include "master/cli/output_paths.h"
 #include "master/cli/recorded_run.h"
 #include "master/cli/report_page.h"
 #include "master/cli/scenario_options.h"
 #include "master/cli/test_report.h"
 #include "master/recorders/results_folder.h"
+#include "master/recorders/run_json.h"
 #include "master/recorders/unit_folders.h"
 #include "master/scenario/loaded_scenario.h"
+#include "master/util/input_file.h"
 #include "master/util/process/process_state.h"
+#include "master/util/process/spare_files.h"
 
 namespace stride::cli {
 namespace {
@@ -107,13 +111,43 @@ std::vector<capture::CaptureRequest> captures(const RunArguments& arguments) {
   return captures;
 }
 
-/// The units end before it, and what is done then needs the working folder.
-struct RestoredAtEnd {
+/// The units end before it, and their libraries after it. What is done then needs the working
+/// folder.
+struct EndOfUnits {
   const core::ProcessState& process;
-  ~RestoredAtEnd() { process.restore(); }
+  ~EndOfUnits() {
+    core::SpareFiles::release_all();
+    process.restore();
+    limit_end();
+  }
 };
 
-void run(const RunArguments& arguments, TestReport& report, CrashGuard& guard) {
+/// What contains how the run has ended. What fails after that, when libraries are unloaded, is
+/// added.
+struct Records {
+  TestReport tests;
+  std::optional<ResultsTarget> results{};  ///< once they are those of this run
+  std::optional<std::string> failure{};    ///< of the run, which is not printed yet
+
+  void add(const std::string& error);
+};
+
+void add_error(const ResultsTarget& results, const std::string& error) {
+  const auto& [folder, files] = results;
+  const std::filesystem::path run_file = folder / files.statistics;
+  if (files.statistics.empty() || !core::is_file(run_file)) return;
+  if (!recorders::add_error(run_file, error) || files.report.empty()) return;
+  write_report(folder, files, folder / files.report);
+}
+
+/// The process ends, so nothing else prints the failure.
+void Records::add(const std::string& error) {
+  if (failure) print_error(*failure);
+  if (results) add_error(*results, error);
+  tests.write_late(error);
+}
+
+void run(const RunArguments& arguments, Records& records, CrashGuard& guard) {
   const Interruption interruption;
   const scenario::LoadedScenario loaded(arguments.scenario);
   const recorders::ResultFiles files = chosen_files(arguments, loaded.scenario());
@@ -121,35 +155,43 @@ void run(const RunArguments& arguments, TestReport& report, CrashGuard& guard) {
   recorders::make_results_folder(folder);
   const recorders::ResultsLock lock(folder);
   recorders::remove_results(folder, loaded.scenario().annotation.results);
+  records.results = {folder, files};
   const std::vector<std::string> components = loaded.component_names();
   recorders::clean_unit_folders(folder, components);
   const core::RunOptions options = run_options(arguments, loaded);
   capture::Capture capture(loaded.system(), loaded.scenario().name, options, captures(arguments));
   const recorders::UnitFolders unit_folders(folder, components);
-  const RestoredAtEnd restored{loaded.process()};
+  const EndOfUnits end{loaded.process()};
   auto units = loaded.instantiate(folder);
   capture.wrap(units);
   const RunDisplay display{progress_style(arguments), arguments.quiet, arguments.open};
-  RecordedRun recorded({loaded, options, {folder, files}, display, capture, report},
+  RecordedRun recorded({loaded, options, *records.results, display, capture, records.tests},
                        std::move(units));
   const CrashGuard::Scope scope(guard, [&](const std::string& error) { recorded.abandon(error); });
-  recorded.run();
+  try {
+    recorded.run();
+  } catch (const std::exception& failure) {
+    records.failure = failure.what();
+    throw;
+  }
 }
 
 /// Whatever ends the command, the test report contains it.
 void run_and_report(const RunArguments& arguments) {
   check_output_paths(arguments);
   const core::ProcessState process;
-  TestReport report(arguments.junit, arguments.scenario.scenario);
+  Records records{{arguments.junit, arguments.scenario.scenario}};
+  const core::SpareFiles spare;
   CrashGuard guard([&](const std::string& error) {
+    core::SpareFiles::release_all();
     process.restore();
-    report.write(error);
+    records.add(error);
   });
   try {
-    run(arguments, report, guard);
+    run(arguments, records, guard);
   } catch (const std::exception& failure) {
     process.restore();
-    if (!report.is_written()) report.write(failure.what());
+    if (!records.tests.is_written()) records.tests.write(failure.what());
     throw;
   }
 }

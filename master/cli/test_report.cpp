@@ -45,9 +45,9 @@ void TestReport::write(const core::RunOptions& options, const core::RunStatistic
   if (!error && statistics.end == core::RunEnd::Interrupted) {
     report_.error = "the run was interrupted at " + core::to_text(statistics.reached) + " s";
   }
-  report_.verdicts = verdicts;
+  verdicts_.assign(verdicts.begin(), verdicts.end());
+  report_.verdicts = verdicts_;
   put();
-  report_.verdicts = {};
 }
 
 void TestReport::write(const std::string& error) {
@@ -55,6 +55,10 @@ void TestReport::write(const std::string& error) {
   report_.wall_time = elapsed();
   report_.error = error;
   put();
+}
+
+void TestReport::write_late(const std::string& error) {
+  if (!is_written_ || !report_.error) write(error);
 }
 
 void TestReport::put() const {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "master/algorithm/run_options.h"
 #include "master/algorithm/statistics.h"
@@ -29,6 +30,8 @@ class TestReport {
   /// For a run that did not begin, or whose report was not written.
   void write(const std::string& error);
   bool is_written() const { return is_written_; }
+  /// Something has failed after the end of the run. An earlier error stays.
+  void write_late(const std::string& error);
 
  private:
   std::chrono::nanoseconds elapsed() const { return std::chrono::steady_clock::now() - began_; }
@@ -37,6 +40,7 @@ class TestReport {
   std::filesystem::path file_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   recorders::JunitReport report_;
+  std::vector<core::Verdict> verdicts_;
   bool is_written_ = false;
 };
 

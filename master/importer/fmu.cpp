@@ -146,6 +146,12 @@ std::shared_ptr<const Fmi3Library> Fmu::load_fmi3_library() {
   return fmi3_library_;
 }
 
+void Fmu::unload_library() {
+  const std::lock_guard lock(library_mutex_);
+  fmi2_library_.reset();
+  fmi3_library_.reset();
+}
+
 /// Of its name, and of what its loading has changed of the process.
 void Fmu::warn_of_library(const std::string& name, const InstanceOptions& options) {
   const std::vector<std::string>& changes = load_library()->changes();

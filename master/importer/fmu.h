@@ -51,6 +51,9 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   std::shared_ptr<const Fmi2Library> load_fmi2_library();
   std::shared_ptr<const Fmi3Library> load_fmi3_library();
 
+  /// Unloads the library, as the destructor does, unless instances or others use it.
+  void unload_library();
+
   /// Makes an instance, which keeps this object alive. Throws core::Error: Input if the library
   /// does not load, or if a second instance of a unit is asked for that allows one per process
   /// only; Run if the unit refuses.

@@ -9,6 +9,10 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <pthread.h>
+#include <unistd.h>
+
+#include "master/util/readable_text.h"
 
 namespace stride::importer {
 namespace {
@@ -40,6 +44,8 @@ FmuInstance::FmuInstance(const char* prefix, std::shared_ptr<const SharedLibrary
       options_(std::move(options)),
       prefix_(prefix),
       library_(std::move(library)) {
+  static const int registered = ::pthread_atfork(nullptr, nullptr, &FmuInstance::note_fork);
+  (void)registered;
   begin_receiving();
 }
 
@@ -113,11 +119,32 @@ void FmuInstance::fail_thrown(const char* function) {
     what = exception.what();
   } catch (...) {  // it has no text
   }
+  if (is_fork_) leave_fork();
   failed_in_ = function;
   if (!mode_.is_present()) restore_mode();
   in_call_.store(nullptr, std::memory_order_relaxed);
   mark_unusable();
   fail(fmt::format("{} threw {}", function, what), "a function of FMI returns a status instead");
+}
+
+// ---- Forks ----
+
+/// In the new process, which has this thread only. stride itself makes none within a call.
+void FmuInstance::note_fork() noexcept {
+  core::Listed<FmuInstance>::for_each([](FmuInstance& instance) {
+    instance.is_fork_ = instance.in_call_.load(std::memory_order_relaxed) != nullptr &&
+                        instance.caller_.load(std::memory_order_relaxed) == &this_thread;
+  });
+}
+
+/// What is in memory, as lines of results, is the first process's to write.
+void FmuInstance::leave_fork() const {
+  const std::string text = core::terminal_text(
+      fmt::format("warning: unit '{}': {} called fork() and returned in both processes; the new "
+                  "one ends here\n",
+                  name_, in_call_.load(std::memory_order_relaxed)));
+  (void)!::write(STDERR_FILENO, text.data(), text.size());
+  ::_exit(0);
 }
 
 // ---- What calls change of the process ----

@@ -84,6 +84,8 @@ inline thread_local char this_thread = 0;
 /// What a function has changed of the floating-point mode is put back when it returns, and, until
 /// the end of the initialization, what it has changed of the process. A warning names the unit and
 /// the function.
+///
+/// Where a function calls fork() and both processes return, the new one ends there.
 class FmuInstance : public core::Unit, public core::UnitDiagnostics, public CallbackReceiver {
  public:
   friend std::size_t unfinished_calls(std::span<UnitCall> calls) noexcept;
@@ -143,6 +145,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
       call_note_->write(name, time_.value_or(Time{}));
   }
   void end_call() {
+    if (is_fork_) [[unlikely]]
+      leave_fork();
     if (!mode_.is_present()) [[unlikely]]
       restore_mode();
     in_call_.store(nullptr, std::memory_order_relaxed);
@@ -225,6 +229,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   std::uint64_t calls_ = 0;
   std::atomic<const char*> in_call_{nullptr};  ///< the function that has not returned
   std::atomic<const char*> caller_{nullptr};   ///< the thread that has called it
+  bool is_fork_ = false;                       ///< the function has made this process by fork()
   CallNote* const call_note_;
   const core::FloatingPointMode mode_ = core::FloatingPointMode::present();
   std::optional<Time> time_;
@@ -240,6 +245,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
  private:
   [[noreturn]] void fail_not_callable(const char* name) const;
   [[noreturn]] void fail_missing(const char* name, const char* capability) const;
+  static void note_fork() noexcept;
+  [[noreturn]] void leave_fork() const;
   void restore_mode();
   std::string status_name(Status status) const;
   bool is_fmi2() const { return prefix_[3] == '2'; }

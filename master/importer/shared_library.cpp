@@ -6,6 +6,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "master/importer/binaries.h"
 #include "master/util/process/process_state.h"
@@ -78,8 +79,8 @@ std::string hint_for(const std::string& reason) {
   core::fail_input(context, head + reason, hint_for(reason));
 }
 
-std::atomic<const char*> loaded_now{nullptr};
-std::atomic<const char*> unloaded_now{nullptr};
+std::atomic<const char*> present_work{nullptr};
+std::atomic<const char*> present_library{nullptr};
 
 /// One flag per library in the process: dlopen gives the same handle however often it is opened.
 /// Kept as long as the process exists, as an unusable library is.
@@ -97,9 +98,10 @@ void SharedLibrary::Closer::operator()(void* handle) const { ::dlclose(handle); 
 SharedLibrary::SharedLibrary(const fs::path& path, const core::Location& where)
     : path_(fs::absolute(path)) {
   const core::ProcessState before;
-  loaded_now.store(path_.c_str());
-  handle_.reset(::dlopen(path_.c_str(), RTLD_NOW | RTLD_LOCAL));
-  loaded_now.store(nullptr);
+  {
+    const Work work("loading", path_);
+    handle_.reset(::dlopen(path_.c_str(), RTLD_NOW | RTLD_LOCAL));
+  }
   changes_ = before.restore();
   if (!handle_) fail_to_load(path_, ::dlerror(), where);
   is_unusable_ = &unusable_flag(handle_.get());
@@ -110,13 +112,22 @@ SharedLibrary::~SharedLibrary() {
     static_cast<void>(handle_.release());
     return;
   }
-  unloaded_now.store(path_.c_str());
+  const Work work("unloading", path_);
   handle_.reset();
-  unloaded_now.store(nullptr);
 }
 
-const char* unfinished_unloading() noexcept { return unloaded_now.load(); }
-const char* unfinished_loading() noexcept { return loaded_now.load(); }
+SharedLibrary::Work::Work(const char* what, const fs::path& library) noexcept
+    : process_(::getpid()) {
+  present_work = what;
+  present_library = library.c_str();
+}
+
+SharedLibrary::Work::~Work() {
+  if (::getpid() != process_) ::_exit(0);
+  present_library = nullptr;
+}
+
+LibraryWork unfinished_library_work() noexcept { return {present_work, present_library}; }
 
 void* SharedLibrary::address(const std::string& symbol) const {
   return ::dlsym(handle_.get(), symbol.c_str());

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include <sys/types.h>
+
 #include "master/util/error.h"
 
 namespace stride::importer {
@@ -37,6 +39,19 @@ class SharedLibrary {
  protected:
   ~SharedLibrary();
 
+  /// While it lives, this is the unfinished work. The code of the library may call fork() and
+  /// return in both processes: then the new one ends with the object.
+  class Work {
+   public:
+    Work(const char* what, const std::filesystem::path& library) noexcept;
+    ~Work();
+    Work(const Work&) = delete;
+    Work& operator=(const Work&) = delete;
+
+   private:
+    pid_t process_;
+  };
+
   /// Makes `function` that of this name, null if there is none.
   template <class Function>
   void find(Function*& function, const std::string& symbol) {
@@ -56,11 +71,14 @@ class SharedLibrary {
   std::atomic<bool>* is_unusable_ = nullptr;
 };
 
-/// The path of the library that is being unloaded, which calls its destructors and exit functions;
-/// null if there is none. Can be called by a signal handler.
-const char* unfinished_unloading() noexcept;
-/// Likewise, of the library that is being loaded.
-const char* unfinished_loading() noexcept;
+/// Code of a library that is being run outside of calls of its instances.
+struct LibraryWork {
+  const char* what = nullptr;     ///< "loading", "unloading", …
+  const char* library = nullptr;  ///< its path; null if there is no such work
+};
+
+/// The work that has not ended. Can be called by a signal handler.
+LibraryWork unfinished_library_work() noexcept;
 
 /// A list of function names, for compile time.
 template <std::size_t kSize>

@@ -62,6 +62,11 @@ PacketReader HostClient::read() {
   return PacketReader({link_.packets.data(), size});
 }
 
+bool HostClient::has_overwritten_number() const {
+  const std::uint32_t reply = link_.memory->reply.number.load(std::memory_order_acquire);
+  return link_.memory->request.number != number_ || (reply != number_ && reply != number_ - 1);
+}
+
 void HostClient::await_reply(std::optional<Time> time) {
   const auto begin = Clock::now();
   const auto limit = spec_.host.call_limit;
@@ -70,6 +75,7 @@ void HostClient::await_reply(std::optional<Time> time) {
     const std::uint32_t rings = doorbell.rings();
     take_lines();
     if (has_reply()) return;
+    if (has_overwritten_number()) fail_bad_packet(time);
     if (process_.look_for_end()) {
       take_lines();
       if (has_reply()) return;

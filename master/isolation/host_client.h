@@ -50,6 +50,8 @@ class HostClient {
   bool has_reply() const {
     return link_.memory->reply.number.load(std::memory_order_acquire) == number_;
   }
+  /// Only the master writes the number of a request; a reply has that of this one or the last.
+  bool has_overwritten_number() const;
   void await_reply(std::optional<Time> time);
   void take_lines();
   void take_last_line();

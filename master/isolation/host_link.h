@@ -61,15 +61,6 @@ enum class ReplyCode : std::uint32_t {
   RequestInputs,   ///< a question within a step; the reply to the step's request comes later
 };
 
-/// How a process ended, as its supervisor saw it.
-enum class HostEnd : std::uint32_t {
-  None,
-  NotStarted,
-  Exited,
-  Killed,
-  OverLimit,  ///< killed, since all its processes together took too much memory
-};
-
 /// One direction. The writer sets what and size first, then the number, then rings.
 struct alignas(64) Turn {
   std::atomic<std::uint32_t> number = 0;
@@ -91,9 +82,6 @@ struct HostLinkMemory {
 
   /// The active process of the unit. The end of any other does not matter.
   std::atomic<pid_t> active = 0;
-  std::atomic<HostEnd> end = HostEnd::None;  ///< of that one; written by the supervisor
-  /// The error of the start, the exit code, the signal, or the memory that was taken [MiB].
-  std::atomic<int> end_code = 0;
 
   std::atomic<std::uint64_t> most_memory = 0;  ///< resident, of those that have ended [byte]
   SnapshotBoard snapshots;

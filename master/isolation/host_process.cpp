@@ -69,15 +69,22 @@ HostProcess::HostProcess(HostLink& link, MemoryAllowance memory,
 }
 
 bool HostProcess::look_for_end() {
-  if (has_ended()) return true;
+  if (has_ended() || take_end()) return true;
   if (!is_supervisor_gone()) {
     continue_supervisor();
     return false;
   }
   ::kill(-supervisor_, SIGKILL);
   is_supervisor_lost_ = true;
-  link_.end = HostEnd::Killed;
-  link_.end_code = SIGKILL;
+  end_ = {HostEnd::How::Killed, SIGKILL};
+  return true;
+}
+
+/// What the supervisor has sent, if it has.
+bool HostProcess::take_end() {
+  HostEnd end;
+  if (::recv(control_.number(), &end, sizeof end, MSG_DONTWAIT) != sizeof end) return false;
+  end_ = end;
   return true;
 }
 
@@ -139,19 +146,20 @@ void HostProcess::send(Command command) const {
 std::string HostProcess::how_it_ended() const {
   if (is_supervisor_lost_)
     return "its process was killed, since something has ended its supervisor";
-  const int code = link_.end_code;
-  switch (link_.end.load()) {
-    case HostEnd::NotStarted:
+  using How = HostEnd::How;
+  const auto [how, code] = end_;
+  switch (how) {
+    case How::NotStarted:
       return fmt::format("its process cannot be started: {}", std::strerror(code));
-    case HostEnd::Exited:
+    case How::Exited:
       return fmt::format("it ended its process with exit code {}", code);
-    case HostEnd::OverLimit:
+    case How::OverLimit:
       return fmt::format(
           "its processes took {} MiB of memory together, which is above the limit of {} MiB, so "
           "they were ended",
           code, memory_.limit.value_or(0) >> 20);
-    case HostEnd::Killed:
-    case HostEnd::None:
+    case How::Killed:
+    case How::None:
       break;
   }
   return fmt::format("its process was ended by signal {} ({})", code, signal_name(code));

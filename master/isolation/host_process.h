@@ -25,10 +25,10 @@ class HostProcess {
   HostProcess(const HostProcess&) = delete;
   HostProcess& operator=(const HostProcess&) = delete;
 
-  /// Whether the unit has no active process any longer. Cheap.
-  bool has_ended() const { return link_.end.load(std::memory_order_acquire) != HostEnd::None; }
-  /// Likewise; also looks whether the supervisor runs: if it was stopped it is continued, and if it
-  /// was ended the unit's process is, too.
+  /// Whether the unit had no active process any longer when that was looked for.
+  bool has_ended() const { return end_.how != HostEnd::How::None; }
+  /// Looks whether it has one; also whether the supervisor runs: if it was stopped it is continued,
+  /// and if it was ended the unit's process is, too.
   bool look_for_end();
   /// Ends the unit's process.
   void kill();
@@ -41,6 +41,7 @@ class HostProcess {
 
  private:
   void send(Command command) const;
+  bool take_end();
   bool is_supervisor_gone() const;
   void continue_supervisor() const;
   void force_end() const;
@@ -50,6 +51,7 @@ class HostProcess {
   Descriptor control_;
   pid_t supervisor_ = 0;
   bool is_supervisor_lost_ = false;
+  HostEnd end_;
 };
 
 }  // namespace stride::isolation

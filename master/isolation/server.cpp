@@ -83,7 +83,7 @@ Protections Server::prepare() {
   }
   if (!spec_.host.is_sandboxed) return protections;
   ::setenv("TMPDIR", spec_.temporary->path().c_str(), 1);
-  add(protections, enter_sandbox(writable_folders(spec_)));
+  add(protections, enter_sandbox(writable_folders(spec_), spec_.host.memory_limit.has_value()));
   return protections;
 }
 
@@ -108,7 +108,7 @@ void Server::serve() {
   PacketReader in({link_.packets.data(), size});
   PacketWriter out(link_.packets);
   ReplyCode what = ReplyCode::Done;
-  const auto fail = [&](const std::exception& error) {
+  const auto fail = [&](const core::Error& error) {
     what = ReplyCode::Failed;
     out.clear();
     put_error(out, error, context(), sandbox_hint(error.what(), spec_.name, spec_.host));
@@ -120,10 +120,9 @@ void Server::serve() {
   } catch (const core::Error& error) {
     fail(error);
   } catch (const std::exception& error) {
-    fail(core::Error(core::Error::Kind::Run, context(), origin() + error.what()));
+    fail(error_of(error));
   } catch (...) {
-    fail(core::Error(core::Error::Kind::Run, context(),
-                     origin() + "something was thrown that is not a std::exception"));
+    fail(error_of(std::runtime_error("something that is not a std::exception")));
   }
   reply(what, out);
 }
@@ -131,7 +130,7 @@ void Server::serve() {
 template <core::CapabilityInterface C>
 C& Server::capability() const {
   core::Capability* const found = capabilities_.at(static_cast<std::size_t>(C::kId));
-  if (found == nullptr) throw std::logic_error("a capability was requested that the unit lacks");
+  if (found == nullptr) throw BadPacket();  // the master asks for none that the unit lacks
   return static_cast<C&>(*found);
 }
 
@@ -156,7 +155,8 @@ void Server::handle(RequestCode request, PacketReader& in, PacketWriter& out) {
     case RequestCode::ExitConfigurationMode:
       return capability<core::ConfigurationMode>().exit_configuration_mode();
     case RequestCode::EnterInitialization: {
-      time_ = take_time(in).value();
+      time_ = take_time(in);
+      if (!time_) throw BadPacket();
       return unit_->enter_initialization(*time_, take_time(in));
     }
     case RequestCode::ExitInitialization:
@@ -217,17 +217,25 @@ void Server::handle(RequestCode request, PacketReader& in, PacketWriter& out) {
     case RequestCode::InputsNotUpdated:
       break;
   }
-  throw std::logic_error(fmt::format("request {} is out of order", static_cast<int>(request)));
+  throw BadPacket();
 }
 
 core::Context Server::context() const {
   return {.where = spec_.options.where, .unit = spec_.name, .variable = {}, .time = time_};
 }
 
-/// Of an exception that has crossed the unit's interface, which none may; nothing otherwise.
-std::string Server::origin() const {
+/// Of an exception that has crossed the unit's interface, which none may, or of this process
+/// itself.
+core::Error Server::error_of(const std::exception& error) const {
   const std::string function(memory_.call_note.function());
-  return function.empty() ? "" : function + " let an exception out: ";
+  std::string text = error.what();
+  if (!function.empty()) {
+    text = fmt::format("{} let an exception out: {}", function, text);
+  } else if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+             dynamic_cast<const std::length_error*>(&error) != nullptr) {
+    text = "there is not enough memory for what was requested of it";
+  }
+  return {core::Error::Kind::Run, context(), text};
 }
 
 // ---- Life cycle ----
@@ -256,6 +264,8 @@ void Server::free() {
   diagnostics_ = nullptr;
   if (unit_) unit_->free();
   unit_.reset();
+  memory_.call_note.write("the unloading of its library");
+  spec_.fmu->unload_library();
   std::fflush(nullptr);
   is_over_ = true;
 }
@@ -289,28 +299,36 @@ void Server::get_directional_derivative(PacketReader& in, PacketWriter& out) {
 const core::Variable& Server::variable(core::ValueReference reference) const {
   const core::UnitDescription& description =
       spec_.options.description ? *spec_.options.description : *spec_.fmu->description();
-  return description.variables.at(description.find(reference).value());
+  const auto found = description.find(reference);
+  if (!found) throw BadPacket();
+  return description.variables[*found];
 }
 
 // ---- Steps ----
 
 void Server::make_plan(PacketReader& in) {
+  StepBuffers& made = plan(in);
+  made = StepBuffers(in);
+}
+
+StepBuffers& Server::plan(PacketReader& in) {
   const auto number = in.take<std::uint32_t>();
-  plans_.at(number) = StepBuffers(in);
+  if (number >= plans_.size()) throw BadPacket();
+  return plans_[number];
 }
 
 void Server::step(PacketReader& in, PacketWriter& out) {
-  StepBuffers& plan = plans_.at(in.take<std::uint32_t>());
+  StepBuffers& buffers = plan(in);
   const auto interval = in.take<core::StepInterval>();
-  plan.take_inputs(in);
+  buffers.take_inputs(in);
   time_ = interval.from;
-  const core::StepResult result = unit_->step(interval, plan.values());
+  const core::StepResult result = unit_->step(interval, buffers.values());
   if (!result.rejected) time_ = result.reached;
   put_step(out, result);
   if (result.rejected) {
     out.put(diagnostics_->rejection_reason());
   } else {
-    plan.put_outputs(out);
+    buffers.put_outputs(out);
   }
 }
 

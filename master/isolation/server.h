@@ -62,7 +62,8 @@ class Server {
 
   RequestCode requested() const;
   core::Context context() const;
-  std::string origin() const;
+  StepBuffers& plan(PacketReader& in);
+  core::Error error_of(const std::exception& error) const;
 
   HostLink& link_;
   HostLinkMemory& memory_;

@@ -57,6 +57,13 @@ class Supervisor {
         ends_(watch_children()),
         memory_(memory) {}
 
+  /// What the supervisor sees of the fork.
+  void note_start(pid_t server, int error) {
+    pid_t none = 0;
+    link_.active.compare_exchange_strong(none, server);
+    if (server < 0) tell_end({HostEnd::How::NotStarted, error});
+  }
+
   /// Returns true when the master requests the end, false when the master has ended.
   bool run() {
     for (;;) {
@@ -114,14 +121,13 @@ class Supervisor {
     if (!used) return;
     has_ended_ = true;  // by this, and not by the signal
     kill_children();
-    tell_end(HostEnd::OverLimit, static_cast<int>(*used >> 20));
+    tell_end({HostEnd::How::OverLimit, static_cast<int>(*used >> 20)});
   }
 
-  void tell_end(HostEnd how, int code) {
+  void tell_end(const HostEnd& end) {
     has_ended_ = true;
     forward_all_output(100ms);  // its output comes first
-    link_.end_code = code;
-    link_.end = how;
+    ::send(control_.number(), &end, sizeof end, MSG_NOSIGNAL);
     link_.reply.doorbell.ring();
   }
 
@@ -150,8 +156,8 @@ class Supervisor {
     if (has_ended_) return;
     // the unit may have overwritten which one is active
     if (child != link_.active && !own_children().empty()) return;
-    if (WIFSIGNALED(status)) return tell_end(HostEnd::Killed, WTERMSIG(status));
-    tell_end(HostEnd::Exited, WEXITSTATUS(status));
+    if (WIFSIGNALED(status)) return tell_end({HostEnd::How::Killed, WTERMSIG(status)});
+    tell_end({HostEnd::How::Exited, WEXITSTATUS(status)});
   }
 
   HostLinkMemory& link_;
@@ -178,16 +184,6 @@ void clean_up_after(pid_t master) {
   ::_exit(0);
 }
 
-/// What the master sees of the fork.
-void note_start(HostLinkMemory& link, pid_t server, int error) {
-  pid_t none = 0;
-  link.active.compare_exchange_strong(none, server);
-  if (server >= 0) return;
-  link.end_code = error;
-  link.end = HostEnd::NotStarted;
-  link.reply.doorbell.ring();
-}
-
 }  // namespace
 
 void supervise(HostLink& link, Descriptor control, pid_t master, const MemoryAllowance& memory,
@@ -203,10 +199,11 @@ void supervise(HostLink& link, Descriptor control, pid_t master, const MemoryAll
   MemoryWatch watch(memory);
   const pid_t self = ::getpid();
   const pid_t server = ::fork();
+  const int error = errno;
   if (server == 0) run_server(link, output, self, serve);
-  note_start(*link.memory, server, errno);
   output.write.close();
   Supervisor supervisor(*link.memory, std::move(control), std::move(output.read), watch);
+  supervisor.note_start(server, error);
   const bool is_wanted = supervisor.run();
   supervisor.kill_children();
   if (is_wanted) {

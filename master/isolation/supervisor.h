@@ -1,6 +1,7 @@
 #ifndef STRIDE_MASTER_ISOLATION_SUPERVISOR_H
 #define STRIDE_MASTER_ISOLATION_SUPERVISOR_H
 
+#include <cstdint>
 #include <functional>
 
 #include <sys/types.h>
@@ -16,6 +17,20 @@ namespace stride::isolation {
 enum class Command : char {
   Kill = 'K',    ///< end the unit's process, and report how it ended
   Finish = 'F',  ///< end, and leave nothing
+};
+
+/// How the unit's process ended: what a supervisor sends back through the socket, once. It is not
+/// in shared memory, where the unit could write it.
+struct HostEnd {
+  enum class How : std::uint32_t {
+    None,
+    NotStarted,  ///< `code` is the error
+    Exited,      ///< the exit code
+    Killed,      ///< the signal
+    OverLimit,   ///< killed, since all its processes together took so much memory [MiB]
+  };
+  How how = How::None;
+  int code = 0;
 };
 
 /// Supervises a unit's process, which it forks: it passes on what that process prints, notes how it

@@ -7,6 +7,7 @@
 
 #include "master/recorders/signal_text.h"
 #include "master/util/hex.h"
+#include "master/util/input_file.h"
 #include "master/util/replacement.h"
 
 namespace stride::recorders {
@@ -182,6 +183,13 @@ void add_verdicts(Json& run, std::span<const core::Verdict> verdicts) {
   }
 }
 
+void write(const std::filesystem::path& file, const Json& run) {
+  core::Replacement output(file);
+  output.file().write(run.dump(2, ' ', false, Json::error_handler_t::replace));
+  output.file().write('\n');
+  output.commit();
+}
+
 }  // namespace
 
 void write_run_json(const std::filesystem::path& file, const RunRecord& record) {
@@ -206,10 +214,16 @@ void write_run_json(const std::filesystem::path& file, const RunRecord& record) 
   run["files"] = file_entries(files);
   run["signals"] = signal_entries(system, options.recorded);
   run["plots"] = plot_entries(plots);
-  core::Replacement output(file);
-  output.file().write(run.dump(2, ' ', false, Json::error_handler_t::replace));
-  output.file().write('\n');
-  output.commit();
+  write(file, run);
+}
+
+bool add_error(const std::filesystem::path& file, const std::string& error) {
+  Json run = Json::parse(core::read_input(file));
+  if (run.contains("error")) return false;
+  run["outcome"] = "failed";
+  run["error"] = error;
+  write(file, run);
+  return true;
 }
 
 }  // namespace stride::recorders

@@ -31,6 +31,11 @@ struct RunRecord {
 /// results this file does, too. It is there as a whole or not at all. Throws core::Error.
 void write_run_json(const std::filesystem::path& file, const RunRecord& record);
 
+/// Makes the run.json of a run one that has failed, for what has failed after it was written.
+/// Returns false if it has an error already, which stays. Throws core::Error, and exceptions of the
+/// JSON library, if it cannot be read.
+bool add_error(const std::filesystem::path& file, const std::string& error);
+
 }  // namespace stride::recorders
 
 #endif

@@ -1,5 +1,6 @@
 #include "master/util/error.h"
 
+#include <cerrno>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,6 +21,19 @@ void fail_input(Context context, const std::string& message, const std::string& 
 
 void fail_run(Context context, const std::string& message, const std::string& hint) {
   throw Error(Error::Kind::Run, std::move(context), message, hint);
+}
+
+bool is_shortage(int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+    case EMFILE:
+    case ENFILE:
+    case ENOMEM:
+      return true;
+    default:
+      return false;
+  }
 }
 
 std::string to_text(const Context& context) {

@@ -61,6 +61,10 @@ class ConsequentError : public Error {
 [[noreturn]] void fail_run(Context context, const std::string& message,
                            const std::string& hint = "");
 
+/// Whether this errno says that the system lacks something, such as room on a disk or numbers for
+/// open files: no file that the user names instead would help.
+bool is_shortage(int error);
+
 /// "FILE:LINE: unit 'U', variable 'V', at T s: ", as far as it is known.
 std::string to_text(const Context& context);
 

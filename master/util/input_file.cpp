@@ -31,12 +31,14 @@ const char* kind_of(mode_t mode) {
 struct Mistake {
   std::string message;
   std::string hint;
+  Error::Kind kind = Error::Kind::Input;
 };
 
 Mistake mistake_of(int error) {
   if (error == ENOENT || error == ENOTDIR) return {"the file does not exist", "check its path"};
-  return {fmt::format("cannot read the file: {}", reason(error)),
-          "check that it is a file that you may read"};
+  const std::string message = fmt::format("cannot read the file: {}", reason(error));
+  if (is_shortage(error)) return {message, "", Error::Kind::Run};
+  return {message, "check that it is a file that you may read"};
 }
 
 Mistake mistake_of_kind(mode_t mode) {
@@ -70,8 +72,8 @@ Context at(const fs::path& file, const std::string& shown_as) {
 Descriptor open_input(const fs::path& file, const Location& where) {
   Descriptor opened;
   if (const auto mistake = open(file, opened)) {
-    fail_input({.where = where}, fmt::format("'{}': {}", file.string(), mistake->message),
-               mistake->hint);
+    throw Error(mistake->kind, {.where = where},
+                fmt::format("'{}': {}", file.string(), mistake->message), mistake->hint);
   }
   return opened;
 }
@@ -79,7 +81,7 @@ Descriptor open_input(const fs::path& file, const Location& where) {
 Descriptor open_input(const fs::path& file, const std::string& shown_as) {
   Descriptor opened;
   if (const auto mistake = open(file, opened)) {
-    fail_input(at(file, shown_as), mistake->message, mistake->hint);
+    throw Error(mistake->kind, at(file, shown_as), mistake->message, mistake->hint);
   }
   return opened;
 }

@@ -20,7 +20,8 @@ inline constexpr std::uintmax_t kMostText = std::uintmax_t{256} << 20;
 
 /// Opens a regular file to read it; links that lead to one are followed. Throws Error (Input), at
 /// the file, which complaints call `shown_as`, or by its path, for what is missing, not readable or
-/// something else: a folder, a FIFO, a socket, a device. None of these is waited for.
+/// something else: a folder, a FIFO, a socket, a device. None of these is waited for. Throws Error
+/// (Run) where the process cannot open any file.
 Descriptor open_input(const std::filesystem::path& file, const std::string& shown_as = "");
 /// Likewise; the error is at the line that names the file.
 Descriptor open_input(const std::filesystem::path& file, const Location& where);

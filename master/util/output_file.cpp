@@ -15,6 +15,12 @@
 namespace stride::core {
 namespace {
 
+/// Of a file that cannot be created.
+const char* hint_for_shortage(int error) {
+  return error == EMFILE || error == ENFILE ? "raise the limit of open files (ulimit -n)"
+                                            : "make room on the disk";
+}
+
 const char* hint_for(int error) {
   switch (error) {
     case ENOSPC:
@@ -40,7 +46,7 @@ OutputFile::OutputFile(std::filesystem::path path, Hints hints, Existing existin
   const Context where{.where = {path_.string(), 0}};
   const std::string message =
       fmt::format("cannot create the file: {}", std::generic_category().message(error));
-  if (error == ENOSPC || error == EDQUOT) fail_run(where, message, "make room on the disk");
+  if (is_shortage(error)) fail_run(where, message, hint_for_shortage(error));
   fail_input(where, message, hints_.create);
 }
 

@@ -33,7 +33,7 @@ class OutputFile {
   enum class Existing { Emptied, Refused };
 
   /// Creates the file or empties it. Throws Error (Input) if that is not possible, and Error (Run)
-  /// if the disk is full.
+  /// if the disk is full, or the process has too many open files.
   explicit OutputFile(std::filesystem::path path) : OutputFile(std::move(path), Hints{}) {}
   OutputFile(std::filesystem::path path, Hints hints, Existing existing = Existing::Emptied);
   /// Closes the file; a failure is lost then, so call close() where it matters.

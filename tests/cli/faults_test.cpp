@@ -2,6 +2,7 @@
 // stride and in one of the unit's own: exit code 1, the unit, the function, the simulated time and
 // the way, complete results up to there, and nothing left behind.
 #include <array>
+#include <csignal>
 
 #include "tests/build.h"
 #include "tests/cli/failures.h"
@@ -61,6 +62,8 @@ constexpr Fault kFaults[] = {
     {"block signals", kCompletes, kCompletes},
     {"ignore SIGINT", kCompletes, kCompletes},
     {"limit resources", nullptr, kCompletes},
+    {"limit open files", kCompletes, kCompletes},
+    {"fork", kCompletes, kCompletes},
     {"round up", kCompletes, kCompletes},
     {"flush to zero", kCompletes, kCompletes},
 };
@@ -228,42 +231,34 @@ TEST_CASE("a unit that crashes at its end has all results") {
   }
 }
 
-TEST_CASE("a library that ends the process when it is unloaded, or after the run, is an error") {
-  if (kSanitized) return;
-  const Workspace workspace(
-      Parts{component("filter", "minimal.fmu") + component("faulty", "faulty.fmu")});
-  const auto [call, place] = GENERATE(table<std::string, std::string>({
-      {"unload", " in the unloading of '"},
-      {"exit", " in a destructor or an exit function of a library, after the command"},
-  }));
-  const auto [fault, end] = GENERATE(table<std::string, std::string>({
-      {"abort", "signal 6 (SIGABRT) ends stride"},
-      {"segfault", "signal 11 (SIGSEGV) ends stride"},
-      {"_exit", "exit() ends stride"},
-  }));
-  const Outcome outcome =
-      workspace.run({"--quiet", "--set", "faulty.fault=" + fault, "--set", "faulty.call=" + call});
-  INFO(outcome.err);
-  CHECK(outcome.exit_code == 1);
-  CHECK_THAT(outcome.err, Contains("stride: error: " + end + place));
-  CHECK(last_time(workspace) == "1");
-  CHECK(workspace.left_behind().empty());
+TEST_CASE("a function that forks and returns in both processes is of one run only") {
+  for (const Setting& setting : settings()) {
+    INFO("FMI " << setting.version << (setting.is_hosted ? ", hosted" : ""));
+    const Workspace workspace = workspace_for(setting, kStep);
+    REQUIRE(workspace.run({"--quiet", "--step", "0.125"}).exit_code == 0);
+    const std::string expected = workspace.result("signals.csv");
+    const FaultOrder order("fork", kStep.name, kStep.at);
+    Arguments arguments{"--verbose"};
+    for (const std::string& argument : Workspace::run_arguments({"--quiet", "--step", "0.125"})) {
+      arguments.push_back(argument);
+    }
+    if (setting.is_hosted) arguments.push_back("--isolate");
+    const Outcome outcome = workspace.stride(arguments);
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.err, Contains("unit 'faulty': " + std::string(setting.function(kStep)) +
+                                     " called fork() and returned in both processes"));
+    CHECK(workspace.result("signals.csv") == expected);
+  }
 }
 
-TEST_CASE("a library that calls exit(0) after the run does not change the exit code") {
-  const Workspace workspace(
-      Parts{component("faulty", "faulty.fmu") + component("fuse", "thrower.fmu")});
-  const Arguments options{"--quiet", "--set", "faulty.fault=exit with 0", "--set",
-                          "faulty.call=exit"};
-  const auto run = [&](const std::string& throw_at) {
-    Arguments arguments = options;
-    arguments.insert(arguments.end(), {"--set", "fuse.throw_at=" + throw_at});
-    return workspace.run(arguments);
-  };
-  CHECK(run("10").exit_code == 0);
-  const Outcome outcome = run("0.5");
-  CHECK(outcome.exit_code == 1);
-  CHECK_THAT(outcome.err, Contains("the fuse has blown"));
+TEST_CASE("a run that ends without a word has no run.json, also not that of an earlier one") {
+  const Workspace workspace = workspace_for({3, false}, kStep);
+  REQUIRE(workspace.run({"--quiet", "--step", "0.125"}).exit_code == 0);
+  REQUIRE(fs::exists(workspace / "out/run.json"));
+  const FaultOrder order("kill", kStep.name, kStep.at);
+  CHECK(workspace.run({"--quiet", "--step", "0.125"}).exit_code == -SIGKILL);
+  CHECK_FALSE(fs::exists(workspace / "out/run.json"));
+  CHECK_FALSE(fs::exists(workspace / "out/report.html"));
 }
 
 TEST_CASE("a thread that a unit has started is not taken for the unit whose function is called") {
@@ -292,6 +287,26 @@ TEST_CASE("a unit cannot end other commands with the exit code 0, or without a w
     CHECK(outcome.exit_code == 1);
     CHECK_THAT(outcome.err, Contains("unit 'faulty'") && Contains(" ends stride in ") &&
                                 Contains(setting.function(kInstantiate)));
+  }
+}
+
+TEST_CASE("a unit that opens all files that it can leaves some for the results") {
+  const std::string hosting = GENERATE("", " '--isolate'");
+  const Workspace workspace = workspace_for({3, false}, kStep);
+  for (const char* fault : {"open all files", "open all files and crash"}) {
+    INFO(fault << hosting);
+    if (kSanitized && hosting.empty()) continue;
+    const bool crashes = std::string(fault) != "open all files";
+    const FaultOrder order(fault, kStep.name, kStep.at);
+    const std::string command = shell_command({"--quiet", "--step", "0.125"}) + hosting;
+    const Outcome outcome =
+        Process({"sh", "-c", "ulimit -n 128; exec " + command}, workspace.scratch().path()).wait();
+    INFO(outcome.err);
+    CHECK(outcome.exit_code == (crashes ? 1 : 0));
+    CHECK(run_json(workspace)["outcome"] == (crashes ? "failed" : "completed"));
+    CHECK(last_time(workspace) == (crashes ? kStep.last : "1"));
+    CHECK(fs::exists(workspace / "out/report.html"));
+    CHECK(workspace.left_behind().empty());
   }
 }
 

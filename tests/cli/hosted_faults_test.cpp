@@ -126,6 +126,15 @@ TEST_CASE("memory that the limit of a process does not cover counts, too") {
                           "were ended in fmi3DoStep"));
 }
 
+TEST_CASE("a unit with a memory limit cannot hide files on their way through a socket") {
+  if (kSanitized) return;
+  const Workspace workspace = hosted_beside_a_filter(
+      "faulty", "faulty.fmu", "<stride:Host components=\"*\" memoryLimit=\"64\"/>\n");
+  CHECK_THAT(
+      error_of(workspace, does("send nameless files", {"--unit-timeout", "20"})),
+      Contains("unit 'faulty', at 0.499 s: ") && Contains("cannot send a file: Permission denied"));
+}
+
 TEST_CASE("files in memory that a unit writes count") {
   if (kSanitized) return;
   const Workspace workspace = hosted_beside_a_filter(
@@ -176,8 +185,9 @@ TEST_CASE("what a unit has started goes with it, however far away it has gone") 
 
 TEST_CASE("a unit that overwrites the shared memory harms itself only") {
   const Workspace workspace = hosted_beside_a_filter();
-  CHECK_THAT(error_of(workspace, does("overwrite", {"--unit-timeout", "5"})),
-             Contains("unit 'faulty', at 0.499 s: "));
+  CHECK_THAT(error_of(workspace, does("overwrite", {"--unit-timeout", "60"})),
+             Contains("unit 'faulty', at 0.499 s: the unit's process has written into the shared "
+                      "memory"));
 }
 
 TEST_CASE("a unit in a sandbox cannot kill its parent") {

@@ -95,7 +95,10 @@ std::string Fmi3Library::text_from(strideModelDescriptionTYPE* function, const f
   const std::string folder = resource_path(resources);
   const char* error = nullptr;
   const core::ProcessState before;
-  const char* text = function(folder.empty() ? nullptr : folder.c_str(), &error);
+  const char* const text = [&] {
+    const Work work("self-description", path());
+    return function(folder.empty() ? nullptr : folder.c_str(), &error);
+  }();
   before.restore();
   if (text != nullptr) return text;
   core::fail_input({.where = where},

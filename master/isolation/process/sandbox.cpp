@@ -107,7 +107,7 @@ void guard_files(Protections& protections, std::span<const WritableFolder> writa
 
 }  // namespace
 
-Protections enter_sandbox(std::span<const WritableFolder> writable) {
+Protections enter_sandbox(std::span<const WritableFolder> writable, bool has_memory_limit) {
   Protections protections;
   put_on(protections, "no new privileges", forbid_new_privileges);
   put_on(protections, "no capabilities, but those for files", drop_capabilities);
@@ -119,6 +119,10 @@ Protections enter_sandbox(std::span<const WritableFolder> writable) {
   put_on(protections,
          "no change of owners and times of files, and of modes to private ones only: seccomp",
          forbid_changing_attributes);
+  if (has_memory_limit) {
+    put_on(protections, "no files sent through sockets, for the memory limit: seccomp",
+           forbid_sending_files);
+  }
   put_on(protections, "no system calls newer than Linux 6.4: seccomp", forbid_newer_calls);
   return protections;
 }

@@ -37,11 +37,13 @@ struct WritableFolder {
 /// - no call names another process, and nothing is shared by a key or a name (seccomp);
 /// - signals reach, and debuggers attach to, processes in the same sandbox only;
 /// - no socket but AF_UNIX, and no input into a terminal (seccomp);
-/// - no system calls newer than Linux 6.4 (seccomp).
+/// - no system calls newer than Linux 6.4 (seccomp);
+/// - with `has_memory_limit`, no files are sent through sockets (seccomp): those in memory would be
+///   open nowhere on their way, and escape the watch over memory.
 ///
 /// The answer lists what the kernel lacks; the rest is in force. To be called while this
 /// process has one thread. Throws std::system_error if a folder cannot be opened.
-Protections enter_sandbox(std::span<const WritableFolder> writable);
+Protections enter_sandbox(std::span<const WritableFolder> writable, bool has_memory_limit = false);
 
 }  // namespace stride::isolation
 

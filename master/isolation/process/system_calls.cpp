@@ -144,6 +144,15 @@ void forbid_changing_attributes() {
   filter.load();
 }
 
+void forbid_sending_files() {
+  Filter filter;
+  filter.deny_all({SCMP_SYS(sendmsg), SCMP_SYS(sendmmsg)});
+  constexpr int kSendMessage = 16, kSendMessages = 20;  // of a 32-bit program
+  filter.deny(SCMP_SYS(socketcall), {argument(0, SCMP_CMP_EQ, kSendMessage)});
+  filter.deny(SCMP_SYS(socketcall), {argument(0, SCMP_CMP_EQ, kSendMessages)});
+  filter.load();
+}
+
 void forbid_newer_calls() {
   // libseccomp knows calls by their names only; these have the same numbers on all machines, and
   // those of x32 are greater

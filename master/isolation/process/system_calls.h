@@ -27,6 +27,10 @@ void forbid_newer_calls();
 /// them apart.
 void forbid_changing_attributes();
 
+/// No sendmsg() and sendmmsg(), by which open files are sent through a socket. A filter cannot see
+/// whether there are any; send() and write() carry none.
+void forbid_sending_files();
+
 /// No cutting off of files by their names, or when they are opened for reading.
 void forbid_truncation();
 

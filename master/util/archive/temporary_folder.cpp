@@ -21,6 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kLockSuffix = ".lock";
+constexpr const char* kPrefix = "unpacked-";
+
+fs::path lock_of(const fs::path& folder) { return folder.string() + kLockSuffix; }
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
   core::fail_run({}, fmt::format("cannot {} '{}': {}", what, path.string(), std::strerror(errno)),
@@ -57,12 +60,20 @@ void open_to_owner(const fs::path& folder) {
   }
 }
 
-void remove_folder(const fs::path& folder) {
+/// Returns whether it is gone. Without open files left to the process, it stays.
+bool remove_folder(const fs::path& folder) {
   std::error_code error;
   fs::remove_all(folder, error);
-  if (!error) return;
+  if (!error) return true;
   open_to_owner(folder);
   fs::remove_all(folder, error);
+  return !error;
+}
+
+/// A folder whose lock is free is removed as long as there is the lock's file.
+void remove_with_lock(const fs::path& folder) {
+  std::error_code ignored;
+  if (remove_folder(folder)) fs::remove(lock_of(folder), ignored);
 }
 
 /// In a temporary folder that others write to, no other user may have put this one there.
@@ -77,16 +88,23 @@ void make_private(const fs::path& parent) {
                  "remove it, or set TMPDIR to another folder");
 }
 
+/// There is a lock's file before there is its folder, and after it.
+bool has_lost_lock(const fs::path& folder) {
+  std::error_code ignored;
+  return folder.filename().string().starts_with(kPrefix) &&
+         !fs::exists(fs::symlink_status(lock_of(folder), ignored));
+}
+
 void sweep(const fs::path& parent) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(parent, ignored)) {
-    const fs::path& lock = entry.path();
-    if (lock.extension() != kLockSuffix) continue;
-    const core::Descriptor file = try_lock(lock);
-    if (!file.is_open()) continue;
-    fs::path folder = lock;
-    remove_folder(folder.replace_extension());
-    fs::remove(lock, ignored);
+    fs::path path = entry.path();
+    if (path.extension() != kLockSuffix) {
+      if (has_lost_lock(path)) remove_folder(path);
+      continue;
+    }
+    const core::Descriptor file = try_lock(path);
+    if (file.is_open()) remove_with_lock(path.replace_extension());
   }
 }
 
@@ -94,7 +112,7 @@ void sweep(const fs::path& parent) {
 std::pair<core::Descriptor, fs::path> reserve_name(const fs::path& parent) {
   constexpr int kTries = 100;  // a sweep may remove the file before it is locked
   for (int i = 0; i < kTries; ++i) {
-    std::string lock = (parent / fmt::format("unpacked-XXXXXX{}", kLockSuffix)).string();
+    std::string lock = lock_of(parent / fmt::format("{}XXXXXX", kPrefix));
     const int made =
         ::mkostemps(lock.data(), static_cast<int>(std::strlen(kLockSuffix)), O_CLOEXEC);
     if (made < 0) fail(parent, "make a file in");
@@ -139,10 +157,6 @@ void TemporaryFolder::remove_all() noexcept {
   core::Listed<TemporaryFolder>::for_each([](const TemporaryFolder& folder) { folder.remove(); });
 }
 
-void TemporaryFolder::remove() const noexcept {
-  std::error_code ignored;
-  remove_folder(path_);
-  fs::remove(path_.string() + kLockSuffix, ignored);
-}
+void TemporaryFolder::remove() const noexcept { remove_with_lock(path_); }
 
 }  // namespace stride::archive

@@ -14,8 +14,9 @@ namespace stride::archive {
 ///
 /// It is in `<TMPDIR or /tmp>/stride-<uid>/`, beside a file of the same name with `.lock` that
 /// this process keeps locked (flock), so the kernel frees the lock however the process ends. The
-/// lock is taken before the folder is made. Each new folder first removes those whose lock is free,
-/// which crashed runs have left. No lock is waited for, so no other process can stop this one.
+/// lock is taken before the folder is made, and its file goes after the folder. Each new folder
+/// first removes those whose lock is free or missing, which crashed runs have left. No lock is
+/// waited for, so no other process can stop this one.
 class TemporaryFolder {
  public:
   /// Throws core::Error of the kind Run if it cannot be made.

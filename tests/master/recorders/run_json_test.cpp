@@ -222,6 +222,16 @@ TEST_CASE("An error is recorded, also when the run never began") {
   CHECK_THAT(text, Contains("\"name\": \"b, c\"") && !Contains("messages_sent"));
 }
 
+TEST_CASE("An error can be added once, after the run") {
+  const TemporaryFolder folder;
+  folder.write("run.json", written(core::RunStatistics{}));
+  CHECK(add_error(folder / "run.json", "it broke"));
+  CHECK_THAT(content(folder / "run.json"),
+             Contains("\"outcome\": \"failed\"") && Contains("\"error\": \"it broke\""));
+  CHECK_FALSE(add_error(folder / "run.json", "this, too"));
+  CHECK_THAT(content(folder / "run.json"), !Contains("this, too"));
+}
+
 TEST_CASE("The snapshots of a process are recorded where there were some") {
   core::RunStatistics statistics;
   statistics.units.resize(2);

@@ -9,7 +9,9 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include "master/util/error.h"
 #include "tests/error_of.h"
+#include "tests/master/util/open_file_limit.h"
 #include "tests/scratch_folder.h"
 
 using namespace stride::core;
@@ -90,6 +92,19 @@ TEST_CASE("a file of more bytes than are read is refused") {
   CHECK_THAT(error_of([&] { read_input(file, "", 4); }), Contains("x: the file has more than 4"));
   fs::resize_file(file, std::uintmax_t{1} << 40);  // takes no room on the disk
   CHECK_THAT(error_of([&] { read_input(file, "", 1 << 20); }), Contains("more than 1048576 bytes"));
+}
+
+TEST_CASE("a process that has too many open files is no mistake of the user") {
+  const ScratchFolder folder;
+  const fs::path file = write(folder, "x", "text");
+  const OpenFileLimit limit(0);
+  try {
+    open_input(file);
+    FAIL("it was opened");
+  } catch (const Error& error) {
+    CHECK(error.kind() == Error::Kind::Run);
+    CHECK_THAT(error.what(), Contains("x: cannot read the file: Too many open files"));
+  }
 }
 
 TEST_CASE("the head of a file may be shorter than wanted") {

@@ -8,6 +8,7 @@
 #include "master/util/time_text.h"
 #include "tests/master/ssp/support.h"
 #include "tests/master/util/file_size_limit.h"
+#include "tests/master/util/open_file_limit.h"
 
 using namespace stride;
 using namespace stride::core;
@@ -103,6 +104,19 @@ TEST_CASE("After a failure the file ends with its last whole line") {
   const std::string text = content(folder / "x");
   CHECK(text.size() == 100'000);
   CHECK(text.substr(text.size() - 8) == "0123456\n");
+}
+
+TEST_CASE("Too many open files are no mistake of the user") {
+  const TemporaryFolder folder;
+  const OpenFileLimit limit(0);
+  try {
+    OutputFile file(folder / "x");
+    FAIL("it was created");
+  } catch (const Error& error) {
+    CHECK(error.kind() == Error::Kind::Run);
+    CHECK_THAT(error.what(),
+               Contains("cannot create the file: Too many open files") && Contains("ulimit -n"));
+  }
 }
 
 TEST_CASE("A line that was begun is cut off, even when an earlier piece of it was taken") {

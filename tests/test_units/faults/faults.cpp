@@ -1,7 +1,6 @@
 #include "tests/test_units/faults/faults.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cfenv>
 #include <chrono>
 #include <csignal>
@@ -13,11 +12,9 @@
 #include <new>
 #include <stdexcept>
 #include <thread>
-#include <vector>
 
 #include <fcntl.h>
 #include <netinet/in.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -25,16 +22,10 @@
 
 #include <stride/results.h>
 
+#include "tests/test_units/faults/memory_faults.h"
+
 namespace stride::tests {
 namespace {
-
-[[noreturn]] void sleep_for_ever() {
-  for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
-}
-
-[[noreturn]] void fail(const std::string& what) {
-  throw std::runtime_error(what + ": " + std::strerror(errno));
-}
 
 void write_to_nowhere() {
   int* volatile nowhere = reinterpret_cast<int*>(16);
@@ -69,57 +60,6 @@ void overflow_the_stack() {
 [[noreturn]] void loop() {
   for (volatile unsigned i = 0;; i = i + 1) {
   }
-}
-
-void allocate() {
-  std::vector<std::vector<char>> pieces;
-  for (;;) pieces.emplace_back(std::size_t{1} << 20, 'x');
-}
-
-/// Of memory that the limit of a process does not cover, so that a machine without any other limit
-/// bears it.
-constexpr int kPieces = 512;
-constexpr std::size_t kPiece = std::size_t{1} << 20;
-
-[[noreturn]] void allocate_shared() {
-  for (int i = 0; i < kPieces; ++i) {
-    void* const piece =
-        ::mmap(nullptr, kPiece, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (piece == MAP_FAILED) fail("mmap");
-    std::memset(piece, 'x', kPiece);
-  }
-  sleep_for_ever();
-}
-
-void write_pieces(int file) {
-  const std::string piece(kPiece, 'x');
-  for (int i = 0; i < kPieces; ++i) {
-    if (::write(file, piece.data(), kPiece) != static_cast<ssize_t>(kPiece)) fail("write");
-  }
-}
-
-[[noreturn]] void write_nameless_file() {
-  write_pieces(::memfd_create("pieces", 0));
-  sleep_for_ever();
-}
-
-[[noreturn]] void write_temporary_file() {
-  const std::string name = std::string(std::getenv("TMPDIR")) + "/pieces";
-  const int file = ::open(name.c_str(), O_WRONLY | O_CREAT, 0600);
-  if (file < 0) fail(name);
-  write_pieces(file);
-  ::close(file);
-  sleep_for_ever();
-}
-
-/// Each of them within its limit.
-[[noreturn]] void allocate_in_children() {
-  for (int i = 0; i < 8; ++i) {
-    if (::fork() != 0) continue;
-    const std::string pieces(32 * kPiece, 'x');
-    sleep_for_ever();
-  }
-  sleep_for_ever();
 }
 
 /// Says so by a file, and goes on as if nothing was.
@@ -205,6 +145,19 @@ void limit_resources() {
   ::setrlimit(RLIMIT_FSIZE, &short_files);
 }
 
+/// No file can be opened from then on.
+void limit_open_files() {
+  const rlimit none{3, 3};
+  if (::setrlimit(RLIMIT_NOFILE, &none) != 0) fail("cannot limit the open files");
+  if (::prlimit(0, RLIMIT_NOFILE, &none, nullptr) != 0) fail("cannot limit the open files");
+}
+
+/// As a unit does in the end that forgets to close them.
+void open_all_files() {
+  while (::open("/dev/null", O_RDONLY) >= 0) {
+  }
+}
+
 void limit_parent() {
   const rlimit none{0, 0};
   if (::prlimit(::getppid(), RLIMIT_CPU, &none, nullptr) != 0) fail("cannot limit the parent");
@@ -255,6 +208,7 @@ constexpr Fault kFaults[] = {
     {"throw in a thread", throw_in_thread},
     {"stack overflow", overflow_the_stack},
     {"loop", loop},
+    {"sleep", sleep_for_ever},
     {"stop", [] { std::raise(SIGSTOP); }},
     {"kill", [] { std::raise(SIGKILL); }},
     {"kill parent", kill_parent},
@@ -293,6 +247,15 @@ constexpr Fault kFaults[] = {
     {"block signals", block_signals},
     {"ignore SIGINT", [] { std::signal(SIGINT, SIG_IGN); }},
     {"limit resources", limit_resources},
+    {"limit open files", limit_open_files},
+    {"open all files", open_all_files},
+    {"open all files and crash",
+     [] {
+       open_all_files();
+       write_to_nowhere();
+     }},
+    {"fork", [] { ::fork(); }},
+    {"send nameless files", send_nameless_files},
     {"limit parent", limit_parent},
     {"round up", [] { std::fesetround(FE_UPWARD); }},
     {"flush to zero", flush_to_zero},

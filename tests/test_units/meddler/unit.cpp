@@ -70,6 +70,7 @@ void meddle(const std::string& what) {
       {"flush", flush_to_zero},
       {"exceptions", [] { ::feenableexcept(FE_DIVBYZERO); }},
       {"crash", [] { std::abort(); }},
+      {"fork", [] { ::fork(); }},
   };
   kWays.at(what)();
 }

@@ -55,6 +55,20 @@ bool is_root() { return ::geteuid() == 0; }
 
 }  // namespace
 
+TEST_CASE("no files are sent through sockets where memory is limited") {
+  const auto say_with = [](bool has_memory_limit) {
+    return in_child([&] {
+      const Protections protections = enter_sandbox({}, has_memory_limit);
+      const msghdr message{};
+      return joined(protections.in_force) + answer(::sendmsg(-1, &message, 0));
+    });
+  };
+  CHECK_THAT(say_with(false), !Contains("files sent through sockets") && Contains("EBADF"));
+  const std::string said = say_with(true);
+  if (said.find("seccomp") == said.npos) return;  // the kernel has no filters
+  CHECK_THAT(said, Contains("no files sent through sockets") && Contains("EACCES"));
+}
+
 TEST_CASE("the protections in force and the missing ones are listed") {
   const ScratchFolder scratch;
   const std::string said = in_child([&] {

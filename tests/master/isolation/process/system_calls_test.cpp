@@ -201,6 +201,23 @@ TEST_CASE("modes, owners, times and attributes of files stay as they are") {
   ::close(open);
 }
 
+TEST_CASE("no file is sent through a socket, and bytes are") {
+  if (lacks_seccomp()) return;
+  int ends[2];
+  REQUIRE(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends) == 0);
+  char byte = 0;
+  iovec content{&byte, 1};
+  mmsghdr message{};
+  message.msg_hdr.msg_iov = &content;
+  message.msg_hdr.msg_iovlen = 1;
+  check_denied(forbid_sending_files,
+               {{"sendmsg", [&] { return ::sendmsg(ends[0], &message.msg_hdr, 0); }},
+                {"sendmmsg", [&] { return ::sendmmsg(ends[0], &message, 1, 0); }}});
+  CHECK(say_filtered(forbid_sending_files, [&] { return answer(::send(ends[0], "x", 1, 0)); }) ==
+        "done");
+  for (const int end : ends) ::close(end);
+}
+
 TEST_CASE("calls that are newer than the filters do not exist") {
   if (lacks_seccomp()) return;
   constexpr long kFchmodat2 = 452;

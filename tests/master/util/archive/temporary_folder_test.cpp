@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "tests/master/util/archive/support.h"
+#include "tests/master/util/open_file_limit.h"
 
 using namespace stride;
 using namespace stride::tests;
@@ -66,6 +67,36 @@ TEST_CASE("a forked child does not remove its parent's folder") {
   int status = 0;
   REQUIRE(waitpid(child, &status, 0) == child);
   CHECK(fs::exists(folder->path()));
+}
+
+TEST_CASE("a folder that cannot be removed keeps its lock's file, and is swept later") {
+  const Scratch scratch;
+  const pid_t child = ::fork();
+  if (child == 0) {
+    auto folder = std::make_unique<TemporaryFolder>();
+    const fs::path path = folder->path();
+    std::ofstream(path / "file") << "text";
+    const OpenFileLimit limit(0);
+    folder.reset();
+    ::_exit(fs::exists(path) && fs::exists(path.string() + ".lock") ? 0 : 1);
+  }
+  int status = -1;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  CHECK(status == 0);
+  TemporaryFolder::sweep_abandoned();
+  CHECK(fs::is_empty(TemporaryFolder::parent()));
+}
+
+TEST_CASE("a folder without a lock is swept, what is no such folder is not") {
+  const Scratch scratch;
+  const TemporaryFolder in_use;
+  const fs::path parent = TemporaryFolder::parent();
+  fs::create_directories(parent / "unpacked-123456" / "resources");
+  fs::create_directory(parent / "other");
+  TemporaryFolder::sweep_abandoned();
+  CHECK_FALSE(fs::exists(parent / "unpacked-123456"));
+  CHECK(fs::exists(parent / "other"));
+  CHECK(fs::exists(in_use.path()));
 }
 
 TEST_CASE("locks that another process holds stop nobody") {
