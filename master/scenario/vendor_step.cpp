@@ -13,11 +13,11 @@ struct VendorElement {
   const char* attribute;
 };
 
-constexpr VendorElement kElements[] = {{"FixedStepAlgorithm", "baseStepSize"},
+constexpr VendorElement kVendorElements[] = {{"FixedStepAlgorithm", "baseStepSize"},
                                        {"FixedStepMaster", "stepSize"}};
 
 std::optional<VendorStep> step_of(const xml::Element& element) {
-  for (const VendorElement& known : kElements) {
+  for (const VendorElement& known : kVendorElements) {
     const auto text = element.attribute(known.attribute);
     if (!text || element.local_name() != known.local_name) continue;
     try {
