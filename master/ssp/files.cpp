@@ -106,6 +106,11 @@ std::optional<Files::Archive> Files::archive_of(const fs::path& file) const {
   return std::nullopt;
 }
 
+xml::Document Files::document(const fs::path& file) {
+  documents_.insert(file);
+  return xml::Document(file, shown(file));
+}
+
 std::string Files::shown(const fs::path& path) const {
   const auto archive = archive_of(path);
   if (!archive) return path.string();

@@ -7,10 +7,12 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "master/util/archive/unpacked_archive.h"
 #include "master/util/error.h"
+#include "master/util/xml/document.h"
 
 namespace stride::ssp {
 
@@ -41,6 +43,10 @@ class Files {
     std::filesystem::path folder;
   };
   std::optional<Archive> archive_of(const std::filesystem::path& file) const;
+  /// Reads an XML file that is called shown() in complaints. Throws core::Error (Input).
+  xml::Document document(const std::filesystem::path& file);
+  /// The files that document() has read or tried to read.
+  const std::set<std::filesystem::path>& documents() const { return documents_; }
   /// A path as its reader knows it: within an archive, "FILE.ssp/resources/a.ssv".
   std::string shown(const std::filesystem::path& path) const;
 
@@ -50,6 +56,7 @@ class Files {
 
   UnitFinder find_unit_;
   std::map<std::filesystem::path, std::unique_ptr<archive::UnpackedArchive>> archives_;
+  std::set<std::filesystem::path> documents_;
 };
 
 }  // namespace stride::ssp

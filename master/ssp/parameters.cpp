@@ -141,7 +141,7 @@ xml::Document open(const xml::Element& owner, const BindingContext& context, con
                base == "SSD" ? "its path is relative to this file"
                              : "its path is relative to the top of the component's FMU");
   }
-  return xml::Document(path, context.files.shown(path));
+  return context.files.document(path);
 }
 
 std::vector<ParameterValue> read_values(const xml::Element& binding,

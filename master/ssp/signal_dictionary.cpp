@@ -44,7 +44,7 @@ SignalDictionary read_entries(const xml::Element& root) {
 }
 
 SignalDictionary read_dictionary(const xml::Element& element, const std::filesystem::path& folder,
-                                 const Files& files) {
+                                 Files& files) {
   element.allow_attributes({"name", "type", "source"});
   const std::string type = element.attribute_or("type", kDictionaryType);
   if (type != kDictionaryType) {
@@ -53,7 +53,7 @@ SignalDictionary read_dictionary(const xml::Element& element, const std::filesys
   }
   if (element.attribute("source")) {
     const std::filesystem::path path = source_path(element, folder);
-    return read_entries(xml::Document(path, files.shown(path)).root());
+    return read_entries(files.document(path).root());
   }
   const auto inside = element.child({kSsb, "SignalDictionary"});
   if (!inside) {
@@ -65,7 +65,7 @@ SignalDictionary read_dictionary(const xml::Element& element, const std::filesys
 }  // namespace
 
 std::map<std::string, SignalDictionary> read_signal_dictionaries(
-    const xml::Element& dictionaries, const std::filesystem::path& folder, const Files& files) {
+    const xml::Element& dictionaries, const std::filesystem::path& folder, Files& files) {
   std::map<std::string, SignalDictionary> all;
   dictionaries.allow_children({{kSsd, "SignalDictionary"}});
   for (const xml::Element& element : dictionaries.children()) {

@@ -16,7 +16,7 @@ namespace stride::ssp {
 /// Reads <ssd:SignalDictionaries>, inline or from files relative to `folder`. Throws core::Error
 /// (Input).
 std::map<std::string, SignalDictionary> read_signal_dictionaries(
-    const xml::Element& dictionaries, const std::filesystem::path& folder, const Files& files);
+    const xml::Element& dictionaries, const std::filesystem::path& folder, Files& files);
 
 }  // namespace stride::ssp
 

@@ -26,8 +26,9 @@ std::map<std::string, SignalDictionary> read_dictionaries(
     const std::string& inside, const std::filesystem::path& folder = {}) {
   const auto document = stride::xml::Document::parse(
       ssd("<ssd:SignalDictionaries>" + inside + "</ssd:SignalDictionaries>"), "x.ssd");
+  Files files;
   return read_signal_dictionaries(*document.root().child({kSsd, "SignalDictionaries"}), folder,
-                                  Files());
+                                  files);
 }
 
 const std::string kSpeed =
