@@ -7,6 +7,7 @@
 #include <tinyxml2.h>
 
 #include "master/util/input_file.h"
+#include "master/util/xml/character_references.h"
 #include "master/util/xml/editor.h"
 
 namespace stride::xml {
@@ -39,8 +40,6 @@ const char* words_for(tinyxml2::XMLError error) {
       return "a CDATA section without its end";
     case tinyxml2::XML_ERROR_PARSING_DECLARATION:
       return "a declaration that is malformed or in the wrong place";
-    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
-      return "more than 100 elements inside each other";
     case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
       return "the file holds nothing";
     default:
@@ -82,6 +81,19 @@ void check_attributes(const std::string& text, const std::string& file) {
   }
 }
 
+/// tinyxml2 takes those of no character as text, and NUL for the end of it.
+void check_references(const std::string& text, const std::string& file) {
+  const auto bad = find_bad_reference(text);
+  if (!bad) return;
+  const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(*bad), '\n');
+  constexpr std::size_t kMost = 12;
+  const std::string reference = text.substr(*bad, text.find(';', *bad) + 1 - *bad);
+  core::fail_input({.where = {file, static_cast<int>(line)}},
+                   fmt::format("this is not well-formed XML: '{}' is no character of XML",
+                               reference.size() <= kMost ? reference : reference.substr(0, kMost)),
+                   "write the character itself, or a reference to another one");
+}
+
 /// tinyxml2 takes </a/> for an element, so it finds more of them than there are.
 std::size_t count_elements(const tinyxml2::XMLNode& node) {
   std::size_t count = node.ToElement() != nullptr ? 1 : 0;
@@ -112,11 +124,16 @@ Document& Document::operator=(Document&&) noexcept = default;
 Document Document::parse(std::string text, const std::string& shown_as) {
   check_encoding(text, shown_as);
   check_attributes(text, shown_as);
+  check_references(text, shown_as);
   auto content = std::make_unique<Content>();
   content->file = shown_as;
   content->text = std::move(text);
   tinyxml2::XMLDocument& document = content->document;
   if (document.Parse(content->text.data(), content->text.size()) != tinyxml2::XML_SUCCESS) {
+    if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
+      core::fail_input({.where = {shown_as, document.ErrorLineNum()}},
+                       "more than 100 elements inside each other, which is not read");
+    }
     core::fail_input({.where = {shown_as, document.ErrorLineNum()}},
                      fmt::format("this is not well-formed XML: {}", words_for(document.ErrorID())),
                      "look for a missing end tag or quotation mark in or above this line");
