@@ -22,9 +22,19 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLockSuffix = ".lock";
 
+bool is_chosen() {
+  const char* const chosen = std::getenv("TMPDIR");
+  return chosen != nullptr && *chosen != '\0';
+}
+
+/// A mistake in TMPDIR is one of the input; a full disk is not.
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
-  core::fail_run({}, fmt::format("cannot {} '{}': {}", what, path.string(), std::strerror(errno)),
-                 "set TMPDIR to a folder that you may write to and that has room");
+  const int error = errno;
+  const bool is_full = error == ENOSPC || error == EDQUOT;
+  throw core::Error(is_full ? core::Error::Kind::Run : core::Error::Kind::Input, {},
+                    fmt::format("{}cannot {} '{}': {}", is_chosen() ? "TMPDIR: " : "", what,
+                                path.string(), std::strerror(error)),
+                    "set TMPDIR to a folder that you may write to and that has room");
 }
 
 /// Whether the path still names this open file.
@@ -73,8 +83,9 @@ void make_private(const fs::path& parent) {
   const bool is_mine =
       S_ISDIR(status.st_mode) && status.st_uid == ::getuid() && (status.st_mode & 0022) == 0;
   if (is_mine) return;
-  core::fail_run({}, fmt::format("'{}' is not a folder that belongs to you alone", parent.string()),
-                 "remove it, or set TMPDIR to another folder");
+  core::fail_input({},
+                   fmt::format("'{}' is not a folder that belongs to you alone", parent.string()),
+                   "remove it, or set TMPDIR to another folder");
 }
 
 void sweep(const fs::path& parent) {
@@ -108,8 +119,7 @@ std::pair<core::Descriptor, fs::path> reserve_name(const fs::path& parent) {
 }  // namespace
 
 fs::path TemporaryFolder::parent() {
-  const char* chosen = std::getenv("TMPDIR");
-  const fs::path base = chosen != nullptr && *chosen != '\0' ? chosen : "/tmp";
+  const fs::path base = is_chosen() ? std::getenv("TMPDIR") : "/tmp";
   return fs::absolute(base) / fmt::format("stride-{}", ::getuid());
 }
 
