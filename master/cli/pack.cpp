@@ -53,11 +53,10 @@ bool is_scenario(const fs::path& path) {
   return core::is_folder(path) || path.extension() == ".ssd" || path.extension() == ".ssp";
 }
 
-/// Nothing of what is packed is replaced by the package.
+/// The package replaces neither what is packed nor what is bundled with it.
 void check_output_path(const importer::PackRequest& request) {
   std::vector<KeptPath> kept{{request.library, "what is to be packed"}};
   if (is_scenario(request.library)) kept = files_of_scenario(request.library).inputs;
-  if (!request.resources.empty()) kept.push_back({request.resources, "the resources"});
   for (const fs::path& library : request.bundled) kept.push_back({library, "a bundled library"});
   const OutputPath output{"--output " + request.output.string(), request.output};
   refuse_kept_paths({&output, 1}, kept);

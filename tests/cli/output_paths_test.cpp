@@ -179,13 +179,9 @@ TEST_CASE("results do not go into a unit that is a folder") {
 
 TEST_CASE("a package replaces nothing that is packed") {
   const FilesWorkspace workspace;
-  workspace.scratch().write("resources/x.ssp", "");
   fs::copy_file(unit_library("minimal"), workspace / "minimal.so");
   CHECK_THAT(refusal_of(workspace, {"pack", "minimal.so", "-o", "./minimal.so"}),
              Contains("--output ./minimal.so: this is what is to be packed"));
-  CHECK_THAT(refusal_of(workspace, {"pack", "minimal.so", "--resources", "resources", "-o",
-                                    "resources/x.fmu"}),
-             Contains("this is in the resources"));
   fs::create_symlink("mine.fmu", workspace / "link.ssp");
   CHECK_THAT(refusal_of(workspace, {"pack", "test.ssd", "-o", "link.ssp"}),
              Contains("--output link.ssp: this is a unit of the scenario"));
