@@ -64,7 +64,11 @@ std::string type_name(const Variable& row) { return row.name + " type"; }
 class Writer {
  public:
   Writer(const std::string& unit_name, const Unit& unit, const Table& table)
-      : name_(unit_name), unit_(unit), table_(table) {}
+      : name_(unit_name), unit_(unit), table_(table) {
+    for (std::size_t i = 0; i < table.size(); ++i) {
+      if (table.row(i).causality == Causality::Parameter) parameters_.push_back(i);
+    }
+  }
 
   std::string write(const std::string& token) {
     xml_.open("fmiModelDescription")
@@ -249,7 +253,7 @@ class Writer {
     } else if (row.dependencies) {
       std::set<std::size_t> knowns;
       for (const std::string& name : *row.dependencies) knowns.insert(table_.reference_of(name));
-      if (element == "InitialUnknown") add_parameters(knowns);
+      if (element == "InitialUnknown") knowns.insert(parameters_.begin(), parameters_.end());
       std::vector<std::string> words;
       for (const std::size_t known : knowns) words.push_back(std::to_string(known));
       xml_.attribute("dependencies", join(words));
@@ -275,15 +279,10 @@ class Writer {
     xml_.close().close().close();
   }
 
-  void add_parameters(std::set<std::size_t>& knowns) const {
-    for (std::size_t i = 0; i < table_.size(); ++i) {
-      if (table_.row(i).causality == Causality::Parameter) knowns.insert(i);
-    }
-  }
-
   std::string name_;
   const Unit& unit_;
   const Table& table_;
+  std::vector<std::size_t> parameters_;  ///< their value references
   XmlWriter xml_;
 };
 

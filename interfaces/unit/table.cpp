@@ -4,7 +4,6 @@
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <set>
 #include <stdexcept>
 
 #include "interfaces/unit/legal_calls.h"
@@ -162,9 +161,8 @@ Table::Table(const Unit& unit, double& time) {
   time_.data = &time;
   rows_.push_back(&time_);
   for (const Variable& row : unit.variables()) rows_.push_back(&row);
-  std::set<std::string> names;
+  index_rows();
   for (const Variable* row : rows_) {
-    if (!names.insert(row->name).second) reject(*row, "this name is used twice");
     check(*row);
     check_idle(*row, unit.info().promises_idle);
     slots_.push_back({row->type, settable_modes(*row), row->size, row->data});
@@ -174,6 +172,15 @@ Table::Table(const Unit& unit, double& time) {
     }
   }
   check_verdict();
+}
+
+void Table::index_rows() {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Variable& row = *rows_[i];
+    const auto reference = static_cast<fmi3ValueReference>(i);
+    if (!references_.emplace(row.name, reference).second) reject(row, "this name is used twice");
+    if (row.type == Type::Clock) clock_references_.emplace(row.data, reference);
+  }
 }
 
 void Table::check(const Variable& row) const {
@@ -227,16 +234,14 @@ void Table::check_verdict() const {
 }
 
 fmi3ValueReference Table::reference_of(const Clock& clock) const {
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (rows_[i]->data == &clock) return static_cast<fmi3ValueReference>(i);
-  }
+  const auto found = clock_references_.find(&clock);
+  if (found != clock_references_.end()) return found->second;
   throw std::logic_error("a variable is clocked by a clock that is not in the variable table");
 }
 
 fmi3ValueReference Table::reference_of(const std::string& name) const {
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (rows_[i]->name == name) return static_cast<fmi3ValueReference>(i);
-  }
+  const auto found = references_.find(name);
+  if (found != references_.end()) return found->second;
   throw std::logic_error("depends_on names the variable '" + name + "', which does not exist");
 }
 

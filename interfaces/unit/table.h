@@ -3,7 +3,9 @@
 #define STRIDE_INTERFACES_UNIT_TABLE_H
 
 #include <cstdint>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <stride/fmi3.h>
@@ -89,12 +91,15 @@ class Table {
   fmi3ValueReference reference_of(const std::string& name) const;
 
  private:
+  void index_rows();
   void check(const Variable& row) const;
   void check_references(const Variable& row) const;
   void check_verdict() const;
 
   Variable time_;
   std::vector<const Variable*> rows_;
+  std::map<std::string_view, fmi3ValueReference> references_;  ///< by name
+  std::map<const void*, fmi3ValueReference> clock_references_;
   std::vector<Slot> slots_;
   std::vector<Clock*> input_clocks_;
   std::vector<Clock*> output_clocks_;

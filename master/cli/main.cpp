@@ -20,6 +20,7 @@
 #include "master/cli/hard_limits.h"
 #include "master/cli/output.h"
 #include "master/util/error.h"
+#include "master/util/message_text.h"
 #include "master/util/readable_text.h"
 #include "master/util/suggest.h"
 
@@ -48,19 +49,48 @@ std::string full_name(const CLI::App* app) {
   return parent == nullptr ? app->get_name() : full_name(parent) + " " + app->get_name();
 }
 
+/// Options whose value, if any, follows '='.
+constexpr const char* kFlagsWithValue[] = {"--isolate", "--film"};
+
+/// What follows such a flag and a blank is another argument.
+std::string flag_hint(const CLI::App& command) {
+  for (const char* flag : kFlagsWithValue) {
+    const CLI::Option* const option = command.get_option_no_throw(flag);
+    if (option == nullptr || option->count() == 0) continue;
+    return fmt::format("\n  hint: a value of {0} follows '=', as in {0}=VALUE", flag);
+  }
+  return "";
+}
+
+/// CLI11 takes "--isolate=" for "--isolate".
+void refuse_empty_values(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    for (const char* flag : kFlagsWithValue) {
+      if (argv[i] != std::string(flag) + "=") continue;
+      stride::core::fail_input({}, fmt::format("{}: there is no value behind '='", argv[i]),
+                               fmt::format("leave the '=' out, or give {} a value", flag));
+    }
+  }
+}
+
 /// The mistake in the command line; with the whole help only if there is no command at all.
 std::string explanation(const CLI::App* app, const CLI::Error& mistake) {
+  using stride::core::message_text;
+  using stride::core::name_text;
   const CLI::App* command = innermost(app);
   const std::vector<std::string> names = command_names(*command);
   const std::vector<std::string> rest = command->remaining();
   if (!names.empty() && !rest.empty()) {
     return fmt::format("stride: error: there is no {} '{}'\n  hint: {}\n",
-                       rest.front().starts_with("-") ? "option" : "command", rest.front(),
+                       rest.front().starts_with("-") ? "option" : "command",
+                       message_text(name_text(rest.front())),
                        stride::core::suggestion(rest.front(), names));
   }
-  if (command == app) return fmt::format("stride: error: {}\n\n{}", mistake.what(), app->help());
-  return fmt::format("stride: error: {}\n  hint: '{} --help' lists its options\n", mistake.what(),
-                     full_name(command));
+  const std::string message = message_text(name_text(mistake.what()));
+  if (command == app) return fmt::format("stride: error: {}\n\n{}", message, app->help());
+  const bool has_too_many = dynamic_cast<const CLI::ExtrasError*>(&mistake) != nullptr;
+  return fmt::format("stride: error: {}{}\n  hint: '{} --help' lists its options\n", message,
+                     has_too_many ? flag_hint(*command) : "", full_name(command));
 }
 
 std::string explain(const CLI::App* app, const CLI::Error& mistake) {
@@ -103,8 +133,15 @@ std::string in_words(const std::exception& error) {
   return error.what();
 }
 
+void add_verbose(CLI::App& command) {
+  command.add_flag_callback(
+      "--verbose", [] { spdlog::set_level(spdlog::level::info); },
+      "Show everything that units log, not only warnings and errors");
+}
+
 int execute(CLI::App& app, int argc, char** argv) {
   try {
+    refuse_empty_values(argc, argv);
     const int code = parse(app, argc, argv);
     flush_standard_output();
     return code;
@@ -136,9 +173,7 @@ int main(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 good, 1 the run failed, or a check or verdict failed, 2 the input was wrong.\n"
       "'stride COMMAND --help' shows more about a command.");
-  app.add_flag_callback(
-      "--verbose", [] { spdlog::set_level(spdlog::level::info); },
-      "Show everything that units log, not only warnings and errors");
+  add_verbose(app);
   stride::cli::add_run(app);
   stride::cli::add_report(app);
   stride::cli::add_check(app);
@@ -148,5 +183,8 @@ int main(int argc, char** argv) {
   stride::cli::add_pack(app);
   stride::cli::add_trace(app);
   stride::cli::add_reference(app);
+  for (const char* command : {"run", "check", "inspect", "verify", "complete", "pack"}) {
+    add_verbose(*app.get_subcommand(command));
+  }
   return stride::cli::leave_with(execute(app, argc, argv));
 }

@@ -7,6 +7,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "master/util/message_text.h"
 #include "master/util/readable_text.h"
 
 namespace stride::cli {
@@ -17,7 +18,8 @@ class SafeText final : public spdlog::custom_flag_formatter {
  public:
   void format(const spdlog::details::log_msg& message, const std::tm&,
               spdlog::memory_buf_t& line) override {
-    const std::string text = core::terminal_text({message.payload.data(), message.payload.size()});
+    const std::string text =
+        core::terminal_text(core::log_text({message.payload.data(), message.payload.size()}));
     line.append(text.data(), text.data() + text.size());
   }
   std::unique_ptr<custom_flag_formatter> clone() const override {
@@ -32,7 +34,9 @@ void put(std::FILE* stream, std::string_view text) {
   std::fwrite(safe.data(), 1, safe.size(), stream);
 }
 
-void print_error(std::string_view text) { put(stderr, fmt::format("stride: error: {}\n", text)); }
+void print_error(std::string_view text) {
+  put(stderr, fmt::format("stride: error: {}\n", core::message_text(text)));
+}
 
 void set_up_log() {
   auto log = spdlog::stderr_color_mt("stride");

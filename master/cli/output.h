@@ -19,7 +19,7 @@ void print_text(fmt::format_string<Values...> format, Values&&... values) {
   put(stdout, fmt::format(format, std::forward<Values>(values)...));
 }
 
-/// "stride: error: TEXT", to the standard error stream.
+/// "stride: error: TEXT", to the standard error stream; core::message_text() of the text.
 void print_error(std::string_view text);
 
 /// The log goes to the standard error stream, likewise.

@@ -38,6 +38,8 @@ bool is_kept(const fs::path& output, const fs::path& kept) {
          recorders::is_below(recorders::resolved(output), recorders::resolved(kept));
 }
 
+constexpr const char* kAUnit = "a unit of the scenario";
+
 /// Collects what a scenario reads, each file once.
 class SourceReader {
  public:
@@ -57,7 +59,7 @@ class SourceReader {
 
   void add_unit(const fs::path& source) {
     try {
-      keep(scenario::find_unit(source, {}), "a unit of the scenario");
+      keep(scenario::find_unit(source, {}), kAUnit);
     } catch (const core::Error&) {  // likewise
     }
   }
@@ -104,6 +106,34 @@ ScenarioFiles files_of_scenario(const fs::path& scenario, std::span<const std::s
     if (at != std::string::npos) reader.add_unit(swap.substr(at + 1));
   }
   return std::move(reader).found();
+}
+
+std::vector<KeptPath> inputs_of(const scenario::LoadedScenario& loaded) {
+  const scenario::Scenario& scenario = loaded.scenario();
+  const fs::path system = scenario.files->system_file(scenario.path);
+  const auto package = scenario.files->archive_of(system);
+  std::vector<KeptPath> inputs;
+  for (const fs::path& file : scenario.files->documents()) {
+    const auto archive = scenario.files->archive_of(file);
+    const bool is_scenario = archive && package ? archive->path == package->path : file == system;
+    inputs.push_back(
+        {archive ? archive->path : file, is_scenario ? kTheScenario : "a file of the scenario"});
+  }
+  std::set<fs::path> units;
+  for (const auto& fmu : loaded.fmus()) units.insert(fmu->path());
+  for (const fs::path& unit : units) inputs.push_back({unit, kAUnit});
+  return inputs;
+}
+
+void refuse_results(const fs::path& folder, const recorders::ResultFiles& files,
+                    std::span<const KeptPath> kept) {
+  std::vector<OutputPath> results;
+  for (const KeptPath& result : kept_results(folder, files)) {
+    results.push_back({fmt::format("{} in the results folder {}", result.path.filename().string(),
+                                   folder.string()),
+                       result.path});
+  }
+  refuse_kept_paths(results, kept);
 }
 
 std::vector<KeptPath> kept_results(const fs::path& folder, const recorders::ResultFiles& files) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "master/recorders/results_folder.h"
+#include "master/scenario/loaded_scenario.h"
 
 namespace stride::cli {
 
@@ -37,6 +38,15 @@ struct ScenarioFiles {
 /// command itself complains about it.
 ScenarioFiles files_of_scenario(const std::filesystem::path& scenario,
                                 std::span<const std::string> swaps = {});
+
+/// What a scenario that has been loaded consists of: its files, and its units, of which there may
+/// be others than it names (--swap).
+std::vector<KeptPath> inputs_of(const scenario::LoadedScenario& loaded);
+
+/// Throws core::Error (Input) if a file of the results in this folder is one of these paths, or in
+/// one that is a folder.
+void refuse_results(const std::filesystem::path& folder, const recorders::ResultFiles& files,
+                    std::span<const KeptPath> kept);
 
 /// The files of the results in this folder, whether they exist or not.
 std::vector<KeptPath> kept_results(const std::filesystem::path& folder,

@@ -5,12 +5,14 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
+#include "master/cli/output_paths.h"
 #include "master/scenario/file_units.h"
 #include "master/scenario/scenario.h"
 #include "master/scenario/unit_path.h"
@@ -49,6 +51,15 @@ class FmuArchives {
 
 bool is_scenario(const fs::path& path) {
   return core::is_folder(path) || path.extension() == ".ssd" || path.extension() == ".ssp";
+}
+
+/// The package replaces neither what is packed nor what is bundled with it.
+void check_output_path(const importer::PackRequest& request) {
+  std::vector<KeptPath> kept{{request.library, "what is to be packed"}};
+  if (is_scenario(request.library)) kept = files_of_scenario(request.library).inputs;
+  for (const fs::path& library : request.bundled) kept.push_back({library, "a bundled library"});
+  const OutputPath output{"--output " + request.output.string(), request.output};
+  refuse_kept_paths({&output, 1}, kept);
 }
 
 void pack_scenario(const importer::PackRequest& request) {
@@ -100,6 +111,7 @@ void add_pack(CLI::App& app) {
   command->callback([request] {
     const CrashGuard guard;
     request->library = scenario::find_unit(request->library, {});
+    check_output_path(*request);
     if (is_scenario(request->library)) return pack_scenario(*request);
     if (scenario::is_stimuli(request->library)) return scenario::pack_stimuli(*request);
     if (scenario::is_program(request->library)) return scenario::pack_program(*request);

@@ -152,6 +152,7 @@ void run(const RunArguments& arguments, Records& records, CrashGuard& guard) {
   const scenario::LoadedScenario loaded(arguments.scenario);
   const recorders::ResultFiles files = chosen_files(arguments, loaded.scenario());
   const std::filesystem::path folder = results_folder(arguments);
+  refuse_results(folder, loaded.scenario().annotation.results, inputs_of(loaded));
   recorders::make_results_folder(folder);
   const recorders::ResultsLock lock(folder);
   recorders::remove_results(folder, loaded.scenario().annotation.results);

@@ -7,6 +7,7 @@
 
 #include "master/scenario/scenario.h"
 #include "master/util/error.h"
+#include "master/util/replacement.h"
 #include "master/util/time_text.h"
 
 namespace stride::cli {
@@ -29,7 +30,8 @@ TestReport::TestReport(std::filesystem::path file, const std::filesystem::path& 
   report_.began = std::chrono::system_clock::now();
   report_.properties = {{"scenario", scenario.string()}, {"stride", STRIDE_VERSION}};
   report_.error = "the run has not ended";
-  put();
+  if (std::filesystem::is_fifo(file_, ignored)) pipe_.emplace(file_);
+  if (!core::Replacement::is_at_once(file_)) put();
 }
 
 void TestReport::write(const core::RunOptions& options, const core::RunStatistics& statistics,

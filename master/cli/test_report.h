@@ -13,11 +13,12 @@
 #include "master/algorithm/statistics.h"
 #include "master/algorithm/verdict.h"
 #include "master/recorders/junit.h"
+#include "master/util/output_file.h"
 
 namespace stride::cli {
 
 /// The file exists from the beginning, and states at first that the run has not ended, so a killed
-/// run is not taken for a good one.
+/// run is not taken for a good one; a pipe or a device gets one report, at the end.
 class TestReport {
  public:
   /// Throws core::Error if the file cannot be written. Without a file it does nothing, as do the
@@ -42,6 +43,7 @@ class TestReport {
   recorders::JunitReport report_;
   std::vector<core::Verdict> verdicts_;
   bool is_written_ = false;
+  std::optional<core::OutputFile> pipe_;  ///< open, so that its reader waits for the report
 };
 
 }  // namespace stride::cli

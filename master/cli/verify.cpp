@@ -103,7 +103,10 @@ CLI::Option* add_parsed(CLI::App& command, const std::string& name, Take take,
 
 Duration parse_step(const std::string& text) {
   const Duration step = core::parse_seconds(text);
-  if (step <= Duration::zero()) throw std::invalid_argument("expected a step above 0 s");
+  if (step <= Duration::zero()) {
+    throw std::invalid_argument(
+        "a step must be above 0 s, at least the picosecond that times are counted in");
+  }
   return step;
 }
 

@@ -88,9 +88,7 @@ void read_units(const xml::Element& root, core::UnitDescription& unit) {
     const std::string name = definition.given("name");
     const auto element = definition.child("BaseUnit");
     if (!element) continue;
-    const core::BaseUnitOfMeasure base = core::read_base_unit(*element);
-    if (base.factor == 0) element->fail("factor=\"0\" of <BaseUnit>: a unit cannot be zero");
-    unit.units_of_measure[name] = base;
+    unit.units_of_measure[name] = core::read_base_unit(*element);
   }
 }
 

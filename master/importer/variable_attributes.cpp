@@ -129,6 +129,10 @@ void check_start(const xml::Element& element, const core::Variable& variable,
                  std::size_t elements) {
   const bool is_text = variable.type == ValueType::String || variable.type == ValueType::Binary;
   const std::size_t count = is_text ? elements : xml::split(variable.start).size();
+  if (!is_text && count == 0 && variable.size > 0 && element.attribute("start")) {
+    element.fail(fmt::format("start=\"{}\" of '{}' has no value", variable.start, variable.name),
+                 "give it a value, or leave the attribute out");
+  }
   if (variable.start.empty() || variable.type == ValueType::Clock) return;
   if (count != 1 && count != variable.size) {
     element.fail(fmt::format("the start value of '{}' has {} elements, the variable has {}",
@@ -148,14 +152,19 @@ void check_start(const xml::Element& element, const core::Variable& variable,
 }
 
 void check_limits(const xml::Element& element, const core::Variable& variable) {
-  const auto check = [&](const char* attribute, const std::string& text) {
+  const auto read = [&](const char* attribute, const std::string& text) -> std::optional<double> {
+    if (text.empty()) return std::nullopt;
     const auto words = xml::split(text);
-    if (text.empty() || (words.size() == 1 && xml::to_number<double>(words.front()))) return;
+    const auto number = words.size() == 1 ? xml::to_number<double>(words.front()) : std::nullopt;
+    if (number && !std::isnan(*number)) return number;
     element.fail(
         fmt::format("{}=\"{}\" of '{}': expected a number", attribute, text, variable.name));
   };
-  check("min", variable.min);
-  check("max", variable.max);
+  const auto least = read("min", variable.min);
+  const auto greatest = read("max", variable.max);
+  if (!least || !greatest || *least <= *greatest) return;
+  element.fail(fmt::format("min=\"{}\" of '{}' is above max=\"{}\"", variable.min, variable.name,
+                           variable.max));
 }
 
 std::vector<std::pair<std::string, std::int64_t>> read_items(const xml::Element& type) {

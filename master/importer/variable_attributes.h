@@ -65,11 +65,13 @@ std::string inherited(const xml::Element& element, const std::optional<xml::Elem
 /// Likewise the magnitude of a floating-point number; 0 if it is absent.
 double read_nominal(const xml::Element& element, core::ValueType type,
                     const std::optional<xml::Element>& declared);
-/// Throws where the start value of a variable, whose size is known, is not of its type, or has
-/// neither one element nor as many as the variable. `elements`: how many a String or Binary has.
+/// Throws where the start value of a variable, whose size is known, is not of its type, is empty
+/// though its type is no text, or has neither one element nor as many as the variable. `elements`:
+/// how many a String or Binary has.
 void check_start(const xml::Element& element, const core::Variable& variable,
                  std::size_t elements = 1);
-/// Throws where the least or the greatest value of a variable is no number.
+/// Throws where the least or the greatest value of a variable is no number, or the least one is
+/// above the greatest one.
 void check_limits(const xml::Element& element, const core::Variable& variable);
 /// The items of an enumeration's type.
 std::vector<std::pair<std::string, std::int64_t>> read_items(const xml::Element& type);

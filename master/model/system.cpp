@@ -11,13 +11,12 @@
 #include <fmt/format.h>
 
 #include "master/model/unknown_variable.h"
+#include "master/util/limited_warnings.h"
 #include "master/util/suggest.h"
 
 namespace stride::core {
 namespace {
 
-/// Warnings about values that are ignored.
-constexpr std::size_t kMostShown = 60;
 /// Hints at near names: each compares a name with those of all variables of a unit. They are enough
 /// for all warnings and for the mistakes that Diagnostics shows.
 constexpr std::size_t kMostHints = 120;
@@ -32,6 +31,12 @@ void check_settable(const Variable& variable, const Context& context) {
              fmt::format("a {} {} with initial = {} cannot be set", name(variable.variability),
                          name(variable.causality), name(variable.initial)),
              "parameters, inputs and what the unit declares as initial = exact can");
+}
+
+/// What is expected in place of a number that is out of range.
+std::string bound_text(const Variable& variable, double number, double least, double most) {
+  if (number < least) return "at least " + variable.min;
+  return number > most ? "at most " + variable.max : "a number";
 }
 
 /// Whether the element lies within min and max, which are texts in the description.
@@ -49,8 +54,7 @@ void check_range(const Variable& variable, const ValueBlock& value, const Contex
         const double number = static_cast<double>(element);
         if (number >= least && number <= most) continue;
         fail_input(context, fmt::format("the value {} is out of range, expected {}", element,
-                                        number < least ? "at least " + variable.min
-                                                       : "at most " + variable.max));
+                                        bound_text(variable, number, least, most)));
       }
     }
   });
@@ -233,17 +237,14 @@ std::vector<System::Target> System::find_targets(const SystemDeclaration& declar
       targets.push_back({&wanted, id});
     });
   }
-  std::size_t ignored = 0;
+  LimitedWarnings ignored(warnings_,
+                          "values of variables that are not there, which are ignored, too");
   for (const StartDeclaration* wanted : missing) {
     if (wanted->group != 0 && found_groups.contains(wanted->group)) continue;
-    if (wanted->is_optional && ++ignored > kMostShown) continue;
+    if (wanted->is_optional && !ignored.count()) continue;
     diagnostics.attempt([&] { note_missing(*wanted); });
   }
-  if (ignored > kMostShown) {
-    warnings_.push_back(
-        fmt::format("… and {} more values of variables that are not there, which are ignored, too",
-                    ignored - kMostShown));
-  }
+  ignored.finish();
   return targets;
 }
 

@@ -1,18 +1,34 @@
 #include "master/model/unit_of_measure.h"
 
+#include <cmath>
 #include <string_view>
+
+#include <fmt/format.h>
 
 #include "master/util/xml/element.h"
 
 namespace stride::core {
+namespace {
+
+double finite_number(const xml::Element& element, const char* attribute, double otherwise) {
+  const double number = element.number<double>(attribute).value_or(otherwise);
+  if (std::isfinite(number)) return number;
+  element.fail(fmt::format("{}=\"{}\" of {}: expected a finite number", attribute,
+                           *element.attribute(attribute), element.tag()));
+}
+
+}  // namespace
 
 BaseUnitOfMeasure read_base_unit(const xml::Element& element) {
   BaseUnitOfMeasure unit;
   for (std::size_t i = 0; i < kBaseUnits.size(); ++i) {
     unit.exponents[i] = element.number<int>(kBaseUnits[i]).value_or(0);
   }
-  unit.factor = element.number<double>("factor").value_or(1);
-  unit.offset = element.number<double>("offset").value_or(0);
+  unit.factor = finite_number(element, "factor", 1);
+  unit.offset = finite_number(element, "offset", 0);
+  if (unit.factor == 0) {
+    element.fail(fmt::format("factor=\"0\" of {}: a unit cannot be zero", element.tag()));
+  }
   return unit;
 }
 

@@ -23,7 +23,7 @@ struct BaseUnitOfMeasure {
 inline constexpr std::array<const char*, 8> kBaseUnits{"kg", "m",   "s",  "A",
                                                        "K",  "mol", "cd", "rad"};
 
-/// Reads a <BaseUnit>. A factor of 0 is accepted. Throws Error (Input) for what is no number.
+/// Reads a <BaseUnit>. Throws Error (Input) for what is no finite number, and for the factor 0.
 BaseUnitOfMeasure read_base_unit(const xml::Element& element);
 
 /// A unit of measure by its name; an empty name: none is declared. Without a meaning it equals

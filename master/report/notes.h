@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "master/report/table.h"
 #include "master/util/error.h"
 
 namespace stride::report {
@@ -27,6 +28,10 @@ class Notes {
     const int line = mistake.context().where.line;
     texts_.push_back(fmt::format("{}{}: {}; the report is without what it holds", name(file),
                                  line > 0 ? fmt::format(":{}", line) : "", mistake.message()));
+  }
+  /// Of rows that are left out.
+  void add_unread(const std::filesystem::path& file, const std::optional<Table::Unread>& rows) {
+    if (rows) texts_.push_back(fmt::format("{}:{}: {}", name(file), rows->line, rows->text));
   }
   /// Of a file whose last line, if any, was cut off.
   void add_cut(const std::filesystem::path& file, std::optional<std::size_t> line) {

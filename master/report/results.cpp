@@ -43,13 +43,15 @@ std::vector<Message> read_messages(const fs::path& file, std::size_t limit, Note
   const std::size_t payload = table.place("payload");
   const std::optional<std::size_t> content = table.find("content");
   std::size_t count = 0;
-  for (; table.next(); ++count) {
-    if (count >= limit) continue;
+  const auto unread = table.for_each_row([&] {
+    if (++count > limit) return true;
     messages.push_back({table.time(time), index_of(table, index), table.field(component).value(),
                         table.field(variable).value(), table.field(direction).value(),
                         table.field(payload).value(),
                         content ? table.field(*content).value() : std::string()});
-  }
+    return true;
+  });
+  notes.add_unread(file, unread);
   if (count > limit) {
     notes.add(file, fmt::format("the first {} of {} messages are shown", limit, count));
   }
@@ -66,17 +68,19 @@ std::vector<Activities> read_activities(const fs::path& file, Notes& notes) {
   const std::size_t component = table.place("component");
   const std::size_t kind = table.place("kind");
   std::map<std::pair<std::string, std::string>, std::size_t> places;
-  while (table.next()) {
+  const auto unread = table.for_each_row([&] {
+    const std::int64_t from = table.time(time);
+    const std::int64_t to = table.time(until);
+    if (to < from) table.fail(until, "it ends before it begins");
     const std::pair key(table.field(component).value(), table.field(kind).value());
     const auto [place, is_new] = places.try_emplace(key, all.size());
     if (is_new) all.push_back({key.first, key.second, {}, {}});
     Activities& activities = all[place->second];
-    activities.from.push_back(table.time(time));
-    activities.until.push_back(table.time(until));
-    if (activities.until.back() < activities.from.back()) {
-      table.fail(until, "it ends before it begins");
-    }
-  }
+    activities.from.push_back(from);
+    activities.until.push_back(to);
+    return true;
+  });
+  notes.add_unread(file, unread);
   notes.add_cut(file, table.cut());
   return all;
 }
@@ -94,22 +98,24 @@ class FilmReader {
     if (table.columns().empty()) return;
     const std::size_t time = table.place("time");
     const std::size_t file = table.place("file");
-    while (table.next()) {
+    unread_ = table.for_each_row([&] {
       const fs::path picture = path_ / fs::path(table.field(file).value()).filename();
       const std::int64_t at = table.time(time);
       if (!film.times.empty() && at <= film.times.back()) {
         table.fail(time, "the time does not grow");
       }
-      if (is_full()) break;
-      if (!is_shown(picture)) continue;
+      if (is_full()) return false;
+      if (!is_shown(picture)) return true;
       film.times.push_back(at);
       film.pictures.push_back(picture);
-    }
+      return true;
+    });
     cut_ = table.cut();
   }
 
   void report(const Film& film, Notes& notes) const {
     const fs::path list = results_.path() / path_ / recorders::kFilmList;
+    notes.add_unread(list, unread_);
     if (missing_ > 0) notes.add(list, fmt::format("{} of its pictures are missing", missing_));
     if (refused_ > 0) {
       notes.add(list, fmt::format("{} of its pictures are left out: they are links, no regular "
@@ -147,6 +153,7 @@ class FilmReader {
   std::size_t refused_ = 0;
   std::uintmax_t bytes_ = 0;
   bool is_cut_short_ = false;
+  std::optional<Table::Unread> unread_;
   std::optional<std::size_t> cut_;
 };
 
@@ -177,7 +184,11 @@ std::vector<Film> read_films(const fs::path& folder, const RunFile& run, const L
     Film film;
     film.component = component_of(name.string(), run.components);
     FilmReader reader(results, path, limits);
-    reader.read(std::move(list), film);
+    try {
+      reader.read(std::move(list), film);
+    } catch (const core::Error& mistake) {
+      notes.add_unread(folder / path / recorders::kFilmList, mistake);
+    }
     reader.report(film, notes);
     if (!film.times.empty()) films.push_back(std::move(film));
   }
@@ -194,12 +205,15 @@ std::optional<fs::path> present(const fs::path& folder, const std::string& name,
   return std::nullopt;
 }
 
-/// Empty where it cannot be read, which is noted: the other files are whole without it.
-RunFile read_run(const fs::path& folder, const std::string& name, Notes& notes) {
+/// What read(file) returns; nothing where there is no such file or it cannot be read, which is
+/// noted: the other files are whole without it.
+template <class Read>
+auto read_present(const fs::path& folder, const std::string& name, Notes& notes, Read&& read)
+    -> decltype(read(folder)) {
   const auto file = present(folder, name, notes);
   if (!file) return {};
   try {
-    return read_run_file(*file);
+    return read(*file);
   } catch (const core::Error& mistake) {
     notes.add_unread(*file, mistake);
     return {};
@@ -224,16 +238,16 @@ Results read_results(const fs::path& folder, const recorders::ResultFiles& files
   Results results;
   results.folder = folder;
   Notes notes(folder);
-  results.run = read_run(folder, files.statistics, notes);
+  results.run = read_present(folder, files.statistics, notes, &read_run_file);
   if (const auto file = present(folder, files.signals, notes)) {
     results.signals = read_signals(*file, results.run.signals, limits.signals, notes);
   }
-  if (const auto file = present(folder, files.events, notes)) {
-    results.messages = read_messages(*file, limits.messages, notes);
-  }
-  if (const auto file = present(folder, files.activity, notes)) {
-    results.activities = read_activities(*file, notes);
-  }
+  results.messages = read_present(folder, files.events, notes, [&](const fs::path& file) {
+    return read_messages(file, limits.messages, notes);
+  });
+  results.activities = read_present(folder, files.activity, notes, [&](const fs::path& file) {
+    return read_activities(file, notes);
+  });
   results.films = read_films(folder, results.run, limits, notes);
   results.notes = notes.texts();
   return results;

@@ -64,8 +64,9 @@ struct Results {
 
 /// Reads what there is of a run: a folder without run.json, or with files that were cut off when
 /// the run was killed, has results, too. `files`: their names. What units have written is read as
-/// of an UntrustedFolder, since they may be alive: links are left out. Throws core::Error (Input)
-/// that names file, line and column, and what was expected there.
+/// of an UntrustedFolder, since they may be alive: links are left out. Rows of messages, activities
+/// and films that cannot be read are left out, which is noted. Throws core::Error (Input) for a
+/// mistake in the signals, which names file, line and column, and what was expected there.
 Results read_results(const std::filesystem::path& folder, const recorders::ResultFiles& files,
                      const Limits& limits = {});
 

@@ -13,6 +13,7 @@
 #include "master/recorders/results_folder.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
+#include "master/util/readable_text.h"
 
 namespace stride::report {
 namespace {
@@ -142,14 +143,13 @@ void refuse_depth(std::string_view text) {
   }
 }
 
-/// The library's words without its own mark, "[json.exception.parse_error.101] parse error at line
-/// 1, column 2: ", since the place is given otherwise.
-std::string reason_of(const Json::exception& mistake) {
-  std::string_view text = mistake.what();
-  text.remove_prefix(std::min(text.size(), text.find("] ") + 2));
-  if (!text.starts_with("parse error at line")) return std::string(text);
-  text.remove_prefix(std::min(text.size(), text.find(": ") + 2));
-  return std::string(text);
+/// What is wrong at this place, counted from 1; the library's own words are for programmers.
+std::string reason_at(std::string_view text, std::size_t place) {
+  if (place == 0 || place > text.size()) return "the text ends too early";
+  text.remove_prefix(place - 1);
+  const std::string_view character = core::take_character(text);
+  if (character == core::kReplacement) return "a byte that is not UTF-8";
+  return fmt::format("'{}' is not expected here", core::readable_text(character, 1));
 }
 
 [[noreturn]] void fail(const std::filesystem::path& file, std::ptrdiff_t line,
@@ -163,9 +163,9 @@ std::string reason_of(const Json::exception& mistake) {
   if (text.empty()) fail(file, 1, "this is not JSON: the file is empty");
   const std::string_view before = std::string_view(text).substr(0, mistake.byte);
   const std::size_t begin = before.rfind('\n') + 1;  // 0 in the first line
-  fail(
-      file, 1 + std::count(before.begin(), before.end(), '\n'),
-      fmt::format("this is not JSON, in column {}: {}", before.size() - begin, reason_of(mistake)));
+  fail(file, 1 + std::count(before.begin(), before.end(), '\n'),
+       fmt::format("this is not JSON, in column {}: {}", before.size() - begin,
+                   reason_at(text, mistake.byte)));
 }
 
 /// Thousands of signals take a few MiB.
@@ -191,8 +191,8 @@ RunFile read_run_file(const std::filesystem::path& file) {
     return run;
   } catch (const Json::parse_error& mistake) {
     fail_syntax(file, text, mistake);
-  } catch (const Json::exception& mistake) {  // a number out of range
-    fail(file, 0, fmt::format(kOther, reason_of(mistake)));
+  } catch (const Json::exception&) {
+    fail(file, 0, fmt::format(kOther, "a number in it is out of range"));
   } catch (const std::logic_error& mistake) {
     fail(file, 0, fmt::format(kOther, mistake.what()));
   }

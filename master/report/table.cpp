@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "master/util/error.h"
 #include "master/util/time_text.h"
 
 namespace stride::report {
@@ -27,13 +28,42 @@ std::size_t Table::place(const std::string& column) const {
   return *found;
 }
 
+void Table::check_field_count() const {
+  if (fields().size() == columns_.size()) return;
+  reader_.fail(fmt::format("expected {} fields, as in the header, found {}", columns_.size(),
+                           fields().size()));
+}
+
 bool Table::next() {
   if (!reader_.next()) return false;
-  if (fields().size() != columns_.size()) {
-    reader_.fail(fmt::format("expected {} fields, as in the header, found {}", columns_.size(),
-                             fields().size()));
-  }
+  check_field_count();
   return true;
+}
+
+std::optional<Table::Unread> Table::for_each_row(const std::function<bool()>& take) {
+  Unread first;
+  std::size_t count = 0;
+  const auto keep = [&](const core::Error& mistake) {
+    if (++count == 1) first = {reader_.line(), mistake.message()};
+  };
+  try {
+    for (bool goes_on = true; goes_on && reader_.next();) {
+      try {
+        check_field_count();
+        goes_on = take();
+      } catch (const core::Error& mistake) {
+        keep(mistake);
+      }
+    }
+  } catch (const core::Error& mistake) {  // where the next row begins is not known
+    keep(mistake);
+    first.text += fmt::format("; the rows from line {} on are left out", reader_.line());
+    return first;
+  }
+  if (count == 0) return std::nullopt;
+  first.text += count == 1 ? "; this row is left out"
+                           : fmt::format("; this row and {} more are left out", count - 1);
+  return first;
 }
 
 std::int64_t Table::time(std::size_t place) const {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,15 @@ class Table {
 
   /// The next row, of which each must have as many fields as the header.
   bool next();
+  /// Rows that are left out: where the first one is, and words about all.
+  struct Unread {
+    std::size_t line = 0;
+    std::string text{};
+  };
+  /// Calls take() for each row until it returns false. Rows with another number of fields, or for
+  /// which take() throws core::Error (Input), are left out, as is the rest behind quotation marks
+  /// that are out of place. Returns these; nothing if there are none.
+  std::optional<Unread> for_each_row(const std::function<bool()>& take);
   const std::vector<CsvReader::Field>& fields() const { return reader_.fields(); }
   const CsvReader::Field& field(std::size_t place) const { return fields()[place]; }
   /// The field as a time [ps].
@@ -35,6 +45,8 @@ class Table {
   [[noreturn]] void fail(std::size_t place, const std::string& message) const;
 
  private:
+  void check_field_count() const;
+
   CsvReader reader_;
   std::vector<std::string> columns_;
 };

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "master/recorders/results_folder.h"
+#include "master/recorders/unit_folders.h"
 #include "master/ssp/ssp.h"
 #include "master/util/number_text.h"
 #include "master/util/xml/element.h"
@@ -176,6 +177,10 @@ void check_file_name(const xml::Element& element, const char* attribute, const s
   if (!recorders::is_plain_file_name(name)) {
     element.fail(fmt::format("{}=\"{}\" is not a plain file name", attribute, name),
                  "the file goes into the results folder, so give its name only");
+  }
+  if (name == recorders::kUnitsFolder) {
+    element.fail(fmt::format("{}=\"{}\" is the name of a folder of the results", attribute, name),
+                 "units write their own files there, so choose another name");
   }
 }
 

@@ -29,7 +29,7 @@ struct Element {
 class Selection {
  public:
   Selection(const core::System& system, const ScenarioTimes& times)
-      : system_(system), times_(times), variables_(named_variables(system)) {}
+      : system_(system), times_(times), finder_(system) {}
 
   std::vector<Definition> select(const CheckDeclaration& check) const {
     check_window(check);
@@ -67,7 +67,7 @@ class Selection {
 
   const core::System& system_;
   const ScenarioTimes& times_;
-  std::vector<NamedVariable> variables_;
+  VariableFinder finder_;
 };
 
 void Selection::check_window(const CheckDeclaration& check) const {
@@ -111,7 +111,7 @@ void Selection::check_window(const CheckDeclaration& check) const {
 [[noreturn]] void Selection::fail_unknown(const CheckDeclaration& check, const std::string& pattern,
                                           bool wants_message) const {
   std::vector<std::string> names;
-  for (const NamedVariable& variable : variables_) {
+  for (const NamedVariable& variable : finder_.all()) {
     if (!core::is_glob(pattern) && is_meant(system_, variable.id, pattern)) {
       fail_unsuitable(check, variable, wants_message);
     }
@@ -131,12 +131,12 @@ bool Selection::is_triggered(const NamedVariable& clock) const {
 
 const NamedVariable* Selection::carried_by(const NamedVariable& clock) const {
   const core::Variable& variable = system_.variable(clock.id);
-  const auto carried = std::ranges::find_if(variables_, [&](const NamedVariable& other) {
+  const auto carried = std::ranges::find_if(finder_.all(), [&](const NamedVariable& other) {
     const core::Variable& candidate = system_.variable(other.id);
     return other.id.component == clock.id.component && candidate.causality == variable.causality &&
            std::ranges::find(candidate.clocks, variable.reference) != candidate.clocks.end();
   });
-  return carried == variables_.end() ? nullptr : &*carried;
+  return carried == finder_.all().end() ? nullptr : &*carried;
 }
 
 bool Selection::is_reported(const NamedVariable& variable) const {
@@ -148,15 +148,21 @@ bool Selection::is_reported(const NamedVariable& variable) const {
 std::vector<Element> Selection::find_elements(const CheckDeclaration& check) const {
   const std::string& pattern = check.subject;
   std::vector<Element> found;
-  for (const NamedVariable& variable : variables_) {
-    if (variable.is_message) continue;
+  const auto add = [&](const NamedVariable& variable, bool is_whole) {
+    if (variable.is_message) return;
     const core::Variable& described = system_.variable(variable.id);
-    const bool is_whole = is_meant(system_, variable.id, pattern);
     for (std::size_t i = 0; i < described.size; ++i) {
       std::string name = system_.prefix(variable.id) + recorders::element_name(described, i);
       const bool is_one = name == pattern || core::matches_glob(pattern, name);
       if (is_whole || is_one) found.push_back({&variable, i, std::move(name)});
     }
+  };
+  if (core::is_glob(pattern)) {  // or the name of an element, which has brackets
+    for (const NamedVariable& variable : finder_.all()) {
+      add(variable, is_meant(system_, variable.id, pattern));
+    }
+  } else {
+    for (const NamedVariable* variable : finder_.meant(pattern)) add(*variable, true);
   }
   if (found.empty()) fail_unknown(check, pattern, false);
   return found;
@@ -165,9 +171,8 @@ std::vector<Element> Selection::find_elements(const CheckDeclaration& check) con
 std::vector<core::VariableId> Selection::find_messages(const CheckDeclaration& check,
                                                        const std::string& pattern) const {
   std::vector<core::VariableId> found;
-  for (const NamedVariable& variable : variables_) {
-    if (!variable.is_message || !is_reported(variable)) continue;
-    if (is_meant(system_, variable.id, pattern)) found.push_back(variable.id);
+  for (const NamedVariable* variable : finder_.meant(pattern)) {
+    if (is_reported(*variable)) found.push_back(variable->id);
   }
   if (found.empty()) fail_unknown(check, pattern, true);
   return found;

@@ -43,7 +43,8 @@ std::string text(const core::Location& where) {
 
 std::string snapshots_text(const core::UnitDescription& unit, const HostSettings& settings) {
   if (unit.can_save_state) return "no: it saves its own state";
-  if (!settings.snapshots) return "no: it need not be rolled back";
+  if (!settings.snapshots)
+    return "no: it steps after the others; snapshots=\"true\" rolls it back from rejected steps";
   return fmt::format("{0}: snapshots=\"{1}\"", *settings.snapshots ? "yes" : "no",
                      *settings.snapshots);
 }

@@ -17,6 +17,7 @@
 #include "master/scenario/film.h"
 #include "master/scenario/signal_selection.h"
 #include "master/scenario/unit_path.h"
+#include "master/util/message_text.h"
 #include "master/util/suggest.h"
 #include "master/util/time_text.h"
 
@@ -121,7 +122,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   choose_early_returns();
   system_.emplace(scenario_.system);
   for (const auto& warnings : {scenario_.warnings, system_->warnings()}) {
-    for (const std::string& warning : warnings) spdlog::warn("{}", warning);
+    for (const std::string& warning : warnings) spdlog::warn("{}", core::message_text(warning));
   }
   choose_times(request);
   choose_steps(request.step);

@@ -27,11 +27,14 @@ typename Choices::value_type parse_word(std::string_view text, const Choices& ch
       fmt::format("unknown value '{}'; {}", text, core::suggestion(std::string(text), words)));
 }
 
-Duration parse_step(std::string_view text) {
-  const Duration step = core::parse_seconds(text);
-  if (step <= Duration::zero()) throw std::invalid_argument("a step must be above 0 s");
-  return step;
+Duration parse_above_zero(std::string_view text, const char* what) {
+  const Duration duration = core::parse_seconds(text);
+  if (duration > Duration::zero()) return duration;
+  throw std::invalid_argument(
+      fmt::format("{} must be above 0 s, at least the picosecond that times are counted in", what));
 }
+
+Duration parse_step(std::string_view text) { return parse_above_zero(text, "a step"); }
 
 /// Replaces what is set already, if the other value is set.
 template <class T, class U>
@@ -142,9 +145,7 @@ std::vector<HostSettings> HostRules::settings(std::span<const std::string> compo
 }
 
 std::chrono::milliseconds parse_call_limit(std::string_view text) {
-  const Duration limit = core::parse_seconds(text);
-  if (limit <= Duration::zero()) throw std::invalid_argument("a time limit must be above 0 s");
-  return std::chrono::ceil<std::chrono::milliseconds>(limit);
+  return std::chrono::ceil<std::chrono::milliseconds>(parse_above_zero(text, "a time limit"));
 }
 
 std::uint64_t parse_memory_limit(std::string_view text) {
@@ -182,10 +183,6 @@ core::IdleOptions IdleSettings::options(const core::System& system,
   return options;
 }
 
-Duration parse_max_skip(std::string_view text) {
-  const Duration skip = core::parse_seconds(text);
-  if (skip <= Duration::zero()) throw std::invalid_argument("a skip must be above 0 s");
-  return skip;
-}
+Duration parse_max_skip(std::string_view text) { return parse_above_zero(text, "a skip"); }
 
 }  // namespace stride::scenario

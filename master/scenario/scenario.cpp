@@ -54,7 +54,7 @@ Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& opt
   scenario.path = path;
   scenario.files = std::make_shared<ssp::Files>(options.find_unit);
   const std::filesystem::path file = scenario.files->system_file(path);
-  const xml::Document document = scenario.files->read(file);
+  const xml::Document document = scenario.files->document(file);
   const xml::Element root = document.root();
   ssp::check_system_description(root);
   scenario.name = root.required("name");

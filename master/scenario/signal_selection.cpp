@@ -1,6 +1,7 @@
 #include "master/scenario/signal_selection.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 
@@ -51,20 +52,32 @@ std::vector<core::VariableId> all_outputs(const core::System& system) {
                    core::suggestion(pattern.text, names));
 }
 
-/// Adds the columns of what the pattern matches; returns whether that is anything.
-bool add_matches(const core::System& system, std::span<const core::VariableId> recorded,
-                 const SignalPattern& pattern, std::set<core::VariableId>& taken,
+/// The place of each recorded variable in the record.
+using RecordedPlaces = std::map<core::VariableId, std::size_t>;
+
+RecordedPlaces places_of(std::span<const core::VariableId> recorded) {
+  RecordedPlaces places;
+  for (std::size_t i = 0; i < recorded.size(); ++i) places.emplace(recorded[i], i);
+  return places;
+}
+
+/// Adds the columns of what the pattern matches, in the order of the record; returns whether that
+/// is anything.
+bool add_matches(const core::System& system, const RecordedPlaces& recorded,
+                 const std::vector<const NamedVariable*>& meant, std::set<core::VariableId>& taken,
                  recorders::Plot& plot) {
-  bool has_match = false;
-  for (const core::VariableId id : recorded) {
-    if (!is_meant(system, id, pattern.text)) continue;
-    has_match = true;
+  std::map<std::size_t, core::VariableId> matches;
+  for (const NamedVariable* variable : meant) {
+    const auto place = recorded.find(variable->id);
+    if (place != recorded.end()) matches.emplace(place->second, variable->id);
+  }
+  for (const auto& [place, id] : matches) {
     if (!taken.insert(id).second) continue;
     for (std::size_t i = 0; i < system.variable(id).size; ++i) {
       plot.signals.push_back(recorders::column_name(system, id, i));
     }
   }
-  return has_match;
+  return !matches.empty();
 }
 
 /// Calls miss(plot, pattern) for a pattern that matches nothing.
@@ -73,11 +86,15 @@ std::vector<recorders::Plot> matching_plots(const core::System& system,
                                             std::span<const core::VariableId> recorded,
                                             std::span<const PlotPattern> patterns, Miss&& miss) {
   std::vector<recorders::Plot> plots;
+  if (patterns.empty()) return plots;
+  const VariableFinder finder(system);
+  const RecordedPlaces places = places_of(recorded);
   for (const PlotPattern& wanted : patterns) {
     recorders::Plot& plot = plots.emplace_back(recorders::Plot{wanted.title, {}});
     std::set<core::VariableId> taken;
     for (const SignalPattern& pattern : wanted.signals) {
-      if (!add_matches(system, recorded, pattern, taken, plot)) miss(wanted, pattern);
+      const auto meant = finder.meant(pattern.text);
+      if (!add_matches(system, places, meant, taken, plot)) miss(wanted, pattern);
     }
   }
   return plots;
@@ -114,25 +131,46 @@ bool is_meant(const core::System& system, core::VariableId id, const std::string
   });
 }
 
+VariableFinder::VariableFinder(const core::System& system)
+    : system_(system), all_(named_variables(system)) {
+  for (const NamedVariable& variable : all_) {
+    by_name_[variable.name].push_back(&variable);
+    for (const std::string& alias : system.variable(variable.id).aliases) {
+      by_name_[system.prefix(variable.id) + alias].push_back(&variable);
+    }
+  }
+}
+
+std::vector<const NamedVariable*> VariableFinder::meant(const std::string& pattern) const {
+  if (!core::is_glob(pattern)) {
+    const auto found = by_name_.find(pattern);
+    return found == by_name_.end() ? std::vector<const NamedVariable*>() : found->second;
+  }
+  std::vector<const NamedVariable*> found;
+  for (const NamedVariable& variable : all_) {
+    if (is_meant(system_, variable.id, pattern)) found.push_back(&variable);
+  }
+  return found;
+}
+
 std::vector<core::VariableId> select_signals(const core::System& system,
                                              std::span<const SignalPattern> patterns) {
   if (patterns.empty()) return all_outputs(system);
-  const std::vector<NamedVariable> all = named_variables(system);
+  const VariableFinder finder(system);
   std::vector<core::VariableId> selected;
   std::set<core::VariableId> taken;
   for (const SignalPattern& pattern : patterns) {
     const NamedVariable* message = nullptr;
     bool has_match = false;
-    for (const NamedVariable& variable : all) {
-      if (!is_meant(system, variable.id, pattern.text)) continue;
-      if (variable.is_message) {
-        message = &variable;
+    for (const NamedVariable* variable : finder.meant(pattern.text)) {
+      if (variable->is_message) {
+        message = variable;
         continue;
       }
       has_match = true;
-      if (taken.insert(variable.id).second) selected.push_back(variable.id);
+      if (taken.insert(variable->id).second) selected.push_back(variable->id);
     }
-    if (!has_match) fail_without_match(pattern, message, all);
+    if (!has_match) fail_without_match(pattern, message, finder.all());
   }
   return selected;
 }

@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "master/algorithm/observer.h"
@@ -25,6 +26,26 @@ std::vector<NamedVariable> named_variables(const core::System& system);
 
 /// Whether the pattern, a name or a glob, matches the variable, by its name or an alias of it.
 bool is_meant(const core::System& system, core::VariableId id, const std::string& pattern);
+
+/// The variables that patterns mean. A plain name is looked up, so many names among many variables
+/// take a time in proportion to both.
+class VariableFinder {
+ public:
+  /// The system must outlive it.
+  explicit VariableFinder(const core::System& system);
+  VariableFinder(const VariableFinder&) = delete;
+  VariableFinder& operator=(const VariableFinder&) = delete;
+
+  /// As named_variables() returns them.
+  const std::vector<NamedVariable>& all() const { return all_; }
+  /// Those for which is_meant() is true, in the order of the system.
+  std::vector<const NamedVariable*> meant(const std::string& pattern) const;
+
+ private:
+  const core::System& system_;
+  std::vector<NamedVariable> all_;
+  std::unordered_map<std::string, std::vector<const NamedVariable*>> by_name_;  ///< and by alias
+};
 
 /// The variables whose "component.variable" matches a pattern: in the order of the patterns, for
 /// each pattern in that of the system, each variable once. Without patterns all outputs.

@@ -14,7 +14,7 @@ struct VendorElement {
 };
 
 constexpr VendorElement kVendorElements[] = {{"FixedStepAlgorithm", "baseStepSize"},
-                                       {"FixedStepMaster", "stepSize"}};
+                                             {"FixedStepMaster", "stepSize"}};
 
 std::optional<VendorStep> step_of(const xml::Element& element) {
   for (const VendorElement& known : kVendorElements) {

@@ -9,12 +9,6 @@
 namespace stride::ssp {
 namespace {
 
-core::BaseUnitOfMeasure read_meaning(const xml::Element& element) {
-  const core::BaseUnitOfMeasure unit = core::read_base_unit(element);
-  if (unit.factor == 0) element.fail("a unit with the factor 0 measures nothing");
-  return unit;
-}
-
 core::EnumerationItems read_items(const xml::Element& enumeration) {
   core::EnumerationItems items;
   for (const xml::Element& item : enumeration.children({kSsc, "Item"})) {
@@ -39,7 +33,8 @@ Definitions read_definitions(const xml::Element& root, const char* name_space) {
   if (const auto units = root.child({name_space, "Units"})) {
     for (const xml::Element& unit : units->children({kSsc, "Unit"})) {
       const auto base = unit.child({kSsc, "BaseUnit"});
-      if (base) definitions.units_of_measure.emplace(unit.required("name"), read_meaning(*base));
+      if (base)
+        definitions.units_of_measure.emplace(unit.required("name"), core::read_base_unit(*base));
     }
   }
   if (const auto enumerations = root.child({name_space, "Enumerations"})) {

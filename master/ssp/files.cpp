@@ -107,16 +107,17 @@ std::optional<Files::Archive> Files::archive_of(const fs::path& file) const {
   return std::nullopt;
 }
 
+xml::Document Files::document(const fs::path& file) {
+  documents_.insert(file);
+  xml::Document document(file, shown(file), kPrefixes);
+  warnings_.insert(warnings_.end(), document.warnings().begin(), document.warnings().end());
+  return document;
+}
+
 std::string Files::shown(const fs::path& path) const {
   const auto archive = archive_of(path);
   if (!archive) return path.string();
   return shown(archive->path) + "/" + path.lexically_relative(archive->folder).string();
-}
-
-xml::Document Files::read(const fs::path& path) {
-  xml::Document document(path, shown(path), kPrefixes);
-  warnings_.insert(warnings_.end(), document.warnings().begin(), document.warnings().end());
-  return document;
 }
 
 }  // namespace stride::ssp

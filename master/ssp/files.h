@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -43,12 +44,14 @@ class Files {
     std::filesystem::path folder;
   };
   std::optional<Archive> archive_of(const std::filesystem::path& file) const;
+  /// Reads an XML file that is called shown() in complaints. Throws core::Error (Input).
+  xml::Document document(const std::filesystem::path& file);
+  /// The files that document() has read or tried to read.
+  const std::set<std::filesystem::path>& documents() const { return documents_; }
   /// A path as its reader knows it: within an archive, "FILE.ssp/resources/a.ssv".
   std::string shown(const std::filesystem::path& path) const;
 
-  /// Reads a file of the scenario, which is shown so in messages.
-  xml::Document read(const std::filesystem::path& path);
-  /// Of what is odd in the files that were read, but no mistake.
+  /// Of what is odd in the files that document() has read, but no mistake.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
@@ -58,6 +61,7 @@ class Files {
   UnitFinder find_unit_;
   std::map<std::filesystem::path, std::unique_ptr<archive::UnpackedArchive>> archives_;
   std::vector<std::string> warnings_;
+  std::set<std::filesystem::path> documents_;
 };
 
 }  // namespace stride::ssp

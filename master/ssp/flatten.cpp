@@ -6,14 +6,13 @@
 #include <fmt/format.h>
 
 #include "master/ssp/port_graph.h"
+#include "master/util/limited_warnings.h"
 #include "master/util/suggest.h"
 
 namespace stride::ssp {
 namespace {
 
 using core::ViaDeclaration;
-
-constexpr std::size_t kMostShown = 60;  // warnings of one kind
 
 class Flattener {
  public:
@@ -22,7 +21,8 @@ class Flattener {
         graph_(root),
         ports_(graph_.ports()),
         connections_(graph_.connections()),
-        warnings_(warnings) {}
+        unmatched_(warnings, "parameters that belong to no component, and are ignored, too"),
+        open_(warnings, "parameters for connectors that lead to no component") {}
 
   FlatSystem run() {
     flat_.declaration.name = root_.name;
@@ -36,11 +36,8 @@ class Flattener {
       graph_.follow(i, [&](const PortGraph::Way& found) { add_connection(found); });
     }
     add_parameters(root_);
-    if (unmatched_ > kMostShown) {
-      warnings_.push_back(
-          fmt::format("… and {} more parameters that belong to no component, and are ignored, too",
-                      unmatched_ - kMostShown));
-    }
+    unmatched_.finish();
+    open_.finish();
     add_outputs();
     return std::move(flat_);
   }
@@ -208,14 +205,15 @@ class Flattener {
     flat_.declaration.start_values.push_back(std::move(start));
   }
 
-  void warn(const ParameterValue& value, const std::string& message) {
-    warnings_.push_back(fmt::format("{}:{}: {}", value.where.file, value.where.line, message));
+  static std::string warning(const ParameterValue& value, const std::string& message) {
+    return core::to_text({.where = value.where}) + message;
   }
 
   void warn_of_open(const ParameterValue& value, std::size_t port) {
-    warn(value, fmt::format("the parameter '{}' is for the connector '{}', which leads to no "
-                            "component",
-                            value.name, ports_[port].path));
+    if (!open_.count()) return;
+    open_.add(warning(value, fmt::format("the parameter '{}' is for the connector '{}', which "
+                                         "leads to no component",
+                                         value.name, ports_[port].path)));
   }
 
   /// Where a name leads as long as it names systems, and what is left of it then.
@@ -235,7 +233,7 @@ class Flattener {
 
   /// After some, others are only counted: each would be compared with the names of all elements.
   void report_unmatched(const ParameterValue& value, const SystemNode& node) {
-    if (!value.is_required && ++unmatched_ > kMostShown) return;
+    if (!value.is_required && !unmatched_.count()) return;
     const auto [at, rest] = descend(node, value.name);
     std::vector<std::string> names;
     for (const auto& [name, port] : graph_.connectors(*at)) names.push_back(name);
@@ -247,19 +245,19 @@ class Flattener {
       core::fail_input({value.where, {}, {}, {}},
                        fmt::format("there is no component '{}{}'", before, head), hint);
     }
-    warn(value, fmt::format("the parameter '{}' belongs to no component and is ignored, as SSP "
-                            "requires; names read component.variable{}",
-                            value.name, hint.empty() ? "" : "\n  hint: " + hint));
+    unmatched_.add(
+        warning(value, fmt::format("the parameter '{}' belongs to no component and is ignored, as "
+                                   "SSP requires; names read component.variable{}",
+                                   value.name, hint.empty() ? "" : "\n  hint: " + hint)));
   }
 
   const SystemNode& root_;
   PortGraph graph_;
   const std::vector<Port>& ports_;
   const std::vector<PortConnection>& connections_;
-  std::vector<std::string>& warnings_;
+  core::LimitedWarnings unmatched_, open_;
   FlatSystem flat_;
   std::size_t groups_ = 0;
-  std::size_t unmatched_ = 0;  ///< parameters that belong to no component
 };
 
 }  // namespace

@@ -58,7 +58,7 @@ class Packer {
  private:
   /// The text of a .ssd whose resources are at `resources`, as seen from it.
   std::string packed(const fs::path& path, const std::string& resources) {
-    const xml::Document document = files_.read(path);
+    const xml::Document document = files_.document(path);
     xml::Editor editor(document.text());
     replace_sources(document.root(), path.parent_path(), resources, editor);
     return editor.result();

@@ -13,6 +13,7 @@
 #include "master/ssp/transformation.h"
 #include "master/ssp/uri.h"
 #include "master/util/input_file.h"
+#include "master/util/limited_warnings.h"
 #include "master/util/xml/document.h"
 
 namespace stride::ssp {
@@ -141,7 +142,7 @@ xml::Document open(const xml::Element& owner, const BindingContext& context, con
                base == "SSD" ? "its path is relative to this file"
                              : "its path is relative to the top of the component's FMU");
   }
-  return context.files.read(path);
+  return context.files.document(path);
 }
 
 std::vector<ParameterValue> read_values(const xml::Element& binding,
@@ -205,6 +206,7 @@ std::vector<ParameterValue> map_values(const xml::Element& mapping,
   check_mapping(mapping);
   std::vector<ParameterValue> mapped;
   std::set<std::string> targets;
+  core::LimitedWarnings missing(context.warnings, "entries whose parameter the set does not have");
   for (const xml::Element& entry : mapping.children({kSsm, "MappingEntry"})) {
     check_entry(entry);
     const std::string source = entry.given("source");
@@ -214,10 +216,11 @@ std::vector<ParameterValue> map_values(const xml::Element& mapping,
                  "keep one of the two entries");
     }
     if (map_values_of(entry, values, mapped)) continue;
-    context.warnings.push_back(
-        fmt::format("{}:{}: the parameter set has no '{}' to be mapped to '{}'", entry.where().file,
-                    entry.where().line, source, target));
+    if (!missing.count()) continue;
+    missing.add(core::to_text({.where = entry.where()}) +
+                fmt::format("the parameter set has no '{}' to be mapped to '{}'", source, target));
   }
+  missing.finish();
   return mapped;
 }
 

@@ -53,7 +53,7 @@ SignalDictionary read_dictionary(const xml::Element& element, const std::filesys
   }
   if (element.attribute("source")) {
     const std::filesystem::path path = source_path(element, folder);
-    return read_entries(files.read(path).root());
+    return read_entries(files.document(path).root());
   }
   const auto inside = element.child({kSsb, "SignalDictionary"});
   if (!inside) {

@@ -265,7 +265,7 @@ class SystemReader {
     const std::filesystem::path path =
         variant.empty() ? reading_.files.system_file(source, component.where())
                         : reading_.files.system_file(source, variant, component.where());
-    const xml::Document document = reading_.files.read(path);
+    const xml::Document document = reading_.files.document(path);
     const xml::Element root = document.root();
     check_system_description(root);
     return SystemReader(root, path, reading_).read();

@@ -5,11 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "master/util/message_text.h"
 #include "master/util/time_text.h"
 
 namespace stride::core {
 Error::Error(Kind kind, Context context, const std::string& message, const std::string& hint)
-    : std::runtime_error(to_text(context) + message + (hint.empty() ? "" : "\n  hint: " + hint)),
+    : std::runtime_error(
+          message_text(to_text(context) + message + (hint.empty() ? "" : "\n  hint: " + hint))),
       kind_(kind),
       context_(std::move(context)),
       message_(message),
@@ -39,7 +41,7 @@ bool is_shortage(int error) {
 std::string to_text(const Context& context) {
   std::string head;
   if (!context.where.file.empty()) {
-    head += context.where.file;
+    head += name_text(context.where.file);
     if (context.where.line > 0) head += fmt::format(":{}", context.where.line);
     head += ": ";
   }
@@ -47,8 +49,8 @@ std::string to_text(const Context& context) {
   const auto add = [&](const std::string& part) {
     subject += (subject.empty() ? "" : ", ") + part;
   };
-  if (!context.unit.empty()) add(fmt::format("unit '{}'", context.unit));
-  if (!context.variable.empty()) add(fmt::format("variable '{}'", context.variable));
+  if (!context.unit.empty()) add(fmt::format("unit '{}'", name_text(context.unit)));
+  if (!context.variable.empty()) add(fmt::format("variable '{}'", name_text(context.variable)));
   if (context.time) add(fmt::format("at {} s", to_text(*context.time)));
   if (!subject.empty()) subject += ": ";
   return head + subject;
@@ -58,7 +60,7 @@ std::string quoted(std::span<const std::string> names) {
   std::string text;
   for (const std::string& name : names) {
     if (!text.empty()) text += ", ";
-    text += "'" + name + "'";
+    text += "'" + name_text(name) + "'";
   }
   return text;
 }

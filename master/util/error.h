@@ -25,8 +25,8 @@ struct Context {
   std::optional<Time> time{};
 };
 
-/// Its text reads "FILE:LINE: unit 'U', variable 'V', at T s: MESSAGE", followed by the hint on a
-/// line of its own.
+/// Its text, what(), reads "FILE:LINE: unit 'U', variable 'V', at T s: MESSAGE", followed by the
+/// hint on a line of its own. It is message_text() of that, whatever the message quotes.
 class Error : public std::runtime_error {
  public:
   enum class Kind {

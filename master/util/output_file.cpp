@@ -34,16 +34,34 @@ const char* hint_for(int error) {
   }
 }
 
+/// Opens it without waiting for the reader of a pipe; writing waits as usual.
+int open_without_waiting(const std::filesystem::path& path, int how) {
+  constexpr mode_t kEverybodyMayRead = 0666;  // less the umask
+  const int file =
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_NOCTTY | O_CLOEXEC | how,
+             kEverybodyMayRead);
+  if (file >= 0) ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);
+  return file;
+}
+
+bool is_pipe(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_fifo(path, ignored);
+}
+
 }  // namespace
 
 OutputFile::OutputFile(std::filesystem::path path, Hints hints, Existing existing)
     : path_(std::move(path)), hints_(hints), buffer_(std::make_unique<char[]>(kCapacity)) {
-  constexpr mode_t kEverybodyMayRead = 0666;  // less the umask
-  const int how = existing == Existing::Emptied ? O_TRUNC : O_EXCL | O_NOFOLLOW;
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | how | O_CLOEXEC, kEverybodyMayRead);
+  descriptor_ =
+      open_without_waiting(path_, existing == Existing::Emptied ? O_TRUNC : O_EXCL | O_NOFOLLOW);
   if (descriptor_ >= 0) return;
   const int error = errno;
   const Context where{.where = {path_.string(), 0}};
+  if (error == ENXIO && is_pipe(path_)) {
+    fail_input(where, "this is a pipe (FIFO) that no program reads",
+               "start the program that reads it first, or choose a file");
+  }
   const std::string message =
       fmt::format("cannot create the file: {}", std::generic_category().message(error));
   if (is_shortage(error)) fail_run(where, message, hint_for_shortage(error));

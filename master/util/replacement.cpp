@@ -17,18 +17,11 @@ constexpr OutputFile::Hints kHints = {
     "choose a file in a folder in which you may write",
     "make room on the disk that this file is on, or check it; nothing is left of it"};
 
-/// Pipes, terminals, and names of what is open already, such as /dev/stdout.
-bool is_device(const fs::path& path) {
-  const std::string folder = fs::absolute(path).lexically_normal().parent_path();
-  return folder == "/dev" || folder == "/dev/fd" || folder.starts_with("/proc/") ||
-         (path_exists(path) && !is_file(path));
-}
-
 /// The file that is to be replaced.
 fs::path target_of(const fs::path& path) {
   if (path.empty()) fail_input({}, "no file is named to write to");
   std::error_code error;
-  if (is_device(path)) return path;
+  if (Replacement::is_at_once(path)) return path;
   if (fs::is_symlink(path, error)) {
     const fs::path target = fs::weakly_canonical(path, error);
     if (!error) return target;
@@ -52,9 +45,15 @@ void check(const fs::path& path) {
 
 }  // namespace
 
+bool Replacement::is_at_once(const fs::path& path) {
+  const std::string folder = fs::absolute(path).lexically_normal().parent_path();
+  return folder == "/dev" || folder == "/dev/fd" || folder.starts_with("/proc/") ||
+         (path_exists(path) && !is_file(path));
+}
+
 Replacement::Replacement(const fs::path& path) : target_(target_of(path)) {
   check(target_);
-  if (is_device(target_)) {
+  if (is_at_once(target_)) {
     file_.emplace(target_, kHints);
     return;
   }

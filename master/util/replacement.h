@@ -23,6 +23,9 @@ class Replacement {
   Replacement(const Replacement&) = delete;
   Replacement& operator=(const Replacement&) = delete;
 
+  /// Whether it is written at once: a pipe, a device, or a name of an open file.
+  static bool is_at_once(const std::filesystem::path& path);
+
   OutputFile& file() { return *file_; }
   /// Throws Error (Run) if the file cannot be written whole.
   void commit();

@@ -140,3 +140,19 @@ TEST_CASE("results go into a folder only") {
              Contains("test.ssd/out: cannot write results into this folder") &&
                  Contains("choose another results folder"));
 }
+
+TEST_CASE("a flag has its value behind '='") {
+  const Workspace workspace(two_filters());
+  CHECK_THAT(input_error_of(workspace.run({"--isolate="})),
+             Contains("--isolate=: there is no value behind '='") && Contains("hint: leave"));
+  CHECK_THAT(input_error_of(workspace.run({"--film="})), Contains("--film=: there is no value"));
+  CHECK_THAT(input_error_of(workspace.stride({"check", "--isolate", "first", "test.ssd"})),
+             Contains("test.ssd") && Contains("as in --isolate=VALUE"));
+  CHECK_FALSE(fs::exists(workspace / "out"));
+}
+
+TEST_CASE("--verbose may follow the command") {
+  const Workspace workspace(two_filters());
+  CHECK(workspace.run({"--quiet", "--verbose"}).exit_code == 0);
+  CHECK(workspace.stride({"check", "test.ssd", "--verbose"}).exit_code == 0);
+}

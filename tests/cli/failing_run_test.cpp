@@ -185,6 +185,7 @@ TEST_CASE("without a folder for temporary files, units cannot be unpacked") {
   const Workspace workspace(two_filters());
   ::setenv("TMPDIR", (workspace / "nowhere").c_str(), 1);  // Scratch resets it
   const Outcome outcome = workspace.run();
-  CHECK(outcome.exit_code == 1);
-  CHECK_THAT(outcome.err, Contains("nowhere/stride-") && Contains("set TMPDIR to a folder"));
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains("TMPDIR: cannot") && Contains("nowhere/stride-") &&
+                              Contains("set TMPDIR to a folder"));
 }

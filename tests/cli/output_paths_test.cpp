@@ -1,6 +1,8 @@
 // Outputs that the command line names replace neither inputs nor results.
 #include <map>
 
+#include <sys/stat.h>
+
 #include "tests/build.h"
 #include "tests/cli/scenarios.h"
 
@@ -151,4 +153,55 @@ TEST_CASE("report replaces the page at most") {
   }
   CHECK_THAT(refusal_of(workspace, {"report", "out", "-o", "out/units/first/page.html"}),
              Contains("the file is in the folder of the files of units"));
+}
+
+TEST_CASE("a results file replaces nothing that the run reads") {
+  const FilesWorkspace workspace;
+  for (const auto& [signals, what] :
+       {std::pair<std::string, std::string>{"test.ssd", "the scenario"},
+        {"p.ssv", "a file of the scenario"},
+        {"mine.fmu", "a unit of the scenario"}}) {
+    std::string scenario = scenario_of_files();
+    scenario.insert(scenario.find("</stride:Scenario>"),
+                    "<stride:Results signals=\"" + signals + "\"/>");
+    workspace.scratch().write("test.ssd", scenario);
+    CHECK_THAT(refusal_of(workspace, {"run", "test.ssd", "--out", "."}),
+               Contains(signals + " in the results folder .: this is " + what));
+  }
+}
+
+TEST_CASE("results do not go into a unit that is a folder") {
+  const Workspace workspace(Parts{component("a", "raw")});
+  make_raw_fmu(workspace.scratch(), "raw");
+  CHECK_THAT(refusal_of(workspace, {"run", "test.ssd", "--out", "raw/resources"}),
+             Contains("in the results folder raw/resources: this is in a unit of the scenario"));
+}
+
+TEST_CASE("a package replaces nothing that is packed") {
+  const FilesWorkspace workspace;
+  fs::copy_file(unit_library("minimal"), workspace / "minimal.so");
+  CHECK_THAT(refusal_of(workspace, {"pack", "minimal.so", "-o", "./minimal.so"}),
+             Contains("--output ./minimal.so: this is what is to be packed"));
+  fs::create_symlink("mine.fmu", workspace / "link.ssp");
+  CHECK_THAT(refusal_of(workspace, {"pack", "test.ssd", "-o", "link.ssp"}),
+             Contains("--output link.ssp: this is a unit of the scenario"));
+}
+
+TEST_CASE("a pipe that no program reads is no output") {
+  const Workspace workspace(two_filters());
+  REQUIRE(::mkfifo((workspace / "pipe").c_str(), 0600) == 0);
+  for (const Arguments& option : {Arguments{"--junit", "pipe"}, {"--capture", "first=pipe"}}) {
+    CHECK_THAT(input_error_of(workspace.run(option)),
+               Contains("this is a pipe (FIFO) that no program reads"));
+  }
+  CHECK_THAT(input_error_of(workspace.stride({"complete", "test.ssd", "-o", "pipe"})),
+             Contains("this is a pipe (FIFO) that no program reads"));
+}
+
+TEST_CASE("a test report into a pipe is one") {
+  const Workspace workspace(two_filters());
+  const Outcome outcome = workspace.run({"--quiet", "--junit", "/dev/stdout"});
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.out.find("<testsuites") == outcome.out.rfind("<testsuites"));
+  CHECK_THAT(outcome.out, !Contains("the run has not ended"));
 }

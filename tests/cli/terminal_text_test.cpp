@@ -71,3 +71,28 @@ TEST_CASE("what a unit logs, in process and hosted") {
     CHECK(run_json(workspace)["error"].get<std::string>().find(kHostile) != std::string::npos);
   }
 }
+
+TEST_CASE("what is quoted makes no message of its own") {
+  const std::string forged = "a\nstride: error: the disk is broken";
+  Workspace workspace(two_filters());
+  for (const Arguments& command : {Arguments{"run", forged},
+                                   {"check", "test.ssd", "--set", forged + ".u=1"},
+                                   {"check", "test.ssd", "--set", "first.u=" + forged},
+                                   {"inspect", forged},
+                                   {forged},
+                                   {"check", "test.ssd", forged}}) {
+    const Outcome outcome = workspace.stride(command);
+    CHECK(outcome.exit_code == 2);
+    INFO(outcome.err);
+    CHECK(outcome.err.find("the disk is broken") != std::string::npos);
+    CHECK(outcome.err.find("\nstride: error") == std::string::npos);
+  }
+}
+
+TEST_CASE("a message is not as long as what it quotes") {
+  const std::string long_name(100'000, 'x');
+  const Workspace workspace(Parts{component(long_name, "minimal.fmu")});
+  const Outcome outcome = workspace.stride({"check", "test.ssd", "--set", long_name + ".z=1"});
+  CHECK(outcome.exit_code == 2);
+  CHECK(outcome.err.size() < 4000);
+}

@@ -244,7 +244,8 @@ TEST_CASE("mistakes in the input are reported, with exit code 2") {
   CHECK_THAT(mistake({"verify", "minimal.fmu", "--set", "tiem_constant=1"}),
              Contains("--set tiem_constant=1") && Contains("time_constant"));
   CHECK_THAT(mistake({"verify", "minimal.fmu", "--set", "u"}), Contains("expected variable=value"));
-  CHECK_THAT(mistake({"verify", "minimal.fmu", "--step", "0"}), Contains("a step above 0 s"));
+  CHECK_THAT(mistake({"verify", "minimal.fmu", "--step", "0"}),
+             Contains("a step must be above 0 s"));
   CHECK_THAT(mistake({"verify", "minimal.fmu", "--step", "1", "--stop", "2"}),
              Contains("there are 2 steps") && Contains("expected 4 at least"));
   CHECK_THAT(mistake({"verify", "minimal.fmu", "--timeout", "-1"}), Contains("--timeout -1"));

@@ -167,6 +167,19 @@ void switch_off_irreproducible(mjModel& model, const fs::path& file) {
   add_warning(file.string() + ": its sensor noise or sleeping is off, runs would not repeat");
 }
 
+/// Of a message of MuJoCo; its parser's own, such as "XML parse error 6: Error=XML_ERROR_… Line
+/// number=3", is for programmers.
+std::string in_words(const std::string& message) {
+  if (message.rfind("XML parse error", 0) != 0) return message;
+  const std::string mark = "ine number=";
+  const std::size_t at = message.find(mark);
+  if (at == std::string::npos) return "it is not well-formed XML";
+  const std::size_t begin = at + mark.size();
+  const std::size_t end = message.find_first_not_of("0123456789", begin);
+  return "it is not well-formed XML: look for a mistake in or above line " +
+         message.substr(begin, end - begin);
+}
+
 }  // namespace
 
 fs::path find_scene(const fs::path& folder) {
@@ -213,7 +226,7 @@ ModelPointer load_model(const fs::path& file) {
     throw std::runtime_error("cannot load '" + file.string() + "': " + error.what());
   }
   if (!model) {
-    throw std::runtime_error("cannot load '" + file.string() + "': " + message.data());
+    throw std::runtime_error("cannot load '" + file.string() + "': " + in_words(message.data()));
   }
   if (message[0] != '\0') add_warning(file.string() + ": " + message.data());
   switch_off_irreproducible(*model, file);

@@ -10,6 +10,7 @@ bool CsvRows::next() {
   fields_.clear();
   while (true) {
     fields_.push_back(text_[at_] == '"' ? take_quoted() : take_field());
+    if (text_.compare(at_, 2, "\r\n") == 0) ++at_;
     if (at_end()) fail("the line is cut off");
     if (text_[at_] == '\n') break;
     if (text_[at_] != ',') fail("behind a quoted text a comma or the end of the line is expected");
@@ -22,12 +23,13 @@ bool CsvRows::next() {
 
 std::string CsvRows::take_field() {
   const std::size_t end = std::min(text_.find_first_of(",\n", at_), text_.size());
-  const std::string field = text_.substr(at_, end - at_);
+  const bool has_return = text_.compare(end, 1, "\n") == 0 && end > at_ && text_[end - 1] == '\r';
+  const std::string field = text_.substr(at_, end - at_ - (has_return ? 1 : 0));
   if (field.find('"') != std::string::npos) {
     fail("the field '" + field +
          "' has a quotation mark within; expected it doubled in a quoted text");
   }
-  at_ = end;
+  at_ += field.size();
   return field;
 }
 

@@ -10,10 +10,12 @@
 namespace player {
 
 /// The rows of a CSV file (RFC 4180), one by one. A field in quotation marks may hold line feeds;
-/// every row ends with one.
+/// every row ends with one, with or without a carriage return before it. A byte order mark, which
+/// spreadsheets write, is no part of the first field.
 class CsvRows {
  public:
-  CsvRows(const std::string& text, std::string file) : text_(text), file_(std::move(file)) {}
+  CsvRows(const std::string& text, std::string file)
+      : text_(text), file_(std::move(file)), at_(text.compare(0, 3, "\xef\xbb\xbf") == 0 ? 3 : 0) {}
 
   /// Whether there is another row, which is in fields() then. Throws std::runtime_error, as fail()
   /// does, for a last row without its end, and for quotation marks where none may be.
@@ -32,7 +34,7 @@ class CsvRows {
 
   const std::string& text_;
   std::string file_;
-  std::size_t at_ = 0;
+  std::size_t at_;
   int line_ = 0;
   int next_line_ = 1;
   std::vector<std::string> fields_;

@@ -25,9 +25,19 @@ constexpr const char* kPrefix = "unpacked-";
 
 fs::path lock_of(const fs::path& folder) { return folder.string() + kLockSuffix; }
 
+bool is_chosen() {
+  const char* const chosen = std::getenv("TMPDIR");
+  return chosen != nullptr && *chosen != '\0';
+}
+
+/// A mistake in TMPDIR is one of the input; a full disk is not.
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
-  core::fail_run({}, fmt::format("cannot {} '{}': {}", what, path.string(), std::strerror(errno)),
-                 "set TMPDIR to a folder that you may write to and that has room");
+  const int error = errno;
+  const bool is_full = error == ENOSPC || error == EDQUOT;
+  throw core::Error(is_full ? core::Error::Kind::Run : core::Error::Kind::Input, {},
+                    fmt::format("{}cannot {} '{}': {}", is_chosen() ? "TMPDIR: " : "", what,
+                                path.string(), std::strerror(error)),
+                    "set TMPDIR to a folder that you may write to and that has room");
 }
 
 /// Whether the path still names this open file.
@@ -84,8 +94,9 @@ void make_private(const fs::path& parent) {
   const bool is_mine =
       S_ISDIR(status.st_mode) && status.st_uid == ::getuid() && (status.st_mode & 0022) == 0;
   if (is_mine) return;
-  core::fail_run({}, fmt::format("'{}' is not a folder that belongs to you alone", parent.string()),
-                 "remove it, or set TMPDIR to another folder");
+  core::fail_input({},
+                   fmt::format("'{}' is not a folder that belongs to you alone", parent.string()),
+                   "remove it, or set TMPDIR to another folder");
 }
 
 /// There is a lock's file before there is its folder, and after it.
@@ -126,8 +137,7 @@ std::pair<core::Descriptor, fs::path> reserve_name(const fs::path& parent) {
 }  // namespace
 
 fs::path TemporaryFolder::parent() {
-  const char* chosen = std::getenv("TMPDIR");
-  const fs::path base = chosen != nullptr && *chosen != '\0' ? chosen : "/tmp";
+  const fs::path base = is_chosen() ? std::getenv("TMPDIR") : "/tmp";
   return fs::absolute(base) / fmt::format("stride-{}", ::getuid());
 }
 

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "master/util/archive/zip_directory.h"
 #include "master/util/input_file.h"
 
 namespace stride::archive {
@@ -78,12 +79,10 @@ class Extraction {
 
   void run() {
     open();
+    check_count(announced_entries(file_).value_or(0));  // before the work of unpacking them
     std::uint64_t entries = 0;
     while (next()) {
-      if (++entries > limits_.entries) {
-        fail(fmt::format("has more than {} entries", limits_.entries),
-             "unpack it yourself and name the folder instead, if you trust it");
-      }
+      check_count(++entries);
       unpack_entry();
     }
     if (entries == 0) fail("is an empty archive", expected_);
@@ -100,10 +99,17 @@ class Extraction {
          "an archive holds plain files and folders with relative names only; pack it again");
   }
   [[noreturn]] void fail_writing(const fs::path& path) const {
+    if (errno == ENAMETOOLONG) fail_entry("whose name is longer than the file system allows");
     core::fail_run({.where = where_},
                    fmt::format("cannot write '{}' while unpacking '{}': {}", path.string(),
                                archive_.string(), std::strerror(errno)),
                    "set TMPDIR to a folder that you may write to and that has room");
+  }
+
+  void check_count(std::uint64_t entries) const {
+    if (entries <= limits_.entries) return;
+    fail(fmt::format("has more than {} entries", limits_.entries),
+         "unpack it yourself and name the folder instead, if you trust it");
   }
 
   /// libarchive does not always have one.

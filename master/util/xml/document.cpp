@@ -6,6 +6,7 @@
 #include <tinyxml2.h>
 
 #include "master/util/input_file.h"
+#include "master/util/xml/character_references.h"
 #include "master/util/xml/editor.h"
 #include "master/util/xml/encoding.h"
 
@@ -26,8 +27,6 @@ const char* words_for(tinyxml2::XMLError error) {
       return "a CDATA section without its end";
     case tinyxml2::XML_ERROR_PARSING_DECLARATION:
       return "a declaration that is malformed or in the wrong place";
-    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
-      return "more than 100 elements inside each other";
     case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
       return "the file holds nothing";
     default:
@@ -64,6 +63,19 @@ void check_attributes(const std::string& text, const std::string& file) {
                      fmt::format("an element with {} attributes; {} at most are read",
                                  tags.quoted(), kMostAttributes));
   }
+}
+
+/// tinyxml2 takes those of no character as text, and NUL for the end of it.
+void check_references(const std::string& text, const std::string& file) {
+  const auto bad = find_bad_reference(text);
+  if (!bad) return;
+  const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(*bad), '\n');
+  constexpr std::size_t kMost = 12;
+  const std::string reference = text.substr(*bad, text.find(';', *bad) + 1 - *bad);
+  core::fail_input({.where = {file, static_cast<int>(line)}},
+                   fmt::format("this is not well-formed XML: '{}' is no character of XML",
+                               reference.size() <= kMost ? reference : reference.substr(0, kMost)),
+                   "write the character itself, or a reference to another one");
 }
 
 /// tinyxml2 takes </a/> for an element, so it finds more of them than there are.
@@ -130,8 +142,13 @@ Document Document::parse(std::string bytes, const std::string& shown_as,
   content->text = std::move(decoded.text);
   const std::string& text = content->text;
   check_attributes(text, shown_as);
+  check_references(text, shown_as);
   tinyxml2::XMLDocument& document = content->document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
+      core::fail_input({.where = {shown_as, document.ErrorLineNum()}},
+                       "more than 100 elements inside each other, which is not read");
+    }
     core::fail_input({.where = {shown_as, document.ErrorLineNum()}},
                      fmt::format("this is not well-formed XML: {}", words_for(document.ErrorID())),
                      "look for a missing end tag or quotation mark in or above this line");

@@ -46,6 +46,13 @@ void read_results(const std::string& bytes) {
     for (const report::Film& film : results.films) {
       ensure(film.times.size() == film.pictures.size(), "pictures have times");
     }
+    for (const std::string& note : results.notes) {
+      const bool is_about = note.starts_with(std::string(kFiles[file].name) + ":");
+      const bool is_refused = note.find("left out") != std::string::npos;
+      if (is_about && is_refused) {  // rows, or the file
+        core::fail_input({.where = {(folder / kFiles[file].name).string(), 0}}, note);
+      }
+    }
   });
 }
 

@@ -487,6 +487,16 @@ TEST_CASE("missing parts and wrong values are errors with their line") {
   CHECK_THAT(error_with("variability=\"tunable\"", "variability=\"often\""),
              Contains("expected one of constant, "));
   CHECK_THAT(error_with("factor=\"0.001\"", "factor=\"0\""), Contains("cannot be zero"));
+  CHECK_THAT(error_with("factor=\"0.001\"", "factor=\"NaN\""),
+             Contains("factor=\"NaN\" of <BaseUnit>: expected a finite number"));
+  CHECK_THAT(error_with("offset=\"273.15\"", "offset=\"inf\""), Contains("a finite number"));
+  CHECK_THAT(error_with("start=\"20\"", "start=\"\""),
+             Contains("start=\"\" of 'temperature' has no value"));
+  CHECK_THAT(error_with("start=\" 2\"", "start=\" \""), Contains("unit.xml:") && Contains("start"));
+  CHECK_THAT(error_with("max=\"100\"", "max=\"NaN\""),
+             Contains("max=\"NaN\" of 'temperature': expected a number"));
+  CHECK_THAT(error_with("max=\"100\"", "max=\"-300\""),
+             Contains("min=\"-273.15\" of 'temperature' is above max=\"-300\""));
 }
 
 TEST_CASE("names and value references are unique") {

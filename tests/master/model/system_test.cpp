@@ -289,7 +289,8 @@ TEST_CASE("start values are converted, parsed and refused where they cannot be s
              Contains("-1 is out of range, expected at least 0"));
   CHECK_THAT(with({"beta", "ranged", "2.5", "", {}}),
              Contains("2.5 is out of range, expected at most 2"));
-  CHECK_THAT(with({"beta", "ranged", "nan", "", {}}), Contains("out of range"));
+  CHECK_THAT(with({"beta", "ranged", "nan", "", {}}),
+             Contains("nan is out of range, expected a number"));
   CHECK(with({"beta", "ranged", "2", "", {}}) == "accepted");
   CHECK_THAT(with({"beta", "u", "1", "s", {}}), Contains("the value is in 's'"));
   SystemDeclaration declared = declaration();

@@ -47,9 +47,6 @@ struct Folder {
     folder.write("units/world/film/0.jpg", "zero");
     folder.write("units/world/film/1.jpg", "one");
   }
-  std::string refusal() const {
-    return error_of([&] { read(); });
-  }
 };
 
 }  // namespace
@@ -234,25 +231,49 @@ TEST_CASE("more messages than a page can show are counted") {
   CHECK_THAT(results.notes.at(0), Contains("events.csv: the first 3 of 5 messages are shown"));
 }
 
-TEST_CASE("mistakes are named with file, line and column") {
+TEST_CASE("what cannot be read is left out, and noted with file, line and column") {
   const Folder f;
-  SECTION("a missing column") {
+  const auto note = [&] {
+    const Results results = f.read();
+    CHECK(results.signals.times.size() == 2);
+    return results.notes.at(0);
+  };
+  SECTION("a file without a column") {
     f.folder.write("events.csv", "time,component\n");
-    CHECK_THAT(f.refusal(), Contains("events.csv:1: the header has no column 'index'"));
+    CHECK_THAT(note(), Contains("events.csv:1: the header has no column 'index'; the report is "
+                                "without what it holds"));
   }
-  SECTION("an index") {
+  SECTION("rows") {
     f.folder.write("events.csv",
-                   "time,index,component,variable,direction,payload\n0,x,a,y,sent,\n");
-    CHECK_THAT(f.refusal(),
-               Contains("events.csv:2: column 'index': expected an integer, found 'x'"));
+                   "time,index,component,variable,direction,payload\n"
+                   "0,x,a,y,sent,\n0,1,a,y,sent,\n0,1,a\nsoon,1,a,y,sent,\n0,2,a,y,sent,\n");
+    CHECK_THAT(note(), Contains("events.csv:2: column 'index': expected an integer, found 'x'; "
+                                "this row and 2 more are left out"));
+    CHECK(f.read().messages.size() == 2);
+  }
+  SECTION("the rest of a file whose quotation marks are out of place") {
+    f.folder.write("events.csv",
+                   "time,index,component,variable,direction,payload\n"
+                   "0,1,a,y,sent,\n0,2,\"a\"b,y,sent,\n0,3,a,y,sent,\n");
+    CHECK_THAT(note(), Contains("events.csv:3: ") && Contains("the rows from line 3 on"));
+    CHECK(f.read().messages.size() == 1);
   }
   SECTION("an activity") {
-    f.folder.write("activity.csv", "time,until,component,kind\n1,0,a,idle\n");
-    CHECK_THAT(f.refusal(), Contains("activity.csv:2: column 'until': it ends before it begins"));
+    f.folder.write("activity.csv",
+                   "time,until,component,kind\n1,0,a,idle\n1,2,a,idle\nx,2,b,idle\n");
+    CHECK_THAT(note(), Contains("activity.csv:2: column 'until': it ends before it begins; this "
+                                "row and 1 more are left out"));
+    CHECK(f.read().activities.size() == 1);
   }
-  SECTION("a film") {
+  SECTION("a picture") {
     f.film("time,file\n0,0.jpg\n0,1.jpg\n");
-    CHECK_THAT(f.refusal(), Contains("frames.csv:3: column 'time': the time does not grow"));
+    CHECK_THAT(note(), Contains("frames.csv:3: column 'time': the time does not grow; this row"));
+    CHECK(f.read().films.at(0).times.size() == 1);
+  }
+  SECTION("a film without a column") {
+    f.film("time\n0\n");
+    CHECK_THAT(note(), Contains("frames.csv:1: the header has no column 'file'"));
+    CHECK(f.read().films.empty());
   }
 }
 

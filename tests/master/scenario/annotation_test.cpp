@@ -155,6 +155,10 @@ TEST_CASE("A mistake in the annotation is named with its line") {
              Contains("size: '1 ms' is not a number"));
   CHECK_THAT(annotation_error("<stride:Step maximum='0'/>"),
              Contains("maximum: a step must be above 0 s"));
+  CHECK_THAT(annotation_error("<stride:Step size='1e-13'/>"),
+             Contains("at least the picosecond that times are counted in"));
+  CHECK_THAT(annotation_error("<stride:Results signals='units'/>"),
+             Contains("signals=\"units\" is the name of a folder of the results"));
   CHECK_THAT(annotation_error("<stride:Step policy='fixt'/>"),
              Contains("policy: unknown value 'fixt'; did you mean 'fixed'?"));
   CHECK_THAT(annotation_error("<stride:Step relativeTolerance='-1'/>"),

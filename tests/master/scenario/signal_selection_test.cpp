@@ -47,6 +47,21 @@ TEST_CASE("a variable is meant by its name, an alias, and globs of both") {
   }
 }
 
+TEST_CASE("a finder finds what is meant, by plain names and by globs") {
+  const core::System system = sample_system();
+  const VariableFinder finder(system);
+  for (const std::string pattern : {"a.distance", "a.range", "b, c.range", "a.transmit.clock",
+                                    "a.time", "none", "", "*.dist*", "a.ran?e", "*", "a.dist"}) {
+    CAPTURE(pattern);
+    std::vector<std::string> expected, found;
+    for (const NamedVariable& variable : finder.all()) {
+      if (is_meant(system, variable.id, pattern)) expected.push_back(variable.name);
+    }
+    for (const NamedVariable* variable : finder.meant(pattern)) found.push_back(variable->name);
+    CHECK(found == expected);
+  }
+}
+
 namespace {
 
 std::vector<std::string> selected(const std::vector<std::string>& patterns) {

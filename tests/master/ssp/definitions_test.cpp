@@ -52,7 +52,7 @@ TEST_CASE("malformed definitions are refused") {
     return "<ssd:Units><ssc:Unit name='a'>\n<ssc:BaseUnit " + base + "/></ssc:Unit></ssd:Units>";
   };
   CHECK_THROWS_WITH(read_inside(unit("m='1.5'")), Contains("x.ssd:4: ") && Contains("m=\"1.5\""));
-  CHECK_THROWS_WITH(read_inside(unit("factor='0'")), Contains("a unit with the factor 0"));
+  CHECK_THROWS_WITH(read_inside(unit("factor='0'")), Contains("a unit cannot be zero"));
   CHECK_THROWS_WITH(read_inside("<ssd:Enumerations><ssc:Enumeration name='M'><ssc:Item name='i'/>"
                                 "</ssc:Enumeration></ssd:Enumerations>"),
                     Contains("needs the attribute 'value'"));

@@ -212,6 +212,18 @@ TEST_CASE("A mapping without a meaning is refused, one without an effect is a wa
   CHECK_THAT(warnings[0], Contains("x.ssd:6: the parameter set has no 'x' to be mapped to 'u'"));
 }
 
+TEST_CASE("Many entries of a mapping without an effect are counted") {
+  std::string entries;
+  for (int i = 0; i < 100; ++i) entries += entry("x" + std::to_string(i), "u" + std::to_string(i));
+  const TemporaryFolder folder;
+  const std::string file = component_with(
+      mapped_binding(parameter("y", "<ssv:Real value='1'/>"),
+                     "<ssd:ParameterMapping>" + mapping(entries) + "</ssd:ParameterMapping>"));
+  const auto warnings = read_scenario(folder.write("x.ssd", file)).warnings;
+  REQUIRE(warnings.size() == 61);
+  CHECK(warnings.back() == "… and 40 more entries whose parameter the set does not have");
+}
+
 TEST_CASE("The units of a set are those that it defines, or the scenario's if it is inside") {
   const auto unit = [](const std::string& name_space, const std::string& factor) {
     return "<" + name_space + ":Units><ssc:Unit name='in'><ssc:BaseUnit m='1' factor='" + factor +

@@ -17,3 +17,19 @@ TEST_CASE("an error leaves out what is not known") {
   CHECK(std::string(Error(Error::Kind::Input, {{"a.ssd", 0}, {}, {}, {}}, "no").what()) ==
         "a.ssd: no");
 }
+
+TEST_CASE("names in an error make no lines, and its length is limited") {
+  const std::string long_name(100'000, 'x');
+  const Error error(Error::Kind::Input, {{"a\nb.ssd", 7}, "u\nstride: error: v", long_name, {}},
+                    "'x\nstride: error: y'");
+  const std::string text = error.what();
+  CHECK(text.substr(0, 47) == "a\\x0ab.ssd:7: unit 'u\\x0astride: error: v', var");
+  CHECK(text.find("\nstride") == std::string::npos);
+  CHECK(text.size() < 1000);
+  CHECK(error.context().variable == long_name);
+}
+
+TEST_CASE("NUL does not end the text of an error") {
+  const Error error(Error::Kind::Input, {}, std::string("found 'a\0b', which is wrong", 26));
+  CHECK(std::string(error.what()) == "found 'a\\x00b', which is wron");
+}

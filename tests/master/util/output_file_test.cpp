@@ -3,6 +3,9 @@
 #include <limits>
 
 #include <catch2/catch.hpp>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "master/util/error.h"
 #include "master/util/time_text.h"
@@ -145,4 +148,21 @@ TEST_CASE("The whole lines of all open files can be written at any time, and not
   first.write("4\n");
   first.close();
   CHECK(content(folder / "first") == "1\n2\n4\n");  // what was not a whole line is lost
+}
+
+TEST_CASE("A pipe without a reader is not waited for; one with a reader is written") {
+  const TemporaryFolder folder;
+  const std::string pipe = folder / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK_THAT(error_of([&] { OutputFile file(pipe); }),
+             Contains("this is a pipe (FIFO) that no program reads") && Contains("hint:"));
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  REQUIRE(reader >= 0);
+  OutputFile file(pipe);
+  file.write("text");
+  file.close();
+  char bytes[8] = {};
+  CHECK(::read(reader, bytes, sizeof bytes) == 4);
+  CHECK(std::string(bytes) == "text");
+  ::close(reader);
 }

@@ -135,3 +135,15 @@ TEST_CASE("what would make runs irreproducible is switched off aloud", "[mujoco_
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0], Catch::Contains("scene.xml"));
 }
+
+TEST_CASE("an MJCF that is no XML is an error in plain words", "[mujoco_world]") {
+  const worlds::Folder folder("<mujoco>\n<worldbody>\n</mujoco>");
+  try {
+    load_model(folder.path() / "scene.xml");
+    FAIL("it was loaded");
+  } catch (const std::exception& error) {
+    CHECK_THAT(error.what(),
+               Catch::Contains("not well-formed XML: look for a mistake in or above") &&
+                   !Catch::Contains("XML_ERROR"));
+  }
+}

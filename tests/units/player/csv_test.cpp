@@ -40,6 +40,14 @@ TEST_CASE("a quoted field holds what separates elsewhere") {
   CHECK(only_row("\"two\nlines\"\n") == std::vector<std::string>{"two\nlines"});
 }
 
+TEST_CASE("a row may end as on Windows, and the file begin with a byte order mark") {
+  CHECK(only_row("\xef\xbb\xbf"
+                 "a,b\r\n") == std::vector<std::string>{"a", "b"});
+  CHECK(only_row("a,\"b\r\nc\"\r\n") == std::vector<std::string>{"a", "b\r\nc"});
+  CHECK(only_row("a\rb,\r\n") == std::vector<std::string>{"a\rb", ""});
+  CHECK(only_row("\r\n") == std::vector<std::string>{""});
+}
+
 TEST_CASE("lines are counted, also within quotation marks") {
   const std::string text = "a\n\"b\nb\nb\",c\nd\n";
   CsvRows rows(text, "x.csv");

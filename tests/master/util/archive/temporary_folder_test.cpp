@@ -168,19 +168,20 @@ TEST_CASE("a parent folder that others can write to is refused") {
   const Scratch scratch;
   fs::create_directory(TemporaryFolder::parent());
   fs::permissions(TemporaryFolder::parent(), fs::perms::all);
-  CHECK_THAT(run_error([] { TemporaryFolder(); }), Contains("belongs to you alone"));
+  CHECK_THAT(input_error([] { TemporaryFolder(); }), Contains("belongs to you alone"));
 }
 
 TEST_CASE("a parent folder that is a link is refused") {
   const Scratch scratch;
   fs::create_directory(scratch / "elsewhere");
   fs::create_directory_symlink(scratch / "elsewhere", TemporaryFolder::parent());
-  CHECK_THAT(run_error([] { TemporaryFolder(); }), Contains("belongs to you alone"));
+  CHECK_THAT(input_error([] { TemporaryFolder(); }), Contains("belongs to you alone"));
 }
 
 TEST_CASE("a TMPDIR that does not exist is an error with a hint") {
   const Scratch scratch;
   setenv("TMPDIR", (scratch / "absent").c_str(), 1);
-  CHECK_THAT(run_error([] { TemporaryFolder(); }),
-             Contains("absent") && Contains("No such file") && Contains("set TMPDIR"));
+  CHECK_THAT(input_error([] { TemporaryFolder(); }),
+             Contains("TMPDIR: cannot make") && Contains("absent") && Contains("No such file") &&
+                 Contains("set TMPDIR"));
 }

@@ -136,6 +136,10 @@ TEST_CASE("an archive larger than the limits is refused") {
   const auto many = make_zip(scratch / "many.fmu", {kDescription, {"a"}, {"b"}});
   CHECK_THAT(unpack_error(many, {.entries = 2}), Contains("more than 2 entries"));
   CHECK_NOTHROW(UnpackedArchive(many, kExpected, {}, {.bytes = 4, .entries = 3}));
+  std::string announcing = read(many);
+  announcing.replace(announcing.rfind("PK\x05\x06") + 10, 1, "\xC8");
+  CHECK_THAT(unpack_error(scratch.write("200.fmu", announcing), {.entries = 100}),
+             Contains("more than 100 entries"));
 }
 
 TEST_CASE("a file that is not an archive is an error") {

@@ -34,6 +34,8 @@ TEST_CASE("What is not well-formed is refused with its line") {
              Contains("x.ssd:1: this is not well-formed XML: a malformed or doubled attribute"));
   CHECK_THAT(error_in("<a x='1' x='2'/>"), Contains("a malformed or doubled attribute"));
   CHECK_THAT(error_in("<a>\n<!-- ends never"), Contains("x.ssd:2") && Contains("a comment"));
+  CHECK_THAT(error_in("<a>\n<b x='&#0;'/></a>"),
+             Contains("x.ssd:2: this is not well-formed XML: '&#0;' is no character of XML"));
   CHECK_THAT(error_in("stride"), Contains("text where a tag is expected") || Contains("no XML"));
   CHECK_THAT(error_in(""), Contains("the file holds nothing"));
   CHECK_THAT(error_in("<!-- nothing -->"), Contains("the file holds no XML element"));
@@ -71,4 +73,12 @@ TEST_CASE("An element has a limited number of attributes") {
   CHECK(xml::Document::parse(element(1000, quotes), "x.ssd").root().children().size() == 1);
   CHECK_THAT(error_in(element(1001, "")),
              Contains("x.ssd:3: an element with 1001 attributes; 1000 at most are read"));
+}
+
+TEST_CASE("Elements that are too deep are no mistake of XML, but are not read") {
+  std::string text;
+  for (int i = 0; i < 200; ++i) text += "<a>";
+  for (int i = 0; i < 200; ++i) text += "</a>";
+  CHECK_THAT(error_in(text), Contains("x.ssd:1: more than 100 elements inside each other") &&
+                                 !Contains("well-formed"));
 }

@@ -1,0 +1,23 @@
+// Messages, which quote names and values of any length and content.
+#ifndef STRIDE_MASTER_UTIL_MESSAGE_TEXT_H
+#define STRIDE_MASTER_UTIL_MESSAGE_TEXT_H
+
+#include <string>
+#include <string_view>
+
+namespace stride::core {
+
+/// A message as a log has it: each line behind the first one begins with blanks, so that what is
+/// quoted cannot look like a message of its own; NUL, which ends a text of C, is "\\x00".
+std::string log_text(std::string_view message);
+
+/// Likewise, and not longer than a message can be read: a long word, a long line, and the lines
+/// behind the hundredth are replaced by their length. A second call changes nothing.
+std::string message_text(std::string_view message);
+
+/// A name within a message, in one line: a line feed is "\\x0a".
+std::string name_text(std::string_view name);
+
+}  // namespace stride::core
+
+#endif
