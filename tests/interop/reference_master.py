@@ -2,6 +2,7 @@
 It shares no line with stride, and both must get the same bits from the same units. Events are handled at communication
 points only, and the system must have no algebraic loop."""
 
+import itertools
 import shutil
 
 from fmpy import extract, read_model_description
@@ -45,11 +46,17 @@ class Unit:
         variable = self.variables[name]
         self._call("set", variable)([variable.valueReference], value if variable.shape else [value])
 
-    def initialize(self, stop):
+    def initialize(self, values, stop):
+        """Sets start values, those of an FMI 2.0 unit after its set-up, and enters Initialization Mode."""
+        experiment = self.description.defaultExperiment
+        tolerance = float(experiment.tolerance) if experiment and experiment.tolerance else None
+        if not self.is_fmi3:
+            self.fmu.setupExperiment(tolerance=tolerance, startTime=0.0, stopTime=stop)
+        for name, value in values.items():
+            self.set(name, value)
         if self.is_fmi3:
-            self.fmu.enterInitializationMode(startTime=0.0, stopTime=stop)
+            self.fmu.enterInitializationMode(tolerance=tolerance, startTime=0.0, stopTime=stop)
         else:
-            self.fmu.setupExperiment(startTime=0.0, stopTime=stop)
             self.fmu.enterInitializationMode()
 
     def step(self, start, size):
@@ -101,11 +108,12 @@ class Master:
         return self.table
 
     def _initialize(self, stop):
+        values = {name: {} for name in self.units}
         for name, value in self.system.start_values.items():
             unit, variable = name.split(".", 1)
-            self.units[unit].set(variable, value)
-        for unit in self.units.values():
-            unit.initialize(stop)
+            values[unit][variable] = value
+        for name, unit in self.units.items():
+            unit.initialize(values[name], stop)
         for _ in self.units:  # as often as a value can be handed on
             self._exchange(lambda _: True)
         for unit in self.units.values():
@@ -156,6 +164,7 @@ class Master:
                 if variable.causality != "output" or variable.type == "Clock" or variable.alias is not None:
                     continue
                 value = unit.get(name)
-                for index, element in enumerate(value if variable.shape else [value]):
-                    suffix = f"[{index + 1}]" if variable.shape else ""
+                places = itertools.product(*(range(1, extent + 1) for extent in variable.shape or ()))
+                for place, element in zip(places, value if variable.shape else [value]):
+                    suffix = f"[{','.join(map(str, place))}]" if place else ""
                     self.table.setdefault(f"{component}.{name}{suffix}", []).append(element)
