@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -19,6 +20,7 @@
 #include "master/cli/crash_guard.h"
 #include "master/cli/hard_limits.h"
 #include "master/cli/output.h"
+#include "master/cli/repeated_options.h"
 #include "master/util/error.h"
 #include "master/util/message_text.h"
 #include "master/util/readable_text.h"
@@ -99,7 +101,10 @@ std::string explain(const CLI::App* app, const CLI::Error& mistake) {
 
 int parse(CLI::App& app, int argc, char** argv) {
   try {
-    app.parse(argc, argv);
+    std::vector<std::string> words =
+        stride::cli::with_repeated_options({argv + 1, argv + std::max(argc, 1)});
+    std::ranges::reverse(words);  // as CLI11 takes them
+    app.parse(std::move(words));
     return 0;
   } catch (const CLI::ParseError& answer) {
     return app.exit(answer) == 0 ? 0 : kWrongInput;

@@ -118,14 +118,12 @@ void read_main_thread(const xml::Element& element, ScenarioAnnotation& annotatio
   for (auto& pattern : read_components(element)) annotation.main_thread.push_back(pattern);
 }
 
-void read_early_return(const xml::Element& element, ScenarioAnnotation& annotation) {
+void read_permission(const xml::Element& element, std::vector<PermissionRule>& rules) {
   element.allow_attributes({"components", "allowed"});
   element.allow_children({});
   element.required("allowed");
   const bool allowed = element.flag("allowed", true);
-  for (auto& pattern : read_components(element)) {
-    annotation.early_return.push_back({pattern, allowed});
-  }
+  for (auto& pattern : read_components(element)) rules.push_back({pattern, allowed});
 }
 
 void read_host(const xml::Element& element, HostRules& hosts) {
@@ -214,7 +212,10 @@ constexpr ScenarioElement kElements[] = {
     {"Results", false, read_results},
     {"Plot", true, read_plot},
     {"MainThread", true, read_main_thread},
-    {"EarlyReturn", true, read_early_return},
+    {"EarlyReturn", true,
+     [](const auto& element, auto& to) { read_permission(element, to.early_return); }},
+    {"StateSaving", true,
+     [](const auto& element, auto& to) { read_permission(element, to.state_saving); }},
     {"Host", true, [](const auto& element, auto& to) { read_host(element, to.hosts); }},
     {"IdleSkip", true, [](const auto& element, auto& to) { read_idle_skip(element, to.idle); }},
     {"Deadband", true,

@@ -28,8 +28,8 @@ struct PlotPattern {
   std::vector<SignalPattern> signals;
 };
 
-/// Whether components may return early from their steps; a later rule goes before an earlier one.
-struct EarlyReturnRule {
+/// Whether components may do something; a later rule goes before an earlier one.
+struct PermissionRule {
   ComponentPattern components;
   bool allowed = true;
 };
@@ -42,7 +42,8 @@ struct ScenarioAnnotation {
   std::vector<CheckDeclaration> checks;
   recorders::ResultFiles results;
   std::vector<ComponentPattern> main_thread;  ///< stepped on the simulation's own thread only
-  std::vector<EarlyReturnRule> early_return;  ///< without one: allowed
+  std::vector<PermissionRule> early_return;   ///< from steps; without one: allowed
+  std::vector<PermissionRule> state_saving;   ///< by their own functions; without one: allowed
   HostRules hosts;
   IdleSettings idle;
 };

@@ -120,6 +120,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   load_units();
   if (!request.film.empty()) switch_film_on(scenario_.system, request.film);
   choose_early_returns();
+  choose_state_saving();
   system_.emplace(scenario_.system);
   for (const auto& warnings : {scenario_.warnings, system_->warnings()}) {
     for (const std::string& warning : warnings) spdlog::warn("{}", core::message_text(warning));
@@ -169,13 +170,33 @@ void LoadedScenario::load_units() {
 }
 
 void LoadedScenario::choose_early_returns() {
+  const std::vector<bool> allowed = permissions(scenario_.annotation.early_return);
+  for (std::size_t i = 0; i < allowed.size(); ++i) {
+    scenario_.system.components[i].early_return_allowed = allowed[i];
+  }
+}
+
+/// A component whose own functions for its state are not to be used counts as one without them.
+void LoadedScenario::choose_state_saving() {
+  const std::vector<bool> allowed = permissions(scenario_.annotation.state_saving);
+  for (std::size_t i = 0; i < allowed.size(); ++i) {
+    if (allowed[i]) continue;
+    auto& description = scenario_.system.components[i].description;
+    auto without = std::make_shared<core::UnitDescription>(*description);
+    without->can_save_state = without->can_serialize_state = false;
+    description = std::move(without);
+  }
+}
+
+/// Of each component.
+std::vector<bool> LoadedScenario::permissions(std::span<const PermissionRule> rules) const {
   const std::vector<std::string> names = component_names();
   const ComponentSelector selector(names);
-  for (const EarlyReturnRule& rule : scenario_.annotation.early_return) {
-    for (const std::size_t i : selector.select(rule.components)) {
-      scenario_.system.components[i].early_return_allowed = rule.allowed;
-    }
+  std::vector<bool> allowed(names.size(), true);
+  for (const PermissionRule& rule : rules) {
+    for (const std::size_t i : selector.select(rule.components)) allowed[i] = rule.allowed;
   }
+  return allowed;
 }
 
 void LoadedScenario::choose_times(const ScenarioRequest& request) {

@@ -69,6 +69,8 @@ class LoadedScenario {
   void swap(const std::string& text);
   void load_units();
   void choose_early_returns();
+  void choose_state_saving();
+  std::vector<bool> permissions(std::span<const PermissionRule> rules) const;
   void choose_times(const ScenarioRequest& request);
   void choose_steps(const StepSettings& request);
   void choose_checks(const ScenarioRequest& request);

@@ -77,10 +77,16 @@ TEST_CASE("a unit without a binary for this platform: the error lists those that
                  Contains("it has x86_64-windows"));
 }
 
-TEST_CASE("a unit without its library") {
+TEST_CASE("a unit whose libraries are all of other names") {
   const Workspace workspace = using_unit("raw");
   make_raw_fmu(workspace.scratch(), "raw");
   workspace.scratch().write("raw/modelDescription.xml", description_text("other_name"));
+  const Outcome outcome = workspace.run({"--quiet"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("warning: unit 'unit': its library is 'binaries/") &&
+                              Contains("/other_name.so', by the modelIdentifier"));
+  workspace.scratch().write(std::string("raw/binaries/") + stride::importer::platform() + "/x.so",
+                            "");
   CHECK_THAT(mistake_of(workspace), Contains("other_name.so' is missing"));
 }
 

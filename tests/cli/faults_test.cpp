@@ -251,6 +251,23 @@ TEST_CASE("a function that forks and returns in both processes is of one run onl
   }
 }
 
+TEST_CASE("a unit whose state may not be saved is never asked for it") {
+  const std::string components =
+      component("first", "early.fmu") + component("faulty", "fmi2_faulty.fmu");
+  const std::string wire = connection("first.y", "faulty.u");
+  const FaultOrder order("segfault", "get state", "0");
+  const Workspace saving(Parts{components, wire});
+  CHECK(saving.run({"--quiet", "--step", "0.125"}).exit_code == 1);
+  const Workspace forbidden(
+      Parts{components, wire, "<stride:StateSaving components=\"faulty\" allowed=\"false\"/>"});
+  const Arguments hosting = GENERATE(Arguments{}, Arguments{"--isolate"});
+  Arguments options{"--quiet", "--step", "0.125"};
+  options.insert(options.end(), hosting.begin(), hosting.end());
+  const Outcome outcome = forbidden.run(options);
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+}
+
 TEST_CASE("a run that ends without a word has no run.json, also not that of an earlier one") {
   const Workspace workspace = workspace_for({3, false}, kStep);
   REQUIRE(workspace.run({"--quiet", "--step", "0.125"}).exit_code == 0);

@@ -82,7 +82,7 @@ std::vector<Case> scenarios() {
       {"test.ssd:", text("test.ssd", half(good)), "this is not well-formed XML"},
       {"test.ssd", text("test.ssd", repeated("<a>", 100'000)), "more than 100 elements inside"},
       {"test.ssd:1: ", text("test.ssd", "<a x='1' x='2'/>"), "malformed or doubled attribute"},
-      {"test.ssd", text("test.ssd", std::string("\0\0\0", 3)), "not valid UTF-8"},
+      {"test.ssd", text("test.ssd", std::string("\0\0\0", 3)), "a NUL character"},
       {"test.ssd", fifo("test.ssd"), "this is a FIFO, not a regular file"},
       {"test.ssd", link("test.ssd", "/dev/zero"), "this is a device, not a regular file"},
       {"test.ssd", link("test.ssd", "test.ssd"), "cannot read the file"},

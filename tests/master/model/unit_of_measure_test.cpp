@@ -27,3 +27,10 @@ TEST_CASE(
   CHECK(convert({}, centimetre)->is_identity());
   CHECK(convert(furlong, furlong)->is_identity());
 }
+
+TEST_CASE("a name in brackets is that of the same unit") {
+  CHECK(convert({"[m]"}, {"m"}));
+  CHECK(convert({"kg/m3"}, {"[kg/m3]"}));
+  CHECK_FALSE(convert({"[m]"}, {"mm"}));
+  CHECK_FALSE(convert({"[m"}, {"m"}));
+}

@@ -53,6 +53,7 @@ TEST_CASE("All elements and attributes of the annotation") {
                                    "<stride:MainThread components='plant legacy.*'/>"
                                    "<stride:EarlyReturn components='* x' allowed='false'/>"
                                    "<stride:EarlyReturn components='a' allowed='true'/>"
+                                   "<stride:StateSaving components='a' allowed='false'/>"
                                    "<stride:Host components='a x.*' timeout='0.5'/>\n"
                                    "<stride:Host components='b' process='true' "
                                    "memoryLimit='512' sandbox='false' snapshots='false'/>"
@@ -147,7 +148,7 @@ TEST_CASE("A mistake in the annotation is named with its line") {
                  Contains("did you mean 'Step'?"));
   CHECK_THAT(annotation_error("<stride:Policy/>"),
              Contains("known are: Step, Exchange, Record, Checks, Results, "
-                      "Plot, MainThread, EarlyReturn, Host, IdleSkip"));
+                      "Plot, MainThread, EarlyReturn, StateSaving, Host, …"));
   CHECK_THAT(annotation_error("<stride:Step siez='1'/>"), Contains("did you mean 'size'?"));
   CHECK_THAT(annotation_error("<stride:Step size=''/>"),
              Contains("the attribute 'size' of <stride:Step> is empty"));

@@ -222,8 +222,6 @@ TEST_CASE("What SSP has and stride has not is refused, never passed over") {
   const auto [text, message] = GENERATE_COPY(table<std::string, std::string>({
       {ssd_with("<ssd:Component name='a' source='a.x' type='text/x'/>"),
        "x.ssd:5: this version of stride does not support components of the type 'text/x'"},
-      {ssd_with("<ssd:Component name='a' source='a.fmu' implementation='ModelExchange'/>"),
-       "does not support FMUs for 'ModelExchange'"},
       {ssd_with(kComponent,
                 "<ssd:Connections>\n<ssd:Connection startElement='a' startConnector='x' "
                 "endElement='a' endConnector='y' startIndices='1'/></ssd:Connections>"),
@@ -255,4 +253,34 @@ TEST_CASE("Start and stop time are exact and make sense") {
   CHECK_THROWS_WITH(read(ssd(experiment("startTime='2' stopTime='1.5'"))),
                     Contains("the run would end at 1.5 s, before or where it starts (2 s)"));
   CHECK_THROWS_WITH(read(ssd(experiment("stopTime='0'"))), Contains("the run would end at 0 s"));
+}
+
+TEST_CASE("a component for Model Exchange is read with a warning, since its FMU may have both") {
+  const Scenario scenario =
+      read(ssd_with("<ssd:Component name='a' source='a.fmu' implementation='ModelExchange'/>"));
+  REQUIRE(scenario.warnings.size() == 1);
+  CHECK_THAT(scenario.warnings[0], Contains("x.ssd:5: ") && Contains("for 'ModelExchange'"));
+}
+
+TEST_CASE("the fixed step of another tool is found in any of its annotations") {
+  const std::string osp =
+      "<ssd:DefaultExperiment><ssd:Annotations><ssc:Annotation type='com.opensimulationplatform'>"
+      "<osp:Algorithm>\n<osp:FixedStepAlgorithm baseStepSize='1e-4'/></osp:Algorithm>"
+      "</ssc:Annotation></ssd:Annotations></ssd:DefaultExperiment>";
+  const std::string elements = "<ssd:Elements>" + kComponent + "</ssd:Elements>";
+  const Scenario of_osp = read(ssd("<ssd:System name='s'>" + elements + "</ssd:System>" + osp));
+  REQUIRE(of_osp.vendor_step);
+  CHECK(of_osp.vendor_step->size == std::chrono::microseconds(100));
+  CHECK(of_osp.vendor_step->tag == "<osp:FixedStepAlgorithm>");
+  const std::string oms =
+      "<ssd:Annotations><ssc:Annotation type='org.openmodelica'><oms:SimulationInformation>"
+      "<oms:FixedStepMaster description='oms-ma' stepSize='0.001000'/>"
+      "</oms:SimulationInformation></ssc:Annotation></ssd:Annotations>";
+  const Scenario of_oms = read(ssd("<ssd:System name='s'>" + elements + oms + "</ssd:System>"));
+  REQUIRE(of_oms.vendor_step);
+  CHECK(of_oms.vendor_step->size == std::chrono::milliseconds(1));
+  const std::string none =
+      "<ssd:Annotations><ssc:Annotation type='x'><a:FixedStepMaster "
+      "stepSize='-1'/></ssc:Annotation></ssd:Annotations>";
+  CHECK_FALSE(read(ssd("<ssd:System name='s'>" + elements + none + "</ssd:System>")).vendor_step);
 }

@@ -322,3 +322,16 @@ TEST_CASE("Parameters that cannot be meant are refused") {
   }));
   CHECK_THROWS_WITH(read_values(text), Contains("x.ssd:5: ") && Contains(message));
 }
+
+TEST_CASE("Two lists of bindings are one, with a warning") {
+  const TemporaryFolder folder;
+  const auto scenario = read_scenario(folder.write(
+      "x.ssd", ssd_with("<ssd:Component name='a' source='a.fmu'>" +
+                        bindings(inline_binding(parameter("x", "<ssv:Real value='1'/>"))) + "\n" +
+                        bindings(inline_binding(parameter("y", "<ssv:Real value='2'/>"))) +
+                        "</ssd:Component>")));
+  REQUIRE(scenario.system.start_values.size() == 2);
+  CHECK(scenario.system.start_values[1].value == "2");
+  REQUIRE(scenario.warnings.size() == 1);
+  CHECK_THAT(scenario.warnings[0], Contains("a second <ssd:ParameterBindings>"));
+}

@@ -12,7 +12,8 @@ using Catch::Contains;
 
 namespace {
 
-std::filesystem::path resolve(const std::string& source, const std::string& base = "runs") {
+std::filesystem::path resolve(const std::string& source,
+                              const std::filesystem::path& base = "runs") {
   const TemporaryFolder folder;
   const stride::xml::Document document(folder.write("x.ssd", "<a source='" + source + "'/>"));
   return source_path(document.root(), base);
@@ -53,4 +54,26 @@ TEST_CASE("What names no file here is refused") {
 TEST_CASE("A path becomes a URI that leads back to it") {
   CHECK(uri_of("resources/a b#%ä.fmu") == "resources/a%20b%23%25%C3%A4.fmu");
   CHECK(uri_of("plain-1_2~3.ssv") == "plain-1_2~3.ssv");
+}
+
+TEST_CASE("a source that is no proper URI names the file that it can only mean") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "resources");
+  std::filesystem::create_directory(folder / "sub");
+  for (const char* name : {"50%.fmu", "a#b.fmu", "resources/in.fmu", "sub/unit.fmu"}) {
+    folder.write(name, "");
+  }
+  const std::filesystem::path base = folder / "";
+  CHECK(resolve("50%.fmu", base) == folder / "50%.fmu");
+  CHECK(resolve("a#b.fmu", base) == folder / "a#b.fmu");
+  CHECK(resolve("sub\\unit.fmu", base) == folder / "sub/unit.fmu");
+  CHECK(resolve("in.fmu", base) == folder / "resources/in.fmu");
+  CHECK(resolve("file://resources/in.fmu", base) == folder / "resources/in.fmu");
+  CHECK(resolve("absent.fmu", base) == folder / "absent.fmu");
+}
+
+TEST_CASE("a path of Windows and a server for FMUs are refused by name") {
+  CHECK_THROWS_WITH(resolve("C:/units/unit.fmu"), Contains("is a path of Windows"));
+  CHECK_THROWS_WITH(resolve("proxyfmu://localhost?file=unit.fmu"),
+                    Contains("proxy-fmu") && Contains("<stride:Host"));
 }

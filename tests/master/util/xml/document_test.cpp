@@ -82,3 +82,16 @@ TEST_CASE("Elements that are too deep are no mistake of XML, but are not read") 
   CHECK_THAT(error_in(text), Contains("x.ssd:1: more than 100 elements inside each other") &&
                                  !Contains("well-formed"));
 }
+
+TEST_CASE("known prefixes may be used without a declaration, with a warning") {
+  constexpr xml::Prefix known[] = {{"a", "urn:a"}, {"b", "urn:b"}};
+  const auto document = xml::Document::parse(
+      "<a:x>\n<b:y xmlns:b='urn:other'><b:z/></b:y>\n<a:w/></a:x>", "x.ssv", known);
+  CHECK(document.root().is("urn:a", "x"));
+  CHECK(document.root().children()[0].is("urn:other", "y"));
+  REQUIRE(document.warnings().size() == 1);
+  CHECK_THAT(document.warnings()[0],
+             Contains("x.ssv:1: the prefix 'a' of <a:x> is not declared") && Contains("urn:a"));
+  const auto plain = xml::Document::parse("<a:x/>", "x.ssv");
+  CHECK_THAT(error_of([&] { plain.root().name(); }), Contains("the prefix 'a'"));
+}
