@@ -9,6 +9,7 @@
 
 #include "units/mujoco_world/hooks.h"
 #include "units/mujoco_world/mjcf.h"
+#include "units/mujoco_world/robot/line_keeping.h"
 #include "units/mujoco_world/robot/urdf.h"
 #include "units/mujoco_world/robot/xml_file.h"
 
@@ -154,20 +155,35 @@ void attach(XMLElement& root, const Mount& mount) {
   }
 }
 
+/// Loads a document in place of the file that it was read from, which errors name.
+ModelPointer load_prepared(const XMLDocument& document, const fs::path& file) {
+  const TemporaryFolder folder;
+  const fs::path prepared = folder.path() / file.filename();
+  write_keeping_lines(document, prepared);
+  try {
+    return load_model(prepared);
+  } catch (const std::exception& error) {
+    std::string message = error.what();
+    const std::size_t at = message.find(prepared.string());
+    if (at != message.npos) message.replace(at, prepared.string().size(), file.string());
+    throw std::runtime_error(message);
+  }
+}
+
 }  // namespace
 
 ModelPointer load_robot(const fs::path& model) {
   XMLDocument document;
   XMLElement& root = read_xml(document, model);
   if (is_urdf(root)) {
-    const TemporaryFolder folder;
     prepare_urdf(root, model);
-    write_xml(document, folder.path() / model.filename());
-    return load_model(folder.path() / model.filename());
+    return load_prepared(document, model);
   }
-  if (std::string(root.Name()) == "mujoco") return load_model(model);
-  throw std::runtime_error("'" + model.string() + "' is a <" + root.Name() +
-                           ">: expected an MJCF, <mujoco>, or a URDF, <robot>");
+  if (std::string(root.Name()) != "mujoco") {
+    throw std::runtime_error("'" + model.string() + "' is a <" + root.Name() +
+                             ">: expected an MJCF, <mujoco>, or a URDF, <robot>");
+  }
+  return load_model(model);
 }
 
 std::vector<std::string> convert(const Conversion& conversion) {

@@ -38,8 +38,8 @@ struct Conversion {
 /// MuJoCo's buffers.
 ///
 /// Throws std::runtime_error with the file (and line, if it is one of its own lines): for what is
-/// neither, a mesh that is missing, two meshes of one name, a body that is not there, and as
-/// load_model() does.
+/// neither, a mesh that is missing, two meshes of one name, a joint of an unknown type, a body that
+/// is not there, and as load_model() does.
 std::vector<std::string> convert(const Conversion& conversion);
 
 }  // namespace mujoco_world

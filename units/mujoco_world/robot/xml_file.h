@@ -28,6 +28,12 @@ inline void write_xml(tinyxml2::XMLDocument& document, const std::filesystem::pa
   }
 }
 
+/// The first child of that name; made if missing.
+inline tinyxml2::XMLElement& find_or_make(tinyxml2::XMLElement& parent, const char* name) {
+  tinyxml2::XMLElement* const found = parent.FirstChildElement(name);
+  return found ? *found : *parent.InsertNewChildElement(name);
+}
+
 /// Calls visit(element) for each element below, in the order of the file, parents first.
 template <typename Visit>
 void for_each_below(tinyxml2::XMLElement& parent, const Visit& visit) {
