@@ -9,9 +9,11 @@
 
 #include "units/mujoco_world/hooks.h"
 #include "units/mujoco_world/mjcf.h"
+#include "units/mujoco_world/robot/encoding.h"
 #include "units/mujoco_world/robot/line_keeping.h"
 #include "units/mujoco_world/robot/urdf.h"
 #include "units/mujoco_world/robot/xml_file.h"
+#include "units/xml/file.h"
 
 namespace mujoco_world {
 namespace {
@@ -170,6 +172,15 @@ ModelPointer load_prepared(const XMLDocument& document, const fs::path& file) {
   }
 }
 
+/// MuJoCo reads an MJCF, and what it includes, itself, and as UTF-8 whatever it declares.
+void require_utf8(const fs::path& mjcf) {
+  const std::string bytes = xml::read_file(mjcf.string(), "an MJCF");
+  if (decode_xml(bytes, mjcf.string()) == bytes) return;
+  throw std::runtime_error(mjcf.string() +
+                           ":1: MuJoCo reads an MJCF as UTF-8 only, and this one is not: save it "
+                           "with the encoding UTF-8");
+}
+
 }  // namespace
 
 ModelPointer load_robot(const fs::path& model) {
@@ -183,6 +194,7 @@ ModelPointer load_robot(const fs::path& model) {
     throw std::runtime_error("'" + model.string() + "' is a <" + root.Name() +
                              ">: expected an MJCF, <mujoco>, or a URDF, <robot>");
   }
+  require_utf8(model);
   return load_model(model);
 }
 
