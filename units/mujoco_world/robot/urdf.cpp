@@ -8,6 +8,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include "units/mujoco_world/robot/inertia.h"
 #include "units/mujoco_world/robot/xml_file.h"
 #include "units/xml/text.h"
 
@@ -98,6 +99,7 @@ bool is_urdf(const XMLElement& root) { return std::string(root.Name()) == "robot
 
 void prepare_urdf(XMLElement& root, const fs::path& file) {
   refuse_unknown_joints(root, file);
+  repair_inertias(root, file);
   XMLElement& compiler = find_or_make(find_or_make(root, "mujoco"), "compiler");
   const std::string meshdir = attribute(compiler, "meshdir");
   compiler.DeleteAttribute("meshdir");
