@@ -9,8 +9,11 @@
 
 #include "units/mujoco_world/hooks.h"
 #include "units/mujoco_world/mjcf.h"
+#include "units/mujoco_world/robot/encoding.h"
+#include "units/mujoco_world/robot/line_keeping.h"
 #include "units/mujoco_world/robot/urdf.h"
 #include "units/mujoco_world/robot/xml_file.h"
+#include "units/xml/file.h"
 
 namespace mujoco_world {
 namespace {
@@ -154,20 +157,45 @@ void attach(XMLElement& root, const Mount& mount) {
   }
 }
 
+/// Loads a document in place of the file that it was read from, which errors name.
+ModelPointer load_prepared(const XMLDocument& document, const fs::path& file) {
+  const TemporaryFolder folder;
+  const fs::path prepared = folder.path() / file.filename();
+  write_keeping_lines(document, prepared);
+  try {
+    return load_model(prepared);
+  } catch (const std::exception& error) {
+    std::string message = error.what();
+    const std::size_t at = message.find(prepared.string());
+    if (at != message.npos) message.replace(at, prepared.string().size(), file.string());
+    throw std::runtime_error(message);
+  }
+}
+
+/// MuJoCo reads an MJCF, and what it includes, itself, and as UTF-8 whatever it declares.
+void require_utf8(const fs::path& mjcf) {
+  const std::string bytes = xml::read_file(mjcf.string(), "an MJCF");
+  if (decode_xml(bytes, mjcf.string()) == bytes) return;
+  throw std::runtime_error(mjcf.string() +
+                           ":1: MuJoCo reads an MJCF as UTF-8 only, and this one is not: save it "
+                           "with the encoding UTF-8");
+}
+
 }  // namespace
 
 ModelPointer load_robot(const fs::path& model) {
   XMLDocument document;
   XMLElement& root = read_xml(document, model);
   if (is_urdf(root)) {
-    const TemporaryFolder folder;
     prepare_urdf(root, model);
-    write_xml(document, folder.path() / model.filename());
-    return load_model(folder.path() / model.filename());
+    return load_prepared(document, model);
   }
-  if (std::string(root.Name()) == "mujoco") return load_model(model);
-  throw std::runtime_error("'" + model.string() + "' is a <" + root.Name() +
-                           ">: expected an MJCF, <mujoco>, or a URDF, <robot>");
+  if (std::string(root.Name()) != "mujoco") {
+    throw std::runtime_error("'" + model.string() + "' is a <" + root.Name() +
+                             ">: expected an MJCF, <mujoco>, or a URDF, <robot>");
+  }
+  require_utf8(model);
+  return load_model(model);
 }
 
 std::vector<std::string> convert(const Conversion& conversion) {

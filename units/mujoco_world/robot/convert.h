@@ -32,14 +32,16 @@ struct Conversion {
 /// Each link of a URDF becomes a body, also one without mass. What a link looks like is left out,
 /// its collision geometry stays, as MuJoCo does with a URDF. A mesh is looked for as its filename
 /// has it, relative to the file; package://NAME/… in the folder NAME, in or above that of the file;
-/// and in the URDF's own <mujoco><compiler meshdir>.
+/// and in the URDF's own <mujoco><compiler meshdir>. Masses and inertias that MuJoCo refuses are
+/// repaired, with warnings (inertia.h). A URDF may have any encoding that iconv knows, an MJCF is
+/// UTF-8.
 ///
 /// Left out are keyframes, since they do not fit a scene with further joints, and the sizes of
 /// MuJoCo's buffers.
 ///
 /// Throws std::runtime_error with the file (and line, if it is one of its own lines): for what is
-/// neither, a mesh that is missing, two meshes of one name, a body that is not there, and as
-/// load_model() does.
+/// neither, a mesh that is missing, two meshes of one name, a joint of an unknown type, an encoding
+/// that cannot be read, a body that is not there, and as load_model() does.
 std::vector<std::string> convert(const Conversion& conversion);
 
 }  // namespace mujoco_world

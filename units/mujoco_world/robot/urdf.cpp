@@ -1,11 +1,16 @@
 #include "units/mujoco_world/robot/urdf.h"
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include <mujoco/mujoco.h>
+
+#include "units/mujoco_world/robot/inertia.h"
 #include "units/mujoco_world/robot/xml_file.h"
+#include "units/xml/text.h"
 
 namespace mujoco_world {
 namespace {
@@ -18,15 +23,6 @@ constexpr const char* kFile = "file://";
 
 bool begins_with(const std::string& text, const std::string& start) {
   return text.rfind(start, 0) == 0;
-}
-
-/// The element <mujoco><compiler>, with which a URDF controls how MuJoCo reads it; made if missing.
-XMLElement& find_or_make_compiler(XMLElement& robot) {
-  const auto child = [](XMLElement& parent, const char* name) -> XMLElement& {
-    XMLElement* const found = parent.FirstChildElement(name);
-    return found ? *found : *parent.InsertNewChildElement(name);
-  };
-  return child(child(robot, "mujoco"), "compiler");
 }
 
 /// Where a mesh may be, the likeliest first.
@@ -82,12 +78,29 @@ void name_meshes(XMLElement& robot, const fs::path& file, const std::string& mes
   });
 }
 
+/// MuJoCo 2 would crash on them.
+void refuse_unknown_joints(const XMLElement& robot, const fs::path& file) {
+  std::vector<std::string> known{"revolute", "continuous", "prismatic",
+                                 "fixed",    "floating",   "planar"};
+  if (mjVERSION_HEADER >= 300) known.emplace_back("spherical");
+  for (const auto* joint = robot.FirstChildElement("joint"); joint;
+       joint = joint->NextSiblingElement("joint")) {
+    const std::string type = attribute(*joint, "type");
+    if (std::find(known.begin(), known.end(), type) != known.end()) continue;
+    throw std::runtime_error(file.string() + ":" + std::to_string(joint->GetLineNum()) +
+                             ": joint '" + attribute(*joint, "name") + "' has the type '" + type +
+                             "': expected one of " + xml::quoted_list(known));
+  }
+}
+
 }  // namespace
 
 bool is_urdf(const XMLElement& root) { return std::string(root.Name()) == "robot"; }
 
 void prepare_urdf(XMLElement& root, const fs::path& file) {
-  XMLElement& compiler = find_or_make_compiler(root);
+  refuse_unknown_joints(root, file);
+  repair_inertias(root, file);
+  XMLElement& compiler = find_or_make(find_or_make(root, "mujoco"), "compiler");
   const std::string meshdir = attribute(compiler, "meshdir");
   compiler.DeleteAttribute("meshdir");
   compiler.SetAttribute("strippath", "false");

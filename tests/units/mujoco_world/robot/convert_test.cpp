@@ -185,3 +185,36 @@ TEST_CASE("what is not a model is an error that names the file", "[robot]") {
   folder.write("broken.urdf", "<robot><link");
   CHECK_THROWS_WITH(load_robot(folder.path() / "broken.urdf"), Catch::Contains("broken.urdf"));
 }
+
+TEST_CASE("what MuJoCo refuses in a URDF has the name of the file and the line there", "[robot]") {
+  const worlds::Folder folder;
+  folder.write("arm.urdf", R"(<robot
+  name="arm">
+  <!-- a comment
+       of two lines -->
+  <link name="base">
+    <visual>
+      <geometry/>
+    </visual>
+  </link>
+
+  <link name="arm">
+    <collision><geometry><box
+      size="1 1"/></geometry></collision>
+  </link>
+</robot>)");
+  CHECK_THROWS_WITH(load_robot(folder.path() / "arm.urdf"),
+                    Catch::Contains("'" + (folder.path() / "arm.urdf").string() + "'") &&
+                        Catch::Contains("line 12"));
+}
+
+TEST_CASE("a joint of an unknown type is refused with its line and the types that there are",
+          "[robot]") {
+  const worlds::Folder folder;
+  folder.write("arm.urdf",
+               "<robot><link name='a'/><link name='b'/>\n<joint name='j' type='hinge'>"
+               "<parent link='a'/><child link='b'/></joint></robot>");
+  CHECK_THROWS_WITH(load_robot(folder.path() / "arm.urdf"),
+                    Catch::Contains("arm.urdf:2: joint 'j' has the type 'hinge'") &&
+                        Catch::Contains("'revolute', 'continuous'"));
+}
