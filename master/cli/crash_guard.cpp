@@ -145,6 +145,15 @@ void on_signal(int signal) {
   ::raise(signal);
 }
 
+/// What takes long is a unit's, or stride's own work with many files, which may.
+void on_alarm(int signal) {
+  std::array<importer::UnitCall, 1> call;
+  const bool is_of_unit = guarded.is_leaving || importer::unfinished_calls(call) > 0 ||
+                          importer::unfinished_library_work().library != nullptr;
+  if (is_of_unit) return on_signal(signal);
+  ::alarm(kLongestEnd);
+}
+
 void on_exit() {
   if (is_guarded()) end_process(0);
 }
@@ -232,7 +241,7 @@ int leave_with(int code) {
 
 void limit_end() {
   if (!is_guarded()) return;
-  std::signal(SIGALRM, on_signal);
+  std::signal(SIGALRM, on_alarm);
   sigset_t awaited;
   ::sigemptyset(&awaited);
   ::sigaddset(&awaited, SIGALRM);

@@ -1,6 +1,7 @@
 // stride report: the page of a run, from its results folder.
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -11,6 +12,8 @@
 #include "master/cli/output_paths.h"
 #include "master/cli/report_page.h"
 #include "master/report/results.h"
+#include "master/util/error.h"
+#include "master/util/input_file.h"
 
 namespace stride::cli {
 namespace {
@@ -29,12 +32,29 @@ void check_output_path(const ReportArguments& arguments, recorders::ResultFiles 
   refuse_kept_paths({&output, 1}, kept_results(arguments.folder, files));
 }
 
+/// The name comes from run.json, which may be anything.
+void check_page(const std::filesystem::path& folder, const std::string& name,
+                recorders::ResultFiles files) {
+  const OutputPath page{fmt::format("files.report of run.json, '{}'", name), folder / name};
+  files.report.clear();
+  refuse_kept_paths({&page, 1}, kept_results(folder, files));
+  constexpr std::string_view kBegin = "<!DOCTYPE html";
+  if (!core::is_file(page.file) || core::head_of(page.file, kBegin.size()) == kBegin) return;
+  core::fail_input({.where = {page.file.string(), 0}},
+                   "this is no page, and would be replaced by the report",
+                   "write the report elsewhere, with --output");
+}
+
 void make_report(const ReportArguments& arguments) {
   const recorders::ResultFiles files = report::result_files(arguments.folder);
   const std::string& name = files.report.empty() ? recorders::ResultFiles().report : files.report;
   const std::filesystem::path file =
       arguments.out.empty() ? arguments.folder / name : arguments.out;
-  if (!arguments.out.empty()) check_output_path(arguments, files);
+  if (arguments.out.empty()) {
+    check_page(arguments.folder, name, files);
+  } else {
+    check_output_path(arguments, files);
+  }
   for (const std::string& note : write_report(arguments.folder, files, file)) {
     spdlog::warn("{}", note);
   }

@@ -1,8 +1,10 @@
 #include "master/cli/test_report.h"
 
+#include <cerrno>
 #include <climits>
 #include <utility>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "master/scenario/scenario.h"
@@ -18,6 +20,22 @@ std::string host_name() {
   return ::gethostname(name, HOST_NAME_MAX) == 0 ? name : "localhost";
 }
 
+/// What is no regular file is written at the end only, when it is too late for such an error.
+void check_writable(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  std::string reason;
+  if (std::filesystem::is_directory(status)) {
+    reason = "this is a folder; expected a file to write to";
+  } else if (std::filesystem::is_socket(status)) {
+    reason = "this is a socket; expected a file to write to";
+  } else if (::access(file.c_str(), W_OK) != 0) {
+    reason = fmt::format("cannot write the file: {}", std::generic_category().message(errno));
+  }
+  if (reason.empty()) return;
+  core::fail_input({.where = {file.string(), 0}}, reason, "name another file after --junit");
+}
+
 }  // namespace
 
 TestReport::TestReport(std::filesystem::path file, const std::filesystem::path& scenario)
@@ -31,7 +49,11 @@ TestReport::TestReport(std::filesystem::path file, const std::filesystem::path& 
   report_.properties = {{"scenario", scenario.string()}, {"stride", STRIDE_VERSION}};
   report_.error = "the run has not ended";
   if (std::filesystem::is_fifo(file_, ignored)) pipe_.emplace(file_);
-  if (!core::Replacement::is_at_once(file_)) put();
+  if (core::Replacement::is_at_once(file_)) {
+    check_writable(file_);
+  } else {
+    put();
+  }
 }
 
 void TestReport::write(const core::RunOptions& options, const core::RunStatistics& statistics,

@@ -205,3 +205,13 @@ TEST_CASE("a test report into a pipe is one") {
   CHECK(outcome.out.find("<testsuites") == outcome.out.rfind("<testsuites"));
   CHECK_THAT(outcome.out, !Contains("the run has not ended"));
 }
+
+TEST_CASE("a test report that cannot be written is an error before the run") {
+  const Workspace workspace(two_filters());
+  fs::create_directory(workspace / "folder");
+  const std::string file = GENERATE("folder", "/proc/none/x");
+  const Outcome outcome = workspace.run({"--quiet", "--junit", file});
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains(file));
+  CHECK_FALSE(fs::exists(workspace / "out/run.json"));
+}

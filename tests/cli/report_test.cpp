@@ -250,3 +250,18 @@ TEST_CASE("a report is written to the given file only") {
   CHECK_THAT(outcome.err, Contains("'../victim.html' is not a file of this folder; the report is"));
   CHECK_FALSE(fs::exists(workspace / "victim.html"));
 }
+
+TEST_CASE("a run.json cannot make the report replace what is no page") {
+  const Workspace workspace(two_filters());
+  REQUIRE(workspace.run({"--quiet"}).exit_code == 0);
+  const std::string name = GENERATE("signals.csv", "run.json", "notes.txt");
+  std::ofstream(workspace / "out/notes.txt") << "mine";
+  json run = run_json(workspace);
+  run["files"]["report"] = name;
+  std::ofstream(workspace / "out/run.json") << run.dump();
+  const std::string before = workspace.result(name);
+  const Outcome outcome = workspace.stride({"report", (workspace / "out").string()});
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains(name));
+  CHECK(workspace.result(name) == before);
+}

@@ -10,6 +10,8 @@
 #include <fcntl.h>
 #include <linux/filter.h>
 #include <linux/fs.h>
+#include <linux/fscrypt.h>
+#include <linux/fsverity.h>
 #include <linux/ioprio.h>
 #include <linux/seccomp.h>
 #include <seccomp.h>
@@ -17,6 +19,7 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 
 namespace stride::isolation {
 namespace {
@@ -30,6 +33,8 @@ scmp_arg_cmp argument(unsigned index, scmp_compare how, scmp_datum_t value,
                       scmp_datum_t second = 0) {
   return {index, how, value, second};
 }
+
+constexpr scmp_datum_t kSetExt4Version = _IOW('f', 4, long);
 
 /// The part of a register that holds an int.
 constexpr scmp_datum_t kInt = 0xffffffffU;
@@ -83,6 +88,25 @@ class Filter {
 
   scmp_filter_ctx context_;
 };
+
+/// What is made cannot run with the rights of its owner or group.
+void deny_special_modes(Filter& filter) {
+  constexpr scmp_datum_t kNameless = O_TMPFILE & ~O_DIRECTORY;
+  for (const scmp_datum_t right : {scmp_datum_t{S_ISUID}, scmp_datum_t{S_ISGID}}) {
+    const auto has = [&](unsigned index) {
+      return argument(index, SCMP_CMP_MASKED_EQ, right, right);
+    };
+    for (const scmp_datum_t making : {scmp_datum_t{O_CREAT}, kNameless}) {
+      filter.deny(SCMP_SYS(open), {argument(1, SCMP_CMP_MASKED_EQ, making, making), has(2)});
+      filter.deny(SCMP_SYS(openat), {argument(2, SCMP_CMP_MASKED_EQ, making, making), has(3)});
+    }
+    for (const int call : {SCMP_SYS(creat), SCMP_SYS(mkdir), SCMP_SYS(mknod)}) {
+      filter.deny(call, {has(1)});
+    }
+    for (const int call : {SCMP_SYS(mkdirat), SCMP_SYS(mknodat)}) filter.deny(call, {has(2)});
+  }
+  filter.deny(SCMP_SYS(openat2));  // whose mode cannot be seen
+}
 
 }  // namespace
 
@@ -140,7 +164,10 @@ void forbid_changing_attributes() {
     filter.deny(SCMP_SYS(fchmod), {argument(1, SCMP_CMP_MASKED_EQ, right, right)});
     filter.deny(SCMP_SYS(fchmodat), {argument(2, SCMP_CMP_MASKED_EQ, right, right)});
   }
-  filter.deny_requests({FS_IOC_SETFLAGS, FS_IOC_FSSETXATTR});
+  deny_special_modes(filter);
+  filter.deny_requests({FS_IOC_SETFLAGS, FS_IOC_FSSETXATTR, FS_IOC_SETVERSION, FS_IOC_SETFSLABEL,
+                        FS_IOC32_SETFLAGS, FS_IOC32_SETVERSION, FS_IOC_ENABLE_VERITY,
+                        kSetExt4Version, FS_IOC_SET_ENCRYPTION_POLICY});
   filter.load();
 }
 

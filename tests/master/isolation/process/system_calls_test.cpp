@@ -195,10 +195,33 @@ TEST_CASE("modes, owners, times and attributes of files stay as they are") {
                 {"fsetxattr", [&] { return ::fsetxattr(open, "user.x", "y", 1, 0); }},
                 {"removexattr", [&] { return ::removexattr(file, "user.x"); }},
                 {"fremovexattr", [&] { return ::fremovexattr(open, "user.x"); }},
-                {"flags", [&] { return ::ioctl(open, FS_IOC_SETFLAGS, &flags); }}});
+                {"flags", [&] { return ::ioctl(open, FS_IOC_SETFLAGS, &flags); }},
+                {"version", [&] { return ::ioctl(open, FS_IOC_SETVERSION, &flags); }}});
   const auto make_private = [&] { return answer(::chmod(file, 0700)); };
   CHECK(say_filtered(forbid_changing_attributes, make_private) == "done");
   ::close(open);
+}
+
+TEST_CASE("nothing is made that runs with the rights of its owner or group") {
+  if (lacks_seccomp()) return;
+  const ScratchFolder scratch;
+  const std::string folder = (scratch / "").string();
+  const std::string program = folder + "/program";
+  const int at = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  constexpr int kNew = O_CREAT | O_RDWR;
+  const mode_t mode = GENERATE(04755, 02755);
+  check_denied(forbid_changing_attributes,
+               {{"openat", [&] { return ::open((program + "1").c_str(), kNew, mode); }},
+                {"open", [&] { return ::syscall(SYS_open, (program + "2").c_str(), kNew, mode); }},
+                {"nameless", [&] { return ::open(folder.c_str(), O_TMPFILE | O_RDWR, mode); }},
+                {"creat", [&] { return ::syscall(SYS_creat, (program + "3").c_str(), mode); }},
+                {"mknod", [&] { return ::mknodat(at, "4", S_IFREG | mode, 0); }},
+                {"mkdir", [&] { return ::mkdir((program + "5").c_str(), mode); }},
+                {"mkdirat", [&] { return ::mkdirat(at, "6", mode); }}});
+  CHECK(say_filtered(forbid_changing_attributes, [&] {
+          return answer(::open((program + "7").c_str(), kNew, 0666));
+        }) == "done");
+  ::close(at);
 }
 
 TEST_CASE("no file is sent through a socket, and bytes are") {
