@@ -119,10 +119,10 @@ const char* fmi2_platform() { return STRIDE_FMI2_PLATFORM; }
 
 FoundLibrary find_library(const fs::path& fmu_folder, const std::string& fmi_version,
                           const std::string& model_identifier, const core::Location& where) {
-  const bool is_fmi2 = fmi_version.starts_with("2.");
+  const bool is_before_fmi3 = !fmi_version.starts_with("3.");
   const std::vector<std::string> names =
-      is_fmi2 ? std::vector<std::string>{fmi2_platform(), platform()}
-              : std::vector<std::string>{platform(), fmi2_platform()};
+      is_before_fmi3 ? std::vector<std::string>{fmi2_platform(), platform()}
+                     : std::vector<std::string>{platform(), fmi2_platform()};
   const std::string expected = fmt::format("binaries/{}/{}.so", names.front(), model_identifier);
   if (core::is_file(fmu_folder / expected)) return {fmu_folder / expected, ""};
   const core::Context context{.where = where, .unit = model_identifier};
@@ -142,7 +142,7 @@ FoundLibrary find_library(const fs::path& fmu_folder, const std::string& fmi_ver
                         "description and the platform's name",
                         (folder / other->filename()).string(), expected)};
   }
-  fail_without_library(fmu_folder, is_fmi2, expected, context);
+  fail_without_library(fmu_folder, is_before_fmi3, expected, context);
 }
 
 }  // namespace stride::importer

@@ -11,7 +11,8 @@ namespace stride::importer {
 
 /// The name of this build's folder in binaries/: the platform tuple of FMI 3.0 ("x86_64-linux").
 const char* platform();
-/// Likewise that of FMI 2.0 ("linux64"), which knows the tuple where it has no name of its own.
+/// Likewise that of FMI 1.0 and 2.0 ("linux64"), which knows the tuple where it has no name of its
+/// own.
 const char* fmi2_platform();
 
 struct FoundLibrary {
@@ -19,9 +20,9 @@ struct FoundLibrary {
   std::string warning;  ///< if it is not named as the standard wants it
 };
 
-/// The library in an unpacked FMU of this version, "2.0" or "3.0". It is the one of this name in
-/// the folder of this platform; if there is none, the one of the name in another case, or the only
-/// one, there or in the folder that has the platform's name of the other version. Throws
+/// The library in an unpacked FMU of this version, "1.0", "2.0" or "3.0". It is the one of this
+/// name in the folder of this platform; if there is none, the one of the name in another case, or
+/// the only one, there or in the folder that has the platform's name of the other version. Throws
 /// core::Error of the kind Input that lists the platforms that there are, if it is not built for
 /// this one, and states how to get such a library.
 FoundLibrary find_library(const std::filesystem::path& fmu_folder, const std::string& fmi_version,

@@ -24,17 +24,6 @@ std::optional<Duration> read_seconds(const xml::Element& element, const char* at
   }
 }
 
-std::string read_model_identifier(const xml::Element& co_simulation) {
-  const std::string identifier = co_simulation.required("modelIdentifier");
-  const bool is_plain =
-      !identifier.empty() && identifier.front() != '.' && identifier.find('/') == std::string::npos;
-  if (!is_plain) {
-    co_simulation.fail(fmt::format(
-        "modelIdentifier=\"{}\": expected the plain name of the unit's library", identifier));
-  }
-  return identifier;
-}
-
 /// One that no solver can have is ignored.
 void read_tolerance(const xml::Element& experiment, core::UnitDescription& unit) {
   const auto tolerance = experiment.number<double>("tolerance");
@@ -50,6 +39,17 @@ void read_tolerance(const xml::Element& experiment, core::UnitDescription& unit)
 }
 
 }  // namespace
+
+std::string read_model_identifier(const xml::Element& owner) {
+  const std::string identifier = owner.required("modelIdentifier");
+  const bool is_plain =
+      !identifier.empty() && identifier.front() != '.' && identifier.find('/') == std::string::npos;
+  if (!is_plain) {
+    owner.fail(fmt::format("modelIdentifier=\"{}\": expected the plain name of the unit's library",
+                           identifier));
+  }
+  return identifier;
+}
 
 xml::Element find_co_simulation(const xml::Element& root) {
   if (const auto found = root.child("CoSimulation")) return *found;

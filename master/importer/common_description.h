@@ -1,4 +1,4 @@
-// What the descriptions of both versions of FMI have in common.
+// What the descriptions of all versions of FMI have in common.
 #ifndef STRIDE_MASTER_IMPORTER_COMMON_DESCRIPTION_H
 #define STRIDE_MASTER_IMPORTER_COMMON_DESCRIPTION_H
 
@@ -16,8 +16,9 @@ namespace stride::importer {
 
 /// <CoSimulation>, which the unit must have.
 xml::Element find_co_simulation(const xml::Element& root);
-/// Its attributes that have one name in both. The name of the library is a plain one, which cannot
-/// lead to another folder.
+/// The name of the library, a plain one, which cannot lead to another folder.
+std::string read_model_identifier(const xml::Element& owner);
+/// The attributes of <CoSimulation> that have one name in FMI 2.0 and 3.0.
 void read_capabilities(const xml::Element& co_simulation, core::UnitDescription& unit);
 /// Nothing if there is no such attribute; it must be positive.
 std::optional<Duration> read_step_size(const xml::Element& element, const char* attribute);

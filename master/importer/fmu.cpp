@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "master/importer/binaries.h"
+#include "master/importer/fmi1/fmi1_unit.h"
 #include "master/importer/fmi2/fmi2_unit.h"
 #include "master/importer/fmi3/fmi3_unit.h"
 #include "master/importer/idle_manifest.h"
@@ -97,7 +98,8 @@ void Fmu::read_folder() {
   auto description = std::make_shared<ModelDescription>(
       read_model_description(unpacked_->folder() / "modelDescription.xml", shown_as));
   const fs::path manifest = unpacked_->folder() / STRIDE_IDLE_MANIFEST;
-  if (!description->fmi2 && core::path_exists(manifest)) {  // its functions are in terms of FMI 3.0
+  const bool is_fmi3 = !description->fmi1 && !description->fmi2;
+  if (is_fmi3 && core::path_exists(manifest)) {  // its functions are in terms of FMI 3.0
     read_idle_manifest(manifest, (shown_as_ / STRIDE_IDLE_MANIFEST).string(), *description);
   }
   description_ = std::move(description);
@@ -124,8 +126,18 @@ fs::path Fmu::library_path() {
 }
 
 std::shared_ptr<const SharedLibrary> Fmu::load_library() {
+  if (description_->fmi1) return load_fmi1_library();
   if (description_->fmi2) return load_fmi2_library();
   return load_fmi3_library();
+}
+
+std::shared_ptr<const Fmi1Library> Fmu::load_fmi1_library() {
+  const std::lock_guard lock(library_mutex_);
+  if (!fmi1_library_ && description_->fmi1) {
+    fmi1_library_ =
+        std::make_shared<Fmi1Library>(library_path(), description_->model_identifier, where_);
+  }
+  return fmi1_library_;
 }
 
 std::shared_ptr<const Fmi2Library> Fmu::load_fmi2_library() {
@@ -139,7 +151,7 @@ std::shared_ptr<const Fmi2Library> Fmu::load_fmi2_library() {
 
 std::shared_ptr<const Fmi3Library> Fmu::load_fmi3_library() {
   const std::lock_guard lock(library_mutex_);
-  if (!fmi3_library_ && !description_->fmi2) {
+  if (!fmi3_library_ && !description_->fmi1 && !description_->fmi2) {
     fmi3_library_ = std::make_shared<Fmi3Library>(library_path(), where_);
     if (description_->promises_idle) fmi3_library_->require_idle_functions(where_);
   }
@@ -148,6 +160,7 @@ std::shared_ptr<const Fmi3Library> Fmu::load_fmi3_library() {
 
 void Fmu::unload_library() {
   const std::lock_guard lock(library_mutex_);
+  fmi1_library_.reset();
   fmi2_library_.reset();
   fmi3_library_.reset();
 }
@@ -180,6 +193,13 @@ std::unique_ptr<core::Unit> Fmu::instantiate(const std::string& name, InstanceOp
   warn_of_library(name, options);
   const auto tenancy = std::make_shared<Tenancy>(shared_from_this(), name, options.where);
   UnitParts parts{options.description ? options.description : description_, "", tenancy};
+  if (description_->fmi1) {
+    parts.resources = resource_uri(folder());
+    return std::make_unique<Fmi1Unit>(
+        name, load_fmi1_library(),
+        std::shared_ptr<const Fmi1Attributes>(description_, &*description_->fmi1), std::move(parts),
+        std::move(options));
+  }
   if (description_->fmi2) {
     parts.resources = resource_uri(resources_);
     return std::make_unique<Fmi2Unit>(

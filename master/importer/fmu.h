@@ -10,6 +10,7 @@
 #include <string>
 
 #include "master/algorithm/unit.h"
+#include "master/importer/fmi1/fmi1_library.h"
 #include "master/importer/fmi2/fmi2_library.h"
 #include "master/importer/fmi3/fmi3_library.h"
 #include "master/importer/fmu_instance.h"
@@ -48,6 +49,7 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   /// Loads the library, if that has not happened yet. Throws core::Error of the kind Input.
   std::shared_ptr<const SharedLibrary> load_library();
   /// Likewise of a unit of this version; null if it is of the other.
+  std::shared_ptr<const Fmi1Library> load_fmi1_library();
   std::shared_ptr<const Fmi2Library> load_fmi2_library();
   std::shared_ptr<const Fmi3Library> load_fmi3_library();
 
@@ -73,6 +75,7 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   std::filesystem::path resources_;
   std::shared_ptr<const ModelDescription> description_;
   std::mutex library_mutex_;
+  std::shared_ptr<const Fmi1Library> fmi1_library_;
   std::shared_ptr<const Fmi2Library> fmi2_library_;
   std::shared_ptr<const Fmi3Library> fmi3_library_;
   std::string library_warning_;  ///< when it is loaded

@@ -85,7 +85,7 @@ bool FmuInstance::declares(core::CapabilityId id) const {
 // ---- Calls and failures ----
 
 Status FmuInstance::check_status(const char* name, Status status) {
-  if (status == Status::Discard || (status == Status::Pending && is_fmi2())) return status;
+  if (status == Status::Discard || (status == Status::Pending && may_be_pending())) return status;
   if (status != Status::Ok && status != Status::Warning) fail_call(name, status);
   if (has_messages_.load(std::memory_order_relaxed)) take_messages(name);
   return status;
@@ -173,9 +173,9 @@ void FmuInstance::restore_process(const char* function) {
 std::string FmuInstance::status_name(Status status) const {
   constexpr const char* kNames[] = {"OK", "Warning", "Discard", "Error", "Fatal", "Pending"};
   const auto i = static_cast<std::size_t>(status);
-  if (i < std::size(kNames) - (is_fmi2() ? 0 : 1)) return std::string(prefix_) + kNames[i];
+  if (i < std::size(kNames) - (may_be_pending() ? 0 : 1)) return std::string(prefix_) + kNames[i];
   return fmt::format("{}, a status that FMI {}.0 does not have", static_cast<int>(status),
-                     prefix_[3]);
+                     major_version());
 }
 
 void FmuInstance::fail(const std::string& message, const std::string& hint) const {

@@ -108,7 +108,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
  protected:
   using References = std::span<const core::ValueReference>;
 
-  /// `prefix` of what has a name in the unit's version: "fmi2", "fmi3".
+  /// `prefix` of what has a name in the unit's version: "fmi", "fmi2", "fmi3".
   FmuInstance(const char* prefix, std::shared_ptr<const SharedLibrary> library, std::string name,
               UnitParts parts, InstanceOptions options);
   ~FmuInstance() override;
@@ -249,7 +249,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   [[noreturn]] void leave_fork() const;
   void restore_mode();
   std::string status_name(Status status) const;
-  bool is_fmi2() const { return prefix_[3] == '2'; }
+  char major_version() const { return prefix_[3] != '\0' ? prefix_[3] : '1'; }
+  bool may_be_pending() const { return major_version() != '3'; }
 
   const char* prefix_;
   std::shared_ptr<const SharedLibrary> library_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "master/importer/common_description.h"
+#include "master/importer/fmi1/fmi1_description.h"
 #include "master/importer/fmi2/fmi2_description.h"
 #include "master/importer/fmi3/fmi3_description.h"
 #include "master/util/xml/document.h"
@@ -11,7 +12,7 @@ namespace stride::importer {
 namespace {
 
 [[noreturn]] void fail_version(const xml::Element& root, const std::string& version) {
-  root.fail(fmt::format("fmiVersion=\"{}\" is not supported; expected 2.0 or 3.0", version),
+  root.fail(fmt::format("fmiVersion=\"{}\" is not supported; expected 1.0, 2.0 or 3.0", version),
             "export the unit as FMI 3.0 or FMI 2.0 Co-Simulation");
 }
 
@@ -23,14 +24,15 @@ ModelDescription read(const xml::Document& document) {
   ModelDescription unit;
   unit.warnings = document.warnings();
   unit.fmi_version = root.required("fmiVersion");
-  const bool is_fmi2 = unit.fmi_version.starts_with("2.");
-  if (!is_fmi2 && !unit.fmi_version.starts_with("3.")) fail_version(root, unit.fmi_version);
+  const std::string major = unit.fmi_version.substr(0, 2);
+  if (major != "1." && major != "2." && major != "3.") fail_version(root, unit.fmi_version);
   unit.model_name = root.given("modelName");
   unit.description = root.attribute_or("description");
   unit.generation_tool = root.attribute_or("generationTool");
   read_units(root, unit);
-  if (is_fmi2) unit.fmi2 = read_fmi2_description(root, unit);
-  if (!is_fmi2) read_fmi3_description(root, unit);
+  if (major == "1.") unit.fmi1 = read_fmi1_description(root, unit);
+  if (major == "2.") unit.fmi2 = read_fmi2_description(root, unit);
+  if (major == "3.") read_fmi3_description(root, unit);
   read_default_experiment(root, unit);
   return unit;
 }

@@ -1,4 +1,4 @@
-// Reads modelDescription.xml of FMI 2.0 and 3.0.
+// Reads modelDescription.xml of FMI 1.0, 2.0 and 3.0.
 #ifndef STRIDE_MASTER_IMPORTER_MODEL_DESCRIPTION_H
 #define STRIDE_MASTER_IMPORTER_MODEL_DESCRIPTION_H
 
@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "master/importer/fmi1/fmi1_attributes.h"
 #include "master/importer/fmi2/fmi2_attributes.h"
 #include "master/model/description.h"
 
@@ -13,6 +14,7 @@ namespace stride::importer {
 
 /// A unit's description, and what only its instances need to know.
 struct ModelDescription : core::UnitDescription {
+  std::optional<Fmi1Attributes> fmi1;  ///< of an FMI 1.0 unit
   std::optional<Fmi2Attributes> fmi2;  ///< of an FMI 2.0 unit
 };
 
@@ -20,8 +22,8 @@ struct ModelDescription : core::UnitDescription {
 /// resolved with its start value; what a variable leaves to its declared type is filled in.
 ///
 /// Throws core::Error of the kind Input, with file and line, for what is no well-formed description
-/// of FMI 2.0 or 3.0, for other versions, for a unit without Co-Simulation, and for references that
-/// lead nowhere. `shown_as` is the file's name in such messages.
+/// of FMI 1.0, 2.0 or 3.0, for other versions, for a unit without Co-Simulation, and for references
+/// that lead nowhere. `shown_as` is the file's name in such messages.
 ModelDescription read_model_description(const std::filesystem::path& file,
                                         const std::string& shown_as = "");
 

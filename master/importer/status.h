@@ -5,12 +5,13 @@
 #include <functional>
 #include <string>
 
+#include <stride/fmi1.h>
 #include <stride/fmi2.h>
 #include <stride/fmi3.h>
 
 namespace stride::importer {
 
-/// The status codes of both versions; Pending is FMI 2.0's alone.
+/// The status codes of all versions; Pending is not in FMI 3.0.
 enum class Status { Ok, Warning, Discard, Error, Fatal, Pending };
 
 static_assert(static_cast<int>(Status::Ok) == fmi3OK && fmi3OK + 0 == fmi2OK + 0);
@@ -20,7 +21,9 @@ static_assert(static_cast<int>(Status::Discard) == fmi3Discard &&
               fmi3Discard + 0 == fmi2Discard + 0);
 static_assert(static_cast<int>(Status::Error) == fmi3Error && fmi3Error + 0 == fmi2Error + 0);
 static_assert(static_cast<int>(Status::Fatal) == fmi3Fatal && fmi3Fatal + 0 == fmi2Fatal + 0);
-static_assert(static_cast<int>(Status::Pending) == fmi2Pending);
+static_assert(static_cast<int>(Status::Pending) == fmi2Pending &&
+              fmi2Pending + 0 == fmi1Pending + 0);
+static_assert(static_cast<int>(Status::Discard) == fmi1Discard);
 
 /// Receives what units log. It may be called from any thread that a unit has.
 using LogSink = std::function<void(const std::string& unit, Status status,

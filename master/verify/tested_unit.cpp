@@ -56,6 +56,11 @@ TestedUnit::TestedUnit(VerifyRequest request) : request_(std::move(request)) {
                      "make an FMU of it: stride pack LIBRARY --output FILE.fmu");
   }
   fmu_ = importer::Fmu::load(file);
+  if (fmu_->description()->fmi_version.starts_with("1.")) {
+    core::fail_input({},
+                     fmt::format("'{}' is a unit of FMI 1.0; those of FMI 2.0 and 3.0 are tested",
+                                 file.string()));
+  }
   system_.emplace(declaration(request_, *fmu_));
   choose_observed();
   choose_times();

@@ -90,9 +90,9 @@ TEST_CASE("start values of FMI 2.0 inputs and parameters are set from outside") 
 
 TEST_CASE("units that cannot be loaded say what to do") {
   const Workspace workspace(Parts{component("r", "other")});
-  write_other(workspace, "fmiVersion=\"2.0\"", "fmiVersion=\"1.0\"");
+  write_other(workspace, "fmiVersion=\"2.0\"", "fmiVersion=\"4.0\"");
   CHECK_THAT(input_error_of(workspace.run()),
-             Contains("fmiVersion=\"1.0\" is not supported; expected 2.0 or 3.0") &&
+             Contains("fmiVersion=\"4.0\" is not supported; expected 1.0, 2.0 or 3.0") &&
                  Contains("hint: export the unit as FMI 3.0 or FMI 2.0 Co-Simulation"));
   write_other(workspace, "CoSimulation", "ModelExchange");
   CHECK_THAT(input_error_of(workspace.run()),

@@ -17,6 +17,7 @@ class Unit:
     def __init__(self, path):
         self.description = read_model_description(path)
         self.variables = {variable.name: variable for variable in self.description.modelVariables}
+        self.is_fmi1 = self.description.fmiVersion.startswith("1.")
         self.is_fmi3 = self.description.fmiVersion.startswith("3.")
         self.has_event_mode = self.is_fmi3 and bool(self.description.coSimulation.hasEventMode)
         self.folder = extract(path)
@@ -50,12 +51,14 @@ class Unit:
         """Sets start values, those of an FMI 2.0 unit after its set-up, and enters Initialization Mode."""
         experiment = self.description.defaultExperiment
         tolerance = float(experiment.tolerance) if experiment and experiment.tolerance else None
-        if not self.is_fmi3:
+        if not self.is_fmi1 and not self.is_fmi3:
             self.fmu.setupExperiment(tolerance=tolerance, startTime=0.0, stopTime=stop)
         for name, value in values.items():
             self.set(name, value)
         if self.is_fmi3:
             self.fmu.enterInitializationMode(tolerance=tolerance, startTime=0.0, stopTime=stop)
+        elif self.is_fmi1:
+            self.fmu.initialize(tStart=0.0, stopTime=stop)
         else:
             self.fmu.enterInitializationMode()
 
@@ -117,7 +120,8 @@ class Master:
         for _ in self.units:  # as often as a value can be handed on
             self._exchange(lambda _: True)
         for unit in self.units.values():
-            unit.fmu.exitInitializationMode()
+            if not unit.is_fmi1:
+                unit.fmu.exitInitializationMode()
 
     def _step(self, start, target):
         self._exchange(lambda _: True)

@@ -66,6 +66,13 @@ std::string_view Element::local_name() const { return local(element_->Name()); }
 
 std::string Element::tag() const { return fmt::format("<{}>", element_->Name()); }
 
+std::string Element::text() const {
+  const char* const characters = element_->GetText();
+  const auto words = split(characters != nullptr ? characters : "");
+  if (words.empty()) return "";
+  return {words.front().data(), words.back().data() + words.back().size()};
+}
+
 core::Location Element::where() const { return {*file_, element_->GetLineNum()}; }
 
 std::optional<std::string> Element::prefix_of(std::string_view name_space) const {

@@ -58,6 +58,8 @@ class Element {
   /// As it is written: "<ssd:Component>".
   std::string tag() const;
   core::Location where() const;
+  /// The characters before its first child, without blanks around them.
+  std::string text() const;
   /// The prefix by which this namespace is known here, the empty text if it is the default one.
   std::optional<std::string> prefix_of(std::string_view name_space) const;
   /// Its index among all elements of the document, in document order; the root is 0.

@@ -82,9 +82,9 @@ TEST_CASE("a bare library that was not made with the kit is refused with advice"
 TEST_CASE("errors in the description are located in the FMU") {
   const Scratch scratch;
   const auto path = make_zip(scratch / "old.fmu",
-                             {{"modelDescription.xml", "<fmiModelDescription fmiVersion='1.0'/>"}});
+                             {{"modelDescription.xml", "<fmiModelDescription fmiVersion='4.0'/>"}});
   CHECK_THAT(input_error([&] { Fmu::load(path); }),
-             Contains("old.fmu/modelDescription.xml:1: fmiVersion=\"1.0\" is not supported"));
+             Contains("old.fmu/modelDescription.xml:1: fmiVersion=\"4.0\" is not supported"));
   CHECK_THAT(input_error([] {
                Fmu::load("/absent.fmu", {"system.ssd", 9});
              }),

@@ -436,8 +436,8 @@ TEST_CASE("undeclared dependencies and an empty list are not the same") {
 TEST_CASE("other versions of FMI are named") {
   CHECK_THAT(error_with("fmiVersion=\"3.0\"", "fmiVersion=\"2.0\""),
              Contains("unit.xml:2: ") && Contains("the attribute 'guid'"));
-  CHECK_THAT(error_with("fmiVersion=\"3.0\"", "fmiVersion=\"1.0\""),
-             Contains("fmiVersion=\"1.0\" is not supported; expected 2.0 or 3.0") &&
+  CHECK_THAT(error_with("fmiVersion=\"3.0\"", "fmiVersion=\"4.0\""),
+             Contains("fmiVersion=\"4.0\" is not supported; expected 1.0, 2.0 or 3.0") &&
                  Contains("hint: export the unit as FMI 3.0 or FMI 2.0 Co-Simulation"));
   CHECK_THAT(error_with("fmiVersion=\"3.0\"", ""), Contains("needs the attribute 'fmiVersion'"));
   CHECK_THAT(input_error([] { importer::parse_model_description("<html/>", "unit.xml"); }),

@@ -1,0 +1,18 @@
+// What a description of an FMI 1.0 unit contains beside what core knows.
+#ifndef STRIDE_MASTER_IMPORTER_FMI1_FMI1_ATTRIBUTES_H
+#define STRIDE_MASTER_IMPORTER_FMI1_FMI1_ATTRIBUTES_H
+
+#include <vector>
+
+#include <stride/fmi1.h>
+
+namespace stride::importer {
+
+/// As in FMI 2.0, see Fmi2Attributes.
+struct Fmi1Attributes {
+  std::vector<fmi1ValueReference> references;  ///< of the variables, in order
+};
+
+}  // namespace stride::importer
+
+#endif

@@ -1,0 +1,183 @@
+#include "master/importer/fmi1/fmi1_description.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "master/importer/common_description.h"
+#include "master/importer/variable_attributes.h"
+
+namespace stride::importer {
+namespace {
+
+using core::Causality;
+using core::ValueType;
+using core::Variability;
+
+/// The elements that give a variable its type, and those that declare one by name.
+struct TypeElement {
+  const char* name;
+  const char* declared;
+  ValueType type;
+};
+
+constexpr TypeElement kTypeElements[] = {
+    {"Real", "RealType", ValueType::Float64},
+    {"Integer", "IntegerType", ValueType::Int32},
+    {"Boolean", "BooleanType", ValueType::Boolean},
+    {"String", "StringType", ValueType::String},
+    {"Enumeration", "EnumerationType", ValueType::Enumeration},
+};
+
+/// <CoSimulation_StandAlone>, which the unit must have.
+xml::Element find_stand_alone(const xml::Element& root) {
+  const auto implementation = root.child("Implementation");
+  if (!implementation) {
+    root.fail(
+        "the unit has no Co-Simulation interface, which stride needs; it is for Model Exchange",
+        "export the unit for Co-Simulation, with a solver of its own");
+  }
+  if (const auto found = implementation->child("CoSimulation_StandAlone")) return *found;
+  implementation->fail("the unit couples stride to a tool; expected <CoSimulation_StandAlone>",
+                       "export the unit for stand-alone Co-Simulation");
+}
+
+void read_fmi1_capabilities(const xml::Element& stand_alone, core::UnitDescription& unit) {
+  unit.may_reject = false;
+  const auto capabilities = stand_alone.child("Capabilities");
+  if (!capabilities) return;
+  unit.can_vary_step = capabilities->flag("canHandleVariableCommunicationStepSize");
+  unit.single_instance = capabilities->flag("canBeInstantiatedOnlyOncePerProcess");
+  unit.may_reject = capabilities->flag("canRejectSteps");
+}
+
+/// Reads <ModelVariables>.
+class Fmi1Variables {
+ public:
+  Fmi1Variables(const xml::Element& root, core::UnitDescription& unit) : unit_(unit) {
+    const auto list = root.child("ModelVariables");
+    if (!list) root.fail("<ModelVariables> is missing");
+    read_types(root);
+    const std::vector<xml::Element> elements = list->children("ScalarVariable");
+    for (const xml::Element& element : elements) add(element);
+    for (const xml::Element& element : elements) add_output(element);
+  }
+
+  /// Those of the unit, in the order of the variables.
+  const std::vector<fmi1ValueReference>& references() const { return references_; }
+
+ private:
+  void read_types(const xml::Element& root) {
+    const auto definitions = root.child("TypeDefinitions");
+    if (!definitions) return;
+    for (const xml::Element& definition : definitions->children("Type")) {
+      for (const TypeElement& known : kTypeElements) {
+        if (const auto type = definition.child(known.declared)) types_.add(definition, *type);
+      }
+    }
+  }
+
+  void add(const xml::Element& element) {
+    if (element.attribute("alias") == "negatedAlias") {
+      const core::Location where = element.where();
+      unit_.warnings.push_back(fmt::format("{}:{}: '{}', a negatedAlias, is left out", where.file,
+                                           where.line, element.attribute_or("name")));
+      return;
+    }
+    core::Variable variable = read(element);
+    variable.reference = static_cast<core::ValueReference>(unit_.variables.size());
+    names_.add(variable.name, element);
+    places_.emplace(variable.name, variable.reference);
+    references_.push_back(element.required_number<fmi1ValueReference>("valueReference"));
+    unit_.variables.push_back(std::move(variable));
+  }
+
+  core::Variable read(const xml::Element& element) const {
+    const auto [typed, type] = type_of(element);
+    core::Variable variable;
+    variable.name = element.required("name");
+    variable.description = element.attribute_or("description");
+    variable.type = type;
+    read_kind(element, variable);
+    variable.initial = read_initial(element, variable);
+    variable.start = typed.attribute_or("start");
+    check_start(typed, variable);
+    const auto declared = types_.declared(typed);
+    variable.unit = inherited(typed, declared, "unit");
+    variable.min = inherited(typed, declared, "min");
+    variable.max = inherited(typed, declared, "max");
+    check_limits(typed, variable);
+    variable.nominal = read_nominal(typed, variable.type, declared);
+    if (type == ValueType::Enumeration && declared) variable.items = items_of(*declared);
+    return variable;
+  }
+
+  static std::pair<xml::Element, ValueType> type_of(const xml::Element& variable) {
+    for (const TypeElement& known : kTypeElements) {
+      if (const auto typed = variable.child(known.name)) return {*typed, known.type};
+    }
+    variable.fail(fmt::format(
+        "{} has none of <Real>, <Integer>, <Boolean>, <String>, <Enumeration>", variable.tag()));
+  }
+
+  /// FMI 1.0 has neither parameters nor local variables by name.
+  static void read_kind(const xml::Element& element, core::Variable& variable) {
+    const std::string causality = element.attribute_or("causality", "internal");
+    const std::string variability = element.attribute_or("variability", "continuous");
+    const bool is_real = variable.type == ValueType::Float64;
+    variable.variability = variability == "constant"                ? Variability::Constant
+                           : variability == "parameter"             ? Variability::Fixed
+                           : is_real && variability == "continuous" ? Variability::Continuous
+                                                                    : Variability::Discrete;
+    variable.causality = causality == "output"        ? Causality::Output
+                         : variability == "parameter" ? Causality::Parameter
+                         : causality == "input"       ? Causality::Input
+                                                      : Causality::Local;
+  }
+
+  /// They are numbered from 1 in their order.
+  static std::vector<std::pair<std::string, std::int64_t>> items_of(const xml::Element& type) {
+    std::vector<std::pair<std::string, std::int64_t>> items;
+    for (const xml::Element& item : type.children("Item")) {
+      items.emplace_back(item.required("name"), static_cast<std::int64_t>(items.size()) + 1);
+    }
+    return items;
+  }
+
+  void add_output(const xml::Element& element) {
+    const auto place = places_.find(element.attribute_or("name"));
+    if (place == places_.end()) return;
+    if (unit_.variables[place->second].causality != Causality::Output) return;
+    core::Unknown output{place->second, {}};
+    if (const auto dependencies = element.child("DirectDependency")) {
+      output.dependencies.emplace();
+      for (const xml::Element& name : dependencies->children("Name")) {
+        const auto known = places_.find(name.text());
+        if (known != places_.end()) output.dependencies->push_back(known->second);
+      }
+    }
+    unit_.outputs.push_back(output);
+    unit_.initial_unknowns.push_back(output);
+  }
+
+  core::UnitDescription& unit_;
+  std::vector<fmi1ValueReference> references_;
+  TypeDefinitions types_;
+  VariableNames names_;
+  std::map<std::string, core::ValueReference> places_;
+};
+
+}  // namespace
+
+Fmi1Attributes read_fmi1_description(const xml::Element& root, core::UnitDescription& unit) {
+  unit.instantiation_token = root.given("guid");
+  unit.model_identifier = read_model_identifier(root);
+  read_fmi1_capabilities(find_stand_alone(root), unit);
+  return {Fmi1Variables(root, unit).references()};
+}
+
+}  // namespace stride::importer

@@ -1,0 +1,47 @@
+#include "master/importer/fmi1/fmi1_library.h"
+
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace stride::importer {
+namespace {
+
+/// What is asked only where a unit knows more.
+constexpr std::string_view kFmi1Optional[] = {"SetDebugLogging", "ResetSlave", "GetRealStatus",
+                                              "GetTypesPlatform", "GetVersion"};
+
+}  // namespace
+
+Fmi1Library::Fmi1Library(const std::filesystem::path& path, const std::string& model_identifier,
+                         const core::Location& where)
+    : SharedLibrary(path, where) {
+  std::vector<std::string> missing;
+#define STRIDE_FIND(name)                                              \
+  find(functions_.name, model_identifier + "_fmi" #name);              \
+  if (functions_.name == nullptr && !contains(kFmi1Optional, #name)) { \
+    missing.push_back(model_identifier + "_fmi" #name);                \
+  }
+  FMI1_FUNCTIONS(STRIDE_FIND)
+#undef STRIDE_FIND
+  if (!missing.empty()) {
+    core::fail_input(
+        {.where = where},
+        fmt::format("the library '{}' does not export {}, which an FMI 1.0 Co-Simulation unit must",
+                    path.string(), fmt::join(missing, ", ")),
+        "export it with C linkage, default visibility and exactly this name");
+  }
+  const std::string types =
+      functions_.GetTypesPlatform != nullptr ? functions_.GetTypesPlatform() : FMI1_TYPES_PLATFORM;
+  if (types == FMI1_TYPES_PLATFORM) return;
+  core::fail_input(
+      {.where = where},
+      fmt::format("the library '{}' was compiled for the platform types '{}'; expected "
+                  "'" FMI1_TYPES_PLATFORM "'",
+                  path.string(), types),
+      "compile it with the fmiPlatformTypes.h of the standard");
+}
+
+}  // namespace stride::importer

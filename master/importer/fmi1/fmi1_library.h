@@ -1,0 +1,38 @@
+// An FMI 1.0 unit's library.
+#ifndef STRIDE_MASTER_IMPORTER_FMI1_FMI1_LIBRARY_H
+#define STRIDE_MASTER_IMPORTER_FMI1_FMI1_LIBRARY_H
+
+#include <filesystem>
+#include <string>
+
+#include <stride/fmi1.h>
+
+#include "master/importer/shared_library.h"
+#include "master/util/error.h"
+
+namespace stride::importer {
+
+/// The entry table: a pointer for each <id>_fmi<Name>, null if the library does not have it.
+struct Fmi1Functions {
+#define STRIDE_POINTER(name) fmi1##name##TYPE* name = nullptr;
+  FMI1_FUNCTIONS(STRIDE_POINTER)
+#undef STRIDE_POINTER
+};
+
+class Fmi1Library : public SharedLibrary {
+ public:
+  /// Throws as SharedLibrary does, where a function is missing that any stand-alone Co-Simulation
+  /// unit must have, and where it was compiled for other platform types than those of
+  /// <stride/fmi1.h>.
+  Fmi1Library(const std::filesystem::path& path, const std::string& model_identifier,
+              const core::Location& where = {});
+
+  const Fmi1Functions& functions() const { return functions_; }
+
+ private:
+  Fmi1Functions functions_;
+};
+
+}  // namespace stride::importer
+
+#endif

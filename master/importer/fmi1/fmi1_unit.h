@@ -1,0 +1,75 @@
+// An instance of an FMI 1.0 unit for stand-alone Co-Simulation in this process.
+#ifndef STRIDE_MASTER_IMPORTER_FMI1_FMI1_UNIT_H
+#define STRIDE_MASTER_IMPORTER_FMI1_FMI1_UNIT_H
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <stride/fmi1.h>
+
+#include "master/algorithm/capabilities/resetting.h"
+#include "master/importer/fmi1/fmi1_attributes.h"
+#include "master/importer/fmi1/fmi1_library.h"
+#include "master/importer/fmu_instance.h"
+
+namespace stride::importer {
+
+/// See core::Unit for the order of calls, and FmuInstance for failures; terminate() does nothing
+/// after one. Such a unit has neither Event Mode nor clocks, and its state cannot be saved. It has
+/// no Initialization Mode either: it is initialized when that is entered, and what is set
+/// afterwards is an input.
+///
+/// Types: Real is Float64, Integer Int32, Enumeration core's Enumeration.
+///
+/// fmiDiscard means that the unit completed a part of the step: up to fmiLastSuccessfulTime, which
+/// is accepted like an early return. A step of which nothing was completed is rejected, if the unit
+/// canRejectSteps; the next one is repeated from the same point (newStep is false). fmiPending is
+/// an error.
+class Fmi1Unit final : public FmuInstance, public core::Capabilities<core::Resetting> {
+ public:
+  /// Throws core::Error of the kind Run, with the unit's messages, if it cannot be instantiated.
+  Fmi1Unit(std::string name, std::shared_ptr<const Fmi1Library> library,
+           std::shared_ptr<const Fmi1Attributes> attributes, UnitParts parts,
+           InstanceOptions options = {});
+  ~Fmi1Unit() override;
+
+  void enter_initialization(Time start, std::optional<Time> stop) override;
+  void exit_initialization() override {}
+  void get(References references, core::ValueBlock& values) override;
+  void set(References references, const core::ValueBlock& values) override;
+  using FmuInstance::step;
+  core::StepResult step(const core::StepInterval& interval,
+                        const core::StepValues& values) override;
+  void reset() override;
+  void enter_event_mode() override;
+  core::EventResult update_discrete_states() override;
+  void enter_step_mode() override;
+  void terminate() override;
+  void free() override;
+
+ private:
+  core::Capability* find_capability(core::CapabilityId id) override;
+
+  static void on_log(fmi1Component component, fmi1String instance, fmi1Status status,
+                     fmi1String category, fmi1String message, ...);
+
+  const fmi1ValueReference* own(References references);
+  core::StepResult handle_discard(const core::StepInterval& interval);
+  std::optional<Time> last_successful_time(const core::StepInterval& interval);
+
+  const Fmi1Functions& fmi_;
+  bool is_new_step_ = true;
+  std::shared_ptr<const Fmi1Library> library_;
+  std::shared_ptr<const Fmi1Attributes> attributes_;
+
+  std::vector<fmi1ValueReference> own_;
+  std::vector<fmi1Integer> integers_;
+  std::vector<fmi1Boolean> booleans_;
+  std::vector<fmi1String> texts_;
+};
+
+}  // namespace stride::importer
+
+#endif
