@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "master/importer/fmi2/printf_text.h"
+#include "master/importer/printf_text.h"
 #include "master/util/time_text.h"
 
 namespace stride::importer {

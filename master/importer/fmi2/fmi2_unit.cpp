@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "master/importer/fmi2/fmi2_log.h"
-#include "master/importer/fmi2/printf_text.h"
+#include "master/importer/printf_text.h"
 
 namespace stride::importer {
 

@@ -1,4 +1,4 @@
-#include "master/importer/fmi2/printf_text.h"
+#include "master/importer/printf_text.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,6 +1,6 @@
 // printf's formats with arguments that may be missing or wrong.
-#ifndef STRIDE_MASTER_IMPORTER_FMI2_PRINTF_TEXT_H
-#define STRIDE_MASTER_IMPORTER_FMI2_PRINTF_TEXT_H
+#ifndef STRIDE_MASTER_IMPORTER_PRINTF_TEXT_H
+#define STRIDE_MASTER_IMPORTER_PRINTF_TEXT_H
 
 #include <cstdarg>
 #include <string>
