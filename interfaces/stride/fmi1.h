@@ -55,8 +55,6 @@ typedef struct {
 /* ---- Life cycle ---- */
 
 typedef const char* fmi1GetTypesPlatformTYPE(void);
-typedef const char* fmi1GetVersionTYPE(void);
-typedef fmi1Status fmi1SetDebugLoggingTYPE(fmi1Component c, fmi1Boolean loggingOn);
 
 typedef fmi1Component fmi1InstantiateSlaveTYPE(fmi1String instanceName, fmi1String fmuGUID,
                                                fmi1String fmuLocation, fmi1String mimeType,
@@ -97,8 +95,6 @@ typedef fmi1Status fmi1GetRealStatusTYPE(fmi1Component c, const fmi1StatusKind s
 
 #define FMI1_FUNCTIONS(X) \
   X(GetTypesPlatform)     \
-  X(GetVersion)           \
-  X(SetDebugLogging)      \
   X(InstantiateSlave)     \
   X(InitializeSlave)      \
   X(TerminateSlave)       \

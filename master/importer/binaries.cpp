@@ -1,7 +1,6 @@
 #include "master/importer/binaries.h"
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -10,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "master/util/input_file.h"
+#include "master/util/lower_case.h"
 
 #if !defined(__linux__)
 #error "FMI platform names: add those of this operating system (FMI 3.0, 2.5.1.1; FMI 2.0, 2.3)"
@@ -76,17 +76,12 @@ std::vector<std::string> file_names(const std::vector<fs::path>& paths) {
   return names;
 }
 
-std::string lower_case(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 /// That of these libraries which is the unit's: of its name, also by another case, or the only one.
 std::optional<fs::path> find_misnamed(const std::vector<fs::path>& libraries,
                                       const std::string& model_identifier) {
-  const std::string wanted = lower_case(model_identifier);
+  const std::string wanted = core::lower_case(model_identifier);
   const auto has_name = [&](const fs::path& path) {
-    return lower_case(path.stem().string()) == wanted;
+    return core::lower_case(path.stem().string()) == wanted;
   };
   if (std::ranges::count_if(libraries, has_name) == 1) {
     return *std::ranges::find_if(libraries, has_name);

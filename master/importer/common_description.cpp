@@ -32,10 +32,10 @@ void read_tolerance(const xml::Element& experiment, core::UnitDescription& unit)
     unit.default_tolerance = tolerance;
     return;
   }
-  const core::Location where = experiment.where();
   unit.warnings.push_back(
-      fmt::format("{}:{}: tolerance=\"{}\" of {} is ignored: expected a positive number",
-                  where.file, where.line, *experiment.attribute("tolerance"), experiment.tag()));
+      core::to_text({.where = experiment.where()}) +
+      fmt::format("tolerance=\"{}\" of {} is ignored: expected a positive number",
+                  *experiment.attribute("tolerance"), experiment.tag()));
 }
 
 }  // namespace

@@ -249,6 +249,13 @@ bool FmuInstance::is_within(const core::StepInterval& interval, double seconds) 
          seconds <= interval.end_seconds + tolerance;
 }
 
+std::optional<Time> FmuInstance::instant_within(const core::StepInterval& interval, double seconds,
+                                                const char* what) const {
+  if (!is_within(interval, seconds)) return std::nullopt;
+  if (is_end(interval, seconds)) return interval.to;
+  return std::clamp(checked_time(seconds, what), interval.from, interval.to);
+}
+
 bool FmuInstance::is_end(const core::StepInterval& interval, double seconds) {
   return std::abs(seconds - interval.end_seconds) <= time_tolerance(interval);
 }

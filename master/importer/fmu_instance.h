@@ -222,6 +222,9 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   /// a unit that adds up its own internal steps may have drifted.
   static bool is_within(const core::StepInterval& interval, double seconds);
   static bool is_end(const core::StepInterval& interval, double seconds);
+  /// The instant of the step that the unit names; nothing if it is not in the step.
+  std::optional<Time> instant_within(const core::StepInterval& interval, double seconds,
+                                     const char* what) const;
 
   // What each call and each step need comes first, and close together.
   void* instance_ = nullptr;         ///< as the unit calls it

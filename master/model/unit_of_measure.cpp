@@ -17,6 +17,12 @@ double finite_number(const xml::Element& element, const char* attribute, double 
                            *element.attribute(attribute), element.tag()));
 }
 
+/// Some tools write [m] for m.
+std::string_view without_brackets(std::string_view name) {
+  const bool has_brackets = name.starts_with('[') && name.ends_with(']');
+  return has_brackets ? name.substr(1, name.size() - 2) : name;
+}
+
 }  // namespace
 
 BaseUnitOfMeasure read_base_unit(const xml::Element& element) {
@@ -31,16 +37,6 @@ BaseUnitOfMeasure read_base_unit(const xml::Element& element) {
   }
   return unit;
 }
-
-namespace {
-
-/// Some tools write [m] for m.
-std::string_view without_brackets(std::string_view name) {
-  const bool has_brackets = name.starts_with('[') && name.ends_with(']');
-  return has_brackets ? name.substr(1, name.size() - 2) : name;
-}
-
-}  // namespace
 
 std::optional<LinearConversion> convert(const UnitOfMeasure& from, const UnitOfMeasure& to) {
   if (from.name.empty() || to.name.empty()) return LinearConversion{};

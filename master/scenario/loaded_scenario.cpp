@@ -241,9 +241,9 @@ void LoadedScenario::choose_steps(const StepSettings& request) {
   if (vendor && !has_own_step) {
     options_.step.size = vendor->size;
     spdlog::warn(
-        "{}:{}: the step is {} s, as {} of another tool has it; <stride:Step size=\"…\"/> "
+        "{}the step is {} s, as {} of another tool has it; <stride:Step size=\"…\"/> "
         "or --step sets another one",
-        vendor->where.file, vendor->where.line, core::to_text(vendor->size), vendor->tag);
+        core::to_text({.where = vendor->where}), core::to_text(vendor->size), vendor->tag);
   }
   scenario_.annotation.step.apply(options_);
   request.apply(options_);

@@ -280,10 +280,10 @@ std::vector<ParameterValue> read_parameters(const xml::Element& owner,
     }
   }
   if (lists.size() > 1) {
-    const core::Location where = lists[1].where();
     context.warnings.push_back(
-        fmt::format("{}:{}: a second {} in {}: both are used, though SSP allows one only",
-                    where.file, where.line, lists[1].tag(), owner.tag()));
+        core::to_text({.where = lists[1].where()}) +
+        fmt::format("a second {} in {}: both are used, though SSP allows one only", lists[1].tag(),
+                    owner.tag()));
   }
   return values;
 }

@@ -189,8 +189,7 @@ class SystemReader {
   }
 
   void warn(const xml::Element& element, const std::string& message) {
-    const core::Location where = element.where();
-    reading_.warnings.push_back(fmt::format("{}:{}: {}", where.file, where.line, message));
+    reading_.warnings.push_back(core::to_text({.where = element.where()}) + message);
   }
 
   static std::string type_of(const xml::Element& component) {

@@ -1,7 +1,6 @@
 #include "master/ssp/uri.h"
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <string_view>
 
@@ -9,6 +8,7 @@
 
 #include "master/util/hex.h"
 #include "master/util/input_file.h"
+#include "master/util/lower_case.h"
 
 namespace stride::ssp {
 namespace {
@@ -16,10 +16,7 @@ namespace {
 std::string take_scheme(std::string_view& uri) {
   const std::size_t end = uri.find_first_of(":/?#");
   if (end == std::string_view::npos || end == 0 || uri[end] != ':') return {};
-  std::string scheme;
-  for (const char c : uri.substr(0, end)) {
-    scheme += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
+  std::string scheme = core::lower_case(std::string(uri.substr(0, end)));
   uri.remove_prefix(end + 1);
   return scheme;
 }

@@ -83,9 +83,9 @@ class Fmi1Variables {
 
   void add(const xml::Element& element) {
     if (element.attribute("alias") == "negatedAlias") {
-      const core::Location where = element.where();
-      unit_.warnings.push_back(fmt::format("{}:{}: '{}', a negatedAlias, is left out", where.file,
-                                           where.line, element.attribute_or("name")));
+      unit_.warnings.push_back(
+          core::to_text({.where = element.where()}) +
+          fmt::format("'{}', a negatedAlias, is left out", element.attribute_or("name")));
       return;
     }
     core::Variable variable = read(element);

@@ -10,8 +10,7 @@ namespace stride::importer {
 namespace {
 
 /// What is asked only where a unit knows more.
-constexpr std::string_view kFmi1Optional[] = {"SetDebugLogging", "ResetSlave", "GetRealStatus",
-                                              "GetTypesPlatform", "GetVersion"};
+constexpr std::string_view kFmi1Optional[] = {"ResetSlave", "GetRealStatus", "GetTypesPlatform"};
 
 }  // namespace
 

@@ -220,9 +220,7 @@ std::optional<Time> Fmi1Unit::last_successful_time(const core::StepInterval& int
       call_discardable("fmiGetRealStatus", fmi_.GetRealStatus, fmi1LastSuccessfulTime, &seconds);
   if (has_messages_) take_messages("fmiGetRealStatus");
   const bool is_known = status == Status::Ok || status == Status::Warning;
-  if (!is_known || !is_within(interval, seconds)) return std::nullopt;
-  if (is_end(interval, seconds)) return interval.to;
-  return std::clamp(checked_time(seconds, "fmiLastSuccessfulTime"), interval.from, interval.to);
+  return is_known ? instant_within(interval, seconds, "fmiLastSuccessfulTime") : std::nullopt;
 }
 
 }  // namespace stride::importer

@@ -136,9 +136,7 @@ std::optional<Time> Fmi2Unit::last_successful_time(const core::StepInterval& int
   double seconds = 0;
   const bool is_known =
       query_status("fmi2GetRealStatus", fmi_.GetRealStatus, fmi2LastSuccessfulTime, &seconds);
-  if (!is_known || !is_within(interval, seconds)) return std::nullopt;
-  if (is_end(interval, seconds)) return interval.to;
-  return std::clamp(checked_time(seconds, "fmi2LastSuccessfulTime"), interval.from, interval.to);
+  return is_known ? instant_within(interval, seconds, "fmi2LastSuccessfulTime") : std::nullopt;
 }
 
 bool Fmi2Unit::requests_termination() {

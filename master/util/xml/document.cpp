@@ -118,8 +118,9 @@ void Document::declare(const Prefix& prefix, tinyxml2::XMLElement& root, Content
   const auto* const user = find_undeclared(root, begin, attribute);
   if (user == nullptr) return;
   content.warnings.push_back(
-      fmt::format("{}:{}: the prefix '{}' of <{}> is not declared; it is taken for {}",
-                  content.file, user->GetLineNum(), prefix.name, user->Name(), prefix.name_space));
+      core::to_text({.where = {content.file, user->GetLineNum()}}) +
+      fmt::format("the prefix '{}' of <{}> is not declared; it is taken for {}", prefix.name,
+                  user->Name(), prefix.name_space));
   root.SetAttribute(attribute.c_str(), prefix.name_space);
 }
 

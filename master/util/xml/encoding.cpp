@@ -13,6 +13,7 @@
 #include <utf8.h>
 
 #include "master/util/error.h"
+#include "master/util/lower_case.h"
 #include "master/util/readable_text.h"
 
 namespace stride::xml {
@@ -57,12 +58,6 @@ std::optional<std::pair<std::size_t, std::size_t>> find_encoding_name(std::strin
   if (quote == text.npos) return std::nullopt;
   const std::size_t end = declaration.find(declaration[quote], quote + 1);
   return std::pair(quote + 1, std::min(end, declaration.size()) - quote - 1);
-}
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
-  return lower;
 }
 
 /// EncName of XML 1.0: iconv would take what follows a "//" for settings.
@@ -123,8 +118,9 @@ class Converter {
   iconv_t handle_;
 };
 
-int line_at_end_of(std::string_view text) {
-  return 1 + static_cast<int>(std::ranges::count(text, '\n'));
+std::string place_at_end_of(std::string_view text, const std::string& file) {
+  const auto line = 1 + static_cast<int>(std::ranges::count(text, '\n'));
+  return core::to_text({.where = {file, line}});
 }
 
 /// `unit_size`: how many bytes are left out where they are no character.
@@ -134,10 +130,12 @@ DecodedText convert(std::string_view bytes, Converter& converter, const std::str
   for (converter.append(bytes, decoded.text); !bytes.empty();
        converter.append(bytes, decoded.text)) {
     if (decoded.warning.empty()) {
-      decoded.warning = fmt::format(
-          "{}:{}: what is here is no text in the encoding {} that the file declares: replaced by "
-          "\"{}\", here and below",
-          file, line_at_end_of(decoded.text), encoding, core::kReplacement);
+      decoded.warning =
+          place_at_end_of(decoded.text, file) +
+          fmt::format(
+              "what is here is no text in the encoding {} that the file declares: replaced "
+              "by \"{}\", here and below",
+              encoding, core::kReplacement);
     }
     decoded.text += core::kReplacement;
     bytes.remove_prefix(std::min(unit_size, bytes.size()));
@@ -156,10 +154,9 @@ DecodedText repair(std::string_view bytes, const std::string& file) {
     bytes.remove_prefix(static_cast<std::size_t>(invalid - bytes.begin()));
     if (bytes.empty()) break;
     if (decoded.warning.empty()) {
-      decoded.warning = fmt::format(
-          "{}:{}: what is here is no UTF-8, which the file declares: taken for Windows-1252, here "
-          "and below",
-          file, line_at_end_of(decoded.text));
+      decoded.warning = place_at_end_of(decoded.text, file) +
+                        "what is here is no UTF-8, which the file declares: taken for "
+                        "Windows-1252, here and below";
     }
     std::string_view one = bytes.substr(0, 1);
     if (windows.is_open()) windows.append(one, decoded.text);
@@ -186,7 +183,7 @@ DecodedText decode(std::string bytes, const std::string& file) {
   }
   const auto name = find_encoding_name(bytes);
   const std::string encoding =
-      name ? lower_case(std::string_view(bytes).substr(name->first, name->second)) : "utf-8";
+      name ? core::lower_case(bytes.substr(name->first, name->second)) : "utf-8";
   if (bytes.starts_with(kUtf8Mark) || counts_as_utf8(encoding)) {
     return utf8::find_invalid(bytes.begin(), bytes.end()) == bytes.end()
                ? DecodedText{std::move(bytes), ""}
