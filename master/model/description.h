@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_MODEL_DESCRIPTION_H
 #define STRIDE_MASTER_MODEL_DESCRIPTION_H
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -122,6 +123,14 @@ struct Variable {
   bool has_derivative = false;  ///< of an output with a tolerance: get_derivatives() knows it
 
   bool is_clocked() const { return !clocks.empty(); }
+  bool belongs_to(ValueReference a_clock) const {
+    return std::find(clocks.begin(), clocks.end(), a_clock) != clocks.end();
+  }
+  /// Whether it is neither a clock nor belongs to one.
+  bool is_unclocked_value() const { return type != ValueType::Clock && !is_clocked(); }
+  bool is_triggered_clock() const {
+    return clock && clock->variability == IntervalVariability::Triggered;
+  }
   /// Whether it is a clock that the master ticks by the time.
   bool is_time_based_clock() const {
     return clock && causality == Causality::Input &&
@@ -191,6 +200,11 @@ struct UnitDescription {
   /// Whether the variable is a message: its value exists at the ticks of a triggered clock only.
   bool is_message(const Variable& variable) const {
     return variable.is_clocked() && !is_sampled(variable);
+  }
+  /// Whether the variable is a signal, which has a value at each communication point: neither a
+  /// clock nor a message.
+  bool is_signal(const Variable& variable) const {
+    return variable.type != ValueType::Clock && !is_message(variable);
   }
 };
 

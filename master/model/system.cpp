@@ -322,7 +322,7 @@ void System::add_outputs(const SystemDeclaration& declaration) {
 void System::add_output(const OutputDeclaration& wanted) {
   const VariableId from = find_variable(wanted.component, wanted.variable, wanted.where);
   const Variable& source = variable(from);
-  if (source.type == ValueType::Clock || is_message(from)) return;  // it is seen where it is sent
+  if (!is_signal(from)) return;  // it is seen where it is sent
   Way way(path_connector(from));
   for (const ViaDeclaration& via : wanted.via) way.go(via.connector, via.segment);
   const std::vector<PathConnector> path = completed(way.path);

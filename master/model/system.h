@@ -82,6 +82,10 @@ class System {
   bool is_message(VariableId id) const {
     return !is_output(id) && components_[id.component].description->is_message(variable(id));
   }
+  /// Whether the variable is a signal; see UnitDescription::is_signal(). Outputs of the system are.
+  bool is_signal(VariableId id) const {
+    return is_output(id) || components_[id.component].description->is_signal(variable(id));
+  }
   /// "component.variable"; of an output of the system its name.
   std::string full_name(VariableId id) const { return prefix(id) + variable(id).name; }
   /// "component.", or empty for an output of the system.

@@ -12,8 +12,7 @@ namespace {
 
 /// SSP lets a local variable be connected as if it were an output; messages come from outputs only.
 bool is_source(const Variable& variable) {
-  const bool is_local = variable.causality == Causality::Local && !variable.is_clocked() &&
-                        variable.type != ValueType::Clock;
+  const bool is_local = variable.causality == Causality::Local && variable.is_unclocked_value();
   return is_local || variable.causality == Causality::Output ||
          variable.causality == Causality::CalculatedParameter;
 }
@@ -122,8 +121,8 @@ void System::check_clocked(const ConnectionDeclaration& wanted, VariableId from,
 /// Clocks tick in Event Mode only, so without it a message would be lost without a word.
 void System::check_event_mode(const ConnectionDeclaration& wanted, VariableId id) const {
   const Variable& connected = variable(id);
-  const bool ticks = connected.type == ValueType::Clock || connected.is_clocked();
-  if (!ticks || components_[id.component].description->has_event_mode) return;
+  if (connected.is_unclocked_value() || components_[id.component].description->has_event_mode)
+    return;
   fail_input({wanted.where, components_[id.component].name, connected.name, {}},
              "this is a clock, or belongs to one, which ticks in Event Mode, and the unit has none "
              "(hasEventMode)",

@@ -95,7 +95,7 @@ void Selection::check_window(const CheckDeclaration& check) const {
         "count its messages with <stride:Count event=\"…\"/>, or wait for them with "
         "<stride:Answer/>");
   }
-  if (!named.is_message) {
+  if (named.is_signal) {
     core::fail_input(context,
                      fmt::format("'{}' is not a message, but has a value at each time", named.name),
                      "compare it with <stride:Always>, <stride:Never>, <stride:Eventually> or "
@@ -115,7 +115,7 @@ void Selection::check_window(const CheckDeclaration& check) const {
     if (!core::is_glob(pattern) && is_meant(system_, variable.id, pattern)) {
       fail_unsuitable(check, variable, wants_message);
     }
-    const bool fits = wants_message ? is_reported(variable) : !variable.is_message;
+    const bool fits = wants_message ? is_reported(variable) : variable.is_signal;
     if (fits) names.push_back(variable.name);
   }
   core::fail_input(
@@ -125,8 +125,7 @@ void Selection::check_window(const CheckDeclaration& check) const {
 }
 
 bool Selection::is_triggered(const NamedVariable& clock) const {
-  const core::Variable& variable = system_.variable(clock.id);
-  return variable.clock && variable.clock->variability == core::IntervalVariability::Triggered;
+  return system_.variable(clock.id).is_triggered_clock();
 }
 
 const NamedVariable* Selection::carried_by(const NamedVariable& clock) const {
@@ -134,13 +133,13 @@ const NamedVariable* Selection::carried_by(const NamedVariable& clock) const {
   const auto carried = std::ranges::find_if(finder_.all(), [&](const NamedVariable& other) {
     const core::Variable& candidate = system_.variable(other.id);
     return other.id.component == clock.id.component && candidate.causality == variable.causality &&
-           std::ranges::find(candidate.clocks, variable.reference) != candidate.clocks.end();
+           candidate.belongs_to(variable.reference);
   });
   return carried == finder_.all().end() ? nullptr : &*carried;
 }
 
 bool Selection::is_reported(const NamedVariable& variable) const {
-  if (!variable.is_message) return false;
+  if (variable.is_signal) return false;
   const bool is_clock = system_.variable(variable.id).clock.has_value();
   return !is_clock || (is_triggered(variable) && carried_by(variable) == nullptr);
 }
@@ -149,7 +148,7 @@ std::vector<Element> Selection::find_elements(const CheckDeclaration& check) con
   const std::string& pattern = check.subject;
   std::vector<Element> found;
   const auto add = [&](const NamedVariable& variable, bool is_whole) {
-    if (variable.is_message) return;
+    if (!variable.is_signal) return;
     const core::Variable& described = system_.variable(variable.id);
     for (std::size_t i = 0; i < described.size; ++i) {
       std::string name = system_.prefix(variable.id) + recorders::element_name(described, i);

@@ -25,7 +25,7 @@ namespace {
   }
   std::vector<std::string> names;
   for (const NamedVariable& variable : all) {
-    if (!variable.is_message) names.push_back(variable.name);
+    if (variable.is_signal) names.push_back(variable.name);
   }
   core::fail_input({.where = pattern.where},
                    fmt::format("'{}' matches no variable to record", pattern.text),
@@ -36,7 +36,7 @@ std::vector<core::VariableId> all_outputs(const core::System& system) {
   std::vector<core::VariableId> outputs;
   for (const NamedVariable& variable : named_variables(system)) {
     const bool is_output = system.variable(variable.id).causality == core::Causality::Output;
-    if (is_output && !variable.is_message) outputs.push_back(variable.id);
+    if (is_output && variable.is_signal) outputs.push_back(variable.id);
   }
   return outputs;
 }
@@ -108,14 +108,12 @@ std::vector<NamedVariable> named_variables(const core::System& system) {
     const auto& variables = system.components()[c].description->variables;
     for (std::size_t v = 0; v < variables.size(); ++v) {
       if (variables[v].causality == core::Causality::Independent) continue;  // the first column
-      const bool is_message =
-          variables[v].type == core::ValueType::Clock || system.is_message({c, v});
-      found.push_back({{c, v}, system.full_name({c, v}), is_message});
+      found.push_back({{c, v}, system.full_name({c, v}), system.is_signal({c, v})});
     }
   }
   for (std::size_t i = 0; i < system.outputs().size(); ++i) {
     const core::VariableId id = system.output_id(i);
-    found.push_back({id, system.full_name(id), false});
+    found.push_back({id, system.full_name(id), true});
   }
   return found;
 }
@@ -163,7 +161,7 @@ std::vector<core::VariableId> select_signals(const core::System& system,
     const NamedVariable* message = nullptr;
     bool has_match = false;
     for (const NamedVariable* variable : finder.meant(pattern.text)) {
-      if (variable->is_message) {
+      if (!variable->is_signal) {
         message = variable;
         continue;
       }

@@ -16,9 +16,8 @@ namespace stride::scenario {
 
 struct NamedVariable {
   core::VariableId id;
-  std::string name;  ///< "component.variable", or that of an output of the system
-  /// It has a value only when a clock ticks: a clock, or what belongs to a triggered one.
-  bool is_message = false;
+  std::string name;       ///< "component.variable", or that of an output of the system
+  bool is_signal = true;  ///< neither a clock nor a message
 };
 
 /// All but the time, in the order of the system.

@@ -27,10 +27,8 @@ MessageExchange::MessageExchange(const System& system, std::span<const std::uniq
       OutputClock output{{component, i}, {}, targets_of(system, {component, i}), false};
       for (std::size_t k = 0; k < description.variables.size(); ++k) {
         const Variable& variable = description.variables[k];
-        const auto& clocks = variable.clocks;
-        const bool carried =
-            std::find(clocks.begin(), clocks.end(), clock.reference) != clocks.end();
-        if (!carried || variable.causality != Causality::Output) continue;
+        if (!variable.belongs_to(clock.reference) || variable.causality != Causality::Output)
+          continue;
         output.payloads.push_back({{component, k},
                                    variable.reference,
                                    ValueBlock(variable.type, variable.size),
@@ -54,8 +52,7 @@ std::vector<MessageExchange::Receiver> MessageExchange::receivers_of(
     const Variable& variable = system_.variable(input);
     const bool is_reached = std::ranges::any_of(clock_targets, [&](VariableId clock) {
       return clock.component == input.component &&
-             std::ranges::find(variable.clocks, system_.variable(clock).reference) !=
-                 variable.clocks.end();
+             variable.belongs_to(system_.variable(clock).reference);
     });
     if (!is_reached) continue;
     receivers.push_back({input, &connection, ValueBlock(variable.type, variable.size)});

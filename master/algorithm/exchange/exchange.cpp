@@ -14,10 +14,6 @@
 namespace stride::core {
 namespace {
 
-bool exchanged(const System& system, VariableId id) {
-  return system.variable(id).type != ValueType::Clock && !system.is_message(id);
-}
-
 /// One transfer for the variables of a component that have this type, are written at these
 /// times, and belong to these clocks.
 template <class Transfer>
@@ -82,7 +78,7 @@ Exchange::Exchange(const System& system, std::span<const VariableId> observed)
   std::set<VariableId> inputs;
   std::set<VariableId> jumps;  // fed by sampled values, which change by events
   for (const Connection& connection : system.connections()) {
-    if (!exchanged(system, connection.from)) continue;
+    if (!system.is_signal(connection.from)) continue;
     outputs.insert(connection.from);
     inputs.insert(connection.to);
     if (system.is_sampled(connection.from)) jumps.insert(connection.to);
@@ -97,7 +93,7 @@ Exchange::Exchange(const System& system, std::span<const VariableId> observed)
                                                [](const Transfer& t) { return t.is_discrete(); }));
   }
   for (const Connection& connection : system.connections()) {
-    if (!exchanged(system, connection.from)) continue;
+    if (!system.is_signal(connection.from)) continue;
     add_copies(connection);
     has_other_types_ |= system.variable(connection.from).type != ValueType::Float64;
   }

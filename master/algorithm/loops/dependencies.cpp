@@ -15,11 +15,10 @@ bool never_follows_inputs(const Variable& variable) {
 
 bool carries_value(const System& system, const Connection& connection, Phase phase) {
   const auto has_value = [&](VariableId id) {
-    return phase == Phase::Initialization ? !system.is_message(id)
-                                          : !system.variable(id).is_clocked();
+    return phase == Phase::Initialization ? system.is_signal(id)
+                                          : system.variable(id).is_unclocked_value();
   };
-  return system.variable(connection.from).type != ValueType::Clock && has_value(connection.from) &&
-         has_value(connection.to);
+  return has_value(connection.from) && has_value(connection.to);
 }
 
 Dependencies::Dependencies(const System& system, Phase phase)

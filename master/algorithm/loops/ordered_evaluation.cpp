@@ -69,8 +69,9 @@ void OrderedEvaluation::find_direct_inputs() {
     for (std::size_t k = 0; k < variables.size() && direct.size() < all.size(); ++k) {
       const Variable& output = variables[k];
       const bool is_local = output.causality == Causality::Local && sources.contains({i, k});
-      if ((output.causality != Causality::Output && !is_local) || output.is_clocked()) continue;
-      if (output.type == ValueType::Clock) continue;
+      if ((output.causality != Causality::Output && !is_local) || !output.is_unclocked_value()) {
+        continue;
+      }
       const Dependencies::Inputs inputs = dependencies.inputs_of({i, k});
       const auto& depends_on = inputs.declared ? inputs.variables : all;
       direct.insert(depends_on.begin(), depends_on.end());

@@ -28,12 +28,12 @@ TEST_CASE("all variables but the time have names; messages are distinguished") {
   CHECK(named_variables(system).size() == 24);
   CHECK_THROWS(named(system, "a.time"));
   for (const char* name : {"a.transmit.clock", "b, c.transmit.frame", "a.tick"}) {
-    CHECK(named(system, name).is_message);
+    CHECK_FALSE(named(system, name).is_signal);
   }
   for (const char* name : {"a.distance", "b, c.gain", "a.label"}) {
-    CHECK_FALSE(named(system, name).is_message);
+    CHECK(named(system, name).is_signal);
   }
-  CHECK_FALSE(named(sampled_system(), "s.u").is_message);
+  CHECK(named(sampled_system(), "s.u").is_signal);
 }
 
 TEST_CASE("a variable is meant by its name, an alias, and globs of both") {
