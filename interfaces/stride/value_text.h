@@ -19,10 +19,16 @@ namespace stride {
 
 inline constexpr char kHexadecimalDigits[] = "0123456789abcdef";
 
+/// Calls write(char) with two lower-case hexadecimal digits.
+template <class Write>
+void write_hexadecimal(std::uint8_t byte, Write&& write) {
+  write(kHexadecimalDigits[byte >> 4]);
+  write(kHexadecimalDigits[byte & 15]);
+}
+
 /// Appends two lower-case hexadecimal digits.
 inline void append_hexadecimal(std::string& text, std::uint8_t byte) {
-  text += kHexadecimalDigits[byte >> 4];
-  text += kHexadecimalDigits[byte & 15];
+  write_hexadecimal(byte, [&](char digit) { text += digit; });
 }
 
 /// The value of a hexadecimal digit of either case; -1 for any other character.

@@ -11,14 +11,8 @@
 namespace stride::cli {
 namespace {
 
-/// Characters, not bytes: the continuation bytes of UTF-8 do not count.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 std::string pad(const std::string& text, std::size_t to, Table::Align align) {
-  const std::string blanks(to - std::min(to, width(text)), ' ');
+  const std::string blanks(to - std::min(to, core::character_count(text)), ' ');
   return align == Table::Align::Left ? text + blanks : blanks + text;
 }
 
@@ -40,16 +34,17 @@ std::size_t output_width() {
 std::vector<std::size_t> Table::widths(std::size_t most) const {
   constexpr std::size_t kBetween = 2;
   std::vector<std::size_t> widths;
-  for (const Column& column : columns_) widths.push_back(width(column.title));
+  for (const Column& column : columns_) widths.push_back(core::character_count(column.title));
   for (const auto& row : rows_) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width(row[i]));
+    for (std::size_t i = 0; i < row.size(); ++i)
+      widths[i] = std::max(widths[i], core::character_count(row[i]));
   }
   std::size_t whole = 0;
   for (const std::size_t column : widths) whole += kBetween + column;
   for (std::size_t i = 0; i < widths.size() && whole > most; ++i) {
     if (!columns_[i].is_cut) continue;
     const std::size_t room = widths[i] - std::min(widths[i], whole - most);
-    const std::size_t kept = std::max(room, width(columns_[i].title));
+    const std::size_t kept = std::max(room, core::character_count(columns_[i].title));
     whole -= widths[i] - kept;
     widths[i] = kept;
   }

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "master/recorders/signal_text.h"
+#include "master/util/vcd_code.h"
 
 namespace stride::recorders {
 namespace {
@@ -106,7 +107,7 @@ bool is_message_variable(const core::UnitDescription& unit, const core::Variable
   const bool is_connector =
       variable.causality == core::Causality::Input || variable.causality == core::Causality::Output;
   if (!is_connector || variable.is_time_based_clock()) return false;
-  return variable.type == core::ValueType::Clock || unit.is_message(variable);
+  return !unit.is_signal(variable);
 }
 
 }  // namespace
@@ -141,16 +142,7 @@ void VcdScope::write(core::OutputFile& file) const {
 VcdRecorder::VcdRecorder(const core::System& system, std::filesystem::path file)
     : system_(system), file_(std::move(file)) {}
 
-/// Codes are numbers to the base of the 94 printable characters.
-std::string VcdRecorder::next_code() {
-  std::string code;
-  std::uint64_t rest = codes_++;
-  do {
-    code += static_cast<char>('!' + rest % 94);
-    rest /= 94;
-  } while (rest != 0);
-  return code;
-}
+std::string VcdRecorder::next_code() { return core::vcd_code(codes_++); }
 
 std::string VcdRecorder::declare(VcdScope& top, core::VariableId id, std::size_t element) {
   const core::Variable& variable = system_.variable(id);

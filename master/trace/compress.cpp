@@ -8,17 +8,15 @@
 #include "master/trace/instants.h"
 #include "master/trace/writer.h"
 #include "master/util/time_text.h"
+#include "master/util/vcd_code.h"
 
 namespace stride::trace {
 namespace {
 
-/// The first number to the base of the 94 printable characters that no variable has.
+/// The first code that no variable has.
 std::string free_code(const CodeTable& codes) {
   for (std::uint64_t number = 0;; ++number) {
-    std::string code;
-    for (std::uint64_t rest = number + 1; rest > 0; rest = (rest - 1) / 94) {
-      code += static_cast<char>('!' + (rest - 1) % 94);
-    }
+    const std::string code = core::vcd_code(number);
     if (!codes.find(code)) return code;
   }
 }

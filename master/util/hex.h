@@ -16,10 +16,7 @@ namespace stride::core {
 /// Calls write(char) with two lower-case digits for each byte.
 template <class Write>
 void write_hex(std::span<const std::uint8_t> bytes, Write&& write) {
-  for (const std::uint8_t byte : bytes) {
-    write(kHexadecimalDigits[byte >> 4]);
-    write(kHexadecimalDigits[byte & 15]);
-  }
+  for (const std::uint8_t byte : bytes) write_hexadecimal(byte, write);
 }
 
 std::string to_hex(std::span<const std::uint8_t> bytes);

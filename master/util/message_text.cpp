@@ -4,6 +4,9 @@
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "master/util/readable_text.h"
+
 namespace stride::core {
 namespace {
 
@@ -18,13 +21,6 @@ struct Limit {
 constexpr Limit kWord{400, 240, 80};  // paths are seldom longer
 constexpr Limit kLine{2000, 1500, 300};
 
-bool is_within_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
-
-std::size_t count_characters(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char byte) { return !is_within_character(byte); }));
-}
-
 std::string shortened(std::string_view text, const Limit& limit) {
   if (text.size() <= limit.most) return std::string(text);
   std::size_t head = limit.head;
@@ -32,7 +28,7 @@ std::string shortened(std::string_view text, const Limit& limit) {
   while (head > 0 && is_within_character(text[head])) --head;
   while (tail < text.size() && is_within_character(text[tail])) ++tail;
   return fmt::format("{}… ({} more characters) …{}", text.substr(0, head),
-                     count_characters(text.substr(head, tail - head)), text.substr(tail));
+                     character_count(text.substr(head, tail - head)), text.substr(tail));
 }
 
 std::string shortened_line(std::string_view line) {

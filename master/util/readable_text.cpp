@@ -1,5 +1,6 @@
 #include "master/util/readable_text.h"
 
+#include <algorithm>
 #include <cstdint>
 
 #include <fmt/format.h>
@@ -29,6 +30,11 @@ void append_escaped(std::string& text, std::string_view character) {
 }
 
 }  // namespace
+
+std::size_t character_count(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char byte) { return !is_within_character(byte); }));
+}
 
 std::string_view take_character(std::string_view& text) {
   constexpr std::size_t kLongest = 4;

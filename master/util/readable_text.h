@@ -11,6 +11,14 @@ namespace stride::core {
 /// Replaces what is no character.
 inline constexpr std::string_view kReplacement = "\uFFFD";
 
+/// Whether the byte is not the first one of a character of UTF-8.
+constexpr bool is_within_character(char byte) {
+  return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
+}
+
+/// The number of characters in a text of UTF-8.
+std::size_t character_count(std::string_view text);
+
 /// Takes the first character of UTF-8 off a text that is not empty. A byte that is not of one
 /// counts as the character U+FFFD.
 std::string_view take_character(std::string_view& text);
