@@ -122,13 +122,13 @@ class Writer {
     xml_.open("UnitDefinitions");
     for (const std::string& symbol : symbols) {
       xml_.open("Unit").attribute("name", symbol);
-      if (const auto unit = measure_unit(symbol)) write_base_unit(*unit);
+      if (const auto unit = base_unit_of_measure(symbol)) write_base_unit(*unit);
       xml_.close();
     }
     xml_.close();
   }
 
-  void write_base_unit(const MeasureUnit& unit) {
+  void write_base_unit(const BaseUnitOfMeasure& unit) {
     const std::pair<const char*, int> exponents[] = {
         {"kg", unit.kg}, {"m", unit.m},     {"s", unit.s},   {"A", unit.A},
         {"K", unit.K},   {"mol", unit.mol}, {"cd", unit.cd}, {"rad", unit.rad}};

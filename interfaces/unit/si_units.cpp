@@ -5,7 +5,7 @@ namespace {
 
 struct Row {
   std::string_view symbol;
-  MeasureUnit unit;
+  BaseUnitOfMeasure unit;
 };
 
 constexpr double kPi = 3.14159265358979323846;
@@ -42,7 +42,7 @@ constexpr Row kUnits[] = {
 
 }  // namespace
 
-std::optional<MeasureUnit> measure_unit(std::string_view symbol) {
+std::optional<BaseUnitOfMeasure> base_unit_of_measure(std::string_view symbol) {
   for (const Row& row : kUnits) {
     if (row.symbol == symbol) return row.unit;
   }

@@ -8,14 +8,14 @@ namespace stride::kit {
 
 /// A unit of measure in SI base units, with the parts of FMI's element BaseUnit:
 /// value in base units = factor * value + offset.
-struct MeasureUnit {
+struct BaseUnitOfMeasure {
   int kg, m, s, A, K, mol, cd, rad;
   double factor, offset;
 };
 
 /// What a unit symbol in the Modelica notation means, for the symbols that occur in models of this
 /// kind. Of any other symbol the model description has the name alone, and importers compare names.
-std::optional<MeasureUnit> measure_unit(std::string_view symbol);
+std::optional<BaseUnitOfMeasure> base_unit_of_measure(std::string_view symbol);
 
 }  // namespace stride::kit
 

@@ -24,8 +24,7 @@ class ByteRing {
   void read(std::string& bytes);
 
  private:
-  // both only grow; the writer may be out of its mind, so the reader believes no difference above
-  // kSize
+  // both only grow; the writer is not trusted: a difference above kSize counts as kSize
   alignas(64) std::atomic<std::uint64_t> written_ = 0;
   alignas(64) std::atomic<std::uint64_t> read_ = 0;
   std::array<char, kSize> bytes_{};

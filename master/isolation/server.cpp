@@ -50,7 +50,7 @@ void add(Protections& protections, Protections&& further) {
 }  // namespace
 
 void serve(HostLink& link, const HostedUnitSpec& spec, pid_t supervisor) noexcept {
-  forget_signal_handlers();
+  reset_signal_handlers();
   ::prctl(PR_SET_NAME, spec.name.c_str());
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a crash loses no line
   ::on_exit(&on_exit_called, nullptr);

@@ -35,7 +35,7 @@ class Server {
   Protections prepare();
 
   void await_request();
-  /// Does what the present request wants, and replies.
+  /// Carries out the present request, and replies.
   void serve();
   void handle(RequestCode request, PacketReader& in, PacketWriter& out);
   void reply(ReplyCode what, const PacketWriter& packet);

@@ -10,8 +10,8 @@ namespace {
 
 using Bound = std::span<const core::BoundValues>;
 
-std::vector<StepShape::Part> shape(Bound values) {
-  std::vector<StepShape::Part> parts;
+std::vector<StepShape::Group> shape(Bound values) {
+  std::vector<StepShape::Group> parts;
   for (const core::BoundValues& part : values) {
     parts.push_back(
         {part.block->type(), part.block->size(), {part.references.begin(), part.references.end()}});
@@ -19,9 +19,9 @@ std::vector<StepShape::Part> shape(Bound values) {
   return parts;
 }
 
-bool fits(const std::vector<StepShape::Part>& shape, Bound values) {
+bool fits(const std::vector<StepShape::Group>& shape, Bound values) {
   return std::ranges::equal(
-      shape, values, [](const StepShape::Part& part, const core::BoundValues& bound) {
+      shape, values, [](const StepShape::Group& part, const core::BoundValues& bound) {
         return part.type == bound.block->type() && part.size == bound.block->size() &&
                std::ranges::equal(part.references, bound.references);
       });

@@ -15,12 +15,12 @@ namespace stride::isolation {
 
 /// What a step's values are made of, without the values.
 struct StepShape {
-  struct Part {
+  struct Group {
     core::ValueType type;
     std::size_t size;
     std::vector<core::ValueReference> references;
   };
-  std::vector<Part> inputs, outputs;
+  std::vector<Group> inputs, outputs;
 
   explicit StepShape(const core::StepValues& values);
   bool fits(const core::StepValues& values) const;

@@ -191,7 +191,7 @@ void supervise(HostLink& link, Descriptor control, pid_t master, const MemoryAll
   ::setsid();  // without a terminal, and in a group of its own
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
   ::prctl(PR_SET_NAME, "unit-supervisor");
-  forget_signal_handlers();
+  reset_signal_handlers();
   const Descriptor nowhere(::open("/dev/null", O_RDWR | O_CLOEXEC));
   redirect_standard_files(nowhere.number());
   close_other_files({control.number(), link.packets.file().number()});

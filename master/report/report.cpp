@@ -54,8 +54,8 @@ class DataWriter {
     member("notes", json_text(results_.notes));
     write(results_.signals);
     member("plots", json_text(plots(results_)));
-    list("messages", results_.messages, [&](const Message& message) { write(message); });
-    list("activity", results_.activities, [&](const Activities& entry) { write(entry); });
+    list("messages", results_.messages, [&](const RecordedMessage& message) { write(message); });
+    list("activity", results_.activities, [&](const UnitActivities& entry) { write(entry); });
     list("films", results_.films, [&](const Film& film) { write(film); });
     member("diagram", json_text(diagram(results_.run)));
     file_.write("}</script>\n");
@@ -90,7 +90,7 @@ class DataWriter {
     });
   }
 
-  void write(const Message& message) {
+  void write(const RecordedMessage& message) {
     file_.write(json_text({{"time", std::to_string(message.time)},
                            {"index", message.index},
                            {"component", message.component},
@@ -100,7 +100,7 @@ class DataWriter {
                            {"content", message.content}}));
   }
 
-  void write(const Activities& entry) {
+  void write(const UnitActivities& entry) {
     file_.write(fmt::format(R"({{"component":{},"kind":{},"from":{},"until":{}}})",
                             json_text(entry.component), json_text(entry.kind),
                             blob(std::span(entry.from)), blob(std::span(entry.until))));

@@ -31,9 +31,9 @@ std::uint64_t index_of(const Table& table, std::size_t place) {
   return index;
 }
 
-std::vector<Message> read_messages(const fs::path& file, std::size_t limit, Notes& notes) {
+std::vector<RecordedMessage> read_messages(const fs::path& file, std::size_t limit, Notes& notes) {
   Table table(file);
-  std::vector<Message> messages;
+  std::vector<RecordedMessage> messages;
   if (table.columns().empty()) return messages;
   const std::size_t time = table.place("time");
   const std::size_t index = table.place("index");
@@ -59,9 +59,9 @@ std::vector<Message> read_messages(const fs::path& file, std::size_t limit, Note
   return messages;
 }
 
-std::vector<Activities> read_activities(const fs::path& file, Notes& notes) {
+std::vector<UnitActivities> read_activities(const fs::path& file, Notes& notes) {
   Table table(file);
-  std::vector<Activities> all;
+  std::vector<UnitActivities> all;
   if (table.columns().empty()) return all;
   const std::size_t time = table.place("time");
   const std::size_t until = table.place("until");
@@ -75,7 +75,7 @@ std::vector<Activities> read_activities(const fs::path& file, Notes& notes) {
     const std::pair key(table.field(component).value(), table.field(kind).value());
     const auto [place, is_new] = places.try_emplace(key, all.size());
     if (is_new) all.push_back({key.first, key.second, {}, {}});
-    Activities& activities = all[place->second];
+    UnitActivities& activities = all[place->second];
     activities.from.push_back(from);
     activities.until.push_back(to);
     return true;

@@ -15,7 +15,7 @@
 namespace stride::report {
 
 /// A row of events.csv.
-struct Message {
+struct RecordedMessage {
   std::int64_t time = 0;  ///< [ps]
   std::uint64_t index = 0;
   std::string component;
@@ -26,7 +26,7 @@ struct Message {
 };
 
 /// The rows of activity.csv with one component and kind.
-struct Activities {
+struct UnitActivities {
   std::string component;
   std::string kind;
   std::vector<std::int64_t> from;   ///< [ps]
@@ -55,8 +55,8 @@ struct Results {
   std::filesystem::path folder;
   RunFile run;
   Signals signals;
-  std::vector<Message> messages;
-  std::vector<Activities> activities;
+  std::vector<RecordedMessage> messages;
+  std::vector<UnitActivities> activities;
   std::vector<Film> films;
   /// In words, what is missing, cut off or left out.
   std::vector<std::string> notes;

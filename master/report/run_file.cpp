@@ -127,7 +127,7 @@ void read_entries(RunFile& run) {
 
 /// What is nested any deeper was not written by stride, and would take its stack.
 /// This is seen in the text, since the time that the library takes for a list of objects grows with
-/// the square of its length where a callback is told of them.
+/// the square of its length where a callback is called for them.
 void refuse_depth(std::string_view text) {
   constexpr int kDeepest = 64;
   int depth = 0;

@@ -16,7 +16,8 @@ namespace player {
 
 /// Goes through the entries of stimuli, which must outlive it, from the first to the last, once
 /// begin() was called. At an instant come first those that arrived there in Step Mode or in the
-/// first event iteration, with come_to(); then the others, iteration by iteration, with iterate().
+/// first event iteration, with play_until(); then the others, iteration by iteration, with
+/// iterate().
 class Playback {
  public:
   /// All that is to be kept when a state is saved.
@@ -45,7 +46,7 @@ class Playback {
   /// Where a step has ended. Calls play(entry) for each value and tick that is
   /// due. Returns whether entries were passed: another target is next then.
   template <class Play>
-  bool come_to(stride::Time now, Play&& play) {
+  bool play_until(stride::Time now, Play&& play) {
     position_.iteration = Entry::kAtStepEnd;
     note_irregular(now);
     const std::uint64_t before = position_.next;

@@ -80,7 +80,7 @@ class PlayerUnit : public stride::Unit {
   }
 
   void step(stride::Step& step) override {
-    if (come_to(step.to())) step.need_event();
+    if (play_until(step.to())) step.need_event();
   }
 
   void event(stride::Event& event) override {
@@ -157,8 +157,8 @@ class PlayerUnit : public stride::Unit {
     }
   }
 
-  bool come_to(stride::Time now) {
-    return playback_.come_to(now, [this](const player::Entry& entry) { play(entry); });
+  bool play_until(stride::Time now) {
+    return playback_.play_until(now, [this](const player::Entry& entry) { play(entry); });
   }
   void play(const player::Entry& entry) {
     if (entry.kind == player::Entry::Kind::Tick) return clocks_[entry.input]->tick();

@@ -31,7 +31,7 @@ constexpr char kException = 'E';
 void settle(pid_t parent, int output) {
   ::setpgid(0, 0);
   end_with(parent);
-  forget_signal_handlers();
+  reset_signal_handlers();
   redirect_standard_files(output);
 }
 

@@ -13,7 +13,7 @@
 
 namespace stride::isolation {
 
-void forget_signal_handlers() {
+void reset_signal_handlers() {
   for (const int signal :
        {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS, SIGHUP, SIGINT, SIGQUIT, SIGTERM,
         SIGPIPE, SIGCHLD, SIGUSR1, SIGUSR2, SIGALRM, SIGXCPU}) {

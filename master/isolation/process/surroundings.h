@@ -9,7 +9,7 @@
 namespace stride::isolation {
 
 /// Restores the default action of all signals and unblocks them; disables core dumps.
-void forget_signal_handlers();
+void reset_signal_handlers();
 
 /// Standard input is empty; standard output and error go to this file.
 void redirect_standard_files(int output);

@@ -24,8 +24,8 @@ class Player {
     playback.begin(time_from_seconds(time), note());
     return take();
   }
-  std::string come_to(double time) {
-    moved = playback.come_to(time_from_seconds(time), note());
+  std::string play_until(double time) {
+    moved = playback.play_until(time_from_seconds(time), note());
     return take();
   }
   std::string iterate(double time) {
@@ -58,39 +58,39 @@ TEST_CASE("entries come at their instants and in their iterations") {
   CHECK(player.begin(0) == "level mode flags");
   CHECK(player.iterate(0) == "");
   CHECK(player.playback.target() == time_from_seconds(0.25));
-  CHECK(player.come_to(0.25) == "level");
+  CHECK(player.play_until(0.25) == "level");
   CHECK(player.moved);
   // a step that ended where it began is passed with what led to it
   CHECK(player.playback.target() == time_from_seconds(0.5));
   CHECK(player.playback.following() == time_from_seconds(0.499999999999));
-  CHECK(player.come_to(0.499999999999) == "mode");
+  CHECK(player.play_until(0.499999999999) == "mode");
   CHECK(player.playback.has_more(time_from_seconds(0.499999999999)));
   CHECK(player.iterate(0.499999999999) == "tick message.text");
   CHECK(!player.playback.has_more(time_from_seconds(0.499999999999)));
   CHECK(player.playback.target() == time_from_seconds(1));
-  CHECK(player.come_to(1) == "");
+  CHECK(player.play_until(1) == "");
   CHECK(player.moved);
   CHECK(!player.playback.target());
   CHECK(!player.playback.following());
-  CHECK(player.come_to(2) == "");
+  CHECK(player.play_until(2) == "");
   CHECK(!player.moved);
 }
 
 TEST_CASE("points between the captured ones are noted, and change nothing") {
   Player player(stride::tests::example());
   player.begin(0);
-  CHECK(player.come_to(0.1) == "");
+  CHECK(player.play_until(0.1) == "");
   CHECK(!player.moved);
   CHECK(player.playback.position().beside == 100'000'000'000);
   CHECK(player.playback.target() == time_from_seconds(0.25));
-  CHECK(player.come_to(0.25) == "level");
+  CHECK(player.play_until(0.25) == "level");
   CHECK(player.playback.position().late == -1);
 }
 
 TEST_CASE("what is late is played at once and in order, and noted") {
   Player player(stride::tests::example());
   player.begin(0);
-  CHECK(player.come_to(0.75) == "level mode tick message.text");
+  CHECK(player.play_until(0.75) == "level mode tick message.text");
   CHECK(player.playback.position().late == 4);
   CHECK(player.playback.target() == time_from_seconds(1));
 }
@@ -100,7 +100,7 @@ TEST_CASE("a clock that is late twice ticks in two iterations") {
       stride::tests::example(), "0.499999999999,step,,1\n",
       "0.499999999999,step,,0.6\n0.6,1,message.clock,\n0.6,1,message.text,\"d\"\n0.6,step,,1\n"));
   player.begin(0);
-  CHECK(player.come_to(1) == "level mode tick message.text");
+  CHECK(player.play_until(1) == "level mode tick message.text");
   CHECK(player.playback.has_more(time_from_seconds(1)));
   CHECK(player.iterate(1) == "tick message.text");
   CHECK(!player.playback.has_more(time_from_seconds(1)));
@@ -110,9 +110,9 @@ TEST_CASE("a position is all that there is to keep") {
   Player player(stride::tests::example());
   player.begin(0);
   const Playback::Position before = player.playback.position();
-  CHECK(player.come_to(0.75) != "");
+  CHECK(player.play_until(0.75) != "");
   player.playback.position() = before;
-  CHECK(player.come_to(0.25) == "level");
+  CHECK(player.play_until(0.25) == "level");
 }
 
 TEST_CASE("a run may begin in the midst: values are there, ticks have gone") {

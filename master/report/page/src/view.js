@@ -9,7 +9,7 @@ const kLeastSpan = 2e-11;
  * once per animation frame, however many changes there were before.
  */
 export class View extends EventTarget {
-  #told = new Set();
+  #changed = new Set();
 
   /** @param {{from: number, until: number}} whole [s] */
   constructor(whole) {
@@ -96,14 +96,14 @@ export class View extends EventTarget {
   }
 
   #tell(name) {
-    if (this.#told.size === 0) requestAnimationFrame(() => this.flush());
-    this.#told.add(name);
+    if (this.#changed.size === 0) requestAnimationFrame(() => this.flush());
+    this.#changed.add(name);
   }
 
   /** Dispatches pending events at once instead of with the next animation frame. */
   flush() {
-    const names = [...this.#told];
-    this.#told.clear();
+    const names = [...this.#changed];
+    this.#changed.clear();
     for (const name of names) this.dispatchEvent(new Event(name));
   }
 }
