@@ -1,7 +1,7 @@
 /* The C ABI of FMI 1.0 for Co-Simulation, written from the standard: platform types, status codes,
  * callbacks and the type of every function. Clean as C11 and as C++17. The names are those of the
- * standard with "fmi1" in place of "fmi", so that they can stand beside those of other versions; a
- * library exports them as <modelIdentifier>_fmi<Name>.
+ * standard with "fmi1" in place of "fmi", so that they can be used beside those of other versions;
+ * a library exports them as <modelIdentifier>_fmi<Name>.
  *
  * FMI1_FUNCTIONS lists the whole entry table in one place.
  */

@@ -21,7 +21,7 @@ class Checks final : public core::Observer {
   explicit Checks(std::vector<Definition> definitions);
 
   bool is_empty() const { return checks_.empty(); }
-  /// Those that it wants to see.
+  /// The variables whose values the checks need.
   std::vector<core::VariableId> signals() const;
 
   void on_start(std::span<const core::Signal> signals) override;

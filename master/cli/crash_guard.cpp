@@ -114,10 +114,10 @@ void stop_other_threads(pid_t self) {
   sigset_t all;
   ::sigfillset(&all);
   ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
-  pid_t nobody = 0;
+  pid_t ending = 0;
   const pid_t self = ::gettid();
-  if (!guarded.ending.compare_exchange_strong(nobody, self)) {
-    if (nobody == self) end_now(kRunFailed);  // what it does to end has ended it
+  if (!guarded.ending.compare_exchange_strong(ending, self)) {
+    if (ending == self) end_now(kRunFailed);  // what it does to end has ended it
     wait_for_end();
   }
   stop_other_threads(self);

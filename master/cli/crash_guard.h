@@ -22,12 +22,12 @@ namespace stride::cli {
 /// Signals for which there is a handler already are left to it.
 class CrashGuard {
  public:
-  /// Writes what tells of the end, such as run.json. It is called in a fork of the process, where
-  /// only the thread that crashed goes on, and which is ended if it takes more than some seconds: a
-  /// unit may have damaged anything. It must not call units.
+  /// Writes the files that describe the end, such as run.json. It is called in a fork of the
+  /// process, where only the thread that crashed goes on, and which is ended if it takes more than
+  /// some seconds: a unit may have damaged anything. It must not call units.
   using Conclusion = std::function<void(const std::string& error)>;
 
-  /// Nothing tells of the end but the error.
+  /// Only the error is written.
   CrashGuard() : CrashGuard([](const std::string&) {}) {}
   explicit CrashGuard(Conclusion conclusion);
   ~CrashGuard();

@@ -169,8 +169,8 @@ int main(int argc, char** argv) {
   stride::cli::set_up_log();
   std::signal(SIGXFSZ, SIG_IGN);  // then writing fails with an error; the signal would kill
   CLI::App app(
-      "stride couples simulators: it loads FMI 3.0 and FMI 2.0 units as plug-ins and\n"
-      "runs them in steps, as a scenario (an SSP system file, .ssd) wires them.\n",
+      "stride couples simulators: it loads units of FMI 3.0, 2.0 and 1.0 as plug-ins\n"
+      "and runs them in steps, as a scenario (an SSP system file, .ssd) wires them.\n",
       "stride");
   app.set_version_flag("--version", "stride " STRIDE_VERSION);
   app.require_subcommand(1);

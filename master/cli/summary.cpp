@@ -135,11 +135,11 @@ std::string Summary::idle_line(const core::RunStatistics& statistics) const {
   if (longest == nullptr) return "";
   const double whole = to_seconds(statistics.reached - statistics.start);
   const double all = whole * static_cast<double>(statistics.units.size());
-  const auto who = static_cast<std::size_t>(longest - statistics.units.data());
+  const auto index = static_cast<std::size_t>(longest - statistics.units.data());
   return fmt::format(
       "Idle units were suspended for {:.3g} % of their time; the longest time was {:.6g} s ({})\n",
       all > 0 ? 100 * to_seconds(skipped) / all : 0.0, to_seconds(longest->longest_suspension),
-      system_.components()[who].name);
+      system_.components()[index].name);
 }
 
 /// Empty if all units were in this process.

@@ -34,7 +34,7 @@ struct InstanceOptions {
   /// Whether the unit may ask for its inputs within a step, where it can (InputsWithinStep).
   bool intermediate_update = false;
   /// Whether states from before the present communication point may be restored; else the unit may
-  /// forget what it would need for that.
+  /// drop what it would need for that.
   bool may_go_back = false;
   bool debug_logging = false;  ///< everything that the unit can log, not only warnings and errors
   /// A warning is logged when an asynchronous step (FMI 2.0, fmi2Pending) takes longer.

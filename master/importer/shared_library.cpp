@@ -40,16 +40,16 @@ bool is_of_python(std::string_view symbol) {
 }
 
 std::string hint_for(const std::string& reason) {
-  const auto says = [&](const char* words) { return reason.find(words) != std::string::npos; };
-  if (says("executable stack")) {
+  const auto contains = [&](const char* words) { return reason.find(words) != std::string::npos; };
+  if (contains("executable stack")) {
     return "this system allows none; if the unit does not need it, which is usual, clear the flag "
            "(patchelf --clear-execstack), or compile the unit with -z noexecstack";
   }
-  if (says("version `") && says("not found")) {
+  if (contains("version `") && contains("not found")) {
     return "the unit was built on a newer system than this one; build it here, or run stride on "
            "such a system";
   }
-  if (says("wrong ELF class")) return "it is not for as many bits as this program";
+  if (contains("wrong ELF class")) return "it is not for as many bits as this program";
   return fmt::format("expected a shared library for {}", platform());
 }
 

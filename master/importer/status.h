@@ -1,4 +1,4 @@
-// What a function of a unit answers, and whom a unit's messages go to, whatever its version of FMI.
+// The status of a function of a unit, and the destination of its messages, for all versions of FMI.
 #ifndef STRIDE_MASTER_IMPORTER_STATUS_H
 #define STRIDE_MASTER_IMPORTER_STATUS_H
 

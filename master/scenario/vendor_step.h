@@ -1,4 +1,4 @@
-// What the annotations of other tools say of the communication step.
+// The communication step in annotations of other tools.
 #ifndef STRIDE_MASTER_SCENARIO_VENDOR_STEP_H
 #define STRIDE_MASTER_SCENARIO_VENDOR_STEP_H
 

@@ -61,7 +61,7 @@ FoundFile find_elsewhere(std::string path, const std::filesystem::path& folder) 
                               const std::string& scheme) {
   if (scheme == "proxyfmu") {
     element.fail(
-        fmt::format("source=\"{}\": this asks for a server, proxy-fmu, that runs an FMU in another "
+        fmt::format("source=\"{}\": this requires a server, proxy-fmu, that runs an FMU in another "
                     "process",
                     source),
         "name the FMU itself, and give it a process of its own with <stride:Host "

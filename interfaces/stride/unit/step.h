@@ -71,13 +71,13 @@ class Step {
 /// One super-dense instant of Event Mode.
 class Event {
  public:
-  /// `announced`: the next event of which the unit has spoken earlier.
+  /// `announced`: the next event, if the unit announced one before.
   explicit Event(Time time, std::optional<Time> announced = std::nullopt)
       : time_(time), next_(announced) {}
 
   Time time() const { return time_; }
 
-  /// Announces the next instant at which the unit wants Event Mode, in the place of the one that
+  /// Announces the next instant at which the unit needs Event Mode, in the place of the one that
   /// was announced before. It stays announced at each event until one at or after it has come, so
   /// call it only if the time changes. The importer comes there, or, if its
   /// communication points are elsewhere, to the first one after it.

@@ -304,7 +304,7 @@ void EventHandler::fail_ticking() const {
       fmt::format("after {} event iterations at one instant these units still require another: "
                   "{}",
                   kEventLimit, quoted(names)),
-      "look for messages or values that answer each other without any delay, and for units that "
+      "look for messages or values that cause each other without any delay, and for units that "
       "announce an event for an instant that is not later than now");
 }
 

@@ -120,17 +120,16 @@ void IdleScheduler::check_promise(std::size_t component, Time time,
   const IdleState& state = states_[component];
   const bool is_early_event = result.event_handling_needed && time < state.until;
   if (!result.rejected && result.reached == time && !is_early_event) return;
-  const std::string deed = result.rejected ? "rejects the step to there"
-                           : result.reached != time
-                               ? fmt::format("returns early at {} s", to_text(result.reached))
-                               : "has an event";
+  const std::string violation = result.rejected ? "rejects the step to there"
+                                : result.reached != time
+                                    ? fmt::format("returns early at {} s", to_text(result.reached))
+                                    : "has an event";
   fail_run(
       {{}, system_.components()[component].name, {}, time},
-      fmt::format(
-          "the unit promised at {} s to be idle until {}, but {}", to_text(state.since),
-          state.until == Time::max() ? "something disturbs it" : to_text(state.until) + " s", deed),
-      "the promise is the unit's own fault; until it is mended, switch idle skipping off for "
-      "it");
+      fmt::format("the unit promised at {} s to be idle until {}, but {}", to_text(state.since),
+                  state.until == Time::max() ? "an input changes" : to_text(state.until) + " s",
+                  violation),
+      "the unit does not keep its promise; until it is corrected, switch idle skipping off for it");
 }
 
 std::span<const std::size_t> IdleScheduler::advance_to(Time time) {

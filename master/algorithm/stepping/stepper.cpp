@@ -344,14 +344,14 @@ void Stepper::fail_size(const UnitStep& unit_step, const StepInterval& interval)
                          to_text(regular_), reason(early_stop_)),
              "look at what the unit received before this instant");
   }
-  const std::string who =
+  const std::string cause =
       early_stop_.by == nullptr
           ? "an event, or the end of the run,"
           : fmt::format("'{}', which {},", name(*early_stop_.by),
                         early_stop_.is_rejection ? "rejected its step" : "stopped early");
   fail_run({{}, name(unit_step), {}, interval.from},
            fmt::format("the unit takes steps of one size only, {} s, but {} requires one of {} s{}",
-                       to_text(regular_), who, to_text(interval.to - interval.from),
+                       to_text(regular_), cause, to_text(interval.to - interval.from),
                        reason(early_stop_)),
            hint);
 }

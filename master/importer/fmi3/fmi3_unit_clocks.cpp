@@ -23,7 +23,7 @@ void Fmi3Unit::call_clock(const char* name, Function* function, const Variable& 
   call(name, function, &clock.reference, std::size_t{1}, arguments...);
 }
 
-/// What make() returns; what it cannot be made of is the unit's fault.
+/// What make() returns; its errors are errors of the unit.
 template <class Make>
 Interval Fmi3Unit::checked_interval(const char* function, const Variable& clock,
                                     Make&& make) const {

@@ -1,4 +1,4 @@
-// What the end of a zip archive tells about the rest.
+// The directory at the end of a zip archive.
 #ifndef STRIDE_MASTER_UTIL_ARCHIVE_ZIP_DIRECTORY_H
 #define STRIDE_MASTER_UTIL_ARCHIVE_ZIP_DIRECTORY_H
 

@@ -5,8 +5,8 @@
 
 namespace stride::verify {
 
-// TestInstance itself fails a unit that wants Event Mode and has none, announces what is over, or
-// iterates for ever; an instance, one that returns early where that is not allowed.
+// TestInstance itself fails a unit that requests Event Mode and has none, announces what is over,
+// or iterates for ever; an instance, one that returns early where that is not allowed.
 Finding check_events(const Trial& trial) {
   const core::UnitDescription& unit = trial.tested.description();
   const Recording run = trial.record();
