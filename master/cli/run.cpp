@@ -154,6 +154,7 @@ void run(const RunArguments& arguments, Records& records, CrashGuard& guard) {
   const std::filesystem::path folder = results_folder(arguments);
   refuse_results(folder, loaded.scenario().annotation.results, inputs_of(loaded));
   recorders::make_results_folder(folder);
+  recorders::check_name_lengths(folder, files);
   const recorders::ResultsLock lock(folder);
   recorders::remove_results(folder, loaded.scenario().annotation.results);
   records.results = {folder, files};
