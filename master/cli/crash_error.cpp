@@ -61,8 +61,9 @@ core::Error error_of(std::string_view end, std::span<const importer::UnitCall> c
   const auto own = std::ranges::find_if(calls, &importer::UnitCall::is_by_this_thread);
   if (own != calls.end()) {
     const importer::UnitCall& call = *own;
+    const std::string variable = call.variable != nullptr ? *call.variable : "";
     return {core::Error::Kind::Run,
-            {.where = *call.where, .unit = *call.unit, .time = call.time},
+            {.where = *call.where, .unit = *call.unit, .variable = variable, .time = call.time},
             fmt::format("{} in {}", end, call.function),
             hint_for(*call.unit)};
   }
