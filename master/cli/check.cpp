@@ -190,6 +190,7 @@ std::string loops_text(const core::System& system) {
 void check(const scenario::ScenarioRequest& request) {
   const CrashGuard guard;
   const scenario::LoadedScenario loaded(request);
+  const LimitedEnd end;
   loaded.instantiate();
   const core::System& system = loaded.system();
   const core::RunOptions& options = loaded.options();

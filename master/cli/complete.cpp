@@ -48,6 +48,7 @@ void complete(const CompleteArguments& arguments) {
       scenario::read_scenario(arguments.scenario, {scenario::find_unit, {}});
   ssp::Descriptions descriptions;
   const auto fmus = scenario::load_fmus(scenario);
+  const LimitedEnd end;
   for (std::size_t i = 0; i < fmus.size(); ++i) {
     descriptions[scenario.system.components[i].name] = fmus[i]->description();
   }

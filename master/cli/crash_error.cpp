@@ -21,12 +21,31 @@ std::string_view format_into(std::span<char> text, fmt::format_string<Arguments.
   return {text.data(), std::min(end.size, text.size())};
 }
 
-/// What the process does while it calls no unit.
-std::string outside_of_calls(bool is_leaving) {
+constexpr const char* kHint =
+    "--isolate{} runs it in a process of its own, which cannot damage that of stride";
+constexpr const char* kGeneralHint =
+    "--isolate runs units in processes of their own, which cannot damage that of stride";
+
+std::string hint_for(const std::string& unit) {
+  return unit.empty() ? kGeneralHint : fmt::format(kHint, "=" + unit);
+}
+
+/// Of a process that calls no unit.
+core::Error error_outside_of_calls(std::string_view end, bool is_leaving) {
   const auto [work, library] = importer::unfinished_library_work();
-  if (library != nullptr) return fmt::format(" in the {} of '{}'", work, library);
-  return is_leaving ? " in a destructor or an exit function of a library, after the command"
-                    : ", in no call of a unit";
+  if (library != nullptr) {
+    const core::Context& user = library->user();
+    return {core::Error::Kind::Run, user,
+            fmt::format("{} in the {} of '{}'", end, work, library->shown_as()),
+            hint_for(user.unit)};
+  }
+  return {core::Error::Kind::Run,
+          {},
+          fmt::format("{}{}", end,
+                      is_leaving
+                          ? " in a destructor or an exit function of a library, after the command"
+                          : ", in no call of a unit"),
+          kGeneralHint};
 }
 
 }  // namespace
@@ -39,27 +58,23 @@ std::string_view describe_end(int signal, std::span<char> text) {
 
 core::Error error_of(std::string_view end, std::span<const importer::UnitCall> calls,
                      bool is_leaving) {
-  constexpr const char* kHint =
-      "--isolate={} runs it in a process of its own, which cannot damage that of stride";
   const auto own = std::ranges::find_if(calls, &importer::UnitCall::is_by_this_thread);
   if (own != calls.end()) {
     const importer::UnitCall& call = *own;
+    const std::string variable = call.variable != nullptr ? *call.variable : "";
     return {core::Error::Kind::Run,
-            {.where = *call.where, .unit = *call.unit, .time = call.time},
+            {.where = *call.where, .unit = *call.unit, .variable = variable, .time = call.time},
             fmt::format("{} in {}", end, call.function),
-            fmt::format(kHint, *call.unit)};
+            hint_for(*call.unit)};
   }
+  if (calls.empty()) return error_outside_of_calls(end, is_leaving);
   std::string among;
   for (const importer::UnitCall& call : calls) {
     among += fmt::format("{}{} of '{}'",
                          among.empty() ? " in a thread that a unit has started, during " : ", ",
                          call.function, *call.unit);
   }
-  return {core::Error::Kind::Run,
-          {},
-          calls.empty() ? fmt::format("{}{}", end, outside_of_calls(is_leaving))
-                        : fmt::format("{}{}", end, among),
-          "--isolate runs units in processes of their own, which cannot damage that of stride"};
+  return {core::Error::Kind::Run, {}, fmt::format("{}{}", end, among), kGeneralHint};
 }
 
 }  // namespace stride::cli

@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <ctime>
 #include <iterator>
+#include <new>
 #include <optional>
 #include <span>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include <dirent.h>
@@ -177,14 +177,22 @@ void register_exit_functions() {
   (void)registered;
 }
 
-void set_handlers(int flags, std::array<struct sigaction, kCrashes.size()>& before) {
-  for (std::size_t i = 0; i < kCrashes.size(); ++i) {
+void set_handlers(int flags) {
+  for (const int signal : kCrashes) {
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_DFL) continue;
     struct sigaction action {};
     action.sa_handler = on_signal;
     action.sa_flags = flags;
-    ::sigaction(kCrashes[i], nullptr, &before[i]);
-    if (before[i].sa_handler == SIG_DFL) ::sigaction(kCrashes[i], &action, nullptr);
+    ::sigaction(signal, &action, nullptr);
   }
+}
+
+/// Never destroyed, since destructors of libraries come later.
+const CrashGuard::Conclusion& no_conclusion() {
+  static const auto& nothing = *new CrashGuard::Conclusion([](const std::string&) {});
+  return nothing;
 }
 
 }  // namespace
@@ -200,12 +208,12 @@ extern "C" void _Exit(int code) noexcept { ::_exit(code); }
 namespace stride::cli {
 
 CrashGuard::CrashGuard(Conclusion conclusion) : conclusion_(std::move(conclusion)) {
-  stack_ = ::mmap(nullptr, kStackSize, PROT_READ | PROT_WRITE,
-                  MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0);
-  if (stack_ == MAP_FAILED) throw std::system_error(errno, std::generic_category(), "mmap");
-  const stack_t stack{stack_, 0, kStackSize};
-  ::sigaltstack(&stack, &stack_before_);
-  set_handlers(SA_ONSTACK, before_);
+  void* const memory = ::mmap(nullptr, kStackSize, PROT_READ | PROT_WRITE,
+                              MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0);
+  if (memory == MAP_FAILED) throw std::bad_alloc();
+  const stack_t stack{memory, 0, kStackSize};
+  ::sigaltstack(&stack, nullptr);
+  set_handlers(SA_ONSTACK);
   register_exit_functions();
   guarded.process = ::getpid();
   guarded.conclusion = &conclusion_;
@@ -213,10 +221,7 @@ CrashGuard::CrashGuard(Conclusion conclusion) : conclusion_(std::move(conclusion
 
 CrashGuard::~CrashGuard() {
   ::alarm(0);
-  guarded.conclusion = nullptr;
-  for (std::size_t i = 0; i < kCrashes.size(); ++i) ::sigaction(kCrashes[i], &before_[i], nullptr);
-  ::sigaltstack(&stack_before_, nullptr);
-  ::munmap(stack_, kStackSize);
+  guarded.conclusion = &no_conclusion();
 }
 
 void CrashGuard::set_conclusion(Conclusion conclusion) {
@@ -228,13 +233,10 @@ void CrashGuard::set_conclusion(Conclusion conclusion) {
 int leave_with(int code) {
   if (guarded.process != ::getpid()) return code;
   if (guarded.ending != 0) wait_for_end();
-  // never destroyed, since destructors of libraries come later
-  static const auto& nothing = *new CrashGuard::Conclusion([](const std::string&) {});
-  std::array<struct sigaction, kCrashes.size()> ignored{};
-  set_handlers(0, ignored);
+  set_handlers(0);
   guarded.code = code;
   guarded.is_leaving = true;
-  guarded.conclusion = &nothing;
+  guarded.conclusion = &no_conclusion();
   limit_end();
   return code;
 }

@@ -2,22 +2,18 @@
 #ifndef STRIDE_MASTER_CLI_CRASH_GUARD_H
 #define STRIDE_MASTER_CLI_CRASH_GUARD_H
 
-#include <array>
-#include <csignal>
-#include <cstddef>
 #include <functional>
-#include <memory>
 #include <string>
-
-#include "master/util/process/signal_state.h"
 
 namespace stride::cli {
 
 /// While it lives, a crash of this process (a signal such as SIGSEGV, abort(), std::terminate())
 /// and exit(), _exit() and quick_exit() are not its silent end: the lines that files still hold in
 /// memory are written, the error is printed, with the unit whose function was being called, and the
-/// exit code is 1. There is one at a time. It cannot prevent SIGKILL, and the crash of a unit's own
-/// thread by an overflow of its stack; a process of the unit's own can (docs/hosts.md).
+/// exit code is 1. From its end until that of the process the same is so, without the conclusion: a
+/// thread of a unit may go on. There is one at a time, and one in a process. It cannot prevent
+/// SIGKILL, and the crash of a unit's own thread by an overflow of its stack; a process of the
+/// unit's own can (docs/hosts.md).
 ///
 /// Signals for which there is a handler already are left to it.
 class CrashGuard {
@@ -51,15 +47,17 @@ class CrashGuard {
   void set_conclusion(Conclusion conclusion);
 
   Conclusion conclusion_;
-  std::array<struct sigaction, core::kCrashes.size()> before_{};
-  void* stack_ = nullptr;
-  stack_t stack_before_{};
 };
 
 /// To be called when all units are freed, and their libraries are about to be unloaded: if one of
 /// these takes longer than kLongestEnd, that is an error which ends the process. Holds until the
 /// guard's end; does nothing without one.
 void limit_end();
+
+/// Calls limit_end() at its end: declared behind what holds the libraries.
+struct LimitedEnd {
+  ~LimitedEnd() { limit_end(); }
+};
 
 /// What main() returns after the last CrashGuard: from here on libraries of units that are still
 /// loaded call their destructors and exit functions. A crash or _exit() there is an error with the

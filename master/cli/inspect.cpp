@@ -81,6 +81,7 @@ std::string meaning(const core::Variable& variable) {
 void inspect(const std::filesystem::path& file) {
   const CrashGuard guard;
   const auto fmu = importer::Fmu::load(scenario::find_unit(file, {}));
+  const LimitedEnd end;
   const core::UnitDescription& unit = *fmu->description();
   for (const std::string& warning : unit.warnings) spdlog::warn("{}", warning);
   print_text("{}: FMI {} Co-Simulation{}\n", unit.model_name, unit.fmi_version,

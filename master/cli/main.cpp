@@ -19,6 +19,7 @@
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/hard_limits.h"
+#include "master/cli/memory_limits.h"
 #include "master/cli/output.h"
 #include "master/cli/repeated_options.h"
 #include "master/util/error.h"
@@ -127,6 +128,12 @@ void flush_standard_output() {
                                          std::generic_category().message(errno)));
 }
 
+bool is_lack_of_memory(const std::exception& error) {
+  const auto* system = dynamic_cast<const std::system_error*>(&error);
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+         (system != nullptr && system->code() == std::errc::not_enough_memory);
+}
+
 /// Of an exception of the standard library, whose own text is for programmers.
 std::string in_words(const std::exception& error) {
   if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error)) {
@@ -134,7 +141,9 @@ std::string in_words(const std::exception& error) {
     return fmt::format("{}: {}", path.empty() ? "the working folder" : path,
                        file->code().message());
   }
-  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return "there is not enough memory";
+  if (is_lack_of_memory(error)) {
+    return fmt::format("there is not enough memory\n  hint: {}", stride::cli::memory_hint());
+  }
   return error.what();
 }
 
@@ -146,6 +155,7 @@ void add_verbose(CLI::App& command) {
 
 int execute(CLI::App& app, int argc, char** argv) {
   try {
+    stride::cli::require_stack();
     refuse_empty_values(argc, argv);
     const int code = parse(app, argc, argv);
     flush_standard_output();

@@ -102,8 +102,7 @@ ScenarioFiles files_of_scenario(const fs::path& scenario, std::span<const std::s
   SourceReader reader;
   reader.add_scenario(scenario);
   for (const std::string& swap : swaps) {
-    const std::size_t at = swap.find('=');
-    if (at != std::string::npos) reader.add_unit(swap.substr(at + 1));
+    if (const auto parts = scenario::split_component_file(swap)) reader.add_unit(parts->file);
   }
   return std::move(reader).found();
 }

@@ -32,6 +32,18 @@ void warn_of_failure(Work&& work) {
   }
 }
 
+/// Calls write(), which writes of a run that is over: whatever is wrong with a file then, it is not
+/// the input that is.
+template <class Write>
+void as_run_failure(Write&& write) {
+  try {
+    write();
+  } catch (const core::Error& failure) {
+    if (failure.kind() == core::Error::Kind::Run) throw;
+    throw core::Error(core::Error::Kind::Run, failure.context(), failure.message(), failure.hint());
+  }
+}
+
 /// "unit 'X'" if there is only one.
 std::string unit_without_host(const scenario::LoadedScenario& loaded) {
   std::vector<std::string> names;
@@ -135,8 +147,10 @@ void RecordedRun::run() {
   progress_.end(name(end));
   collect_verdicts(end == core::RunEnd::EndedByUnit ||
                    (end == core::RunEnd::Completed && !is_cut_short()));
-  write_statistics(std::nullopt);
-  conclude();
+  as_run_failure([&] {
+    write_statistics(std::nullopt);
+    conclude();
+  });
 }
 
 void RecordedRun::abandon(const std::string& error) {

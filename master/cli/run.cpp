@@ -54,9 +54,8 @@ std::filesystem::path results_folder(const RunArguments& arguments) {
 std::vector<OutputPath> output_paths(const RunArguments& arguments) {
   std::vector<OutputPath> outputs;
   for (const std::string& text : arguments.captures) {
-    const std::size_t at = text.find('=');
-    const std::string file = at == std::string::npos ? "" : text.substr(at + 1);
-    if (!file.empty()) outputs.push_back({"--capture " + text, file});
+    const auto parts = scenario::split_component_file(text);
+    if (parts) outputs.push_back({"--capture " + text, parts->file});
   }
   if (!arguments.junit.empty()) {
     outputs.push_back({"--junit " + arguments.junit.string(), arguments.junit});
@@ -104,8 +103,7 @@ ProgressStyle progress_style(const RunArguments& arguments) {
 std::vector<capture::CaptureRequest> captures(const RunArguments& arguments) {
   std::vector<capture::CaptureRequest> captures;
   for (const std::string& text : arguments.captures) {
-    auto [component, file] = scenario::split_option("--capture", text, "COMPONENT=FILE");
-    if (file.empty()) core::fail_input({}, fmt::format("--capture {}: no file is named", text));
+    auto [component, file] = scenario::component_file("--capture", text, "COMPONENT=FILE");
     captures.push_back({std::move(component), std::move(file)});
   }
   return captures;
@@ -154,6 +152,7 @@ void run(const RunArguments& arguments, Records& records, CrashGuard& guard) {
   const std::filesystem::path folder = results_folder(arguments);
   refuse_results(folder, loaded.scenario().annotation.results, inputs_of(loaded));
   recorders::make_results_folder(folder);
+  recorders::check_name_lengths(folder, files);
   const recorders::ResultsLock lock(folder);
   recorders::remove_results(folder, loaded.scenario().annotation.results);
   records.results = {folder, files};

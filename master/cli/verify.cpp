@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "master/cli/commands.h"
+#include "master/cli/crash_guard.h"
 #include "master/cli/interruption.h"
 #include "master/cli/output.h"
 #include "master/cli/table.h"
@@ -62,7 +63,9 @@ std::string failed_checks(const std::vector<verify::Result>& results) {
 void run(const Options& options) {
   verify::VerifyRequest request = options.request;
   request.file = scenario::find_unit(request.file, {});
+  const CrashGuard guard;
   const verify::TestedUnit tested(std::move(request));
+  const LimitedEnd end;
   std::optional<core::OutputFile> json;
   if (!options.json.empty()) {
     json.emplace(options.json, core::OutputFile::Hints{"name a file where you may write"});

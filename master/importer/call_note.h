@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 
@@ -28,8 +30,17 @@ class CallNote {
     std::memcpy(name_.data(), function, size);
     name_[size] = '\0';
     time_ = time;
+    has_variable_ = 0;
   }
-  void clear() noexcept { name_[0] = '\0'; }
+  /// The value of which variable is read that the function has given, by its reference.
+  void write_variable(std::uint32_t reference) noexcept {
+    variable_ = reference;
+    has_variable_ = 1;
+  }
+  void clear() noexcept {
+    name_[0] = '\0';
+    has_variable_ = 0;
+  }
 
   /// Empty if no function is being called. Valid until the note is written again.
   std::string_view function() const noexcept {
@@ -37,10 +48,16 @@ class CallNote {
   }
   /// Of the last call, whether it has returned or not.
   Time time() const noexcept { return time_; }
+  /// Nothing if no value is being read.
+  std::optional<std::uint32_t> variable() const noexcept {
+    return has_variable_ != 0 ? std::optional(variable_) : std::nullopt;
+  }
 
  private:
   std::array<char, kLongestName + 1> name_{};
   Time time_{};
+  std::uint32_t variable_ = 0;
+  std::uint8_t has_variable_ = 0;  ///< no bool, since another process may write any byte
 };
 
 static_assert(std::is_trivially_copyable_v<CallNote> && std::is_trivially_destructible_v<CallNote>);

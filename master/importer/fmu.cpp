@@ -106,7 +106,7 @@ void Fmu::read_folder() {
 }
 
 void Fmu::read_bare_library() {
-  fmi3_library_ = std::make_shared<Fmi3Library>(path_, where_);
+  fmi3_library_ = std::make_shared<Fmi3Library>(path_, core::Context{.where = where_}, shown_as_);
   resources_ = fs::absolute(path_).parent_path() / "resources";
   const std::string text = fmi3_library_->describe(resources_, where_);
   auto description = std::make_shared<ModelDescription>(
@@ -118,11 +118,16 @@ void Fmu::read_bare_library() {
   description_ = std::move(description);
 }
 
-fs::path Fmu::library_path() {
+template <class Library, class... Identifier>
+void Fmu::load_once(std::shared_ptr<const Library>& library,
+                    const Identifier&... model_identifier) {
+  if (library) return;
+  const core::Context user{.where = where_, .unit = first_component_};
   const FoundLibrary found = find_library(unpacked_->folder(), description_->fmi_version,
                                           description_->model_identifier, where_);
   library_warning_ = found.warning;
-  return found.path;
+  const fs::path shown_as = shown_as_ / found.path.lexically_relative(unpacked_->folder());
+  library = std::make_shared<Library>(found.path, model_identifier..., user, shown_as);
 }
 
 std::shared_ptr<const SharedLibrary> Fmu::load_library() {
@@ -133,29 +138,33 @@ std::shared_ptr<const SharedLibrary> Fmu::load_library() {
 
 std::shared_ptr<const Fmi1Library> Fmu::load_fmi1_library() {
   const std::lock_guard lock(library_mutex_);
-  if (!fmi1_library_ && description_->fmi1) {
-    fmi1_library_ =
-        std::make_shared<Fmi1Library>(library_path(), description_->model_identifier, where_);
-  }
+  if (description_->fmi1) load_once(fmi1_library_, description_->model_identifier);
   return fmi1_library_;
 }
 
 std::shared_ptr<const Fmi2Library> Fmu::load_fmi2_library() {
   const std::lock_guard lock(library_mutex_);
-  if (!fmi2_library_ && description_->fmi2) {
-    fmi2_library_ =
-        std::make_shared<Fmi2Library>(library_path(), description_->model_identifier, where_);
-  }
+  if (description_->fmi2) load_once(fmi2_library_, description_->model_identifier);
   return fmi2_library_;
 }
 
 std::shared_ptr<const Fmi3Library> Fmu::load_fmi3_library() {
   const std::lock_guard lock(library_mutex_);
-  if (!fmi3_library_ && !description_->fmi1 && !description_->fmi2) {
-    fmi3_library_ = std::make_shared<Fmi3Library>(library_path(), where_);
-    if (description_->promises_idle) fmi3_library_->require_idle_functions(where_);
-  }
+  if (fmi3_library_ || description_->fmi1 || description_->fmi2) return fmi3_library_;
+  load_once(fmi3_library_);
+  if (description_->promises_idle) fmi3_library_->require_idle_functions(where_);
   return fmi3_library_;
+}
+
+/// The first one is named in messages about the library.
+void Fmu::load_library_for(const std::string& component, const LogSink& log) {
+  {
+    const std::lock_guard lock(library_mutex_);
+    if (first_component_.empty()) first_component_ = component;
+  }
+  const auto library = load_library();
+  const std::lock_guard lock(library_mutex_);
+  library->add_user(component, log);
 }
 
 void Fmu::unload_library() {
@@ -189,7 +198,7 @@ std::unique_ptr<core::Unit> Fmu::instantiate(const std::string& name, InstanceOp
   // also read by the library when it is loaded
   if (!options.results.empty()) ::setenv("STRIDE_RESULTS", options.results.c_str(), 1);
   if (++instances_ > kMostWatched) options.process = nullptr;
-  load_library();  // whose errors come before those of the instance
+  load_library_for(name, options.log);  // whose errors come before those of the instance
   warn_of_library(name, options);
   const auto tenancy = std::make_shared<Tenancy>(shared_from_this(), name, options.where);
   UnitParts parts{options.description ? options.description : description_, "", tenancy};

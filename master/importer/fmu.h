@@ -65,8 +65,11 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   Fmu(std::filesystem::path path, core::Location where, std::filesystem::path shown_as);
   void read_folder();
   void read_bare_library();
+  void load_library_for(const std::string& component, const LogSink& log);
   void warn_of_library(const std::string& name, const InstanceOptions& options);
-  std::filesystem::path library_path();
+  /// The library of this version. Called with the lock.
+  template <class Library, class... Identifier>
+  void load_once(std::shared_ptr<const Library>& library, const Identifier&... model_identifier);
 
   std::filesystem::path path_;
   std::filesystem::path shown_as_;
@@ -75,6 +78,7 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   std::filesystem::path resources_;
   std::shared_ptr<const ModelDescription> description_;
   std::mutex library_mutex_;
+  std::string first_component_;  ///< of which an instance was wanted
   std::shared_ptr<const Fmi1Library> fmi1_library_;
   std::shared_ptr<const Fmi2Library> fmi2_library_;
   std::shared_ptr<const Fmi3Library> fmi3_library_;

@@ -37,7 +37,7 @@ bool has_variable(const core::UnitDescription& unit, Predicate&& predicate) {
 
 FmuInstance::FmuInstance(const char* prefix, std::shared_ptr<const SharedLibrary> library,
                          std::string name, UnitParts parts, InstanceOptions options)
-    : call_note_(options.call_note),
+    : present_(options.call_note),
       is_unusable_(library->is_unusable()),
       name_(std::move(name)),
       parts_(std::move(parts)),
@@ -122,7 +122,7 @@ void FmuInstance::fail_thrown(const char* function) {
   if (is_fork_) leave_fork();
   failed_in_ = function;
   if (!mode_.is_present()) restore_mode();
-  in_call_.store(nullptr, std::memory_order_relaxed);
+  present_.end();
   mark_unusable();
   fail(fmt::format("{} threw {}", function, what), "a function of FMI returns a status instead");
 }
@@ -131,10 +131,8 @@ void FmuInstance::fail_thrown(const char* function) {
 
 /// In the new process, which has this thread only. stride itself makes none within a call.
 void FmuInstance::note_fork() noexcept {
-  core::Listed<FmuInstance>::for_each([](FmuInstance& instance) {
-    instance.is_fork_ = instance.in_call_.load(std::memory_order_relaxed) != nullptr &&
-                        instance.caller_.load(std::memory_order_relaxed) == &this_thread;
-  });
+  core::Listed<FmuInstance>::for_each(
+      [](FmuInstance& instance) { instance.is_fork_ = instance.present_.is_by_this_thread(); });
 }
 
 /// What is in memory, as lines of results, is the first process's to write.
@@ -142,7 +140,7 @@ void FmuInstance::leave_fork() const {
   const std::string text = core::terminal_text(
       fmt::format("warning: unit '{}': {} called fork() and returned in both processes; the new "
                   "one ends here\n",
-                  name_, in_call_.load(std::memory_order_relaxed)));
+                  name_, present_.function()));
   (void)!::write(STDERR_FILENO, text.data(), text.size());
   ::_exit(0);
 }
@@ -157,7 +155,7 @@ void FmuInstance::restore_mode() {
       fmt::format("{} left another floating-point mode behind ({}); it is put back, here and after "
                   "later calls, since the numbers of all units depend on it: a function has to "
                   "restore it before it returns",
-                  in_call_.load(std::memory_order_relaxed), mode_.differences(left)));
+                  present_.function(), mode_.differences(left)));
 }
 
 void FmuInstance::restore_process(const char* function) {
@@ -172,10 +170,14 @@ void FmuInstance::restore_process(const char* function) {
 
 std::string FmuInstance::status_name(Status status) const {
   constexpr const char* kNames[] = {"OK", "Warning", "Discard", "Error", "Fatal", "Pending"};
-  const auto i = static_cast<std::size_t>(status);
-  if (i < std::size(kNames) - (may_be_pending() ? 0 : 1)) return std::string(prefix_) + kNames[i];
+  if (is_known(status)) return std::string(prefix_) + kNames[static_cast<std::size_t>(status)];
   return fmt::format("{}, a status that FMI {}.0 does not have", static_cast<int>(status),
                      major_version());
+}
+
+bool FmuInstance::is_known(Status status) const {
+  const Status last = may_be_pending() ? Status::Pending : Status::Fatal;
+  return Status::Ok <= status && status <= last;
 }
 
 void FmuInstance::fail(const std::string& message, const std::string& hint) const {
@@ -190,10 +192,15 @@ void FmuInstance::fail_missing(const char* name, const char* capability) const {
 std::size_t unfinished_calls(std::span<UnitCall> calls) noexcept {
   std::size_t count = 0;
   core::Listed<FmuInstance>::for_each([&](const FmuInstance& instance) {
-    const char* const function = instance.in_call_.load(std::memory_order_relaxed);
-    if (function == nullptr || count == calls.size()) return;
-    calls[count++] = {function, &instance.name_, &instance.options_.where, instance.time_,
-                      instance.caller_.load(std::memory_order_relaxed) == &this_thread};
+    const PresentCall& present = instance.present_;
+    if (present.function() == nullptr || count == calls.size()) return;
+    UnitCall& call = calls[count++];
+    call = {present.function(), &instance.name_, &instance.options_.where, instance.time_,
+            present.is_by_this_thread()};
+    if (present.variable() == nullptr) return;
+    const core::UnitDescription& description = *instance.parts_.description;
+    const auto place = description.find(*present.variable());
+    if (place) call.variable = &description.variables[*place].name;
   });
   return count;
 }
@@ -202,7 +209,11 @@ std::size_t unfinished_calls(std::span<UnitCall> calls) noexcept {
 
 void FmuInstance::receive(Status status, const char* category, const char* message) noexcept {
   try {
-    const std::string text = message != nullptr ? message : "";
+    std::string text = message != nullptr ? message : "";
+    if (!is_known(status)) {
+      text += fmt::format(" (logged with {})", status_name(status));
+      status = Status::Error;
+    }
     if (status == Status::Discard || status == Status::Error || status == Status::Fatal) {
       const std::lock_guard lock(messages_mutex_);
       if (messages_.size() < kMaxMessages) messages_.push_back(text);

@@ -20,6 +20,7 @@
 #include "master/algorithm/unit.h"
 #include "master/importer/call_note.h"
 #include "master/importer/callback_receiver.h"
+#include "master/importer/present_call.h"
 #include "master/importer/shared_library.h"
 #include "master/importer/status.h"
 #include "master/util/error.h"
@@ -69,10 +70,9 @@ struct UnitCall {
   const core::Location* where = nullptr;  ///< the component's position in the scenario
   std::optional<Time> time;
   bool is_by_this_thread = false;
+  /// Whose value is being read from the memory of the unit; null if none is.
+  const std::string* variable = nullptr;
 };
-
-/// Its address identifies a thread.
-inline thread_local char this_thread = 0;
 
 /// Calls functions of a unit, and turns what they answer into results and errors. A status Error or
 /// Fatal, and Discard of any function but those that may answer it, becomes a core::Error of the
@@ -100,10 +100,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   std::string rejection_reason() const override { return rejection_reason_; }
   std::uint64_t calls() const override { return calls_; }
 
-  bool is_in_call() const final { return in_call_.load(std::memory_order_relaxed) != nullptr; }
-  bool is_called_by_this_thread() const final {
-    return is_in_call() && caller_.load(std::memory_order_relaxed) == &this_thread;
-  }
+  bool is_in_call() const final { return present_.function() != nullptr; }
+  bool is_called_by_this_thread() const final { return present_.is_by_this_thread(); }
 
  protected:
   using References = std::span<const core::ValueReference>;
@@ -138,20 +136,13 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
     write_note(name);
   }
   /// For a call that does not count, or goes on.
-  void write_note(const char* name) {
-    caller_.store(&this_thread, std::memory_order_relaxed);
-    in_call_.store(name, std::memory_order_relaxed);
-    if (call_note_ != nullptr) [[unlikely]]
-      call_note_->write(name, time_.value_or(Time{}));
-  }
+  void write_note(const char* name) { present_.begin(name, time_.value_or(Time{})); }
   void end_call() {
     if (is_fork_) [[unlikely]]
       leave_fork();
     if (!mode_.is_present()) [[unlikely]]
       restore_mode();
-    in_call_.store(nullptr, std::memory_order_relaxed);
-    if (call_note_ != nullptr) [[unlikely]]
-      call_note_->clear();
+    present_.end();
   }
   /// After a call of this function: see InstanceOptions::process.
   void restore_process(const char* function);
@@ -204,9 +195,20 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
     Answer (*write)(void*, void*, Byte*, std::size_t);
     const char* capability;  ///< with which a library exports them
   };
+  /// As many as the function wants.
+  std::vector<std::uint8_t> bytes_for_state(const char* function, std::size_t size) const;
   /// The bytes of a kept state.
   template <class Answer, class Byte>
   std::vector<std::uint8_t> serialized(void* state, const Serialization<Answer, Byte>& functions);
+
+  /// Copies the values that a function has given, which are in memory of the unit. What is wrong
+  /// with one, or a crash, is an error with the function and the variable. No text (NULL), which
+  /// FMI forbids, is an empty one, with a warning.
+  void copy_texts(const char* function, References references, std::span<const char* const> given,
+                  std::span<std::string> values);
+  void copy_binaries(const char* function, References references,
+                     std::span<const std::uint8_t* const> given, std::span<const std::size_t> sizes,
+                     std::span<core::Binary> values);
 
   /// Of a message of the unit; may be called on any thread, throws nothing.
   void receive(Status status, const char* category, const char* message) noexcept;
@@ -230,10 +232,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   void* instance_ = nullptr;         ///< as the unit calls it
   const char* failed_in_ = nullptr;  ///< the function after whose status nothing goes on
   std::uint64_t calls_ = 0;
-  std::atomic<const char*> in_call_{nullptr};  ///< the function that has not returned
-  std::atomic<const char*> caller_{nullptr};   ///< the thread that has called it
-  bool is_fork_ = false;                       ///< the function has made this process by fork()
-  CallNote* const call_note_;
+  PresentCall present_;
+  bool is_fork_ = false;  ///< the present function has made this process by fork()
   const core::FloatingPointMode mode_ = core::FloatingPointMode::present();
   std::optional<Time> time_;
   const std::atomic<bool>& is_unusable_;  ///< the library
@@ -252,6 +252,12 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   [[noreturn]] void leave_fork() const;
   void restore_mode();
   std::string status_name(Status status) const;
+  bool is_known(Status status) const;
+  template <class Copy>
+  void copy_each(const char* function, References references, std::size_t count, Copy&& copy);
+  std::string variable_name(core::ValueReference reference) const;
+  [[noreturn]] void fail_value(core::ValueReference variable, const std::string& message,
+                               const std::string& hint = "") const;
   char major_version() const { return prefix_[3] != '\0' ? prefix_[3] : '1'; }
   bool may_be_pending() const { return major_version() != '3'; }
 
@@ -260,6 +266,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   std::mutex messages_mutex_;
   std::vector<std::string> messages_;  ///< those of the present call that report a failure
   bool has_mode_warning_ = false;
+  bool has_text_warning_ = false;
   core::Listed<FmuInstance> listed_{*this};
 };
 
@@ -351,7 +358,7 @@ std::vector<std::uint8_t> FmuInstance::serialized(void* state,
   require(functions.write_name, functions.write, functions.capability);
   std::size_t size = 0;
   call(functions.size_name, functions.size_of, state, &size);
-  std::vector<std::uint8_t> bytes(size);
+  std::vector<std::uint8_t> bytes = bytes_for_state(functions.size_name, size);
   call(functions.write_name, functions.write, state, reinterpret_cast<Byte*>(bytes.data()), size);
   return bytes;
 }

@@ -9,6 +9,7 @@
 #include "master/importer/binaries.h"
 #include "master/importer/fmi3/fmi3_library.h"
 #include "master/importer/idle_manifest.h"
+#include "master/importer/library_file.h"
 #include "master/importer/model_description.h"
 #include "master/importer/unpacked_fmu.h"
 #include "master/util/archive/zip.h"
@@ -29,6 +30,10 @@ class Preloaded {
     const core::ProcessState before;
     for (const fs::path& library : libraries) {
       core::open_input(library);  // the loader would wait for a FIFO
+      if (const std::string damage = find_damage(library); !damage.empty()) {
+        core::fail_input({}, fmt::format("the library to bundle, '{}', cannot be loaded: {}",
+                                         library.string(), damage));
+      }
       void* const handle = ::dlopen(fs::absolute(library).c_str(), RTLD_NOW | RTLD_LOCAL);
       if (handle == nullptr) {
         core::fail_input({},

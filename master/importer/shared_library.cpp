@@ -1,14 +1,17 @@
 #include "master/importer/shared_library.h"
 
 #include <algorithm>
+#include <exception>
 #include <map>
 #include <mutex>
+#include <utility>
 
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "master/importer/binaries.h"
+#include "master/importer/library_file.h"
 #include "master/util/process/process_state.h"
 
 namespace stride::importer {
@@ -54,13 +57,13 @@ std::string hint_for(const std::string& reason) {
 }
 
 /// Turns the loader's message (glibc's dlerror) into what is missing and how to get it.
-[[noreturn]] void fail_to_load(const fs::path& path, const std::string& reason,
-                               const core::Location& where) {
-  const core::Context context{.where = where};
-  const std::string head = fmt::format("the library '{}' cannot be loaded: ", path.string());
+[[noreturn]] void fail_to_load(const SharedLibrary& library, std::string reason) {
+  const core::Context& context = library.user();
+  const std::string path = library.path().string();
+  const std::string head = fmt::format("the library '{}' cannot be loaded: ", library.shown_as());
   constexpr std::string_view kNotFound = ": cannot open shared object file";
   const std::string missing = reason.substr(0, reason.find(kNotFound));
-  if (missing.size() != reason.size() && missing != path.string()) {
+  if (missing.size() != reason.size() && missing != path) {
     core::fail_input(
         context,
         fmt::format("{}it needs the shared library '{}', which was not found", head, missing),
@@ -76,11 +79,13 @@ std::string hint_for(const std::string& reason) {
                                  head, symbol),
                      is_of_python(symbol) ? kPythonHint : kSymbolHint);
   }
-  core::fail_input(context, head + reason, hint_for(reason));
+  const std::string hint = hint_for(reason);
+  if (reason.starts_with(path + ": ")) reason.erase(0, path.size() + 2);
+  core::fail_input(context, head + reason, hint);
 }
 
 std::atomic<const char*> present_work{nullptr};
-std::atomic<const char*> present_library{nullptr};
+std::atomic<const SharedLibrary*> present_library{nullptr};
 
 /// One flag per library in the process: dlopen gives the same handle however often it is opened.
 /// Kept as long as the process exists, as an unusable library is.
@@ -95,31 +100,67 @@ std::atomic<bool>& unusable_flag(void* handle) {
 
 void SharedLibrary::Closer::operator()(void* handle) const { ::dlclose(handle); }
 
-SharedLibrary::SharedLibrary(const fs::path& path, const core::Location& where)
-    : path_(fs::absolute(path)) {
+SharedLibrary::SharedLibrary(const fs::path& path, core::Context user, const fs::path& shown_as)
+    : path_(fs::absolute(path)),
+      shown_as_(shown_as.empty() ? path_.string() : shown_as.string()),
+      user_(std::move(user)) {
+  if (const std::string damage = find_damage(path_); !damage.empty()) {
+    core::fail_input(user_, fmt::format("the library '{}' cannot be loaded: {}", shown_as_, damage),
+                     "get another copy of the unit, or export it again");
+  }
   const core::ProcessState before;
   {
-    const Work work("loading", path_);
+    const Work work("loading", *this);
     handle_.reset(::dlopen(path_.c_str(), RTLD_NOW | RTLD_LOCAL));
   }
   changes_ = before.restore();
-  if (!handle_) fail_to_load(path_, ::dlerror(), where);
+  if (!handle_) fail_to_load(*this, ::dlerror());
   is_unusable_ = &unusable_flag(handle_.get());
 }
 
 SharedLibrary::~SharedLibrary() {
-  if (is_unusable()) {
+  if (!can_be_unloaded()) {
     static_cast<void>(handle_.release());
     return;
   }
-  const Work work("unloading", path_);
+  const Work work("unloading", *this);
   handle_.reset();
 }
 
-SharedLibrary::Work::Work(const char* what, const fs::path& library) noexcept
+bool SharedLibrary::can_be_unloaded() const noexcept {
+  if (is_unusable()) return false;
+  try {
+    const std::string remnants = remnants_.find();
+    if (remnants.empty()) return true;
+    if (log_) {
+      log_(
+          user_.unit, Status::Warning, "stride",
+          fmt::format("its library stays loaded until stride ends, since something goes on that is "
+                      "newer and may need its code: {}; a unit ends its threads, and puts "
+                      "handlers of signals back, before its last instance is freed",
+                      remnants));
+    }
+  } catch (const std::exception&) {  // then it is not known
+  }
+  return false;
+}
+
+void SharedLibrary::add_user(const std::string& component, const LogSink& log) const {
+  if (log_) return;
+  user_.unit = component;
+  log_ = log;
+}
+
+std::string SharedLibrary::answer_of(const char* what, const char* (*function)()) const {
+  const Work work(what, *this);
+  const char* const answer = function();
+  return answer != nullptr ? answer : "";
+}
+
+SharedLibrary::Work::Work(const char* what, const SharedLibrary& library) noexcept
     : process_(::getpid()) {
   present_work = what;
-  present_library = library.c_str();
+  present_library = &library;
 }
 
 SharedLibrary::Work::~Work() {

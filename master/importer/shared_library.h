@@ -13,20 +13,33 @@
 
 #include <sys/types.h>
 
+#include "master/importer/status.h"
 #include "master/util/error.h"
+#include "master/util/process/remnants.h"
 
 namespace stride::importer {
 
-/// A loaded library; unloaded with the object, unless it is unusable.
+/// A loaded library; unloaded with the object, unless it is unusable, or something is left of it
+/// that goes on (core::Remnants). Then it stays until the process ends, with a warning.
 class SharedLibrary {
  public:
   /// Loads it with all its symbols resolved and kept to itself (RTLD_NOW, RTLD_LOCAL). Throws
-  /// core::Error of the kind Input that names the shared library or the symbol that is missing.
-  explicit SharedLibrary(const std::filesystem::path& path, const core::Location& where = {});
+  /// core::Error of the kind Input that names the shared library or the symbol that is missing, and
+  /// for a file that is cut off or damaged. `user` is the place that names the unit, and a
+  /// component, if it is known; messages call the file `shown_as`, or by its path.
+  explicit SharedLibrary(const std::filesystem::path& path, core::Context user = {},
+                         const std::filesystem::path& shown_as = {});
   SharedLibrary(const SharedLibrary&) = delete;
   SharedLibrary& operator=(const SharedLibrary&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  const std::string& shown_as() const { return shown_as_; }
+  /// The place that names the unit, and the first component that uses it, if one is known.
+  const core::Context& user() const { return user_; }
+  /// To be called for each component that uses it, before its instance is made. The first one is
+  /// named, and its log gets the warning.
+  void add_user(const std::string& component, const LogSink& log) const;
+
   /// What its initialization has changed of the process (core::ProcessState). It is put back.
   const std::vector<std::string>& changes() const { return changes_; }
 
@@ -43,7 +56,7 @@ class SharedLibrary {
   /// return in both processes: then the new one ends with the object.
   class Work {
    public:
-    Work(const char* what, const std::filesystem::path& library) noexcept;
+    Work(const char* what, const SharedLibrary& library) noexcept;
     ~Work();
     Work(const Work&) = delete;
     Work& operator=(const Work&) = delete;
@@ -51,6 +64,9 @@ class SharedLibrary {
    private:
     pid_t process_;
   };
+
+  /// What a function of the library without arguments answers; empty for NULL.
+  std::string answer_of(const char* what, const char* (*function)()) const;
 
   /// Makes `function` that of this name, null if there is none.
   template <class Function>
@@ -64,8 +80,13 @@ class SharedLibrary {
     void operator()(void* handle) const;
   };
   void* address(const std::string& symbol) const;
+  bool can_be_unloaded() const noexcept;
 
   std::filesystem::path path_;
+  std::string shown_as_;
+  mutable core::Context user_;
+  mutable LogSink log_;  ///< of the user
+  const core::Remnants remnants_;
   std::vector<std::string> changes_;
   std::unique_ptr<void, Closer> handle_;
   std::atomic<bool>* is_unusable_ = nullptr;
@@ -73,8 +94,8 @@ class SharedLibrary {
 
 /// Code of a library that is being run outside of calls of its instances.
 struct LibraryWork {
-  const char* what = nullptr;     ///< "loading", "unloading", …
-  const char* library = nullptr;  ///< its path; null if there is no such work
+  const char* what = nullptr;              ///< "loading", "unloading", …
+  const SharedLibrary* library = nullptr;  ///< null if there is no such work
 };
 
 /// The work that has not ended. Can be called by a signal handler.

@@ -179,8 +179,18 @@ std::string HostClient::present_call() const {
   return function.empty() ? "" : " in " + function;
 }
 
+/// With the variable whose value was being read, if one was.
 core::Context HostClient::context(std::optional<Time> time) const {
-  return {.where = spec_.options.where, .unit = spec_.name, .variable = {}, .time = time};
+  core::Context context{
+      .where = spec_.options.where, .unit = spec_.name, .variable = {}, .time = time};
+  const auto& own = spec_.options.description;
+  const core::UnitDescription& description = own ? *own : *spec_.fmu->description();
+  const std::optional<core::ValueReference> read = link_.memory->call_note.variable();
+  if (const auto place = read ? description.find(*read) : std::nullopt) {
+    context.variable = description.variables[*place].name;
+    context.time = link_.memory->call_note.time();  // in a step the end of it
+  }
+  return context;
 }
 
 }  // namespace stride::isolation

@@ -48,7 +48,8 @@ bool LogReader::next(LogMessage& message) {
   const std::size_t rest = bytes_.size() - sizeof head;
   if (rest < head.category_size || rest - head.category_size < head.text_size) return false;
   const auto last = static_cast<std::uint32_t>(importer::Status::Pending);
-  message.status = static_cast<importer::Status>(head.status <= last ? head.status : last);
+  message.status =
+      head.status <= last ? static_cast<importer::Status>(head.status) : importer::Status::Error;
   message.category = bytes_.substr(sizeof head, head.category_size);
   message.text = bytes_.substr(sizeof head + head.category_size, head.text_size);
   bytes_.erase(0, sizeof head + head.category_size + head.text_size);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "master/util/hex.h"
+#include "master/util/message_text.h"
 
 namespace stride::core {
 namespace {
@@ -28,7 +29,7 @@ std::vector<std::string> split(const std::string& text) {
 
 [[noreturn]] void reject(const std::string& text, const std::string& expected) {
   throw std::invalid_argument(
-      fmt::format("'{}' is not a value for it, expected {}", text, expected));
+      fmt::format("'{}' is not a value for it, expected {}", name_text(text), expected));
 }
 
 template <class Number>

@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "master/util/error.h"
+#include "master/util/input_file.h"
 
 namespace stride::recorders {
 namespace {
@@ -65,13 +66,19 @@ fs::path resolved(fs::path path) {
 }
 
 void make_results_folder(const fs::path& folder) {
-  const auto fail = [&](const std::string& reason) {
+  const auto fail = [&](const std::string& reason,
+                        const char* hint = "choose another results folder") {
     core::fail_input({.where = {folder.string(), 0}},
-                     fmt::format("cannot write results into this folder: {}", reason),
-                     "choose another results folder");
+                     fmt::format("cannot write results into this folder: {}", reason), hint);
   };
   if (folder.empty()) fail("its name is empty");
+  if (core::is_link_loop(folder)) fail(core::why_unreachable(folder), core::kLinkLoopHint);
   std::error_code error;
+  if (fs::is_symlink(folder, error) && !core::path_exists(folder)) {
+    fail(fmt::format("it is a link to '{}', which does not exist",
+                     fs::read_symlink(folder, error).string()),
+         "make that folder, or choose another results folder");
+  }
   const auto status = fs::status(folder, error);
   if (fs::exists(status) && !fs::is_directory(status)) {
     fail("it is a file");
@@ -79,6 +86,19 @@ void make_results_folder(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error) fail(error.message());
   if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(std::generic_category().message(errno));
+}
+
+void check_name_lengths(const fs::path& folder, const ResultFiles& files) {
+  const long most = ::pathconf(folder.c_str(), _PC_NAME_MAX);
+  for (const auto& [what, member] : kResultFiles) {
+    const std::string& name = files.*member;
+    if (most < 0 || name.size() <= static_cast<std::size_t>(most)) continue;
+    core::fail_input({.where = {(folder / name).string(), 0}},
+                     fmt::format("the name of this file has {} bytes, and {} at most are possible "
+                                 "in this folder",
+                                 name.size(), most),
+                     fmt::format("choose a shorter name: <stride:Results {}=\"…\"/>", what));
+  }
 }
 
 ResultsLock::ResultsLock(const fs::path& folder)

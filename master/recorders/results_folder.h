@@ -52,6 +52,10 @@ std::filesystem::path resolved(std::filesystem::path path);
 /// that is not possible, or if it is not a folder in which files can be written.
 void make_results_folder(const std::filesystem::path& folder);
 
+/// Throws core::Error (Input) for a name that is longer than the folder's file system allows, which
+/// some files would only meet at the end of a run.
+void check_name_lengths(const std::filesystem::path& folder, const ResultFiles& files);
+
 /// Keeps other runs out of a results folder for as long as it lives, also if the process is killed.
 class ResultsLock {
  public:

@@ -8,6 +8,8 @@
 
 #include <stride/value_text.h>
 
+#include "master/util/message_text.h"
+
 namespace stride::report {
 namespace {
 
@@ -40,9 +42,9 @@ std::optional<Number> parse(std::string_view text) {
 
 [[noreturn]] void reject(std::string_view text, ValueType type, const char* expected) {
   constexpr std::size_t kMostShown = 40;
-  throw std::invalid_argument(fmt::format("expected {} (the type is {}), found '{}{}'", expected,
-                                          core::name(type), text.substr(0, kMostShown),
-                                          text.size() > kMostShown ? "…" : ""));
+  throw std::invalid_argument(fmt::format(
+      "expected {} (the type is {}), found '{}{}'", expected, core::name(type),
+      core::name_text(text.substr(0, kMostShown)), text.size() > kMostShown ? "…" : ""));
 }
 
 /// As signals.csv has it.

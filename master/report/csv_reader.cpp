@@ -108,7 +108,10 @@ bool CsvReader::refill() {
   begin_ = 0;
   if (end_ == buffer_.size()) {
     if (buffer_.size() >= kLongestRow) {
-      fail("the row does not end; a quotation mark may be missing");
+      fail(
+          fmt::format("the row has more than {} MiB, which is not read; a quotation mark may be "
+                      "missing",
+                      kLongestRow >> 20));
     }
     buffer_.resize(2 * buffer_.size());
   }

@@ -49,20 +49,6 @@ std::vector<ssp::ParameterValue> set_values(const std::vector<std::string>& sets
   return values;
 }
 
-/// A discarded step is retried, so it is not a failure.
-spdlog::level::level_enum level(importer::Status status) {
-  switch (status) {
-    case importer::Status::Ok:
-    case importer::Status::Discard:
-    case importer::Status::Pending:
-      return spdlog::level::info;
-    case importer::Status::Warning:
-      return spdlog::level::warn;
-    default:
-      return spdlog::level::err;
-  }
-}
-
 /// Each element of an array is a column.
 void check_column_count(const core::System& system, std::span<const core::VariableId> recorded) {
   constexpr std::size_t kMostColumns = 1'000'000;
@@ -76,12 +62,6 @@ void check_column_count(const core::System& system, std::span<const core::Variab
                    "choose fewer signals, with <stride:Record signals=\"…\"/> or --signals");
 }
 
-void log_message(const std::string& unit, importer::Status status, const std::string& category,
-                 const std::string& message) {
-  spdlog::log(level(status), "unit '{}'{}: {}", unit,
-              category == isolation::kPrinted ? " printed" : "", message);
-}
-
 }  // namespace
 
 std::pair<std::string, std::string> split_option(const std::string& option, const std::string& text,
@@ -91,6 +71,19 @@ std::pair<std::string, std::string> split_option(const std::string& option, cons
     core::fail_input({}, fmt::format("{} {}: expected {}", option, text, form));
   }
   return {text.substr(0, at), text.substr(at + 1)};
+}
+
+std::optional<ComponentFile> split_component_file(const std::string& text) {
+  const std::size_t at = text.find('=');
+  if (at == std::string::npos || at == 0 || at + 1 == text.size()) return std::nullopt;
+  return ComponentFile{text.substr(0, at), text.substr(at + 1)};
+}
+
+ComponentFile component_file(const std::string& option, const std::string& text,
+                             const std::string& form) {
+  if (const auto parts = split_component_file(text)) return *parts;
+  split_option(option, text, form);  // there is one, unless this throws
+  core::fail_input({}, fmt::format("{} {}: no file is named", option, text));
 }
 
 std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario) {
@@ -145,8 +138,7 @@ std::vector<std::string> LoadedScenario::component_names() const {
 }
 
 void LoadedScenario::swap(const std::string& text) {
-  const auto [name, file] = split_option("--swap", text, "component=FILE.fmu");
-  if (file.empty()) core::fail_input({}, fmt::format("--swap {}: no file is named", text));
+  const auto [name, file] = component_file("--swap", text, "component=FILE.fmu");
   const std::vector<std::string> names = component_names();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
@@ -349,7 +341,7 @@ importer::InstanceOptions LoadedScenario::instance_options(
     std::size_t component, const std::filesystem::path& results) const {
   const core::ComponentDeclaration& declared = scenario_.system.components[component];
   importer::InstanceOptions options;
-  options.log = log_message;
+  options.log = [log = log_](const auto&... message) { log->write(message...); };
   options.debug_logging = true;  // the log's level decides what is shown
   options.early_return_allowed = declared.early_return_allowed;
   options.intermediate_update = options_.sets_inputs_in_steps();

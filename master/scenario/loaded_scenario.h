@@ -16,6 +16,7 @@
 #include "master/scenario/hosting.h"
 #include "master/scenario/scenario.h"
 #include "master/scenario/signal_selection.h"
+#include "master/scenario/unit_log.h"
 #include "master/util/process/process_state.h"
 
 namespace stride::scenario {
@@ -83,6 +84,7 @@ class LoadedScenario {
   importer::InstanceOptions instance_options(std::size_t component,
                                              const std::filesystem::path& results) const;
 
+  std::shared_ptr<UnitLog> log_ = std::make_shared<UnitLog>();
   std::shared_ptr<const core::ProcessState> process_ = std::make_shared<core::ProcessState>();
   Scenario scenario_;
   std::vector<std::shared_ptr<importer::Fmu>> fmus_;
@@ -97,6 +99,18 @@ class LoadedScenario {
 /// `form`.
 std::pair<std::string, std::string> split_option(const std::string& option, const std::string& text,
                                                  const std::string& form);
+
+/// The sides of "COMPONENT=FILE".
+struct ComponentFile {
+  std::string component;
+  std::filesystem::path file;
+};
+
+/// Nothing if a side is missing.
+std::optional<ComponentFile> split_component_file(const std::string& text);
+/// Likewise of an option; throws core::Error (Input) with the expected `form`.
+ComponentFile component_file(const std::string& option, const std::string& text,
+                             const std::string& form);
 
 /// The FMUs of a scenario's components, in their order; for `complete`, which needs no system.
 std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario);

@@ -54,6 +54,11 @@ fs::path find_unit(const fs::path& path, const core::Location& where) {
 fs::path find_unit_shown_as(const fs::path& path, const std::string& shown_as,
                             const core::Location& where) {
   if (core::path_exists(path)) return path;
+  if (core::is_link_loop(path)) {
+    core::fail_input({where, {}, {}, {}},
+                     fmt::format("'{}': {}", shown_as, core::why_unreachable(path)),
+                     core::kLinkLoopHint);
+  }
   if (path.filename().empty()) {
     core::fail_input({where, {}, {}, {}}, fmt::format("there is no unit '{}'", shown_as));
   }

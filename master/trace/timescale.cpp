@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "master/util/message_text.h"
+
 namespace stride::trace {
 namespace {
 
@@ -30,7 +32,7 @@ Timescale Timescale::parse(std::string_view text) {
   if ((number != "1" && number != "10" && number != "100") || unit == kUnits.end()) {
     throw std::invalid_argument(
         fmt::format("'{}' is not a time scale; expected 1, 10 or 100 of s, ms, us, ns, ps or fs",
-                    word.substr(0, 20)));
+                    core::name_text(word.substr(0, 20))));
   }
   return {kSmallest + 3 * static_cast<int>(unit - kUnits.begin()) +
           static_cast<int>(number.size()) - 1};

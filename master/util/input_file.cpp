@@ -38,6 +38,7 @@ Mistake mistake_of(int error) {
   if (error == ENOENT || error == ENOTDIR) return {"the file does not exist", "check its path"};
   const std::string message = fmt::format("cannot read the file: {}", reason(error));
   if (is_shortage(error)) return {message, "", Error::Kind::Run};
+  if (error == ELOOP) return {message, kLinkLoopHint};
   return {message, "check that it is a file that you may read"};
 }
 
@@ -153,6 +154,12 @@ std::vector<fs::path> folder_entries(const fs::path& folder) {
   }
   std::ranges::sort(paths);
   return paths;
+}
+
+bool is_link_loop(const fs::path& path) {
+  std::error_code error;
+  static_cast<void>(fs::status(path, error));
+  return error == std::errc::too_many_symbolic_link_levels;
 }
 
 std::string why_unreachable(const fs::path& path) {

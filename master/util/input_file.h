@@ -58,6 +58,12 @@ inline bool path_exists(const std::filesystem::path& path) {
 /// The paths of what is in the folder, sorted: none, or not all, where it cannot be read.
 std::vector<std::filesystem::path> folder_entries(const std::filesystem::path& folder);
 
+/// Whether symbolic links that lead to each other are in the way.
+bool is_link_loop(const std::filesystem::path& path);
+inline constexpr const char* kLinkLoopHint =
+    "a symbolic link on this path leads back to itself (ls -l shows where it leads): remove it, or "
+    "name another path";
+
 /// Why there is nothing at a path, if that is not simply so: "File name too long", "Too many levels
 /// of symbolic links", "Permission denied"; otherwise empty.
 std::string why_unreachable(const std::filesystem::path& path);

@@ -87,6 +87,8 @@ std::string message_text(std::string_view message) {
   return joined_lines(lines);
 }
 
-std::string name_text(std::string_view name) { return escaped(name, '\n', "\\x0a"); }
+std::string name_text(std::string_view name) {
+  return escaped(escaped(name, '\n', "\\x0a"), '\0', "\\x00");
+}
 
 }  // namespace stride::core

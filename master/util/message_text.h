@@ -15,7 +15,8 @@ std::string log_text(std::string_view message);
 /// behind the hundredth are replaced by their length. A second call changes nothing.
 std::string message_text(std::string_view message);
 
-/// A name within a message, in one line: a line feed is "\\x0a".
+/// A name or a value within a message, in one line: a line feed is "\\x0a", and NUL "\\x00". Needed
+/// for what an exception of the standard library quotes, whose text NUL would end.
 std::string name_text(std::string_view name);
 
 }  // namespace stride::core

@@ -6,6 +6,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "master/util/error.h"
@@ -34,6 +35,9 @@ const char* hint_for(int error) {
   }
 }
 
+constexpr const char* kTakenHint =
+    "a unit may close its own files only; with --isolate it has no others";
+
 /// Opens it without waiting for the reader of a pipe; writing waits as usual.
 int open_without_waiting(const std::filesystem::path& path, int how) {
   constexpr mode_t kEverybodyMayRead = 0666;  // less the umask
@@ -42,6 +46,11 @@ int open_without_waiting(const std::filesystem::path& path, int how) {
              kEverybodyMayRead);
   if (file >= 0) ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);
   return file;
+}
+
+bool is_regular(int descriptor) {
+  struct stat status {};
+  return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
 }
 
 bool is_pipe(const std::filesystem::path& path) {
@@ -55,7 +64,12 @@ OutputFile::OutputFile(std::filesystem::path path, Hints hints, Existing existin
     : path_(std::move(path)), hints_(hints), buffer_(std::make_unique<char[]>(kCapacity)) {
   descriptor_ =
       open_without_waiting(path_, existing == Existing::Emptied ? O_TRUNC : O_EXCL | O_NOFOLLOW);
-  if (descriptor_ >= 0) return;
+  if (descriptor_ >= 0) {
+    identity_ = FileIdentity::of(descriptor_);
+    std::error_code ignored;  // then it cannot be opened again
+    if (is_regular(descriptor_)) absolute_path_ = std::filesystem::absolute(path_, ignored);
+    return;
+  }
   const int error = errno;
   const Context where{.where = {path_.string(), 0}};
   if (error == ENXIO && is_pipe(path_)) {
@@ -107,11 +121,11 @@ void OutputFile::rescue_all() noexcept {
 }
 
 void OutputFile::rescue() noexcept {
-  if (descriptor_ < 0 || has_failed_ || is_flushing_) return;
+  if (descriptor_ < 0 || has_failed_ || is_flushing_ || !get_back()) return;
   const std::size_t lines = std::string_view(buffer_.get(), used_).rfind('\n') + 1;
   used_ = 0;
   for (std::size_t done = 0; done < lines;) {
-    const ssize_t count = ::write(descriptor_, buffer_.get() + done, lines - done);
+    const long count = write_piece(buffer_.get() + done, lines - done);
     if (count < 0 && errno != EINTR) return;
     if (count <= 0) continue;
     done += static_cast<std::size_t>(count);
@@ -121,28 +135,68 @@ void OutputFile::rescue() noexcept {
 }
 
 void OutputFile::flush() {
+  const bool was_taken = used_ > 0 && !has_failed_ && !is_own();
+  const bool is_back = !was_taken || get_back();
+  if (!has_failed_ && is_own()) check_size();
   is_flushing_ = true;
   std::size_t done = 0;
   int error = 0;
-  while (!has_failed_ && error == 0 && done < used_) {
-    const ssize_t count = ::write(descriptor_, buffer_.get() + done, used_ - done);
+  while (!has_failed_ && is_back && error == 0 && done < used_) {
+    const long count = write_piece(buffer_.get() + done, used_ - done);
     if (count >= 0) {
       done += static_cast<std::size_t>(count);
+      taken_ += count;
     } else if (errno != EINTR) {
       error = errno;
     }
   }
   const std::size_t last = std::string_view(buffer_.get(), done).rfind('\n');
-  if (last != std::string_view::npos) line_end_ = taken_ + static_cast<std::int64_t>(last) + 1;
-  taken_ += static_cast<std::int64_t>(done);
+  if (last != std::string_view::npos) {
+    line_end_ = taken_ - static_cast<std::int64_t>(done) + static_cast<std::int64_t>(last) + 1;
+  }
   used_ = 0;
   is_flushing_ = false;
   if (error != 0) fail(error);
+  if (was_taken) fail_taken(is_back);
+}
+
+/// At its place in a regular file, whose open file may have been moved elsewhere.
+long OutputFile::write_piece(const char* bytes, std::size_t size) const noexcept {
+  if (absolute_path_.empty()) return ::write(descriptor_, bytes, size);
+  return ::pwrite(descriptor_, bytes, size, taken_);
+}
+
+bool OutputFile::get_back() noexcept {
+  if (is_own()) return true;
+  if (absolute_path_.empty()) return false;
+  const int file = ::open(absolute_path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  if (file < 0) return false;
+  if (FileIdentity::of(file) != identity_) {
+    ::close(file);
+    return false;
+  }
+  descriptor_ = file;  // what has the number now is not to be closed here
+  return true;
+}
+
+/// Of the open file, which is its own.
+void OutputFile::check_size() {
+  struct stat status {};
+  const bool is_cut =
+      !absolute_path_.empty() && ::fstat(descriptor_, &status) == 0 && status.st_size < taken_;
+  if (!is_cut) return;
+  has_failed_ = true;
+  fail_run(
+      {.where = {path_.string(), 0}, .time = time_},
+      fmt::format("other code has cut the file off while it was written: it has {} bytes of {}",
+                  status.st_size, taken_),
+      kTakenHint);
 }
 
 void OutputFile::close() {
   if (descriptor_ < 0) return;
   flush();
+  if (!has_failed_ && !is_own()) fail_taken(get_back());
   const int result = ::close(std::exchange(descriptor_, -1));
   if (result != 0 && !has_failed_) fail(errno);
 }
@@ -150,10 +204,22 @@ void OutputFile::close() {
 void OutputFile::fail(int error) {
   has_failed_ = true;
   // fails for what is no regular file, where there is nothing to cut
-  if (descriptor_ >= 0 && taken_ > line_end_) (void)!::ftruncate(descriptor_, line_end_);
+  if (descriptor_ >= 0 && is_own() && taken_ > line_end_)
+    (void)!::ftruncate(descriptor_, line_end_);
   fail_run({.where = {path_.string(), 0}, .time = time_},
            fmt::format("cannot write the file: {}", std::generic_category().message(error)),
            hints_.write != nullptr ? hints_.write : hint_for(error));
+}
+
+void OutputFile::fail_taken(bool is_back) {
+  has_failed_ = true;
+  if (!is_back) descriptor_ = -1;  // the number is of another file, which is not to be closed
+  fail_run({.where = {path_.string(), 0}, .time = time_},
+           fmt::format("other code in this process, such as that of a unit, has closed the open "
+                       "file or put another one in its place; {}",
+                       is_back ? "the lines up to here are complete"
+                               : "it cannot be opened again, so lines are lost"),
+           kTakenHint);
 }
 
 }  // namespace stride::core

@@ -14,6 +14,7 @@
 
 #include <stride/time.h>
 
+#include "master/util/file_identity.h"
 #include "master/util/listed.h"
 
 namespace stride::core {
@@ -21,6 +22,9 @@ namespace stride::core {
 /// Collects what is written in a buffer and hands it to the system in large pieces. When that fails
 /// (the disk is full), the file is cut behind its last whole line and Error (Run) is thrown,
 /// which names the file and the simulated time; nothing is written from then on.
+///
+/// Code of a unit in this process can close the open file, or put another one in its place. Then
+/// the file is opened again by its path, what is left is written, and that is an Error (Run), too.
 class OutputFile {
  public:
   /// What to do about failures.
@@ -82,9 +86,17 @@ class OutputFile {
   std::size_t room() const { return kCapacity - used_; }
   void write_slowly(std::string_view text);
   void rescue() noexcept;
+  bool is_own() const noexcept { return FileIdentity::of(descriptor_) == identity_; }
+  /// Returns whether the descriptor is that of the file, be it after it was opened again.
+  bool get_back() noexcept;
+  long write_piece(const char* bytes, std::size_t size) const noexcept;
+  void check_size();
   [[noreturn]] void fail(int error);
+  [[noreturn]] void fail_taken(bool is_back);
 
   std::filesystem::path path_;
+  std::filesystem::path absolute_path_;  ///< of a regular file
+  std::optional<FileIdentity> identity_;
   Hints hints_;
   std::optional<Time> time_;
   std::unique_ptr<char[]> buffer_;

@@ -1,5 +1,6 @@
 #include "master/util/replacement.h"
 
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -20,6 +21,10 @@ constexpr OutputFile::Hints kHints = {
 /// The file that is to be replaced.
 fs::path target_of(const fs::path& path) {
   if (path.empty()) fail_input({}, "no file is named to write to");
+  if (is_link_loop(path)) {
+    fail_input({.where = {path.string(), 0}},
+               fmt::format("cannot write the file: {}", why_unreachable(path)), kLinkLoopHint);
+  }
   std::error_code error;
   if (Replacement::is_at_once(path)) return path;
   if (fs::is_symlink(path, error)) {
@@ -43,6 +48,19 @@ void check(const fs::path& path) {
              "make the folder, or choose another output file");
 }
 
+/// Beside the file; cut off, in whole characters, where the name with the suffix would be too long.
+fs::path fresh_name(const fs::path& target) {
+  constexpr std::string_view kSuffix = ".new";
+  constexpr std::size_t kLongest = 255;  // of a name in a file system
+  std::string name = target.filename().string();
+  if (name.size() + kSuffix.size() > kLongest) {
+    std::size_t kept = kLongest - kSuffix.size();
+    while (kept > 0 && (static_cast<unsigned char>(name[kept]) & 0xC0U) == 0x80U) --kept;
+    name.resize(kept);
+  }
+  return target.parent_path() / name.append(kSuffix);
+}
+
 }  // namespace
 
 bool Replacement::is_at_once(const fs::path& path) {
@@ -57,7 +75,7 @@ Replacement::Replacement(const fs::path& path) : target_(target_of(path)) {
     file_.emplace(target_, kHints);
     return;
   }
-  fresh_ = target_.string() + ".new";
+  fresh_ = fresh_name(target_);
   std::error_code ignored;  // what stays fails below
   fs::remove(fresh_, ignored);
   file_.emplace(fresh_, kHints, OutputFile::Existing::Refused);

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "master/util/message_text.h"
+
 namespace stride::core {
 
 std::string to_text(Time time) { return to_text(time.time_since_epoch()); }
@@ -37,8 +39,8 @@ struct Decimal {
 };
 
 [[noreturn]] void reject(std::string_view text, const char* reason) {
-  throw std::invalid_argument(
-      fmt::format("'{}' {}; expected a number of seconds such as 0.001 or 1e-3", text, reason));
+  throw std::invalid_argument(fmt::format(
+      "'{}' {}; expected a number of seconds such as 0.001 or 1e-3", name_text(text), reason));
 }
 
 std::string_view trim(std::string_view text) {

@@ -1,4 +1,5 @@
 // Arguments, options and exit codes.
+#include "tests/build.h"
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;
@@ -155,4 +156,26 @@ TEST_CASE("--verbose may follow the command") {
   const Workspace workspace(two_filters());
   CHECK(workspace.run({"--quiet", "--verbose"}).exit_code == 0);
   CHECK(workspace.stride({"check", "test.ssd", "--verbose"}).exit_code == 0);
+}
+
+TEST_CASE("a limit of memory or of the stack that is too low is named, with what to do") {
+  if (kSanitized) return;
+  const Workspace workspace(two_filters());
+  const auto run_limited = [&](const std::string& limits) {
+    std::string command = "ulimit " + limits + " && exec";
+    for (const std::string& word : stride_command(Workspace::run_arguments({"--quiet"}))) {
+      command += " '" + word + "'";
+    }
+    return Process({"bash", "-c", command}, workspace.scratch().path()).wait();
+  };
+  const Outcome stack = run_limited("-s 128");
+  CHECK(stack.exit_code == 1);
+  CHECK(stack.err ==
+        "stride: error: the stack of a process is limited to 128 KiB; stride needs 256 KiB\n"
+        "  hint: raise the limit (ulimit -s)\n");
+  CHECK(run_limited("-S -s 128").exit_code == 0);
+  const Outcome data = run_limited("-d 4096");
+  CHECK(data.exit_code == 1);
+  CHECK_THAT(data.err, Contains("there is not enough memory\n  hint: this process may have 4 MiB "
+                                "(ulimit -d) of memory: raise the limit\n"));
 }

@@ -142,7 +142,7 @@ std::vector<Case> units() {
       {"x.csv", fifo("x.csv"), "this is a FIFO", {"pack", "x.csv", "-o", "x.fmu"}},
       {"x.xml", fifo("x.xml"), "this is a FIFO", {"pack", "x.xml", "-o", "x.fmu"}},
       {"x", fifo("x"), "this is a FIFO", {"pack", "x", "-o", "x.fmu"}},
-      {"x.fmu", link("x.fmu", "x.fmu"), "there is no unit", {"verify", "x.fmu"}},
+      {"x.fmu", link("x.fmu", "x.fmu"), "leads back to itself", {"verify", "x.fmu"}},
       {kLongName, text("x", ""), "there is no unit", {"inspect", kLongName}},
       {"x/modelDescription.xml",
        folder(half(description_text("x"))),

@@ -1,6 +1,12 @@
 // Libraries of units that end the process, or do not return, when they are unloaded or after the
 // run: exit code 1, the rows of a complete run, and nothing left behind.
 #include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <functional>
+
+#include <elf.h>
+#include <link.h>
 
 #include "tests/build.h"
 #include "tests/cli/failures.h"
@@ -39,7 +45,8 @@ TEST_CASE("a library that ends the process when it is unloaded, or after the run
   const Outcome outcome = workspace.run(library_does(fault, call, {"--junit", "junit.xml"}));
   INFO(outcome.err);
   CHECK(outcome.exit_code == 1);
-  CHECK_THAT(outcome.err, Contains("stride: error: " + end + place));
+  CHECK_THAT(outcome.err, Contains(end + place));
+  if (call == "unload") CHECK_THAT(outcome.err, Contains("unit 'faulty': " + end));
   CHECK(last_time(workspace) == "1");
   CHECK(workspace.left_behind().empty());
   if (call != "unload") return;
@@ -93,7 +100,7 @@ TEST_CASE("a library that does not return when it is unloaded, or after the run,
     const Outcome outcome = process->wait();
     INFO(outcome.err);
     CHECK(outcome.exit_code == 1);
-    CHECK_THAT(outcome.err, Contains("stride: error: stride has not ended for 10 s in "));
+    CHECK_THAT(outcome.err, Contains("stride has not ended for 10 s in "));
   }
   for (const char* folder : {"unload", "exit"}) {
     const Csv signals(workspace / (std::string(folder) + "/signals.csv"));
@@ -101,6 +108,16 @@ TEST_CASE("a library that does not return when it is unloaded, or after the run,
   }
   CHECK_THAT(read(workspace / "unload/run.json"), Contains("\"outcome\": \"failed\""));
   CHECK(workspace.left_behind().empty());
+}
+
+TEST_CASE("a library that does not return when it is unloaded is cut off in other commands, too") {
+  if (kSanitized) return;
+  const Workspace workspace(Parts{component("faulty", "fmi3_faulty.fmu")});
+  const FaultOrder order("sleep", "unload", "0");
+  const Outcome outcome = workspace.stride({"check", "test.ssd"});  // takes 10 s
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err,
+             Contains("unit 'faulty': stride has not ended for 10 s in the unloading of '"));
 }
 
 TEST_CASE("a library that forks when it is loaded, and returns in both processes, is of one run") {
@@ -131,4 +148,121 @@ TEST_CASE("a library that calls exit(0) after the run does not change the exit c
   const Outcome outcome = run("0.5");
   CHECK(outcome.exit_code == 1);
   CHECK_THAT(outcome.err, Contains("the fuse has blown"));
+}
+
+// ---- What goes on when a library is unloaded ----
+
+namespace {
+
+/// With the function of the fault unit's in which it is left behind, and at its last instance.
+Outcome run_that_leaves(const Workspace& workspace, const char* fault, const char* call,
+                        Arguments further = {}) {
+  const FaultOrder order(fault, call, "0");
+  further.insert(further.end(), {"--quiet", "--step", "0.125"});
+  return workspace.run(further);
+}
+
+Workspace with_fault_unit(const std::string& version) {
+  return Workspace(Parts{component("filter", "minimal.fmu") +
+                         component("faulty", "fmi" + version + "_faulty.fmu")});
+}
+
+}  // namespace
+
+TEST_CASE("a library whose threads go on is not unloaded, with a warning that names the unit") {
+  const Workspace workspace = with_fault_unit(GENERATE("2", "3"));
+  const char* const fault = GENERATE("leave thread", "leave deaf thread");
+  const char* const call = GENERATE("instantiate", "step", "free");
+  const Arguments hosting = GENERATE(Arguments{}, Arguments{"--isolate"});
+  INFO(fault << " in " << call << (hosting.empty() ? "" : ", hosted"));
+  const Outcome outcome = run_that_leaves(workspace, fault, call, hosting);
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("warning: unit 'faulty': its library stays loaded") &&
+                              Contains("1 thread ('"));
+  CHECK(run_json(workspace)["outcome"] == "completed");
+  CHECK(workspace.left_behind().empty());
+}
+
+TEST_CASE("threads that end by themselves when their unit is freed are no matter") {
+  const Workspace workspace = with_fault_unit("3");
+  const Outcome outcome = run_that_leaves(workspace, "leave short thread", "free");
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err.find("stays loaded") == std::string::npos);
+}
+
+TEST_CASE("a library whose function handles a signal is not unloaded") {
+  const Workspace workspace = with_fault_unit("3");
+  const Outcome outcome = run_that_leaves(workspace, "leave handler", "step");
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err,
+             Contains("unit 'faulty': its library stays loaded") && Contains("handler of SIGPROF"));
+}
+
+TEST_CASE("what a unit registers with on_exit() is called at the end of the process") {
+  const Workspace workspace = with_fault_unit(GENERATE("2", "3"));
+  const Outcome outcome = run_that_leaves(workspace, "on_exit", "step");
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("the function of on_exit() runs"));
+  CHECK(run_json(workspace)["outcome"] == "completed");
+}
+
+// ---- Damaged files ----
+
+namespace {
+
+/// The library of the unit `raw`, changed.
+void change_library(const Workspace& workspace, const std::function<void(std::string&)>& change) {
+  const fs::path folder = make_raw_fmu(workspace.scratch(), "raw");
+  const fs::path library = folder / "binaries" / stride::importer::platform() / "raw.so";
+  std::string bytes = read(library);
+  change(bytes);
+  std::ofstream(library, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+/// The size in the file of the segment with the code becomes 13 MiB, as by one changed byte.
+void enlarge_code(std::string& bytes) {
+  ElfW(Ehdr) header;
+  std::memcpy(&header, bytes.data(), sizeof header);
+  for (int i = 0; i < header.e_phnum; ++i) {
+    char* const place = bytes.data() + header.e_phoff + i * sizeof(ElfW(Phdr));
+    ElfW(Phdr) segment;
+    std::memcpy(&segment, place, sizeof segment);
+    if (segment.p_type != PT_LOAD || (segment.p_flags & PF_X) == 0) continue;
+    segment.p_filesz += 0xd50000;
+    std::memcpy(place, &segment, sizeof segment);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a damaged library is an error that names the component and the unit, for each command") {
+  const Workspace workspace(Parts{component("motor", "raw")});
+  const auto change = GENERATE(std::function<void(std::string&)>(enlarge_code),
+                               [](std::string& bytes) { bytes.resize(bytes.size() / 4); });
+  change_library(workspace, change);
+  const Arguments arguments = GENERATE(Arguments{"run", "test.ssd", "--out", "out"},
+                                       Arguments{"run", "test.ssd", "--out", "out", "--isolate"},
+                                       Arguments{"check", "test.ssd"});
+  const Outcome outcome = workspace.stride(arguments);
+  CHECK(input_error_of(outcome).find(workspace.at("source=\"raw\"") +
+                                     "unit 'motor': the library 'raw/binaries/") !=
+        std::string::npos);
+  CHECK_THAT(outcome.err, Contains("so it is cut off or damaged"));
+}
+
+TEST_CASE("a crash while a library is loaded names the component and the unit") {
+  if (kSanitized) return;
+  const Workspace workspace(Parts{component("meddler", "meddler.fmu")});
+  ::setenv("STRIDE_MEDDLE", "load crash", 1);
+  const Arguments arguments =
+      GENERATE(Arguments{"run", "test.ssd", "--out", "out"}, Arguments{"check", "test.ssd"});
+  const Outcome outcome = workspace.stride(arguments);
+  ::unsetenv("STRIDE_MEDDLE");
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err,
+             Contains(workspace.at("meddler.fmu") +
+                      "unit 'meddler': signal 6 (SIGABRT) ends stride in the loading of '") &&
+                 Contains("/meddler.fmu/binaries/"));
 }

@@ -215,3 +215,18 @@ TEST_CASE("a test report that cannot be written is an error before the run") {
   CHECK_THAT(outcome.err, Contains(file));
   CHECK_FALSE(fs::exists(workspace / "out/run.json"));
 }
+
+TEST_CASE("results may have names as long as the file system allows, and longer ones are refused") {
+  const std::string longest(255, 'x');
+  const auto scenario = [](const std::string& name) {
+    Parts parts = two_filters();
+    parts.annotation = "<stride:Results statistics=\"" + name + "\"/>\n";
+    return parts;
+  };
+  const Workspace workspace(scenario(longest));
+  CHECK(workspace.run({"--quiet", "--junit", std::string(254, 'y')}).exit_code == 0);
+  CHECK_THAT(workspace.result(longest), Contains("\"outcome\": \"completed\""));
+  const Workspace beyond(scenario(longest + "x"));
+  CHECK_THAT(input_error_of(beyond.run({"--quiet"})), Contains("has 256 bytes, and 255 at most"));
+  CHECK_FALSE(fs::exists(beyond / "out/signals.csv"));
+}

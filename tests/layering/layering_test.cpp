@@ -93,9 +93,10 @@ bool begins_with(const std::string& header, const std::string& allowed) {
 
 /// Standard headers have no dot and no slash; the system's are those of POSIX and Linux.
 bool is_system(const std::string& header) {
-  static const std::set<std::string> kPosix = {
-      "dirent.h",  "dlfcn.h", "unistd.h", "fcntl.h",   "fnmatch.h", "locale.h", "poll.h",
-      "pthread.h", "sched.h", "spawn.h",  "stdbool.h", "stddef.h",  "stdint.h"};
+  static const std::set<std::string> kPosix = {"dirent.h",  "dlfcn.h",  "unistd.h",  "fcntl.h",
+                                               "fnmatch.h", "locale.h", "poll.h",    "pthread.h",
+                                               "sched.h",   "spawn.h",  "stdbool.h", "stddef.h",
+                                               "stdint.h",  "elf.h",    "link.h"};
   const bool standard = header.find_first_of("./") == std::string::npos;
   return (standard && header != "systemc") || kPosix.count(header) != 0 ||
          begins_with(header, "sys") || begins_with(header, "linux");

@@ -10,6 +10,7 @@ bool CsvRows::next() {
   fields_.clear();
   while (true) {
     fields_.push_back(text_[at_] == '"' ? take_quoted() : take_field());
+    if (fields_.back().find('\0') != std::string::npos) fail("a field has a NUL character");
     if (text_.compare(at_, 2, "\r\n") == 0) ++at_;
     if (at_end()) fail("the line is cut off");
     if (text_[at_] == '\n') break;

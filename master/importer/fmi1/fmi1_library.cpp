@@ -1,6 +1,7 @@
 #include "master/importer/fmi1/fmi1_library.h"
 
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,8 +16,8 @@ constexpr std::string_view kFmi1Optional[] = {"ResetSlave", "GetRealStatus", "Ge
 }  // namespace
 
 Fmi1Library::Fmi1Library(const std::filesystem::path& path, const std::string& model_identifier,
-                         const core::Location& where)
-    : SharedLibrary(path, where) {
+                         core::Context user, const std::filesystem::path& shown_as)
+    : SharedLibrary(path, std::move(user), shown_as) {
   std::vector<std::string> missing;
 #define STRIDE_FIND(name)                                              \
   find(functions_.name, model_identifier + "_fmi" #name);              \
@@ -27,19 +28,20 @@ Fmi1Library::Fmi1Library(const std::filesystem::path& path, const std::string& m
 #undef STRIDE_FIND
   if (!missing.empty()) {
     core::fail_input(
-        {.where = where},
+        SharedLibrary::user(),
         fmt::format("the library '{}' does not export {}, which an FMI 1.0 Co-Simulation unit must",
-                    path.string(), fmt::join(missing, ", ")),
+                    SharedLibrary::shown_as(), fmt::join(missing, ", ")),
         "export it with C linkage, default visibility and exactly this name");
   }
-  const std::string types =
-      functions_.GetTypesPlatform != nullptr ? functions_.GetTypesPlatform() : FMI1_TYPES_PLATFORM;
+  const std::string types = functions_.GetTypesPlatform != nullptr
+                                ? answer_of("question for the types", functions_.GetTypesPlatform)
+                                : FMI1_TYPES_PLATFORM;
   if (types == FMI1_TYPES_PLATFORM) return;
   core::fail_input(
-      {.where = where},
+      SharedLibrary::user(),
       fmt::format("the library '{}' was compiled for the platform types '{}'; expected "
                   "'" FMI1_TYPES_PLATFORM "'",
-                  path.string(), types),
+                  SharedLibrary::shown_as(), types),
       "compile it with the fmiPlatformTypes.h of the standard");
 }
 

@@ -25,7 +25,7 @@ class Fmi1Library : public SharedLibrary {
   /// unit must have, and where it was compiled for other platform types than those of
   /// <stride/fmi1.h>.
   Fmi1Library(const std::filesystem::path& path, const std::string& model_identifier,
-              const core::Location& where = {});
+              core::Context user = {}, const std::filesystem::path& shown_as = {});
 
   const Fmi1Functions& functions() const { return functions_; }
 

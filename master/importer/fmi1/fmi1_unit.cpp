@@ -123,9 +123,7 @@ void Fmi1Unit::get(References references, core::ValueBlock& values) {
     case core::ValueType::String: {
       texts_.assign(count, nullptr);
       call("fmiGetString", fmi_.GetString, own(references), count, texts_.data());
-      const auto texts = values.strings();
-      for (std::size_t i = 0; i < count; ++i) texts[i] = texts_[i] != nullptr ? texts_[i] : "";
-      return;
+      return copy_texts("fmiGetString", references, texts_, values.strings());
     }
     default:
       fail(fmt::format("FMI 1.0 has no type {}", core::name(values.type())));

@@ -1,6 +1,7 @@
 #include "master/importer/fmi2/fmi2_library.h"
 
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -47,8 +48,8 @@ bool is_unreserved(char c) {
 }  // namespace
 
 Fmi2Library::Fmi2Library(const fs::path& path, const std::string& model_identifier,
-                         const core::Location& where)
-    : SharedLibrary(path, where) {
+                         core::Context user, const fs::path& shown_as)
+    : SharedLibrary(path, std::move(user), shown_as) {
   std::vector<std::string> missing;
 #define STRIDE_FIND(name)                                           \
   find(functions_.name, "fmi2" #name);                              \
@@ -60,22 +61,23 @@ Fmi2Library::Fmi2Library(const fs::path& path, const std::string& model_identifi
   if (!missing.empty()) {
     const bool has_prefix = has(model_identifier + "_fmi2DoStep");
     core::fail_input(
-        {.where = where},
+        SharedLibrary::user(),
         fmt::format("the library '{}' does not export {}, which an FMI 2.0 Co-Simulation unit must",
-                    path.string(), fmt::join(missing, ", ")),
+                    SharedLibrary::shown_as(), fmt::join(missing, ", ")),
         has_prefix ? fmt::format("its functions have the prefix '{}_' of a static library; compile "
                                  "it with FMI2_OVERRIDE_FUNCTION_PREFIX defined",
                                  model_identifier)
                    : "export it with C linkage, default visibility and exactly this name");
   }
-  const std::string types =
-      functions_.GetTypesPlatform != nullptr ? functions_.GetTypesPlatform() : FMI2_TYPES_PLATFORM;
+  const std::string types = functions_.GetTypesPlatform != nullptr
+                                ? answer_of("question for the types", functions_.GetTypesPlatform)
+                                : FMI2_TYPES_PLATFORM;
   if (types == FMI2_TYPES_PLATFORM) return;
   core::fail_input(
-      {.where = where},
+      SharedLibrary::user(),
       fmt::format("the library '{}' was compiled for the platform types '{}'; expected "
                   "'" FMI2_TYPES_PLATFORM "'",
-                  path.string(), types),
+                  SharedLibrary::shown_as(), types),
       "compile it with the fmi2TypesPlatform.h of the standard");
 }
 

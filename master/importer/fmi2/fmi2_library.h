@@ -24,7 +24,7 @@ class Fmi2Library : public SharedLibrary {
   /// Throws as SharedLibrary does, where a function is missing that any Co-Simulation unit must
   /// have, and where it was compiled for other platform types than those of <stride/fmi2.h>.
   Fmi2Library(const std::filesystem::path& path, const std::string& model_identifier,
-              const core::Location& where = {});
+              core::Context user = {}, const std::filesystem::path& shown_as = {});
 
   const Fmi2Functions& functions() const { return functions_; }
 

@@ -242,9 +242,7 @@ void Fmi2Unit::set_booleans(References references, std::span<const bool> values)
 void Fmi2Unit::get_strings(References references, std::span<std::string> values) {
   texts_.assign(values.size(), nullptr);
   call("fmi2GetString", fmi_.GetString, own(references), references.size(), texts_.data());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i].assign(texts_[i] != nullptr ? texts_[i] : "");
-  }
+  copy_texts("fmi2GetString", references, texts_, values);
 }
 
 void Fmi2Unit::set_strings(References references, std::span<const std::string> values) {

@@ -1,6 +1,8 @@
 #include "master/importer/fmi3/fmi3_library.h"
 
+#include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -48,8 +50,8 @@ static_assert(kFmi3NeededFound == std::size(kFmi3Needed),
 
 }  // namespace
 
-Fmi3Library::Fmi3Library(const fs::path& path, const core::Location& where)
-    : SharedLibrary(path, where) {
+Fmi3Library::Fmi3Library(const fs::path& path, core::Context user, const fs::path& shown_as)
+    : SharedLibrary(path, std::move(user), shown_as) {
   std::vector<std::string> missing;
 #define STRIDE_FIND(name)                                           \
   find(functions_.name, "fmi3" #name);                              \
@@ -67,18 +69,17 @@ Fmi3Library::Fmi3Library(const fs::path& path, const core::Location& where)
   find(self_description_, "strideModelDescription");
   find(idle_manifest_, "strideIdleManifest");
   if (missing.empty()) return;
-  core::fail_input({.where = where},
+  core::fail_input(SharedLibrary::user(),
                    fmt::format("the library '{}' does not export {}, which an FMI 3.0 "
                                "Co-Simulation unit must",
-                               path.string(), fmt::join(missing, ", ")),
+                               SharedLibrary::shown_as(), fmt::join(missing, ", ")),
                    "export it with C linkage, default visibility and exactly this name");
 }
 
 std::string Fmi3Library::describe(const fs::path& resources, const core::Location& where) const {
   if (!describes_itself()) {
     core::fail_input(
-        {.where = where},
-        fmt::format("the library '{}' contains no model description", path().string()),
+        {.where = where}, fmt::format("the library '{}' contains no model description", shown_as()),
         "only libraries made with stride's unit kit contain one; give an FMU that has a "
         "modelDescription.xml instead");
   }
@@ -92,19 +93,25 @@ std::string Fmi3Library::idle_manifest(const fs::path& resources,
 
 std::string Fmi3Library::text_from(strideModelDescriptionTYPE* function, const fs::path& resources,
                                    const core::Location& where) const {
+  struct Answer {
+    std::optional<std::string> text;
+    std::string error;
+  };
   const std::string folder = resource_path(resources);
-  const char* error = nullptr;
   const core::ProcessState before;
-  const char* const text = [&] {
-    const Work work("self-description", path());
-    return function(folder.empty() ? nullptr : folder.c_str(), &error);
+  const Answer answer = [&] {
+    const Work work("self-description", *this);  // with the reading of its texts
+    const char* error = nullptr;
+    const char* const text = function(folder.empty() ? nullptr : folder.c_str(), &error);
+    return Answer{text != nullptr ? std::optional<std::string>(text) : std::nullopt,
+                  error != nullptr ? error : "it gives no reason"};
   }();
   before.restore();
-  if (text != nullptr) return text;
+  if (answer.text) return *answer.text;
   core::fail_input({.where = where},
                    fmt::format("the unit in '{}' cannot describe itself: {}",
                                path().filename().string(),  // it may be unpacked somewhere
-                               error != nullptr ? error : "it gives no reason"));
+                               answer.error));
 }
 
 void Fmi3Library::require_idle_functions(const core::Location& where) const {
@@ -117,7 +124,7 @@ void Fmi3Library::require_idle_functions(const core::Location& where) const {
   core::fail_input(
       {.where = where},
       fmt::format("the library '{}' does not export {}, which a unit with a manifest of {} must",
-                  path().string(), fmt::join(missing, ", "), STRIDE_IDLE_NAME),
+                  shown_as(), fmt::join(missing, ", "), STRIDE_IDLE_NAME),
       "export it with C linkage and default visibility (<stride/idle.h>), or leave the manifest "
       "'" STRIDE_IDLE_MANIFEST "' out of the FMU");
 }

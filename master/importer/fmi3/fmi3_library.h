@@ -41,7 +41,8 @@ class Fmi3Library : public SharedLibrary {
  public:
   /// Throws as SharedLibrary does, and where an FMI function is missing. Functions of the other
   /// interface types and optional capabilities may be.
-  explicit Fmi3Library(const std::filesystem::path& path, const core::Location& where = {});
+  explicit Fmi3Library(const std::filesystem::path& path, core::Context user = {},
+                       const std::filesystem::path& shown_as = {});
 
   const Fmi3Functions& functions() const { return functions_; }
   const IdleFunctions& idle_functions() const { return idle_functions_; }

@@ -195,9 +195,7 @@ void Fmi3Unit::get_strings(References references, std::span<std::string> values)
   texts_.assign(values.size(), nullptr);
   call("fmi3GetString", fmi_.GetString, references.data(), references.size(), texts_.data(),
        texts_.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i].assign(texts_[i] != nullptr ? texts_[i] : "");
-  }
+  copy_texts("fmi3GetString", references, texts_, values);
 }
 
 void Fmi3Unit::set_strings(References references, std::span<const std::string> values) {
@@ -213,12 +211,7 @@ void Fmi3Unit::get_binaries(References references, std::span<core::Binary> value
   sizes_.assign(values.size(), 0);
   call("fmi3GetBinary", fmi_.GetBinary, references.data(), references.size(), sizes_.data(),
        bytes_.data(), bytes_.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (sizes_[i] != 0 && bytes_[i] == nullptr) {
-      fail(fmt::format("fmi3GetBinary gave {} bytes at the address NULL", sizes_[i]));
-    }
-    values[i].assign(bytes_[i], bytes_[i] + sizes_[i]);
-  }
+  copy_binaries("fmi3GetBinary", references, bytes_, sizes_, values);
 }
 
 void Fmi3Unit::set_binaries(References references, std::span<const core::Binary> values) {

@@ -1,6 +1,8 @@
 #include "master/util/process/process_state.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -15,13 +17,6 @@ mode_t present_mask() {
   const mode_t mask = ::umask(kPrivate);
   ::umask(mask);
   return mask;
-}
-
-bool is_working_folder(const Descriptor& folder) {
-  struct stat there {
-  }, here{};
-  return ::fstat(folder.number(), &there) == 0 && ::stat(".", &here) == 0 &&
-         there.st_dev == here.st_dev && there.st_ino == here.st_ino;
 }
 
 constexpr const char* kNotPutBack = ", which cannot be put back";
@@ -45,7 +40,11 @@ std::vector<std::string> ProcessState::restore() const {
 }
 
 ProcessState::Rest::Rest()
-    : folder(::open(".", O_PATH | O_DIRECTORY | O_CLOEXEC)), mask(present_mask()) {
+    : folder(::open(".", O_PATH | O_DIRECTORY | O_CLOEXEC)),
+      folder_identity(FileIdentity::of(folder.number())),
+      mask(present_mask()) {
+  std::error_code error;  // then its path is of no use either
+  folder_path = std::filesystem::current_path(error).string();
   for (std::size_t i = 0; i < kLimits.size(); ++i) ::getrlimit(kLimits[i], &limits[i]);
 }
 
@@ -60,9 +59,14 @@ void ProcessState::Rest::restore(std::vector<std::string>& changes) const {
   restore_limits(changes);
 }
 
+/// By its path where a unit has closed the open folder or put another one in its place.
 void ProcessState::Rest::restore_folder(std::vector<std::string>& changes) const {
-  if (!folder.is_open() || is_working_folder(folder)) return;
-  const bool is_back = ::fchdir(folder.number()) == 0;
+  const auto is_there = [&] { return FileIdentity::of(".") == folder_identity; };
+  if (!folder_identity || is_there()) return;
+  bool is_back = FileIdentity::of(folder.number()) == folder_identity;
+  is_back = (is_back && ::fchdir(folder.number()) == 0) ||
+            (!folder_path.empty() && ::chdir(folder_path.c_str()) == 0);
+  is_back = is_back && is_there();
   changes.push_back(std::string("the working folder") + (is_back ? "" : kNotPutBack));
 }
 

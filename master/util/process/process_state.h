@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 
 #include "master/util/descriptor.h"
+#include "master/util/file_identity.h"
 #include "master/util/process/environment.h"
 #include "master/util/process/floating_point_mode.h"
 #include "master/util/process/locale_state.h"
@@ -50,6 +51,8 @@ class ProcessState {
     static constexpr std::array kLimits{RLIMIT_CPU,   RLIMIT_FSIZE,  RLIMIT_DATA, RLIMIT_STACK,
                                         RLIMIT_NPROC, RLIMIT_NOFILE, RLIMIT_AS};
     Descriptor folder;
+    std::optional<FileIdentity> folder_identity;
+    std::string folder_path;
     std::array<rlimit, kLimits.size()> limits{};
     mode_t mask;
     Environment environment;

@@ -52,30 +52,50 @@ DecodedText decode_text(std::string bytes, const std::string& file) {
   return decoded;
 }
 
+core::Context place_of(std::size_t position, const std::string& text, const std::string& file) {
+  const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(position), '\n');
+  return {.where = {file, static_cast<int>(line)}};
+}
+
 /// The time of tinyxml2 is quadratic in their number.
 void check_attributes(const std::string& text, const std::string& file) {
   constexpr std::size_t kMostAttributes = 1000;
   for (TagScanner tags(text); tags.next();) {
     if (tags.quoted() <= kMostAttributes) continue;
-    const auto line =
-        1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(tags.begin()), '\n');
-    core::fail_input({.where = {file, static_cast<int>(line)}},
+    core::fail_input(place_of(tags.begin(), text, file),
                      fmt::format("an element with {} attributes; {} at most are read",
                                  tags.quoted(), kMostAttributes));
   }
 }
 
-/// tinyxml2 takes those of no character as text, and NUL for the end of it.
+/// tinyxml2 takes those of no character as text, as it does entities, and NUL for the end of it.
 void check_references(const std::string& text, const std::string& file) {
   const auto bad = find_bad_reference(text);
   if (!bad) return;
-  const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(*bad), '\n');
   constexpr std::size_t kMost = 12;
   const std::string reference = text.substr(*bad, text.find(';', *bad) + 1 - *bad);
-  core::fail_input({.where = {file, static_cast<int>(line)}},
-                   fmt::format("this is not well-formed XML: '{}' is no character of XML",
-                               reference.size() <= kMost ? reference : reference.substr(0, kMost)),
-                   "write the character itself, or a reference to another one");
+  const std::string shown = reference.size() <= kMost ? reference : reference.substr(0, kMost);
+  const core::Context place = place_of(*bad, text, file);
+  if (reference.starts_with("&#")) {
+    core::fail_input(place,
+                     fmt::format("this is not well-formed XML: '{}' is no character of XML", shown),
+                     "write the character itself, or a reference to another one");
+  }
+  core::fail_input(place,
+                   fmt::format("'{}' is an entity that only a document type definition (DTD) could "
+                               "define, and these are not read",
+                               shown),
+                   "write what it stands for; '&' itself is '&amp;'");
+}
+
+void check_characters(const std::string& text, const std::string& file) {
+  const auto bad = find_bad_character(text);
+  if (!bad) return;
+  core::fail_input(place_of(*bad, text, file),
+                   fmt::format("this is not well-formed XML: the control character \\x{:02x} is no "
+                               "character of XML",
+                               static_cast<unsigned char>(text[*bad])),
+                   "leave it out");
 }
 
 /// tinyxml2 takes </a/> for an element, so it finds more of them than there are.
@@ -143,6 +163,7 @@ Document Document::parse(std::string bytes, const std::string& shown_as,
   content->text = std::move(decoded.text);
   const std::string& text = content->text;
   check_attributes(text, shown_as);
+  check_characters(text, shown_as);
   check_references(text, shown_as);
   tinyxml2::XMLDocument& document = content->document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {

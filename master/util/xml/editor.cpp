@@ -84,11 +84,10 @@ Editor::Editor(const std::string& text)
 }
 
 std::string Editor::indentation(std::size_t element) const {
-  const std::size_t begin = places_[element].begin;
-  const std::size_t line = text_.find_last_of('\n', begin);
-  const std::size_t first = line == std::string::npos ? 0 : line + 1;
-  const std::string before = text_.substr(first, begin - first);
-  return before.find_first_not_of(" \t") == std::string::npos ? before : "";
+  const std::string_view before = std::string_view(text_).substr(0, places_[element].begin);
+  const std::size_t first = before.find_last_not_of(" \t") + 1;  // 0 if there is nothing else
+  const bool begins_line = first == 0 || before[first - 1] == '\n';
+  return begins_line ? std::string(before.substr(first)) : "";
 }
 
 std::string Editor::lines(const std::vector<std::string>& pieces,
@@ -139,7 +138,9 @@ void Editor::append_children(std::size_t element, const std::vector<std::string>
   const std::string outer = indentation(element);
   const std::size_t at = text_.find_last_not_of(kBlanks, place.end_tag - 1) + 1;
   std::string inserted = lines(pieces, outer + step_);
-  if (text_.find('\n', at) >= place.end_tag) inserted += line_end_ + outer;
+  if (std::string_view(text_).substr(at, place.end_tag - at).find('\n') == std::string_view::npos) {
+    inserted += line_end_ + outer;
+  }
   edits_.push_back({at, 0, inserted});
 }
 
@@ -179,7 +180,7 @@ std::string Editor::result() const {
   std::string result;
   std::size_t at = 0;
   for (const Edit& edit : edits) {
-    result += text_.substr(at, edit.at - at) + edit.inserted;
+    result.append(text_, at, edit.at - at).append(edit.inserted);
     at = edit.at + edit.erased;
   }
   return result + text_.substr(at);

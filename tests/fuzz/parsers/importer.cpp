@@ -1,6 +1,13 @@
 // What an FMU consists of.
+#include <array>
+#include <cstring>
+
+#include <elf.h>
+#include <link.h>
+
 #include "master/importer/fmu.h"
 #include "master/importer/idle_manifest.h"
+#include "master/importer/library_file.h"
 #include "master/importer/model_description.h"
 #include "master/util/archive/zip.h"
 #include "tests/fuzz/core_errors.h"
@@ -48,6 +55,37 @@ void read_fmu(const std::string& bytes) {
   ensure(is_tidy(), "archives leave nothing behind");
 }
 
+/// A library without content: code, data, and a dynamic section in them.
+std::string library_bytes() {
+  constexpr std::uint64_t kPage = 0x1000;
+  ElfW(Ehdr) header{};
+  std::memcpy(header.e_ident, ELFMAG, SELFMAG);
+  header.e_ident[EI_CLASS] = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
+  header.e_type = ET_DYN;
+  header.e_phoff = sizeof header;
+  header.e_phentsize = sizeof(ElfW(Phdr));
+  std::array<ElfW(Phdr), 4> segments{};
+  header.e_phnum = segments.size();
+  const auto set = [&](std::size_t i, std::uint32_t type, std::uint64_t place, std::uint64_t size) {
+    segments[i].p_type = type;
+    segments[i].p_offset = segments[i].p_vaddr = place;
+    segments[i].p_filesz = segments[i].p_memsz = size;
+  };
+  set(0, PT_LOAD, 0, kPage / 2);
+  set(1, PT_LOAD, kPage, kPage / 2);
+  set(2, PT_DYNAMIC, kPage, 0x100);
+  set(3, PT_GNU_RELRO, kPage, 0x200);
+  std::string bytes(2 * kPage, '\0');
+  std::memcpy(bytes.data(), &header, sizeof header);
+  std::memcpy(bytes.data() + sizeof header, segments.data(), sizeof segments);
+  return bytes;
+}
+
+void read_library_headers(const std::string& bytes) {
+  const std::string damage = importer::find_damage(write_file("x.so", bytes));
+  if (!damage.empty()) throw Refusal(damage);
+}
+
 const Registration kImporterParsers(
     "importer", {
                     {.name = "model_description",
@@ -57,6 +95,10 @@ const Registration kImporterParsers(
                     {.name = "idle_manifest",
                      .read = read_idle_manifest,
                      .seed_files = {"tests/fuzz/seeds/idle_manifest"}},
+                    {.name = "library_headers",
+                     .read = read_library_headers,
+                     .make_seed = library_bytes,
+                     .alphabet = std::string("\0\x01\x02\x06\x10\x38\x7f\xff", 8)},
                     {.name = "fmu_archive",
                      .read = read_fmu,
                      .make_seed = fmu_bytes,

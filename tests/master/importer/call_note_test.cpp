@@ -25,6 +25,19 @@ TEST_CASE("a note holds a function and its time until the call is over") {
   CHECK(note.time() == Time(3ms));
 }
 
+TEST_CASE("a note holds the variable whose value is read, until the next call") {
+  CallNote note;
+  CHECK_FALSE(note.variable());
+  note.write("fmi3GetString");
+  note.write_variable(7);
+  CHECK(note.variable() == 7U);
+  note.write("fmi3GetString");
+  CHECK_FALSE(note.variable());
+  note.write_variable(8);
+  note.clear();
+  CHECK_FALSE(note.variable());
+}
+
 TEST_CASE("a note outlives the process that wrote it, and is cut off where it is too long") {
   const isolation::Shared<CallNote> note;
   isolation::run_in_child([&] {

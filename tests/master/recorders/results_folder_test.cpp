@@ -57,3 +57,27 @@ TEST_CASE("The files of an earlier run go, and nothing else") {
   remove_results(folder / "", files);
   CHECK(std::filesystem::is_symlink(folder / "run.json"));
 }
+
+TEST_CASE("A link that leads nowhere is no results folder") {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("nowhere", folder / "link");
+  CHECK_THROWS_WITH(
+      make_results_folder(folder / "link"),
+      Contains("it is a link to 'nowhere', which does not exist") && Contains("make that folder"));
+  std::filesystem::create_symlink("loop", folder / "loop");
+  for (const char* name : {"loop", "loop/further"}) {
+    CHECK_THROWS_WITH(make_results_folder(folder / name),
+                      Contains("symbolic link") && Contains("leads back to itself"));
+  }
+}
+
+TEST_CASE("The names of results are not longer than the folder allows") {
+  const TemporaryFolder folder;
+  ResultFiles files;
+  files.statistics = std::string(255, 'x');
+  CHECK_NOTHROW(check_name_lengths(folder / "", files));
+  files.statistics += 'x';
+  CHECK_THROWS_WITH(
+      check_name_lengths(folder / "", files),
+      Contains("has 256 bytes, and 255 at most") && Contains("<stride:Results statistics="));
+}

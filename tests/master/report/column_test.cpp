@@ -97,6 +97,7 @@ TEST_CASE("what is not of the type is refused, and the text says what was expect
   CHECK_THAT(refusal(ValueType::UInt64, "18446744073709551616"), Contains("expected an integer"));
   CHECK_THAT(refusal(ValueType::Boolean, "1"), Contains("expected true or false"));
   CHECK_THAT(refusal(ValueType::Int32, std::string(100, 'x')), Contains("xxx…'"));
+  CHECK_THAT(refusal(ValueType::Int32, std::string("1\0x", 3)), Contains("found '1\\x00x'"));
 }
 
 TEST_CASE("without run.json the type follows from the fields") {

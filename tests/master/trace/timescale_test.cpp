@@ -25,6 +25,8 @@ TEST_CASE("Anything else is not a time scale") {
     INFO(text);
     CHECK_THROWS_AS(Timescale::parse(text), std::invalid_argument);
   }
+  CHECK_THROWS_WITH(Timescale::parse(std::string("1\0s", 3)),
+                    Catch::Contains("'1\\x00s' is not a time scale"));
 }
 
 TEST_CASE("Ticks are exact decimals of seconds") {

@@ -58,4 +58,5 @@ TEST_CASE("a second call changes nothing") {
 TEST_CASE("a name is in one line") {
   CHECK(name_text("plain ä") == "plain ä");
   CHECK(name_text("a\nb") == "a\\x0ab");
+  CHECK(name_text(std::string("a\0b", 3)) == "a\\x00b");
 }

@@ -166,3 +166,78 @@ TEST_CASE("A pipe without a reader is not waited for; one with a reader is writt
   CHECK(std::string(bytes) == "text");
   ::close(reader);
 }
+
+namespace {
+
+/// The number that the next file gets which is opened.
+int next_descriptor() {
+  const int number = ::open("/dev/null", O_RDONLY);
+  ::close(number);
+  return number;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "A file that other code has closed or replaced is written to its end, which is an error") {
+  const bool is_closed = GENERATE(true, false);
+  const TemporaryFolder folder;
+  const int number = next_descriptor();
+  OutputFile file(folder / "x");
+  file.write("a line that is on the disk\n");
+  file.flush();
+  file.write("a line that is not\n");
+  const int other = is_closed ? -1 : ::open("/dev/null", O_WRONLY);
+  is_closed ? ::close(number) : ::dup2(other, number);
+  CHECK_THROWS_WITH(file.close(), Contains("/x: other code in this process") &&
+                                      Contains("the lines up to here are complete") &&
+                                      Contains("--isolate"));
+  CHECK(content(folder / "x") == "a line that is on the disk\na line that is not\n");
+  if (!is_closed) ::close(other);
+  ::close(number);
+}
+
+TEST_CASE("A file that has been closed and renamed is lost") {
+  const TemporaryFolder folder;
+  const int number = next_descriptor();
+  OutputFile file(folder / "x");
+  file.write("a line\n");
+  std::filesystem::rename(folder / "x", folder / "y");
+  folder.write("x", "another file");
+  ::close(number);
+  CHECK_THROWS_WITH(file.close(), Contains("cannot be opened again, so lines are lost"));
+  CHECK(content(folder / "x") == "another file");
+  CHECK(content(folder / "y") == "");
+}
+
+TEST_CASE("A file that is rescued is opened again, too") {
+  const TemporaryFolder folder;
+  const int number = next_descriptor();
+  OutputFile file(folder / "x");
+  file.write("a line\nand half a");
+  ::close(number);
+  OutputFile::rescue_all();
+  CHECK(content(folder / "x") == "a line\n");
+}
+
+TEST_CASE("Where the open file has been moved elsewhere, lines are behind each other") {
+  const TemporaryFolder folder;
+  const int number = next_descriptor();
+  OutputFile file(folder / "x");
+  file.write("first\n");
+  file.flush();
+  ::lseek(number, 0, SEEK_SET);
+  file.write("second\n");
+  file.close();
+  CHECK(content(folder / "x") == "first\nsecond\n");
+}
+
+TEST_CASE("A file that is cut off while it is written is an error") {
+  const TemporaryFolder folder;
+  OutputFile file(folder / "x");
+  file.write("first\n");
+  file.flush();
+  std::filesystem::resize_file(folder / "x", 2);
+  file.write("second\n");
+  CHECK_THROWS_WITH(file.close(), Contains("cut the file off") && Contains("2 bytes of 6"));
+}

@@ -130,3 +130,25 @@ TEST_CASE("What cannot be written is named, and nothing is left") {
                                   Contains("a folder in which you may write"));
   CHECK(files_in(folder / "") == 0);
 }
+
+TEST_CASE("A name may be as long as the file system allows") {
+  const TemporaryFolder folder;
+  for (const std::size_t size : {255U, 252U}) {
+    const std::string name(size, 'x');
+    replace(folder / name, "text");
+    CHECK(content(folder / name) == "text");
+  }
+  std::string umlauts;
+  for (int i = 0; i < 127; ++i) umlauts += "ü";
+  replace(folder / umlauts, "text");
+  CHECK(content(folder / umlauts) == "text");
+  CHECK(files_in(folder / "") == 3);
+}
+
+TEST_CASE("Links that lead to each other are refused, with what to do") {
+  const TemporaryFolder folder;
+  fs::create_symlink("loop", folder / "loop");
+  CHECK_THROWS_WITH(replace(folder / "loop", "text"),
+                    Contains("symbolic link") && Contains("leads back to itself"));
+  CHECK(fs::is_symlink(folder / "loop"));
+}

@@ -73,6 +73,11 @@ TEST_CASE("What is not a time is refused, and the text says what was expected") 
                                              Catch::Contains("a number of seconds such as 0.001"));
 }
 
+TEST_CASE("what is no time is quoted whole, also where it has a NUL") {
+  CHECK_THROWS_WITH(parse_seconds(std::string_view("1\0x", 3)),
+                    Catch::Contains("'1\\x00x' is not a number"));
+}
+
 TEST_CASE("the time of a computation is printed to the millisecond") {
   CHECK(stride::core::wall_seconds(std::chrono::nanoseconds(1'234'567'890)) == "1.235");
   CHECK(stride::core::wall_seconds({}) == "0.000");

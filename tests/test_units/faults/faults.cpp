@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cfenv>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -75,6 +76,46 @@ void doze() {
 void print() {
   for (int i = 0; i < 16384; ++i) std::printf("line %5d: %s\n", i, std::string(50, '.').c_str());
   std::fflush(stdout);
+}
+
+/// It goes on in the unit's code, also when that has been unloaded.
+void leave_thread() {
+  std::thread([] {
+    for (;;) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }).detach();
+}
+
+/// Where no handler of a signal hears of it.
+void leave_deaf_thread() {
+  std::thread([] {
+    sigset_t all;
+    ::sigfillset(&all);
+    ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
+    for (;;) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }).detach();
+}
+
+/// It ends soon, by itself.
+void leave_short_thread() {
+  std::thread([] { std::this_thread::sleep_for(std::chrono::milliseconds(5)); }).detach();
+}
+
+void say_end(int, void*) { std::fputs("the function of on_exit() runs\n", stderr); }
+
+/// Another file takes the number of each one but the standard ones.
+void replace_all_files() {
+  const int nothing = ::open("/dev/null", O_RDWR);
+  for (int file = 3; file < 256; ++file) {
+    if (file != nothing) ::dup2(nothing, file);
+  }
+}
+
+void move_in_all_files() {
+  for (int file = 3; file < 256; ++file) ::lseek(file, 0, SEEK_SET);
+}
+
+void cut_all_files() {
+  for (int file = 3; file < 256; ++file) static_cast<void>(!::ftruncate(file, 0));
 }
 
 void close_all_files() {
@@ -226,6 +267,14 @@ constexpr Fault kFaults[] = {
        for (;;) print();
      }},
     {"close files", close_all_files},
+    {"replace files", replace_all_files},
+    {"move in files", move_in_all_files},
+    {"cut files", cut_all_files},
+    {"leave thread", leave_thread},
+    {"leave deaf thread", leave_deaf_thread},
+    {"leave short thread", leave_short_thread},
+    {"leave handler", [] { std::signal(SIGPROF, [](int) {}); }},
+    {"on_exit", [] { ::on_exit(say_end, nullptr); }},
     {"daemon", start_daemon},
     {"die while another prints", die_while_another_prints},
     {"doze", doze},
@@ -307,3 +356,12 @@ extern "C" int stride_test_fault(const char* call, double time) {
   if (std::sscanf(fault.c_str(), "status %d", &status) != 1) stride::tests::commit_fault(fault);
   return status;
 }
+
+namespace {
+
+/// When the library goes.
+struct Unloading {
+  ~Unloading() { stride_test_fault("unload", HUGE_VAL); }
+} unloading;
+
+}  // namespace

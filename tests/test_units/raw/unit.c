@@ -9,12 +9,18 @@
  *   thirds   its next event is at 1/3 s     needs    it wants Event Mode after each step
  *   pending  it returns 5, a status of FMI 2.0
  *   unheard  it returns 77, which is no status
+ *   babbles  it logs 300 warnings              mumbles  it logs a message with the status 77
+ *   mute     from the third step on each String is NULL
+ *   astray   likewise at an address where nothing is
+ *   huge     likewise each Binary has more bytes than there are addresses
+ *   large    likewise 1 TiB
  *   insists  it rejects what is not the next step of raw_step picoseconds by its own count
  *
  * With WITH_FAULTS it commits a fault of faults/faults.h, in any call, and has a state, without
  * content.
  */
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #include <stride/fmi3.h>
@@ -167,6 +173,12 @@ fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 point, fmi3Float64 size,
     instance->log(instance, fmi3Warning, "logStatusWarning", "it gets hot");
     return fmi3Warning;
   }
+  for (int k = 0; is(instance, "babbles") && k < 300; ++k) {
+    instance->log(instance->environment, fmi3Warning, "logStatusWarning", "it is warm");
+  }
+  if (is(instance, "mumbles")) {
+    instance->log(instance->environment, (fmi3Status)77, "logStatusWarning", "something is up");
+  }
   if (is(instance, "fatal")) {
     instance->log(instance->environment, fmi3Fatal, "logStatusFatal", "the heap is gone");
     return fmi3Fatal;
@@ -214,11 +226,19 @@ ACCESS(Int64)
 ACCESS(UInt64)
 ACCESS(Boolean)
 
+static bool is_now(const Instance* instance, const char* name) {
+  return instance->steps >= 3 && is(instance, name);
+}
+
 /* The one String is the path of the resources. */
 fmi3Status fmi3GetString(fmi3Instance i, const fmi3ValueReference r[], size_t n,
                          fmi3String values[], size_t size) {
   (void)r, (void)n;
-  for (size_t k = 0; k < size; ++k) values[k] = ((Instance*)i)->resources;
+  for (size_t k = 0; k < size; ++k) {
+    values[k] = ((Instance*)i)->resources;
+    if (is_now(i, "mute")) values[k] = NULL;
+    if (is_now(i, "astray")) values[k] = (fmi3String)8;
+  }
   return fmi3OK;
 }
 fmi3Status fmi3SetString(fmi3Instance i, const fmi3ValueReference r[], size_t n,
@@ -228,8 +248,13 @@ fmi3Status fmi3SetString(fmi3Instance i, const fmi3ValueReference r[], size_t n,
 }
 fmi3Status fmi3GetBinary(fmi3Instance i, const fmi3ValueReference r[], size_t n, size_t sizes[],
                          fmi3Binary values[], size_t size) {
-  (void)i, (void)r, (void)n;
-  for (size_t k = 0; k < size; ++k) sizes[k] = 3, values[k] = NULL;
+  (void)r, (void)n;
+  for (size_t k = 0; k < size; ++k) {
+    sizes[k] = 3, values[k] = NULL;
+    if (is(i, "huge") || is(i, "large")) sizes[k] = 0, values[k] = (fmi3Binary) "";
+    if (is_now(i, "huge")) sizes[k] = SIZE_MAX;
+    if (is_now(i, "large")) sizes[k] = (size_t)1 << 40;
+  }
   return fmi3OK;
 }
 fmi3Status fmi3SetBinary(fmi3Instance i, const fmi3ValueReference r[], size_t n,

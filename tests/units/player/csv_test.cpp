@@ -59,6 +59,7 @@ TEST_CASE("lines are counted, also within quotation marks") {
 
 TEST_CASE("a row without its end, and misplaced quotation marks, are reported with their line") {
   CHECK(csv_mistake_in("a,b\nc") == "x.csv:2: the line is cut off");
+  CHECK(csv_mistake_in(std::string("a\n0\0,b\n", 7)) == "x.csv:2: a field has a NUL character");
   CHECK(csv_mistake_in("a,b\nc,") == "x.csv:2: the line is cut off");
   CHECK(csv_mistake_in("a\n\"b\nc") == "x.csv:2: the line is cut off within a quoted text");
   CHECK_THAT(csv_mistake_in("\"a\"b\n"), Catch::Contains("x.csv:1: behind a quoted text"));

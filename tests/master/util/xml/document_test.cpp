@@ -36,6 +36,8 @@ TEST_CASE("What is not well-formed is refused with its line") {
   CHECK_THAT(error_in("<a>\n<!-- ends never"), Contains("x.ssd:2") && Contains("a comment"));
   CHECK_THAT(error_in("<a>\n<b x='&#0;'/></a>"),
              Contains("x.ssd:2: this is not well-formed XML: '&#0;' is no character of XML"));
+  CHECK_THAT(error_in("<a>\n\n<b x='\x01'/></a>"),
+             Contains("x.ssd:3: this is not well-formed XML: the control character \\x01 is no"));
   CHECK_THAT(error_in("stride"), Contains("text where a tag is expected") || Contains("no XML"));
   CHECK_THAT(error_in(""), Contains("the file holds nothing"));
   CHECK_THAT(error_in("<!-- nothing -->"), Contains("the file holds no XML element"));
@@ -94,4 +96,11 @@ TEST_CASE("known prefixes may be used without a declaration, with a warning") {
              Contains("x.ssv:1: the prefix 'a' of <a:x> is not declared") && Contains("urn:a"));
   const auto plain = xml::Document::parse("<a:x/>", "x.ssv");
   CHECK_THAT(error_of([&] { plain.root().name(); }), Contains("the prefix 'a'"));
+}
+
+TEST_CASE("An entity that the document defines itself is refused, not taken as text") {
+  const std::string text = "<!DOCTYPE a [<!ENTITY n 'motor'>]>\n<a>\n<b x='&n;'/></a>";
+  CHECK_THAT(error_in(text), Contains("x.ssd:3: '&n;' is an entity that only a document type") &&
+                                 Contains("write what it stands for"));
+  CHECK_THAT(error_in("<a x='&nope;'/>"), Contains("x.ssd:1: '&nope;' is an entity"));
 }

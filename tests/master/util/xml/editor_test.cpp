@@ -73,3 +73,17 @@ TEST_CASE("A value with control characters and markup is read as it was written"
   CHECK(document.root().attribute("x") == value);
   CHECK(document.root().attribute("y") == value);
 }
+
+TEST_CASE("A text of one long line is edited in a time that grows as its length") {
+  constexpr std::size_t kElements = 200'000;  // hours, if each edit reads the line
+  std::string text = "<a>";
+  for (std::size_t i = 0; i < kElements; ++i) text += "<b><c/></b>";
+  text += "</a>";
+  Editor editor(text);
+  for (std::size_t i = 0; i < kElements; ++i) {
+    editor.append_children(2 * i + 1, {"<d/>"});
+    editor.prepend_children(2 * i + 2, {"<e/>"});
+  }
+  const std::string result = editor.result();
+  CHECK(result.starts_with("<a><b><c>\n  <e/>\n</c>\n  <d/>\n</b><b>"));
+}

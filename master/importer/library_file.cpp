@@ -1,0 +1,136 @@
+#include "master/importer/library_file.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <iterator>
+#include <vector>
+
+#include <elf.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <link.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "master/util/descriptor.h"
+
+namespace stride::importer {
+namespace {
+
+using Header = ElfW(Ehdr);
+using Segment = ElfW(Phdr);
+
+constexpr unsigned char kClass = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
+
+/// Of bytes in the file, or of addresses.
+struct Range {
+  std::uint64_t begin, size;
+
+  bool is_in(const Range& other) const {
+    return begin >= other.begin && size <= other.size && begin - other.begin <= other.size - size;
+  }
+};
+
+Range in_file(const Segment& segment) { return {segment.p_offset, segment.p_filesz}; }
+Range in_memory(const Segment& segment) { return {segment.p_vaddr, segment.p_memsz}; }
+
+class LibraryFile {
+ public:
+  explicit LibraryFile(const std::filesystem::path& path)
+      : file_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+    struct stat status {};
+    if (!file_.is_open() || ::fstat(file_.number(), &status) != 0) return;
+    if (S_ISREG(status.st_mode)) size_ = static_cast<std::uint64_t>(status.st_size);
+  }
+
+  std::string damage() const {
+    Header header{};
+    if (!read(&header, {0, sizeof header}) || !is_for_loader(header)) return "";
+    std::vector<Segment> segments(header.e_phnum);
+    const Range table{header.e_phoff, segments.size() * sizeof(Segment)};
+    if (!read(segments.data(), table)) return cut_off(table);
+    return damage(segments);
+  }
+
+ private:
+  bool read(void* target, const Range& range) const {
+    if (!range.is_in({0, size_})) return false;
+    const ssize_t count =
+        ::pread(file_.number(), target, range.size, static_cast<off_t>(range.begin));
+    return count >= 0 && static_cast<std::uint64_t>(count) == range.size;
+  }
+
+  /// The loader complains about any other one.
+  static bool is_for_loader(const Header& header) {
+    return std::memcmp(header.e_ident, ELFMAG, SELFMAG) == 0 &&
+           header.e_ident[EI_CLASS] == kClass && header.e_type == ET_DYN &&
+           header.e_phentsize == sizeof(Segment);
+  }
+
+  std::string cut_off(const Range& missing) const {
+    return fmt::format(
+        "its file has {} bytes, and its headers name bytes up to {}, so it is cut "
+        "off or damaged",
+        size_, missing.begin + missing.size);
+  }
+
+  std::string damage(const std::vector<Segment>& segments) const {
+    std::vector<Segment> loaded;
+    std::ranges::copy_if(segments, std::back_inserter(loaded),
+                         [](const Segment& segment) { return segment.p_type == PT_LOAD; });
+    for (const Segment& segment : loaded) {
+      if (!in_file(segment).is_in({0, size_})) return cut_off(in_file(segment));
+      if (segment.p_filesz > segment.p_memsz) {
+        return "a segment is larger in the file than in memory, so its headers are damaged";
+      }
+    }
+    if (!are_in_order(loaded)) {
+      return "its segments overlap or are not in order, so its headers are damaged";
+    }
+    for (const Segment& segment : segments) {
+      const auto holds = [&](const Segment& part) {
+        return in_memory(segment).is_in(in_memory(part));
+      };
+      if (segment.p_type == PT_DYNAMIC && std::ranges::none_of(loaded, holds)) {
+        return "its dynamic section is in none of its segments, so its headers are damaged";
+      }
+      if (segment.p_type == PT_GNU_RELRO && !begins_in(segment, loaded)) {
+        return "its read-only part is in none of its segments, so its headers are damaged";
+      }
+    }
+    return "";
+  }
+
+  /// The loader makes room up to the end of the last one, and puts each where it says.
+  static bool are_in_order(const std::vector<Segment>& loaded) {
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 46;
+    std::uint64_t end = 0;
+    for (const Segment& segment : loaded) {
+      const auto [begin, size] = in_memory(segment);
+      if (begin < end || begin > kMost || size > kMost) return false;
+      end = begin + size;
+    }
+    return true;
+  }
+
+  /// Its end may be rounded up to that of a page.
+  static bool begins_in(const Segment& segment, const std::vector<Segment>& loaded) {
+    const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+    return std::ranges::any_of(loaded, [&](const Segment& part) {
+      const auto [begin, size] = in_memory(part);
+      return in_memory(segment).is_in({begin, size + 2 * page});
+    });
+  }
+
+  core::Descriptor file_;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace
+
+std::string find_damage(const std::filesystem::path& library) {
+  return LibraryFile(library).damage();
+}
+
+}  // namespace stride::importer

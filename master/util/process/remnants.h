@@ -1,0 +1,36 @@
+// What code leaves in its process that would go on where the code is no longer.
+#ifndef STRIDE_MASTER_UTIL_PROCESS_REMNANTS_H
+#define STRIDE_MASTER_UTIL_PROCESS_REMNANTS_H
+
+#include <array>
+#include <csignal>
+#include <set>
+#include <string>
+
+#include <sys/types.h>
+
+namespace stride::core {
+
+/// Notes which threads and which functions that handle signals there are, before a library is
+/// loaded. Those that there are beside them later may be of the library, or of another one that it
+/// has loaded: as long as they exist, it cannot be unloaded. Handlers of the program itself do not
+/// count; threads that the program has started meanwhile do, so there may be none.
+class Remnants {
+ public:
+  Remnants();
+
+  /// What there is beside them, in words: "2 threads ('pump', 'timer')"; empty if there is nothing.
+  /// Threads that are about to end have a tenth of a second for it.
+  std::string find() const;
+
+ private:
+  std::set<pid_t> new_threads() const;
+  std::set<pid_t> threads_that_stay() const;
+
+  std::set<pid_t> threads_;
+  std::array<struct sigaction, NSIG> actions_{};
+};
+
+}  // namespace stride::core
+
+#endif

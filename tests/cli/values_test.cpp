@@ -1,0 +1,107 @@
+// Values of units that cannot be read: the unit, the variable and the time are named, in process
+// and hosted.
+#include "tests/build.h"
+#include "tests/cli/failures.h"
+
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr const char* kRawValues =
+    "<String name=\"text\" valueReference=\"1\" causality=\"output\" variability=\"discrete\"/>\n"
+    "<Binary name=\"bytes\" valueReference=\"2\" causality=\"output\" variability=\"discrete\"/>\n";
+constexpr const char* kRawOutputs =
+    "<ModelStructure><Output valueReference=\"1\"/><Output valueReference=\"2\"/>"
+    "</ModelStructure>";
+
+/// One unit without a kit; its name says how it misbehaves (tests/test_units/raw/unit.c).
+struct RawUnit : Workspace {
+  RawUnit(const std::string& name, bool has_values) : Workspace(Parts{component(name, "raw")}) {
+    make_raw_fmu(scratch(), "raw");
+    if (has_values) declare_values();
+  }
+
+  void declare_values() const;
+};
+
+void RawUnit::declare_values() const {
+  std::string text =
+      description_text("raw", "canHandleVariableCommunicationStepSize=\"true\"", kRawValues);
+  const std::string none = "<ModelStructure/>";
+  text.replace(text.find(none), none.size(), kRawOutputs);
+  scratch().write("raw/modelDescription.xml", text);
+}
+
+Outcome run_raw_unit(const Workspace& workspace, bool is_hosted, const std::string& signals) {
+  Arguments arguments{"--quiet", "--step", "0.125"};
+  if (!signals.empty()) arguments.insert(arguments.end(), {"--signals", "*." + signals});
+  if (is_hosted) arguments.emplace_back("--isolate");
+  return workspace.run(arguments);
+}
+
+}  // namespace
+
+TEST_CASE("a value that cannot be read is an error with the unit, the variable and the time") {
+  struct Fault {
+    const char *unit, *variable, *in_process, *hosted;
+  };
+  constexpr Fault kFaults[] = {
+      {"astray", "text", "signal 11 (SIGSEGV) ends stride in fmi3GetString",
+       "its process was ended by signal 11 (SIGSEGV) in fmi3GetString"},
+      {"huge", "bytes",
+       "fmi3GetBinary gave 18446744073709551615 bytes; 256 MiB at most are possible", nullptr},
+      {"large", "bytes", "fmi3GetBinary gave 1099511627776 bytes; 256 MiB at most are possible",
+       nullptr},
+  };
+  for (const auto& [unit, variable, in_process, hosted] : kFaults) {
+    for (const bool is_hosted : {true, false}) {
+      if (kSanitized && !is_hosted && hosted != nullptr) continue;
+      INFO(unit << (is_hosted ? ", hosted" : ""));
+      const RawUnit workspace(unit, true);
+      const Outcome outcome = run_raw_unit(workspace, is_hosted, variable);
+      INFO(outcome.err);
+      CHECK(outcome.exit_code == 1);
+      const std::string end = is_hosted && hosted != nullptr ? hosted : in_process;
+      CHECK_THAT(outcome.err, Contains("unit '" + std::string(unit) + "', variable '" + variable +
+                                       "', at 0.375 s: " + end));
+      CHECK(last_time(workspace) == "0.25");
+      CHECK(run_json(workspace)["outcome"] == "failed");
+    }
+  }
+}
+
+TEST_CASE("no text where there has to be one is an empty one, with a warning") {
+  const bool is_hosted = GENERATE(false, true);
+  const RawUnit workspace("mute", true);
+  const Outcome outcome = run_raw_unit(workspace, is_hosted, "text");
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err ==
+        "warning: unit 'mute': fmi3GetString gave no text (NULL) for 'text', which FMI forbids; it "
+        "is taken as an empty one, here and later\n");
+}
+
+TEST_CASE("a message with a status that FMI does not have is an error of the unit, hosted or not") {
+  const bool is_hosted = GENERATE(false, true);
+  const RawUnit workspace("mumbles", false);
+  const Outcome outcome = run_raw_unit(workspace, is_hosted, "");
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("error: unit 'mumbles': something is up (logged with 77, a "
+                                   "status that FMI 3.0 does not have)\n"));
+}
+
+TEST_CASE("of many warnings of a unit the first are shown, and the others counted") {
+  const RawUnit workspace("babbles", false);
+  const auto count = [](const std::string& text, const std::string& part) {
+    std::size_t found = 0;
+    for (std::size_t at = 0; (at = text.find(part, at)) != text.npos; at += part.size()) ++found;
+    return found;
+  };
+  const Outcome outcome = run_raw_unit(workspace, false, "");
+  CHECK(outcome.exit_code == 0);
+  CHECK(count(outcome.err, "it is warm") == 100);
+  CHECK_THAT(outcome.err, Contains("from here on are only counted; --verbose shows all of them") &&
+                              Contains("unit 'babbles': 2300 more warnings and errors of it"));
+  const Outcome all = workspace.run({"--quiet", "--step", "0.125", "--verbose"});
+  CHECK(count(all.err, "it is warm") == 2400);
+}
