@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "master/importer/shared_library.h"
+#include "master/importer/state_hint.h"
 #include "master/isolation/process/child.h"
 
 namespace stride::cli {
@@ -44,10 +45,11 @@ core::Error error_of(std::string_view end, std::span<const importer::UnitCall> c
   const auto own = std::ranges::find_if(calls, &importer::UnitCall::is_by_this_thread);
   if (own != calls.end()) {
     const importer::UnitCall& call = *own;
+    const std::string hint = importer::state_hint(call.function, *call.unit);
     return {core::Error::Kind::Run,
             {.where = *call.where, .unit = *call.unit, .time = call.time},
             fmt::format("{} in {}", end, call.function),
-            fmt::format(kHint, *call.unit)};
+            hint.empty() ? fmt::format(kHint, *call.unit) : hint};
   }
   std::string among;
   for (const importer::UnitCall& call : calls) {

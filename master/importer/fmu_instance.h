@@ -182,6 +182,14 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
       fail_missing(name, capability);
   }
 
+  /// Keeps the unit's state by its function. A unit that fails in it, though it declares that it
+  /// can, goes on without: one warning says so, and from then on this does nothing. Whether the
+  /// state is kept; if not, it is null.
+  template <class Function>
+  bool save_by(const char* name, Function* function, void*& state);
+  /// Why there is no state to be restored.
+  [[noreturn]] void fail_without_state() const;
+
   /// Calls the unit's function for it, also after a failure, and discards what is known of the run
   /// before it.
   template <class Function>
@@ -204,7 +212,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
     Answer (*write)(void*, void*, Byte*, std::size_t);
     const char* capability;  ///< with which a library exports them
   };
-  /// The bytes of a kept state.
+  /// The bytes of a state that is kept.
   template <class Answer, class Byte>
   std::vector<std::uint8_t> serialized(void* state, const Serialization<Answer, Byte>& functions);
 
@@ -232,6 +240,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   std::uint64_t calls_ = 0;
   std::atomic<const char*> in_call_{nullptr};  ///< the function that has not returned
   std::atomic<const char*> caller_{nullptr};   ///< the thread that has called it
+  bool was_restored_ = false;                  ///< from a kept state, and no step has ended since
   bool is_fork_ = false;                       ///< the function has made this process by fork()
   CallNote* const call_note_;
   const core::FloatingPointMode mode_ = core::FloatingPointMode::present();
@@ -255,7 +264,10 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   char major_version() const { return prefix_[3] != '\0' ? prefix_[3] : '1'; }
   bool may_be_pending() const { return major_version() != '3'; }
 
+  void give_up_saving(const char* function, Status status);
+
   const char* prefix_;
+  std::string save_failure_;  ///< why the state cannot be saved
   std::shared_ptr<const SharedLibrary> library_;
   std::mutex messages_mutex_;
   std::vector<std::string> messages_;  ///< those of the present call that report a failure
@@ -313,6 +325,25 @@ void FmuInstance::reset_by(const char* name, Function* function) {
   call(name, function);
   time_.reset();
   rejection_reason_.clear();
+  save_failure_.clear();
+}
+
+template <class Function>
+bool FmuInstance::save_by(const char* name, Function* function, void*& state) {
+  if (!save_failure_.empty()) [[unlikely]]
+    return false;
+  check_callable(name);
+  const auto status =
+      static_cast<Status>(guarded(name, [&] { return function(instance_, &state); }));
+  if (status == Status::Ok && !has_messages_.load(std::memory_order_relaxed)) [[likely]]
+    return true;
+  if (status == Status::Error || status == Status::Discard) {
+    state = nullptr;  // what a failed call leaves there is undefined
+    give_up_saving(name, status);
+    return false;
+  }
+  if (check_status(name, status) == Status::Pending) fail_call(name, status);
+  return true;
 }
 
 template <class Function>
@@ -346,7 +377,6 @@ void FmuInstance::free_or_warn(Free&& free) noexcept {
 template <class Answer, class Byte>
 std::vector<std::uint8_t> FmuInstance::serialized(void* state,
                                                   const Serialization<Answer, Byte>& functions) {
-  if (state == nullptr) fail("no state of it has been saved that could be serialised");
   require(functions.size_name, functions.size_of, functions.capability);
   require(functions.write_name, functions.write, functions.capability);
   std::size_t size = 0;

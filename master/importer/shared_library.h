@@ -31,7 +31,7 @@ class SharedLibrary {
   const std::vector<std::string>& changes() const { return changes_; }
 
   /// To be called when an instance has returned the status Fatal: after it no function of any
-  /// instance may be called (FMI 3.0, 2.2.3; FMI 2.0, 2.1.3). Holds for all objects of the same
+  /// instance may be called (FMI 3.0, 2.2.4; FMI 2.0, 2.1.3). Holds for all objects of the same
   /// library, until the process ends.
   void mark_unusable() const { *is_unusable_ = true; }
   const std::atomic<bool>& is_unusable() const { return *is_unusable_; }

@@ -283,7 +283,7 @@ core::StepResult Fmi2Unit::step(const core::StepInterval& interval,
     result = handle_discard(interval);
     if (result.rejected) return result;
   }
-  is_as_saved_ = false;
+  is_as_saved_ = was_restored_ = false;
   time_ = result.reached;
   for (const core::BoundValues& output : values.outputs) get(output);
   return result;

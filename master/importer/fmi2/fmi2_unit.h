@@ -89,7 +89,8 @@ class Fmi2Unit final
 
   /// What the unit was at some time.
   struct SavedState {
-    fmi2FMUstate state = nullptr;
+    fmi2FMUstate state = nullptr;  ///< null, too, for a unit that has none
+    bool is_present = false;
     std::optional<Time> time;
     bool is_instantiated_only = false;
   };
@@ -113,7 +114,7 @@ class Fmi2Unit final
   void keep(References references, const core::ValueBlock& values);
 
   void set_input_derivatives(double size);
-  void save(SavedState& saved);
+  bool save(SavedState& saved);
   void restore(const SavedState& saved);
   void free_state(SavedState& saved);
 

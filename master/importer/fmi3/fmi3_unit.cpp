@@ -271,6 +271,7 @@ core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
   if (event_handling_needed && !parts_.description->has_event_mode) [[unlikely]]
     fail("fmi3DoStep returned eventHandlingNeeded, and the unit has no Event Mode (hasEventMode)");
   if (!early && last_successful != interval.end_seconds) compare_times(interval, last_successful);
+  was_restored_ = false;
   time_ = early ? reached_early(interval, last_successful) : interval.to;
   for (const core::BoundValues& output : values.outputs) get(output);
   return {.early_return = early,
