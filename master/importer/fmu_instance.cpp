@@ -185,10 +185,15 @@ void FmuInstance::restore_process(const char* function) {
   if (options_.process == nullptr) return;
   const std::vector<std::string> changes = options_.process->restore();
   if (changes.empty()) return;
+  const bool has_moved = std::ranges::find(changes, "the working folder") != changes.end();
   warn(
       fmt::format("{} changed {}, which all code in the process shares: a function has to leave "
-                  "that as it was",
-                  function, fmt::join(changes, ", ")));
+                  "that as it was{}",
+                  function, fmt::join(changes, ", "),
+                  has_moved ? fmt::format("; a unit that looks for its files there needs a process "
+                                          "of its own (--isolate={})",
+                                          name_)
+                            : ""));
 }
 
 std::string FmuInstance::status_name(Status status) const {

@@ -20,8 +20,9 @@ namespace stride::importer {
 /// A loaded library; unloaded with the object, unless it is unusable.
 class SharedLibrary {
  public:
-  /// Loads it with all its symbols resolved and kept to itself (RTLD_NOW, RTLD_LOCAL). Throws
-  /// core::Error of the kind Input that names the shared library or the symbol that is missing.
+  /// Loads it with all its symbols resolved and kept to itself (RTLD_NOW, RTLD_LOCAL). Where a
+  /// symbol of Python is missing, Python's library is loaded for it. Throws core::Error of the kind
+  /// Input that names the shared library or the symbol that is missing.
   explicit SharedLibrary(const std::filesystem::path& path, const core::Location& where = {});
   SharedLibrary(const SharedLibrary&) = delete;
   SharedLibrary& operator=(const SharedLibrary&) = delete;
@@ -29,6 +30,8 @@ class SharedLibrary {
   const std::filesystem::path& path() const { return path_; }
   /// What its initialization has changed of the process (core::ProcessState). It is put back.
   const std::vector<std::string>& changes() const { return changes_; }
+  /// The name of Python's library, if it was loaded for this one; else empty.
+  const std::string& python() const { return python_; }
 
   /// To be called when an instance has returned the status Fatal: after it no function of any
   /// instance may be called (FMI 3.0, 2.2.4; FMI 2.0, 2.1.3). Holds for all objects of the same
@@ -63,9 +66,11 @@ class SharedLibrary {
   struct Closer {
     void operator()(void* handle) const;
   };
+  std::string load();
   void* address(const std::string& symbol) const;
 
   std::filesystem::path path_;
+  std::string python_;
   std::vector<std::string> changes_;
   std::unique_ptr<void, Closer> handle_;
   std::atomic<bool>* is_unusable_ = nullptr;
