@@ -131,6 +131,11 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   template <class Call>
   auto guarded(const char* name, Call&& call);
 
+  /// Makes the instance by the unit's function, which `make` calls. Throws core::Error of the kind
+  /// Run with the unit's messages if there is none.
+  template <class Make>
+  void instantiate_by(const char* name, Make&& make);
+
   /// To be called before each call, and end_call() after it has returned. What it throws leaves
   /// the note as it is: where the exception comes from.
   void note_call(const char* name) {
@@ -316,6 +321,14 @@ template <class Function, class... Arguments>
 void FmuInstance::call_and_restore(const char* name, Function* function, Arguments... arguments) {
   call(name, function, arguments...);
   restore_process(name);
+}
+
+template <class Make>
+void FmuInstance::instantiate_by(const char* name, Make&& make) {
+  check_callable(name);
+  instance_ = guarded(name, make);
+  restore_process(name);
+  if (instance_ == nullptr) fail(std::string(name) + " failed: " + take_messages(name));
 }
 
 template <class Function>
