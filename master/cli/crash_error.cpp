@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "master/importer/shared_library.h"
+#include "master/importer/state_hint.h"
 #include "master/isolation/process/child.h"
 
 namespace stride::cli {
@@ -62,10 +63,11 @@ core::Error error_of(std::string_view end, std::span<const importer::UnitCall> c
   if (own != calls.end()) {
     const importer::UnitCall& call = *own;
     const std::string variable = call.variable != nullptr ? *call.variable : "";
+    const std::string hint = importer::state_hint(call.function, *call.unit);
     return {core::Error::Kind::Run,
             {.where = *call.where, .unit = *call.unit, .variable = variable, .time = call.time},
             fmt::format("{} in {}", end, call.function),
-            hint_for(*call.unit)};
+            hint.empty() ? hint_for(*call.unit) : hint};
   }
   if (calls.empty()) return error_outside_of_calls(end, is_leaving);
   std::string among;

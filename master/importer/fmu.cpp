@@ -176,8 +176,15 @@ void Fmu::unload_library() {
 
 /// Of its name, and of what its loading has changed of the process.
 void Fmu::warn_of_library(const std::string& name, const InstanceOptions& options) {
-  const std::vector<std::string>& changes = load_library()->changes();
+  const auto library = load_library();
+  const std::vector<std::string>& changes = library->changes();
   if (!options.log || has_warned_of_library_.exchange(true)) return;
+  if (!library->python().empty()) {
+    options.log(name, Status::Ok, "stride",
+                fmt::format("its library embeds Python and is not linked with it: '{}' was loaded "
+                            "for it",
+                            library->python()));
+  }
   if (!library_warning_.empty()) options.log(name, Status::Warning, "stride", library_warning_);
   if (changes.empty()) return;
   options.log(name, Status::Warning, "stride",

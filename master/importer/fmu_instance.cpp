@@ -12,6 +12,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include "master/importer/state_hint.h"
 #include "master/util/readable_text.h"
 
 namespace stride::importer {
@@ -107,8 +108,28 @@ void FmuInstance::fail_call(const char* function, Status status) {
   const bool is_fatal = status == Status::Fatal;
   if (is_fatal) mark_unusable();
   rethrow_callback_failure();  // it is the cause of what the unit answered
+  std::string hint;
+  if (is_fatal) {
+    hint = "the unit may have damaged this process; save what you need and end it";
+  } else {
+    hint = was_restored_ ? state_hint(name_) : state_hint(function, name_);
+  }
   fail(fmt::format("{} returned {}: {}", function, status_name(status), take_messages(function)),
-       is_fatal ? "the unit may have damaged this process; save what you need and end it" : "");
+       hint);
+}
+
+// ---- States ----
+
+void FmuInstance::give_up_saving(const char* function, Status status) {
+  save_failure_ =
+      fmt::format("{} returned {}: {}", function, status_name(status), take_messages(function));
+  warn(fmt::format("{}; its state is not saved any more, so it cannot be rolled back; {}",
+                   save_failure_, state_hint(name_)));
+}
+
+void FmuInstance::fail_without_state() const {
+  if (save_failure_.empty()) fail("no state of it has been saved");
+  fail(fmt::format("its state could not be saved: {}", save_failure_), state_hint(name_));
 }
 
 void FmuInstance::fail_thrown(const char* function) {
@@ -162,10 +183,15 @@ void FmuInstance::restore_process(const char* function) {
   if (options_.process == nullptr) return;
   const std::vector<std::string> changes = options_.process->restore();
   if (changes.empty()) return;
+  const bool has_moved = std::ranges::find(changes, "the working folder") != changes.end();
   warn(
       fmt::format("{} changed {}, which all code in the process shares: a function has to leave "
-                  "that as it was",
-                  function, fmt::join(changes, ", ")));
+                  "that as it was{}",
+                  function, fmt::join(changes, ", "),
+                  has_moved ? fmt::format("; a unit that looks for its files there needs a process "
+                                          "of its own (--isolate={})",
+                                          name_)
+                            : ""));
 }
 
 std::string FmuInstance::status_name(Status status) const {

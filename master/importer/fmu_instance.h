@@ -129,6 +129,11 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   template <class Call>
   auto guarded(const char* name, Call&& call);
 
+  /// Makes the instance by the unit's function, which `make` calls. Throws core::Error of the kind
+  /// Run with the unit's messages if there is none.
+  template <class Make>
+  void instantiate_by(const char* name, Make&& make);
+
   /// To be called before each call, and end_call() after it has returned. What it throws leaves
   /// the note as it is: where the exception comes from.
   void note_call(const char* name) {
@@ -172,6 +177,14 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
     if (function == nullptr) [[unlikely]]
       fail_missing(name, capability);
   }
+
+  /// Keeps the unit's state by its function. A unit that fails in it, though it declares that it
+  /// can, goes on without: one warning says so, and from then on this does nothing. Whether the
+  /// state is kept; if not, it is null.
+  template <class Function>
+  bool save_by(const char* name, Function* function, void*& state);
+  /// Why there is no state to be restored.
+  [[noreturn]] void fail_without_state() const;
 
   /// Calls the unit's function for it, also after a failure, and discards what is known of the run
   /// before it.
@@ -233,7 +246,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   const char* failed_in_ = nullptr;  ///< the function after whose status nothing goes on
   std::uint64_t calls_ = 0;
   PresentCall present_;
-  bool is_fork_ = false;  ///< the present function has made this process by fork()
+  bool was_restored_ = false;  ///< from a kept state, and no step has ended since
+  bool is_fork_ = false;       ///< the present function has made this process by fork()
   const core::FloatingPointMode mode_ = core::FloatingPointMode::present();
   std::optional<Time> time_;
   const std::atomic<bool>& is_unusable_;  ///< the library
@@ -261,7 +275,10 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   char major_version() const { return prefix_[3] != '\0' ? prefix_[3] : '1'; }
   bool may_be_pending() const { return major_version() != '3'; }
 
+  void give_up_saving(const char* function, Status status);
+
   const char* prefix_;
+  std::string save_failure_;  ///< why the state cannot be saved
   std::shared_ptr<const SharedLibrary> library_;
   std::mutex messages_mutex_;
   std::vector<std::string> messages_;  ///< those of the present call that report a failure
@@ -313,6 +330,14 @@ void FmuInstance::call_and_restore(const char* name, Function* function, Argumen
   restore_process(name);
 }
 
+template <class Make>
+void FmuInstance::instantiate_by(const char* name, Make&& make) {
+  check_callable(name);
+  instance_ = guarded(name, make);
+  restore_process(name);
+  if (instance_ == nullptr) fail(std::string(name) + " failed: " + take_messages(name));
+}
+
 template <class Function>
 void FmuInstance::reset_by(const char* name, Function* function) {
   if (function == nullptr) fail(std::string("its library does not export ") + name);
@@ -320,6 +345,25 @@ void FmuInstance::reset_by(const char* name, Function* function) {
   call(name, function);
   time_.reset();
   rejection_reason_.clear();
+  save_failure_.clear();
+}
+
+template <class Function>
+bool FmuInstance::save_by(const char* name, Function* function, void*& state) {
+  if (!save_failure_.empty()) [[unlikely]]
+    return false;
+  check_callable(name);
+  const auto status =
+      static_cast<Status>(guarded(name, [&] { return function(instance_, &state); }));
+  if (status == Status::Ok && !has_messages_.load(std::memory_order_relaxed)) [[likely]]
+    return true;
+  if (status == Status::Error || status == Status::Discard) {
+    state = nullptr;  // what a failed call leaves there is undefined
+    give_up_saving(name, status);
+    return false;
+  }
+  if (check_status(name, status) == Status::Pending) fail_call(name, status);
+  return true;
 }
 
 template <class Function>
@@ -353,7 +397,6 @@ void FmuInstance::free_or_warn(Free&& free) noexcept {
 template <class Answer, class Byte>
 std::vector<std::uint8_t> FmuInstance::serialized(void* state,
                                                   const Serialization<Answer, Byte>& functions) {
-  if (state == nullptr) fail("no state of it has been saved that could be serialised");
   require(functions.size_name, functions.size_of, functions.capability);
   require(functions.write_name, functions.write, functions.capability);
   std::size_t size = 0;

@@ -16,6 +16,17 @@ namespace {
             "export the unit as FMI 3.0 or FMI 2.0 Co-Simulation");
 }
 
+/// Units of drafts have functions with other arguments than those of the standard.
+void check_version(const xml::Element& root, const std::string& version) {
+  const std::string major = version.substr(0, 2);
+  if (major != "1." && major != "2." && major != "3.") fail_version(root, version);
+  if (!version.starts_with("3.0-alpha") && !version.starts_with("3.0-beta")) return;
+  root.fail(fmt::format("fmiVersion=\"{}\" is a draft of FMI 3.0, whose functions have other "
+                        "arguments",
+                        version),
+            "export the unit as FMI 3.0 or FMI 2.0 Co-Simulation");
+}
+
 ModelDescription read(const xml::Document& document) {
   const xml::Element root = document.root();
   if (root.name().local != "fmiModelDescription") {
@@ -24,8 +35,8 @@ ModelDescription read(const xml::Document& document) {
   ModelDescription unit;
   unit.warnings = document.warnings();
   unit.fmi_version = root.required("fmiVersion");
+  check_version(root, unit.fmi_version);
   const std::string major = unit.fmi_version.substr(0, 2);
-  if (major != "1." && major != "2." && major != "3.") fail_version(root, unit.fmi_version);
   unit.model_name = root.given("modelName");
   unit.description = root.attribute_or("description");
   unit.generation_tool = root.attribute_or("generationTool");

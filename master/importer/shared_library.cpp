@@ -12,6 +12,8 @@
 
 #include "master/importer/binaries.h"
 #include "master/importer/library_file.h"
+#include "master/importer/python_library.h"
+#include "master/util/lower_case.h"
 #include "master/util/process/process_state.h"
 
 namespace stride::importer {
@@ -31,15 +33,25 @@ constexpr const char* kSymbolHint =
     "link the unit with the library that defines it (the linker option --no-undefined finds this "
     "when the unit is built)";
 constexpr const char* kPythonHint =
-    "the unit embeds Python, and expects its library in the process: start stride with "
-    "LD_PRELOAD=libpython3.x.so.1.0, of the Python that the unit is for";
+    "the unit embeds Python and is not linked with its library, and the loader finds none: install "
+    "it (Debian: libpython3-dev), or start stride with LD_PRELOAD=…/libpython3.x.so.1.0";
 
-/// Py_IsInitialized, PyExc_RuntimeError, _Py_NoneStruct, …: units of PythonFMU are not linked with
-/// what defines them.
-bool is_of_python(std::string_view symbol) {
-  symbol.remove_prefix(std::min(symbol.find_first_not_of('_'), symbol.size()));
-  const auto is_upper = [](char c) { return c == '_' || (c >= 'A' && c <= 'Z'); };
-  return symbol.size() > 2 && symbol.substr(0, 2) == "Py" && is_upper(symbol[2]);
+/// The symbol that the loader's message says is missing; empty if it is about something else.
+std::string_view undefined_symbol(std::string_view reason) {
+  const std::string_view symbol = between(reason, "undefined symbol: ", " ");
+  return symbol.substr(0, symbol.find(','));
+}
+
+/// The package of Debian and its kin that has a shared library, by their rule for its name:
+/// "libgfortran5" has "libgfortran.so.5".
+std::string package_of(std::string_view library) {
+  const std::size_t so = library.find(".so");
+  std::string name = core::lower_case(std::string(library.substr(0, so)));
+  std::replace(name.begin(), name.end(), '_', '-');
+  const bool has_version = so != std::string_view::npos && library.size() > so + 4;
+  if (!has_version || name.starts_with("libpython")) return name;
+  const bool ends_in_digit = name.back() >= '0' && name.back() <= '9';
+  return name + (ends_in_digit ? "-" : "") + std::string(library.substr(so + 4));
 }
 
 std::string hint_for(const std::string& reason) {
@@ -67,12 +79,13 @@ std::string hint_for(const std::string& reason) {
     core::fail_input(
         context,
         fmt::format("{}it needs the shared library '{}', which was not found", head, missing),
-        "install the package that provides it, put it beside the unit's library "
-        "(pack --bundle), or name its folder in LD_LIBRARY_PATH");
+        fmt::format("install the package that provides it (on Debian and Ubuntu mostly '{}'), put "
+                    "it beside the unit's library (pack --bundle), or name its folder in "
+                    "LD_LIBRARY_PATH",
+                    package_of(missing)));
   }
-  std::string_view symbol = between(reason, "undefined symbol: ", " ");
+  const std::string_view symbol = undefined_symbol(reason);
   if (!symbol.empty()) {
-    symbol = symbol.substr(0, symbol.find(','));
     core::fail_input(context,
                      fmt::format("{}it needs the symbol '{}', which no library that it is linked "
                                  "with has",
@@ -109,13 +122,23 @@ SharedLibrary::SharedLibrary(const fs::path& path, core::Context user, const fs:
                      "get another copy of the unit, or export it again");
   }
   const core::ProcessState before;
-  {
-    const Work work("loading", *this);
-    handle_.reset(::dlopen(path_.c_str(), RTLD_NOW | RTLD_LOCAL));
-  }
+  const std::string reason = load();
   changes_ = before.restore();
-  if (!handle_) fail_to_load(*this, ::dlerror());
+  if (!handle_) fail_to_load(*this, reason);
   is_unusable_ = &unusable_flag(handle_.get());
+}
+
+/// Returns the loader's message if the library cannot be loaded.
+std::string SharedLibrary::load() {
+  const Work work("loading", *this);
+  const auto open = [&]() -> std::string {
+    handle_.reset(::dlopen(path_.c_str(), RTLD_NOW | RTLD_LOCAL));
+    return handle_ ? "" : ::dlerror();
+  };
+  std::string reason = open();
+  if (!is_of_python(undefined_symbol(reason))) return reason;
+  python_ = load_python();
+  return python_.empty() ? reason : open();
 }
 
 SharedLibrary::~SharedLibrary() {

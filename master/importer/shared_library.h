@@ -23,10 +23,11 @@ namespace stride::importer {
 /// that goes on (core::Remnants). Then it stays until the process ends, with a warning.
 class SharedLibrary {
  public:
-  /// Loads it with all its symbols resolved and kept to itself (RTLD_NOW, RTLD_LOCAL). Throws
-  /// core::Error of the kind Input that names the shared library or the symbol that is missing, and
-  /// for a file that is cut off or damaged. `user` is the place that names the unit, and a
-  /// component, if it is known; messages call the file `shown_as`, or by its path.
+  /// Loads it with all its symbols resolved and kept to itself (RTLD_NOW, RTLD_LOCAL). Where a
+  /// symbol of Python is missing, Python's library is loaded for it. Throws core::Error of the kind
+  /// Input that names the shared library or the symbol that is missing, and for a file that is cut
+  /// off or damaged. `user` is the place that names the unit, and a component, if it is known;
+  /// messages call the file `shown_as`, or by its path.
   explicit SharedLibrary(const std::filesystem::path& path, core::Context user = {},
                          const std::filesystem::path& shown_as = {});
   SharedLibrary(const SharedLibrary&) = delete;
@@ -42,9 +43,11 @@ class SharedLibrary {
 
   /// What its initialization has changed of the process (core::ProcessState). It is put back.
   const std::vector<std::string>& changes() const { return changes_; }
+  /// The name of Python's library, if it was loaded for this one; else empty.
+  const std::string& python() const { return python_; }
 
   /// To be called when an instance has returned the status Fatal: after it no function of any
-  /// instance may be called (FMI 3.0, 2.2.3; FMI 2.0, 2.1.3). Holds for all objects of the same
+  /// instance may be called (FMI 3.0, 2.2.4; FMI 2.0, 2.1.3). Holds for all objects of the same
   /// library, until the process ends.
   void mark_unusable() const { *is_unusable_ = true; }
   const std::atomic<bool>& is_unusable() const { return *is_unusable_; }
@@ -79,6 +82,7 @@ class SharedLibrary {
   struct Closer {
     void operator()(void* handle) const;
   };
+  std::string load();
   void* address(const std::string& symbol) const;
   bool can_be_unloaded() const noexcept;
 
@@ -87,6 +91,7 @@ class SharedLibrary {
   mutable core::Context user_;
   mutable LogSink log_;  ///< of the user
   const core::Remnants remnants_;
+  std::string python_;
   std::vector<std::string> changes_;
   std::unique_ptr<void, Closer> handle_;
   std::atomic<bool>* is_unusable_ = nullptr;

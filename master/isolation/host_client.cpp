@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "master/importer/state_hint.h"
 #include "master/isolation/process/process_memory.h"
 #include "master/isolation/sandbox_hint.h"
 #include "master/isolation/server.h"
@@ -159,6 +160,7 @@ void HostClient::fail(const std::string& what, std::optional<Time> time) {
   failure_ = what;
   if (process_.has_ended()) take_last_line();
   std::string hint = sandbox_hint(output_tail_.text(), spec_.name, spec_.host);
+  if (hint.empty()) hint = importer::state_hint(what, spec_.name);
   if (hint.empty() && spec_.host.memory_limit) {
     hint = fmt::format("its memory is limited to {} MiB (memoryLimit); it may need more",
                        *spec_.host.memory_limit >> 20);

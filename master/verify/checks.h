@@ -43,11 +43,21 @@ struct Trial {
 /// answer or an exception.
 std::string explain(const isolation::ChildOutcome& outcome, const importer::CallNote& note);
 
+/// The sections of the standards with the rule that a check is about; null: there is none.
+struct Rules {
+  const char* fmi2 = nullptr;
+  const char* fmi3 = nullptr;
+};
+
 struct UnitCheck {
   const char* name;
   const char* summary;  ///< what passes, in a line
   Finding (*run)(const Trial& trial);
+  Rules rules{};
 };
+
+/// "FMI 3.0, 2.2.7.4": the rule for a unit of this version; empty if there is none.
+std::string rule_of(const Rules& rules, const std::string& fmi_version);
 
 /// In the order in which they are run. The first is the one without which no other makes sense.
 const std::vector<UnitCheck>& checks();

@@ -29,8 +29,15 @@ inline Finding failed(std::string seen, std::vector<std::string> notes = {}) {
 inline Finding skipped(std::string why) { return {Verdict::Skipped, std::move(why), {}}; }
 
 /// Thrown where a check, however deep it is in, has seen that the unit fails it.
-struct Failure : std::runtime_error {
-  using std::runtime_error::runtime_error;
+class Failure : public std::runtime_error {
+ public:
+  /// `breaks_rule`: the rule of the check (UnitCheck::rules); else what is only declared to stride.
+  explicit Failure(const std::string& seen, bool breaks_rule = true)
+      : std::runtime_error(seen), breaks_rule_(breaks_rule) {}
+  bool breaks_rule() const { return breaks_rule_; }
+
+ private:
+  bool breaks_rule_;
 };
 
 }  // namespace stride::verify

@@ -1,12 +1,14 @@
 #include "master/verify/recording.h"
 
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "master/util/error.h"
 #include "master/util/time_text.h"
+#include "master/verify/deviation.h"
 
 namespace stride::verify {
 namespace {
@@ -52,14 +54,33 @@ std::string compare(const std::vector<std::string>& names, const Row& expected, 
                           others > 0 ? fmt::format(" ({} more differ)", others) : "");
 }
 
-}  // namespace
-
-Recording Recording::without_events() const {
-  Recording rest;
-  std::copy_if(rows.begin(), rows.end(), std::back_inserter(rest.rows),
+std::vector<Row> without_events(const std::vector<Row>& rows) {
+  std::vector<Row> rest;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(rest),
                [](const Row& row) { return !row.is_event; });
   return rest;
 }
+
+/// The largest difference; 1 where the events differ.
+double worst_deviation(const TestedUnit& tested, const std::vector<Row>& expected,
+                       const std::vector<Row>& seen) {
+  const auto is_other_event = [](const Row& one, const Row& other) {
+    return one.is_event != other.is_event || (one.is_event && one != other);
+  };
+  if (!std::equal(expected.begin(), expected.end(), seen.begin(), seen.end(),
+                  std::not_fn(is_other_event))) {
+    return 1;
+  }
+  return deviation(observed_names(tested), without_events(expected), without_events(seen)).worst;
+}
+
+std::string size_text(double worst) {
+  return fmt::format("all differences are within {:.0e} of the variables' largest values", worst);
+}
+
+}  // namespace
+
+Recording Recording::without_events() const { return {verify::without_events(rows)}; }
 
 std::vector<std::string> observed_names(const TestedUnit& tested) {
   std::vector<std::string> names;
@@ -78,7 +99,10 @@ std::optional<std::string> difference(const TestedUnit& tested, const std::vecto
   const std::size_t common = std::min(expected.size(), seen.size());
   for (std::size_t i = 0; i < common; ++i) {
     if (expected[i] == seen[i]) continue;
-    return compare(observed_names(tested), expected[i], seen[i], expected_when, seen_when);
+    constexpr double kSmall = 1e-4;  // what may be the inaccuracy of a solver
+    const double worst = worst_deviation(tested, expected, seen);
+    return compare(observed_names(tested), expected[i], seen[i], expected_when, seen_when) +
+           (worst < kSmall ? "; " + size_text(worst) : "");
   }
   if (expected.size() == seen.size()) return std::nullopt;
   const bool is_shorter = seen.size() < expected.size();
@@ -87,6 +111,16 @@ std::optional<std::string> difference(const TestedUnit& tested, const std::vecto
   return fmt::format("nothing follows after {} s {}, but something does {}", end,
                      is_shorter ? seen_when : expected_when,
                      is_shorter ? expected_when : seen_when);
+}
+
+std::optional<std::string> difference_beyond_rounding(
+    const TestedUnit& tested, const std::vector<Row>& expected, const std::vector<Row>& seen,
+    const std::string& expected_when, const std::string& seen_when, std::string& note) {
+  constexpr double kRounding = 1e-9;
+  auto differs = difference(tested, expected, seen, expected_when, seen_when);
+  if (!differs || worst_deviation(tested, expected, seen) > kRounding) return differs;
+  note = *differs;
+  return std::nullopt;
 }
 
 std::string to_text(const Recording& recording) {

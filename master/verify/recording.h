@@ -40,6 +40,12 @@ std::optional<std::string> difference(const TestedUnit& tested, const std::vecto
                                       const std::string& expected_when,
                                       const std::string& seen_when);
 
+/// Likewise, but for what is as small as the rounding of a solver that begins anew; then `note`
+/// says how large it is.
+std::optional<std::string> difference_beyond_rounding(
+    const TestedUnit& tested, const std::vector<Row>& expected, const std::vector<Row>& seen,
+    const std::string& expected_when, const std::string& seen_when, std::string& note);
+
 /// Names of the columns of a communication point.
 std::vector<std::string> observed_names(const TestedUnit& tested);
 

@@ -1,5 +1,9 @@
 #include "master/verify/start_values.h"
 
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
 #include <fmt/format.h>
 
 #include "master/verify/finding.h"
@@ -23,6 +27,24 @@ std::string text_of(const ValueBlock& block) {
   return text.empty() ? "empty" : text;
 }
 
+/// A unit may compute what it was given, and round it.
+bool is_same(const ValueBlock& value, const ValueBlock& expected) {
+  if (value == expected) return true;
+  bool is_same = value.type() == expected.type() && value.size() == expected.size();
+  core::visit(expected, [&]<class T>(std::span<const T> numbers) {
+    if constexpr (std::is_floating_point_v<T>) {
+      constexpr T kRounding = 64 * std::numeric_limits<T>::epsilon();
+      for (std::size_t i = 0; is_same && i < numbers.size(); ++i) {
+        const T seen = value.numbers<T>()[i];
+        is_same = seen == numbers[i] || std::abs(seen - numbers[i]) <= kRounding * std::abs(seen);
+      }
+    } else {
+      is_same = false;
+    }
+  });
+  return is_same;
+}
+
 }  // namespace
 
 bool is_readable(const Variable& variable) {
@@ -37,7 +59,7 @@ bool has_exact_start(const Variable& variable) {
 void expect_value(TestInstance& instance, const Variable& variable, const ValueBlock& expected,
                   const std::string& when, const std::string& reason) {
   const ValueBlock value = instance.get(variable);
-  if (value == expected) return;
+  if (is_same(value, expected)) return;
   throw Failure(fmt::format("'{}' is {} {}, though {} {}", variable.name, text_of(value), when,
                             reason, text_of(expected)));
 }

@@ -27,6 +27,12 @@ bool is_observed(const Variable& variable) {
          variable.causality == Causality::CalculatedParameter;
 }
 
+/// The name in FMI 1.0 of a function that both later versions have.
+std::string fmi1_name(const std::string& name) {
+  if (name == "EnterInitializationMode") return "InitializeSlave";
+  return name == "Reset" || name == "Terminate" ? name + "Slave" : name;
+}
+
 core::SystemDeclaration declaration(const VerifyRequest& request, const importer::Fmu& fmu) {
   core::SystemDeclaration system{"verify", {}, {}, {}};
   system.components.push_back({"unit", fmu.description(), {}, {}});
@@ -56,11 +62,6 @@ TestedUnit::TestedUnit(VerifyRequest request) : request_(std::move(request)) {
                      "make an FMU of it: stride pack LIBRARY --output FILE.fmu");
   }
   fmu_ = importer::Fmu::load(file);
-  if (fmu_->description()->fmi_version.starts_with("1.")) {
-    core::fail_input({},
-                     fmt::format("'{}' is a unit of FMI 1.0; those of FMI 2.0 and 3.0 are tested",
-                                 file.string()));
-  }
   system_.emplace(declaration(request_, *fmu_));
   choose_observed();
   choose_times();
@@ -112,7 +113,14 @@ void TestedUnit::choose_times() {
 }
 
 std::string TestedUnit::function(const std::string& name) const {
-  return (description().fmi_version.starts_with("2") ? "fmi2" : "fmi3") + name;
+  const std::string& version = description().fmi_version;
+  if (version.starts_with("1.")) return "fmi" + fmi1_name(name);
+  return (version.starts_with("2") ? "fmi2" : "fmi3") + name;
+}
+
+std::string TestedUnit::symbol(const std::string& name) const {
+  const bool has_prefix = description().fmi_version.starts_with("1.");
+  return (has_prefix ? description().model_identifier + "_" : "") + function(name);
 }
 
 }  // namespace stride::verify

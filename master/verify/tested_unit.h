@@ -64,6 +64,8 @@ class TestedUnit {
 
   /// "fmi3DoStep", from "DoStep"; for an FMI 2.0 unit "fmi2DoStep".
   std::string function(const std::string& name) const;
+  /// Likewise as the library exports it.
+  std::string symbol(const std::string& name) const;
 
  private:
   void choose_times();

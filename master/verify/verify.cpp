@@ -55,16 +55,21 @@ bool is_wanted(const UnitCheck& check, const std::vector<std::string>& wanted) {
   return wanted.empty() || std::find(wanted.begin(), wanted.end(), check.name) != wanted.end();
 }
 
+Finding failed_against(const std::string& rule, const std::string& seen) {
+  return failed(rule.empty() ? seen : fmt::format("{} ({})", seen, rule));
+}
+
 Finding run_isolated(const UnitCheck& check, const TestedUnit& tested, const Hooks& hooks) {
   const isolation::Shared<importer::CallNote> note;
+  const std::string rule = rule_of(check.rules, tested.description().fmi_version);
   const auto work = [&] {
     const Trial trial{tested, *note};
     try {
       return to_text(check.run(trial));
     } catch (const Failure& failure) {
-      return to_text(failed(failure.what()));
+      return to_text(failed_against(failure.breaks_rule() ? rule : "", failure.what()));
     } catch (const core::Error& error) {
-      return to_text(failed(error.what()));
+      return to_text(failed_against(rule, error.what()));
     } catch (const OrderedJson::exception&) {
       return to_text(failed(kUnreadable));
     }

@@ -94,6 +94,11 @@ TEST_CASE("units that cannot be loaded say what to do") {
   CHECK_THAT(input_error_of(workspace.run()),
              Contains("fmiVersion=\"4.0\" is not supported; expected 1.0, 2.0 or 3.0") &&
                  Contains("hint: export the unit as FMI 3.0 or FMI 2.0 Co-Simulation"));
+  write_other(workspace, "fmiVersion=\"2.0\"", "fmiVersion=\"3.0-beta.3\"");
+  CHECK_THAT(
+      input_error_of(workspace.run()),
+      Contains("fmiVersion=\"3.0-beta.3\" is a draft of FMI 3.0, whose functions have other") &&
+          Contains("hint: export the unit as FMI 3.0"));
   write_other(workspace, "CoSimulation", "ModelExchange");
   CHECK_THAT(input_error_of(workspace.run()),
              Contains("it has ModelExchange only") && Contains("hint: export the unit for"));

@@ -197,3 +197,16 @@ TEST_CASE("a crash in another folder is reported where the command was given") {
   CHECK_THAT(read(workspace / "report.xml"), Contains("SIGABRT"));
   if (phase == "step") CHECK(fs::exists(workspace / "out/report.html"));
 }
+
+TEST_CASE("a unit that stays in the folder of its FMU runs in a process of its own") {
+  const Workspace workspace(Parts{component("wanderer", "fmi2_wanderer.fmu")});
+  const Outcome here = workspace.run({"--quiet"});
+  CHECK(here.exit_code == 1);
+  CHECK_THAT(here.err, Contains("fmi2Instantiate changed the working folder") &&
+                           Contains("--isolate=wanderer") &&
+                           Contains("modelDescription.xml is not there"));
+  const Outcome apart = workspace.run({"--quiet", "--isolate=wanderer"});
+  INFO(apart.err);
+  CHECK(apart.exit_code == 0);
+  CHECK(workspace.signals().numbers("wanderer.size").back() > 100);
+}

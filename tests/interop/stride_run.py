@@ -27,6 +27,7 @@ class System:
     step: str = "0.1"
     stop: str = "1"
     types: dict = dataclasses.field(default_factory=dict)  # "Real" for "a.y": its connector is declared
+    transformations: dict = dataclasses.field(default_factory=dict)  # functions of values by "b.u"; not in the file
 
     def points(self):
         """The communication points, exact."""

@@ -1,9 +1,7 @@
 #include "master/importer/fmi1/fmi1_unit.h"
 
-#include <algorithm>
 #include <cstdarg>
 #include <cstdlib>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,24 +16,19 @@ namespace stride::importer {
 Fmi1Unit::Fmi1Unit(std::string name, std::shared_ptr<const Fmi1Library> library,
                    std::shared_ptr<const Fmi1Attributes> attributes, UnitParts parts,
                    InstanceOptions options)
-    : FmuInstance("fmi", library, std::move(name), std::move(parts), std::move(options)),
-      fmi_(library->functions()),
+    : ScalarUnit("fmi", library->functions(), attributes->references, library, std::move(name),
+                 std::move(parts), std::move(options)),
       library_(std::move(library)),
       attributes_(std::move(attributes)) {
   constexpr const char* kMimeType = "application/x-fmu-sharedlibrary";
   constexpr double kNoTimeout = 0;
-  check_callable("fmiInstantiateSlave");
   const fmi1CallbackFunctions callbacks{&on_log, &std::calloc, &std::free, nullptr};
-  instance_ = guarded("fmiInstantiateSlave", [&] {
+  instantiate_by("fmiInstantiateSlave", [&] {
     return fmi_.InstantiateSlave(name_.c_str(), parts_.description->instantiation_token.c_str(),
                                  parts_.resources.c_str(), kMimeType, kNoTimeout, fmi1False,
                                  fmi1False, callbacks,
                                  options_.debug_logging ? fmi1True : fmi1False);
   });
-  restore_process("fmiInstantiateSlave");
-  if (instance_ == nullptr) {
-    fail(fmt::format("fmiInstantiateSlave failed: {}", take_messages("fmiInstantiateSlave")));
-  }
 }
 
 Fmi1Unit::~Fmi1Unit() {
@@ -66,12 +59,6 @@ void Fmi1Unit::reset() {
   is_new_step_ = true;
 }
 
-void Fmi1Unit::enter_event_mode() { fail("FMI 1.0 has no Event Mode"); }
-
-core::EventResult Fmi1Unit::update_discrete_states() { fail("FMI 1.0 has no Event Mode"); }
-
-void Fmi1Unit::enter_step_mode() { fail("FMI 1.0 has no Event Mode"); }
-
 /// The first argument is the component, which stride does not know before it is there.
 void Fmi1Unit::on_log(fmi1Component component, fmi1String, fmi1Status status, fmi1String category,
                       fmi1String message, ...) {
@@ -85,89 +72,6 @@ void Fmi1Unit::on_log(fmi1Component component, fmi1String, fmi1Status status, fm
   } catch (...) {  // nothing may cross the unit's C code
   }
   va_end(arguments);
-}
-
-// ---- Values ----
-
-/// The unit's value references, in place of core's.
-const fmi1ValueReference* Fmi1Unit::own(References references) {
-  own_.resize(references.size());
-  for (std::size_t i = 0; i < references.size(); ++i) {
-    own_[i] = attributes_->references[references[i]];
-  }
-  return own_.data();
-}
-
-void Fmi1Unit::get(References references, core::ValueBlock& values) {
-  const std::size_t count = references.size();
-  switch (values.type()) {
-    case core::ValueType::Float64:
-      return call("fmiGetReal", fmi_.GetReal, own(references), count,
-                  values.numbers<double>().data());
-    case core::ValueType::Int32:
-      return call("fmiGetInteger", fmi_.GetInteger, own(references), count,
-                  values.numbers<fmi1Integer>().data());
-    case core::ValueType::Enumeration: {
-      integers_.resize(count);
-      call("fmiGetInteger", fmi_.GetInteger, own(references), count, integers_.data());
-      std::ranges::copy(integers_, values.numbers<std::int64_t>().begin());
-      return;
-    }
-    case core::ValueType::Boolean: {
-      booleans_.resize(count);
-      call("fmiGetBoolean", fmi_.GetBoolean, own(references), count, booleans_.data());
-      std::ranges::transform(booleans_, values.numbers<bool>().begin(),
-                             [](fmi1Boolean value) { return value != fmi1False; });
-      return;
-    }
-    case core::ValueType::String: {
-      texts_.assign(count, nullptr);
-      call("fmiGetString", fmi_.GetString, own(references), count, texts_.data());
-      return copy_texts("fmiGetString", references, texts_, values.strings());
-    }
-    default:
-      fail(fmt::format("FMI 1.0 has no type {}", core::name(values.type())));
-  }
-}
-
-void Fmi1Unit::set(References references, const core::ValueBlock& values) {
-  const std::size_t count = references.size();
-  switch (values.type()) {
-    case core::ValueType::Float64:
-      return call("fmiSetReal", fmi_.SetReal, own(references), count,
-                  values.numbers<double>().data());
-    case core::ValueType::Int32:
-      return call("fmiSetInteger", fmi_.SetInteger, own(references), count,
-                  values.numbers<fmi1Integer>().data());
-    case core::ValueType::Enumeration: {
-      integers_.clear();
-      for (const std::int64_t value : values.numbers<std::int64_t>()) {
-        if (value != static_cast<fmi1Integer>(value)) {
-          fail(fmt::format("the value {} does not fit into an Enumeration of FMI 1.0 (32 bits)",
-                           value));
-        }
-        integers_.push_back(static_cast<fmi1Integer>(value));
-      }
-      return call("fmiSetInteger", fmi_.SetInteger, own(references), count,
-                  std::as_const(integers_).data());
-    }
-    case core::ValueType::Boolean: {
-      booleans_.clear();
-      for (const bool value : values.numbers<bool>()) {
-        booleans_.push_back(value ? fmi1True : fmi1False);
-      }
-      return call("fmiSetBoolean", fmi_.SetBoolean, own(references), count,
-                  std::as_const(booleans_).data());
-    }
-    case core::ValueType::String: {
-      texts_.clear();
-      for (const std::string& text : values.strings()) texts_.push_back(text.c_str());
-      return call("fmiSetString", fmi_.SetString, own(references), count,
-                  std::as_const(texts_).data());
-    }
-    default:
-      fail(fmt::format("FMI 1.0 has no type {}", core::name(values.type())));
-  }
 }
 
 // ---- Steps ----

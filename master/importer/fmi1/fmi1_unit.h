@@ -5,29 +5,33 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <stride/fmi1.h>
 
 #include "master/algorithm/capabilities/resetting.h"
 #include "master/importer/fmi1/fmi1_attributes.h"
 #include "master/importer/fmi1/fmi1_library.h"
-#include "master/importer/fmu_instance.h"
+#include "master/importer/scalar_unit.h"
 
 namespace stride::importer {
 
-/// See core::Unit for the order of calls, and FmuInstance for failures; terminate() does nothing
-/// after one. Such a unit has neither Event Mode nor clocks, and its state cannot be saved. It has
-/// no Initialization Mode either: it is initialized when that is entered, and what is set
-/// afterwards is an input.
-///
-/// Types: Real is Float64, Integer Int32, Enumeration core's Enumeration.
+/// The types and names of FMI 1.0.
+struct Fmi1Version {
+  using Functions = Fmi1Functions;
+  static constexpr const char* kName = "FMI 1.0";
+  STRIDE_SCALAR_VERSION(fmi1, "fmi")
+};
+
+/// See core::Unit for the order of calls, FmuInstance for failures, and ScalarUnit for values;
+/// terminate() does nothing after a failure. Such a unit has neither Event Mode nor clocks, and its
+/// state cannot be saved. It has no Initialization Mode either: it is initialized when that is
+/// entered, and what is set afterwards is an input.
 ///
 /// fmiDiscard means that the unit completed a part of the step: up to fmiLastSuccessfulTime, which
 /// is accepted like an early return. A step of which nothing was completed is rejected, if the unit
 /// canRejectSteps; the next one is repeated from the same point (newStep is false). fmiPending is
 /// an error.
-class Fmi1Unit final : public FmuInstance, public core::Capabilities<core::Resetting> {
+class Fmi1Unit final : public ScalarUnit<Fmi1Version>, public core::Capabilities<core::Resetting> {
  public:
   /// Throws core::Error of the kind Run, with the unit's messages, if it cannot be instantiated.
   Fmi1Unit(std::string name, std::shared_ptr<const Fmi1Library> library,
@@ -37,15 +41,10 @@ class Fmi1Unit final : public FmuInstance, public core::Capabilities<core::Reset
 
   void enter_initialization(Time start, std::optional<Time> stop) override;
   void exit_initialization() override {}
-  void get(References references, core::ValueBlock& values) override;
-  void set(References references, const core::ValueBlock& values) override;
   using FmuInstance::step;
   core::StepResult step(const core::StepInterval& interval,
                         const core::StepValues& values) override;
   void reset() override;
-  void enter_event_mode() override;
-  core::EventResult update_discrete_states() override;
-  void enter_step_mode() override;
   void terminate() override;
   void free() override;
 
@@ -55,19 +54,12 @@ class Fmi1Unit final : public FmuInstance, public core::Capabilities<core::Reset
   static void on_log(fmi1Component component, fmi1String instance, fmi1Status status,
                      fmi1String category, fmi1String message, ...);
 
-  const fmi1ValueReference* own(References references);
   core::StepResult handle_discard(const core::StepInterval& interval);
   std::optional<Time> last_successful_time(const core::StepInterval& interval);
 
-  const Fmi1Functions& fmi_;
   bool is_new_step_ = true;
   std::shared_ptr<const Fmi1Library> library_;
   std::shared_ptr<const Fmi1Attributes> attributes_;
-
-  std::vector<fmi1ValueReference> own_;
-  std::vector<fmi1Integer> integers_;
-  std::vector<fmi1Boolean> booleans_;
-  std::vector<fmi1String> texts_;
 };
 
 }  // namespace stride::importer

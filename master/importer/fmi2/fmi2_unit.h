@@ -19,15 +19,22 @@
 #include "master/importer/fmi2/fmi2_attributes.h"
 #include "master/importer/fmi2/fmi2_library.h"
 #include "master/importer/fmi2/input_derivatives.h"
-#include "master/importer/fmu_instance.h"
 #include "master/importer/saved_states.h"
+#include "master/importer/scalar_unit.h"
 
 namespace stride::importer {
 
-/// See core::Unit for the order of calls, and FmuInstance for failures; terminate() does nothing
-/// after one. Such a unit has neither Event Mode nor clocks.
+/// The types and names of FMI 2.0.
+struct Fmi2Version {
+  using Functions = Fmi2Functions;
+  static constexpr const char* kName = "FMI 2.0";
+  STRIDE_SCALAR_VERSION(fmi2, "fmi2")
+};
+
+/// See core::Unit for the order of calls, FmuInstance for failures, and ScalarUnit for values;
+/// terminate() does nothing after a failure. Such a unit has neither Event Mode nor clocks.
 ///
-/// Types: Real is Float64, Integer Int32, Enumeration core's Enumeration. Start values
+/// Start values
 /// are kept until fmi2SetupExperiment has been called, where some units reset them, and those of
 /// inputs until Initialization Mode, since FMI 2.0 allows them no earlier.
 ///
@@ -50,7 +57,7 @@ namespace stride::importer {
 /// After the first exchange, get(), set() and step() do not allocate, except where a string
 /// outgrows the longest before it.
 class Fmi2Unit final
-    : public FmuInstance,
+    : public ScalarUnit<Fmi2Version>,
       public core::Capabilities<core::StateSaving, core::StateSerialization, core::Resetting,
                                 core::DirectionalDerivatives, core::InputsWithinStep> {
  public:
@@ -62,9 +69,8 @@ class Fmi2Unit final
 
   void enter_initialization(Time start, std::optional<Time> stop) override;
   void exit_initialization() override;
-  void get(std::span<const core::ValueReference> references, core::ValueBlock& values) override;
-  void set(std::span<const core::ValueReference> references,
-           const core::ValueBlock& values) override;
+  using ScalarUnit::get;
+  void set(References references, const core::ValueBlock& values) override;
   void get_directional_derivative(References unknowns, References knowns,
                                   std::span<const double> seed,
                                   std::span<double> sensitivity) override;
@@ -77,9 +83,6 @@ class Fmi2Unit final
   std::vector<std::uint8_t> serialize_state() override;
   void deserialize_state(std::span<const std::uint8_t> bytes) override;
   void reset() override;
-  void enter_event_mode() override;
-  core::EventResult update_discrete_states() override;
-  void enter_step_mode() override;
   void set_input_update(core::InputUpdate update) override { input_update_ = std::move(update); }
   void terminate() override;
   void free() override;
@@ -89,7 +92,8 @@ class Fmi2Unit final
 
   /// What the unit was at some time.
   struct SavedState {
-    fmi2FMUstate state = nullptr;
+    fmi2FMUstate state = nullptr;  ///< null, too, for a unit that has none
+    bool is_present = false;
     std::optional<Time> time;
     bool is_instantiated_only = false;
   };
@@ -100,20 +104,12 @@ class Fmi2Unit final
   std::string with_names(const std::string& message) const;
   std::string variable_name(char type, fmi2ValueReference reference) const;
 
-  const fmi2ValueReference* own(References references) { return own(references, own_); }
-  const fmi2ValueReference* own(References references, std::vector<fmi2ValueReference>& into);
   void get(const core::BoundValues& values);
   void set(const core::BoundValues& values);
-  void get_enumerations(References references, std::span<std::int64_t> values);
-  void set_enumerations(References references, std::span<const std::int64_t> values);
-  void get_booleans(References references, std::span<bool> values);
-  void set_booleans(References references, std::span<const bool> values);
-  void get_strings(References references, std::span<std::string> values);
-  void set_strings(References references, std::span<const std::string> values);
   void keep(References references, const core::ValueBlock& values);
 
   void set_input_derivatives(double size);
-  void save(SavedState& saved);
+  bool save(SavedState& saved);
   void restore(const SavedState& saved);
   void free_state(SavedState& saved);
 
@@ -131,8 +127,6 @@ class Fmi2Unit final
   std::optional<Time> last_successful_time(const core::StepInterval& interval);
   bool requests_termination();
 
-  const Fmi2Functions& fmi_;
-  const fmi2ValueReference* unit_references_;  ///< by core's reference
   bool saves_each_step_;
   bool is_as_saved_ = false;  ///< the unit is what the chosen state holds
   core::InputUpdate input_update_;
@@ -152,9 +146,7 @@ class Fmi2Unit final
   using KeptValues = std::vector<std::pair<std::vector<core::ValueReference>, core::ValueBlock>>;
   KeptValues kept_parameters_, kept_inputs_;  ///< until fmi2SetupExperiment, Initialization Mode
 
-  std::vector<fmi2ValueReference> own_, own_knowns_;
-  std::vector<fmi2Integer> integers_;
-  std::vector<fmi2String> texts_;
+  std::vector<fmi2ValueReference> own_knowns_;
 };
 
 }  // namespace stride::importer

@@ -9,27 +9,27 @@ constexpr const char* kFmi2Serializing = "canSerializeFMUstate";
 
 }  // namespace
 
-void Fmi2Unit::save_state() {
-  save(states_.chosen());
-  is_as_saved_ = true;
-}
+void Fmi2Unit::save_state() { is_as_saved_ = save(states_.chosen()); }
 
 void Fmi2Unit::restore_state() {
   restore(states_.chosen());
   is_as_saved_ = true;
 }
 
-void Fmi2Unit::save(SavedState& saved) {
+bool Fmi2Unit::save(SavedState& saved) {
   require("fmi2GetFMUstate", fmi_.GetFMUstate, kFmi2Saving);
-  call("fmi2GetFMUstate", fmi_.GetFMUstate, &saved.state);  // the unit uses its memory again
+  saved.is_present = save_by("fmi2GetFMUstate", fmi_.GetFMUstate, saved.state);
   saved.time = time_;
   saved.is_instantiated_only = is_instantiated_only_;
+  saves_each_step_ = saves_each_step_ && saved.is_present;
+  return saved.is_present;
 }
 
 void Fmi2Unit::restore(const SavedState& saved) {
-  if (saved.state == nullptr) fail("no state of it has been saved that could be restored");
+  if (!saved.is_present) fail_without_state();
   require("fmi2SetFMUstate", fmi_.SetFMUstate, kFmi2Saving);
   call("fmi2SetFMUstate", fmi_.SetFMUstate, saved.state);
+  was_restored_ = true;
   time_ = saved.time;
   is_instantiated_only_ = saved.is_instantiated_only;
 }
@@ -49,6 +49,7 @@ std::vector<std::uint8_t> Fmi2Unit::serialize_state() {
                                                       .write_name = "fmi2SerializeFMUstate",
                                                       .write = fmi_.SerializeFMUstate,
                                                       .capability = kFmi2Serializing};
+  if (!states_.chosen().is_present) fail_without_state();
   return serialized(states_.chosen().state, functions);
 }
 
@@ -58,14 +59,18 @@ void Fmi2Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
   SavedState& saved = states_.chosen();
   free_state(saved);
   is_as_saved_ = false;
+  void* state = nullptr;  // what a failed call leaves there is undefined
   call("fmi2DeSerializeFMUstate", fmi_.DeSerializeFMUstate,
-       reinterpret_cast<const fmi2Byte*>(bytes.data()), bytes.size(), &saved.state);
+       reinterpret_cast<const fmi2Byte*>(bytes.data()), bytes.size(), &state);
+  saved.state = state;
+  saved.is_present = true;
 }
 
 void Fmi2Unit::reset() {
   reset_by("fmi2Reset", fmi_.Reset);
   is_as_saved_ = has_discard_warning_ = has_slow_step_warning_ = false;
   is_instantiated_only_ = true;
+  saves_each_step_ = parts_.description->can_save_state;
   kept_parameters_.clear();
   kept_inputs_.clear();
 }

@@ -46,12 +46,11 @@ Fmi3Unit::Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library,
       fmi_(library->functions()),
       library_(std::move(library)),
       tangent_outputs_(tangent_outputs(*parts_.description)) {
-  check_callable("fmi3InstantiateCoSimulation");
   const core::UnitDescription& description = *parts_.description;
   const bool has_resources = !parts_.resources.empty();
   std::vector<core::ValueReference> intermediate;
   if (options_.intermediate_update) intermediate = intermediate_inputs(description);
-  instance_ = guarded("fmi3InstantiateCoSimulation", [&] {
+  instantiate_by("fmi3InstantiateCoSimulation", [&] {
     return fmi_.InstantiateCoSimulation(
         name_.c_str(), description.instantiation_token.c_str(),
         has_resources ? parts_.resources.c_str() : nullptr, fmi3False, options_.debug_logging,
@@ -59,11 +58,6 @@ Fmi3Unit::Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library,
         intermediate.size(), environment(), &on_log,
         intermediate.empty() ? nullptr : &on_intermediate_update);
   });
-  restore_process("fmi3InstantiateCoSimulation");
-  if (instance_ == nullptr) {
-    fail(fmt::format("fmi3InstantiateCoSimulation failed: {}",
-                     take_messages("fmi3InstantiateCoSimulation")));
-  }
 }
 
 Fmi3Unit::~Fmi3Unit() {
@@ -264,6 +258,7 @@ core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
   if (event_handling_needed && !parts_.description->has_event_mode) [[unlikely]]
     fail("fmi3DoStep returned eventHandlingNeeded, and the unit has no Event Mode (hasEventMode)");
   if (!early && last_successful != interval.end_seconds) compare_times(interval, last_successful);
+  was_restored_ = false;
   time_ = early ? reached_early(interval, last_successful) : interval.to;
   for (const core::BoundValues& output : values.outputs) get(output);
   return {.early_return = early,

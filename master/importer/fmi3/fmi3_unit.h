@@ -109,7 +109,8 @@ class Fmi3Unit final
 
   /// What the unit was at some time.
   struct SavedState {
-    fmi3FMUState state = nullptr;
+    fmi3FMUState state = nullptr;  ///< null, too, for a unit that has none
+    bool is_present = false;
     std::optional<Time> time;
   };
   void free_state(SavedState& saved);

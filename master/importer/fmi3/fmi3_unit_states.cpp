@@ -12,15 +12,16 @@ constexpr const char* kFmi3Serializing = "canSerializeFMUState";
 void Fmi3Unit::save_state() {
   require("fmi3GetFMUState", fmi_.GetFMUState, kFmi3Saving);
   SavedState& saved = states_.chosen();
-  call("fmi3GetFMUState", fmi_.GetFMUState, &saved.state);  // the unit uses its memory again
+  saved.is_present = save_by("fmi3GetFMUState", fmi_.GetFMUState, saved.state);
   saved.time = time_;
 }
 
 void Fmi3Unit::restore_state() {
   const SavedState& saved = states_.chosen();
-  if (saved.state == nullptr) fail("no state of it has been saved that could be restored");
+  if (!saved.is_present) fail_without_state();
   require("fmi3SetFMUState", fmi_.SetFMUState, kFmi3Saving);
   call("fmi3SetFMUState", fmi_.SetFMUState, saved.state);
+  was_restored_ = true;
   time_ = saved.time;
 }
 
@@ -36,6 +37,7 @@ std::vector<std::uint8_t> Fmi3Unit::serialize_state() {
                                                       .write_name = "fmi3SerializeFMUState",
                                                       .write = fmi_.SerializeFMUState,
                                                       .capability = kFmi3Serializing};
+  if (!states_.chosen().is_present) fail_without_state();
   return serialized(states_.chosen().state, functions);
 }
 
@@ -44,8 +46,10 @@ void Fmi3Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
   require("fmi3DeserializeFMUState", fmi_.DeserializeFMUState, kFmi3Serializing);
   SavedState& saved = states_.chosen();
   free_state(saved);
-  call("fmi3DeserializeFMUState", fmi_.DeserializeFMUState, bytes.data(), bytes.size(),
-       &saved.state);
+  void* state = nullptr;  // what a failed call leaves there is undefined
+  call("fmi3DeserializeFMUState", fmi_.DeserializeFMUState, bytes.data(), bytes.size(), &state);
+  saved.state = state;
+  saved.is_present = true;
 }
 
 void Fmi3Unit::reset() {

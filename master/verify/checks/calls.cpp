@@ -91,8 +91,13 @@ std::vector<Offence> offences(const TestedUnit& tested) {
   const core::UnitDescription& unit = tested.description();
   std::vector<Offence> list = offences_of_any_unit();
   if (unit.has_event_mode) add_event_mode(list);
-  // in FMI 2.0 the importer numbers the variables
-  if (!unit.fmi_version.starts_with("2")) add_unknown_reference(list, unused_reference(unit));
+  if (unit.fmi_version.starts_with("1.")) {  // which has no Initialization Mode
+    std::erase_if(list, [](const Offence& offence) {
+      return offence.function == "ExitInitializationMode" || offence.state == State::Initialization;
+    });
+  }
+  // before FMI 3.0 the importer numbers the variables
+  if (unit.fmi_version.starts_with("3")) add_unknown_reference(list, unused_reference(unit));
   return list;
 }
 

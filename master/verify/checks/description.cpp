@@ -33,17 +33,26 @@ class Examination {
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
+  /// Of the standards: what it says of variables, and of the model structure.
+  static constexpr Rules kVariables{"2.2.7", "2.4.7"};
+  static constexpr Rules kStructure{"2.2.8", "2.4.8"};
+
   template <class... Arguments>
-  void mistake(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
-    mistakes_.push_back(fmt::format(text, std::forward<Arguments>(arguments)...));
+  void mistake(const Rules& rules, fmt::format_string<Arguments...> text,
+               Arguments&&... arguments) {
+    std::string seen = fmt::format(text, std::forward<Arguments>(arguments)...);
+    const std::string rule = rule_of(rules, unit_.fmi_version);
+    mistakes_.push_back(rule.empty() ? std::move(seen) : fmt::format("{} ({})", seen, rule));
   }
 
   void examine(const Variable& variable) {
     const bool is_known = variable.causality == Causality::Input ||
                           variable.causality == Causality::Parameter ||
                           variable.initial == Initial::Exact || variable.initial == Initial::Approx;
-    if (is_known && variable.start.empty() && has_start(variable)) {
-      mistake("'{}' is {} and has no start value", variable.name, name(variable.causality));
+    const bool may_lack_it = unit_.fmi_version.starts_with("1.");
+    if (is_known && variable.start.empty() && has_start(variable) && !may_lack_it) {
+      mistake(kVariables, "'{}' is {} and has no start value", variable.name,
+              name(variable.causality));
     }
     if (!variable.unit.empty() && !unit_.units_of_measure.contains(variable.unit) &&
         said_units_.insert(variable.unit).second) {
@@ -67,7 +76,8 @@ class Examination {
       compare(variable, start);
     } catch (const std::invalid_argument& error) {
       if (variable.start.empty()) return;
-      mistake("'{}' has the start value '{}': {}", variable.name, variable.start, error.what());
+      mistake(kVariables, "'{}' has the start value '{}': {}", variable.name, variable.start,
+              error.what());
     }
   }
 
@@ -79,7 +89,7 @@ class Examination {
           const bool is_low = !variable.min.empty() && number < std::stod(variable.min);
           const bool is_high = !variable.max.empty() && number > std::stod(variable.max);
           if (!is_low && !is_high) continue;
-          mistake("'{}' has the start value {}, which is {} its {} {}", variable.name,
+          mistake(kVariables, "'{}' has the start value {}, which is {} its {} {}", variable.name,
                   variable.start, is_low ? "below" : "above", is_low ? "min" : "max",
                   is_low ? variable.min : variable.max);
           return;
@@ -93,18 +103,19 @@ class Examination {
     for (const Unknown& unknown : unknowns) {
       const Variable& variable = unit_.variables[*unit_.find(unknown.reference)];
       if (!listed.insert(unknown.reference).second) {
-        mistake("<{}> lists '{}' twice", element, variable.name);
+        mistake(kStructure, "<{}> lists '{}' twice", element, variable.name);
       }
       const bool is_output = variable.causality == Causality::Output;
       if (std::string(element) == "Output" && !is_output) {
-        mistake("<Output> lists '{}', which is {}", variable.name, name(variable.causality));
+        mistake(kStructure, "<Output> lists '{}', which is {}", variable.name,
+                name(variable.causality));
       }
       for (const ValueReference known :
            unknown.dependencies.value_or(std::vector<ValueReference>{})) {
         const Variable& source = unit_.variables[*unit_.find(known)];
         if (source.variability != core::Variability::Constant) continue;
-        mistake("<{}> lets '{}' depend on '{}', which is a constant", element, variable.name,
-                source.name);
+        mistake(kStructure, "<{}> lets '{}' depend on '{}', which is a constant", element,
+                variable.name, source.name);
       }
     }
   }
@@ -118,7 +129,7 @@ class Examination {
     for (const Variable& variable : unit_.variables) {
       const bool is_output = variable.causality == Causality::Output;
       if (is_output && !lists(unit_.outputs, variable.reference)) {
-        mistake("<ModelStructure> has no <Output> for '{}'", variable.name);
+        mistake(kStructure, "<ModelStructure> has no <Output> for '{}'", variable.name);
       }
       const bool is_computed =
           variable.initial == Initial::Calculated || variable.initial == Initial::Approx;
@@ -126,6 +137,7 @@ class Examination {
                               variable.causality == Causality::CalculatedParameter;
       if (is_unknown && !lists(unit_.initial_unknowns, variable.reference)) {
         mistake(
+            kStructure,
             "<ModelStructure> has no <InitialUnknown> for '{}', whose initial value is computed",
             variable.name);
       }
@@ -136,7 +148,7 @@ class Examination {
     if (unit_.has_event_mode) return;
     for (const Variable& variable : unit_.variables) {
       if (variable.type != ValueType::Clock) continue;
-      return mistake("'{}' is a clock, and the unit has no Event Mode (hasEventMode)",
+      return mistake(kVariables, "'{}' is a clock, and the unit has no Event Mode (hasEventMode)",
                      variable.name);
     }
   }

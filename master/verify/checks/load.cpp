@@ -42,7 +42,7 @@ std::vector<std::string> declared_functions(const core::UnitDescription& unit) {
 }
 
 std::string version_of(const Trial& trial, void* library) {
-  const std::string name = trial.tested.function("GetVersion");
+  const std::string name = trial.tested.symbol("GetVersion");
   using GetVersion = const char*();
   auto* const get = reinterpret_cast<GetVersion*>(::dlsym(library, name.c_str()));
   if (get == nullptr) throw Failure(fmt::format("the library does not export {}", name));
@@ -79,7 +79,7 @@ Finding check_load(const Trial& trial) {
   std::vector<std::string> missing;
   const std::vector<std::string> names = declared_functions(description);
   for (const std::string& name : names) {
-    const std::string function = trial.tested.function(name);
+    const std::string function = trial.tested.symbol(name);
     if (::dlsym(handle.get(), function.c_str()) == nullptr) missing.push_back(function);
   }
   if (!missing.empty()) {

@@ -9,6 +9,7 @@
 #include <malloc.h>
 #include <unistd.h>
 
+#include "master/util/error.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {
@@ -97,6 +98,7 @@ struct Growth {
 };
 
 /// What grows in each quarter of the repetitions grows for ever: caches and pools fill up once.
+/// `work` returns whether it can be repeated.
 template <class Work>
 Growth measure(std::size_t wanted, Clock::time_point deadline, Work&& work) {
   for (std::size_t i = 0; i < kWarmUp; ++i) work();
@@ -106,11 +108,12 @@ Growth measure(std::size_t wanted, Clock::time_point deadline, Work&& work) {
   std::size_t count = 0;
   marks[0] = usage();
   while (count < wanted && (count < kFewest || Clock::now() < deadline)) {
-    work();
+    if (!work()) break;
     marks[++count] = usage();
   }
   Growth growth{count, 1e300, 1e300};
   const std::size_t length = growth.count / kQuarters;
+  if (length == 0) return {};
   for (std::size_t q = 0; q < kQuarters; ++q) {
     const Usage& from = marks[q * length];
     const Usage& to = marks[(q + 1) * length];
@@ -137,21 +140,41 @@ constexpr bool kIsSanitized = true;  // which has an allocator of its own and ke
 constexpr bool kIsSanitized = false;
 #endif
 
+void live_briefly(const Trial& trial) {
+  TestInstance instance = trial.make_instance();
+  instance.start();
+  instance.run_to(std::min<std::size_t>(5, trial.tested.steps()), false);
+  if (!instance.recording().has_ended) instance.terminate();
+}
+
 /// Of instances that are made, run and freed one after the other.
 Growth growth_by_instances(const Trial& trial, Clock::duration share) {
-  const std::size_t few_steps = std::min<std::size_t>(5, trial.tested.steps());
+  std::size_t before = 0;
   return measure_surely(trial.tested.request().instances, share, [&] {
-    TestInstance instance = trial.make_instance();
-    instance.start();
-    instance.run_to(few_steps, false);
-    if (!instance.recording().has_ended) instance.terminate();
+    try {
+      live_briefly(trial);
+      ++before;
+      return true;
+    } catch (const core::Error& error) {
+      throw Failure(fmt::format("after {} instances in one process: {}", before, error.what()));
+    }
   });
 }
 
+/// A unit may refuse to go further than the run that it was made for.
 Growth growth_by_steps(const Trial& trial, Clock::duration share) {
   TestInstance instance = trial.make_instance();
   instance.start();
-  return measure_surely(kMostSteps, share, [&] { instance.run_to(instance.at() + 1, false); });
+  return measure_surely(kMostSteps, share, [&] {
+    const std::size_t at = instance.at();
+    try {
+      instance.run_to(at + 1, false);
+    } catch (const core::Error&) {
+      if (at < trial.tested.steps()) throw;
+      return false;
+    }
+    return true;
+  });
 }
 
 }  // namespace
@@ -161,21 +184,24 @@ Finding check_memory(const Trial& trial) {
   const auto share = trial.tested.request().limit / 5;  // each of two may be measured twice
   trial.tested.fmu().load_library();
   const Leftovers before;
-  const Growth instances = growth_by_instances(trial, share);
+  const bool is_single = trial.tested.description().single_instance;
+  const Growth instances = is_single ? Growth{} : growth_by_instances(trial, share);
   if (instances.is_leak()) {
-    return failed(fmt::format("it leaks {}, over {} instances (allowed: {} and {})",
+    throw Failure(fmt::format("it leaks {}, over {} instances (allowed: {} and {})",
                               instances.text("instance"), instances.count, kMostHeap,
                               kMostResident));
   }
   const Leftovers after;
-  require_released(before, after, instances.count + kWarmUp);
+  if (!is_single) require_released(before, after, instances.count + kWarmUp);
   const Growth steps = growth_by_steps(trial, share);
   if (steps.is_leak()) {
     return failed(fmt::format("while it runs it grows by {}, over {} steps (allowed: {} and {})",
                               steps.text("step"), steps.count, kMostHeap, kMostResident));
   }
-  return passed(fmt::format("{} after {} instances; {} after {} steps", instances.text("instance"),
-                            instances.count, steps.text("step"), steps.count),
+  const std::string of_steps = fmt::format("{} after {} steps", steps.text("step"), steps.count);
+  if (is_single) return passed(of_steps);  // by canBeInstantiatedOnlyOncePerProcess
+  return passed(fmt::format("{} after {} instances; {}", instances.text("instance"),
+                            instances.count, of_steps),
                 notes_on(before, after));
 }
 

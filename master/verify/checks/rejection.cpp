@@ -130,7 +130,8 @@ void require_no_effect(const Trial& trial, std::size_t from, const RejectionProb
 void require_allowed(const core::UnitDescription& unit, std::size_t rejections) {
   if (unit.may_reject || rejections == 0) return;
   throw Failure(
-      fmt::format("it rejects {} steps, though it declares mayReject=\"false\"", rejections));
+      fmt::format("it rejects {} steps, though it declares mayReject=\"false\"", rejections),
+      false);
 }
 
 /// Steps of other sizes than its own cannot be tried.

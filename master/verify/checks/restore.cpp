@@ -32,6 +32,8 @@ class Restorer {
             "after the restore" + when);
   }
 
+  const std::vector<std::string>& notes() const { return notes_; }
+
  private:
   struct Expected {
     std::size_t to = 0;
@@ -41,13 +43,17 @@ class Restorer {
 
   void compare(const std::vector<Row>& expected, const std::vector<Row>& seen,
                const std::string& expected_when, const std::string& seen_when) {
-    const auto differs = difference(trial_.tested, expected, seen, expected_when, seen_when);
+    std::string note;
+    const auto differs =
+        difference_beyond_rounding(trial_.tested, expected, seen, expected_when, seen_when, note);
     if (differs) throw Failure(*differs);
+    if (notes_.empty() && !note.empty()) notes_.push_back(note);
   }
 
   const Trial& trial_;
   TestInstance& instance_;
   Expected expected_[3];
+  std::vector<std::string> notes_;  ///< of the first rounding that was seen
 };
 
 }  // namespace
@@ -68,10 +74,10 @@ Finding check_restore(const Trial& trial) {
   restorer.restore(kEarly, " from a later instant, with another state saved meanwhile");
   restorer.restore(kLate, " from an earlier instant");
   restorer.restore(kBeginning, " of the beginning");
-  return passed(
-      fmt::format("three states alive at once, five restores, each followed by {} to {} "
-                  "steps",
-                  std::min(early, late - early), tested.steps() - early));
+  return passed(fmt::format("three states alive at once, five restores, each followed by {} to {} "
+                            "steps",
+                            std::min(early, late - early), tested.steps() - early),
+                restorer.notes());
 }
 
 }  // namespace stride::verify

@@ -9,6 +9,16 @@ using Catch::Matchers::Contains;
 
 namespace {
 
+/// A copy of a library with these bytes in place of others, of the same number.
+fs::path altered(const Scratch& scratch, const std::string& library, const std::string& from,
+                 const std::string& to) {
+  std::string bytes = read(raw_library(library));
+  const std::size_t at = bytes.find(from);
+  REQUIRE(at != std::string::npos);
+  REQUIRE(from.size() == to.size());
+  return scratch.write("altered.so", bytes.replace(at, from.size(), to));
+}
+
 std::string error_of_loading(const fs::path& path) {
   return input_error([&] { importer::Fmi3Library(path, {"system.ssd", 3}); });
 }
@@ -18,7 +28,7 @@ std::string error_of_loading(const fs::path& path) {
 TEST_CASE("a missing shared library is named") {
   CHECK_THAT(error_of_loading(raw_library("raw_with_missing_library")),
              Contains("needs the shared library 'libstride_test_absent.so', which was not found") &&
-                 Contains("hint: install the package"));
+                 Contains("hint: install the package") && Contains("'libstride-test-absent'"));
 }
 
 TEST_CASE("an undefined symbol is named") {
@@ -32,4 +42,56 @@ TEST_CASE("what is not a library for this machine is an error") {
       error_of_loading(scratch.write("text.so", "this is not a library, whatever its name says")),
       Contains("text.so' cannot be loaded") && Contains(importer::platform()));
   CHECK_THAT(error_of_loading(scratch / "absent.so"), Contains("absent.so' cannot be loaded"));
+}
+
+TEST_CASE("the package of a missing library is named as Debian does") {
+  const Scratch scratch;
+  const auto [library, package] = GENERATE(table<std::string, std::string>({
+      {"libgfortran.so.5", "libgfortran5"},
+      {"libpython3.9.so.1.0", "libpython3.9"},
+      {"liblic2.so.1", "liblic2-1"},
+  }));
+  const std::string padded = library + std::string(1, '\0');
+  const std::string needed = "libstride_test_absent.so" + std::string(1, '\0');
+  std::string name = padded + std::string(needed.size() - padded.size(), '\0');
+  CHECK_THAT(error_of_loading(altered(scratch, "raw_with_missing_library", needed, name)),
+             Contains("needs the shared library '" + library + "'") &&
+                 Contains("mostly '" + package + "'"));
+}
+
+TEST_CASE("a library that was built on a newer system is an error that says so") {
+  const Scratch scratch;
+  const std::string version(std::string("GLIBC_2.2.5") + '\0');
+  if (read(raw_library("raw")).find(version) == std::string::npos) return;  // other processors
+  CHECK_THAT(error_of_loading(altered(scratch, "raw", version, std::string("GLIBC_9.9.9") + '\0')),
+             Contains("version `GLIBC_9.9.9' not found") && Contains("built on a newer system"));
+}
+
+TEST_CASE("a library for another number of bits is an error that says so") {
+  const Scratch scratch;
+  const std::string magic =
+      "\x7f"
+      "ELF";
+  const char here = sizeof(void*) == 8 ? '\2' : '\1';
+  const char other = sizeof(void*) == 8 ? '\1' : '\2';
+  CHECK_THAT(error_of_loading(altered(scratch, "raw", magic + here, magic + other)),
+             Contains("wrong ELF class") && Contains("not for as many bits as this program"));
+}
+
+TEST_CASE("a library with an executable stack is loaded, or the error says what to do") {
+  try {
+    const importer::Fmi3Library library(raw_library("raw_with_executable_stack"));
+  } catch (const core::Error& error) {
+    CHECK_THAT(error.what(), Contains("executable stack") && Contains("patchelf"));
+  }
+}
+
+TEST_CASE("a unit that embeds Python without its library gets it, or the error asks for it") {
+  try {
+    const importer::Fmi3Library library(raw_library("raw_with_python"));
+    CHECK_THAT(library.python(), Contains("libpython3."));
+  } catch (const core::Error& error) {
+    CHECK_THAT(error.what(), Contains("it needs the symbol 'Py_IsInitialized'") &&
+                                 Contains("the unit embeds Python"));
+  }
 }

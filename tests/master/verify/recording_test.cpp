@@ -33,6 +33,22 @@ TEST_CASE("the first value that differs is named with both values and its time")
   CHECK(compare({point(0, "0")}, {point(0, "-0")}) != "");
 }
 
+TEST_CASE("of small differences the size is told, and rounding is none") {
+  const std::vector<Row> one{point(0, "1"), point(kMilli, "2")};
+  const std::vector<Row> near{point(0, "1"), point(kMilli, "2.00001")};
+  CHECK(compare(one, near) ==
+        "at 0.001 s 'y' is 2 here, and 2.00001 there; all differences are within 5e-06 of the "
+        "variables' largest values");
+  std::string note;
+  CHECK(difference_beyond_rounding(tested(), one, near, "here", "there", note));
+  CHECK(note.empty());
+  const std::vector<Row> rounded{point(0, "1"), point(kMilli, "2.0000000000000004")};
+  CHECK_FALSE(difference_beyond_rounding(tested(), one, rounded, "here", "there", note));
+  CHECK_THAT(note, Contains("within 2e-16"));
+  CHECK(difference_beyond_rounding(tested(), {event(0, "n=1"), point(0, "1")},
+                                   {event(0, "n=2"), point(0, "1")}, "here", "there", note));
+}
+
 TEST_CASE("an event that is missing, and a run that ends, differ") {
   CHECK(compare({event(kMilli, "tick")}, {point(kMilli, "1")}) ==
         "there is the event tick at 0.001 s here, and no event at 0.001 s there");

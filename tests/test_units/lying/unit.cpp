@@ -40,6 +40,7 @@ enum Lie {
   ExitsInStep,        ///< it ends the process
   MumblesMessages,    ///< its descriptions of messages are not text
   CountsQuestions,    ///< it changes when a message is described
+  OnlyOnce,           ///< no lie: it says that it crashes when it is made again in its process
 };
 constexpr Lie kLie = LIE;
 
@@ -66,6 +67,7 @@ class Lying : public stride::Unit {
   Lying() {
     auto& info = describe("Does not keep what it declares");
     info.may_reject = kLie == BreaksRejection;
+    info.single_instance = kLie == OnlyOnce;
     info.split_invariant = kLie == DependsOnSplit;
     input("u", u_);
     output("y", y_).exact().depends_on({}).range(-10, kLie == LeavesRange ? 0.01 : 10);
@@ -77,7 +79,7 @@ class Lying : public stride::Unit {
       state(hidden_, count_);
     }
     if (kLie == MumblesMessages || kLie == CountsQuestions) output("message", message_);
-    if (kLie == CrashesInReset && was_initialized) std::raise(SIGSEGV);
+    if ((kLie == CrashesInReset || kLie == OnlyOnce) && was_initialized) std::raise(SIGSEGV);
     if (kLie == ForgetsInReset && was_initialized) count_ = shared_count;
     if (kLie == KeepsInputInReset) u_ = shared_input;
     if (kLie == Leaks) leak();

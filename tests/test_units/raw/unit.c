@@ -52,6 +52,9 @@ extern void stride_test_nobody_has_this(void);
 #ifdef WITH_MISSING_LIBRARY
 extern int stride_test_absent(void);
 #endif
+#ifdef WITH_PYTHON
+extern int Py_IsInitialized(void);
+#endif
 #ifdef WITH_FAULTS
 #include "tests/test_units/faults/faults.h"
 #define FAULT(call) stride_test_fault(call, raw_point + raw_size)
@@ -83,6 +86,9 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
 #endif
 #ifdef WITH_MISSING_LIBRARY
   stride_test_absent();
+#endif
+#ifdef WITH_PYTHON
+  if (Py_IsInitialized() != 0) return NULL;
 #endif
   Instance* instance = instances;
   while (instance->is_used) {

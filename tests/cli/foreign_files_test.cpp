@@ -1,0 +1,96 @@
+// Files as other tools write them, in a run: character encodings, prefixes, sources.
+#include "master/importer/unpacked_fmu.h"
+#include "tests/build.h"
+#include "tests/cli/scenarios.h"
+
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string kDeclared = "encoding=\"UTF-8\"";
+
+/// A workspace whose unit "unit" has an umlaut in its description, which is "file" as text.
+struct Umlaut {
+  Workspace workspace{Parts{component("unit", "unit", "<!-- \xC3\xA4 -->")}};
+
+  Umlaut() {
+    fs::copy(stride::importer::UnpackedFmu(test_fmu("fmi2_relaxation")).folder(),
+             workspace / "unit", fs::copy_options::recursive);
+    const std::string text = read(workspace / "unit/modelDescription.xml");
+    write(replaced(text, "what x goes to", "was x \xC3\xA4ndert"));
+  }
+  std::string text() const { return read(workspace / "unit/modelDescription.xml"); }
+  void write(const std::string& text) {
+    workspace.scratch().write("unit/modelDescription.xml", text);
+  }
+  static std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, from.size(), to);
+  }
+};
+
+/// A text of characters below 256, a byte each.
+std::string latin1(const std::string& utf8) {
+  std::string bytes;
+  for (std::size_t i = 0; i < utf8.size(); ++i) {
+    const auto lead = static_cast<unsigned char>(utf8[i]);
+    if (lead < 0x80) {
+      bytes += utf8[i];
+    } else {
+      bytes += static_cast<char>((lead & 3) << 6 | (static_cast<unsigned char>(utf8[++i]) & 63));
+    }
+  }
+  return bytes;
+}
+
+std::string utf16(const std::string& utf8) {
+  std::string bytes = "\xFF\xFE";
+  for (const char c : latin1(utf8)) bytes += {c, '\0'};
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("a description in another encoding is read without a warning") {
+  Umlaut umlaut;
+  const std::string utf8 = umlaut.text();
+  const std::string bytes =
+      GENERATE_COPY(latin1(Umlaut::replaced(utf8, kDeclared, "encoding='ISO-8859-1'")),
+                    latin1(Umlaut::replaced(utf8, kDeclared, "encoding=\"windows-1252\"")),
+                    utf16(Umlaut::replaced(utf8, kDeclared, "encoding=\"UTF-16\"")));
+  umlaut.write(bytes);
+  const Outcome outcome = umlaut.workspace.run({"--quiet"});
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err == "");
+  const Outcome shown = umlaut.workspace.stride({"inspect", "unit"});
+  CHECK_THAT(shown.out, Contains("was x \xC3\xA4ndert"));
+}
+
+TEST_CASE("bytes of another encoding than the declared one are a warning with the line") {
+  Umlaut umlaut;
+  umlaut.write(latin1(umlaut.text()));
+  const Outcome outcome = umlaut.workspace.run({"--quiet"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("warning: ") && Contains("unit/modelDescription.xml:8: "));
+}
+
+TEST_CASE("a system file and its values in another encoding are read, and where they are wrong") {
+  const Workspace workspace(
+      Parts{component("unit", "fmi2_relaxation.fmu",
+                      "<ssd:ParameterBindings><ssd:ParameterBinding source=\"values.ssv\"/>"
+                      "</ssd:ParameterBindings>")});
+  const std::string values =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<ssv:ParameterSet version=\"1.0\" name=\"Gr\xC3\xB6\xC3\x9F"
+      "en\">\n"
+      "<ssv:Parameters><ssv:Parameter name=\"u\"><ssv:Real value=\"3\"/></ssv:Parameter>\n"
+      "</ssv:Parameters></ssv:ParameterSet>\n";
+  workspace.scratch().write("values.ssv", latin1(values));
+  const Outcome outcome = workspace.run({"--quiet"});
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("values.ssv:2: ") && Contains("ssv"));
+  CHECK(workspace.signals().numbers("unit.x").back() > 1.5);
+}
