@@ -66,6 +66,8 @@ struct UnitInfo {
   bool promises_idle = false;            ///< idle_until() may promise something (<stride/idle.h>)
   std::optional<Duration> fixed_step;    ///< its internal step size, where that is fixed
   std::optional<Duration> maximum_step;  ///< no communication step may be longer
+  std::optional<Duration>
+      default_step;  ///< the communication step it prefers, where none is chosen
 };
 
 /// A unit. The kit calls the virtual functions in this order and never at the same time:

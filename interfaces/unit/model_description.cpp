@@ -85,6 +85,9 @@ class Writer {
     write_units();
     write_types();
     write_log_categories();
+    if (const auto& step = unit_.info().default_step) {
+      xml_.open("DefaultExperiment").attribute("stepSize", to_seconds(*step)).close();
+    }
     xml_.open("ModelVariables");
     for (std::size_t i = 0; i < table_.size(); ++i) write_variable(i);
     xml_.close();

@@ -39,15 +39,28 @@ bool IdleSkipper::skip(Time to, Duration max_skip) {
   if (!rules_.idle()) return false;
   const Duration skipped = room(to, max_skip);
   if (skipped < kWorthwhile) return false;
-  if (rules_.clock_period() == Duration{} && kernel_.next_notification()) {
-    obstacle_ = kernel_.next_notification();
-    return false;
-  }
+  if (is_obstructed()) return false;
   kernel_.skip(skipped);
   rules_.on_skip(skipped);
   ++statistics_.skips;
   statistics_.skipped += skipped;
   statistics_.longest = std::max(statistics_.longest, skipped);
+  return true;
+}
+
+// It may be nearer than an edge of the clock by the next look, so the last one of them is kept.
+bool IdleSkipper::is_obstructed() {
+  if (obstructed_until_ >= kernel_.now()) return true;
+  const Duration period = rules_.clock_period();
+  if (period == Duration{}) {
+    const std::optional<Time> next = kernel_.next_notification();
+    if (next) obstacle_ = next;
+    return next.has_value();
+  }
+  const auto pending = kernel_.unclocked_notifications(period);
+  if (!pending) return false;
+  obstacle_ = pending->first;
+  obstructed_until_ = pending->last;
   return true;
 }
 
@@ -70,7 +83,7 @@ std::string obstacle_text(Time obstacle) {
   text << "the device declared itself idle, but SystemC had something to notify at "
        << to_seconds(obstacle)
        << " s: such time is not skipped; use a Timer in the place of wait(time) or notify(delay), "
-          "or declare the period of the clock that continues";
+          "let idle() return false meanwhile, or declare the period of the clock that continues";
   return text.str();
 }
 

@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <vector>
 
+#include <tlm_core/tlm_2/tlm_quantum/tlm_global_quantum.h>
+
 #include <stride/systemc/kernel.h>
 #include <stride/systemc/time.h>
 #include <stride/systemc/timer.h>
 
-#include "units/systemc/reset_finders.h"
+#include "units/systemc/kernel_internals.h"
 #include "units/systemc/sanitizer.h"
 
 namespace stride::systemc {
@@ -14,6 +16,7 @@ namespace {
 
 using sc_core::sc_process_handle;
 
+/// Each before those that it has spawned.
 void collect_threads(const std::vector<sc_core::sc_object*>& objects,
                      std::vector<sc_process_handle>& threads) {
   for (sc_core::sc_object* object : objects) {
@@ -25,6 +28,16 @@ void collect_threads(const std::vector<sc_core::sc_object*>& objects,
   }
 }
 
+void collect_clock_events(const std::vector<sc_core::sc_object*>& objects,
+                          std::vector<const sc_core::sc_event*>& events) {
+  for (const sc_core::sc_object* object : objects) {
+    if (const auto* clock = dynamic_cast<const sc_core::sc_clock*>(object)) {
+      for (const sc_core::sc_event* event : own_events(*clock)) events.push_back(event);
+    }
+    collect_clock_events(object->get_child_objects(), events);
+  }
+}
+
 }  // namespace
 
 Kernel* Kernel::active_ = nullptr;
@@ -32,9 +45,16 @@ Kernel* Kernel::active_ = nullptr;
 Kernel::Entry::Entry(Kernel& kernel)
     : scope_(kernel.context_.get(), &Kernel::handle), previous_(active_) {
   active_ = &kernel;
+  if (previous_ == &kernel) return;
+  outer_quantum_ = tlm::tlm_global_quantum::instance().get();
+  tlm::tlm_global_quantum::instance().set(kernel.quantum_);
 }
 
 Kernel::Entry::~Entry() {
+  if (previous_ != active_) {
+    active_->quantum_ = tlm::tlm_global_quantum::instance().get();
+    tlm::tlm_global_quantum::instance().set(outer_quantum_);
+  }
   active_ = previous_;
   if (previous_ == nullptr) restore_stack_bounds();
 }
@@ -61,8 +81,9 @@ void Kernel::handle(const sc_core::sc_report& report, const sc_core::sc_actions&
       (actions & (sc_core::SC_DISPLAY | sc_core::SC_LOG)) != 0) {
     active_->log_(report.get_severity(), active_->describe(report));
   }
-  if ((actions & sc_core::SC_STOP) != 0) sc_core::sc_stop();
-  if ((actions & (sc_core::SC_THROW | sc_core::SC_ABORT)) != 0) {
+  const bool stops = (actions & sc_core::SC_STOP) != 0;
+  if (stops && !error) sc_core::sc_stop();
+  if ((stops && error) || (actions & (sc_core::SC_THROW | sc_core::SC_ABORT)) != 0) {
     sc_core::sc_report_handler::default_handler(report, sc_core::SC_THROW);
   }
 }
@@ -106,6 +127,7 @@ void Kernel::initialize() {
     forget_reset_finders(*context_);
     context_->initialize(true);
     require_not_stopped();
+    find_clocks();
     settle();
   });
   initialized_ = true;
@@ -113,17 +135,30 @@ void Kernel::initialize() {
 
 // sc_start stops before the processes that are due at its last instant run
 void Kernel::settle() {
-  while (sc_core::sc_pending_activity_at_current_time(context_.get())) {
-    sc_core::sc_start(sc_core::SC_ZERO_TIME);
-    require_not_stopped();
+  while (!has_stopped() && !at_rest()) sc_core::sc_start(sc_core::SC_ZERO_TIME);
+}
+
+bool Kernel::has_stopped() {
+  if (!stopped_ && context_->sim_status() == sc_core::SC_SIM_USER_STOP) {
+    stopped_ = now();
+    allow_start_after_stop(*context_);
   }
+  return stopped_.has_value();
 }
 
 void Kernel::require_not_stopped() {
   if (context_->sim_status() == sc_core::SC_SIM_USER_STOP) {
-    fail("it called sc_stop at " + true_time(sc_core::sc_time_stamp()) +
-         "; a unit runs until its master ends the simulation");
+    fail(
+        "it called sc_stop before a process ran; call it in a process, where the design has "
+        "finished");
   }
+}
+
+void Kernel::add_clock(const sc_core::sc_event& edge) { clock_events_.push_back(&edge); }
+
+void Kernel::find_clocks() {
+  collect_clock_events(sc_core::sc_get_top_level_objects(context_.get()), clock_events_);
+  std::sort(clock_events_.begin(), clock_events_.end());
 }
 
 void Kernel::require_not_before_now(Time to) const {
@@ -151,9 +186,9 @@ Time Kernel::approach(Time to, bool may_stop_early) {
     horizon_ = to;
     set_alarm();
     const sc_core::sc_time end = to_kernel_time(to);
-    while (context_->time_stamp() < end) {
+    while (!has_stopped() && context_->time_stamp() < end) {
       sc_core::sc_start(end - context_->time_stamp());
-      require_not_stopped();
+      if (has_stopped()) break;
       if (may_stop_early && context_->time_stamp() < end) {
         settle();
         withdraw_alarm();
@@ -197,6 +232,22 @@ std::optional<Time> Kernel::next_notification() {
   return Time(to_duration(next, ticks_) + skipped());
 }
 
+std::optional<Kernel::Span> Kernel::unclocked_notifications(Duration period) {
+  const Entry entry(*this);
+  std::optional<Span> span;
+  for (const Notification& notification : pending_notifications(*context_)) {
+    if (notification.event == alarm_.get()) continue;
+    const Time due(to_duration(notification.time, ticks_) + skipped());
+    const bool may_be_edge =
+        clock_events_.empty()
+            ? due <= now() + period
+            : std::binary_search(clock_events_.begin(), clock_events_.end(), notification.event);
+    if (may_be_edge) continue;
+    span = span ? Span{std::min(span->first, due), std::max(span->last, due)} : Span{due, due};
+  }
+  return span;
+}
+
 void Kernel::skip(Duration duration) {
   require_usable();
   if (!initialized_ || !at_rest()) throw std::logic_error("only a device at rest can be skipped");
@@ -238,6 +289,11 @@ void Kernel::withdraw_alarm() {
   horizon_ = now();
 }
 
+void Kernel::set_quantum(Duration quantum) {
+  const Entry entry(*this);
+  tlm::tlm_global_quantum::instance().set(to_sc_time(quantum, ticks_));
+}
+
 void Kernel::write_traces() noexcept {
   if (!initialized_ || !failure_.empty() || !at_rest()) return;
   try {
@@ -254,9 +310,10 @@ void Kernel::end_threads() noexcept {
     std::vector<sc_process_handle> threads;
     collect_threads(sc_core::sc_get_top_level_objects(context_.get()), threads);
     if (threads.empty()) return;
-    // only a process can end another one at once
+    // only a process can end another one at once; a thread may use what is on the stack of the one
+    // that spawned it, as SC_JOIN does
     sc_core::sc_spawn([&threads] {
-      for (sc_process_handle& thread : threads) thread.kill();
+      std::for_each(threads.rbegin(), threads.rend(), [](auto& thread) { thread.kill(); });
     });
     sc_core::sc_start(sc_core::SC_ZERO_TIME);
   } catch (...) {  // a destructor of the device threw; the error can no longer be reported

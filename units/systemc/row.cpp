@@ -1,5 +1,7 @@
 #define SC_INCLUDE_DYNAMIC_PROCESSES
 #include <cstdlib>
+#include <memory>
+#include <utility>
 
 #include <cxxabi.h>
 
@@ -31,11 +33,49 @@ std::string readable(const char* type) {
   return text;
 }
 
-}  // namespace
-
-void fail_range(const std::string& value, const std::string& type, const std::string& range) {
-  throw std::out_of_range(value + " does not fit into " + type + ", which hold " + range);
+template <class T>
+void require_in(const Place<T>& place, const char* row) {
+  if (place.in != nullptr) return;
+  throw std::invalid_argument(std::string(row) +
+                              " is for an sc_in<bool> or an sc_in<sc_logic>, and " +
+                              place.object->name() + " is a " + place.object->kind());
 }
+
+sc_core::sc_signal_in_if<bool>& make_clock(Kernel& kernel, const sc_core::sc_object& /*port*/,
+                                           Duration period, bool) {
+  auto clock = std::make_unique<sc_core::sc_clock>(sc_core::sc_gen_unique_name("clock"),
+                                                   to_sc_time(period, ticks_per_picosecond()));
+  auto& kept = *clock;
+  kernel.own(std::move(clock));
+  return kept;
+}
+
+/// As an sc_clock, which there is for bool only.
+sc_core::sc_signal_in_if<sc_dt::sc_logic>& make_clock(Kernel& kernel,
+                                                      const sc_core::sc_object& port,
+                                                      Duration period, sc_dt::sc_logic) {
+  auto& signal = make_signal(kernel, port, sc_dt::sc_logic(false));
+  auto tick = std::make_shared<sc_core::sc_event>(sc_core::sc_gen_unique_name("edge"));
+  kernel.own(tick);
+  kernel.add_clock(*tick);
+  const sc_core::sc_time high = to_sc_time(period / 2, ticks_per_picosecond());
+  const sc_core::sc_time low = to_sc_time(period - period / 2, ticks_per_picosecond());
+  sc_core::sc_spawn_options options;
+  options.spawn_method();
+  options.dont_initialize();
+  options.set_sensitivity(tick.get());
+  sc_core::sc_spawn(
+      [&signal, edge = tick.get(), high, low, level = std::make_shared<bool>(false)] {
+        *level = !*level;
+        signal.write(sc_dt::sc_logic(*level));
+        edge->notify(*level ? high : low);
+      },
+      sc_core::sc_gen_unique_name("clock"), &options);
+  tick->notify(sc_core::SC_ZERO_TIME);
+  return signal;
+}
+
+}  // namespace
 
 sc_core::sc_object& find_below(const sc_core::sc_object& module, const std::string& name) {
   sc_core::sc_object* const object =
@@ -50,50 +90,42 @@ void fail_type(const sc_core::sc_object& object, const char* type) {
                               ", but no port or signal of the type " + readable(type));
 }
 
-const sc_core::sc_object* ClockRow::connect(Kernel& kernel, sc_core::sc_module& module) {
-  const Place<bool> place = find_(module);
+template <class T>
+void ClockRowOf<T>::connect(Elaboration& elaboration) {
+  const Place<T> place = find_(elaboration.module());
   port_ = place.object;
-  if (place.in == nullptr) {
-    throw std::invalid_argument(std::string("clock() is for an sc_in<bool>, and ") + port_->name() +
-                                " is a " + port_->kind());
-  }
+  require_in(place, "clock()");
   current_period_ = period_();
   if (current_period_ < Duration(2)) {
     throw std::invalid_argument(std::string("the clock of ") + port_->name() +
                                 " has a period of less than 2 ps");
   }
-  auto clock = std::make_unique<sc_core::sc_clock>(
-      sc_core::sc_gen_unique_name("clock"), to_sc_time(current_period_, ticks_per_picosecond()));
-  clock_ = clock.get();
-  kernel.own(std::move(clock));
+  elaboration.take(*port_, name());
+  clock_ = &make_clock(elaboration.kernel(), *port_, current_period_, T());
   place.in->bind(*clock_);
-  return port_;
 }
 
-void ClockRow::list_signals(SignalList& signals) const { signals.add_port(*port_, *clock_); }
-
-const sc_core::sc_object* ResetRow::connect(Kernel& kernel, sc_core::sc_module& module) {
-  const Place<bool> place = find_(module);
+template <class T>
+void ResetRow<T>::connect(Elaboration& elaboration) {
+  const Place<T> place = find_(elaboration.module());
   port_ = place.object;
-  if (place.in == nullptr) {
-    throw std::invalid_argument(std::string("reset() is for an sc_in<bool>, and ") + port_->name() +
-                                " is a " + port_->kind());
-  }
-  auto signal =
-      std::make_unique<sc_core::sc_signal<bool>>(sc_core::sc_gen_unique_name("reset"), level_);
-  signal_ = signal.get();
-  kernel.own(std::move(signal));
+  require_in(place, "reset()");
+  elaboration.take(*port_, name());
+  signal_ = &make_signal(elaboration.kernel(), *port_, T(level_));
+  signal_->write(T(level_));
   place.in->bind(*signal_);
   const sc_core::sc_time length = to_sc_time(length_, ticks_per_picosecond());
   sc_core::sc_spawn(
-      [signal = signal_, after = !level_, length] {
+      [signal = signal_, after = T(!level_), length] {
         sc_core::wait(length);
         signal->write(after);
       },
       sc_core::sc_gen_unique_name("end_of_reset"));
-  return port_;
 }
 
-void ResetRow::list_signals(SignalList& signals) const { signals.add_port(*port_, *signal_); }
+template class ClockRowOf<bool>;
+template class ClockRowOf<sc_dt::sc_logic>;
+template class ResetRow<bool>;
+template class ResetRow<sc_dt::sc_logic>;
 
 }  // namespace stride::systemc::detail

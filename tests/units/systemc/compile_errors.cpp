@@ -9,12 +9,15 @@ struct Complex {
 };
 std::ostream& operator<<(std::ostream& stream, const Complex& value) { return stream << value.re; }
 
+struct Socket : virtual sc_core::sc_interface {};
+
 struct Chip : sc_core::sc_module {
   sc_core::sc_in<sc_dt::sc_uint<64>> number{"number"};
   sc_core::sc_in<int> count{"count"};
   sc_core::sc_signal<Complex> phasor{"phasor"};
   sc_core::sc_signal<sc_dt::sc_biguint<65>> key{"key"};
   sc_core::sc_fifo_in<Complex> phasors{"phasors"};
+  sc_core::sc_port<Socket> socket{"socket"};
   double charge = 0;
   explicit Chip(sc_core::sc_module_name name) : sc_module(name) {}
 };
@@ -24,11 +27,12 @@ class ChipUnit : public stride::systemc::ModuleUnit<Chip> {
   ChipUnit() : ModuleUnit("chip", "A chip") {
     input("number", &Chip::number);
     output("charge", &Chip::charge);
+    output("key", &Chip::key);
 #ifdef unknown_type
     output("phasor", &Chip::phasor);
 #endif
-#ifdef too_wide
-    output("key", &Chip::key);
+#ifdef port_of_interface
+    output("socket", &Chip::socket);
 #endif
 #ifdef plain_input
     input("charge_in", &Chip::charge);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <random>
 #include <vector>
@@ -296,4 +297,48 @@ TEST_CASE("a skip leaves something to be simulated on both sides") {
   CHECK(device.kernel().skipped() == 100 * kMicrosecond - Duration(2));
   skipper.advance(at(100 * kMicrosecond + Duration(2)), false, kEver);
   CHECK(skipper.statistics().skips == 1);
+}
+
+namespace {
+
+/// Waits beside a clock that goes on, and notes where the wait ended.
+class Waiter : public sc_core::sc_module {
+ public:
+  std::vector<Time> woken;
+  Waiter(sc_core::sc_module_name name, bool has_sc_clock) : sc_module(name) {
+    if (has_sc_clock) {
+      clock_ = std::make_unique<sc_core::sc_clock>("clock", 20, sc_core::SC_NS);
+    } else {
+      SC_HAS_PROCESS(Waiter);
+      SC_METHOD(oscillate);
+    }
+    SC_HAS_PROCESS(Waiter);
+    SC_THREAD(run);
+  }
+
+ private:
+  void oscillate() { next_trigger(10, sc_core::SC_NS); }
+  void run() {
+    wait(130, sc_core::SC_US);
+    woken.push_back(stride::systemc::current_time());
+  }
+  std::unique_ptr<sc_core::sc_clock> clock_;
+};
+
+struct Clocked : Unclocked {
+  Duration clock_period() const override { return Duration(20'000); }
+};
+
+}  // namespace
+
+TEST_CASE("a wait beside a clock that goes on is simulated, and what follows it is skipped") {
+  const bool has_sc_clock = GENERATE(true, false);
+  CAPTURE(has_sc_clock);
+  Device<Waiter> device({}, "waiter", has_sc_clock);
+  Clocked rules;
+  IdleSkipper skipper(device.kernel(), rules);
+  for (const int end : {50, 100, 500, 1000}) skipper.advance(at(end * kMicrosecond), false, kEver);
+  CHECK(device.module().woken == std::vector<Time>{at(130 * kMicrosecond)});
+  CHECK(skipper.obstacle() == at(130 * kMicrosecond));
+  CHECK(device.kernel().skipped() > 700 * kMicrosecond);
 }

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <sysc/kernel/sc_dynamic_processes.h>
+#include <tlm_core/tlm_2/tlm_quantum/tlm_global_quantum.h>
 #include <unistd.h>
 
 #include <stride/systemc/device.h>
@@ -126,9 +128,99 @@ TEST_CASE("the failure of a device is an error with what, where and when") {
   CHECK_THAT(error_of([] { SC_REPORT_FATAL("motor", "on fire"); }, in_thread),
              Contains("motor: on fire"));
   CHECK_THAT(error_of([] { throw std::runtime_error("lost"); }, in_thread), Contains("lost"));
-  CHECK_THAT(error_of([] { sc_core::sc_stop(); }, in_thread), Contains("called sc_stop at 1 us"));
   CHECK_THAT(error_of([] { sc_core::sc_start(); }, in_thread),
              Contains("sc_start") && Contains("actor.act") && Contains("1 us"));
+}
+
+TEST_CASE("a device that calls sc_stop has finished") {
+  const bool in_thread = GENERATE(false, true);
+  CAPTURE(in_thread);
+  Device<Actor> device(
+      {}, "actor", [] { sc_core::sc_stop(); }, in_thread);
+  CHECK(device.advance(at(Duration(999'999))) == at(Duration(999'999)));
+  CHECK_FALSE(device.kernel().stopped());
+  CHECK(device.advance(at(2 * kMicrosecond)) == at(kMicrosecond));
+  CHECK(device.kernel().stopped() == at(kMicrosecond));
+  CHECK(device.advance(at(3 * kMicrosecond)) == at(kMicrosecond));
+}
+
+TEST_CASE("an error whose action is to stop is an error") {
+  Device<Actor> device(
+      {}, "actor",
+      [] {
+        sc_core::sc_report_handler::set_actions("motor", sc_core::SC_ERROR, sc_core::SC_STOP);
+        SC_REPORT_ERROR("motor", "overheated");
+      },
+      true);
+  CHECK_THROWS_WITH(device.advance(at(2 * kMicrosecond)), Contains("motor: overheated"));
+  sc_core::sc_report_handler::set_actions("motor", sc_core::SC_ERROR, sc_core::SC_UNSPECIFIED);
+}
+
+namespace {
+
+/// Its threads wait for others, which use what is on its stack.
+class Forker : public sc_core::sc_module {
+ public:
+  Forker(sc_core::sc_module_name name, std::shared_ptr<int> object)
+      : sc_module(name), object_(std::move(object)) {
+    SC_HAS_PROCESS(Forker);
+    SC_THREAD(run);
+  }
+
+ private:
+  void run() {
+    const std::shared_ptr<int> held = object_;
+    SC_FORK
+    sc_core::sc_spawn([&held] { hold(held, 2); }),
+        sc_core::sc_spawn([&held] { hold(held, 5); }) SC_JOIN
+  }
+  static void hold(const std::shared_ptr<int>& object, int microseconds) {
+    const std::shared_ptr<int> held = object;
+    sc_core::wait(microseconds, sc_core::SC_US);
+  }
+  std::shared_ptr<int> object_;
+};
+
+}  // namespace
+
+TEST_CASE("a device ends while its threads are in SC_FORK and SC_JOIN") {
+  const auto object = std::make_shared<int>(1);
+  for (const int microseconds : {1, 3, 10}) {
+    Device<Forker> device({}, "forker", object);
+    device.advance(at(microseconds * kMicrosecond));
+  }
+  CHECK(object.use_count() == 1);
+}
+
+TEST_CASE("the threads of a device that has called sc_stop are ended, too") {
+  struct Stopper : blinker::Owner {
+    Stopper(sc_core::sc_module_name name, std::shared_ptr<int> object) : Owner(name, object) {
+      sc_core::sc_spawn([] { sc_core::sc_stop(); });
+    }
+  };
+  const auto object = std::make_shared<int>(1);
+  {
+    Device<Stopper> device({}, "stopper", object);
+    CHECK(device.kernel().stopped());
+    CHECK(object.use_count() > 1);
+  }
+  CHECK(object.use_count() == 1);
+}
+
+TEST_CASE("each kernel has a global quantum of its own") {
+  const auto quantum = [] { return tlm::tlm_global_quantum::instance().get(); };
+  Kernel first;
+  first.initialize();
+  Kernel second;
+  second.initialize();
+  first.set_quantum(kMicrosecond);
+  CHECK(first.within(quantum) == sc_core::sc_time(1, sc_core::SC_US));
+  CHECK(second.within(quantum) == sc_core::SC_ZERO_TIME);
+  second.within(
+      [] { tlm::tlm_global_quantum::instance().set(sc_core::sc_time(1, sc_core::SC_NS)); });
+  CHECK(second.within(quantum) == sc_core::sc_time(1, sc_core::SC_NS));
+  CHECK(first.within(quantum) == sc_core::sc_time(1, sc_core::SC_US));
+  CHECK(quantum() == sc_core::SC_ZERO_TIME);
 }
 
 TEST_CASE("a device that runs or ends the simulation in its constructor gives an error") {

@@ -47,13 +47,17 @@ class UnitDriver {
   Time step(Time to, bool may_return_early = false) {
     Step step(now_, to, may_return_early);
     unit_->step(step);
+    terminates_ |= step.terminates();
     return now_ = step.reached().value_or(to);
   }
 
   void event() {
     Event event(now_);
     unit_->event(event);
+    terminates_ |= event.terminates();
   }
+  /// The unit has requested the end of the simulation.
+  bool terminates() const { return terminates_; }
 
   Time idle_until() const { return unit_->idle_until(now_); }
   Time now() const { return now_; }
@@ -66,6 +70,7 @@ class UnitDriver {
   double seconds_ = 0;
   kit::Table table_{*unit_, seconds_};
   Time now_;
+  bool terminates_ = false;
 };
 
 }  // namespace stride::tests

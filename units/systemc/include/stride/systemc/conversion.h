@@ -2,12 +2,15 @@
 #ifndef STRIDE_SYSTEMC_CONVERSION_H
 #define STRIDE_SYSTEMC_CONVERSION_H
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <systemc>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include <stride/unit.h>
 
@@ -33,15 +36,12 @@ using LeastInteger = std::conditional_t<
         std::conditional_t<(Width <= 32), std::conditional_t<Signed, std::int32_t, std::uint32_t>,
                            std::conditional_t<Signed, std::int64_t, std::uint64_t>>>>;
 
-/// SystemC's integers and bit vectors: the least integer of FMI that holds Width bits. What does
-/// not fit into them is an error, never cut off.
+/// SystemC's integers and bit vectors of up to 64 bits: the least integer of FMI that holds Width
+/// bits. What does not fit into them is an error, never cut off.
 template <class T, int Width, bool Signed>
 struct IntegerConversion {
-  static_assert(Width <= 64,
-                "an integer of FMI has 64 bits at most: output parts of this value by functions, "
-                "or specialise stride::systemc::Conversion for the type");
   using Fmi = LeastInteger<Width, Signed>;
-  static constexpr int kUnused = Width <= 64 ? 64 - Width : 0;
+  static constexpr int kUnused = 64 - Width;
   static constexpr Fmi kMax = static_cast<Fmi>(
       Signed ? std::numeric_limits<std::int64_t>::max() >> kUnused
              : static_cast<std::int64_t>(std::numeric_limits<std::uint64_t>::max() >> kUnused));
@@ -69,6 +69,53 @@ struct IntegerConversion {
   }
 };
 
+/// "0x" and the digits of so many bits, all of them, the most significant first. `digits` has none
+/// but 0 and 1.
+std::string hexadecimal(const std::string& digits);
+/// The `width` binary digits of such a text, which may be without "0x" and leading zeros; an empty
+/// one is 0. Throws std::out_of_range for what is no such number, or too large.
+std::string binary(const std::string& hexadecimal, int width, const std::string& type);
+
+/// More than 64 bits: a String, in hexadecimal, of a signed number in two's complement.
+template <class T, int Width>
+struct WideConversion {
+  using Fmi = std::string;
+  using Bits = sc_dt::sc_bv<Width>;
+  static Fmi to_fmi(const T& value) { return hexadecimal(Bits(value).to_string()); }
+  static T from_fmi(const Fmi& value) {
+    T result;
+    result = Bits(binary(value, Width, std::to_string(Width) + " bits").c_str());
+    return result;
+  }
+  static void describe(VariableBuilder&) {}
+};
+
+template <class T, int Width, bool Signed>
+using BitsConversion =
+    std::conditional_t<(Width <= 64), IntegerConversion<T, std::min(Width, 64), Signed>,
+                       WideConversion<T, Width>>;
+
+/// Numbers whose width is known when the model runs only: of 64 bits, or it is an error.
+template <class T, class Integer>
+struct AnyWidthConversion {
+  using Fmi = Integer;
+  static Fmi to_fmi(const T& value) {
+    const auto number =
+        static_cast<Integer>(std::is_signed_v<Integer> ? value.to_int64() : value.to_uint64());
+    if (!(value == T(from_fmi(number)))) {
+      fail_range(value.to_string(), "64 bits", "what an integer of FMI can");
+    }
+    return number;
+  }
+  static T from_fmi(Fmi number) {
+    T value(64);
+    value = static_cast<std::conditional_t<std::is_signed_v<Integer>, sc_dt::int64, sc_dt::uint64>>(
+        number);
+    return value;
+  }
+  static void describe(VariableBuilder&) {}
+};
+
 }  // namespace detail
 
 /// The FMI type of a SystemC type, and the way there and back. To be specialised for types of your
@@ -77,7 +124,8 @@ template <class T, class = void>
 struct Conversion {
   static_assert(detail::kNever<T>,
                 "no variable of FMI can hold this type: output parts of it by functions, or "
-                "specialise stride::systemc::Conversion for it");
+                "specialise stride::systemc::Conversion for it (docs/wrap-systemc.md has an "
+                "example)");
   using Fmi = double;
   static Fmi to_fmi(const T&) { return 0; }
   static T from_fmi(Fmi) { return T(); }
@@ -93,15 +141,44 @@ struct Conversion<T, std::enable_if_t<std::is_arithmetic_v<T>>> {
   static void describe(VariableBuilder&) {}
 };
 
-/// An enum, such as a machine's state: its integer, or, with the underlying type std::int64_t, an
-/// Enumeration, whose row needs items().
+/// To be specialised for an enum of yours, so that its variables are Enumerations with these names:
+///
+///   template <>
+///   struct stride::systemc::Items<State> {
+///     static constexpr std::pair<const char*, State> kItems[] = {{"idle", kIdle}, {"busy",
+///     kBusy}};
+///   };
+template <class T, class = void>
+struct Items {};
+
+namespace detail {
+template <class T, class = void>
+inline constexpr bool kHasItems = false;
+template <class T>
+inline constexpr bool kHasItems<T, std::void_t<decltype(Items<T>::kItems)>> = true;
+
+/// The value of an Enumeration of FMI, whatever the enum's integer is.
+enum class Item : std::int64_t {};
+}  // namespace detail
+
+/// An enum, such as a machine's state: its integer; an Enumeration if it has Items, or if its
+/// underlying type is std::int64_t, where its row needs items().
 template <class T>
 struct Conversion<T, std::enable_if_t<std::is_enum_v<T>>> {
   using Integer = std::underlying_type_t<T>;
-  using Fmi = std::conditional_t<std::is_same_v<Integer, std::int64_t>, T, Integer>;
+  using Plain = std::conditional_t<std::is_same_v<Integer, std::int64_t>, T, Integer>;
+  using Fmi = std::conditional_t<detail::kHasItems<T>, detail::Item, Plain>;
   static Fmi to_fmi(T value) { return static_cast<Fmi>(value); }
   static T from_fmi(Fmi value) { return static_cast<T>(value); }
-  static void describe(VariableBuilder&) {}
+  static void describe(VariableBuilder& row) {
+    if constexpr (detail::kHasItems<T>) {
+      std::vector<std::pair<std::string, std::int64_t>> items;
+      for (const auto& [name, value] : Items<T>::kItems) {
+        items.emplace_back(name, static_cast<std::int64_t>(value));
+      }
+      row.items(std::move(items));
+    }
+  }
 };
 
 template <>
@@ -117,13 +194,25 @@ struct Conversion<sc_dt::sc_uint<W>> : detail::IntegerConversion<sc_dt::sc_uint<
 template <int W>
 struct Conversion<sc_dt::sc_int<W>> : detail::IntegerConversion<sc_dt::sc_int<W>, W, true> {};
 template <int W>
-struct Conversion<sc_dt::sc_biguint<W>>
-    : detail::IntegerConversion<sc_dt::sc_biguint<W>, W, false> {};
+struct Conversion<sc_dt::sc_biguint<W>> : detail::BitsConversion<sc_dt::sc_biguint<W>, W, false> {};
 template <int W>
-struct Conversion<sc_dt::sc_bigint<W>> : detail::IntegerConversion<sc_dt::sc_bigint<W>, W, true> {};
+struct Conversion<sc_dt::sc_bigint<W>> : detail::BitsConversion<sc_dt::sc_bigint<W>, W, true> {};
 /// The number that the bits are, the leftmost the most significant.
 template <int W>
-struct Conversion<sc_dt::sc_bv<W>> : detail::IntegerConversion<sc_dt::sc_bv<W>, W, false> {};
+struct Conversion<sc_dt::sc_bv<W>> : detail::BitsConversion<sc_dt::sc_bv<W>, W, false> {};
+template <>
+struct Conversion<sc_dt::sc_unsigned>
+    : detail::AnyWidthConversion<sc_dt::sc_unsigned, std::uint64_t> {};
+template <>
+struct Conversion<sc_dt::sc_signed> : detail::AnyWidthConversion<sc_dt::sc_signed, std::int64_t> {};
+
+template <>
+struct Conversion<sc_dt::sc_bit> {
+  using Fmi = bool;
+  static Fmi to_fmi(const sc_dt::sc_bit& value) { return value.to_bool(); }
+  static sc_dt::sc_bit from_fmi(Fmi value) { return sc_dt::sc_bit(value); }
+  static void describe(VariableBuilder&) {}
+};
 
 template <>
 struct Conversion<sc_dt::sc_logic> {

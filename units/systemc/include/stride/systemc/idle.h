@@ -46,13 +46,15 @@ class IdleSkipper {
   Time advance(Time to, bool may_stop_early, Duration max_skip);
 
   const Statistics& statistics() const { return statistics_; }
-  /// The device declared itself idle, without a clock, but SystemC had something to notify at this
-  /// instant: a wait(time) or notify(delay) where a Timer should be. Such time is simulated. Beside
-  /// a clock that goes on such a notification is not seen, and comes later by what is skipped.
+  /// The device declared itself idle, but SystemC had something to notify at this instant that is
+  /// no edge of a clock: a wait(time) or notify(delay) where a Timer should be. Such time is
+  /// simulated. Where the clock that goes on is no sc_clock, one within the next period is taken
+  /// for its edge, and comes later by what is skipped.
   std::optional<Time> obstacle() const { return obstacle_; }
 
  private:
   bool skip(Time to, Duration max_skip);
+  bool is_obstructed();
   Duration room(Time to, Duration max_skip) const;
   Duration lead() const;
   Duration until_next_check();
@@ -61,6 +63,7 @@ class IdleSkipper {
   IdleRules& rules_;
   Statistics statistics_;
   std::optional<Time> obstacle_;
+  Time obstructed_until_ = Time::min();
 };
 
 /// For the log.

@@ -19,8 +19,8 @@ namespace stride::systemc {
 
 class Timer;
 
-/// A device reported an error, threw, or called sc_stop. The message names the process and the
-/// simulated time. The simulation cannot go on.
+/// A device reported an error or threw. The message names the process and the simulated time. The
+/// simulation cannot go on.
 class DeviceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -60,16 +60,24 @@ class Kernel {
   /// made within().
   void own(std::shared_ptr<void> channel) { owned_.push_back(std::move(channel)); }
 
+  /// An event that a clock of the unit's own notifies itself with, before initialize(); those of
+  /// sc_clocks are found.
+  void add_clock(const sc_core::sc_event& edge);
+
   /// Ends elaboration and runs the processes until none is left to run at time 0.
   void initialize();
 
+  /// Where the device has called sc_stop: it has finished, and time goes no further. The delta
+  /// cycle of the call is complete, the later ones of that instant do not happen.
+  std::optional<Time> stopped() const { return stopped_; }
+
   /// Runs all that happens up to and including the instant `to`, and returns it. If the device
   /// calls sc_pause and `may_stop_early` is set, time stops there and that instant is returned; all
-  /// that happens at it has happened.
+  /// that happens at it has happened. Where it calls sc_stop, that instant is returned.
   Time advance(Time to, bool may_stop_early = false);
 
   /// The same, but leaves what is due at `to` itself for the next call, so that a pause there is
-  /// not overlooked: an instant before `to` is returned for a pause only.
+  /// not overlooked: an instant before `to` is returned for a pause or a stop only.
   Time approach(Time to, bool may_stop_early = false);
 
   /// The time reached, rounded down to a picosecond.
@@ -85,6 +93,13 @@ class Kernel {
   /// The true time at which SystemC notifies something next, timers not counted: the edge of a
   /// clock, a wait(time), an event notified with a delay.
   std::optional<Time> next_notification();
+  /// The same of the notifications that are no edge of a clock: those of sc_clocks are known; where
+  /// the device has none, its clocks are processes, and what is due within `period` may be an edge.
+  struct Span {
+    Time first;
+    Time last;
+  };
+  std::optional<Span> unclocked_notifications(Duration period);
 
   /// Lets time pass in which nothing is simulated: now() moves, SystemC's time does not. Timers
   /// keep their true instants, all other notifications come later by `duration`. To be called at
@@ -96,6 +111,9 @@ class Kernel {
   const sc_dt::uint64& advance_time() const { return advance_time_; }
   /// How many units of the device's time resolution make one picosecond.
   std::uint64_t ticks_per_picosecond() const { return ticks_; }
+
+  /// TLM's global quantum, of which each kernel has its own: 0 s unless the device sets another.
+  void set_quantum(Duration quantum);
 
   /// The kernel in whose context the caller is; none outside of within().
   static Kernel* current() { return active_; }
@@ -119,6 +137,7 @@ class Kernel {
    private:
     Scope scope_;
     Kernel* previous_;
+    sc_core::sc_time outer_quantum_;
   };
 
   friend class Timer;
@@ -130,7 +149,9 @@ class Kernel {
   void require_usable() const;
   void require_not_before_now(Time to) const;
   void settle();
+  bool has_stopped();
   void require_not_stopped();
+  void find_clocks();
 
   void make_alarm();
   void ring();
@@ -150,6 +171,9 @@ class Kernel {
   std::vector<std::shared_ptr<void>> owned_;
   bool initialized_ = false;
   std::string failure_;
+  std::optional<Time> stopped_;
+  sc_core::sc_time quantum_;                            ///< while nothing is in its context
+  std::vector<const sc_core::sc_event*> clock_events_;  ///< of all clocks, sorted
   sc_dt::uint64 advance_time_ = 0;
   std::vector<Timer*> timers_;                ///< in the order of their construction
   std::unique_ptr<sc_core::sc_event> alarm_;  ///< wakes the timers that are due

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <stride/systemc/conversion.h>
+#include <stride/systemc/elaboration.h>
 #include <stride/systemc/kernel.h>
 #include <stride/systemc/port.h>
 #include <stride/unit.h>
@@ -150,8 +151,8 @@ class MessageRow {
   /// a dot.
   std::string clock_name() const;
 
-  /// While the module is elaborated. Returns the port that was bound, if any.
-  virtual const sc_core::sc_object* connect(Kernel& kernel, sc_core::sc_module& module) = 0;
+  /// While the module is elaborated: binds its port, if it leads to one.
+  virtual void connect(Elaboration& elaboration) = 0;
   /// Of an input: takes up the message if the clock has ticked. Returns how many elements were lost
   /// because the FIFO was full.
   virtual std::size_t receive() { return 0; }
@@ -169,13 +170,13 @@ class FifoInputRow final : public MessageRow {
   FifoInputRow(std::string name, std::function<Port&(sc_core::sc_module&)> find, int depth)
       : MessageRow(std::move(name)), find_(std::move(find)), depth_(depth) {}
 
-  const sc_core::sc_object* connect(Kernel& kernel, sc_core::sc_module& module) override {
+  void connect(Elaboration& elaboration) override {
+    Port& port = find_(elaboration.module());
+    elaboration.take(port, name());
     auto fifo = std::make_unique<sc_core::sc_fifo<T>>(sc_core::sc_gen_unique_name("fifo"), depth_);
     fifo_ = fifo.get();
-    kernel.own(std::move(fifo));
-    Port& port = find_(module);
+    elaboration.kernel().own(std::move(fifo));
     port.bind(*fifo_);
-    return &port;
   }
   std::size_t receive() override {
     std::size_t lost = 0;
@@ -196,10 +197,7 @@ class FunctionInputRow final : public MessageRow {
   FunctionInputRow(std::string name, Take take)
       : MessageRow(std::move(name)), take_(std::move(take)) {}
 
-  const sc_core::sc_object* connect(Kernel& /*kernel*/, sc_core::sc_module& module) override {
-    module_ = &module;
-    return nullptr;
-  }
+  void connect(Elaboration& elaboration) override { module_ = &elaboration.module(); }
   std::size_t receive() override {
     if (clock.ticked()) take_(*module_, value);
     return 0;
@@ -212,15 +210,14 @@ class FunctionInputRow final : public MessageRow {
 
 class MessageOutputRow final : public MessageRow {
  public:
-  /// Binds a port, or hands the sender to the module. Returns the port.
-  using Connect =
-      std::function<const sc_core::sc_object*(Kernel&, sc_core::sc_module&, const Sender&)>;
+  /// Binds a port, or hands the sender to the module.
+  using Connect = std::function<void(Elaboration&, const Sender&)>;
   MessageOutputRow(std::string name, Connect connect)
       : MessageRow(std::move(name)), connect_(std::move(connect)) {}
 
-  const sc_core::sc_object* connect(Kernel& kernel, sc_core::sc_module& module) override {
+  void connect(Elaboration& elaboration) override {
     output_.clear();
-    return connect_(kernel, module, Sender(output_));
+    connect_(elaboration, Sender(output_));
   }
   void publish() override { output_.publish(); }
   bool has_message() const override { return !output_.empty(); }

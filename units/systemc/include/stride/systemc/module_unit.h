@@ -14,10 +14,11 @@
 #ifndef STRIDE_SYSTEMC_MODULE_UNIT_H
 #define STRIDE_SYSTEMC_MODULE_UNIT_H
 
+#include <algorithm>
 #include <functional>
-#include <map>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -27,6 +28,7 @@
 
 #include <stride/systemc/message.h>
 #include <stride/systemc/row.h>
+#include <stride/systemc/sampling.h>
 #include <stride/systemc/unit.h>
 
 namespace stride::systemc {
@@ -87,16 +89,23 @@ class ModuleUnit : public DeviceUnit<Module> {
 
   // Values.
 
-  /// A port that the unit writes, or a signal that nothing else writes.
+  /// A port that the unit writes, or a signal. It is written where the variable has changed, so
+  /// what the module writes into an sc_inout or a signal itself stays until then.
   template <class Target, std::enable_if_t<kIsTarget<Target>, int> = 0>
-  VariableBuilder input(std::string name, Target target, FmiOf<Target> start = {}) {
+  VariableBuilder input(std::string name, Target target) {
+    return input(std::move(name), std::move(target), detail::start_of<Target, Module>());
+  }
+  /// With another start value than 0, or Z where the port is resolved.
+  template <class Target, std::enable_if_t<kIsTarget<Target>, int> = 0>
+  VariableBuilder input(std::string name, Target target, FmiOf<Target> start) {
     static_assert(detail::LeadsToPlace<Target, Module>::value,
                   "an input needs an sc_in, an sc_inout or an sc_signal");
     auto row = std::make_unique<detail::InputRow<ValueOf<Target>>>(name, find(std::move(target)));
     row->value = std::move(start);
     return add(row, this->Unit::input(std::move(name), row->value));
   }
-  /// A port, a signal, or the value of a member or a function.
+  /// A port, a signal, or the value of a member or a function. An sc_inout may have an input and an
+  /// output, of two names: the output is what the signal holds, whichever of both wrote last.
   template <class Target, std::enable_if_t<kIsTarget<Target>, int> = 0>
   VariableBuilder output(std::string name, Target target) {
     auto row = make_output(name, std::move(target));
@@ -108,20 +117,72 @@ class ModuleUnit : public DeviceUnit<Module> {
     auto row = make_output(name, std::move(target));
     return add(row, this->Unit::local(std::move(name), row->value));
   }
+  /// An sc_vector of so many ports or signals: the variables NAME[0], NAME[1], …
+  template <class Target>
+  std::vector<VariableBuilder> inputs(const std::string& name, Target target, std::size_t size) {
+    return each_of(name, size, [&](std::string one, std::size_t i) {
+      return input(std::move(one), element(target, i));
+    });
+  }
+  template <class Target>
+  std::vector<VariableBuilder> outputs(const std::string& name, Target target, std::size_t size) {
+    return each_of(name, size, [&](std::string one, std::size_t i) {
+      return output(std::move(one), element(target, i));
+    });
+  }
   /// A port without a variable: an input that always has this value, an output that leads nowhere.
   template <class Target>
-  void tie(Target target, ValueOf<Target> value = {}) {
-    rows_.push_back(std::make_unique<detail::TiedRow<ValueOf<Target>>>(
-        "tie()", find(std::move(target)), std::move(value)));
+  void tie(Target target) {
+    tie(std::move(target), detail::value_at_rest<ValueOf<Target>>());
+  }
+  template <class Target>
+  void tie(Target target, ValueOf<Target> value) {
+    add_row(std::make_unique<detail::TiedRow<ValueOf<Target>>>("tie()", find(std::move(target)),
+                                                               std::move(value)));
+  }
+
+  // Other ports.
+
+  /// A port of any interface (sc_port<IF>, an sc_export that the module leaves open) is
+  /// bound to the adapter: a channel that is made anew with each module, by a function that returns
+  /// a unique_ptr or shared_ptr to it, or a member of the unit that is no sc_object, and has the
+  /// interface.
+  template <class Target, class Adapter>
+  void bind(Target target, Adapter&& adapter) {
+    auto find = [target](sc_core::sc_module & module) -> auto& {
+      return std::invoke(target, static_cast<Module&>(module));
+    };
+    if constexpr (std::is_invocable_v<Adapter&>) {
+      add_row(std::make_unique<detail::BoundRow>(
+          [find, make = std::forward<Adapter>(adapter)](detail::Elaboration& elaboration) {
+            auto made = make();
+            auto& port = find(elaboration.module());
+            elaboration.take(port, "bind()");
+            port.bind(*made);
+            elaboration.kernel().own(std::move(made));
+          }));
+    } else {
+      static_assert(std::is_lvalue_reference_v<Adapter>,
+                    "bind() keeps no copy: pass a member of the unit, or a function that makes it");
+      add_row(
+          std::make_unique<detail::BoundRow>([find, &adapter](detail::Elaboration& elaboration) {
+            auto& port = find(elaboration.module());
+            elaboration.take(port, "bind()");
+            port.bind(adapter);
+          }));
+    }
   }
 
   // Clocks and resets.
 
-  /// The unit drives the port, an sc_in<bool>: rising edges at 0 s and after each period, falling
-  /// ones in the middle.
+  /// The unit drives the port, an sc_in<bool> or sc_in<sc_logic>: rising edges at 0 s and after
+  /// each period, falling ones in the middle. Without idle_when() the unit prefers communication
+  /// steps of one period, of the shortest of several clocks: its inputs can then change from cycle
+  /// to cycle.
   template <class Target>
   void clock(Target target, Duration period) {
     add_clock(std::move(target), [period] { return period; });
+    prefer_step(period);
   }
   /// With the frequency that this member, a parameter, has at the start [Hz].
   template <class Target>
@@ -131,13 +192,14 @@ class ModuleUnit : public DeviceUnit<Module> {
       throw std::invalid_argument("a clock's frequency is " + std::to_string(frequency) +
                                   " Hz; it must be more than 0");
     });
+    if (frequency > 0) prefer_step(duration_from_seconds(1 / frequency));
   }
-  /// The port, an sc_in<bool>, has this level for the first `length` of the run, and the other one
-  /// ever after.
+  /// The port, an sc_in<bool> or sc_in<sc_logic>, has this level for the first `length` of the run,
+  /// and the other one ever after.
   template <class Target>
   void reset(Target target, Duration length, bool level) {
-    rows_.push_back(
-        std::make_unique<detail::ResetRow>(find_bool(std::move(target)), length, level));
+    add_row(std::make_unique<detail::ResetRow<ValueOf<Target>>>(find_level(std::move(target)),
+                                                                length, level));
   }
 
   // Messages: a Binary variable NAME, and its clock, which has `clock` in the place of what stands
@@ -166,7 +228,7 @@ class ModuleUnit : public DeviceUnit<Module> {
   /// the Sender to call.
   template <class Target>
   VariableBuilder message_output(std::string name, Target target) {
-    auto row = std::make_unique<detail::MessageOutputRow>(name, sender_to(std::move(target)));
+    auto row = std::make_unique<detail::MessageOutputRow>(name, sender_to(name, std::move(target)));
     this->Unit::output(row->clock_name(), row->clock);
     VariableBuilder builder = this->Unit::output(std::move(name), row->value);
     return add_message(std::move(row), builder);
@@ -180,23 +242,34 @@ class ModuleUnit : public DeviceUnit<Module> {
   /// overridden.
   void idle_when(std::function<bool(const Module&)> idle) {
     this->may_idle();
+    this->describe(this->info().description).default_step.reset();
     idle_ = std::move(idle);
   }
 
+  /// For rows of other kinds.
+  void add_row(std::unique_ptr<detail::Row> row) { rows_.push_back(std::move(row)); }
+  VariableBuilder add_message(std::unique_ptr<detail::MessageRow> row, VariableBuilder builder) {
+    builder.clocked_by(row->clock).mime_type("application/octet-stream");
+    messages_.push_back(std::move(row));
+    return builder;
+  }
+
   std::unique_ptr<Device> make_device(Log log) override {
+    sampling_ = {};
+    has_changed_ = false;
     try {
       return std::make_unique<Device>(std::move(log),
                                       [this](Kernel& kernel) { return make_module(kernel); });
     } catch (const DeviceError& error) {
-      const std::string text = error.what();
-      if (text.find("not bound") == std::string::npos) throw;
-      throw DeviceError(text +
-                        "; each port needs an input(), output(), message_input(), "
-                        "message_output(), clock(), reset() or tie()");
+      const std::string hint = detail::hint_of_binding(error.what());
+      if (hint.empty()) throw;
+      throw DeviceError(error.what() + hint);
     }
   }
   void write_inputs(Module& /*module*/) override {
-    for (const auto& row : rows_) row->write();
+    for (const auto& row : rows_) {
+      if (row->write()) has_changed_ = true;
+    }
   }
   void read_outputs(Module& /*module*/) override {
     for (const auto& row : rows_) row->read();
@@ -222,6 +295,13 @@ class ModuleUnit : public DeviceUnit<Module> {
     DeviceUnit<Module>::list_signals(module, signals);
     for (const auto& row : rows_) row->list_signals(signals);
   }
+  void begin_step(const Step& step) override {
+    sampling_.begin_step(step.size(), shortest_period(), std::exchange(has_changed_, false));
+  }
+  void end() override {
+    const std::string warning = idle_ ? "" : sampling_.warning(shortest_period());
+    if (!warning.empty()) this->log(Severity::Warning, warning);
+  }
   bool idle(const Module& module) const override { return idle_ && idle_(module); }
   /// Of the unit's clocks. A module with a clock of its own inside overrides it.
   Duration clock_period(const Module& /*module*/) const override {
@@ -244,16 +324,29 @@ class ModuleUnit : public DeviceUnit<Module> {
     };
   }
   template <class Target>
-  auto find_bool(Target target) {
-    static_assert(std::is_same_v<ValueOf<Target>, bool>, "this needs an sc_in<bool>");
+  auto find_level(Target target) {
+    using T = ValueOf<Target>;
+    static_assert(std::is_same_v<T, bool> || std::is_same_v<T, sc_dt::sc_logic>,
+                  "this needs an sc_in<bool> or an sc_in<sc_logic>");
     return find(std::move(target));
+  }
+  template <class Target>
+  static auto element(Target target, std::size_t i) {
+    return [ target, i ](Module & module) -> auto& { return std::invoke(target, module).at(i); };
+  }
+  template <class Add>
+  static std::vector<VariableBuilder> each_of(const std::string& name, std::size_t size, Add add) {
+    std::vector<VariableBuilder> rows;
+    for (std::size_t i = 0; i < size; ++i)
+      rows.push_back(add(name + '[' + std::to_string(i) + ']', i));
+    return rows;
   }
 
   template <class Row>
   VariableBuilder add(std::unique_ptr<Row>& row, VariableBuilder builder) {
     using Value = typename Row::Value;
     Conversion<Value>::describe(builder);
-    rows_.push_back(std::move(row));
+    add_row(std::move(row));
     return builder;
   }
   template <class Target>
@@ -262,6 +355,11 @@ class ModuleUnit : public DeviceUnit<Module> {
       return std::make_unique<detail::OutputRow<ValueOf<Target>>>(name, find(std::move(target)));
     } else {
       using T = std::decay_t<detail::Reached<Target, Module>>;
+      static_assert(
+          !std::is_base_of_v<sc_core::sc_object, T>,
+          "an output needs a port or a signal of a value, or a function that returns a "
+          "value. An sc_fifo_out takes a message_output(), a TLM socket a row of TlmUnit, a "
+          "port of another interface bind(&Module::port, adapter)");
       has_functions_ = true;
       return std::make_unique<detail::ValueRow<T>>(
           name, [target = std::move(target)](sc_core::sc_module& module) -> T {
@@ -271,9 +369,21 @@ class ModuleUnit : public DeviceUnit<Module> {
   }
   template <class Target>
   void add_clock(Target target, std::function<Duration()> period) {
-    auto row = std::make_unique<detail::ClockRow>(find_bool(std::move(target)), std::move(period));
+    auto row = std::make_unique<detail::ClockRowOf<ValueOf<Target>>>(find_level(std::move(target)),
+                                                                     std::move(period));
     clocks_.push_back(row.get());
-    rows_.push_back(std::move(row));
+    add_row(std::move(row));
+  }
+  void prefer_step(Duration period) {
+    std::optional<Duration>& step = this->describe(this->info().description).default_step;
+    if (!idle_) step = std::min(step.value_or(period), period);
+  }
+  Duration shortest_period() const {
+    Duration period{};
+    for (const detail::ClockRow* clock : clocks_) {
+      period = period == Duration{} ? clock->period() : std::min(period, clock->period());
+    }
+    return period;
   }
 
   template <class Target>
@@ -290,32 +400,25 @@ class ModuleUnit : public DeviceUnit<Module> {
         depth);
   }
   template <class Target>
-  detail::MessageOutputRow::Connect sender_to(Target target) {
+  detail::MessageOutputRow::Connect sender_to(const std::string& name, Target target) {
     if constexpr (std::is_invocable_v<const Target&, Module&, const Sender&>) {
-      return [target](Kernel&, sc_core::sc_module& module, const Sender& send) {
-        std::invoke(target, static_cast<Module&>(module), send);
-        return nullptr;
+      return [target](detail::Elaboration& elaboration, const Sender& send) {
+        std::invoke(target, static_cast<Module&>(elaboration.module()), send);
       };
     } else {
       using Fifo = detail::FifoAt<Target, Module>;
       static_assert(Fifo::kDirection == detail::Direction::Out,
                     "a message output needs an sc_fifo_out, or a function (Module&, Sender)");
       using T = typename Fifo::Element;
-      return [target](Kernel& kernel, sc_core::sc_module& module, const Sender& send) {
+      return [name, target](detail::Elaboration& elaboration, const Sender& send) {
+        auto& port = std::invoke(target, static_cast<Module&>(elaboration.module()));
+        elaboration.take(port, name);
         auto outlet = std::make_unique<detail::Outlet<T>>(send);
-        auto& port = std::invoke(target, static_cast<Module&>(module));
         port.bind(*outlet);
-        kernel.own(std::move(outlet));
-        return &port;
+        elaboration.kernel().own(std::move(outlet));
       };
     }
   }
-  VariableBuilder add_message(std::unique_ptr<detail::MessageRow> row, VariableBuilder builder) {
-    builder.clocked_by(row->clock).mime_type("application/octet-stream");
-    messages_.push_back(std::move(row));
-    return builder;
-  }
-
   std::unique_ptr<Module> make_module(Kernel& kernel) {
     if (!make_) {
       if constexpr (std::is_constructible_v<Module, const char*>) {
@@ -326,20 +429,10 @@ class ModuleUnit : public DeviceUnit<Module> {
       }
     }
     auto module = make_(name_.c_str());
-    std::map<const sc_core::sc_object*, std::string> bound;
-    for (const auto& row : rows_) connect(*row, kernel, *module, bound);
-    for (const auto& row : messages_) connect(*row, kernel, *module, bound);
+    detail::Elaboration elaboration(kernel, *module);
+    for (const auto& row : rows_) row->connect(elaboration);
+    for (const auto& row : messages_) row->connect(elaboration);
     return module;
-  }
-  template <class Row>
-  void connect(Row& row, Kernel& kernel, Module& module,
-               std::map<const sc_core::sc_object*, std::string>& bound) {
-    const sc_core::sc_object* const port = row.connect(kernel, module);
-    if (port == nullptr) return;
-    const auto [other, is_new] = bound.emplace(port, row.name());
-    if (is_new) return;
-    throw std::invalid_argument(std::string("the port ") + port->name() + " has two rows, " +
-                                other->second + " and " + row.name() + "; it takes one");
   }
 
   std::string name_;
@@ -349,6 +442,8 @@ class ModuleUnit : public DeviceUnit<Module> {
   std::vector<const detail::ClockRow*> clocks_;
   std::function<bool(const Module&)> idle_;
   bool has_functions_ = false;  ///< among the outputs
+  bool has_changed_ = false;    ///< an input, since the last step began
+  detail::Sampling sampling_;
 };
 
 }  // namespace stride::systemc

@@ -55,6 +55,15 @@ template <class T>
 Place<T> place_of(sc_core::sc_signal_in_if<T>& signal) {
   return {dynamic_cast<sc_core::sc_object*>(&signal), nullptr, nullptr, &signal};
 }
+/// What the module itself has bound it to.
+template <class T>
+Place<T> place_of(sc_core::sc_export<sc_core::sc_signal_in_if<T>>& port) {
+  return {&port, nullptr, nullptr, port.operator->()};
+}
+template <class T>
+Place<T> place_of(sc_core::sc_export<sc_core::sc_signal_inout_if<T>>& port) {
+  return {&port, nullptr, nullptr, port.operator->()};
+}
 
 template <class T>
 T value_type(const Place<T>&);
@@ -76,8 +85,10 @@ struct LeadsToPlace<Inner<T>, Module> : std::true_type {};
 template <class Target, class Module, bool = LeadsToPlace<Target, Module>::value>
 struct ValueAt {
   static_assert(kNever<Target>,
-                "this needs a port or a signal: an sc_in, sc_out, sc_inout or sc_signal of the "
-                "module, or inner<T>(\"name\")");
+                "this needs a port or a signal: an sc_in, sc_out, sc_inout, sc_signal or sc_export "
+                "of one, or inner<T>(\"name\"). An sc_fifo_in takes a message_input(), an "
+                "sc_fifo_out a message_output(), a TLM socket a row of TlmUnit, a port of another "
+                "interface bind(&Module::port, adapter)");
   using Type = double;
 };
 template <class Target, class Module>

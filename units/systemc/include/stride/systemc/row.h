@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <systemc>
@@ -11,8 +12,10 @@
 #include <utility>
 
 #include <stride/systemc/conversion.h>
+#include <stride/systemc/elaboration.h>
 #include <stride/systemc/kernel.h>
 #include <stride/systemc/port.h>
+#include <stride/systemc/signal.h>
 #include <stride/systemc/trace.h>
 
 namespace stride::systemc::detail {
@@ -28,10 +31,11 @@ class Row {
   /// For messages.
   const std::string& name() const { return name_; }
 
-  /// While the module is elaborated: binds its port. Returns the port that was bound, if any.
-  virtual const sc_core::sc_object* connect(Kernel& kernel, sc_core::sc_module& module) = 0;
-  /// From the variable to the module, and back.
-  virtual void write() {}
+  /// While the module is elaborated: binds its port, if it leads to one.
+  virtual void connect(Elaboration& elaboration) = 0;
+  /// From the variable to the module, where the variable has changed; returns whether it has.
+  virtual bool write() { return false; }
+  /// From the module to the variable.
   virtual void read() {}
   /// The signals that connect() has made.
   virtual void list_signals(SignalList& /*signals*/) const {}
@@ -58,7 +62,7 @@ class PlaceRow : public Row {
  public:
   using Value = T;
   using Find = std::function<Place<T>(sc_core::sc_module&)>;
-  using Signal = sc_core::sc_signal<T>;
+  using Signal = sc_core::sc_signal_inout_if<T>;
 
   PlaceRow(std::string name, Find find) : Row(std::move(name)), find_(std::move(find)) {}
 
@@ -72,13 +76,20 @@ class PlaceRow : public Row {
     own_ = nullptr;
     channel_ = nullptr;
   }
-  /// Makes a signal, and binds the port to it.
-  void bind(Kernel& kernel, const T& value) {
-    auto signal = std::make_unique<Signal>(sc_core::sc_gen_unique_name("signal"), value);
-    own_ = signal.get();
-    kernel.own(std::move(signal));
-    if (place_.in != nullptr) return place_.in->bind(*own_);
-    place_.out->bind(*own_);
+  /// Binds the port to a signal, a new one or that of the row of the other direction.
+  Signal& bind(Elaboration& elaboration, const T& value, Share share = Share::Whole) {
+    const bool is_inout = place_.out != nullptr && !is_output_only(*place_.object);
+    sc_core::sc_interface* const other =
+        elaboration.take(*place_.object, name(), is_inout ? share : Share::Whole);
+    if (other != nullptr) return dynamic_cast<Signal&>(*other);
+    own_ = &make_signal(elaboration.kernel(), *place_.object, value);
+    elaboration.bound(*place_.object, *own_);
+    if (place_.in != nullptr) {
+      place_.in->bind(*own_);
+    } else {
+      place_.out->bind(*own_);
+    }
+    return *own_;
   }
   const Place<T>& place() const { return place_; }
   /// After elaboration.
@@ -103,33 +114,43 @@ class InputRow final : public PlaceRow<T> {
 
   using PlaceRow<T>::PlaceRow;
 
-  const sc_core::sc_object* connect(Kernel& kernel, sc_core::sc_module& module) override {
-    this->find(module);
+  void connect(Elaboration& elaboration) override {
+    this->find(elaboration.module());
     writer_ = nullptr;
-    const T start = converted();
+    written_.reset();
     if (this->place().is_port()) {
-      this->bind(kernel, start);
-      return this->place().object;
-    }
-    if (as_writer(*this->place().signal) == nullptr) {
+      require_input(*this->place().object);
+      const T start = converted();
+      this->bind(elaboration, start, Share::Input).write(start);
+      written_ = value;
+    } else if (as_writer(*this->place().signal) == nullptr) {
       throw std::invalid_argument(this->name() + ": this signal cannot be written from outside");
     }
-    return nullptr;
   }
-  void write() override {
+  // what the module has written since then stays
+  bool write() override {
+    if (written_ && *written_ == value) return false;
     if (writer_ == nullptr) writer_ = as_writer(this->channel());
     writer_->write(converted());
+    written_ = value;
+    return true;
   }
 
  private:
   static sc_core::sc_signal_inout_if<T>* as_writer(sc_core::sc_signal_in_if<T>& channel) {
     return dynamic_cast<sc_core::sc_signal_inout_if<T>*>(&channel);
   }
+  void require_input(const sc_core::sc_object& port) const {
+    if (!is_output_only(port)) return;
+    throw std::invalid_argument(this->name() + ": " + port.name() + " is an " + port.kind() +
+                                ", which the module drives; it takes an output()");
+  }
   T converted() const {
     return named(*this, [this]() -> T { return Conversion<T>::from_fmi(value); });
   }
 
   sc_core::sc_signal_inout_if<T>* writer_ = nullptr;
+  std::optional<Fmi> written_;
 };
 
 /// A port of the module itself is bound to a signal; one that a submodule has is bound by the
@@ -142,12 +163,11 @@ class OutputRow final : public PlaceRow<T> {
 
   using PlaceRow<T>::PlaceRow;
 
-  const sc_core::sc_object* connect(Kernel& kernel, sc_core::sc_module& module) override {
-    this->find(module);
+  void connect(Elaboration& elaboration) override {
+    this->find(elaboration.module());
     const bool is_output = this->place().out != nullptr;
-    if (!is_output || this->place().object->get_parent_object() != &module) return nullptr;
-    this->bind(kernel, T());
-    return this->place().object;
+    if (!is_output || this->place().object->get_parent_object() != &elaboration.module()) return;
+    this->bind(elaboration, value_at_rest<T>(), Share::Output);
   }
   void read() override {
     value = named(*this, [this]() -> Fmi { return Conversion<T>::to_fmi(this->channel().read()); });
@@ -165,10 +185,7 @@ class ValueRow final : public Row {
 
   ValueRow(std::string name, Get get) : Row(std::move(name)), get_(std::move(get)) {}
 
-  const sc_core::sc_object* connect(Kernel& /*kernel*/, sc_core::sc_module& module) override {
-    module_ = &module;
-    return nullptr;
-  }
+  void connect(Elaboration& elaboration) override { module_ = &elaboration.module(); }
   void read() override { value = Conversion<T>::to_fmi(get_(*module_)); }
 
  private:
@@ -183,55 +200,83 @@ class TiedRow final : public PlaceRow<T> {
   TiedRow(std::string name, typename PlaceRow<T>::Find find, T value)
       : PlaceRow<T>(std::move(name), std::move(find)), value_(std::move(value)) {}
 
-  const sc_core::sc_object* connect(Kernel& kernel, sc_core::sc_module& module) override {
-    this->find(module);
+  void connect(Elaboration& elaboration) override {
+    this->find(elaboration.module());
     if (!this->place().is_port()) throw std::invalid_argument("only a port is tied, not a signal");
-    this->bind(kernel, value_);
-    return this->place().object;
+    auto& signal = this->bind(elaboration, value_);
+    if (!is_output_only(*this->place().object)) signal.write(value_);
   }
 
  private:
   T value_;
 };
 
-/// A port that is driven by a clock of the unit's own, with rising edges from 0 s on.
-class ClockRow final : public Row {
+/// A port that is bound to what is no signal.
+class BoundRow final : public Row {
  public:
-  using Find = std::function<Place<bool>(sc_core::sc_module&)>;
+  using Bind = std::function<void(Elaboration&)>;
+  explicit BoundRow(Bind bind) : Row("bind()"), bind_(std::move(bind)) {}
 
-  ClockRow(Find find, std::function<Duration()> period)
-      : Row("clock"), find_(std::move(find)), period_(std::move(period)) {}
+  void connect(Elaboration& elaboration) override { bind_(elaboration); }
 
-  const sc_core::sc_object* connect(Kernel& kernel, sc_core::sc_module& module) override;
-  void list_signals(SignalList& signals) const override;
+ private:
+  Bind bind_;
+};
+
+/// A port that is driven by a clock of the unit's own, with rising edges from 0 s on.
+class ClockRow : public Row {
+ public:
+  using Row::Row;
   Duration period() const { return current_period_; }
+
+ protected:
+  Duration current_period_{};
+};
+
+/// T: bool or sc_logic.
+template <class T>
+class ClockRowOf final : public ClockRow {
+ public:
+  using Find = std::function<Place<T>(sc_core::sc_module&)>;
+
+  ClockRowOf(Find find, std::function<Duration()> period)
+      : ClockRow("clock"), find_(std::move(find)), period_(std::move(period)) {}
+
+  void connect(Elaboration& elaboration) override;
+  void list_signals(SignalList& signals) const override { signals.add_port(*port_, *clock_); }
 
  private:
   Find find_;
   std::function<Duration()> period_;
-  Duration current_period_{};
   sc_core::sc_object* port_ = nullptr;
-  sc_core::sc_clock* clock_ = nullptr;
+  sc_core::sc_signal_in_if<T>* clock_ = nullptr;
 };
 
-/// A port that has a level from 0 s on for a time, and the other one ever after.
+/// A port that has a level from 0 s on for a time, and the other one ever after. T: bool or
+/// sc_logic.
+template <class T>
 class ResetRow final : public Row {
  public:
-  using Find = std::function<Place<bool>(sc_core::sc_module&)>;
+  using Find = std::function<Place<T>(sc_core::sc_module&)>;
 
   ResetRow(Find find, Duration length, bool level)
       : Row("reset"), find_(std::move(find)), length_(length), level_(level) {}
 
-  const sc_core::sc_object* connect(Kernel& kernel, sc_core::sc_module& module) override;
-  void list_signals(SignalList& signals) const override;
+  void connect(Elaboration& elaboration) override;
+  void list_signals(SignalList& signals) const override { signals.add_port(*port_, *signal_); }
 
  private:
   Find find_;
   Duration length_;
   bool level_;
   sc_core::sc_object* port_ = nullptr;
-  sc_core::sc_signal<bool>* signal_ = nullptr;
+  sc_core::sc_signal_inout_if<T>* signal_ = nullptr;
 };
+
+extern template class ClockRowOf<bool>;
+extern template class ClockRowOf<sc_dt::sc_logic>;
+extern template class ResetRow<bool>;
+extern template class ResetRow<sc_dt::sc_logic>;
 
 }  // namespace stride::systemc::detail
 

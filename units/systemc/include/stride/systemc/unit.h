@@ -37,6 +37,7 @@ namespace stride::systemc {
 
 /// The device's own time starts at zero where the simulation starts. A device that calls sc_pause
 /// asks for a communication point at that instant, and gets it if the master allows early return.
+/// One that calls sc_stop has finished: the unit requests the end of the simulation there.
 ///
 /// Every device has the parameters `trace.file`, relative to the unit's own folder of results
 /// (stride::Setup), and `trace.signals`; see trace.h. One that declares
@@ -62,6 +63,7 @@ class DeviceUnit : public Unit {
   }
 
   void step(Step& step) final {
+    begin_step(step);
     hand_over_inputs();
     Time reached = device_->advance(device_->now());
     if (!step.early_return_allowed() || !has_message()) {
@@ -69,24 +71,29 @@ class DeviceUnit : public Unit {
     }
     device_->within([this](Module& module) { read_outputs(module); });
     publish();
-    if (to_master(reached) < step.to()) step.return_early(to_master(reached));
+    if (has_finished()) step.terminate_simulation();
+    if (step.early_return_allowed() && to_master(reached) < step.to()) {
+      step.return_early(to_master(reached));
+    }
   }
 
-  void event(Event&) final {
+  void event(Event& event) final {
     device_->within([this](Module& module) { receive(module); });
     settle();
     publish();
+    if (has_finished()) event.terminate_simulation();
   }
 
   void update_outputs() final { settle(); }
 
   void terminate() final {
+    end();
     report_skips();
     trace_.reset();
   }
 
   Time idle_until(Time now) const final {
-    if (has_message()) return now;
+    if (has_message() || device_->kernel().stopped()) return now;
     return device_->within([&](const Module& module) {
       if (!inputs_are_taken_up() || !idle(module)) return now;
       return std::min(later(now, tangents_hold_for(module)), next_happening(module));
@@ -122,6 +129,12 @@ class DeviceUnit : public Unit {
   virtual void list_signals(const Module& module, SignalList& signals) const {
     signals.add_all_within(module);
   }
+
+  /// Called before the inputs of a step are handed over.
+  virtual void begin_step(const Step& /*step*/) {}
+  /// Called where the simulation ends.
+  virtual void end() {}
+  Kernel& kernel() { return device_->kernel(); }
 
   // What idle means. The first is enough for a device whose clocks stand still while it is idle.
 
@@ -170,6 +183,9 @@ class DeviceUnit : public Unit {
     inputs_since_ = simulated();
   }
 
+  /// The device has called sc_stop, and all that it has sent is out.
+  bool has_finished() const { return device_->kernel().stopped() && !has_message(); }
+
   /// Lets the device take up its inputs at the instant where it is.
   void settle() {
     hand_over_inputs();
@@ -193,8 +209,12 @@ class DeviceUnit : public Unit {
   /// A clock that goes on does not count.
   Time next_happening(const Module& module) const {
     Kernel& kernel = device_->kernel();
-    const bool is_clocked = clock_period(module) > Duration{};
-    const std::optional<Time> next = is_clocked ? kernel.next_timer() : kernel.next_event();
+    const Duration period = clock_period(module);
+    std::optional<Time> next = period == Duration{} ? kernel.next_event() : kernel.next_timer();
+    if (period > Duration{}) {
+      const auto pending = kernel.unclocked_notifications(period);
+      if (pending) next = std::min(next.value_or(pending->first), pending->first);
+    }
     return next ? to_master(*next) : Time::max();
   }
 

@@ -1,0 +1,89 @@
+#include "units/systemc/kernel_internals.h"
+
+namespace stride::systemc {
+namespace {
+
+using sc_core::sc_clock;
+using sc_core::sc_event;
+using sc_core::sc_event_timed;
+using sc_core::sc_simcontext;
+
+// names in an explicit instantiation are not checked for access, and there is no other way in
+template <class Tag, typename Tag::Type Member>
+struct Expose {
+  friend typename Tag::Type member(Tag) { return Member; }
+};
+template <class T, int Number>
+struct Tag {
+  using Type = T;
+};
+
+struct ResetFinders : Tag<sc_core::sc_reset_finder * sc_simcontext::*, 0> {
+  friend Type member(ResetFinders);
+};
+struct ForcedStop : Tag<bool sc_simcontext::*, 0> {
+  friend Type member(ForcedStop);
+};
+struct Ready : Tag<bool sc_simcontext::*, 1> {
+  friend Type member(Ready);
+};
+struct Status : Tag<sc_core::sc_status sc_simcontext::*, 0> {
+  friend Type member(Status);
+};
+struct TimedEvents : Tag<sc_core::sc_ppq<sc_event_timed*> * sc_simcontext::*, 0> {
+  friend Type member(TimedEvents);
+};
+struct Heap : Tag<void* * sc_core::sc_ppq_base::*, 0> {
+  friend Type member(Heap);
+};
+struct EventOf : Tag<sc_event* (sc_event_timed::*)() const, 0> {
+  friend Type member(EventOf);
+};
+struct TimeOf : Tag<const sc_core::sc_time& (sc_event_timed::*)() const, 0> {
+  friend Type member(TimeOf);
+};
+struct RisingEdge : Tag<sc_event sc_clock::*, 0> {
+  friend Type member(RisingEdge);
+};
+struct FallingEdge : Tag<sc_event sc_clock::*, 1> {
+  friend Type member(FallingEdge);
+};
+
+template struct Expose<ResetFinders, &sc_simcontext::m_reset_finder_q>;
+template struct Expose<ForcedStop, &sc_simcontext::m_forced_stop>;
+template struct Expose<Ready, &sc_simcontext::m_ready_to_simulate>;
+template struct Expose<Status, &sc_simcontext::m_simulation_status>;
+template struct Expose<TimedEvents, &sc_simcontext::m_timed_events>;
+template struct Expose<Heap, &sc_core::sc_ppq_base::m_heap>;
+template struct Expose<EventOf, &sc_event_timed::event>;
+template struct Expose<TimeOf, &sc_event_timed::notify_time>;
+template struct Expose<RisingEdge, &sc_clock::m_next_posedge_event>;
+template struct Expose<FallingEdge, &sc_clock::m_next_negedge_event>;
+
+}  // namespace
+
+void forget_reset_finders(sc_simcontext& context) { context.*member(ResetFinders()) = nullptr; }
+
+void allow_start_after_stop(sc_simcontext& context) {
+  context.*member(ForcedStop()) = false;
+  context.*member(Ready()) = true;
+  context.*member(Status()) = sc_core::SC_RUNNING;
+}
+
+std::vector<Notification> pending_notifications(const sc_simcontext& context) {
+  const auto& queue = *(context.*member(TimedEvents()));
+  void* const* const heap = queue.*member(Heap());
+  std::vector<Notification> pending;
+  for (int i = 1; i <= queue.size(); ++i) {
+    const auto& timed = *static_cast<const sc_event_timed*>(heap[i]);
+    const sc_event* const event = (timed.*member(EventOf()))();
+    if (event != nullptr) pending.push_back({event, (timed.*member(TimeOf()))()});
+  }
+  return pending;
+}
+
+std::array<const sc_event*, 2> own_events(const sc_clock& clock) {
+  return {&(clock.*member(RisingEdge())), &(clock.*member(FallingEdge()))};
+}
+
+}  // namespace stride::systemc

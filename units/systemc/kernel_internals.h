@@ -1,0 +1,33 @@
+// What SystemC keeps to itself, and a kernel among others has to know.
+#ifndef STRIDE_UNITS_SYSTEMC_KERNEL_INTERNALS_H
+#define STRIDE_UNITS_SYSTEMC_KERNEL_INTERNALS_H
+
+#include <array>
+#include <systemc>
+#include <vector>
+
+namespace stride::systemc {
+
+/// To be called when a context has been elaborated. SystemC up to 2.3.4 deletes then what
+/// reset_signal_is() has noted of ports, but keeps the pointer, and deletes it again with the
+/// context; a program that ends with its simulation is not affected.
+void forget_reset_finders(sc_core::sc_simcontext& context);
+
+/// After sc_stop(), SystemC starts no process any more. Withdraws this, so that threads can be
+/// ended and the last values be traced. To be called outside of all processes.
+void allow_start_after_stop(sc_core::sc_simcontext& context);
+
+/// What will be notified at a later time.
+struct Notification {
+  const sc_core::sc_event* event;
+  sc_core::sc_time time;
+};
+/// In no particular order.
+std::vector<Notification> pending_notifications(const sc_core::sc_simcontext& context);
+
+/// Those that a clock notifies itself with.
+std::array<const sc_core::sc_event*, 2> own_events(const sc_core::sc_clock& clock);
+
+}  // namespace stride::systemc
+
+#endif
